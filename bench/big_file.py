@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Resident memory of `ncsim check` and `ncsim trace` on a large program: windows, never the whole text.
+"""Resident memory of `ncsim check` and `ncsim trace` on a large program, of which they must never hold the whole text in memory.
 
 usage: big_file.py [--ncsim PATH] [--mb N | --full] [--folder DIR] [--trace]
 
@@ -28,7 +28,7 @@ def find_ncsim():
 
 
 def write_program(path, megabytes):
-    """A file of at least `megabytes` MB; returns its feed lines. One chunk of lines is made once and repeated."""
+    """Writes a file of at least `megabytes` MB, one chunk of lines again and again; returns the number of feed lines."""
     chunk_lines = []
     for i in range(20_000):
         chunk_lines.append(f"G1 X{(i * 37) % 9973 / 100:.3f} Y{(i * 61) % 9967 / 100:.3f} Z{-(i % 500) / 100 - 0.001:.3f}\n")

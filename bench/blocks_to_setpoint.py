@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How many blocks a second go from text to set-points in the time-optimal mode: circles of 10 mm in short lines.
+"""How many blocks per second become set-points in the time-optimal mode, measured on circles of radius 10 mm in short lines.
 
 usage: blocks_to_setpoint.py [--ncsim PATH] [--lines N]
 
-Each program is run by `ncsim time` on virtual time: interpreter, smoothing, time law and the scan of each cycle, in one thread. Per length
-of the lines and feed it prints the blocks that the machine executes in a second of its time, the share of the feed that it reaches, and the
-blocks that one core works through in a second of processor time: where that is more than the first, the supply never runs dry.
-Exit status: 0, 1 when a program is starved on this computer.
+Each program is run by `ncsim time` on virtual time: interpreter, smoothing, time law and the scan of each cycle, in one thread. For each length
+of the lines and feed it prints the blocks that the machine executes per second of its own time, the share of the feed that it reaches, and the
+blocks that one core processes per second of processor time. Where the last figure is above the first, the computer supplies the machine fast
+enough. Exit status: 0, 1 when it is not fast enough for one of the programs.
 """
 import argparse
 import math

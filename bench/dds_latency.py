@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""From a scan to a subscriber over DDS on loopback, and what publishing costs the scan.
+"""The time from a scan to a subscriber over DDS on loopback, and what publishing costs the scan.
 
   bench/dds_latency.py [BUILD_DIR] [SAMPLES]      default build/release, 500 samples (10 s at 50 Hz)
 
-Goals: median of scan to subscriber at most 5 ms; no measurable cost for the scan. Reported, not judged: times belong to the
-machine it runs on. Exit status: 0, 1 when something does not run, 77 (skipped) where the programs are not built.
+Goals: a median from scan to subscriber of at most 5 ms, and no measurable cost for the scan. They are reported but do not decide the exit
+status, since the times depend on the computer. Exit status: 0, 1 when something does not run, 77 (skipped) where the programs are not built.
 """
 import os
 import re
@@ -32,7 +32,7 @@ def control(folder, *options):
 
 
 def figures(text):
-    """Execution time of the scan out of a summary."""
+    """The execution times of the scan from the summary of ncrtd."""
     return re.search(r"execution time +(.*)", text).group(1)
 
 

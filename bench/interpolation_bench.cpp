@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one servo cycle of one part system with five axes costs the scan: everything from the inputs to the commanded positions. Each
-// program is run many times in the same way, and of each of its cycles counts the shortest time: what an interruption of the machine adds
-// to a cycle does not come again in the same one. `worst` is then the dearest cycle of the program, the time of a benchmark its mean.
+// program is run many times in the same way, and for each of its cycles the shortest time of all runs counts: an interruption by the computer
+// hardly ever hits the same cycle in every run. `worst` is the longest of these times, the time of a benchmark their mean.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ Program helices() {
   return p;
 }
 
-/// Spans of a cubic, one of which all but has a cusp.
+/// Spans of a cubic, each of which nearly has a cusp in its middle; the smaller `gap` (mm), the sharper it is.
 Program spans(double gap) {
   Program p;
   for (int i = 0; i < 6; ++i) {
@@ -96,7 +96,7 @@ Program spans(double gap) {
   return p;
 }
 
-/// A line of the polar plane that passes the pole at a distance, G12.1.
+/// A line in the plane of polar coordinate interpolation (G12.1) that passes the pole at a distance, in mm.
 Program polar(double distance) {
   Program p;
   MoveShape what;
@@ -139,7 +139,7 @@ struct Machine {
   nc_outputs out{};
 };
 
-/// One run; the shortest time of each cycle so far in `best`.
+/// One run; `best` keeps for each cycle the shortest time of the runs so far, in s.
 void run(const Program& p, bool optimal, std::vector<double>* best) {
   Machine m(optimal, 4096);
   const AxisVec& start = p.records.front().segment.curve.start;

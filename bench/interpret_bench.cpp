@@ -56,7 +56,7 @@ class Control {
   ~Control() { std::free(memory_); }
   Control(const Control&) = delete;
 
-  /// Pulls a program to its end; number of blocks (marks) it had.
+  /// Pulls a program to its end; returns the number of its blocks (marks).
   unsigned run(const std::string& text) {
     unsigned file = 0, blocks = 0;
     nc_program_add_text(nc_, "bench", text.data(), text.size(), &file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a ladder costs: nanoseconds per contact of a rung, of a scan with timers, edges and words, and the
-// compilation of a program. `s_per_instruction` is the figure to look at. The inputs change in every scan, so
-// that the processor cannot learn one result by heart.
+// What a ladder costs: the time per instruction in rungs of contacts and in a program with timers, edges and words, and
+// the compilation of a program. `s_per_instruction` is the figure to look at. The inputs change in every scan, so that
+// the branch prediction of the processor cannot learn the results.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -36,7 +36,7 @@ std::string device(Random& random) {
   return random(2) == 0 ? "x" + std::to_string(random(kInputs)) : "M" + std::to_string(random(2000));
 }
 
-// Rungs of two to eight contacts, some with a block, and a coil.
+// Rungs of two to eight contacts and a coil; one in four has a block of two parallel contacts (ANB) besides.
 std::string contacts(unsigned instructions) {
   static const char* const kNames[] = {"AND ", "ANI ", "OR ", "ORI "};
   Random random;
@@ -57,8 +57,8 @@ std::string contacts(unsigned instructions) {
   return text;
 }
 
-// As a machine has it: of ten rungs seven of contacts, and one each with a timer, a compare with a move, an
-// edge.
+// A mixture as in the program of a machine: of ten rungs seven have contacts only, one has a timer, one a compare with a
+// move, and one an edge.
 std::string mixed(unsigned instructions) {
   Random random;
   std::string text;

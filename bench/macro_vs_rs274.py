@@ -4,8 +4,8 @@
 
 usage: macro_vs_rs274.py [--ncsim PATH] [--turns N] [--runs N]
 
-Each turn of the loop has five statements, with SIN and COS, and one move. One run of rs274 that is not timed is counted to make sure
-that it made every move. CPU time decides, and wall time is printed beside it.
+Each turn of the loop has five statements, with SIN and COS, and one move. In one run of rs274, which is not timed, the moves are counted to
+make sure that it made all of them. CPU time decides, and wall time is printed beside it.
 Exit status: 0, 1 when ncsim is less than 20 times as fast or something does not run, 77 (skipped) where rs274 is absent.
 """
 import argparse

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What motion costs: curves per evaluation, planning per segment (limits, joints, backward pass,
-// publication), interpolation per cycle.
+// What motion costs: the evaluation of a curve, the planning of a segment (limits, joints, backward pass,
+// publication), the interpolation of a cycle.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct Machine {
   nc_outputs out{};
 };
 
-/// A wavy path of straight pieces, as a surface program has, that closes after kPieces.
+/// A wavy path of straight pieces as in a surface program; the last of the kPieces ends where the first begins.
 constexpr unsigned kPieces = 4096;
 std::vector<Record> surface(double step, double feed) {
   std::vector<Record> records;
@@ -123,9 +123,9 @@ BENCHMARK(BM_CurveHelix);
 BENCHMARK(BM_CurveSpiral);
 BENCHMARK(BM_CurveDerivatives);
 
-/// push() and plan() of a full ring at a time, replanned every `batch` segments. The scan throws the ring
-/// away in between, off the clock. Argument 0: batch, 1: segment length in um (short ones make the backward
-/// pass deep).
+/// push() and plan() until the ring is full, with a plan() after every `batch` segments. In between, and not
+/// measured, a reset empties the ring. Argument 0: batch; 1: segment length in um (with short segments the backward
+/// pass goes back far).
 void BM_Plan(benchmark::State& state) {
   const unsigned batch = static_cast<unsigned>(state.range(0));
   const std::vector<Record> records = surface(static_cast<double>(state.range(1)) * 1e-3, 100);
@@ -197,19 +197,19 @@ void plan_optimal(benchmark::State& state, const std::vector<Record>& records, u
       m.cycle();
     }
   }
-  const double gone = static_cast<double>(pushed - (config.capacity - m.executor.room()));  // what waits in the ring is not planned for
+  const double gone = static_cast<double>(pushed - (config.capacity - m.executor.room()));  // without the segments that still wait in the ring
   state.counters["segments/s"] = gone / planning;
   state.counters["real time x"] = static_cast<double>(cycles) * config.cycle_s / planning;
   state.counters["path_mm/s"] = m.out.path_length / (static_cast<double>(cycles) * config.cycle_s);
   state.counters["longest ms"] = longest * 1e3;
 }
-/// A wave of 126 lines, whatever their length: short lines make small bends. Argument: segment length in um.
+/// A path whose waves have 126 lines each, whatever their length: shorter lines make smaller waves. Argument: segment length in um.
 void BM_PlanOptimal(benchmark::State& state) {
   plan_optimal(state, surface(static_cast<double>(state.range(0)) * 1e-3, 100), 4096);
 }
 BENCHMARK(BM_PlanOptimal)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
 
-/// A circle of 10 mm in lines, which is gone at full feed. Argument: segment length in um.
+/// A circle of radius 10 mm in lines, on which the full feed is reached. Argument: segment length in um.
 void BM_PlanOptimalCircle(benchmark::State& state) {
   constexpr double kRadius = 10;
   const unsigned count = static_cast<unsigned>(2 * 3.14159265358979 * kRadius * 1e3 / static_cast<double>(state.range(0)));
@@ -231,7 +231,7 @@ void BM_PlanOptimalCircle(benchmark::State& state) {
 }
 BENCHMARK(BM_PlanOptimalCircle)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
 
-/// One servo cycle on an endless path; feeding is off the clock. Argument: segment length in um.
+/// One servo cycle on an endless path; feeding the executor is not measured. Argument: segment length in um.
 void BM_Cycle(benchmark::State& state, bool arcs) {
   const double step = static_cast<double>(state.range(0)) * 1e-3;
   Machine m(config_of(8192));

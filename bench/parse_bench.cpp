@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How fast text becomes blocks, and expressions values. items_per_second of the lexing benches is blocks per
-// second.
+// How fast text becomes blocks, and how fast expressions are evaluated. items_per_second of the benches that read
+// text is blocks per second.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -64,7 +64,7 @@ void run(benchmark::State& state, Reader& reader, size_t bytes) {
     }
     benchmark::DoNotOptimize(sum);
     state.PauseTiming();
-    reader.reader.forget(0);  // the next round is a first reading again
+    reader.reader.forget(0);  // so that the next round does not read from the cache
     state.ResumeTiming();
   }
   state.SetItemsProcessed(static_cast<int64_t>(blocks));
@@ -114,7 +114,7 @@ void read_at_callback(benchmark::State& state) {
 }
 BENCHMARK(read_at_callback)->Unit(benchmark::kMillisecond);
 
-/// A loop body of 20 blocks, again and again: from the cache.
+/// A loop body of 20 blocks is read again and again, from the cache.
 void read_loop(benchmark::State& state) {
   const std::string text = surface(20);
   Reader r;
@@ -150,7 +150,7 @@ void find_sequence(benchmark::State& state) {
     uint64_t at = 0;
     uint32_t line = 1;
     bool again = false;
-    r.reader.forget(0);  // else the second search is remembered
+    r.reader.forget(0);  // the reader would remember the place after the first search
     if (!r.reader.find_sequence(0, 777, &at, &line, 0, 0, &again)) state.SkipWithError("not found");
   }
   state.SetItemsProcessed(state.iterations() * 200001);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole processes side by side: ncsim and the rs274 of Debian's linuxcnc-uspace, in turns, so that both see the same load of the machine."""
+"""Compares whole processes: ncsim and the rs274 of Debian's linuxcnc-uspace run in turns, so that both meet the same load of the computer."""
 import os
 import shutil
 import subprocess
@@ -20,7 +20,7 @@ def find_ncsim(named=None):
 
 
 def find_rs274():
-    """Its path; where it is absent the bench ends as skipped."""
+    """The path of rs274; where it is not installed the bench ends as skipped."""
     path = shutil.which("rs274")
     if not path:
         print("skipped: rs274 is not here (Debian: apt-get install linuxcnc-uspace)")
@@ -44,7 +44,7 @@ def run(command, folder):
 
 
 def feeds_of_rs274(rs274, program, folder):
-    """How many feed moves rs274 makes of a program: shows that it interpreted all of it."""
+    """How many feed moves rs274 makes of a program, which shows whether it interpreted all of it."""
     listing = os.path.join(folder, "canonical.txt")
     subprocess.run([rs274, "-g", program, listing], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                    stderr=subprocess.DEVNULL, check=True)
@@ -53,7 +53,7 @@ def feeds_of_rs274(rs274, program, folder):
 
 
 def report(units, name, ours, theirs, wanted):
-    """Prints both; the exit status of the bench. CPU time of the best run decides: other work on the machine does not count in it."""
+    """Prints both results and returns the exit status. The CPU time of the best run decides: it has no time of other programs in it."""
     best = {}
     for who, results in (("ncsim check", ours), ("rs274 -g", theirs)):
         best[who] = (min(r[0] for r in results), min(r[1] for r in results))

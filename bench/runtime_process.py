@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The runtime as a process: time to the first scan, resident memory, scan figures on the real clock.
+"""The runtime as a process: the time to the first scan, the resident memory, and the scan figures on the real clock.
 
   bench/runtime_process.py [BUILD_DIR]      default build/release
 
-Goals: first scan within 1 s of the start, below 64 MB resident, execution time of a scan at most 50 us at p99.9.
-Only the memory is judged (exit status 1): times belong to the machine it runs on, they are reported.
+Goals: the first scan within 1 s of the start, less than 64 MB resident, an execution time of the scan of at most 50 us at p99.9.
+Only the memory decides the exit status (1 when it is too much). Times depend on the computer and are only reported.
 """
 import os
 import re
@@ -23,7 +23,7 @@ machine = os.path.join(root, "etc/machine.toml")
 
 
 def run(*arguments):
-    """Output, wall time and highest resident memory (kB) of one ncrtd, sampled while it runs."""
+    """Output and wall time (s) of one run of ncrtd."""
     begin = time.monotonic()
     child = subprocess.Popen([ncrtd, "--config", machine, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     text, _ = child.communicate()

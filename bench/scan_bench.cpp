@@ -6,9 +6,9 @@
 // comes from the runtime's own histogram (p50, p99, p99.9, max); wake-up jitter is another figure, see runtime_process.py.
 // Goal: at most 50 us at p99.9.
 //
-// What the computer itself takes is measured in the same run: half a period behind each scan a loop of sums that takes about
-// as long and touches no memory (loop_...). Interrupts and what the computer gives to others lie in both. What is above
-// that in the scan is the scan's own, with the caches that others have used meanwhile.
+// The disturbances of the computer are measured in the same run: half a period after each scan runs a loop of sums that
+// takes about as long and touches no memory (loop_...). Interrupts, and time that the computer gives to other programs, are
+// in both figures. What the scan needs beyond that is its own, with caches that other programs have used meanwhile.
 #include <benchmark/benchmark.h>
 
 #include <modbus/modbus.h>
@@ -36,7 +36,7 @@
 
 namespace {
 
-// A server that answers what the link asks: bits and registers that count up. One connection, one thread.
+// A Modbus server that answers the link's requests with bits and registers that count up. One connection, one thread.
 class Server {
  public:
   Server() {
@@ -83,11 +83,11 @@ class Server {
   std::thread thread_;
 };
 
-// Half of the points are inputs. Of each half 16 bits have a table of bits, 12 stand in a register, 4 are words with a scale.
+// Half of the points are inputs. Of each half 16 are bits of a table of bits, 12 are bits of one register, 4 are scaled words.
 constexpr unsigned kHalf = 32, kBits = 16, kWords = 4;
 
 constexpr long kPeriodNs = 1'000'000, kSecondNs = 1'000'000'000;
-constexpr unsigned kWarmUp = 500;  // scans that tell how long one takes
+constexpr unsigned kWarmUp = 500;  // scans whose median is the duration that the loop of sums gets
 
 std::int64_t now_ns() {
   timespec t{};
@@ -95,10 +95,10 @@ std::int64_t now_ns() {
   return t.tv_sec * kSecondNs + t.tv_nsec;
 }
 
-// Sums that take as long on every pass, as far as the computer lets them.
+// A loop of sums that takes the same time on every pass if the computer does not disturb it.
 class EmptyLoop {
  public:
-  // As long as `ns`: the fastest of some passes tells what one turn costs.
+  // A pass is to take `ns`; the fastest of 50 trial passes tells how long one turn takes.
   explicit EmptyLoop(std::uint64_t ns) {
     std::int64_t fastest = kSecondNs;
     for (int i = 0; i < 50; ++i) fastest = std::min(fastest, pass(kProbe));
@@ -122,7 +122,7 @@ class EmptyLoop {
   nc::rt::Histogram times_;
 };
 
-// Sleeps to the next half period, or does not.
+// Sleeps to the next half period; does nothing when it is not paced.
 class Pacer {
  public:
   explicit Pacer(bool paced) : paced_(paced) { clock_gettime(CLOCK_MONOTONIC, &next_); }
@@ -141,7 +141,7 @@ class Pacer {
   timespec next_{};
 };
 
-// Figures of a histogram as counters: scan_p50_us ...
+// Figures of a histogram as counters, for example scan_p50_us.
 void show(benchmark::State& state, const std::string& name, const nc::rt::Histogram& times) {
   const auto us = [](std::uint64_t ns) { return static_cast<double>(ns) / 1e3; };
   state.counters[name + "_p50_us"] = us(times.percentile_ns(0.5));
@@ -179,7 +179,7 @@ std::string configuration(unsigned points, unsigned port) {
   return text + map;
 }
 
-// Lines, arcs, outputs, and an input read in a loop that never ends.
+// An endless loop with lines, arcs, an output and the reading of an input.
 constexpr char kProgram[] =
     "G90 G17 G64 F6000.\n"
     "N1 G1 X50. Y10. Z-5.\n"
@@ -191,8 +191,8 @@ constexpr char kProgram[] =
     "X0. Y0.\n"
     "GOTO 1\n";
 
-// A ladder program of so many instructions over the points and the NC's signals: contacts, coils, timers, compares,
-// moves and arithmetic as a machine's program mixes them; and the completion of M, S, T.
+// A ladder program of about so many instructions over the points and the NC's signals: contacts, coils, timers, compares
+// and moves as in the program of a machine, and the completion of M, S and T.
 std::string ladder(unsigned instructions) {
   std::string text = "LD nc.m_strobe\nOR nc.s_strobe\nOR nc.t_strobe\nOUT plc.fin2\n";
   unsigned count = 5;  // with END
@@ -206,8 +206,8 @@ std::string ladder(unsigned instructions) {
 }
 
 // Scans with 3 axes and 64 points on the link, the bits among them mapped to the macro interface. range(0): instructions of
-// the ladder, 0 = none. range(1): 1 = one scan in a millisecond, as on a machine, with caches that others have used
-// meanwhile; 0 = one behind the other, which shows the cost of a scan, but meets every interrupt of the computer.
+// the ladder, 0 = none. range(1): 1 = one scan per millisecond, as on a machine, with caches that others have used
+// meanwhile; 0 = scans without a pause between them, which show the cost of a scan but meet every interrupt of the computer.
 void scan(benchmark::State& state) {
   nc::rt::Config config;
   const auto instructions = static_cast<unsigned>(state.range(0));
@@ -241,7 +241,7 @@ void scan(benchmark::State& state) {
   }
   for (unsigned n = 0; n < 200 && link.statistics().state == nc::hal::modbus::LinkState::kLost; ++n) usleep(10000);
   const std::uint64_t requests = link.statistics().requests;
-  // The priority of ncrtd's scan; what is not allowed is said, and the figures are those of an ordinary thread.
+  // The priority of ncrtd's scan. Where it is not allowed a warning says so, and the figures are those of an ordinary thread.
   std::vector<std::string> warnings;
   nc::rt::promote_scan_thread(config.scheduling, &warnings);
   for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
@@ -266,7 +266,7 @@ void scan(benchmark::State& state) {
   show(state, "scan", runtime->statistics().execution);
   show(state, "loop", loop.times());
 }
-// One iteration is a feeder step, a scan and the loop; the counters are of the scan alone, and of the loop.
+// One iteration is a feeder step, a scan and the loop; the counters scan_ are of the scan alone, loop_ of the loop.
 BENCHMARK(scan)->Args({0, 0})->Args({1000, 0})->Iterations(200000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(scan)->Args({1000, 1})->Iterations(10000)->Unit(benchmark::kMicrosecond);
 

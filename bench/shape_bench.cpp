@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a point of every shape costs (set-point of one cycle), with derivatives, and making one at commit; and what the filters behind
-// interpolation take for five axes in a cycle.
+// For every shape of a curve: what a point (the set-point of one cycle) costs, with derivatives, and what making the shape at commit costs.
+// And what the filters behind the interpolation cost for five axes per cycle.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -56,7 +56,7 @@ Program nurbs() {
   return p;
 }
 
-/// All but a cusp in its middle: the worst case of finding the parameter by the length.
+/// A span that nearly has a cusp in its middle: the worst case for finding the parameter that belongs to a length.
 Program cusp(double gap) {
   Program p;
   p.what.kind = ShapeKind::rational;
@@ -118,7 +118,7 @@ void commit(benchmark::State& state, const Program& p) {
   }
 }
 
-/// The place of the curve that costs most, at 4,096 places, each the best of 50 times 16 points.
+/// The time of a point where the curve costs most: of 4,096 places, each of which has the best mean of 16 points in 50 tries.
 void worst(benchmark::State& state, const Program& p) {
   constexpr unsigned kPlaces = 4096, kTimes = 50, kPoints = 16;
   CurveShape shape;
@@ -155,7 +155,8 @@ NC_SHAPE(cylinder_arc, mapped(AxisMap::Kind::cylinder, true));
 NC_SHAPE(polar_line, mapped(AxisMap::Kind::polar, false));
 NC_SHAPE(polar_arc, mapped(AxisMap::Kind::polar, true));
 
-/// One cycle of five axes: means of `linear_ms` and lags behind them, or two means for all axes.
+/// One cycle of five axes. Kind `after`: each axis has a mean over first_ms and behind it a lag of second_ms. Otherwise all axes have two means,
+/// over first_ms and over second_ms.
 void filters(benchmark::State& state, FilterTimes::Kind kind, double first_ms, double second_ms) {
   constexpr unsigned kFilteredAxes = 5;
   constexpr uint32_t kPlaces = 4000;

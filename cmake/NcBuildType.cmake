@@ -7,14 +7,14 @@ endif()
 # -g1 keeps function names and lines for backtraces of a release at a fraction of the size of -g.
 set(CMAKE_C_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
-# What is shipped is hardened as Debian hardens its own packages: it reads files and sockets that others write. Executables are
-# position-independent by the default of the compilers; relro and binding at the start are in nc_program() and libnc.so. A firmware,
-# which configures libnc/ alone, chooses for itself. tests/install/package_test.sh looks at the packaged binaries.
+# A release is hardened as Debian hardens its own packages, because it reads files and sockets that others write. Executables are
+# position-independent by default of the compilers; nc_program() and libnc.so add relro and binding at start-up. A firmware, which configures
+# libnc/ alone, chooses for itself. tests/install/package_test.sh checks the packaged binaries.
 set(NC_HARDENING "-fstack-protector-strong;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2" CACHE STRING "Compiler options of a release against overflows of buffers")
 add_compile_options("$<$<CONFIG:Release>:${NC_HARDENING}>")
 set(CMAKE_C_FLAGS_DEBUG "-O0 -g3")
 set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g3")
-# Assertions stay on under the sanitizers: they find the same class of error earlier.
+# Assertions stay on under the sanitizers: they find the same kind of error earlier.
 set(CMAKE_C_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
 
@@ -24,13 +24,13 @@ option(NC_WERROR "Warnings are errors" ON)
 
 if(NC_SANITIZE)
   add_compile_options(-fsanitize=${NC_SANITIZE} -fno-sanitize-recover=all)
-  # A host in C may give any integer where the API has an enumeration; what is behind the API refuses it. No compiler here builds on the
-  # range of an enumeration (that would be -fstrict-enums), so reading such a value is no fault.
+  # A host in C may pass any integer where the API has an enumeration, and the library refuses those that are not valid. Without -fstrict-enums the
+  # compilers assume nothing about the range of an enumeration, so to read such a value is no fault.
   if(NC_SANITIZE MATCHES "undefined")
     add_compile_options(-fno-sanitize=enum)
   endif()
   add_link_options(-fsanitize=${NC_SANITIZE})
-  # The examples are linked by the C compiler, and libnc.a in them wants the part of clang's sanitizers that is for C++.
+  # The examples are linked by the C compiler, but libnc.a in them needs the C++ part of clang's sanitizers.
   if(CMAKE_C_COMPILER_ID MATCHES "Clang")
     add_link_options(-fsanitize-link-c++-runtime)
   endif()
@@ -45,5 +45,5 @@ if(NC_COVERAGE)
   add_compile_options(--coverage -fprofile-update=atomic)
   add_link_options(--coverage)
 endif()
-# No fast-math anywhere, and no contraction to fused multiply-add: a trace has the same bytes on every machine.
+# No fast-math anywhere, and no contraction to fused multiply-add, so that a trace has the same bytes on every computer.
 add_compile_options(-ffp-contract=off)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The Debian packages libnc1, libnc-dev, ncrtd and nc-tools, one CPack component each:
 #   cd build/release && cpack            (docs/packaging.md; scripts/prove-packages installs and uses them)
-# What only a package has (units, /etc/nc, man pages) is EXCLUDE_FROM_ALL: `cmake --install` writes below its prefix alone.
+# Files that only a package has (units, /etc/nc, man pages) are EXCLUDE_FROM_ALL, because `cmake --install` must not write outside its prefix.
 include(${CMAKE_SOURCE_DIR}/libnc/cmake/abi.cmake)  # NC_ABI
 find_program(NC_DPKG_DEB dpkg-deb)
 if(NOT NC_DPKG_DEB OR NOT TARGET nc_shared OR NOT TARGET ncrtd OR NOT TARGET ncsim)
@@ -14,13 +14,13 @@ set(nc_packaging ${CMAKE_SOURCE_DIR}/packaging)
 set(nc_staged ${CMAKE_BINARY_DIR}/packaging)
 set(nc_package_version ${PROJECT_VERSION}-${NC_PACKAGE_RELEASE})
 
-# nc_package_file(COMPONENT DESTINATION FILE...): root's, rw-r--r--.
+# nc_package_file(COMPONENT DESTINATION FILE...): installs files with the mode rw-r--r--.
 function(nc_package_file component destination)
   install(FILES ${ARGN} DESTINATION ${destination} COMPONENT ${component} EXCLUDE_FROM_ALL
           PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 endfunction()
 
-# ---- /etc/nc: every configuration and ladder program, looking for part programs where the package puts them ----
+# ---- /etc/nc: every configuration and ladder program; the configurations get the folder of part programs of the package ----
 file(GLOB nc_configurations CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/etc/*.toml ${CMAKE_SOURCE_DIR}/etc/*.il)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${nc_configurations})
 set(nc_conffiles "")
@@ -78,7 +78,7 @@ foreach(script postinst prerm postrm)
                  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 endforeach()
 file(WRITE ${nc_staged}/ncrtd/conffiles "${nc_conffiles}")
-# Who is linked against this version needs at least this version.
+# A program that is linked against this version needs at least this version.
 set(nc_library_package libnc${NC_ABI})
 file(WRITE ${nc_staged}/${nc_library_package}/shlibs "libnc ${NC_ABI} ${nc_library_package} (>= ${PROJECT_VERSION})\n")
 file(WRITE ${nc_staged}/${nc_library_package}/triggers "activate-noawait ldconfig\n")

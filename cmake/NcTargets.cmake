@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # How the rooms around libnc (hal, runtime, tools, tests, bench) make their targets.
 
-# nc_room_around(TARGET): a room around libnc. With the address sanitizer the standard library is parsed once for the room, which is most of its
-# compilation. The other builds go without: each file has to include what it uses there, and GCC 12 warns of the library's own strings when it
-# optimizes what it has precompiled. Where nothing is fuzzed (a build by hand with GCC) there is no optimizer either; the fuzzers run a room a
-# million times.
+# nc_room_around(TARGET): for a room around libnc. With the address sanitizer it precompiles the headers of the standard library, which take most
+# of the compilation. Other builds do not, so that a missing include is found there, and because GCC 12 gives false warnings about std::string
+# when it optimizes precompiled headers. A build with the sanitizer but without fuzzers (by hand, with GCC) is not optimized either; fuzzers need
+# it, since they run a room a million times.
 function(nc_room_around target)
   if(NOT NC_SANITIZE MATCHES address)
     return()
@@ -26,7 +26,7 @@ function(nc_host_options target)
   endif()
 endfunction()
 
-# nc_link_rooms(TARGET VISIBILITY ROOM...): link those of the named room libraries that exist.
+# nc_link_rooms(TARGET VISIBILITY ROOM...): links those of the named room libraries that exist.
 function(nc_link_rooms target visibility)
   foreach(room IN LISTS ARGN)
     if(TARGET ${room})
@@ -35,7 +35,7 @@ function(nc_link_rooms target visibility)
   endforeach()
 endfunction()
 
-# Debian's library folder below any prefix: it is searched below /usr/local too, and every build tree can make the packages.
+# Uses Debian's library folder below any prefix: Debian searches it below /usr/local, too, and so every build tree can make the packages.
 if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_LIBRARY_ARCHITECTURE AND EXISTS /etc/debian_version)
   option(NC_MULTIARCH_LIBDIR "Install libraries into lib/${CMAKE_LIBRARY_ARCHITECTURE} where it would be lib" ON)
   if(NC_MULTIARCH_LIBDIR AND CMAKE_INSTALL_LIBDIR STREQUAL "lib")
@@ -44,8 +44,8 @@ if(CMAKE_SYSTEM_NAME STREQUAL "Linux" AND CMAKE_LIBRARY_ARCHITECTURE AND EXISTS 
   endif()
 endif()
 
-# nc_program(NAME MAIN LIBS...): an installed executable from one file, when that file is there. Every symbol is bound at the start
-# (none is looked up in a scan), and only the libraries that are used are asked for.
+# nc_program(NAME MAIN LIBS...): an installed executable from one file, if that file exists. All symbols are bound at start-up, so that none is
+# looked up during a scan, and it depends only on the libraries that it uses.
 function(nc_program name main)
   if(NOT EXISTS ${main})
     return()

@@ -13,7 +13,7 @@
 namespace nc::dds {
 namespace {
 
-// A NUL-terminated text into a bounded string of the IDL.
+// Copies a text into a bounded string of the IDL, which ends with a NUL.
 template <std::size_t kSize>
 void set(char (&target)[kSize], std::string_view text) {
   share::Text<kSize> cut;
@@ -25,7 +25,7 @@ void set(char (&target)[kSize], const share::Text<kFrom>& text) {
   set(target, share::text_of(text));
 }
 
-// A value of the segment as an enumerator; what this IDL does not know becomes `other`.
+// Converts a value of the segment to an enumerator; a value that this IDL does not have becomes `other`.
 template <class Enum>
 Enum as_enum(std::uint32_t value, Enum last, Enum other) {
   return value <= static_cast<std::uint32_t>(last) ? static_cast<Enum>(value) : other;
@@ -35,13 +35,14 @@ double us(std::uint64_t ns) {
   return static_cast<double>(ns) / 1000.0;
 }
 
-// Those that stop the machine; the others are warnings.
+// The number of alarms that stop the machine; the other entries are warnings.
 std::uint32_t alarms_in(const share::StatusBlock& block) {
   return static_cast<std::uint32_t>(std::count_if(block.alarm.begin(), block.alarm.begin() + block.alarm_count,
                                                   [](const share::Entry& entry) { return entry.is_warning == 0; }));
 }
 
-// A cause more in libnc is one here, or this does not compile; what comes from a later control is some other.
+// The switch has no default, so that the compiler reports a cause that libnc has and that is missing here. A cause of a later control is
+// reported as another one.
 nc_StopCause cause_of(std::uint32_t cause) {
   switch (static_cast<nc_stop_cause>(cause)) {
     case NC_CAUSE_NONE: return nc_CAUSE_NONE;
@@ -79,7 +80,7 @@ static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::Refusal
               static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kDrives) &&
               static_cast<int>(nc_REFUSED_LIMIT_SWITCH) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
-// 0 is what a subscriber reads of a control that does not say it, so that the enumerators begin one behind those of the runtime.
+// The enumerators are greater by one than those of the runtime: a subscriber reads 0 from an older control that does not tell the source.
 static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&
               static_cast<int>(nc_OVERRIDE_MACHINE) == static_cast<int>(rt::OverrideSource::kMachine) + 1 &&
               static_cast<int>(nc_OVERRIDE_PROGRAM) == static_cast<int>(rt::OverrideSource::kProgram) + 1);
@@ -98,7 +99,7 @@ void MachineSample::fill(const share::MachineBlock& machine, const char* partiti
   set(info.name, machine.machine);
   set(info.version, machine.version);
   const char* const dialect = nc_dialect_name(static_cast<nc_dialect>(machine.dialect));
-  set(info.dialect, dialect != nullptr ? dialect : "");  // "" = a later version runs there, with a dialect that this one does not know
+  set(info.dialect, dialect != nullptr ? dialect : "");  // "" = a later version of the control is running with a dialect that this version does not know
   info.part_systems = machine.system_count;
   info.cycle_us = machine.cycle_us;
   info.max_feed_override = machine.max_feed_override;
@@ -304,7 +305,7 @@ nc_Status_v1 core_status(const share::MachineBlock& machine, const share::Status
 
 namespace {
 
-// What the alarm types have in common.
+// Fills the members that all types of alarms have in common.
 template <class T>
 T entry_as(const share::Entry& entry, const char* partition) {
   T to{};
@@ -381,10 +382,10 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   to.sequence = command.seq;
   to.writer = writer;
   to.issued_ns = issued_ns;
-  // As the number that it is: an enumerator that there is not must not be read as one.
+  // The kind is copied as a number, because it may not be one of the enumerators.
   static_assert(sizeof to.kind == sizeof command.kind);
   std::memcpy(&to.kind, &command.kind, sizeof to.kind);
-  // The kinds of the gateway itself cannot be asked for from outside.
+  // The kinds that the gateway itself uses must not be sent from outside.
   if (to.kind > static_cast<std::uint32_t>(nc_CMD_RELEASE_FORCE))
     to.kind = static_cast<std::uint32_t>(share::RequestKind::kCount);
   to.lifespan_ms = command.lifespan_ms;
@@ -393,7 +394,7 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   to.expected_run_state = command.expected_run_state;
   share::set_text(&to.expected_program, command.expected_program);
   static_assert(share::kEverySystem == 0u - 1);
-  to.system = command.part_system - 1;  // 0 is all of them
+  to.system = command.part_system - 1;  // 0, all part systems, becomes kEverySystem
   to.axis = NC_MAX_AXES;
   if (to.system < machine.system_count)
     for (unsigned a = 0; a < machine.axis_count[to.system]; ++a)

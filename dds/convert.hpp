@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the segment to the types of the IDL, and commands back.
+// Converts the contents of the segment to the types of the IDL, and commands to requests.
 #pragma once
 
 #include "nc_dds.h"
@@ -9,7 +9,7 @@ namespace nc::dds {
 
 namespace share = nc::rt::share;
 
-// Samples whose sequences point into themselves: filled and written, never copied.
+// Samples whose sequences point to members of the sample itself, so they must not be copied.
 struct MachineSample {
   nc_MachineInfo info{};
   nc_AxisInfo axes[NC_MAX_SYSTEMS * NC_MAX_AXES] = {};
@@ -46,11 +46,11 @@ nc_Alarm_v1 core_alarm(const share::Entry& entry, std::uint32_t slot, const char
 nc_AlarmHistory history(const share::Entry& entry, const char* partition);
 nc_CommandAck ack(const share::Ack& ack);
 
-// A text with a NUL in its middle: what stands behind it would be lost without a word. The sample has to be zero
-// before it is read.
+// True when a text has a NUL in its middle: the part after it would be lost unnoticed. The memory of the sample must be zero
+// before DDS writes the sample into it.
 bool has_hidden_text(const nc_Command& command);
 
-// What is out of range in DDS's terms becomes out of range in the segment's: Intake refuses it.
+// Values that are out of range in the command stay out of range in the request, so that Intake refuses it.
 share::Request request(const nc_Command& command, const share::MachineBlock& machine, std::uint64_t writer,
                        std::int64_t issued_ns);
 

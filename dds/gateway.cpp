@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kAttachEveryNs = 100 * kMs;
-constexpr std::int64_t kLookEveryNs = 50 * kMs;  // without a new picture
-constexpr std::int64_t kSignalsNs = 100 * kMs;   // at most so often
+constexpr std::int64_t kLookEveryNs = 50 * kMs;  // interval of looking at the segment when nothing new is published there
+constexpr std::int64_t kSignalsNs = 100 * kMs;   // shortest interval between two signal images
 constexpr std::int64_t kSignalsForcedNs = 1000 * kMs;
 constexpr std::int64_t kClaimEveryNs = 500 * kMs;
 constexpr int kTaken = 16;
-constexpr std::size_t kAnswersWaiting = 256;  // so many, and no further command is taken
+constexpr std::size_t kAnswersWaiting = 256;  // when so many answers wait, no further command is taken
 
 std::int64_t now() {
   return nc::rt::RealClock().now_ns();
@@ -76,7 +76,7 @@ bool Gateway::open(std::string* error) {
   return true;
 }
 
-// Each sentence once, until another one is due.
+// Prints a sentence, but not again while it is the same as the last one.
 void Gateway::say(const std::string& text) {
   if (text == said_) return;
   said_ = text;
@@ -85,7 +85,7 @@ void Gateway::say(const std::string& text) {
 
 bool Gateway::write(dds_entity_t writer, const void* sample) {
   const dds_return_t result = dds_write(writer, sample);
-  // A reader that does not keep up is passed over; it gets the next value.
+  // A time-out is no error: a reader that does not keep up misses this value and gets the next one.
   if (result < 0 && result != DDS_RETCODE_TIMEOUT) say(std::string("write: ") + dds_strretcode(result));
   return result >= 0;
 }
@@ -118,7 +118,7 @@ bool Gateway::attach() {
   return true;
 }
 
-// Whether commands come in here: one gateway of a control brings them in, another one waits until that one is gone.
+// Tries to become the gateway that passes commands to the control. Only one gateway does that; a second one waits until the first one is gone.
 bool Gateway::claim_commands(std::string* error) {
   may_command_ = segment_.claim_commands(error);
   another_commands_ = !may_command_ && segment_.get()->identity.commands != 0;
@@ -131,7 +131,7 @@ bool Gateway::claim_commands(std::string* error) {
   return true;
 }
 
-// What was published is no longer true: the instances go, so that every subscriber knows.
+// The published values are no longer valid. The instances are disposed, so that every subscriber notices it.
 void Gateway::detach(const char* why) {
   say(why);
   if (written_any_) {
@@ -148,7 +148,7 @@ void Gateway::detach(const char* why) {
   active_.clear();
   for (std::uint64_t id = 1; id <= history_block_->last_sequence && id <= share::kHistory; ++id) {
     const nc_AlarmHistory old = history(history_block_->entry[id - 1], partition_.c_str());
-    (void)dds_writedispose(history_, &old);  // numbers begin again with the next control
+    (void)dds_writedispose(history_, &old);  // the next control begins with new numbers
   }
   *history_block_ = {};
   const std::lock_guard lock(segment_mutex_);
@@ -156,7 +156,7 @@ void Gateway::detach(const char* why) {
   segment_.close();
 }
 
-// One look at the segment. False when it is gone.
+// Looks at the segment once and publishes what is new. False when the control is gone.
 bool Gateway::look() {
   const std::int64_t at = now();
   const bool ended =
@@ -197,7 +197,7 @@ void Gateway::run() {
     share::wait_for_change(word, seen, kLookEveryNs);
   }
   if (commands_.joinable()) commands_.join();
-  // Nothing is disposed: the control goes on, only nobody publishes it.
+  // Nothing is disposed, because the control goes on; only this gateway ends.
   const std::lock_guard lock(segment_mutex_);
   segment_.close();
 }
@@ -210,11 +210,11 @@ bool Gateway::publish_status(std::int64_t now_ns) {
     say(error);
     return false;
   }
-  // A write asserts the liveliness of the topic: there is none for a scan that stands still.
+  // Each write asserts the liveliness of the topic, so nothing is written while the scan stands still.
   if (written_any_ && block_.scan == written_scan_) return true;
   written_any_ = true;
   written_scan_ = block_.scan;
-  // Half a publication early: pictures come every 10 ms, and the next one would be late.
+  // The next status is due up to 5 ms early: the segment is updated every 10 ms, and otherwise the next status would be up to 10 ms late.
   next_status_ns_ = now_ns + period_ns_ - std::min<std::int64_t>(period_ns_ / 2, 5 * kMs);
   const share::MachineBlock& machine = segment_.get()->machine;
   for (unsigned s = 0; s < block_.system_count; ++s) {
@@ -235,7 +235,7 @@ void Gateway::clear_alarm(const Shown& shown) {
 }
 
 void Gateway::publish_alarms() {
-  std::uint32_t used = 0;  // slots
+  std::uint32_t used = 0;  // bit n: slot n is in use
   for (auto it = active_.begin(); it != active_.end();) {
     const bool active = std::any_of(block_.alarm.begin(), block_.alarm.begin() + block_.alarm_count,
                                     [&](const share::Entry& entry) { return entry.sequence == it->first; });
@@ -250,7 +250,7 @@ void Gateway::publish_alarms() {
   for (unsigned i = 0; i < block_.alarm_count; ++i) {
     const share::Entry& entry = block_.alarm[i];
     if (active_.count(entry.sequence) != 0) continue;
-    const auto slot = static_cast<std::uint32_t>(std::countr_one(used));  // there are as many as alarms
+    const auto slot = static_cast<std::uint32_t>(std::countr_one(used));  // one is free, because there are as many slots as there can be alarms
     used |= 1u << slot;
     active_[entry.sequence] = {entry, slot};
     const nc_Alarm come = alarm(entry, slot, partition_.c_str());
@@ -287,7 +287,7 @@ void Gateway::publish_signals(std::int64_t now_ns) {
   if (dds_get_publication_matched_status(signals_, &matched) < 0 || matched.current_count == 0) return;
   next_signals_ns_ = now_ns + kSignalsNs;
   segment_.get()->points_until.store(now_ns + share::kPointsWantedNs, std::memory_order_relaxed);
-  if (segment_.get()->points.sequence() == 0 || segment_.get()->signals.sequence() == 0) return;  // nobody has asked before: they come with the next look
+  if (segment_.get()->points.sequence() == 0 || segment_.get()->signals.sequence() == 0) return;  // they have just been asked for and come with the next look
   std::string error;
   if (!segment_.points(points_.get(), &error) || !segment_.signals(control_signals_.get(), &error)) {
     say(error);
@@ -306,14 +306,14 @@ void Gateway::publish_signals(std::int64_t now_ns) {
 
 // ---- commands ----
 
-// No answer is lost because a reader is slow: what the writer does not take stays here, then in the ring of the segment, and no
-// command is taken meanwhile that would make more of them. A reader that is dead leaves the writer after its lease.
+// Answers are not lost when a reader is slow: answers that the writer does not take wait here, then in the ring of the segment, and meanwhile no
+// further commands are taken. A dead reader stops blocking the writer when its lease ends.
 void Gateway::answer(const share::Ack& ack) {
   const std::lock_guard lock(answers_mutex_);
   answers_.push_back(ack);
 }
 
-// Whether so many wait that there is no room. Publishes what goes out now. Both threads.
+// Publishes the waiting answers as far as the writer takes them. True when so many still wait that there is no room. Both threads.
 bool Gateway::answers_wait() {
   const std::lock_guard lock(answers_mutex_);
   while (!answers_.empty()) {
@@ -353,7 +353,7 @@ void Gateway::put(const share::Request& request) {
 }
 
 void Gateway::take_commands() {
-  // Memory of our own, zero each time, so that what stands behind the end of a text is known.
+  // The samples are read into this memory, which is set to zero each time, so that the bytes after the end of a text are known.
   std::fill(received_.begin(), received_.end(), nc_Command{});
   void* samples[kTaken];
   for (int i = 0; i < kTaken; ++i) samples[i] = &received_[static_cast<std::size_t>(i)];
@@ -361,7 +361,7 @@ void Gateway::take_commands() {
   const int count = dds_take(command_, samples, infos, kTaken, kTaken);
   if (count <= 0) return;
   const std::lock_guard lock(segment_mutex_);
-  std::set<dds_instance_handle_t> left;  // after what they have said
+  std::set<dds_instance_handle_t> left;  // clients that have left; they are removed after their commands have been taken
   for (int i = 0; i < count; ++i) {
     const dds_sample_info_t& info = infos[i];
     if (info.instance_state != DDS_IST_ALIVE) left.insert(info.instance_handle);
@@ -374,7 +374,7 @@ void Gateway::take_commands() {
       Client& client = clients_[info.instance_handle];
       client.name = wanted.client;
       client.writer = info.publication_handle;
-      if (another_commands_) continue;  // the other gateway gets it too, and answers
+      if (another_commands_) continue;  // the other gateway receives this command, too, and answers it
       if (has_hidden_text(command)) refuse(wanted, share::AckReason::kMalformed, "a text has a NUL in its middle");
       else if (open) put(wanted);
       else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");

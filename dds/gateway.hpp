@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gateway: reads the segment of ncrtd, publishes it over DDS, brings commands in. A process of its own, so
-// that nothing from the network can stop the machine; it waits for ncrtd, and finds it again after a restart.
+// The gateway reads the segment of ncrtd, publishes it over DDS and passes on commands. It is a process of its own, so
+// that nothing from the network can stop the machine. It waits for ncrtd, and finds it again after a restart.
 //
-// Two threads: run() publishes, woken by each new picture in the segment; the command thread is woken by DDS.
+// There are two threads: run() publishes and is woken by each update of the segment; the command thread is woken by DDS.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@
 namespace nc::dds {
 
 struct GatewayOptions {
-  std::string share;    // name of the segment; also the partition
+  std::string share;    // name of the segment and of the DDS partition
   unsigned domain = kDefaultDomain;
   double rate_hz = kDefaultRateHz;
   bool commands = false;
@@ -33,9 +33,9 @@ class Gateway {
   ~Gateway();
   // False with a sentence in *error.
   bool open(std::string* error);
-  // Until stop().
+  // Publishes until stop() is called.
   void run();
-  // From a signal handler, too.
+  // May also be called from a signal handler.
   void stop() { stop_ = true; }
 
  private:
@@ -71,10 +71,10 @@ class Gateway {
   dds_entity_t machine_ = 0, status_ = 0, alarm_ = 0, history_ = 0, signals_ = 0, signal_table_ = 0, status_core_ = 0, alarm_core_ = 0;
   dds_entity_t command_ = 0, ack_ = 0, waitset_ = 0;
 
-  std::mutex segment_mutex_;  // the command thread puts commands in while run() may let the segment go
+  std::mutex segment_mutex_;  // the command thread must not write commands while run() closes the segment
   share::SegmentReader segment_;
   bool may_command_ = false;
-  bool another_commands_ = false;  // another gateway of this control brings the commands in
+  bool another_commands_ = false;  // another gateway passes the commands to this control
   std::int64_t next_claim_ns_ = 0;
   share::HeartbeatWatch heart_{300'000'000};
   std::string said_;
@@ -83,22 +83,22 @@ class Gateway {
   std::uint64_t written_scan_ = 0;
   bool written_any_ = false;
   std::int64_t next_status_ns_ = 0, next_signals_ns_ = 0, forced_signals_ns_ = 0, next_attach_ns_ = 0;
-  std::map<std::uint64_t, Shown> active_;  // by number of the occurrence
+  std::map<std::uint64_t, Shown> active_;  // keyed by the number of the occurrence
   std::uint64_t history_sequence_ = 0;
-  std::unique_ptr<share::HistoryBlock> history_block_;  // as published
+  std::unique_ptr<share::HistoryBlock> history_block_;  // the history that has been published
   std::unique_ptr<share::PointsBlock> points_, last_points_;
   std::unique_ptr<share::SignalsBlock> control_signals_, last_control_signals_;
   std::unique_ptr<SignalSample> signal_sample_;
   std::vector<nc_Command> received_;
 
   std::mutex answers_mutex_;
-  std::deque<share::Ack> answers_;  // not published yet, in their order
+  std::deque<share::Ack> answers_;  // answers that are not published yet, in their order
 
   struct Client {
     share::Text<32> name{};
     std::uint64_t writer = 0;
   };
-  std::map<dds_instance_handle_t, Client> clients_;  // command thread
+  std::map<dds_instance_handle_t, Client> clients_;  // used only by the command thread
   std::thread commands_;
 };
 

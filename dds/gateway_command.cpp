@@ -25,7 +25,7 @@ int failed(const std::string& text) {
   return 1;
 }
 
-// The name of the segment as ncrtd takes it from the same file.
+// Takes the name of the segment from the file of the configuration, in the same way as ncrtd.
 bool read_config(const std::string& path, GatewayOptions* options) {
   rt::Config config;
   const std::vector<rt::ConfigError> errors = rt::load_config(path, &config);
@@ -50,7 +50,7 @@ int gateway_command(const GatewayCommand& command) {
   if (!command.ready_file.empty() && !(std::ofstream(command.ready_file) << getpid() << '\n').flush())
     return failed("cannot write " + command.ready_file);
   gateway.run();
-  g_gateway = nullptr;  // a second signal has nothing to end any more
+  g_gateway = nullptr;  // from here on a second signal has no effect
   return 0;
 }
 

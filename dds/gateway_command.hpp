@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gateway as a program: which control it is for, until a signal ends it.
+// The gateway as a program: it publishes the control that the options name until a signal ends it.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace nc::dds {
 
 struct GatewayCommand {
   GatewayOptions gateway;
-  std::string config;      // file of the machine that names the control; "" = gateway.share does
+  std::string config;      // configuration that gives the name of the control; "" = gateway.share is the name
   std::string ready_file;  // written when DDS is up; "" = none
 };
 
-// The exit status of ncdds. What is wrong goes to standard error.
+// Returns the exit status of ncdds. Errors are printed on standard error.
 int gateway_command(const GatewayCommand& command);
 
 }  // namespace nc::dds

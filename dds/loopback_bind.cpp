@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bind() of the programs that talk DDS. See loopback_bind.hpp.
+// The bind() of the programs that use DDS. See loopback_bind.hpp.
 #include "dds/loopback_bind.hpp"
 
 #include <netinet/in.h>
@@ -15,7 +15,7 @@ namespace {
 
 std::atomic<bool> g_loopback_only{false};
 
-// The system call itself: the C library's function is the one that is replaced.
+// Makes the system call directly, because the function of the C library is the one that is replaced.
 int bind_now(int fd, const void* address, socklen_t size) {
   return static_cast<int>(syscall(SYS_bind, fd, address, size));
 }
@@ -28,7 +28,7 @@ void bind_to_loopback_only() {
 
 }  // namespace nc::dds
 
-// A symbol of the program comes before that of the C library, for the libraries that it is linked against, too.
+// A symbol of the program is used instead of that of the C library, also by the libraries that the program is linked with.
 extern "C" __attribute__((visibility("default"))) int bind(int fd, const sockaddr* address, socklen_t size) noexcept {
   using nc::dds::bind_now;
   if (!nc::dds::g_loopback_only || address == nullptr) return bind_now(fd, address, size);

@@ -218,7 +218,7 @@ bool Monitor::wait_for(dds_entity_t reader) {
 
 bool Monitor::watch_signals(bool on, std::string* error) {
   if (on == (signals_ > 0)) return true;
-  if (!on) {  // with its reader goes the request
+  if (!on) {  // without a reader the gateway stops publishing signals
     for (const dds_entity_t reader : {signals_, signal_table_}) (void)dds_delete(dds_get_parent(reader));
     signals_ = signal_table_ = 0;
     view_.signals.clear();
@@ -254,7 +254,7 @@ void Monitor::take_status() {
       machine_ = status.machine;
       view_.systems.clear();
     }
-    // Several controls are heard: this monitor shows one. The keys are there also without data.
+    // Samples of several controls may come, but this monitor shows only one. The keys are valid even in a sample without data.
     if (!machine_.empty() && machine_ != status.machine) continue;
     if (alive) {
       view_.systems[status.part_system] = view_of(status);
@@ -264,7 +264,7 @@ void Monitor::take_status() {
       ++samples_;
       ++changes_;
     } else if (infos[i].valid_data && (heard_ || infos[i].instance_state == DDS_IST_NOT_ALIVE_DISPOSED)) {
-      view_.systems[status.part_system] = view_of(status);  // its last value, read after it was taken back
+      view_.systems[status.part_system] = view_of(status);  // the last value of an instance that has already been disposed
     }
     if (infos[i].instance_state != DDS_IST_ALIVE && heard_) {
       view_.alive = false;
@@ -289,7 +289,7 @@ void Monitor::take_alarms() {
     if (!machine_.empty() && machine_ != alarm.machine) continue;
     std::map<unsigned, AlarmView>& alarms = alarms_of_[alarm.machine];
     if (infos[i].instance_state != DDS_IST_ALIVE) {
-      alarms.erase(alarm.slot);  // the keys are there also without data
+      alarms.erase(alarm.slot);  // the keys are valid even without data
     } else if (infos[i].valid_data) {
       alarms[alarm.slot] = {alarm.id,   alarm.part_system, alarm.code,     alarm.text,
                             alarm.axis, alarm.line,        alarm.raised_ns, alarm.warning};
@@ -299,7 +299,7 @@ void Monitor::take_alarms() {
   if (count > 0) (void)dds_return_loan(alarm_, samples, count);
 }
 
-// The image has the values, the table what they mean; who has no table yet shows names and values.
+// The image has the values of the signals, and the table has their meanings. Until the table has come, only names and values are shown.
 void Monitor::take_signals() {
   void* samples[1] = {};
   dds_sample_info_t infos[1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subscriber of status and alarms: the part of ncmon that knows DDS.
+// A subscriber of status and alarms: the part of ncmon that uses DDS.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,22 @@ namespace nc::dds {
 
 class Monitor {
  public:
-  // `machine`: the partition, "" = the first control that is heard.
+  // `machine`: the partition, "" = the first control that is received.
   Monitor(unsigned domain, std::string machine) : domain_(domain), machine_(std::move(machine)) {}
   bool open(std::string* error);
-  // The table of signals and their values, from now on (or never again).
+  // Switches the subscription to the table of signals and their values on or off.
   bool watch_signals(bool on, std::string* error);
-  // Waits at most `timeout_ns` for news and takes them. True when there were some.
+  // Waits at most `timeout_ns` for new samples and takes them. True when there were some.
   bool wait(std::int64_t timeout_ns);
 
   const MonitorView& view() const { return view_; }
   bool heard() const { return heard_; }  // a status has come
-  bool ended() const { return view_.ended; }  // ... and was taken back: the control has ended
+  bool ended() const { return view_.ended; }  // the status was disposed after that: the control has ended
   std::uint64_t samples() const { return samples_; }
-  std::uint64_t changes() const { return changes_; }     // of the view: a status came, or none comes any more
-  // A gateway publishes this machine (any machine where none was named), whether or not its control lives.
+  std::uint64_t changes() const { return changes_; }     // counts changes of the view: a status or signals have come, or the status has ended
+  // True when a gateway publishes this machine (any machine if none was named), whether or not its control is running.
   bool gateway_there() const;
-  std::int64_t last_latency_ns() const { return latency_ns_; }  // of the last status: scan to here
+  std::int64_t last_latency_ns() const { return latency_ns_; }  // time from the scan of the last status to its arrival here
 
  private:
   void take_status();
@@ -41,8 +41,8 @@ class Monitor {
   std::string machine_;
   Participant participant_;
   dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0, signals_ = 0, signal_table_ = 0;
-  std::map<std::string, SignalView> signal_rows_;  // what the table says of them, by name
-  std::map<std::string, std::map<unsigned, AlarmView>> alarms_of_;  // by control and slot; of one control as soon as that is known
+  std::map<std::string, SignalView> signal_rows_;  // the rows of the table, keyed by the name of the signal
+  std::map<std::string, std::map<unsigned, AlarmView>> alarms_of_;  // keyed by control and slot; only one control once that is known
   MonitorView view_;
   bool heard_ = false;
   std::uint64_t samples_ = 0, changes_ = 0;

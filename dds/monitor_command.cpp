@@ -38,7 +38,7 @@ int nobody(const Monitor& monitor, const MonitorOptions& options) {
   return kExitNobody;
 }
 
-// Until a status is there, a signal, or the time is over.
+// Waits until a status has come, a signal ends the program, or the time is over. True when a status has come.
 bool wait_for_status(Monitor* monitor, double seconds) {
   const std::int64_t end = now() + static_cast<std::int64_t>(seconds * 1e9);
   while (!monitor->heard() && rt::end_signal() == 0 && now() < end)
@@ -47,7 +47,7 @@ bool wait_for_status(Monitor* monitor, double seconds) {
 }
 
 int once(Monitor* monitor, const MonitorOptions& options) {
-  // The alarms come on a topic of their own, perhaps a moment later; so do further part systems.
+  // Alarms have a topic of their own and may come a moment later, and so may further part systems.
   const std::int64_t end = now() + 500 * kMs;
   const std::uint64_t first = monitor->samples();
   const auto complete = [&] {
@@ -62,7 +62,7 @@ int once(Monitor* monitor, const MonitorOptions& options) {
       std::fprintf(stderr, "ncmon: no signals came (waited %g s)\n", options.wait_s);
       return kExitNobody;
     }
-    monitor->wait(200 * kMs);  // the table, which says what they mean
+    monitor->wait(200 * kMs);  // for the table with the meanings of the signals
   }
   if (options.signals && !options.json) {
     std::printf("%s", signal_page(monitor->view(), 0).c_str());
@@ -76,7 +76,7 @@ int once(Monitor* monitor, const MonitorOptions& options) {
 int json_stream(Monitor* monitor) {
   std::uint64_t shown = 0;
   while (rt::end_signal() == 0 && !std::ferror(stdout)) {
-    if (monitor->changes() != shown) {  // the last line says "alive": false
+    if (monitor->changes() != shown) {  // when the control has ended, a last line with "alive": false is printed
       shown = monitor->changes();
       std::printf("%s\n", json_line(monitor->view()).c_str());
       std::fflush(stdout);
@@ -105,12 +105,12 @@ int latency(Monitor* monitor, unsigned wanted, double limit_s) {
   return 0;
 }
 
-// One line that is rewritten on a terminal; elsewhere one at each tenth and each change of state.
+// On a terminal one line that is rewritten; elsewhere a line at each tenth of the program and at each change of state.
 int progress(Monitor* monitor) {
   const bool terminal = isatty(STDOUT_FILENO) != 0;
   std::string last_state;
   unsigned last_tenth = ~0u;
-  std::map<std::uint32_t, std::uint64_t> messages;  // of each part system
+  std::map<std::uint32_t, std::uint64_t> messages;  // number of messages of each part system that have been shown
   bool live = false, alive = true;
   const auto leave_line = [&] {
     if (live) std::fputc('\n', stdout);
@@ -186,7 +186,7 @@ int full_screen(Monitor* monitor, const MonitorOptions& options) {
   return 0;
 }
 
-// What the options ask for, once DDS is up.
+// Does what the options ask for, once DDS is running.
 int show(Monitor* monitor, const MonitorOptions& options) {
   if (!options.once && !options.json && !options.progress && options.latency == 0) return full_screen(monitor, options);
   if (!wait_for_status(monitor, options.wait_s)) return rt::end_signal() != 0 ? 0 : nobody(*monitor, options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ncmon does with what it hears: fills the screen, prints once, prints a line for each status, measures.
+// The commands of ncmon: it fills the screen, prints once, prints a line for each status, or measures the latency.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 namespace nc::dds {
 
 struct MonitorOptions {
-  std::string machine;  // name of the control; "" = the first that is heard
+  std::string machine;  // name of the control; "" = the first one that is received
   unsigned domain = kDefaultDomain;
   bool once = false, json = false, progress = false;
-  bool signals = false;  // instead of the status
-  double wait_s = 5;     // for the first status
-  unsigned latency = 0;  // so many samples; 0 = not measured
+  bool signals = false;  // show signals instead of the status
+  double wait_s = 5;     // time to wait for the first status
+  unsigned latency = 0;  // number of samples with which the latency is measured; 0 = it is not measured
 };
 
-// Until it is done, or a signal ends it. The exit status of ncmon.
+// Runs until the command is done or a signal ends it. Returns the exit status of ncmon.
 int monitor_command(const MonitorOptions& options);
 
-// "scan to subscriber, N samples: p50 ... max ...", of at least one time.
+// A line such as "scan to subscriber, N samples: p50 ... max ..."; there must be at least one time.
 std::string latency_text(std::vector<std::int64_t> times_ns);
 
 }  // namespace nc::dds

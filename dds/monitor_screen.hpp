@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terminal while a page fills it, and what of a page is shown there.
+// The terminal while a page fills it, and the part of a page that is shown there.
 #pragma once
 
 #include <sys/ioctl.h>
@@ -10,13 +10,13 @@
 
 namespace nc::dds {
 
-// The page from line *line on. Where the page has fewer lines, *line becomes 0 and the page begins at its head.
+// The page from line *line on. When the page has fewer lines, *line becomes 0 and the whole page is returned.
 std::string from_line(const std::string& page, std::size_t* line);
 
-// As much of a page as fits, with the codes that put it over what the terminal showed before. The last row stays free.
+// The part of a page that fits, with the control codes that write it over the previous contents of the terminal. The last row stays free.
 std::string fitted(const std::string& page, unsigned rows, unsigned columns);
 
-// The alternate screen without echo; the terminal is as before whatever ends the program in order.
+// Switches to the alternate screen without echo. The destructor restores the terminal.
 class Screen {
  public:
   Screen();

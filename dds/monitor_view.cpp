@@ -17,7 +17,7 @@ __attribute__((format(printf, 2, 3))) void append(std::string* text, const char*
   va_list arguments, again;
   va_start(arguments, format);
   va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, format, arguments);  // 1e308 with three decimals has 313 characters
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);  // measured first, because 1e308 with three decimals has 313 characters
   va_end(arguments);
   const std::size_t begin = text->size();
   text->resize(begin + static_cast<std::size_t>(std::max(length, 0)));
@@ -117,7 +117,7 @@ void append_place(std::string* text, const StatusView& s) {
   append(text, "  Modal    %s\n", printable(s.modal).c_str());
 }
 
-// " (machine)": whose an override is, where it is not the operator's own.
+// The source of an override as text, such as " (machine)"; "" for the operator.
 std::string by(const std::string& source) {
   return source == "machine" || source == "program" ? " (" + source + ")" : "";
 }
@@ -165,7 +165,8 @@ nlohmann::json signals_json(const MonitorView& view) {
 
 }  // namespace
 
-// ECMA-48: a terminal obeys C0, DEL and C1 (U+0080 to U+009F, in UTF-8 behind C2; one of 8 bits takes the lone byte for it).
+// ECMA-48: a terminal obeys the control characters C0, DEL and C1. C1 are U+0080 to U+009F, in UTF-8 two bytes of which the first is C2; a terminal without
+// UTF-8 obeys the second byte alone.
 std::string printable(const std::string& text) {
   std::string clean = rt::valid_utf8(text);
   for (std::size_t at = 0; at < clean.size(); ++at) {

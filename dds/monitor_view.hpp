@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a monitor shows of a control, as text. Knows nothing of DDS: the view is filled by monitor.cpp.
+// The texts with which a monitor shows a control. They do not depend on DDS; monitor.cpp fills the view.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ struct StatusView {
   double jitter_p50_us = 0, jitter_p999_us = 0, jitter_max_us = 0;
   std::uint64_t message_count = 0;
   std::string message;
-  std::vector<std::pair<std::string, std::int64_t>> forced;  // devices of the ladder and what they are held at
+  std::vector<std::pair<std::string, std::int64_t>> forced;  // devices of the ladder and the values at which they are held
 };
 
 struct AlarmView {
@@ -64,25 +64,25 @@ struct SignalView {
 };
 
 struct MonitorView {
-  std::vector<SignalView> signals;  // where they are asked for
+  std::vector<SignalView> signals;  // filled when signals are watched
   std::uint64_t signals_scan = 0;
-  std::map<unsigned, StatusView> systems;  // by part system
-  std::map<unsigned, AlarmView> alarms;  // by slot
-  bool alive = false;  // the scan runs, and somebody publishes it
+  std::map<unsigned, StatusView> systems;  // keyed by part system
+  std::map<unsigned, AlarmView> alarms;  // keyed by slot
+  bool alive = false;  // the scan runs and is published
   bool ended = false;  // the control has ended
 };
 
-// Without control characters: what comes from the network must not steer the terminal.
+// The text without control characters: texts from the network must not control the terminal.
 std::string printable(const std::string& text);
-// "P62 No feed command, axis X (line 7)"
+// A line such as "P62 No feed command, axis X (line 7)".
 std::string alarm_line(const AlarmView& alarm);
-// "  43 %  line 27    X  -12.345 ...  F4800   S8000   T2    running"
+// A line such as "  43 %  line 27    X  -12.345 ...  F4800   S8000   T2    running".
 std::string progress_line(const StatusView& status, const std::map<unsigned, AlarmView>& alarms);
-// Several lines, for a terminal and for --once.
+// The whole status in several lines, for a terminal and for --once.
 std::string page(const MonitorView& view);
-// The table of signals with values; `columns`: width of the terminal, 0 = one signal in a line, with its meaning.
+// The table of signals with their values. `columns`: width of the terminal, 0 = one signal in each line, with its meaning.
 std::string signal_page(const MonitorView& view, unsigned columns);
-// One line of JSON, with the alarms, and the signals where they are asked for.
+// The view as one line of JSON, with the alarms, and with the signals when they are watched.
 std::string json_line(const MonitorView& view);
 
 }  // namespace nc::dds

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of nc_dds.idl for the Python binding of Cyclone DDS (PyPI `cyclonedds`), and how to take part.
+"""The types of nc_dds.idl for the Python binding of Cyclone DDS (PyPI `cyclonedds`), readers with the right QoS, and a client for commands.
 
-The binding's own generator does not fit Debian's IDL compiler, so the classes stand here by hand; tests/dds/idl_test.py holds
-them against the IDL, and a difference would keep reader and writer from finding each other.
+The generator of the binding does not work with Debian's IDL compiler, so the classes are written by hand. tests/dds/idl_test.py compares
+them with the IDL, because with a difference reader and writer would not match.
 """
 import os
 from dataclasses import dataclass, field
 
-# What ncdds uses unless CYCLONEDDS_URI is set: this computer only, no multicast. Before the first import of cyclonedds. What is started from
-# here inherits it; ncdds and ncmon know this text, letter by letter that of dds/participant.cpp, and do not take it for the user's.
+# The configuration that ncdds uses unless CYCLONEDDS_URI is set: only this computer, no multicast. It must be set before the first import of
+# cyclonedds. Programs that are started from here inherit the variable. ncdds and ncmon recognize this text, which must be identical to the one in
+# dds/participant.cpp, and do not take it for a configuration of the user.
 LOOPBACK = (
     '<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>'
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
@@ -488,7 +489,7 @@ def reader(participant, kind, machine="*"):
 
 
 class Client:
-    """Gives commands to one machine and keeps their numbers. `name` must be another one for each running client."""
+    """Gives commands to one machine and counts their numbers. Each running client must have a different `name`."""
 
     def __init__(self, participant, machine, name, liveliness=None):
         policies = [
@@ -506,7 +507,7 @@ class Client:
         self.writer = DataWriter(self._publisher, Topic(participant, TOPICS[Command], Command), qos=Qos(*policies))
 
     def send(self, kind, seq=None, **fields):
-        """One command; returns its number."""
+        """Sends one command and returns its number."""
         if seq is None:
             self.seq += 1
             seq = self.seq

@@ -11,16 +11,16 @@
 namespace nc::dds {
 namespace {
 
-constexpr dds_duration_t kBlocking = DDS_MSECS(100);  // a writer waits at most so long for a slow reader
+constexpr dds_duration_t kBlocking = DDS_MSECS(100);  // longest time for which a writer waits for a slow reader
 constexpr dds_duration_t kLiveliness = DDS_SECS(1);
 constexpr dds_duration_t kAckLifespan = DDS_SECS(10);
-constexpr dds_duration_t kAckBlocking = DDS_MSECS(5);  // an answer that does not go out is kept and tried again
+constexpr dds_duration_t kAckBlocking = DDS_MSECS(5);  // short, because an answer that is not taken is kept and tried again
 
 struct Row {
   Topic topic;
   const char* name;
   const dds_topic_descriptor_t* type;
-  bool durable;  // TRANSIENT_LOCAL: who comes late gets the last value
+  bool durable;  // TRANSIENT_LOCAL: a reader that comes late gets the last value
   int depth;     // 0 = KEEP_ALL
 };
 const Row kTopics[] = {
@@ -62,7 +62,7 @@ void warn(const char* whose, std::uint32_t policy, void* name) {
   std::fprintf(stderr, "warning: a %s of topic %s asks for another QoS than it is offered (%s): they do not talk\n",
                whose, static_cast<const char*>(name), policy_name(policy));
 }
-// Controls in other partitions of the domain, and their monitors, are no mistake.
+// Different partitions are not reported: there may be other controls and their monitors in the domain.
 void on_offered(dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* name) {
   if (status.last_policy_id == DDS_PARTITION_QOS_POLICY_ID) return;
   warn("reader", status.last_policy_id, name);
@@ -90,7 +90,7 @@ Qos common_qos(const Row& row) {
   return qos;
 }
 
-// Topic, then publisher or subscriber in the partition. Zero or less = failed.
+// Creates the topic and the publisher or subscriber in the partition. False with a sentence in *error.
 bool prepare(dds_entity_t participant, const Row& row, const std::string& partition, bool writer, dds_entity_t* topic,
              dds_entity_t* group, std::string* error) {
   *topic = dds_create_topic(participant, row.type, row.name, nullptr, nullptr);
@@ -120,7 +120,8 @@ std::string loopback_config() {
 
 namespace {
 
-// Whoever imports nc_dds.py has loopback_config() in his environment, and so has what he starts from there: that is ours, not his.
+// True when the user has set a configuration. A program that imports nc_dds.py sets loopback_config() in its environment, and the programs that it starts
+// inherit that; such a setting is not the user's.
 bool user_configures() {
   const char* uri = std::getenv("CYCLONEDDS_URI");
   return uri != nullptr && uri[0] != 0 && uri != loopback_config();
@@ -170,7 +171,7 @@ dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::strin
     dds_qset_lifespan(qos.get(), kAckLifespan);
     dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kAckBlocking);
   }
-  // Disposed means gone from the control; an end of the gateway alone leaves instances without a writer.
+  // A disposed instance means that the control has removed it. When only the gateway ends, instances must not be disposed; they just lose their writer.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   const Listener listener(dds_create_listener(const_cast<char*>(row.name)));
   dds_lset_offered_incompatible_qos(listener.get(), &on_offered);

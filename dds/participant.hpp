@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry to DDS: where it may talk, the topics and their QoS. docs/dds.md has the same table.
+// The entry to DDS: the network that it may use, the topics and their QoS. docs/dds.md has the same table.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@ namespace nc::dds {
 inline constexpr unsigned kDefaultDomain = 0;
 inline constexpr double kDefaultRateHz = 50;
 
-// Configuration of Cyclone DDS that stays on this computer: interface lo, no multicast, peer 127.0.0.1.
+// A configuration of Cyclone DDS with which it communicates only on this computer: interface lo, no multicast, peer 127.0.0.1.
 std::string loopback_config();
 
-// A participant of a domain. Where CYCLONEDDS_URI is set, that decides where it talks, else loopback only.
+// A participant of a domain. If CYCLONEDDS_URI is set, it determines the network that is used; otherwise DDS stays on this computer.
 class Participant {
  public:
   Participant() = default;
@@ -45,8 +45,8 @@ enum class Topic {
 const char* topic_name(Topic topic);
 const dds_topic_descriptor_t* topic_type(Topic topic);
 
-// Writer and reader with the QoS of the topic, in the partition of a machine ("*" for a reader = all).
-// `period_s`: of the status. Zero or less = failed, *error says why. Incompatible QoS of others is reported on
+// Make a writer or a reader with the QoS of the topic, in the partition of a machine (for a reader "*" = all).
+// `period_s`: period of the status. Zero or less = failed, and *error says why. A partner with an incompatible QoS is reported on
 // standard error, with the topic and the policy.
 dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::string& partition, double period_s,
                          std::string* error);

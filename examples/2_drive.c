@@ -19,7 +19,7 @@ static const char program[] =
     "G09 G01 X0. Y0.\n" /* exact stop: waits until the drives are there */
     "M30\n";
 
-/* Half of the distance to the set-point in each cycle. */
+/* In each cycle a drive goes half of the distance to its set-point. */
 static void drives_follow(nc_axes* actual, const nc_axes* command) {
   for (int i = 0; i < kAxes; ++i) actual->v[i] += 0.5 * (command->v[i] - actual->v[i]);
 }
@@ -33,7 +33,7 @@ int main(void) {
     config.system[0].axis[i].max_jerk = 50000;        /* mm/s3 */
     config.system[0].axis[i].in_position = 0.01;      /* mm */
   }
-  config.motion_mode = NC_MOTION_OPTIMAL; /* every axis has the three limits that it keeps; 0 is NC_MOTION_TRAPEZOID, which needs less memory */
+  config.motion_mode = NC_MOTION_OPTIMAL; /* needs all three limits of every axis; the default, NC_MOTION_TRAPEZOID, needs less memory */
   const size_t size = nc_memory_required(&config);
   void* memory = aligned_alloc(64, (size + 63) / 64 * 64);
   nc_status status = NC_E_MEMORY;

@@ -13,7 +13,7 @@ static nc_control* nc;
 static nc_inputs in;
 static nc_outputs out;
 
-/* Runs the machine for a time; true when it still does. */
+/* Runs the machine for so many milliseconds; true when it is without an alarm afterwards. */
 static bool run_ms(int ms) {
   for (int i = 0; i < ms; ++i) {
     nc_feed(nc, 100);
@@ -48,7 +48,7 @@ int main(void) {
   nc_inputs_init(&in); /* overrides of 100 % */
   nc_outputs_init(&out);
   bool good = run_ms(10);
-  in.cycle_start = true; /* pressed, and let go */
+  in.cycle_start = true; /* the operator presses the button, and lets go of it below */
   good = good && run_ms(10);
   in.cycle_start = false;
   good = good && run_ms(200);
@@ -56,14 +56,14 @@ int main(void) {
   in.feed_override = 0.5;
   good = good && run_ms(200);
   show("override");
-  in.feed_hold = true; /* stays on the path */
+  in.feed_hold = true; /* the axes slow down along the path and stop on it */
   good = good && run_ms(200);
   show("feed hold");
   const double held_at = out.command.v[0];
   good = good && run_ms(500) && out.command.v[0] == held_at;
   in.feed_hold = false;
   in.feed_override = 1;
-  good = good && run_ms(10) && out.command.v[0] == held_at; /* to let go of the hold is not to start */
+  good = good && run_ms(10) && out.command.v[0] == held_at; /* the end of the hold alone does not move the machine: it waits for cycle start */
   in.cycle_start = true;
   good = good && run_ms(200);
   show("cycle start");

@@ -45,7 +45,7 @@ static const char sub_program[] = "G4 P1\nM99\n";
 /* nc_program_missing: called for "O2000", once; it stays in the store. */
 static bool add_missing(void* user, nc_control* nc, const char* name) {
   unsigned* const added = user;
-  if (strcmp(name, "O2000") != 0) return false; /* the program gets the alarm of its controller */
+  if (strcmp(name, "O2000") != 0) return false; /* not added: the program stops on the dialect's alarm for a missing program */
   ++*added;
   return nc_program_add_text(nc, name, sub_program, strlen(sub_program), NULL) == NC_OK;
 }
@@ -53,7 +53,7 @@ static bool add_missing(void* user, nc_control* nc, const char* name) {
 int main(void) {
   nc_config config;
   nc_config_init(&config);
-  config.window_bytes = 512; /* all of the program that is ever in memory */
+  config.window_bytes = 512; /* never is more of the program in memory */
   config.look_ahead = 64;
   config.programs = 4;
   const size_t size = nc_memory_required(&config);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* 5. Offsets and variables kept over power off. A program measures (here: computes) and stores; a copy is taken as the executed blocks
- * have left the tables, not as those have that were only read ahead; a second control, built after "power on", gets it back. */
+/* 5. Offsets and variables kept over power off. A program measures (here: computes) and stores. The copy that is kept has what the
+ * executed blocks have written, and nothing of the blocks that were only read ahead. A second control, built after "power on", gets it back. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct kept {
   double tool[10][4];           /* tools 1 to 10, the columns of nc_tool_column */
 } kept;
 
-/* nc_look: reads only. */
+/* An nc_look function: it may only read. */
 static void take(void* user, const nc_control* nc) {
   kept* const to = user;
   memset(to, 0, sizeof *to);
@@ -74,7 +74,7 @@ static bool run(nc_control* nc, const char* text, double until_x) {
 int main(void) {
   void *first = NULL, *second = NULL;
   nc_control* nc = power_on(&first);
-  /* The power fails in the second G01: what stands behind it has been read and is not done. */
+  /* The power fails in the second G01: the blocks behind it have been read but not executed. */
   bool good = nc != NULL && run(nc,
                                 "#501=12.5\n"
                                 "G10 L2 P1 X100. Y50.\n" /* G54 */

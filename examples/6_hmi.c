@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* 6. What an operator panel shows: the modal state of the block in execution, the blocks that come next, positions, and alarms in the
- * operator's language. The library's own texts are English; every alarm has the code of its manual, and that is what a table of texts
- * goes by. */
+ * operator's language. The library's own texts are English; every alarm has the code of its manual, by which a table of texts finds
+ * the translation. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@ static const char program[] =
     "G54 G01 X5. F600\n"
     "G91 X5.\n"
     "G04 X.1\n"
-    "G02 X10. R1.\n" /* an arc that cannot be: its radius is less than half of the way */
+    "G02 X10. R1.\n" /* an impossible arc: the radius is less than half of the distance to its end */
     "M30\n";
 
 typedef struct alarm_text {
@@ -29,10 +29,10 @@ static const alarm_text german[] = {
 static const char* in_german(const nc_alarm* alarm) {
   for (size_t i = 0; i < sizeof german / sizeof *german; ++i)
     if (strcmp(german[i].code, alarm->code) == 0) return german[i].text;
-  return alarm->message; /* better English than nothing */
+  return alarm->message; /* the table has no translation: the English text */
 }
 
-/* The line of the program that has this number, from 1; its end is at the next line break. */
+/* Where line `number` of the program begins, counted from 1; the line ends at the next line break. */
 static const char* line_of(const char* text, unsigned number) {
   while (number > 1 && text != NULL) {
     text = strchr(text, '\n');

@@ -29,7 +29,7 @@ static nc_status open_chuck(void* user, nc_control* nc, const nc_vendor_block* b
   return NC_OK;
 }
 
-/* G200 Hn Rr: the length of tool n is what is left from r to where Z stands. */
+/* G200 Hn Rr: the length of tool n is the position of Z less r. */
 static nc_status measure(void* user, nc_control* nc, const nc_vendor_block* block, nc_alarm* alarm) {
   double h = 0, r = 0;
   (void)user, (void)alarm;
@@ -37,7 +37,7 @@ static nc_status measure(void* user, nc_control* nc, const nc_vendor_block* bloc
     if (block->words[i].address == 'H') h = block->words[i].value;
     if (block->words[i].address == 'R') r = block->words[i].value;
   }
-  if (h < 1) return NC_E_ARGUMENT; /* the alarm says what there is to say: NC-VENDOR, and which code */
+  if (h < 1) return NC_E_ARGUMENT; /* the library's own alarm NC-VENDOR names the code; nothing is to be added */
   const nc_status status = nc_tool_offset_set(nc, (unsigned)h, NC_TOOL_LENGTH, block->machine.v[2] - r);
   if (status == NC_OK) printf("G200: H%d is %.3f\n", (int)h, block->machine.v[2] - r);
   return status;
@@ -92,7 +92,7 @@ int main(void) {
   nc_kinematics_init(&kinematics);
   kinematics.joint_count = 3;
   kinematics.inverse = arms;
-  kinematics.joint[1].min = 0.1; /* the elbow never stretches all the way */
+  kinematics.joint[1].min = 0.1; /* rad: the elbow must not be stretched fully */
   kinematics.joint[1].max = 3;
 
   nc_config config;
@@ -102,7 +102,7 @@ int main(void) {
   config.alarm_text = german;
   config.kinematics[0] = &kinematics;
 
-  /* A code that the dialect has already is refused, and said so. */
+  /* A code that the dialect has already (M3) is refused, and the fault says why. */
   nc_config_fault fault = NC_INIT(nc_config_fault);
   codes[0].number = 3;
   if (nc_config_check(&config, &fault) == NC_OK) return 1;
@@ -140,7 +140,7 @@ int main(void) {
     printf("X %.3f Y %.3f: arms %.4f %.4f rad\n", out.command.v[0], out.command.v[1], out.joint.v[0], out.joint.v[1]);
     nc_alarm alarm = NC_INIT(nc_alarm);
     if (nc_alarm_get(nc, 0, &alarm) == NC_OK) printf("%s: %s. %s\n", alarm.code, alarm.message, alarm.detail.s);
-    machine.door_closed = false; /* the second time */
+    machine.door_closed = false; /* for the second run, which therefore ends with alarm V1 */
   }
   double length = 0;
   nc_tool_offset_get(nc, 3, NC_TOOL_LENGTH, &length);

@@ -19,7 +19,7 @@ bool make_bus_thread(pthread_t* thread, void* (*body)(void*), void* argument, co
   pthread_attr_setstacksize(&attributes, kStackBytes);
   pthread_attr_setinheritsched(&attributes, PTHREAD_EXPLICIT_SCHED);
   pthread_attr_setschedpolicy(&attributes, SCHED_OTHER);
-  const sched_param ordinary{};  // without it the priority of a real-time caller is tried, and refused
+  const sched_param ordinary{};  // otherwise the priority of a real-time caller would be used, which SCHED_OTHER refuses
   pthread_attr_setschedparam(&attributes, &ordinary);
   sigset_t all, before;
   sigfillset(&all);

@@ -16,7 +16,7 @@ Composite::Composite(Hal* machine, std::vector<PointBus*> buses, const PointTabl
 bool Composite::start(const PointImage& initial, std::string* error) {
   if (!machine_->start(initial, error)) return false;
   for (PointBus* bus : buses_)
-    if (!bus->start(initial, error)) return false;  // the caller stops what was started
+    if (!bus->start(initial, error)) return false;  // the caller calls stop(), which stops everything that was started
   return true;
 }
 
@@ -38,7 +38,7 @@ void Composite::stop() noexcept {
   for (PointBus* bus : buses_) {
     try {
       stopping.emplace_back([bus] { bus->stop(); });
-    } catch (const std::system_error&) {  // no thread to be had: one after the other
+    } catch (const std::system_error&) {  // no thread can be made, so this bus is stopped here
       bus->stop();
     }
   }

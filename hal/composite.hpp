@@ -11,19 +11,19 @@ namespace nc::hal {
 
 class Composite final : public Hal {
  public:
-  // The n-th of `buses` is bus n, counted from 1. All of them must outlive this object.
+  // Points name a bus by its place in `buses`, counted from 1. All of them must outlive this object.
   Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table);
 
   bool start(const PointImage& initial, std::string* error) override;
   void read(Feedback* feedback, PointImage* image) noexcept override;
   void write(const Command& command, const PointImage& image) noexcept override;
-  // The machine first; then all buses at the same time, because each may wait for a partner.
+  // Stops the machine first, then all buses at the same time, because each of them may wait for a device.
   void stop() noexcept override;
 
  private:
   Hal* machine_;
   std::vector<PointBus*> buses_;
-  std::vector<std::uint16_t> own_points_;  // of bus 0
+  std::vector<std::uint16_t> own_points_;  // the points of the machine itself, with bus 0
 };
 
 }  // namespace nc::hal

@@ -11,7 +11,8 @@ struct EmergencyRow {
   unsigned code, mask;
   const char* text;
 };
-// CiA 402-2, table "error codes", and CiA 301, table "emergency error codes": the narrow rows in front of those that they are part of.
+// CiA 402-2, table "error codes", and CiA 301, table "emergency error codes". A row for a single code comes before the row for the class to which the code
+// belongs, because the first row that matches counts.
 constexpr EmergencyRow kEmergencies[] = {
     {0x2310, 0xFFFF, "continuous over current"},
     {0x2320, 0xFFFF, "short circuit or earth leakage"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a drive does not do its work, in one number that travels with the alarm, and the sentence that it means.
+// The reason of a drive fault as one number, which is stored in the alarm, and its meaning as a sentence.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@ namespace nc::hal {
 enum class DriveTrouble : std::uint8_t {
   kNone,         // the drive says only that it has a fault
   kEmergency,    // with its EMCY code and error register
-  kHeartbeat,    // its node is silent
-  kNoPosition,   // its positions do not come
-  kRestarted,    // its node has begun anew by itself
-  kNotEnabled,   // it does not come to "operation enabled" in time
-  kLeftEnabled,  // it has left that state by itself
+  kHeartbeat,    // the node of the drive sends no heartbeat
+  kNoPosition,   // the drive sends no positions
+  kRestarted,    // the node of the drive has restarted by itself
+  kNotEnabled,   // the drive does not reach "operation enabled" in time
+  kLeftEnabled,  // the drive has left that state by itself
   kNoCommand,    // the scan has given no positions
-  kNotConfigured,  // what the bus has said while the drive was set up again is in the log
-  kHoming,       // its homing has ended with an error, or in no time
-  kMode,         // it is in another mode of operation than it was told
-  kTwice,        // two nodes send what only one may
-  kJump          // the scan has asked for more in one SYNC than the axis can ever do
+  kNotConfigured,  // the drive could not be set up again; the log says why
+  kHoming,       // homing has ended with an error, or has not ended in time
+  kMode,         // the drive is in another mode of operation than the one that was set
+  kTwice,        // two nodes send frames with the same identifier
+  kJump          // the set-point of one SYNC is farther than the axis can ever move in it
 };
 
-// Bits 0 to 15 the EMCY code, 16 to 23 the error register, 24 to 30 the trouble.
+// Bits 0 to 15 are the EMCY code, 16 to 23 the error register, 24 to 30 the DriveTrouble.
 constexpr std::uint32_t drive_fault_code(DriveTrouble trouble, unsigned code = 0, unsigned error_register = 0) noexcept {
   return static_cast<std::uint32_t>(trouble) << 24 | (error_register & 0xFF) << 16 | (code & 0xFFFF);
 }
 
-// "EMCY 8611h: following error (error register 21h)"; empty for kNone.
+// The sentence for a code, such as "EMCY 8611h: following error (error register 21h)"; empty for kNone.
 std::string drive_fault_text(std::uint32_t code);
 
-// The class of an EMCY code, as CiA 301 and CiA 402 name it: "following error".
+// The name of an EMCY code or of its class in CiA 301 and CiA 402, such as "following error".
 const char* emergency_text(unsigned emergency) noexcept;
 
 }  // namespace nc::hal

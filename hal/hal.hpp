@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hardware layer as the runtime sees it: one small interface, one folder per bus behind it (sim now).
+// The hardware layer as the runtime sees it: one small interface, with one folder for each kind of machine and bus.
 //
 // The scan calls read() first and write() last, once per cycle. Both are NC_RT: no allocation, no lock, no
-// system call; a slow bus keeps a thread of its own and exchanges with it through memory.
+// system call. A slow bus has a thread of its own, with which these functions exchange data through memory.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@
 
 namespace nc::hal {
 
-// What the machine tells one part system.
+// What the machine reports to one part system.
 struct SystemFeedback {
   bool actual_valid = false;          // `actual` is measured
   nc_axes actual{};                   // machine position, mm or deg
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
-  std::uint32_t drive_fault_code[NC_MAX_AXES] = {};  // which: drive_fault_text() of hal/drive_fault.hpp
-  std::uint32_t not_following = 0;    // bit per axis: its drive does not follow the command (it is off, not yet on, or moves by itself): the command
-                                      // is to follow it
+  std::uint32_t drive_fault_code[NC_MAX_AXES] = {};  // which fault, as drive_fault_text() of hal/drive_fault.hpp takes it
+  std::uint32_t not_following = 0;    // bit per axis: its drive does not follow the command, because it is off, not yet on, or moves by itself. Then the
+                                      // commanded position must follow the measured one
   std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
   std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};
@@ -29,10 +29,10 @@ struct SystemFeedback {
 
 struct Feedback {
   SystemFeedback system[NC_MAX_SYSTEMS];
-  bool lost = false;  // the bus does not answer: positions and points are old
+  bool lost = false;  // the bus does not answer: positions and points are those of before
 };
 
-// What the control tells the machine.
+// What the control commands one part system of the machine.
 struct SystemCommand {
   bool enable = false;      // drives on ...
   std::uint32_t off = 0;    // ... but for these, bit per axis
@@ -50,9 +50,9 @@ struct SystemCommand {
   std::uint64_t serial = 0;  // item in execution
   nc_source source{};        // and where it stands
   bool running = false;      // a program is in execution
-  bool idle = false;         // none is, and none is interrupted
+  bool idle = false;         // no program is in execution or interrupted
   std::uint32_t unclamp = 0;  // bit per axis: the index table is to be unclamped
-  std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = its own limit
+  std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = the drive's own limit
 };
 
 struct Command {
@@ -62,14 +62,14 @@ struct Command {
 class Hal {
  public:
   virtual ~Hal() = default;
-  // Before the first scan, in an ordinary thread. False with a sentence in *error when the machine cannot be
+  // Called before the first scan, in an ordinary thread. False with a sentence in *error when the machine cannot be
   // reached.
   virtual bool start(const PointImage& initial, std::string* error) = 0;
-  // Head of the scan: fills the feedback and the *input* points of the image. NC_RT.
+  // Called at the beginning of a scan: fills the feedback and the *input* points of the image. NC_RT.
   virtual void read(Feedback* feedback, PointImage* image) noexcept = 0;
-  // End of the scan: takes the set-points and the *output* points of the image. NC_RT.
+  // Called at the end of a scan: takes the set-points and the *output* points of the image. NC_RT.
   virtual void write(const Command& command, const PointImage& image) noexcept = 0;
-  // After the last scan (also after a failed start): outputs to their safe values, drives off.
+  // Called after the last scan, and after a failed start: sets outputs to their safe values and switches drives off.
   virtual void stop() noexcept = 0;
 };
 

@@ -23,11 +23,11 @@ struct Point {
   PointType type = PointType::kBit;
   PointDirection direction = PointDirection::kInput;
   std::uint32_t initial = 0;  // value before anyone has written it, and the safe value when the runtime stops
-  std::uint8_t bus = 0;       // who carries it: 0 the machine's Hal, n the n-th PointBus (hal/point_bus.hpp)
+  std::uint8_t bus = 0;       // the bus that carries it: 0 = the machine's Hal, n = the n-th PointBus (hal/point_bus.hpp)
   std::string meaning = {};   // for monitors and listings
 };
 
-// Immutable after configuration; the index of a point is its place in the image.
+// The list of points, which is not changed after the configuration; the index of a point is its place in the image.
 class PointTable {
  public:
   // False when the name is taken or the table is full.
@@ -52,8 +52,8 @@ class PointTable {
 // The process image: one value per point.
 struct PointImage {
   std::uint32_t value[kMaxPoints] = {};
-  // 1: the value is what the machine says now; 0: its bus does not answer, and the value is the one chosen for
-  // that case. Points of the machine's own Hal are good while Feedback::lost is off.
+  // 1: the value is the one that the machine has now. 0: the bus does not answer, and the value is the one that is configured for
+  // that case. It is not set for points of the machine's own Hal, which are good while Feedback::lost is off.
   std::uint8_t good[kMaxPoints] = {};
 };
 

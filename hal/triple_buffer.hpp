@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest state of something from one thread to another; neither side ever waits, and the reader sees
-// whole states only.
+// Passes the newest state of something from one thread to another. Neither side ever waits, and the reader sees
+// only whole states.
 //
-// Three copies: one belongs to the writer, one to the reader, the third changes hands by one atomic exchange
-// that carries its number and whether it is new. What the reader skips is overwritten: newest wins.
+// There are three copies: one belongs to the writer, one to the reader, and the third is passed on by one atomic exchange
+// that carries its number and whether it is new. A state that the reader has not taken is overwritten by the next one.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class TripleBuffer {
   }
 
   // ---- reader ----
-  // True when there is a newer state than at the last call; front() is it then.
+  // True when there is a newer state than at the last call; then front() is that state.
   bool take() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kNew) == 0) return false;
     const std::uint8_t taken = middle_.exchange(front_, std::memory_order_acq_rel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entry of the compiler: the text in lines, and what is known only when all of it was read.
+// Entry of the compiler: it reads the text line by line, and completes the code when all of it was read.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ std::string_view without_comment(std::string_view line) {
   return line.substr(0, line.find("//"));
 }
 
-// No control characters of the program into a terminal.
+// Replaces control characters, so that a text of the program cannot control a terminal.
 void printable(std::string* text) {
   for (char& c : *text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
@@ -45,7 +45,7 @@ std::string Compiler::source_of(unsigned line) const {
   return line == 0 || line > code_.source.size() ? std::string() : code_.source[line - 1];
 }
 
-// Words of a line, and the line as messages show it.
+// Splits a line into words, and keeps the line in the form that messages show.
 void Compiler::read_line(std::string_view text) {
   constexpr std::size_t kShown = 80;
   words_.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiler: one pass over the lines, labels at the end.
+// The compiler: it makes one pass over the lines and resolves labels at the end.
 #pragma once
 
 #include <algorithm>
@@ -28,27 +28,27 @@ class Compiler {
   Code take_code() { return std::move(code_); }
 
  private:
-  // Where a rung stands. A LD behind an output begins a new rung, unless an ANB then joins its block to the
-  // result before: LD X0, OUT Y0, LD X1, OR X2, ANB, OUT Y1.
+  // The state of a rung. A LD after an output begins a new rung, unless an ANB later joins its block with the
+  // previous result, as in LD X0, OUT Y0, LD X1, OR X2, ANB, OUT Y1.
   struct Rung {
-    unsigned blocks = 0;  // results not joined yet; 0 = no rung
-    bool used = true;     // an output took the result
-    bool joined = false;  // it was taken or kept: a parallel contact comes too late
-    bool gated = false;   // it contains the master control
-    bool before = false;  // there is a result of the rung before, which ANB may join
-    bool gated_before = false;
-    std::size_t start = 0;   // its first unit
-    unsigned inherited = 0;  // branches (MPS) open when it began
-    bool always = false;     // nothing but a contact of SM400 to SM402
+    unsigned blocks = 0;  // number of results that are not joined yet; 0 = no rung
+    bool used = true;     // an output has used the result
+    bool joined = false;  // the result was used or kept, so a parallel contact is not allowed any more
+    bool gated = false;   // the result contains the master control
+    bool before = false;  // there is a result of the previous rung, with which ANB may join
+    bool gated_before = false;  // that result contains the master control
+    std::size_t start = 0;   // first unit of the rung
+    unsigned inherited = 0;  // number of branches (MPS) that were open when it began
+    bool always = false;     // the rung is only a contact of SM400 to SM402
   };
   struct Master {
     std::uint32_t level;
-    std::uint32_t gate;  // bit
+    std::uint32_t gate;  // index of the bit that is on when the master control is
     unsigned line;
   };
   struct Loop {
     unsigned id;
-    std::size_t unit;  // of FOR
+    std::size_t unit;  // unit of FOR
     std::uint32_t slot;
     unsigned line;
   };
@@ -56,7 +56,7 @@ class Compiler {
     std::uint32_t step;
     unsigned line;
     std::vector<unsigned> loops;
-    bool sub;  // behind FEND
+    bool sub;  // after FEND, so in a subroutine
   };
   struct Jump {
     std::size_t unit;
@@ -112,12 +112,12 @@ class Compiler {
   bool number_after(char letter, std::string_view word, std::uint32_t limit, std::uint32_t* number);
 
   // rung state; statements.cpp
-  bool has_result();   // there is something that AND, INV ... can work on
-  bool take_result();  // an output takes it: one block, gated
+  bool has_result();   // an error when there is no result that AND, INV ... could work on
+  bool take_result();  // an output uses the result, which must be a single block
   void gate();
-  void close_rung();  // nothing may be open here
+  void close_rung();  // an error when a result is unused or a branch is open
   void note_coil(const Place& place);
-  void note_rising();  // of a result that never rises, a warning
+  void note_rising();  // a warning when the result can never rise
 
   // constants.cpp
   void check_constants(const Rule& rule, const Encoded* operands);
@@ -150,7 +150,7 @@ class Compiler {
   std::vector<Error> errors_;
   unsigned line_ = 0;
   std::vector<std::string_view> words_;
-  const Rule* rule_ = nullptr;  // of this line
+  const Rule* rule_ = nullptr;  // rule of the instruction in this line
   Rung rung_;
   unsigned branches_ = 0;
   unsigned branch_line_ = 0;
@@ -159,11 +159,11 @@ class Compiler {
   std::uint32_t loops_ = 0;
   std::map<std::uint32_t, Label> labels_;
   std::vector<Jump> jumps_;
-  std::map<std::uint64_t, unsigned> coils_;  // bit, or word and bit of it -> line of its OUT
+  std::map<std::uint64_t, unsigned> coils_;  // maps a bit, or a word and its bit, to the line of its OUT
   struct WordBit {
     std::uint32_t word, number, bit;
   };
-  std::vector<WordBit> word_bits_;  // written by this instruction: behind it they go back into their words
+  std::vector<WordBit> word_bits_;  // bits of words that this instruction writes; after it they are stored in their words
   bool main_ended_ = false, ended_ = false;
   std::uint32_t main_end_ = 0xffffffffu;  // unit of FEND
 };

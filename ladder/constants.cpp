@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instructions that can never be done, because a constant in them is wrong: better known at load than by SM0 in
-// the scan.
+// Finds instructions that can never be executed because a constant in them is wrong, so that the error is reported when the program is loaded, and not
+// only by SM0 in the scan.
 #include <limits>
 
 #include "ladder/compiler.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t kMost16 = std::numeric_limits<std::int16_t>::max();
 
-// Operands that have a range of their own.
+// Operands that may have only values of a certain range.
 struct Range {
   Op op;
   std::size_t operand;
@@ -23,7 +23,7 @@ constexpr Range kRanges[] = {
     {Op::kBcd, 0, 0, 9999},      {Op::kDbcd, 0, 0, 99999999}, {Op::kRots, 0, 1, kMost16},
 };
 
-// Rows of words: where they begin, and which operand is their length.
+// Operands that are rows of words: the operand with which a row begins, and the operand that is its length.
 struct Row {
   Op op;
   std::size_t first, length;
@@ -53,7 +53,7 @@ bool Compiler::check_range(const Encoded& operand, std::int64_t least, std::int6
   return false;
 }
 
-// A row whose place and length are known now.
+// Checks a row whose place and length are constants.
 bool Compiler::check_row(const Encoded& first, const Encoded& length, std::int64_t width) {
   std::int64_t count = 0;
   if (!is_constant(length, &count) || first.mode != Mode::kIndirect) return true;

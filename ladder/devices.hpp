@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices: what a ladder program can name, and the memory they live in.
+// Devices, which a ladder program can name, and their memory.
 //
 // A device is a bit, a 16-bit word or a 32-bit word with a name: a signal between NC and ladder, a point of
 // the machine, or an internal device of the program (M, D, T, C ... with a number). The table is made before
-// the program is compiled and is fixed from then on; compiled code holds indices only, so that a scan never
-// searches. A 32-bit word takes two neighbouring places, low half first, as the D forms of the instructions
+// the program is compiled and does not change after that. Compiled code holds only indices, so that a scan never
+// searches. A 32-bit word takes two neighbouring words, low half first, as the D forms of the instructions
 // (DMOV, D+, D>) expect.
 #pragma once
 
@@ -22,15 +22,15 @@ enum class DeviceType : std::uint8_t { kBit, kWord16, kWord32 };
 struct Device {
   std::string name;
   DeviceType type = DeviceType::kBit;
-  bool writable = false;    // by the program; inputs and what the NC says are not
-  std::uint32_t index = 0;  // into DeviceImage::bit or ::word
+  bool writable = false;    // the program may write it; inputs and signals from the NC are read-only
+  std::uint32_t index = 0;  // index in DeviceImage::bit or DeviceImage::word
   std::string comment;      // for listings and monitors
 };
 
 class DeviceTable {
  public:
-  // Index of the new device in its array, or -1 when the name is taken. Names: letters, digits, '_', '-',
-  // '.'; compared as written (internal devices of the instruction list are upper case).
+  // Adds a device. Returns its index in its array, or -1 when the name is taken. Names consist of letters, digits, '_', '-' and
+  // '.', and are case-sensitive (the internal devices of the instruction list are upper case).
   std::int64_t add(std::string_view name, DeviceType type, bool writable, std::string_view comment = {}) {
     if (by_name_.count(std::string(name)) != 0) return -1;
     Device device{std::string(name), type, writable, 0, std::string(comment)};
@@ -59,7 +59,7 @@ class DeviceTable {
   std::uint32_t bits_ = 0, words_ = 0;
 };
 
-// The memory. Sized once (by the compiler, which may append internal devices behind the table's); belongs to
+// The memory of the devices. Its size is fixed by the compiler, which appends internal devices to those of the table. It belongs to
 // the scan thread.
 struct DeviceImage {
   std::vector<std::uint8_t> bit;  // 0 or 1

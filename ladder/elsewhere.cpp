@@ -18,7 +18,7 @@ struct Row {
   std::string_view name;
   const char* why;
 };
-// MELSEC-Q, QnA and iQ-R; FX. With a P at the end they are the same.
+// Instructions of MELSEC-Q, QnA, iQ-R and FX. The forms with a P at the end are not listed; they get the same text.
 constexpr Row kInstructions[] = {
     {"E+", kReal},      {"E-", kReal},      {"E*", kReal},      {"E/", kReal},      {"EMOV", kReal},
     {"EDMOV", kReal},   {"ENEG", kReal},    {"ED+", kReal},     {"ED-", kReal},     {"ED*", kReal},     {"ED/", kReal},
@@ -51,7 +51,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 std::string find(std::string_view name) {
   for (const Row& row : kInstructions)
     if (row.name == name) return row.why;
-  // LDE=, ANDE<>, ORE>=: compares of real numbers; LD$= of strings.
+  // LDE=, ANDE<>, ORE>= compare real numbers, LD$= compares strings.
   for (const std::string_view join : {"LD", "AND", "OR"}) {
     if (name.substr(0, join.size()) != join || name.size() < join.size() + 2) continue;
     const char kind = name[join.size()];
@@ -74,7 +74,7 @@ std::string instruction_elsewhere(std::string_view mnemonic) {
 std::string device_elsewhere(std::string_view name) {
   const std::size_t digits = static_cast<std::size_t>(std::find_if(name.begin(), name.end(), is_digit) - name.begin());
   if (digits == 0 || digits == name.size()) return {};
-  const auto is_number = [](char c) { return is_digit(c) || (c >= 'A' && c <= 'F'); };  // X and Y count in hexadecimal
+  const auto is_number = [](char c) { return is_digit(c) || (c >= 'A' && c <= 'F'); };  // the numbers of X and Y are hexadecimal
   if (!std::all_of(name.begin() + static_cast<std::ptrdiff_t>(digits), name.end(), is_number)) return {};
   for (const Device& device : kDevices)
     if (device.letters == name.substr(0, digits)) return device.why;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What other controllers of the family have and this language has not: instructions and devices that an existing
-// program may name, each with the sentence that helps.
+// Instructions and devices that other controllers of the family have and this language does not. An existing
+// program may use them, so each has a sentence that tells what to do instead.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace nc::ladder {
 
-// Empty = not known elsewhere either. `mnemonic` in upper case.
+// The sentence for an instruction; empty = other controllers do not have it either. `mnemonic` in upper case.
 std::string instruction_elsewhere(std::string_view mnemonic);
-// "LC0", "V5", "S20": as written.
+// The sentence for a device, such as "LC0", "V5", "S20".
 std::string device_elsewhere(std::string_view name);
 
 }  // namespace nc::ladder

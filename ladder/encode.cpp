@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operands of an instruction into the form the interpreter takes, with the checks of type and direction.
+// Converts the operands of an instruction to the form that the interpreter takes, and checks their type and whether they may be written.
 #include <limits>
 
 #include "ladder/compiler.hpp"
@@ -58,7 +58,7 @@ bool Compiler::bit_operand(std::string_view word, bool written, Place* place) {
   return true;
 }
 
-// A bit of a word is worked on in a bit of its own: taken out before the instruction, put back behind it.
+// Instructions cannot work on a bit of a word directly. So it is copied into a bit of its own before the instruction, and copied back after it.
 void Compiler::open_word_bit(Place* place, bool written) {
   const WordBit bit{place->index, place->number, new_edge(0)};
   emit(Op::kWordBit, bit.word);
@@ -75,7 +75,7 @@ void Compiler::close_word_bits() {
   word_bits_.clear();
 }
 
-// "use DMOV" where there is such an instruction.
+// A hint to the instruction of the other width, such as "use the D form DMOV"; empty when there is none.
 std::string Compiler::other_width(bool wide) const {
   const std::string name = rule_->info.name;
   std::string other;
@@ -139,7 +139,7 @@ bool Compiler::encode_digits(const Operand& operand, bool wide, bool written, En
   return true;
 }
 
-// The place, and how far its neighbours go.
+// Encodes the place of a word together with the range of devices of its kind, which the scan checks.
 bool Compiler::encode_row(const Operand& operand, bool written, Encoded* out) {
   const Place place = current_value(operand.place);
   if (written && !place.writable) {

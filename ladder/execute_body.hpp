@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interpreter's body, included three times: NC_LADDER_THREADED makes every instruction jump to the next one's
-// code by itself (the processor then predicts each of the jumps on its own), else one switch in a loop does
-// it; with NC_LADDER_HELD devices are put back to their value behind each instruction. NC_RT.
+// The body of the interpreter, which is included three times. With NC_LADDER_THREADED the code of every instruction ends with a jump to the code of
+// the next one, so the processor predicts each of these jumps separately; otherwise there is one switch in a loop. With NC_LADDER_HELD
+// the devices that are held get their value back after each instruction. NC_RT.
 
 #ifdef NC_LADDER_HELD
 Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept {
@@ -32,7 +32,8 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
   } frames[kMaxCalls];
   unsigned depth = 0;
 
-// The way back costs its length: with the way forward, which is at most the program, that bounds the scan.
+// A jump backwards is charged with its length. Since a scan goes forwards at most the length of the program plus what it has jumped back, that bounds its
+// time.
 #define NC_LADDER_JUMP(target)                                                               \
   {                                                                                          \
     const Unit* const to = units + (target);                                                 \
@@ -46,7 +47,7 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
     NC_LADDER_DISPATCH;       \
   }
 #define NC_LADDER_BYTE(value) static_cast<std::uint8_t>(value)
-// An operation on words that runs when the result is on.
+// An operation on words, which is executed when the result is on.
 #define NC_LADDER_WORDS(name, count, statement) \
   NC_LADDER_CASE(name) {                        \
     if (rlo != 0) {                             \
@@ -71,7 +72,7 @@ dispatch:
   NC_LADDER_KEEP;
   switch (static_cast<Op>(ip->head.op)) {
 #define NC_LADDER_OP(name) case Op::name:
-    NC_LADDER_OPS_LOGIC(NC_LADDER_OP)  // lower() leaves none of them
+    NC_LADDER_OPS_LOGIC(NC_LADDER_OP)  // not reached, because lower() removes them
 #undef NC_LADDER_OP
 #endif
 
@@ -103,7 +104,7 @@ dispatch:
     NC_LADDER_DISPATCH;
   }
   NC_LADDER_CASE(kCell){NC_LADDER_RUN_CELL(ip[1]) NC_LADDER_NEXT(2)}
-  // Edges. A memory of kEdgeUnknown lets neither edge through: x > 2 is false, and so is bit 0 of 2.
+  // Edges. With kEdgeUnknown (2) in the memory neither edge is reported: no level is above 2, and bit 0 of 2 is 0.
 #define NC_LADDER_RISING(memory, now, result)  \
   std::uint8_t& before = bit[memory];          \
   const std::uint32_t level = (now);           \
@@ -193,7 +194,7 @@ dispatch:
   }
   NC_LADDER_WORDS(kRstTimer, 1, machine.reset_timer(ip->head.a))
   NC_LADDER_WORDS(kRstCounter, 1, machine.reset_counter(ip->head.a))
-  // A P form: the instruction behind it, of `mode` units, is left out but on the rising edge.
+  // A P form: unless there is a rising edge, the next instruction, which has `mode` units, is skipped.
   NC_LADDER_CASE(kSkipNotRising) {
     NC_LADDER_RISING(ip->head.a, rlo, edge);
     NC_LADDER_NEXT(1 + (edge != 0 ? 0u : ip->head.mode))
@@ -300,8 +301,8 @@ dispatch:
   NC_LADDER_WORDS(kDrol, 2, machine.rotate(ip, true, false))
   NC_LADDER_WORDS(kRstWord32, 2, machine.put32(ip, 0, 0))
 
-  // D0.5: the bit b of word a into bit c before the instruction that works on it, and back behind it. The result
-  // of logic stays.
+  // A bit of a word, such as D0.5: kWordBit copies the bit b of word a into bit c before the instruction that works on it, and kBitWord copies it back after
+  // it. The result of logic does not change.
   NC_LADDER_CASE(kWordBit) {
     bit[ip[1].tail.c] = NC_LADDER_BYTE(static_cast<std::uint16_t>(word[ip->head.a]) >> ip[1].tail.b & 1u);
     NC_LADDER_NEXT(2)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interpreter with computed goto, an extension of GCC and Clang; elsewhere the portable one stands in.
+// The interpreter with computed goto, an extension of GCC and Clang; other compilers use the portable one.
 #include "ladder/machine.hpp"
 
 #if defined(__GNUC__)

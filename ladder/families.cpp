@@ -43,7 +43,7 @@ struct Family {
   std::uint32_t count;
   std::uint32_t Layout::*where;  // first contact, relay or register
   std::uint32_t Layout::*value;  // first current value
-  std::uint32_t offset;          // of ST behind T
+  std::uint32_t offset;          // ST comes after T in the same arrays: number of its first timer
   bool writable;
 };
 
@@ -65,7 +65,7 @@ constexpr Family kFamilies[] = {
     {"SD", Kind::kRegister, kSd, &Layout::sd, nullptr, 0, true},
 };
 
-// The error relay and the carry are for the program to reset; the other special relays belong to the engine.
+// The program may reset the error relay and the carry; the other special relays belong to the engine.
 bool writable_sm(std::uint32_t number) {
   return number == kSmError || number == kSmCarry;
 }

@@ -108,7 +108,7 @@ void Compiler::loop(const Rule& rule) {
   Encoded count;
   if (!operand_count(rule, 1, 1)) return;
   close_rung();
-  // A loop whose count is wrong is a loop all the same: its NEXT shall not be reported too.
+  // A loop with a wrong count still counts as a loop, so that its NEXT is not reported, too.
   if (!encode('s', words_[1], &count)) count = {Mode::kConstant, 0};
   if (open_loops_.size() == kMaxLoops)
     return error("more than " + std::to_string(kMaxLoops) + " loops inside each other");
@@ -145,7 +145,7 @@ void Compiler::text_end() {
   ended_ = true;
 }
 
-// Nothing may be open at FEND, at END, or where the text ends without END.
+// Checks that nothing is open at FEND, at END, or where the text ends without END.
 void Compiler::end_of_text() {
   close_rung();
   for (const Master& master : masters_) error_at(master.line, "MCR is missing");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ladder: an instruction list in Mitsubishi mnemonics, compiled at load, run once per scan.
+// Ladder: an instruction list with Mitsubishi mnemonics, which is compiled when it is loaded and runs once per scan.
 //
 //   DeviceTable table;                     // the signals and points of this machine
 //   Program program;
@@ -25,11 +25,11 @@ namespace nc::ladder {
 
 struct Code;  // ladder/code.hpp
 
-// Something wrong with a program, or (Program::warnings) worth a look.
+// An error in a program, or (in Program::warnings) something that is probably a mistake.
 struct Error {
   std::string file;
   unsigned line = 0;        // from 1; 0 = the whole file
-  std::string instruction;  // as written, without comment: "OUT Y99"
+  std::string instruction;  // the instruction without its comment: "OUT Y99"
   std::string message;
   std::string text() const;  // "mill.il:12: OUT Y99: no such device"
 };
@@ -39,10 +39,10 @@ inline constexpr unsigned kMaxInstructions = 100000;
 inline constexpr unsigned kMaxErrors = 100;  // then compile() stops looking
 
 struct CompileOptions {
-  double scan_s = 0.001;               // period of scan(), 1 us to 1 s; timers count in it
-  std::uint32_t step_budget = 200000;  // instructions of one scan beyond one pass through the program
-  bool retain_counters = false;        // C among the retained ranges
-  std::uint32_t retain_d_first = 0;    // D devices among the retained ranges
+  double scan_s = 0.001;               // period of scan(), 1 us to 1 s; timers take it as the time of a scan
+  std::uint32_t step_budget = 200000;  // number of instructions that one scan may take beyond one pass through the program
+  bool retain_counters = false;        // the counters C are retained
+  std::uint32_t retain_d_first = 0;    // first D that is retained, and their number
   std::uint32_t retain_d_count = 0;
 };
 
@@ -60,11 +60,11 @@ class Program {
   std::shared_ptr<const Code> code_;
 };
 
-// True when the program is good; *program is replaced only then. Every error is reported, up to kMaxErrors.
+// Compiles a text. True when the program has no errors; only then *program is replaced. All errors are reported, up to kMaxErrors.
 bool compile(std::string_view text, const std::string& file, const DeviceTable& table,
              const CompileOptions& options, Program* program, std::vector<Error>* errors);
 
-// Why the engine has stopped. A stopped engine leaves the image as the last instruction left it.
+// Why the engine has stopped. The image stays as the last instruction has left it.
 enum Fault : unsigned {
   kNoFault = 0,
   kWatchdog = 1,      // the scan took more instructions than CompileOptions::step_budget allows
@@ -75,45 +75,45 @@ enum Fault : unsigned {
 };
 inline constexpr unsigned kMaxCalls = 16;
 
-// A device that keeps a value against every instruction of a scan.
+// A device that is held at a value, whatever the instructions of a scan write.
 struct Hold {
   DeviceType type = DeviceType::kBit;
   std::uint32_t index = 0;
   std::int32_t value = 0;
 };
 
-// Places that keep their values over a power cut where the runtime offers that.
+// Devices that keep their values over a power cut if the runtime stores them.
 struct RetainedRange {
   std::string name;  // "L", "ST contact", "ST value", "ST rest", "C contact", "C value", "D"
-  bool words;        // of DeviceImage::word, else of DeviceImage::bit
+  bool words;        // true: in DeviceImage::word; false: in DeviceImage::bit
   std::uint32_t first;
   std::uint32_t count;
-  std::uint32_t number = 0;  // of its first device: D100 -> 100
+  std::uint32_t number = 0;  // number of the first device: 100 for D100
 };
 
 class Engine {
  public:
   explicit Engine(const Program& program);
 
-  // The devices of the table at their indices, those of the program behind them, all 0. Every image is a
-  // machine of its own: edges, timers and counters live in it.
+  // Makes an image with the devices of the table at their indices and the internal devices after them, all 0. Edges, timers and counters
+  // are in the image, so several images are independent of each other.
   DeviceImage make_image() const;
 
-  // One pass through the program. NC_RT. Does nothing once there is a fault. Devices that are held have their value
-  // before and behind each instruction, which costs every instruction a store for each of them.
+  // Makes one pass through the program. NC_RT. Does nothing after a fault. Devices that are held have their value
+  // before and after each instruction, which costs each instruction a store for each of them.
   void scan(DeviceImage* image, const Hold* holds = nullptr, unsigned hold_count = 0) noexcept;
 
-  // The fault belongs to the thread that scans.
+  // To be called in the thread that scans.
   unsigned fault() const { return fault_; }
-  unsigned fault_step() const { return fault_step_; }  // place in the compiled code
+  unsigned fault_step() const { return fault_step_; }  // unit in the compiled code
   unsigned fault_line() const;                         // line of the source, 0 = none
   std::string fault_text() const;                      // "mill.il:40: CJ P1: ..."; empty = none
-  // The same for a fault that the scan has told: any thread.
+  // The same for a fault and a line that the scan has passed on. Any thread.
   std::string fault_text(unsigned fault, unsigned line) const;
   void reset_fault() { fault_ = fault_step_ = 0; }
 
-  // A device as the program may name it: of the table, an alias, or an internal one (M0, D10, SM402; T0 is
-  // the contact, TN0 the value). Null when there is none. Not for the scan thread, and one caller at a time.
+  // A device by a name that the program may use: that of a device of the table, an alias, or an internal device (M0, D10, SM402; T0 is
+  // the contact, TN0 the value). Null when there is none. Not for the scan thread, and only for one caller at a time.
   const Device* find(std::string_view name) const;
 
   std::vector<RetainedRange> retained() const;
@@ -130,7 +130,7 @@ struct InstructionInfo {
   const char* operands;  // "s1 s2 d"; empty = none
   const char* summary;
   const char* group;
-  bool pulse;  // there is a form with P behind the name that runs on the rising edge of its condition
+  bool pulse;  // there is a form with P after the name, which is executed on the rising edge of its condition
 };
 const std::vector<InstructionInfo>& instruction_table();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the logic instructions to cells. How deep blocks and branches are nested at an instruction is known
-// from the text, so each depth has a bit of its own and no stack is left for the scan: LD within a rung
-// stores the result so far in such a bit, ANB and ORB are contacts of it. In subroutines every MPS has its
-// own bit, because a branch may call another subroutine. A coil goes into the cell before it where that one
+// Converts the logic instructions to cells. The depth to which blocks and branches are nested is known for each instruction
+// when the program is compiled, so each depth has a bit of its own, and the scan needs no stack: LD within a rung
+// stores the present result in such a bit, and ANB and ORB become contacts of it. In subroutines every MPS has its
+// own bit, because a branch may call another subroutine. A coil is put into the previous cell if that one
 // has no coil yet.
 #include <algorithm>
 
@@ -24,8 +24,8 @@ class Lowering {
     code_.lines.clear();
     std::vector<bool> target(from.size() + 1, false);
     for (const std::uint32_t step : labels) target[step] = true;
-    std::vector<std::uint32_t> moved(from.size() + 1, 0);  // where jumps find a unit now
-    bool skipped = false;                                  // the instruction before was the test of a P form
+    std::vector<std::uint32_t> moved(from.size() + 1, 0);  // new index of each unit, for jumps
+    bool skipped = false;                                  // the previous instruction was the test of a P form
     for (std::size_t i = 0; i < from.size();) {
       const Op op = static_cast<Op>(from[i].head.op);
       line_ = lines_from_[i];
@@ -88,7 +88,7 @@ class Lowering {
     else
       cell(Logic::kSame, nowhere_, to);
   }
-  // SET and RST leave the new value of their device as RLO; who goes on from the result takes it back.
+  // The cell of SET or RST leaves the new value of its device as RLO. When the next instruction uses the result, it is loaded again from keep_.
   void restore() {
     if (kept_) cell(Logic::kLd, keep_);
     kept_ = false;
@@ -206,7 +206,7 @@ class Lowering {
   std::vector<std::uint32_t> block_bits_, branch_bits_, branches_;
   std::size_t depth_ = 0;
   std::uint32_t line_ = 0;
-  bool kept_ = false;  // the RLO is in keep_
+  bool kept_ = false;  // the result is in keep_ and not in the RLO
   bool in_main_ = true;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the interpreter does besides bits: word operands, the operations on them, timers and counters. All of
-// it is NC_RT. An operation that cannot be done writes nothing and leaves SM0, SD0 and SD1 behind.
+// The part of the interpreter for everything except bits: word operands, the operations on them, timers and counters. All of
+// it is NC_RT. An operation that cannot be executed writes nothing; it sets SM0, SD0 and SD1.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Machine {
   std::uint32_t budget;
 
   // ---- errors ----
-  // The first one stays until the program resets SM0.
+  // The first error stays until the program resets SM0.
   void fail(const Unit* ip, OperationError error) noexcept {
     std::uint8_t& flag = bit[at.sm + kSmError];
     if (flag != 0) return;
@@ -56,7 +56,7 @@ struct Machine {
     }
   }
 
-  // Index of `width` words of an operand whose place is known in the scan only.
+  // Finds the index of `width` words of an operand whose place is known only in the scan.
   bool locate(const Unit* ip, const Indirect& where, std::uint32_t width, std::uint32_t* index) noexcept {
     std::int64_t place = where.base;
     if (where.z != Indirect::kNoZ) place += word[where.z];
@@ -129,7 +129,7 @@ struct Machine {
     *value = load32(index);
     return true;
   }
-  // Wraps as the field does: the low half of the value.
+  // Stores the low half of the value; a value that does not fit wraps around.
   void put16(const Unit* ip, unsigned operand, std::int32_t value) noexcept {
     const std::uint32_t raw = operand_of(ip, operand);
     std::uint32_t index = raw;
@@ -180,7 +180,7 @@ struct Machine {
     return holds(left, right, ip->head.mode >> kModeExtra);
   }
 
-  // ---- one operation each; the result was on ----
+  // ---- one operation each; called when the result is on ----
   template <class F>
   void unary16(const Unit* ip, unsigned from, unsigned to, F&& f) noexcept {
     std::int32_t value;
@@ -197,7 +197,7 @@ struct Machine {
     std::int32_t left, right;
     if (get16(ip, 0, &left) && get16(ip, 1, &right)) put16(ip, 2, f(left, right));
   }
-  // In unsigned arithmetic, which wraps.
+  // Calculates in unsigned arithmetic, which wraps around.
   template <class F>
   void binary32(const Unit* ip, F&& f) noexcept {
     std::int32_t left, right;
@@ -248,7 +248,7 @@ struct Machine {
     save32(index + 2, left % right);
   }
 
-  // `digits` BCD digits both ways.
+  // Conversions to and from BCD with `digits` digits.
   void to_bcd(const Unit* ip, unsigned digits, bool wide) noexcept {
     std::int32_t value;
     if (!(wide ? get32(ip, 0, &value) : get16(ip, 0, &value))) return;
@@ -271,7 +271,7 @@ struct Machine {
     wide ? put32(ip, 1, sum) : put16(ip, 1, sum);
   }
 
-  // Count of an operand n of `limit` at most, or a failed instruction.
+  // Reads an operand n from 0 to `limit`; otherwise the instruction fails.
   bool count(const Unit* ip, unsigned operand, std::int32_t limit, std::int32_t* n) noexcept {
     if (!get16(ip, operand, n)) return false;
     if (*n >= 0 && *n <= limit) return true;
@@ -303,7 +303,7 @@ struct Machine {
     put16(ip, 0, on ? value | 1 << n : value & ~(1 << n));
   }
 
-  // ---- rows; false when the budget of the scan is used up ----
+  // ---- rows of words; false when the budget of the scan is used up ----
   bool charge(std::uint32_t steps) noexcept {
     if (steps > budget) return false;
     budget -= steps;
@@ -368,8 +368,8 @@ struct Machine {
     bit[at.counter + number] = 0;
     word[at.counter_value + number] = 0;
   }
-  // The scan in which the coil turns on counts nothing; every further one counts a scan's time. The time
-  // below one unit of the value is kept in nanoseconds, so that nothing is lost.
+  // The scan in which the coil goes on does not count; every further scan adds its period. The remainder
+  // below one unit of the value is kept in nanoseconds, so that no time is lost.
   void run_timer(const Unit* ip, std::uint32_t rlo, bool retentive) noexcept {
     const std::uint32_t number = ip[1].tail.b;
     std::uint8_t& on = bit[at.timer_on + number];
@@ -414,7 +414,7 @@ struct Machine {
     if (value >= target) contact = 1;
   }
 
-  // ---- head of the scan ----
+  // ---- beginning of the scan ----
   void begin() noexcept {
     std::uint8_t* const sm = bit + at.sm;
     std::uint8_t& started = bit[at.started];
@@ -423,7 +423,7 @@ struct Machine {
     sm[kSmFirst] = started == 0;
     sm[kSmNotFirst] = started != 0;
     if (code.clocks) {
-      std::uint64_t now;  // ns of this image
+      std::uint64_t now;  // time of this image in ns
       std::memcpy(&now, word + at.clock, sizeof now);
       if (started != 0) now += code.scan_ns;
       std::memcpy(word + at.clock, &now, sizeof now);

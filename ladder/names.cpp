@@ -21,7 +21,7 @@ bool is_name_char(char c) {
   return is_digit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '-' || c == '.';
 }
 
-// Insertions, deletions and replacements between two words.
+// The edit distance of two words: the number of insertions, deletions and replacements.
 std::size_t distance(std::string_view left, std::string_view right) {
   std::vector<std::size_t> row(right.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -37,7 +37,7 @@ std::size_t distance(std::string_view left, std::string_view right) {
   return row.back();
 }
 
-// D0Z1 -> D0 and Z1; empty when it is not of that form.
+// Splits a word such as D0Z1 into D0 and Z1; both are empty when it does not have that form.
 std::pair<std::string_view, std::string_view> split_index(std::string_view word) {
   const std::size_t z = word.rfind('Z');
   if (z == std::string_view::npos || z == 0 || z + 1 == word.size() || !is_digit(word[z - 1])) return {};
@@ -80,7 +80,7 @@ std::string Names::nearest(std::string_view word) const {
   return found;
 }
 
-// D0.5, D0.F, nc.fin_wait.0: one bit of a word, its number as a hexadecimal digit.
+// One bit of a word, with its number as a hexadecimal digit: D0.5, D0.F, nc.fin_wait.0.
 std::optional<Place> Names::word_bit(std::string_view word) const {
   const std::size_t dot = word.rfind('.');
   if (dot == std::string_view::npos || dot == 0 || dot + 2 != word.size()) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<Place> Names::device(std::string_view word, std::string* message) 
     } else {
       why += " '" + std::string(word) + "'";
       const std::string name = nearest(word), elsewhere = device_elsewhere(word);
-      const bool address = word[0] == 'X' || word[0] == 'Y';  // here the names of the machine say more
+      const bool address = word[0] == 'X' || word[0] == 'Y';  // for these a list of the machine's names helps more
       const bool number = is_digit(word[0]) || (word.size() > 1 && (word[0] == '-' || word[0] == '+') && is_digit(word[1]));
       if (number) why += ": constants are K, decimal, and H, hexadecimal, such as K10 or H1F";
       else if (!elsewhere.empty() && (name.empty() || !address)) why += ": " + elsewhere;
@@ -208,7 +208,7 @@ bool Names::alias(std::string_view name, std::string_view target, std::string* m
     *message = "'" + std::string(name) + "' is a device already";
     return false;
   }
-  // K10 and H1F as names would turn constants into devices.
+  // Names such as K10 and H1F are refused, because they are constants.
   if (const bool starts = name[0] == 'K' || name[0] == 'H' || name[0] == 'E'; starts && name.size() > 1) {
     if (constant(name, &unused) || !unused.empty()) {
       *message = "'" + std::string(name) + "' is a constant";

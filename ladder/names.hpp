@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what is written in an operand to a device or a constant.
+// Finds the device or the constant that an operand in the text means.
 #pragma once
 
 #include <map>
@@ -11,25 +11,25 @@
 
 namespace nc::ladder {
 
-// A word of the text as an operand.
+// The meaning of an operand.
 struct Operand {
   enum class Form { kDevice, kConstant, kDigits } form = Form::kDevice;
-  Place place;                       // device, or the first bit of digits
-  std::uint32_t z = Indirect::kNoZ;  // index register (its word)
+  Place place;                       // the device, or the first bit of digits
+  std::uint32_t z = Indirect::kNoZ;  // index of the word of the index register
   std::int64_t constant = 0;
   bool hexadecimal = false;
-  std::uint32_t digits = 0;  // K4M0: 4
+  std::uint32_t digits = 0;  // number of digits: 4 for K4M0
 };
 
 class Names {
  public:
   Names(const DeviceTable& table, const Layout& layout) : table_(table), layout_(layout) {}
 
-  // Nothing, and why, when there is no such device or constant.
+  // Nothing when there is no such device or constant; then *message says why.
   std::optional<Operand> operand(std::string_view word, std::string* message) const;
   std::optional<Place> device(std::string_view word, std::string* message) const;
 
-  // False, and why, when the name is taken or not a name.
+  // False when the name is taken or is not a valid name; then *message says why.
   bool alias(std::string_view name, std::string_view target, std::string* message);
   const std::map<std::string, std::string>& aliases() const { return aliases_; }
 
@@ -43,7 +43,7 @@ class Names {
   std::map<std::string, std::string> aliases_;
 };
 
-// A timer or counter as a word: its current value.
+// For a timer or counter the place of its current value; every other place unchanged.
 Place current_value(const Place& place);
 
 }  // namespace nc::ladder

@@ -173,7 +173,7 @@ void add_compares(std::vector<Rule>& t) {
        false},
       {"AND", "in series: on when s1 %s s2", A::kJoin, Op::kAndCompare, Op::kAndCompare32, false},
       {"OR", "in parallel: on when s1 %s s2", A::kJoin, Op::kOrCompare, Op::kOrCompare32, true}};
-  // The texts live as long as the table, which is made once.
+  // The table, which is made only once, holds pointers to these texts.
   static std::vector<std::string> texts;
   texts.reserve(2 * 2 * std::size(kNames) * std::size(kJoins));
   for (const Join& join : kJoins)

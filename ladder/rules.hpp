@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of instructions: what the compiler does with each, beside what the documentation says of it.
+// The table of instructions: for each the text of the documentation and what the compiler does with it.
 #pragma once
 
 #include <string_view>
@@ -10,22 +10,22 @@
 namespace nc::ladder {
 
 enum class Action {
-  kLoad,        // op at the start of a rung, op2 within one
-  kJoin,        // AND, OR of one contact; parallel: OR
+  kLoad,        // LD: emits op at the beginning of a rung and op2 within one
+  kJoin,        // AND or OR of one contact; `parallel` means OR
   kBlock,       // ANB, ORB
   kPushBranch,  // MPS
   kReadBranch,
   kPopBranch,
   kInvert,
   kEdgeOfResult,  // MEP, MEF
-  kOut,           // bit, timer, counter
+  kOut,           // OUT of a bit, timer or counter
   kSet,
   kReset,
   kPulseCoil,  // PLS, PLF, FF
   kMaster,     // MC
   kMasterEnd,
-  kWords,       // operands as spec says
-  kAccumulate,  // + S D and + S1 S2 D
+  kWords,       // an operation on words with the operands of `spec`
+  kAccumulate,  // the same, with two forms as in + S D and + S1 S2 D
   kResetRange,
   kJump,
   kCall,
@@ -43,11 +43,11 @@ struct Rule {
   Action action;
   Op op = Op::kNop;
   Op op2 = Op::kNop;
-  // Word operands, one letter each. Sources: s 16 bits, S 32 bits, r a row of words. Destinations: d 16 bits,
-  // D 32 bits, q two words, Q four words, w a row of words.
+  // Word operands, one letter each. Sources: s = 16 bits, S = 32 bits, r = a row of words. Destinations: d = 16 bits,
+  // D = 32 bits, q = two words, Q = four words, w = a row of words.
   const char* spec = "";
-  std::uint32_t extra = 0;  // relation, timer base in microseconds
-  bool edge = false;        // keeps an edge memory
+  std::uint32_t extra = 0;  // relation of a compare, or unit of a timer in microseconds
+  bool edge = false;        // needs the memory of an edge
   bool parallel = false;    // OR
 };
 

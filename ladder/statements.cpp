@@ -15,7 +15,7 @@ bool Compiler::has_result() {
   return false;
 }
 
-// Inside MC ... MCR a rung is on only when the master control is: one AND before the first use of the result.
+// Inside MC ... MCR a rung is on only when the master control is on. So an AND with the master control is emitted before the result is used for the first time.
 void Compiler::gate() {
   if (!masters_.empty() && !rung_.gated) emit(Op::kAnd, masters_.back().gate);
   rung_.gated = true;
@@ -57,7 +57,7 @@ void Compiler::note_coil(const Place& place) {
     warning("the same coil as in line " + std::to_string(coil->second) + ": the last one that runs decides");
 }
 
-// A rising edge is a difference between two scans, and the first one counts for none.
+// A rising edge needs a previous scan, so there is none in the first scan. Afterwards the contacts of SM400 to SM402 never go on, so they never rise.
 void Compiler::note_rising() {
   if (rung_.always && masters_.empty())
     warning("its condition is SM400, SM401 or SM402 alone, which never rises: for once at the start take LD SM402 and "
@@ -125,7 +125,7 @@ void Compiler::act(const Rule& rule, bool pulse) {
       rung_.always = false;
       emit(rule.op, rule.edge ? new_edge() : 0);
       rung_.used = false;
-      // What comes out may be on although the master control is off.
+      // The new result may be on although the master control is off, so it has to be gated again.
       if (rung_.blocks == 1) rung_.gated = false;
       return;
     case Action::kOut:
@@ -235,8 +235,8 @@ void Compiler::join(const Rule& rule) {
 void Compiler::block(const Rule& rule) {
   if (!operand_count(rule, 0, 0)) return;
   if (rung_.blocks == 1 && !rule.parallel && rung_.before && !rung_.joined) {
-    if (rung_.start >= code_.units.size()) return;  // its LD was an error
-    // The block goes on from the result of the outputs before it: its first LD has to keep that.
+    if (rung_.start >= code_.units.size()) return;  // its LD had an error
+    // The block is joined with the result of the previous outputs, so its first LD has to keep that result.
     Unit& first = code_.units[rung_.start];
     const Op op = static_cast<Op>(first.head.op);
     if (op == Op::kLd || op == Op::kLdi) {
@@ -403,12 +403,12 @@ void Compiler::words(const Rule& rule, bool pulse) {
   const bool accumulate = rule.action == Action::kAccumulate;
   if (!operand_count(rule, accumulate ? 2 : spec.size(), spec.size())) return;
   std::vector<std::string_view> given(words_.begin() + 1, words_.end());
-  if (given.size() < spec.size()) given = {given[1], given[0], given[1]};  // - S D: d becomes d - s
+  if (given.size() < spec.size()) given = {given[1], given[0], given[1]};  // the form with two operands, such as - S D: D becomes D - S
   Encoded encoded[4] = {};
   unsigned mode = 0;
   bool fits = true;
   for (std::size_t i = 0; i < spec.size(); ++i) {
-    // A destination that is read too is reported once, as the destination.
+    // A destination that is also a source is checked only once, as the destination.
     if (accumulate && words_.size() == 3 && i == 0) continue;
     fits = encode(spec[i], given[i], &encoded[i]) && fits;
     mode |= static_cast<unsigned>(encoded[i].mode) << (2 * i);

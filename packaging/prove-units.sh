@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# The units under a real systemd: start, ready, watchdog, restart after a crash, stop, what stays.
+# Tests the units under a real systemd: start, ready, watchdog, restart after a crash, stop, and what is left.
 set -eu
 fail() { echo "FAILED: $*"; systemctl status --no-pager ncrtd ncdds 2>&1 | tail -n 30; exit 1; }
 show() { systemctl show -p "$2" --value "$1"; }
@@ -17,13 +17,13 @@ echo "ncrtd: $(show ncrtd ActiveState), $(show ncrtd StatusText), $(show ncrtd T
 systemctl start ncdds || fail "ncdds does not start"
 until_true 30 ncmon --once --wait 5 || fail "no status"
 ncmon --once --wait 20 | head -n 2
-# It outlives a crash, and comes back.
+# After a crash it is restarted.
 first=$(show ncrtd MainPID)
 kill -KILL "$first"
 until_true 30 other_pid "$first" || fail "ncrtd does not come back after a crash"
 echo "after SIGKILL: process $(show ncrtd MainPID) instead of $first, restarts: $(show ncrtd NRestarts)"
 until_true 30 ncmon --once --wait 5 || fail "no status after the crash"
-# A scan that stands still feeds no watchdog.
+# A scan that stands still does not feed the watchdog.
 second=$(show ncrtd MainPID)
 kill -STOP "$second"
 until_true 60 other_pid "$second" || fail "the watchdog does not act"
@@ -37,7 +37,7 @@ systemctl stop ncrtd || fail "stop"
 [ "$(show ncrtd Result)" = success ] || fail "ncrtd did not end in order: $(show ncrtd Result)"
 ls -l /var/lib/nc
 for kept in retain variables offsets; do [ "$(stat -c %U:%a /var/lib/nc/sim-mill.$kept)" = ncrtd:600 ] || fail "sim-mill.$kept"; done
-# A configuration with a mistake does not get as far as the machine.
+# With a mistake in the configuration the machine is not touched.
 mkdir -p /run/systemd/system/ncrtd.service.d
 printf '[Service]\nEnvironment=NC_CONFIG=/etc/nc/none.toml\n' >/run/systemd/system/ncrtd.service.d/bad.conf
 systemctl daemon-reload

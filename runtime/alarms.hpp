@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms of the runtime. Those of a program come from libnc with the manual's own codes; what the machine
-// around the program does wrong has codes of ours, R and a number, in this table.
+// Alarms of the runtime. The alarms of a program come from libnc with the codes of the manual. What goes wrong in the machine
+// around the program has codes of this project, R and a number, and they stand in this table.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@ enum class AlarmId : std::uint8_t {
   kSoftLimit,
   kHalLost,
   kFinTimeout,
-  kLadder,         // plc.alarm.1...; the texts are the configuration's
+  kLadder,         // the ladder has switched on plc.alarm.1 ... .8; the text stands in the configuration
   kLadderStopped,
-  kLinkLost,       // of a bus of points with alarm = true
-  kRetainedLost,   // not found again at the start
+  kLinkLost,       // the link of a bus of points that has `alarm = true` in the configuration
+  kRetainedLost,   // retained data could not be read back at the start
   kRetainedUnwritable,
-  kBadInput,  // detail: nc_input_bits
+  kBadInput,  // the detail of the alarm is nc_input_bits
   kPrinter,   // what a program prints (DPRNT) does not arrive
   kLimitSwitch,  // detail: LimitDetail
   kHoming,       // detail: HomingFault
@@ -33,11 +33,11 @@ struct AlarmRow {
   AlarmId id;
   const char* code;
   const char* text;
-  // false: a program that runs goes on to its end; nothing new starts until reset, which acknowledges it.
+  // false = a warning: a running program goes on to its end, and nothing new starts until a reset acknowledges the warning.
   bool stops = true;
 };
 
-// An alarm stops motion and holds the machine until reset, when its cause is gone.
+// An alarm that is not a warning stops the motion and keeps the machine stopped until a reset is made after its cause has gone.
 inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kScanOverrun, "R10", "Scan overrun: the cycle was missed too often"},
     {AlarmId::kFollowingError, "R11", "Following error beyond its limit"},
@@ -65,28 +65,28 @@ constexpr const AlarmRow& alarm_row(AlarmId id) {
   return kAlarmTable[0];
 }
 
-// A warning lets a program go on to its end; an alarm stops the machine. Both keep the next start until a reset acknowledges them. An alarm
-// whose cause is still there comes back at once; a warning stays in the list as acknowledged until its cause has gone, so that who comes
-// later sees it as well, and the machine can be used.
+// A warning lets a program go on to its end; an alarm stops the machine. Both prevent the next start until a reset acknowledges them. After the
+// reset an alarm whose cause is still there comes back at once. A warning whose cause is still there stays in the list as acknowledged: the
+// machine can be used, and an operator who comes later still sees the warning.
 constexpr bool is_warning(AlarmId id) { return !alarm_row(id).stops; }
 
-// What has gone wrong with retained data (R19, R20): `detail` of the alarm, beside the number of the data.
+// What has gone wrong with retained data (R19, R20). The `detail` of the alarm holds it together with the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
 inline constexpr unsigned kRetainedData = 3;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters
-// R20 says what is so now, R19 what has happened.
+// The troubles of R19: something was lost in the past. The others are of R20, which describes a condition that lasts.
 constexpr bool is_lost(RetainTrouble trouble) { return trouble == RetainTrouble::kLost || trouble == RetainTrouble::kOlder; }
 constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {
   return data * 4 + static_cast<unsigned>(trouble);
 }
 
-// What is wrong with a FIN that does not complete (R15), and which of the two it is.
+// Bits of the detail of R15: what is wrong with the handshake of FIN, and whether it concerns FIN1, FIN2 or both.
 enum FinFault : std::uint32_t {
-  kFinGroups = 0xf,    // groups that wait (bit 0 M, 1 S, 2 T, 3 B)
-  kFinStays = 1 << 4,  // it has completed, and does not go off
-  kFinEarly = 1 << 5,  // it was on before the strobe
+  kFinGroups = 0xf,    // mask of the groups that wait (bit 0 M, 1 S, 2 T, 3 B)
+  kFinStays = 1 << 4,  // FIN has completed the codes and does not go off again
+  kFinEarly = 1 << 5,  // FIN was on before the strobe came
   kFinOne = 1 << 6,    // FIN1 is on
   kFinTwo = 1 << 7,    // FIN2 is on
-  // The clamp of an index table (M700 9.3) is waited for, not a FIN:
+  // With one of these bits the control waits for the clamp of an index table (M700 9.3), not for a FIN:
   kNotUnclamped = 1 << 8,
   kNotClamped = 1 << 9,
   kNoClampHere = 1 << 10  // the axis stands where it cannot be clamped
@@ -113,14 +113,14 @@ struct AlarmList {
   unsigned count = 0;
   ActiveAlarm alarm[kMaxActiveAlarms];
 
-  // Nobody has acknowledged one of them: nothing new starts.
+  // At least one of them has not been acknowledged, so nothing new starts.
   bool waits_for_reset() const {
     for (unsigned i = 0; i < count; ++i)
       if (!alarm[i].acknowledged) return true;
     return false;
   }
 
-  // One of them stops the machine.
+  // At least one of them stops the machine.
   bool stops() const {
     for (unsigned i = 0; i < count; ++i)
       if (alarm_row(alarm[i].id).stops && !alarm[i].acknowledged) return true;

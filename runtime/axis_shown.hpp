@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a display shows of an axis that counts on over its turns (nc_position_shown; FeederInfo has the axes).
+// The position that a display shows of a rotary axis whose position goes on counting over several turns (nc_position_shown). FeederInfo says
+// which axes are shown within one turn.
 #pragma once
 
 #include <cmath>
@@ -7,9 +8,9 @@
 
 namespace nc::rt {
 
-// Bit `axis` of `one_turn`: 0 <= angle < 360.
+// Where bit `axis` of `one_turn` is set, the result is an angle with 0 <= angle < 360; otherwise it is the position itself.
 inline double axis_shown(double position, std::uint32_t one_turn, unsigned axis) {
-  constexpr double kNoise = 1e-9;  // deg: what adding up leaves; 359.9999999999 is 0
+  constexpr double kNoise = 1e-9;  // deg: rounding errors of added positions; 359.9999999999 is shown as 0
   if (((one_turn >> axis) & 1) == 0) return position;
   const double left = position - 360 * std::floor(position / 360);
   return left >= 360 - kNoise ? 0 : left;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bank of GPIO lines out of the configuration, and what it has for itself alone. See bus_gpio.hpp.
+// Makes a bank of GPIO lines from the configuration, and lists the lines that no other control may use at the same time. See bus_gpio.hpp.
 #include "runtime/bus_gpio.hpp"
 
 #include "hal/gpio/gpio_bus.hpp"
@@ -13,7 +13,8 @@ std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusCon
 }
 #endif
 
-// Two spellings of one chip or line are two locks here: then it is the kernel that refuses the second owner.
+// The same line under two spellings (chip by path or by label, line by name or by offset) gives two different locks here. Then the kernel refuses
+// the second owner.
 void gpio_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources) {
   const hal::gpio::BankConfig& bank = config.gpio[bus.place].bank;
   const auto add = [&](const hal::gpio::LineSetup& line) {

@@ -17,7 +17,7 @@ std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusCon
 #else
 inline constexpr std::unique_ptr<hal::PointBus> (*make_gpio)(const Config& config, const PointBusConfig& bus, const BusReport& report) = nullptr;
 #endif
-// Each line, inputs too: the kernel gives a line to one owner.
+// A lock for each line, for inputs as well: the kernel gives a line to one owner only.
 void gpio_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);
 
 }  // namespace nc::rt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Modbus link out of the configuration, and what it has for itself alone. See bus_modbus.hpp.
+// Makes a Modbus link from the configuration, and lists the units that no other control may write to at the same time. See bus_modbus.hpp.
 #include "runtime/bus_modbus.hpp"
 
 #include <arpa/inet.h>
@@ -14,7 +14,7 @@
 namespace nc::rt {
 namespace {
 
-// An address as a number in its one spelling; IPv4 in the clothes of IPv6 is IPv4.
+// The numerical address in its canonical spelling. An IPv4 address that is mapped into IPv6 (::ffff:10.0.0.5) is written as IPv4.
 std::string address_text(const sockaddr* address) {
   char text[INET6_ADDRSTRLEN] = "";
   if (address->sa_family == AF_INET) {
@@ -31,7 +31,7 @@ std::string address_text(const sockaddr* address) {
   return text;
 }
 
-// All addresses of a host; of one that nobody knows now, the name, so that at least the same name is the same host.
+// All addresses of a host. When the name cannot be resolved now, the name itself, so that at least two configurations with the same name share a lock.
 std::set<std::string> addresses_of(const std::string& host) {
   addrinfo hints{};
   hints.ai_family = AF_UNSPEC;
@@ -60,7 +60,7 @@ void modbus_resources(const Config& config, const PointBusConfig& bus, std::vect
   std::set<unsigned> units;
   for (const hal::modbus::PointMap& map : link.points)
     if (map.output) units.insert(map.unit);
-  if (units.empty()) return;  // who only reads takes nothing away from anybody
+  if (units.empty()) return;  // a control that only reads disturbs no other one
   const std::string port = std::to_string(link.port);
   for (const std::string& address : addresses_of(link.host))
     for (const unsigned unit : units) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real clock: CLOCK_MONOTONIC for deadlines (never set back), CLOCK_REALTIME plus the zone for the
-// program's clock.
+// The real clock: CLOCK_MONOTONIC for deadlines, because it is never set back, and CLOCK_REALTIME plus the time zone for the
+// clock that programs read.
 #include "runtime/clock.hpp"
 
 #include <cerrno>

@@ -18,7 +18,7 @@ class Clock {
 
 class RealClock final : public Clock {
  public:
-  RealClock();  // reads the time zone once: the scan must not
+  RealClock();  // reads the time zone once, because the scan must not make that call
   std::int64_t now_ns() noexcept override;
   void sleep_until(std::int64_t deadline_ns) noexcept override;
   std::int64_t local_ms() noexcept override;

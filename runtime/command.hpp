@@ -18,8 +18,8 @@ enum class CommandKind : std::uint8_t {
   kRapidOverride,  // value: 0..1
   kSingleBlock,    // number: 0 or 1
   kOptionalStop,   // number: 0 or 1
-  kJog,            // axis, value: velocity mm/s signed; has to be repeated within kJogDeadManScans, 0 stops. One that was refused or stopped
-                   // begins after 0, or after nothing for kJogDeadManScans
+  kJog,            // axis; value: velocity in mm/s with its sign, 0 stops. It has to be repeated within kJogDeadManScans. A jog that was refused or
+                   // stopped begins again only after a command with 0, or after kJogDeadManScans without a command
   kStep,           // axis, value: distance
   kReference,      // axis: go to the first reference position
   kHome,           // axis: find its reference mark; kAllSystems: every axis that can be homed, in order
@@ -27,8 +27,8 @@ enum class CommandKind : std::uint8_t {
   kRelease,        // number: the same, kAllForces
   kEnd,            // the control is being ended: to rest, and nothing starts any more, whatever the ladder asks for
   // for the feeder
-  kSelectProgram,  // number: file index of the program store; AUTO
-  kLoadMdi,        // the text given to Runtime::load_mdi(); MDI
+  kSelectProgram,  // number: index of the file in the program store; in mode AUTO
+  kLoadMdi,        // loads the text given to Runtime::load_mdi(); in mode MDI
   kSwitches,       // number: optional skip switches (bit n = switch n)
 };
 
@@ -36,14 +36,15 @@ constexpr bool for_feeder(CommandKind kind) {
   return kind >= CommandKind::kSelectProgram;
 }
 
-// Who asks: who has started the runtime, a client of the shared memory (DDS), a point of the machine, its ladder program.
+// Who gives a command: the program that has started the runtime, a client of the shared memory (DDS), an input point of the machine that is wired to
+// a signal, or the machine's ladder program.
 enum class Asker : std::uint8_t { kConsole, kClient, kPanel, kLadder };
 
-// Instead of an index: what a button of a panel means that belongs to no part system.
+// All part systems, in place of an index: the meaning of a button on the panel that belongs to no single part system.
 inline constexpr std::uint8_t kAllSystems = 0xff;
 
-// What can be asked of one part system or of all of them. Mode and reset are always of the whole control, as their signals are
-// (plc.mode_*, plc.reset); programs and manual motion are always of one.
+// Commands that may name one part system or all of them. Mode and reset always concern the whole control, as their signals do
+// (plc.mode_*, plc.reset); programs and manual motion always concern one part system.
 constexpr bool takes_all_systems(CommandKind kind) {
   return kind <= CommandKind::kOptionalStop;
 }
@@ -54,7 +55,7 @@ struct Command {
   std::uint8_t axis = 0;
   std::uint32_t number = 0;
   double value = 0;
-  std::uint64_t ticket = 0;  // set by the runtime
+  std::uint64_t ticket = 0;  // number of the command; set by the runtime
   Asker by = Asker::kConsole;
 };
 
@@ -63,7 +64,7 @@ enum class Answer : std::uint8_t {
   kQueueFull,
   kNotInThisMode,
   kNotWhileRunning,  // a program is in execution or interrupted: reset first
-  kMiddleOfBlock,    // the program stands in the middle of a block: manual motion is possible at its end
+  kMiddleOfBlock,    // the program was stopped in the middle of a block: manual motion is possible only at the end of a block
   kNoProgram,        // nothing selected
   kAlarmActive,      // reset first
   kResetting,        // a reset is still going on
@@ -72,18 +73,18 @@ enum class Answer : std::uint8_t {
   kOutOfRange,
   kAxisUnknown,
   kRefusedByControl,  // libnc said no
-  kNotLoaded,         // the program cannot be had
+  kNotLoaded,         // the program was not found or cannot be read
   kNoDevice,          // no such device, or one that cannot be forced
   kTooManyForces,
   kNoLadder,
   kMachineSwitch,     // a switch of the machine (plc.feed_override, plc.rapid_override) is in force
   kSpindleNow,        // the axis is a spindle as long as its servo is off
   kSoftLimit,         // the axis stands at its soft limit
-  kNotRepeated,       // a jog that nobody has asked for again
-  kNoJogFeed,         // a jog at no speed
-  kLetGoFirst,        // the button was on while something refused it
-  kFeedHold,          // the machine's
-  kTakenBack,         // a cycle start by a feed hold that came with it, whoever gave that
+  kNotRepeated,       // a jog ended because it was not repeated in time
+  kNoJogFeed,         // a jog while the jog feed is 0
+  kLetGoFirst,        // the jog was on while something refused it: it must go off first
+  kFeedHold,          // the machine gives a feed hold
+  kTakenBack,         // a cycle start was cancelled by a feed hold of the same scan, whoever gave the feed hold
   kInterlock,
   kAxesMove,
   kWarningActive,     // R19, R20, printed lines are lost: reset first
@@ -181,10 +182,10 @@ struct CommandAnswer {
   Answer answer = Answer::kDone;
 };
 
-// A jog stops by itself when it is not repeated: a lost connection must not leave an axis moving.
+// A jog command that is not repeated within this number of scans ends: a lost connection must not leave an axis moving.
 inline constexpr unsigned kJogDeadManScans = 200;
 
 inline constexpr std::uint32_t kAllForces = ~0u;
-inline constexpr unsigned kMaxForces = 32;  // devices at the same time
+inline constexpr unsigned kMaxForces = 32;  // devices that can be held at the same time
 
 }  // namespace nc::rt

@@ -35,7 +35,7 @@ MacroMap::MacroMap() {
 
 namespace {
 
-// A path of the configuration: relative to the folder of its file unless absolute.
+// A path in the configuration is relative to the folder of the configuration's file, unless it is absolute.
 std::string beside_file(const std::string& file, const std::string& path) {
   const std::filesystem::path own(path);
   if (own.is_absolute()) return own.string();
@@ -131,7 +131,7 @@ std::vector<ConfigError> load_config(const std::string& path, Config* config, Co
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (std::filesystem::is_directory(status)) return {{path, 0, "", "cannot be read: is a folder"}};
-  // A pipe would be waited for, and a device may never end.
+  // Only regular files are read: opening a pipe would block, and reading a device may never end.
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return {{path, 0, "", "cannot be read: is no file"}};
   std::ifstream stream(path, std::ios::binary);

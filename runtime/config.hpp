@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The machine configuration: a TOML file as plain data, and everything that can be wrong with it.
 //
-// Units: mm, degrees, seconds in the file's names where they are not mm or mm/s; see etc/machine.toml, which
-// explains every key. Parsing has no side effects. Every error names file, line and key; all are reported,
-// not only the first (a syntax error ends the file: nothing behind it can be trusted).
+// Units are mm, degrees, seconds and those made of them; a key with another unit has it in its name. etc/machine.toml explains every key.
+// Parsing has no side effects. Every error names file, line and key, and all errors are reported, not only the first. Only a syntax
+// error ends the reading, because nothing behind it can be trusted.
 #pragma once
 
 #include <array>
@@ -33,25 +33,25 @@ struct ConfigError {
   std::string text() const;  // "machine.toml:12: axis[1].rapid: must be ..."
 };
 
-// What happens when a scan ends behind its slot.
+// What happens when scans have ended too late (SchedulingConfig::overrun_limit).
 enum class OverrunReaction : std::uint8_t { kCount, kFeedHold, kAlarm };
 
-// Where a value stands, for errors that are found later (the control refuses a parameter).
+// Where a value stands in the file, for errors that are found after parsing, as when the control refuses a parameter.
 struct ConfigPlace {
   unsigned line = 0;
   std::string key;
 };
 
 struct ParameterSetting {
-  std::string key;      // manual's number or name
-  char axis = 0;        // 0 = all axes
-  unsigned system = 0;  // part system of the axis; without an axis the setting holds for all
+  std::string key;      // number or name in the manual
+  char axis = 0;        // letter of the axis; 0 = all axes
+  unsigned system = 0;  // part system of the axis; without an axis the setting holds for all part systems
   std::string text;
   ConfigPlace place;
 };
 
 struct WorkOffsetSetting {
-  unsigned index = 0;  // as nc_work_offset_set()
+  unsigned index = 0;  // counted as by nc_work_offset_set()
   unsigned system = 0;
   unsigned axis = 0;
   double value = 0;
@@ -60,12 +60,12 @@ struct WorkOffsetSetting {
 
 struct ToolOffsetSetting {
   unsigned number = 0;
-  std::array<double, 4> column = {};  // by nc_tool_column
+  std::array<double, 4> column = {};  // indexed by nc_tool_column
   std::array<bool, 4> given = {};
   ConfigPlace place;
 };
 
-// Macro interface: which point a bit or a word stands for; -1 = none.
+// The macro interface: the point that each bit and each word is connected with; -1 = none.
 struct MacroMap {
   std::array<std::array<int, 32>, NC_WORDS> input_bit, output_bit;
   std::array<int, NC_WORDS> input_word, output_word;
@@ -85,13 +85,13 @@ struct EquipmentName {
 // What measures the speed of a spindle.
 struct SpindleFeedback {
   enum class By : std::uint8_t { kSimulation, kPoint, kNothing };
-  enum class Sign : std::uint8_t { kAsPoint, kYes, kNo };  // kAsPoint: as the register of the point has one
+  enum class Sign : std::uint8_t { kAsPoint, kYes, kNo };  // kAsPoint: signed when the register of the point is
   By by = By::kSimulation;
   Sign sign = Sign::kAsPoint;
-  bool given = false;       // by the file; else see read_spindle_feedback()
-  int point = -1;           // word input: speed
+  bool given = false;       // the file names the feedback; else read_spindle_feedback() chooses it
+  int point = -1;           // word input that gives the speed
   double rpm_per_count = 1;
-  ConfigPlace place;        // of the point's name
+  ConfigPlace place;        // where the name of the point stands
 };
 
 struct SchedulingConfig {
@@ -102,66 +102,66 @@ struct SchedulingConfig {
   bool lock_memory = true;  // mlockall
   unsigned feeder_us = 1000;
   OverrunReaction overrun = OverrunReaction::kAlarm;
-  unsigned overrun_limit = 10;  // the reaction comes when so many slots were missed since the last reset
+  unsigned overrun_limit = 10;  // slots missed since the last reset or the last reaction that bring the reaction
 };
 
 // The machine's ladder program.
 struct LadderConfig {
   std::string program;      // file, relative to the configuration's folder unless absolute; empty = none
   ConfigPlace program_place;
-  double fin_timeout_s = 0; // FIN that does not come within this time is an alarm; 0 = wait for ever
+  double fin_timeout_s = 0; // a FIN that does not come within this time is an alarm; 0 = wait without limit
   std::array<std::string, 8> alarm;  // texts of plc.alarm.1 ... .8
-  std::string retain;                // file of the retained devices, relative as `program`; empty = see retain_path()
+  std::string retain;                // file of the retained devices, relative like `program`; empty = see retain_path()
   ConfigPlace retain_place;
-  bool retain_counters = false;      // C among them
-  unsigned retain_d_first = 0, retain_d_count = 0;  // D among them
+  bool retain_counters = false;      // the counters C are retained
+  unsigned retain_d_first = 0, retain_d_count = 0;  // the registers D that are retained
 };
 
 struct MachineKind;   // runtime/hal_factory.hpp
 struct PointBusKind;
 
-// A bus that carries points, of whatever kind; the n-th is bus n of the points, counted from 1.
+// A bus that carries points, of any kind. The points name their bus by its place in Config::buses, counted from 1.
 struct PointBusConfig {
   const PointBusKind* kind = nullptr;
-  std::size_t place = 0;  // among the buses of its kind: Config::modbus, Config::gpio
+  std::size_t place = 0;  // index among the buses of its kind: in Config::modbus or Config::gpio
   std::string name;
   unsigned ok_point = 0;  // the input point "<name>.ok"
-  bool alarm = false;     // a bus that is lost is alarm R18
+  bool alarm = false;     // the loss of this bus is alarm R18
 };
-inline constexpr std::size_t kMaxPointBuses = 32;  // threads and sockets of their own; the scan keeps a bit for each
+inline constexpr std::size_t kMaxPointBuses = 32;  // the scan keeps a bit for each in a word; each has a thread of its own
 
 // A Modbus link.
 struct ModbusLinkConfig {
   hal::modbus::LinkConfig link;
-  std::uint8_t bus = 0;   // of its points
-  std::uint8_t unit = 1;  // of points that name none
-  bool named = false;     // by a point, be it a wrong one
+  std::uint8_t bus = 0;   // number of the bus in its points
+  std::uint8_t unit = 1;  // unit of the points that name none
+  bool named = false;     // some point names this link, even a point with an error
   ConfigPlace place;
 };
 
-// A bank of GPIO lines: a chip.
+// A bank of GPIO lines, which are lines of one chip.
 struct GpioBankConfig {
   hal::gpio::BankConfig bank;
-  std::uint8_t bus = 0;  // of its points
-  bool named = false;    // by a point, be it a wrong one, or it has a watchdog
+  std::uint8_t bus = 0;  // number of the bus in its points
+  bool named = false;    // some point names this bank, even a point with an error, or the bank has a watchdog
   ConfigPlace place;
 };
 
 // The shared-memory segment for readers in other processes (runtime/share/).
 struct ShareConfig {
   bool enabled = false;
-  std::string name;            // empty = from the machine's name
-  bool commands = false;       // take commands from it
-  bool group = false;          // readers of the same group too, not of the user alone
+  std::string name;            // empty = made from the machine's name
+  bool commands = false;       // commands are taken from the segment
+  bool group = false;          // readers of the same group are admitted, not only those of the same user
 };
 
-// A signal that is a point of the machine, without a ladder program between them.
+// A signal that is connected directly to a point of the machine, without a ladder program between them.
 struct SignalWire {
-  unsigned signal = 0;  // place in machine_signals()
+  unsigned signal = 0;  // index in machine_signals()
   unsigned point = 0;
 };
 
-// Common variables from the first to the last.
+// The common variables from `first` to `last`, both included.
 struct VariableRangeSetting {
   std::uint32_t first = 0, last = 0;
 };
@@ -172,21 +172,21 @@ struct Config {
   std::string programs = ".";  // folder of programs, relative to the file's folder unless absolute
   ConfigPlace programs_place;
   ProgramText::Options program_text;  // encoding of programs, and up to which size they are copied
-  std::string external;        // folder of the programs of M198, in the same way; empty = the folder of programs
-  std::string variables;       // file of the common variables, relative as `print`; empty = see variables_path()
+  std::string external;        // folder of the programs that M198 calls, relative like `programs`; empty = the folder of programs
+  std::string variables;       // file of the common variables, relative like `print`; empty = see variables_path()
   ConfigPlace variables_place;
-  std::string offsets;         // file of the offsets and parameters that were changed since the configuration; as `variables`
+  std::string offsets;         // file of the offsets and parameters that differ from the configuration, relative like `print`; empty = see offsets_path()
   ConfigPlace offsets_place;
-  double retain_every_s = 1;   // retained data are looked at so often
+  double retain_every_s = 1;   // interval at which retained data are looked at and written when they have changed
   std::string print;           // file that programs print to, relative to the file's folder unless absolute; empty = nowhere
   bool macro_extensions = false, negative_count = false;  // options of macros (docs/macros.md)
   ConfigPlace macro_extensions_place, negative_count_place;
-  std::vector<VariableRangeSetting> not_kept;  // ranges of common variables that begin vacant with the power
+  std::vector<VariableRangeSetting> not_kept;  // ranges of common variables that are vacant after each start
   unsigned cycle_us = 1000;
   nc_config nc;  // everything that libnc is created with
   bool look_ahead_given = false;
   bool motion_given = false;  // the file names the law of motion
-  unsigned spindles_given = 0;  // part systems whose spindles are counted
+  unsigned spindles_given = 0;  // number of part systems for which machine.spindles gives a count
   ConfigPlace spindles_place;
   SchedulingConfig scheduling;
   std::array<nc_axes, NC_MAX_SYSTEMS> start = {};  // where the axes stand at start-up
@@ -195,7 +195,7 @@ struct Config {
   std::vector<ToolOffsetSetting> tool_offsets;
   hal::PointTable points;
   MacroMap macro;
-  const MachineKind* machine_kind = nullptr;  // of the axes; never null in a configuration that was read
+  const MachineKind* machine_kind = nullptr;  // kind of the machine that has the axes; never null after parse_config()
   std::vector<PointBusConfig> buses;
   std::vector<ModbusLinkConfig> modbus;
   std::vector<GpioBankConfig> gpio;
@@ -210,7 +210,7 @@ struct Config {
   ShareConfig share;
 
   Config();
-  // Folder of programs as a path that can be opened.
+  // Folder of programs as a path that can be opened; external_folder() is the same for the programs that M198 calls.
   std::string programs_folder() const;
   std::string external_folder() const;
   // File that programs print to; empty = none.
@@ -224,25 +224,25 @@ struct Config {
   std::string variables_path() const;
   // File of the changed offsets and parameters in the same way.
   std::string offsets_path() const;
-  // An output that follows a signal of the NC.
+  // True when the point is an output that a wire connects with a signal of the NC.
   bool is_wired_output(unsigned point) const;
 };
 
-// Parse a text. `file` is used in messages only. Returns the errors; empty = *config is valid. `partial` (may be
-// null) gets what could be read in any case, for those who want to look further.
+// Parse a text. `file` is the path for messages, and the paths in the text are relative to its folder. Returns the errors; when there are none, *config
+// is valid. `partial` (may be null) gets everything that could be read, even when there are errors, for callers that look for further mistakes.
 std::vector<ConfigError> parse_config(std::string_view text, const std::string& file, Config* config,
                                       Config* partial = nullptr);
 
-// Read and parse a file.
-// What of the spindles is allowed and hardly meant, with its line.
+// Settings of the spindles that are allowed but probably not intended, each as a sentence with its line.
 std::vector<std::string> spindle_warnings(const Config& config);
 
+// Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);
 
-// What the file asks of the computer that it is used on: processors, folders.
+// Checks what the file requires of the computer on which it is used: its processors and folders.
 std::vector<ConfigError> check_host(const Config& config);
 
-// Parameters, offsets and start position into a control. What the control refuses is an error with its place
+// Writes parameters, offsets and start position into a control. What the control refuses is reported as an error with its place
 // in the file.
 std::vector<ConfigError> apply_config(const Config& config, nc_control* control);
 

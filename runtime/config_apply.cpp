@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A configuration into a control: parameters, offset tables, start position.
+// Writes a configuration into a control: parameters, offset tables, start position.
 #include "runtime/config.hpp"
 #include "runtime/nc_system.hpp"
 
@@ -32,7 +32,7 @@ std::vector<ConfigError> apply_config(const Config& config, nc_control* control)
     const ConfigPlace& place;
   } options[] = {{config.macro_extensions, "macro_extensions", config.macro_extensions_place},
                  {config.negative_count, "negative_count", config.negative_count_place}};
-  for (const auto& option : options)  // a dialect may not have them
+  for (const auto& option : options)  // a dialect may lack such an option: then the control refuses it
     for (unsigned s = 0; option.on && s < config.nc.system_count; ++s) {
       const nc_status status = nc_parameter_set(control, api_system(s), option.key, 0, "1");
       check(status, option.place, "option");
@@ -44,7 +44,7 @@ std::vector<ConfigError> apply_config(const Config& config, nc_control* control)
       const nc_status status = nc_parameter_set(control, api_system(s), parameter.key.c_str(), parameter.axis,
                                                 parameter.text.c_str());
       check(status, parameter.place, "parameter");
-      if (status < 0) break;  // one message for one line
+      if (status < 0) break;  // one message for each line of the file, not one for each part system
     }
   }
   for (const WorkOffsetSetting& offset : config.work_offsets)

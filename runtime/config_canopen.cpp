@@ -21,7 +21,7 @@ using hal::canopen::BusMap;
 using hal::canopen::NodeMap;
 using hal::canopen::ObjectValue;
 
-constexpr double kMaxIncrements = 2147483647.0;  // a position of a drive has 32 bits with sign
+constexpr double kMaxIncrements = 2147483647.0;  // the position of a drive is a signed number of 32 bits
 constexpr double kMaxSeconds = 600;
 
 void milliseconds(TableReader* reader, const char* key, unsigned* ms, double least) {
@@ -52,7 +52,7 @@ void read_bus(TableReader* reader, Config* config) {
   bus.completes_functions = config->ladder.program.empty();
 }
 
-// A point that the drive's homing is asked by, or answers with.
+// Reads the name of a point of the homing: the output that requests it, or the input that reports it done.
 void read_point(TableReader* reader, const char* key, hal::PointDirection direction, const Config& config, int* place) {
   std::string name;
   reader->require(key);
@@ -90,7 +90,7 @@ void read_probe(TableReader* axis, AxisMap* map) {
   });
 }
 
-// Increments per mm or deg out of encoder, gear and pitch.
+// Computes the increments per mm or degree from encoder, gear and pitch.
 void read_scale(TableReader* reader, AxisMap* map) {
   double encoder = 0, pitch = 0;
   bool reverse = false;
@@ -103,7 +103,7 @@ void read_scale(TableReader* reader, AxisMap* map) {
   if (turns && way) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
 }
 
-// Every position that the axis may have must have its number in the drive.
+// Every position inside the soft limits must be a number that the drive can represent.
 void check_range(TableReader* reader, const Config& config, const AxisMap& map) {
   const nc_axis_config& axis = config.nc.system[map.system].axis[map.axis];
   if (!axis.soft_limited) return;
@@ -121,7 +121,7 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
   map.slot = static_cast<unsigned>(node->axes.size());
   reader->integer("slot", &map.slot, 0, 7);
-  map.rpdo = map.tpdo = 64 * map.slot + 1;  // as drives with several axes number them
+  map.rpdo = map.tpdo = 64 * map.slot + 1;  // default: the numbering that is usual for drives with several axes
   reader->integer("rpdo", &map.rpdo, 1, 512);
   reader->integer("tpdo", &map.tpdo, 1, 512);
   read_scale(reader, &map);
@@ -216,7 +216,7 @@ void check_load(TableReader* reader, const BusMap& bus) {
 
 }  // namespace
 
-// Only a machine of this kind has to have all its axes there.
+// The section may stand in the file of any machine, but only a machine with hal = "canopen" must have all its axes in it.
 void read_canopen(TableReader* root, Config* config) {
   const bool chosen = config->machine_kind != nullptr && config->machine_kind->name == "canopen";
   const bool there = root->table("canopen", [&](TableReader& reader) {

@@ -16,7 +16,7 @@ using hal::gpio::Drive;
 using hal::gpio::LineSetup;
 using hal::gpio::PointLine;
 
-constexpr std::size_t kMaxKernelName = 31;  // bytes of a label, of a line's name and of a consumer
+constexpr std::size_t kMaxKernelName = 31;  // longest label of a chip, name of a line or consumer in the kernel, in bytes
 
 bool valid_bank_name(const std::string& name) {
   return !name.empty() && name.size() <= 32 && std::all_of(name.begin(), name.end(), [](char c) {
@@ -24,7 +24,7 @@ bool valid_bank_name(const std::string& name) {
   });
 }
 
-// A name as the kernel keeps it. A path of a chip may be longer.
+// Reads a name that is no longer than the kernel allows. The path of a chip may be longer.
 bool read_kernel_name(TableReader* reader, const char* key, std::string* name) {
   std::string read;
   if (!reader->string(key, &read)) return false;
@@ -37,7 +37,7 @@ bool read_kernel_name(TableReader* reader, const char* key, std::string* name) {
   return true;
 }
 
-// line = "NAME" or offset = 17, and what is common to points and the watchdog. False when nobody knows which line it is.
+// Reads `line = "NAME"` or `offset = 17`, and the keys that points and the watchdog have in common. False when it is not clear which line is meant.
 bool read_line(TableReader* reader, LineSetup* line) {
   unsigned word = 0;
   reader->boolean("active_low", &line->active_low);
@@ -73,7 +73,7 @@ void read_bank(TableReader* reader, Config* config) {
   reader->table("watchdog", [&](TableReader& watchdog) {
     bank.watchdog.output = true;
     bank.has_watchdog = read_line(&watchdog, &bank.watchdog);
-    entry.named = true;  // a bank may have nothing else
+    entry.named = true;  // a bank with a watchdog needs no points
   });
   if (!named) return;
   if (!valid_bank_name(bank.name)) return reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
@@ -101,7 +101,7 @@ void refuse(TableReader* reader, std::initializer_list<const char*> keys, const 
     if (reader->find(key) != nullptr) reader->error(key, why);
 }
 
-// "off", 0, 1, and "hold" where that is possible. True: it has a value.
+// Reads a level: "off", 0 or 1, and with `may_hold` also "hold". True when the key is there, even when its value is wrong.
 bool read_level(TableReader* reader, const char* key, bool may_hold, bool* hold, std::uint8_t* value) {
   const toml::node* node = reader->find(key);
   if (node == nullptr) return false;
@@ -133,7 +133,7 @@ void read_output(TableReader* reader, const hal::Point& point, PointLine* line) 
   read_level(reader, "on_stop", false, &hold, &line->stop_value);
 }
 
-// One owner for one line. That a name and an offset mean the same line is seen when the chip is opened.
+// Each line has one user only. Whether a name and an offset mean the same line is found out only when the chip is opened.
 void check_free(TableReader* reader, const Config& config, const BankConfig& bank, const LineSetup& line) {
   for (const PointLine& taken : bank.lines)
     if (same_line(taken.line, line))

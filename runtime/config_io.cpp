@@ -13,7 +13,7 @@ namespace nc::rt {
 namespace {
 
 constexpr double kMaxSeconds = 3600;
-constexpr std::size_t kMaxPointName = 55, kMaxMeaning = 127;  // bytes, as monitors show them
+constexpr std::size_t kMaxPointName = 55, kMaxMeaning = 127;  // bytes that monitors can show
 
 bool valid_point_name(std::string_view name) {
   if (name.empty() || name.size() > kMaxPointName) return false;
@@ -23,7 +23,7 @@ bool valid_point_name(std::string_view name) {
   });
 }
 
-// What the ladder would read as a device or a constant of its own: capitals and a number, K5, M100, TN0.
+// A name that the ladder would read as one of its own devices or constants: capital letters and a number, such as K5, M100, TN0.
 bool is_device_name(std::string_view name) {
   std::size_t letters = 0;
   while (letters < name.size() && name[letters] >= 'A' && name[letters] <= 'Z') ++letters;
@@ -35,19 +35,19 @@ bool is_device_name(std::string_view name) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// K4M0: bits taken together.
+// A group of bits in the ladder's notation, such as K4M0.
 bool is_digit_group(std::string_view name) {
   return name.size() > 3 && name[0] == 'K' && name[1] >= '1' && name[1] <= '8' && is_device_name(name.substr(2));
 }
 
-// w.3: a bit of the word w.
+// A bit of a word in the ladder's notation, such as w.3.
 bool is_bit_name(std::string_view name) {
   if (name.size() < 3 || name[name.size() - 2] != '.') return false;
   const char last = name.back();
   return is_digit(last) || (last >= 'A' && last <= 'F');
 }
 
-// nc.x, nc2.x, plc.x, plc2.x: signals of the table, also those that come with a later version.
+// A name that looks like a signal: nc.x, nc2.x, plc.x, plc2.x. Every such name is reserved, so that a later version can add signals.
 bool is_like_a_signal(std::string_view name) {
   for (const std::string_view family : {"nc", "plc"}) {
     if (name.substr(0, family.size()) != family) continue;
@@ -64,7 +64,7 @@ bool is_signal_name(std::string_view name, const nc_config& nc) {
   return false;
 }
 
-// One number of the macro interface.
+// A variable number of the macro interface, decoded.
 struct InterfaceNumber {
   bool output = false;
   bool word = false;
@@ -72,9 +72,9 @@ struct InterfaceNumber {
   unsigned bit = 0;
 };
 
-constexpr unsigned kBits = 32;  // of a word
+constexpr unsigned kBits = 32;  // bits of a word
 
-// Every range of the macro interface that the dialect has.
+// Calls `use` for every range of variable numbers that the dialect has in its macro interface.
 template <class Use>
 void each_interface_range(nc_dialect dialect, const Use& use) {
   nc_system_variable row{};
@@ -99,7 +99,7 @@ std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_
   return found;
 }
 
-// What is wrong with a number that is none of them: the ranges that there are, those that join as one.
+// The error text for a number outside the macro interface. It lists the ranges that exist; ranges that adjoin are listed as one.
 std::string no_interface_number(nc_dialect dialect) {
   std::string text;
   std::uint32_t last = 0;
@@ -112,7 +112,7 @@ std::string no_interface_number(nc_dialect dialect) {
   return text.empty() ? "is not possible: this dialect has no macro interface" : "is not a number of the macro interface (" + text + ")";
 }
 
-// Place of a number in the map.
+// The entry of a number in the map.
 int* slot(MacroMap* map, const InterfaceNumber& number) {
   if (number.word) return &(number.output ? map->output_word : map->input_word)[number.bank];
   return &(number.output ? map->output_bit : map->input_bit)[number.bank][number.bit];
@@ -164,7 +164,7 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
     return;
   }
   int* place = slot(&config->macro, *number);
-  if (*place >= 0) {  // "#1000" and "#01000"
+  if (*place >= 0) {  // the same number under two spellings: "#1000" and "#01000"
     reader->error(key, "is mapped twice");
     return;
   }

@@ -12,9 +12,9 @@ namespace {
 
 constexpr unsigned kLastD = 8191;
 
-// In the folder that a service manager gives; "" without one.
+// Path of a file in the folder that a service manager gives to the control; "" when there is none.
 std::string state_file(const std::string& machine, const char* ending) {
-  const char* folder = std::getenv("STATE_DIRECTORY");  // systemd; several of them stand between colons
+  const char* folder = std::getenv("STATE_DIRECTORY");  // set by systemd; several folders are separated by colons
   if (folder == nullptr || *folder == '\0') return {};
   const std::string first = std::string(folder).substr(0, std::string(folder).find(':'));
   return first + "/" + share::share_name(machine) + ending;

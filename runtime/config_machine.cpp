@@ -13,9 +13,9 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMaxLength = 1e6;  // mm or deg; anything beyond is a slip of the keyboard
+constexpr double kMaxLength = 1e6;  // mm or deg; a greater number is a typing error
 constexpr double kMaxRate = 1e9;
-constexpr double kLeastTolerance = 1e-4;  // mm, of a path that is smoothed
+constexpr double kLeastTolerance = 1e-4;  // mm; smallest tolerance of a smoothed path
 constexpr std::string_view kAxisLetters = "XYZABCUVW";
 
 struct AxisEntry {
@@ -44,7 +44,7 @@ void read_limits(TableReader* reader, AxisEntry* entry) {
   }
   if (reader->numbers("reference", &numbers, 1, 4)) {
     std::copy(numbers.begin(), numbers.end(), axis.reference);
-    for (const double position : numbers)  // or every G28 would be an alarm
+    for (const double position : numbers)  // outside the soft limits every G28 would be an alarm
       if (axis.soft_limited && (position < axis.soft_min || position > axis.soft_max)) {
         reader->error("reference", "must be inside soft_limits");
         break;
@@ -55,7 +55,7 @@ void read_limits(TableReader* reader, AxisEntry* entry) {
     reader->error("start", "must be inside soft_limits");
 }
 
-// The letter; 0 when the key is missing or wrong (reported).
+// Returns the letter of the axis, or 0 when the key is missing or wrong, which is reported.
 char read_axis_name(TableReader* reader) {
   std::string name;
   reader->require("name");
@@ -65,7 +65,7 @@ char read_axis_name(TableReader* reader) {
   return 0;
 }
 
-// M700 10.5: the spindle that is this axis, too.
+// M700 10.5: reads the number of the spindle that is also this axis.
 void read_spindle_of_axis(TableReader* reader, const Config& config, unsigned system_number, nc_axis_config* axis) {
   unsigned spindle = 0;
   if (!reader->integer("spindle", &spindle, 1, NC_MAX_SPINDLES)) return;
@@ -124,7 +124,7 @@ void read_axis(TableReader* reader, Config* config) {
 
 namespace {
 
-// M700 10.6: spindles of each part system.
+// M700 10.6: reads the number of spindles of each part system.
 void read_spindles(TableReader* reader, Config* config) {
   std::vector<double> numbers;
   for (nc_system_config& system : config->nc.system) system.spindle_count = 1;
@@ -139,7 +139,8 @@ void read_spindles(TableReader* reader, Config* config) {
   config->spindles_place = {reader->line("spindles"), reader->path("spindles")};
 }
 
-// Common variables beside those of variable_sets; behind the other options of variables, which say what is there already.
+// Reads ranges of common variables in addition to those of variable_sets. It comes after the other options of variables, because a range must not
+// overlap with the variables that they give.
 void read_variable_ranges(TableReader* machine, Config* config) {
   nc_config& nc = config->nc;
   machine->tables("variable_ranges", [&](TableReader& reader, std::size_t index) {

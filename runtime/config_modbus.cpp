@@ -200,8 +200,8 @@ std::string range_text(const hal::modbus::ValueRange& range) {
   return std::to_string(range.min) + " to " + std::to_string(range.max);
 }
 
-// The safe value of an output goes into the register as it is, and an input shows it before the first answer: it is
-// not bent into the range in silence.
+// The initial value of an output is written into the register unchanged, and an input has it until the first answer. So a value outside
+// the range of the register is an error; it is not clamped.
 void check_initial(TableReader* point_reader, const PointMap& map) {
   const bool given = point_reader->find("initial") != nullptr;
   if (!given && !map.output) return;
@@ -214,7 +214,7 @@ void check_initial(TableReader* point_reader, const PointMap& map) {
                                      std::to_string(value) + (value > INT32_MAX ? ", which is what " + std::to_string(value - 0x100000000) + " means here" : ""));
 }
 
-// hold | off | a number, as a number or a text. What the value is, where it is one.
+// Reads "hold", "off" or a number, which may be written as a text. With kValue the number is in *kept.
 enum class Kept { kNothing, kHold, kOff, kValue };
 Kept read_kept(TableReader* reader, const char* key, const PointMap& map, std::uint32_t* kept) {
   const toml::node* node = reader->find(key);
@@ -266,7 +266,7 @@ void read_on_stop(TableReader* reader, PointMap* map) {
     reader->error("on_stop", "\"off\" is 0, and the register can only hold " + range_text(value_range(*map)));
 }
 
-// Two outputs may share a register only as different bits of it; and nothing else.
+// True when two outputs write the same bits. Two outputs may share a register only when they are different bits of it.
 bool collide(const PointMap& a, const PointMap& b) {
   if (!a.output || !b.output || a.unit != b.unit || a.table != b.table) return false;
   if (a.address >= b.end() || b.address >= a.end()) return false;
@@ -274,7 +274,8 @@ bool collide(const PointMap& a, const PointMap& b) {
   return !bits || a.bit == b.bit;
 }
 
-// Bits of one register go out together: at the end all of them are written, or none.
+// True when two outputs are parts of one register. The bits of a register are written together, so at the end of the control either all of
+// them are written or none.
 bool share_a_register(const PointMap& a, const PointMap& b) {
   return a.output && b.output && a.unit == b.unit && a.table == b.table && !is_bit_table(a.table) && a.address < b.end() && b.address < a.end();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration sections [sim.spindle] and [sim.tool_changer]: which points drive them and which they answer by.
+// Configuration sections [sim.spindle] and [sim.tool_changer]: the output points that drive them and the input points with which they answer.
 #include <map>
 
 #include "runtime/config_sections.hpp"
@@ -15,7 +15,7 @@ struct PointKey {
   int* index;
 };
 
-// Which key of the plant uses a point: each point is one wire.
+// For each point in use the key of the plant that uses it. A point is one wire, so only one key may use it.
 using Wires = std::map<int, std::string>;
 
 void read_point_key(TableReader* reader, const Config& config, const PointKey& wanted, Wires* wires) {
@@ -55,7 +55,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
     if (config->ladder.program.empty())
       reader.errors()->add(reader.line(), reader.path(), "needs a ladder program: see [ladder]");
   };
-  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {  // those of part system 1
+  for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {  // the spindles of part system 1
     sim->table(n == 0 ? "spindle" : "spindle" + std::to_string(n + 1), [&](TableReader& reader) {
       hal::SimSpindlePoints& spindle = plant.spindle[n];
       spindle.driven = true;

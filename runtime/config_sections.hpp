@@ -12,17 +12,17 @@ namespace nc::rt {
 
 void read_machine(TableReader* root, Config* config);
 void read_scheduling(TableReader* root, Config* config);
-void read_motion(TableReader* root, Config* config);  // behind the axes
+void read_motion(TableReader* root, Config* config);  // after the axes
 void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);
-void read_points(TableReader* root, Config* config);  // behind the buses that carry them: read_point_buses()
+void read_points(TableReader* root, Config* config);  // after read_point_buses(), which reads the buses that carry points
 void read_macro_interface(TableReader* root, Config* config);
 void read_ladder(TableReader* root, Config* config);
 void read_signals(TableReader* root, Config* config);  // after points, macro interface and ladder
 void read_sim(TableReader* root, Config* config);
-void read_spindle_feedback(TableReader* root, Config* config);  // behind [sim] and the points: runtime/config_spindles.cpp
+void read_spindle_feedback(TableReader* root, Config* config);  // after [sim] and the points; in runtime/config_spindles.cpp
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
 // [sim.spindle], [sim.spindle2] ... and [sim.tool_changer]; called by read_sim() with the reader of [sim].
 void read_sim_plant(TableReader* sim, Config* config);
@@ -30,7 +30,7 @@ void read_sim_plant(TableReader* sim, Config* config);
 // "X" = axis X of part system 1, "X2" = axis X of part system 2. False when there is none.
 bool find_axis(const Config& config, std::string_view name, unsigned* system, unsigned* axis);
 
-// Two files of the configuration, as they are written there: "a", "./a" and "b/../a" are one. Empty ones are none.
+// Whether two paths of the configuration name the same file: "a", "./a" and "b/../a" do. An empty path names no file.
 inline bool same_file(const std::string& one, const std::string& other) {
   return !one.empty() && std::filesystem::path(one).lexically_normal() == std::filesystem::path(other).lexically_normal();
 }

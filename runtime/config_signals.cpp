@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration section [signals]: signals of the table (docs/signals.md) that are points of the machine,
+// Configuration section [signals]: signals of the table (docs/signals.md) that are connected directly to points of the machine,
 // without a ladder program between them.
 #include <algorithm>
 

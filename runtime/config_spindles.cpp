@@ -8,7 +8,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMostRpm = 6e5;  // as nc_spindle_inputs takes
+constexpr double kMostRpm = 6e5;  // largest speed that nc_spindle_inputs accepts
 
 void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* feedback) {
   std::string by;
@@ -19,7 +19,7 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
       if (reader->find(key) != nullptr) reader->error(key, "is for a speed that a point gives");
     return;
   }
-  for (const char* key : {"rpm_per_count", "signed"}) (void)reader->find(key);  // known, whatever is wrong with the point
+  for (const char* key : {"rpm_per_count", "signed"}) (void)reader->find(key);  // these keys are known, even when the point is wrong
   const int index = config.points.find(by);
   if (index < 0) return reader->error("feedback", "no point is named \"" + by + "\"; else it is \"simulated\" or \"none\"");
   const hal::Point& point = config.points.at(static_cast<unsigned>(index));
@@ -36,13 +36,14 @@ void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* f
   feedback->sign = has_sign ? SpindleFeedback::Sign::kYes : SpindleFeedback::Sign::kNo;
 }
 
-// A value below 0 that a register without a sign gives as one above 32767. One of 32 bits comes back to its sign, where nothing scales it.
+// True when a negative value arrives as a large positive one. A register of 16 bits that is not declared signed gives -1 as 65535. An unscaled value of
+// 32 bits keeps its sign, because the point has 32 bits too.
 bool loses_its_sign(const hal::modbus::PointMap& map) {
   if (map.format == hal::modbus::Format::kBit || hal::modbus::point_is_signed(map)) return false;
   return map.format == hal::modbus::Format::kU16 || map.scale != 1 || map.offset != 0;
 }
 
-// The register of the point cannot say which way round the spindle turns.
+// True when the register of the point gives no sign, so that it cannot tell in which direction the spindle turns.
 bool point_without_sign(const Config& config, const SpindleFeedback& feedback) {
   if (feedback.by != SpindleFeedback::By::kPoint) return false;
   const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
@@ -68,8 +69,8 @@ std::vector<std::string> spindle_warnings(const Config& config) {
   return warnings;
 }
 
-// Where the file says nothing a spindle is simulated if the whole machine is, or if [sim.spindle] drives it. On a machine with a bus it turns
-// outside, and nothing measures it until a point does.
+// A spindle for which the file names no feedback is simulated when the machine has no bus, or when [sim.spindle] drives it. On a machine with a
+// bus the spindle is real, and its speed is not measured unless the file names a point that measures it.
 void read_spindle_feedback(TableReader* root, Config* config) {
   root->tables("spindle", [&](TableReader& reader, std::size_t) {
     unsigned system = 1, number = 1;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxOffset = 1e6;
 constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "radius_wear"};
 
-// Whole text as a number from min to max.
+// The number from min to max that the whole text is; nothing when it is none.
 std::optional<unsigned> parse_number(std::string_view text, unsigned min, unsigned max) {
   unsigned value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -29,7 +29,7 @@ std::optional<std::string> value_text(const toml::node& node) {
   return {};
 }
 
-// EXT 0, G54..G59 1..6, G54.1P<n> 100+n; as nc_work_offset_set().
+// The index of a set of work offsets as nc_work_offset_set() counts: EXT is 0, G54 to G59 are 1 to 6, G54.1P<n> is 100 + n.
 std::optional<unsigned> work_offset_index(std::string_view name, unsigned sets) {
   if (name == "EXT") return 0;
   if (name.size() == 3 && name.substr(0, 2) == "G5" && name[2] >= '4' && name[2] <= '9')

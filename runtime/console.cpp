@@ -24,7 +24,7 @@ __attribute__((format(printf, 2, 3))) void append(std::string* text, const char*
   *text += buffer;
 }
 
-// Counts lines up to the first code that ends a program outside of comments, behind which sub programs may stand.
+// Counts the lines up to the first code outside of a comment that ends the program. Sub programs may follow after it.
 class EndFinder {
  public:
   explicit EndFinder(nc_dialect dialect) : dialect_(dialect) {}
@@ -89,7 +89,7 @@ unsigned percent_done(std::uint32_t main_line, std::uint64_t lines) {
   return static_cast<unsigned>(std::min<std::uint64_t>(100, std::uint64_t{main_line} * 100 / lines));
 }
 
-// From a start until the first block is done the feeder still knows the last line of the run before.
+// Between a start and the end of the first block the feeder still has the last line of the previous run; `info.ended` tells that.
 RunProgress run_progress(const FeederInfo::System& info, const nc_outputs& now, std::uint64_t lines) {
   const bool idle = now.state == NC_STATE_IDLE;
   RunProgress progress;
@@ -114,11 +114,11 @@ std::string state_alone(const nc_outputs& outputs) {
     default:
       break;
   }
-  switch (static_cast<nc_stop_cause>(outputs.cause)) {  // all of them: the compiler counts
+  switch (static_cast<nc_stop_cause>(outputs.cause)) {  // without a default, so that the compiler reports a missing cause
     case NC_CAUSE_FIN: {
       if ((outputs.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0) return "waits for the clamp of an index table";
       std::string text = "waits for FIN of";
-      if (outputs.strobe == 0) {  // FIN1 stays on, or one is on before the strobe: its code may not be out yet
+      if (outputs.strobe == 0) {  // FIN1 stays on, or a FIN is on before the strobe; then the code may not have been given out yet
         for (unsigned group = 0; group < 4; ++group)
           if (outputs.fin_wait >> group & 1) append(&text, " %c", "MSTB"[group]);
         return outputs.fin_wait == 0 ? "waits for FIN to go off" : text + " to go off";

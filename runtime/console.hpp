@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ncrtd shows on a terminal: one live line (or plain lines where there is no terminal) and the summary
+// What ncrtd shows on a terminal: one line that is rewritten in place (or single lines where there is no terminal), and the summary
 // at the end.
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace nc::rt {
 
-// "virtual time: retained data is neither read nor written (FILE, FILE): ...", "" = there is none. Which file is damaged does not show then.
+// The sentence that on virtual time the files of retained data, which it names, are neither read nor written, so that a damaged file goes unnoticed.
+// "" when there are no such files.
 std::string not_read_text(const Config& config);
 
 // Lines of a program up to its end code (M02, M30 of the m700), for the percentage: counted in small files, estimated
@@ -23,28 +24,28 @@ unsigned percent_done(std::uint32_t main_line, std::uint64_t lines);
 
 // How far a part system has come with the program of `lines` that is selected there.
 struct RunProgress {
-  std::uint32_t main_line = 0;  // that was finished last, or is in execution
-  unsigned percent = 0;         // 100 from its end until it begins again, is reset, or another is selected
+  std::uint32_t main_line = 0;  // line of the main program that is in execution or was finished last
+  unsigned percent = 0;         // 100 from the end of the program until it starts again, is reset, or another one is selected
 };
 RunProgress run_progress(const FeederInfo::System& info, const nc_outputs& now, std::uint64_t lines);
 
-// "  43 % line 27  X -12.345 Y 3.000 Z -5.000  F4800 S8000 T2  running"
+// A line such as "  43 % line 27  X -12.345 Y 3.000 Z -5.000  F4800 S8000 T2  running".
 std::string progress_line(const Runtime& runtime, std::uint64_t lines);
 
 // The state in words, with the reason when nothing moves.
 std::string state_text(const nc_outputs& outputs);
 
-// Cycle time, path length, blocks, scan statistics. `since_ns`: when the process began, on CLOCK_MONOTONIC.
+// Cycle time, path length, blocks and scan statistics as text. `since_ns`: time on CLOCK_MONOTONIC at which the process began.
 std::string summary_text(const Runtime& runtime, const nc_outputs& last_run, std::int64_t since_ns);
 
-// Live progress. On a terminal the line is rewritten in place; elsewhere a line appears at each tenth and at
+// Progress while a program runs. On a terminal one line is rewritten in place; elsewhere a line is printed at each tenth of the program and at
 // each change of state.
 class Progress {
  public:
   Progress(std::FILE* out, bool terminal, std::uint64_t lines)
       : out_(out), terminal_(terminal), lines_(lines) {}
   void show(const Runtime& runtime);
-  void finish();  // leaves the live line
+  void finish();  // ends the line that is rewritten, so that what follows begins on a new line
   void note(const std::string& text);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals that end a program in order. See end_signal.hpp.
+// Signals at which a program ends properly. See end_signal.hpp.
 #include "runtime/end_signal.hpp"
 
 namespace nc::rt {

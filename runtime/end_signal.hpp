@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals that end a program in order: the handler only notes the number, and whoever waits looks at it.
+// Signals at which a program ends properly. The handler only stores the number of the signal; the loops that wait look at it and leave.
 #pragma once
 
 #include <csignal>
@@ -7,19 +7,19 @@
 
 namespace nc::rt {
 
-// From now on these signals are noted, and a pipe whose reader has gone is an error of the write, not the end of a machine in motion. What came
-// before is forgotten.
+// From now on these signals are stored, and a signal stored before is forgotten. SIGPIPE is ignored: writing to a pipe without a reader becomes an error
+// of the write; it must not end the process while the machine is in motion.
 void catch_end_signals(std::initializer_list<int> numbers);
 
-// The last one that came, 0 = none. Any thread.
+// The last signal that came, 0 = none. Any thread.
 int end_signal();
-// The same, for those who are given a place to look at.
+// The place where that number is stored, for code that polls it itself.
 const volatile std::sig_atomic_t* end_signal_place();
 
-// "SIGINT". One that has no name here is shown as SIGTERM, which the others stand for.
+// The name of a signal, such as "SIGINT". "SIGTERM" for every signal other than SIGINT, SIGHUP and SIGQUIT.
 const char* signal_name(int number);
 
-// As a shell says of a process that a signal has ended.
+// The exit status that a shell reports of a process that was ended by a signal.
 constexpr int exit_status_of_signal(int number) { return 128 + number; }
 
 }  // namespace nc::rt

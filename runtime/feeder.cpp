@@ -65,7 +65,7 @@ void Feeder::step() {
   unsigned answered_count = 0;
   Command command;
   while (answered_count < kCommands && commands_.pop(&command)) {
-    seen_ = scan_->snapshot();  // the command before it, which may have been the scan's, has been answered: it shows
+    seen_ = scan_->snapshot();  // shows what the previous command has changed, even when the scan has executed it
     answered[answered_count++] = {command.ticket, apply(command)};
   }
   PositionSample sample;
@@ -76,7 +76,7 @@ void Feeder::step() {
   take_alarm();
   take_modal();
   tell_what_is_loaded();
-  // Last: who is told that a program is selected may start it at once, and the scan must know of it then.
+  // The answers come last: a client that is told that its program is selected may start it at once, and by then the scan must know of the program.
   for (unsigned n = 0; n < answered_count; ++n) (void)answers_.push(answered[n]);
 }
 
@@ -89,7 +89,8 @@ void Feeder::tell_what_is_loaded() {
   for (unsigned s = 0; s < systems_; ++s) info_.system[s].selected = {system_[s].selected, system_[s].mdi, system_[s].file};
 }
 
-// Back in AUTO the part program that was selected before MDI is selected again, at its head; blocks of MDI that nobody started are gone.
+// When the mode is AUTO again, the part program that was selected before MDI is selected again, at its head. MDI blocks that were not started are
+// dropped.
 void Feeder::restore_parts() {
   if (seen_.mode != Mode::kAuto || seen_.program_active() || scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
@@ -106,10 +107,10 @@ void Feeder::restore_parts() {
   }
 }
 
-// ---- what the ladder asks of the reader ----
+// ---- what the ladder asks of the feeder ----
 
-// Optional block skips are those of the operator and those of the ladder together. A recalculation is tried until the
-// scan has agreed; while the machine moves it never does, and the request is dropped.
+// The optional block skips in force are those of the operator and those of the ladder together. A recalculation is tried again until the
+// scan has taken part in it. While the machine moves that cannot happen, and the request is dropped.
 void Feeder::follow_ladder() {
   for (unsigned s = 0; s < systems_; ++s) {
     const std::uint32_t wanted = operator_switches_[s] | scan_->skip_switches(s);
@@ -125,8 +126,8 @@ void Feeder::follow_ladder() {
   }
 }
 
-// Macro outputs that the machine has had by itself (Scan::take_found_outputs). What lies ready may have read them already: it is read again from
-// its head. A program in execution goes on with what it has read.
+// Tells the control the macro outputs that were found on the machine (Scan::take_found_outputs). A program that is ready to start may have been read
+// ahead with the old values, so it is read again from its head. A program in execution goes on with what it has read.
 void Feeder::follow_outputs() {
   std::uint32_t any = 0;
   for (unsigned w = 0; w < NC_WORDS; ++w) {
@@ -141,7 +142,7 @@ void Feeder::follow_outputs() {
     for (unsigned w = 0; w < NC_WORDS; ++w)
       if (found_[w] != 0) nc_->outputs(s, w, found_[w], found_bits_[w]);
     if (!system.selected || system.ended) continue;
-    scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded()
+    scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded() at the end of this step
     const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
     if (status == NC_E_STATE) return;  // not yet: the next step tries again
     if (status < 0) system = {};
@@ -201,13 +202,15 @@ Answer Feeder::apply(const Command& command) {
   return Answer::kOutOfRange;
 }
 
-// Who acts on a command, or gives it up, claims it first; only one of the two gets it.
+// The feeder claims a command before it executes it, and the operator's thread claims a command before it gives it up. Only the first claim succeeds, so
+// a command is either executed or given up.
 bool Feeder::claim(std::uint64_t ticket) {
   std::uint64_t last = claimed_.load(std::memory_order_acquire);
   return last < ticket && claimed_.compare_exchange_strong(last, ticket, std::memory_order_acq_rel);
 }
 
-// To find and read a program may take a while; what nobody waits for any more must not be selected behind his back.
+// Finding and reading a program may take some time. When the operator's thread has given the command up meanwhile, the program must not be
+// selected any more.
 Answer Feeder::select(const Command& command) {
   const unsigned system = command.system;
   std::uint32_t file = command.number;
@@ -224,7 +227,7 @@ Answer Feeder::select(const Command& command) {
     file = loaded;
   }
   if (!claim(command.ticket)) return Answer::kNoAnswer;
-  scan_->set_loaded(Scan::kNothingLoaded);  // until this step has ended: what lies in the control changes now
+  scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step, because the program in the control changes now
   if (const nc_status status = nc_->select(system, file); status < 0)
     return refuse(Answer::kRefusedByControl, status_text(status));
   system_[system].take_part(file);
@@ -246,7 +249,7 @@ Answer Feeder::load_mdi(const Command& command) {
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
                   status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
-  if (refresh_) refresh_();  // behind it: what the program that was selected here has called is free now
+  if (refresh_) refresh_();  // only after load_mdi(): now the programs called by the one that was selected here are free
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);
   return Answer::kDone;
@@ -260,8 +263,8 @@ void Feeder::nothing_has_run(unsigned system) {
   info.ended = false;
 }
 
-// The scan is at rest after a reset: the interpreter goes back to the program's head. A reset gives MDI
-// blocks up.
+// Once the scan is at rest after a reset, the interpreter goes back to the head of the program. MDI blocks are dropped by
+// a reset.
 void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
@@ -269,7 +272,7 @@ void Feeder::complete_reset() {
     if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }
-  take_events();  // what was executed before the reset belongs before it
+  take_events();  // events from before the reset must be taken before it is reported as done
   scan_->reset_finished();
   const std::lock_guard lock(mutex_);
   for (unsigned s = 0; s < systems_; ++s) {
@@ -280,7 +283,7 @@ void Feeder::complete_reset() {
   }
 }
 
-// M02 and M30 rewind: a program that ended is at its head again and may be started. MDI blocks run once.
+// M02 and M30 rewind: a program that has ended is at its head again and may be started. MDI blocks run only once.
 void Feeder::rewind_ended() {
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
@@ -290,7 +293,7 @@ void Feeder::rewind_ended() {
       system.clear();
     } else {
       const nc_status status = nc_->select(s, system.file);
-      if (status == NC_E_STATE) continue;  // the control has not seen its end yet: the next step
+      if (status == NC_E_STATE) continue;  // the control has not seen the end of the program yet: the next step tries again
       system.ended = system.alarmed = false;
       if (status < 0) system = {};
     }
@@ -302,8 +305,8 @@ void Feeder::rewind_ended() {
   }
 }
 
-// Also while a reset waits, and while nothing is selected: here the control notices a reset, and tells the scan the offsets in force, by which
-// it counts the workpiece's coordinates.
+// Called also while a reset waits and while nothing is selected: in feed() the control notices a reset, and it passes the offsets in force to the
+// scan, which needs them for the workpiece coordinates.
 void Feeder::feed() {
   for (unsigned i = 0; i < kCallsPerStep; ++i) {
     const nc_status status = nc_->feed(kBudget);
@@ -330,7 +333,7 @@ void Feeder::take_events() {
   info_.dropped = std::max(info_.dropped, dropped);
 }
 
-// A block is done.
+// Takes the mark that ends a block: the block has been executed.
 void Feeder::take_mark(unsigned system, const nc_event& event) {
   const std::lock_guard lock(mutex_);
   FeederInfo::System& info = info_.system[system];
@@ -358,7 +361,8 @@ void Feeder::tell(std::string message, unsigned system) {
   ++info_.messages;
 }
 
-// A program that begins again without having been selected again is what it was. Who has written into its file wants to know that.
+// A program that is started again without being selected again runs as it was when it was selected. A message tells that to whoever has changed its
+// file meanwhile.
 void Feeder::tell_changes() {
   for (unsigned s = 0; s < systems_; ++s) {
     const std::uint8_t state = seen_.system[s].nc.state;
@@ -371,7 +375,7 @@ void Feeder::tell_changes() {
   }
 }
 
-// A line for the external output; null = it came too late to be read.
+// Prints a line on the external output. Null = the text was overwritten before it could be read.
 void Feeder::print(unsigned system, const nc_text* text) {
   if (!printer_) return;
   std::string trouble = text != nullptr ? printer_(*text) : "it was not taken in time";
@@ -384,7 +388,7 @@ void Feeder::print(unsigned system, const nc_text* text) {
   scan_->post_print_trouble(system);
 }
 
-// Which axes are shown within one turn: those for which a turn more is none.
+// Finds the axes that are shown within one turn: those for which the control shows the position 360 as 0.
 void Feeder::take_turns(unsigned system) {
   nc_axes machine, work;
   for (unsigned a = 0; a < NC_MAX_AXES; ++a) machine.v[a] = work.v[a] = 360;
@@ -416,7 +420,7 @@ void Feeder::take_modal() {
   }
 }
 
-// Details of a program alarm, once the machine has come to it.
+// Takes the details of a program alarm once the machine has reached it.
 void Feeder::take_alarm() {
   for (unsigned s = 0; s < systems_; ++s) {
     if (seen_.system[s].nc.state != NC_STATE_ALARM) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The feeder: reads ahead of the machine, takes what the machine has executed, completes resets, selects
-// programs. It belongs to one ordinary thread (or, on virtual time, to the same thread as the scan, in
-// turns); it may allocate.
+// The feeder reads ahead of the machine, takes the events of what the machine has executed, completes resets and selects
+// programs. It belongs to one ordinary thread, in which it may allocate memory. On virtual time it runs in the same thread as the scan, alternating with
+// it.
 #pragma once
 
 #include <algorithm>
@@ -33,58 +33,59 @@ class PathSink {
   virtual void moved(const PositionSample& sample) = 0;  // feeder thread
 };
 
-// What the feeder knows and readers want.
+// What the feeder shows to readers in other threads.
 struct FeederInfo {
   struct Selected {
     bool any = false, mdi = false;
     std::uint32_t file = 0;
   };
-  // Of one part system; what another does changes nothing of it.
+  // What belongs to one part system.
   struct System {
-    Selected selected;            // at its head or running
-    bool ended = false;           // the last run came to its end (M02, M30); a reset, and a program that is selected, begin anew
-    bool ended_ok = false;        // ... without an alarm
-    std::uint64_t runs = 0;       // that ended
+    Selected selected;            // program that is at its head or running
+    bool ended = false;           // the last run came to its end (M02, M30); false again after a reset or when a program is selected
+    bool ended_ok = false;        // the last run that ended did so without an alarm
+    std::uint64_t runs = 0;       // number of runs that ended
     std::uint32_t main_line = 0;  // line of the main program that was finished last
-    std::uint64_t begun_again = 0;  // passes that M99 of the main program has begun, since it was selected or loaded
-    std::uint32_t again_line = 0;   // where that M99 stands
-    bool alarm = false;             // program_alarm holds
+    std::uint64_t begun_again = 0;  // number of times that M99 of the main program has begun it again, since it was selected or loaded
+    std::uint32_t again_line = 0;   // line in which that M99 stands
+    bool alarm = false;             // program_alarm is valid
     nc_alarm program_alarm{};
-    std::uint32_t alarm_calls = 0;  // blocks that led there, outermost first
+    std::uint32_t alarm_calls = 0;  // number of entries in alarm_call: the blocks that led to the alarm, outermost first
     nc_source alarm_call[NC_MAX_CALLS] = {};
     std::string print_trouble;  // why a line that was printed is lost, the first reason since the last reset
     bool modal_known = false;
-    nc_modal modal{};  // that the last finished block left
-    // Bit a: axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
+    nc_modal modal{};  // modal state after the last finished block
+    // Bit a is set when axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
     std::uint32_t machine_turn = 0, work_turn = 0;
   };
   System system[NC_MAX_SYSTEMS];
-  std::uint64_t events = 0;     // items executed
-  std::uint64_t dropped = 0;    // events that were not fetched in time
-  // What is said to the operator.
+  std::uint64_t events = 0;     // number of items executed
+  std::uint64_t dropped = 0;    // number of events that were not fetched in time
+  // A message to the operator.
   struct Message {
-    unsigned system = 0;  // whose it is
+    unsigned system = 0;  // part system that it comes from
     std::string text;
   };
   static constexpr std::size_t kMessagesKept = 64;
-  std::uint64_t messages = 0;      // so far, of all part systems
-  std::vector<Message> said;       // the last of them, oldest first
-  // Those behind the first `seen`, as far as they are kept.
+  std::uint64_t messages = 0;      // number of messages so far, of all part systems
+  std::vector<Message> said;       // the last messages, oldest first, at most kMessagesKept
+  // The messages that came after the first `seen`, as far as they are kept.
   std::span<const Message> messages_since(std::uint64_t seen) const {
     return std::span(said).last(static_cast<std::size_t>(std::min<std::uint64_t>(messages - seen, said.size())));
   }
 };
 
-// Enters the program of this name into the store: feeder thread, while nothing runs.
-// With a sentence when it cannot.
+// Enters the program of this name into the store; false with a sentence in *error when that fails. Called in the feeder thread, while
+// no program runs.
 using ProgramLoader = std::function<bool(const std::string& name, unsigned* file, std::string* error)>;
-// New MDI blocks are in the control: what they call counts as it is in the files now. Feeder thread, while nothing runs.
+// Called when new MDI blocks are in the control: the programs that they call are then taken from the files as they are now. Feeder thread, while no
+// program runs.
 using ProgramRefresh = std::function<void()>;
-// Files whose programs run as they were when they were selected or called, and are others now: "part.nc, O77"; "" = none. Feeder thread, when a
-// part program begins.
+// The programs whose files have changed since they were selected or called, and which run as they were then: "part.nc, O77"; "" = none. Called
+// in the feeder thread when a part program starts.
 using ChangedPrograms = std::function<std::string()>;
-// Takes what programs print (POPEN, DPRNT, PCLOS) when the machine gets there: feeder thread. Returns why a line could not be written,
-// "" when it is.
+// Takes what programs print (POPEN, DPRNT, PCLOS) when the machine reaches that block; called in the feeder thread. Returns the reason why a line
+// could not be written, "" when it was written.
 using Printer = std::function<std::string(const nc_text& text)>;
 // kSelectProgram with this number selects the program given by name.
 inline constexpr std::uint32_t kProgramByName = ~0u;
@@ -93,27 +94,27 @@ class Feeder {
  public:
   Feeder(unsigned systems, NcPort* nc, Scan* scan);
 
-  // One period: commands, a reset that waits, feeding, events.
+  // One period of the feeder: events, feeding, a reset that waits, commands.
   void step();
 
   // ---- operator's thread (the same as Scan::post) ----
   bool post(const Command& command) { return commands_.push(command); }
   bool poll_answer(CommandAnswer* answer) { return answers_.pop(answer); }
-  // Gives a command up that takes too long: from then on it does nothing. False: it acts already, and its answer comes at once.
+  // Gives up a command that takes too long; it has no effect then. False when the feeder is already executing it: then its answer comes soon.
   bool take_back(std::uint64_t ticket) { return claim(ticket); }
-  void set_mdi_text(const std::string& text);  // before kLoadMdi, which takes it
-  void set_program_name(const std::string& name);  // before kSelectProgram with kProgramByName
+  void set_mdi_text(const std::string& text);  // the text for the next kLoadMdi
+  void set_program_name(const std::string& name);  // the name for the next kSelectProgram with kProgramByName
 
   // ---- feeder thread ----
   bool remembers(unsigned file) const;
 
   // ---- any thread ----
   FeederInfo info() const;
-  // Why the last command was refused, where there is more to say than its answer says; "" = nothing.
+  // Why the last command was refused, when there is more to say than its answer does; "" otherwise.
   std::string refusal() const;
 
-  // ---- the thread of the retained data ----
-  // A copy of what the executed blocks have left is asked for, and taken when it is there.
+  // ---- the thread that keeps retained data ----
+  // want() asks for a copy of the data as the executed blocks have left them; take() fetches it and is false until it is there.
   enum Kept { kVariables, kTables, kKeptCount };
   void want(Kept what) { kept_[what].wanted.store(true, std::memory_order_release); }
   bool take(Kept what, std::string* bytes);
@@ -163,11 +164,11 @@ class Feeder {
     bool selected = false, mdi = false;
     std::uint32_t file = 0;
     bool ended = false;    // the end item has been executed
-    bool alarmed = false;  // behind an alarm item
-    bool part = false;     // a part program was selected, perhaps before the MDI blocks ...
-    std::uint32_t part_file = 0;  // ... and this is it
-    std::string blocks;           // of MDI, as they were loaded
-    // Nothing is selected, but for what is remembered.
+    bool alarmed = false;  // an alarm item has been executed
+    bool part = false;     // a part program was selected, perhaps before the MDI blocks
+    std::uint32_t part_file = 0;  // index of that part program in the store
+    std::string blocks;           // text of the MDI blocks that were loaded
+    // Nothing is selected any more; only the part program that was selected before is remembered.
     void clear() { *this = {false, false, 0, false, false, part, part_file, {}}; }
     void take_part(std::uint32_t number) { *this = {true, false, number, false, false, true, number, {}}; }
     void take_mdi(std::string text) { *this = {true, true, 0, false, false, part, part_file, std::move(text)}; }
@@ -175,27 +176,27 @@ class Feeder {
   void restore_parts();
   void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
-  Snapshot seen_;  // of this step
+  Snapshot seen_;  // snapshot of the scan that this step goes by
 
-  static constexpr unsigned kCommands = 64;  // of one step
+  static constexpr unsigned kCommands = 64;  // at most so many are executed in one step
   SpscQueue<Command, kCommands> commands_;
   SpscQueue<CommandAnswer, 2 * kCommands> answers_;
-  std::atomic<std::uint64_t> claimed_{0};  // the newest command that acts, or that was given up; tickets rise from 1
-  mutable std::mutex mutex_;  // guards info_ and mdi_text_; never taken by the scan
+  std::atomic<std::uint64_t> claimed_{0};  // ticket of the newest command that was executed or given up; tickets rise from 1
+  mutable std::mutex mutex_;  // guards info_, mdi_text_, program_name_, refusal_ and the copies in kept_; never taken by the scan
   FeederInfo info_;
-  std::string mdi_text_, program_name_;  // handed over with a command
+  std::string mdi_text_, program_name_;  // for the next kLoadMdi or kSelectProgram
   ProgramLoader loader_;
   ProgramRefresh refresh_;
   ChangedPrograms changed_;
   bool was_active_[NC_MAX_SYSTEMS] = {};
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
-  std::string refusal_;  // under mutex_
-  std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // given, and in force
-  std::uint32_t found_[NC_WORDS] = {}, found_bits_[NC_WORDS] = {};  // of the macro outputs, not yet told to the control
-  std::uint32_t recalculated_[NC_MAX_SYSTEMS] = {};  // requests of the ladder that were done
+  std::string refusal_;  // guarded by mutex_
+  std::uint32_t operator_switches_[NC_MAX_SYSTEMS] = {}, switches_[NC_MAX_SYSTEMS] = {};  // skips that the operator has set; all skips in force
+  std::uint32_t found_[NC_WORDS] = {}, found_bits_[NC_WORDS] = {};  // mask and values of macro outputs that the control has not been told yet
+  std::uint32_t recalculated_[NC_MAX_SYSTEMS] = {};  // number of recalculations asked for by the ladder that were dealt with
   struct KeptCopy {
     std::atomic<bool> wanted{false};
-    bool ready = false;  // under mutex_, with bytes
+    bool ready = false;  // `bytes` holds the copy; both are guarded by mutex_
     std::string bytes;
   };
   KeptCopy kept_[kKeptCount];

@@ -8,7 +8,7 @@ ForceTable::ForceTable() : places_(std::make_unique<Place[]>(kMaxNames)) {}
 
 std::int64_t ForceTable::number_of(const std::string& name, const ladder::Device& device, int point, bool output) {
   const std::lock_guard lock(mutex_);
-  for (std::size_t n = 0; n < names_; ++n)  // an alias and its device are one
+  for (std::size_t n = 0; n < names_; ++n)  // an alias gets the number of its device
     if (places_[n].index == device.index && (places_[n].type == ladder::DeviceType::kBit) == (device.type == ladder::DeviceType::kBit))
       return static_cast<std::int64_t>(n);
   if (names_ == kMaxNames) return -1;
@@ -46,7 +46,7 @@ Answer ForceTable::force(std::uint32_t number, std::int32_t value) noexcept {
   return Answer::kDone;
 }
 
-// What is not forced can be released: who releases wants the device to be free, and it is.
+// Releasing a device that is not forced is no error: afterwards the device is free, as was asked for.
 Answer ForceTable::release(std::uint32_t number) noexcept {
   for (unsigned i = count_; i-- > 0;)
     if (number == kAllForces || active_[i].number == number) free(i);
@@ -56,7 +56,7 @@ Answer ForceTable::release(std::uint32_t number) noexcept {
 void ForceTable::free(unsigned place) noexcept {
   const Active gone = active_[place];
   active_[place] = active_[--count_];
-  if (gone.begun && freed_ < released_.size()) released_[freed_++] = gone;  // more of them in one scan stay as they are
+  if (gone.begun && freed_ < released_.size()) released_[freed_++] = gone;  // no place is left: the device keeps the forced value
 }
 
 void ForceTable::begin(ladder::DeviceImage* image, hal::PointImage* points) noexcept {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forced devices of the ladder: held at a value whatever the machine and the program say, from the command until it
-// is taken back or the control ends.
+// Forced devices of the ladder. A forced device is held at a value, whatever the machine and the program write, until it is
+// released or the control ends.
 //
-// The value stands in the device before the program, behind each of its instructions, and in what the machine and the
-// NC get.
+// The device has the value before the program runs and after each of its instructions, and the machine and the NC get the
+// value as well.
 #pragma once
 
 #include <array>
@@ -24,11 +24,11 @@ class ForceTable {
   ForceTable();
 
   // ---- any thread but the scan's ----
-  // Numbers stand for names from their first use on. `point`: its place in the image, -1 = the device is none;
-  // `output`: it goes to the machine. -1 = there were too many names.
+  // The number of a device; a device gets its number when it is first asked for. `point`: index of the device's point in the image, -1 when the
+  // device is no point; `output`: the point is an output. Returns -1 when there are too many devices.
   std::int64_t number_of(const std::string& name, const ladder::Device& device, int point, bool output);
   std::string name_of(std::uint32_t number) const;
-  // A value that this device can have; words take it with or without sign.
+  // True when a device of this type can have the value; words accept it with or without sign.
   static bool fits(ladder::DeviceType type, std::int64_t value);
 
   // ---- scan. NC_RT ----
@@ -36,14 +36,14 @@ class ForceTable {
   Answer release(std::uint32_t number) noexcept;
   void forget() noexcept { count_ = freed_ = 0; }
   bool any() const noexcept { return count_ + freed_ != 0; }
-  // At the head of a scan. What was released has again what it had before: a relay, or a signal to the NC, that no
-  // coil writes would stay as it was forced.
+  // To be called at the beginning of a scan. A released device gets back the value that it had before: without that, a relay or a signal to the
+  // NC that no coil writes would keep the forced value.
   void begin(ladder::DeviceImage* image, hal::PointImage* points) noexcept;
-  // Inputs of the machine, before they are read into the devices.
+  // Holds the input points, before they are read into the devices.
   void hold_inputs(hal::PointImage* points) const noexcept { hold_points(points, false); }
   void hold_outputs(hal::PointImage* points) const noexcept { hold_points(points, true); }
   void hold_devices(ladder::DeviceImage* image) const noexcept;
-  // The same for the engine, to hold them against the program; valid until the next command.
+  // The forced devices in the form that the engine needs to hold them while the program runs; valid until the next command.
   const ladder::Hold* holds(unsigned* count) noexcept;
   void list(ForceList* list) const noexcept;
 
@@ -60,19 +60,19 @@ class ForceTable {
     std::uint32_t number = 0;
     std::int32_t value = 0;
     std::int32_t before = 0;
-    bool begun = false;  // `before` is known
+    bool begun = false;  // `before` holds the value that the device had
   };
   void hold_points(hal::PointImage* points, bool outputs) const noexcept;
   void free(unsigned place) noexcept;
   static std::int32_t get(const Place& place, const ladder::DeviceImage& image) noexcept;
   static void set(const Place& place, std::int32_t value, ladder::DeviceImage* image) noexcept;
 
-  // Never moves: the scan reads places whose numbers came to it through the queue of commands.
+  // Never reallocated: the scan reads entries without a lock, by the numbers that reach it through the queue of commands.
   const std::unique_ptr<Place[]> places_;
   std::size_t names_ = 0;
-  mutable std::mutex mutex_;  // names_ and the names; not the scan's
+  mutable std::mutex mutex_;  // guards names_ and the names; never taken by the scan
   std::array<Active, kMaxForces> active_, released_;
-  unsigned count_ = 0, freed_ = 0;  // of them
+  unsigned count_ = 0, freed_ = 0;  // entries in use of active_ and released_
   std::array<ladder::Hold, kMaxForces> holds_;
 };
 

@@ -48,7 +48,7 @@ constexpr PointBusKind kPointBuses[] = {
      .on_virtual_time = "the lines are polled in real time, whatever the speed of the program"},
 };
 
-// "sim", "ethercat": the names that can be made.
+// The names of the kinds that are built in, as "sim", "canopen" in quotes.
 template <class Kind>
 std::string built_in(std::span<const Kind> kinds) {
   std::string list;
@@ -136,7 +136,7 @@ MadeMachine make_machine(const Config& config, const BusReport& report) {
 
 void wait_for_held_outputs(const MadeMachine& machine, const std::function<bool()>& give_up) {
   constexpr std::chrono::seconds kPatience{5};
-  constexpr std::chrono::milliseconds kLook{5}, kTaken{20};  // the second: some scans and a turn of the feeder, which take over what was found
+  constexpr std::chrono::milliseconds kLook{5}, kTaken{20};  // kTaken: time for some scans and a step of the feeder, which take over what was found
   const auto end = std::chrono::steady_clock::now() + kPatience;
   const auto waits = [](const std::unique_ptr<hal::PointBus>& bus) { return !bus->held_outputs_known(); };
   while (!give_up() && std::any_of(machine.buses.begin(), machine.buses.end(), waits) && std::chrono::steady_clock::now() < end)

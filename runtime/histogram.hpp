@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram of times in a fixed array: every power of two is divided into 32 equal buckets, so that any value
-// is known to about 3 %, from 1 ns to 1000 s, in 8 KB. One writer (the scan); readers may look at any time.
+// Histogram of times in a fixed array: every power of two is divided into 32 equal buckets, so that any value from 1 ns
+// to 1000 s is known to about 3 %, in 9 KB. One writer (the scan); readers may look at any time.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ class Histogram {
     return n == 0 ? 0.0 : static_cast<double>(sum_.load(std::memory_order_relaxed)) / static_cast<double>(n);
   }
 
-  // Smallest value that at least `fraction` of all records do not exceed (upper edge of its bucket, at most
-  // the maximum).
+  // The smallest value that at least `fraction` of all records do not exceed, to the resolution of the buckets: the upper edge of its bucket, at
+  // most the maximum.
   std::uint64_t percentile_ns(double fraction) const {
     const std::uint64_t n = count();
     if (n == 0) return 0;
@@ -57,7 +57,7 @@ class Histogram {
   static constexpr unsigned kPowers = 40 - kSubBits;
   static constexpr std::size_t kBuckets = (kPowers + 1) * kSub;
 
-  // Values below kSub have a bucket each; above, the top kSubBits+1 bits choose.
+  // Values below kSub have a bucket each; for larger values the top kSubBits + 1 bits choose the bucket.
   static std::size_t index_of(std::uint64_t value) noexcept {
     if (value < kSub) return static_cast<std::size_t>(value);
     const unsigned power =

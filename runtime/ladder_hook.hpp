@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the ladder stands in the scan: behind the inputs, before the NC. Without a ladder program the hook is
-// empty and the machine's own FIN goes to the NC.
+// The place of the ladder in the scan: after the inputs have been read, before the NC. Without a ladder program the hook is
+// empty, and the FIN of the machine goes to the NC directly.
 #pragma once
 
 #include "hal/hal.hpp"
@@ -10,11 +10,11 @@
 
 namespace nc::rt {
 
-// What the scan says of itself.
+// What the scan tells the ladder about its own state.
 struct LadderStatus {
   Mode mode = Mode::kAuto;
   bool alarm = false;      // an alarm is active that stops the machine
-  bool warning = false;    // one that lets a program end
+  bool warning = false;    // only warnings are active, which let a program go on to its end
   bool resetting = false;  // from the request to the end of the reset
   bool drives_on = true;
   std::uint64_t scan = 0;
@@ -25,8 +25,8 @@ struct LadderStatus {
 
 inline constexpr unsigned kLadderAlarms = 8;
 
-// What the ladder asks of the scan, beside what it writes into the inputs of the NC: levels, cleared before
-// every scan. When they act is the scan's business (runtime/scan_ladder.cpp).
+// What the ladder asks of the scan, in addition to what it writes into the inputs of the NC. All are levels, cleared before
+// every scan; on which edge they act is decided in runtime/scan_ladder.cpp.
 struct LadderRequests {
   bool cycle_start = false;
   bool reset = false;
@@ -34,15 +34,15 @@ struct LadderRequests {
   bool mode[3] = {};       // by Mode
   std::uint8_t alarm = 0;  // bit n: the ladder's alarm n+1
   bool stopped = false;    // the program has a fault and does not run
-  unsigned stopped_line = 0, stopped_fault = 0;  // ladder::Fault
-  std::uint32_t macro_input[NC_WORDS] = {};  // beside the points of #1000...
+  unsigned stopped_line = 0, stopped_fault = 0;  // line of the ladder program; ladder::Fault
+  std::uint32_t macro_input[NC_WORDS] = {};  // #1032 to #1035; combined by OR with the input points of #1000 ...
 
-  // By part system.
+  // What concerns one part system.
   struct System {
     std::uint32_t skip_switches = 0;  // bit n: optional block skip n
     bool recalculate = false;
-    bool rapid = false;          // of jogs
-    std::int32_t feed_override = -1, rapid_override = -1;  // 0.01 %; -1: none, the operator's holds
+    bool rapid = false;          // jogs go at rapid
+    std::int32_t feed_override = -1, rapid_override = -1;  // in 0.01 %; -1 = none given: that of the operator is in force
     std::int32_t jog_feed = 0;   // mm/min or deg/min
     std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n
     std::uint32_t interlocked[2] = {};  // bit n: axis n may not go in -, in +
@@ -52,13 +52,13 @@ struct LadderRequests {
   System system[NC_MAX_SYSTEMS];
 };
 
-// What a ladder reads and writes. All of it belongs to the scan thread; nothing in here may be kept.
+// What a ladder reads and writes. All of it belongs to the scan thread; no pointer in here may be kept after the call.
 struct LadderImage {
   const hal::PointTable* table;
-  hal::PointImage* points;   // inputs of this scan; outputs go out at the end of this scan
-  hal::Feedback* feedback;   // of this scan
-  const nc_outputs* nc_out;  // of the scan before: strobes and codes
-  nc_inputs* nc_in;  // what the NC gets in this scan, from panel and machine: the ladder has the last word
+  hal::PointImage* points;   // inputs of this scan; outputs are written to the machine at the end of this scan
+  hal::Feedback* feedback;   // measured in this scan
+  const nc_outputs* nc_out;  // outputs of the NC from the previous scan: strobes and codes
+  nc_inputs* nc_in;  // what the NC gets in this scan; filled from commands and machine, the ladder may overwrite it
   unsigned system_count;
   const LadderStatus* status;
   LadderRequests* requests;
@@ -69,7 +69,7 @@ class LadderHook {
  public:
   virtual ~LadderHook() = default;
   virtual void scan(LadderImage* image) noexcept { (void)image; }  // NC_RT
-  // After a fault: as at power on, with the next scan. NC_RT.
+  // After a fault: the program begins anew with the next scan, as at power on. NC_RT.
   virtual void restart() noexcept {}
 
   // ---- forced devices: held at a value whatever the program and the machine say. NC_RT. ----
@@ -81,7 +81,7 @@ class LadderHook {
     (void)number;
     return Answer::kNoLadder;
   }
-  // Behind the NC, which may have switched outputs too.
+  // Called after the NC, because a program of the NC may have switched outputs, too.
   virtual void hold_outputs(hal::PointImage* points) noexcept { (void)points; }
   virtual void list_forces(ForceList* list) const noexcept { list->count = 0; }
 };

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLargestProgram = 8u << 20;  // bytes of text
 
-// A pipe would be waited for, and a device may never end: only a file is read.
+// Only regular files are read: opening a pipe would block, and reading a device may never end.
 bool read_text(const std::string& path, std::string* text, std::string* error) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   struct stat status {};
@@ -51,11 +51,11 @@ std::unique_ptr<LadderTask> LadderTask::create(const Config& config, std::vector
   return task;
 }
 
-// A point has its own name; "<name>.good" is its quality. A point that the configuration ties to a signal of the
-// NC is not the program's to write.
+// The device of a point has the name of the point; the device "<name>.good" is its quality. The program must not write an output point that
+// the configuration connects with a signal of the NC.
 ladder::DeviceTable LadderTask::device_table(const Config& config, std::vector<ConfigError>* errors) {
   ladder::DeviceTable table;
-  for (const Signal& signal : machine_signals(config.nc))  // their names differ; a test says so
+  for (const Signal& signal : machine_signals(config.nc))  // all names differ, which a test checks
     (void)table.add(signal.name, signal.row->type, signal.row->direction == SignalDirection::kToNc, signal.row->meaning);
   for (unsigned p = 0; p < config.points.size(); ++p) {
     const hal::Point& point = config.points.at(p);
@@ -71,7 +71,7 @@ ladder::DeviceTable LadderTask::device_table(const Config& config, std::vector<C
 
 void LadderTask::find_places(const Config& config, const ladder::DeviceTable& table) {
   const std::vector<Signal> signals = machine_signals(config.nc);
-  to_nc_.reserve(signals.size());  // by_signal_ points into it
+  to_nc_.reserve(signals.size());  // no reallocation, because by_signal_ holds pointers into it
   for (const Signal& signal : signals) {
     const bool writable = signal.row->direction == SignalDirection::kToNc;
     (writable ? to_nc_ : from_nc_)
@@ -140,7 +140,7 @@ void LadderTask::restart() noexcept {
   engine_->reset_fault();
 }
 
-// ---- forced devices, and one device for others ----
+// ---- forced devices, and reading one device from another thread ----
 
 const ladder::Device* LadderTask::find_device(const std::string& name) const {
   const std::lock_guard lock(find_mutex_);
@@ -186,7 +186,7 @@ std::uint32_t LadderTask::read_device(const std::string& name, bool direct) {
     if (std::chrono::steady_clock::now() > give_up) {
       unsigned wanted = kWanted;
       if (question_.turn.compare_exchange_strong(wanted, kIdle)) return 0;
-      break;  // it has come after all
+      break;  // the answer has come just now
     }
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   }
@@ -219,7 +219,7 @@ std::vector<RetainedRow> LadderTask::retained() const {
   return rows_of(devices_);
 }
 
-// Devices that were not retained then, or are no more, are left out.
+// Sets the devices that were retained when the rows were written and are retained now. All others are skipped.
 void LadderTask::restore(const std::vector<RetainedRow>& rows) {
   for (const ladder::RetainedRange& range : ranges_)
     for (const RetainedRow& row : rows) {
@@ -273,7 +273,7 @@ void LadderTask::set(ladder::DeviceType type, std::uint32_t device, std::int32_t
   }
 }
 
-// What was asked for in read_device().
+// Answers the question of read_device(), if there is one.
 void LadderTask::answer() noexcept {
   if (question_.turn.load(std::memory_order_acquire) != kWanted) return;
   question_.value = get(question_.type, question_.index);
@@ -295,7 +295,7 @@ void LadderTask::scan(LadderImage* image) noexcept {
   }
   for (const PointPlace& place : inputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
-  // Outputs as they stand: the NC program may have switched them since.
+  // The output devices start from the output points, because the NC program may have switched them since the last scan.
   for (const PointPlace& place : outputs_)
     set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   for (const PointPlace& place : quality_) devices_.bit[place.device] = points.good[place.point];
@@ -308,7 +308,7 @@ void LadderTask::scan(LadderImage* image) noexcept {
     copy_retained(devices_, &copied_);
     turn_.store(kFilled, std::memory_order_release);
   }
-  if (engine_->fault() != ladder::kNoFault) {  // signals as if there were no program; outputs as they are
+  if (engine_->fault() != ladder::kNoFault) {  // signals to the NC get their safe values; output points keep theirs
     image->requests->stopped = true;
     image->requests->stopped_line = engine_->fault_line();
     image->requests->stopped_fault = engine_->fault();

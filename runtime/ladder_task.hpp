@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ladder program of the machine in its place in the scan: signals and points into the devices, the program,
-// devices back.
+// The ladder program of the machine in its place in the scan: signals and points are copied into the devices, the program runs, and the
+// devices are copied back.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ class LadderTask final : public LadderHook {
   // when it cannot be run.
   static std::unique_ptr<LadderTask> create(const Config& config, std::vector<ConfigError>* errors);
 
-  // The devices of a machine: its signals and points. What does not fit is an error.
+  // The devices that a machine adds to those of the ladder: its signals and points. One that cannot be added is an error.
   static ladder::DeviceTable device_table(const Config& config, std::vector<ConfigError>* errors);
 
   void scan(LadderImage* image) noexcept override;  // NC_RT
@@ -32,8 +32,8 @@ class LadderTask final : public LadderHook {
   void restart() noexcept override;
 
   // ---- forced devices ----
-  // Number of a device for CommandKind::kForce; the same name has the same number. -1 with a sentence when there
-  // is no such device, when it cannot have this value, or when it is not the user's to force. Any thread.
+  // Number of a device for CommandKind::kForce; a device always has the same number. -1 with a sentence in *error when there
+  // is no such device, when it cannot have this value, or when it belongs to the engine (SM, SD). Any thread.
   std::int64_t force_number(const std::string& name, std::int64_t value, std::string* error);
   std::string force_name(std::uint32_t number) const { return forces_.name_of(number); }
   Answer force(std::uint32_t number, std::int32_t value) noexcept override { return forces_.force(number, value); }
@@ -41,16 +41,16 @@ class LadderTask final : public LadderHook {
   void hold_outputs(hal::PointImage* points) noexcept override;
   void list_forces(ForceList* list) const noexcept override { forces_.list(list); }
 
-  // ---- one device, from another thread ----
-  // Its value in the present scan: asked for and waited for, so that the scan alone touches the devices. `direct`: the
-  // scan runs in this thread. 0 when there is no such device, or no scan.
+  // ---- reading one device from another thread ----
+  // The value of a device. The scan is asked for it and the call waits for the answer, so that only the scan accesses the devices. `direct`: the
+  // scan runs in the calling thread, so the device is read at once. 0 when there is no such device, or when no scan runs.
   std::uint32_t read_device(const std::string& name, bool direct);
 
   // ---- retained devices ----
   // To be called only while no scan runs.
   void restore(const std::vector<RetainedRow>& rows);
   std::vector<RetainedRow> retained() const;
-  // For one other thread while scans run: the first asks for a copy, the second takes it and is false until it is there.
+  // For one other thread while scans run: want_retained() asks for a copy; take_retained() takes it and is false until it is there.
   void want_retained();
   bool take_retained(std::vector<RetainedRow>* rows);
 
@@ -59,7 +59,7 @@ class LadderTask final : public LadderHook {
   // For monitors and tests; the image belongs to the scan thread.
   const ladder::DeviceImage& devices() const { return devices_; }
   const ladder::Engine& engine() const { return *engine_; }
-  // Value of a signal to the NC, by place in machine_signals(). Scan thread. NC_RT.
+  // Value of a signal to the NC, by its index in machine_signals(). Scan thread. NC_RT.
   std::int32_t signal(unsigned place) const noexcept;
 
  private:
@@ -87,24 +87,24 @@ class LadderTask final : public LadderHook {
 
   ladder::Program program_;
   std::unique_ptr<ladder::Engine> engine_;
-  ladder::DeviceImage devices_, fresh_;  // fresh_: as at power on
+  ladder::DeviceImage devices_, fresh_;  // fresh_: the state at power on
   std::vector<ladder::RetainedRange> ranges_;
   enum Turn : unsigned { kIdle, kWanted, kFilled };
   std::atomic<unsigned> turn_{kIdle};
-  ladder::DeviceImage copied_;  // of the retained devices; the scan's or the reader's, by turns
-  std::vector<const SignalPlace*> by_signal_;  // to the NC; null = from it
+  ladder::DeviceImage copied_;  // copy of the retained devices; turn_ says whether the scan or the reader may access it
+  std::vector<const SignalPlace*> by_signal_;  // for each signal its entry in to_nc_; null for a signal from the NC
   std::vector<SignalPlace> from_nc_, to_nc_;
   std::vector<PointPlace> inputs_, outputs_, quality_;
-  const hal::PointTable* points_ = nullptr;  // of the configuration
+  const hal::PointTable* points_ = nullptr;  // point table of the configuration
   ForceTable forces_;
-  mutable std::mutex find_mutex_;  // Engine::find() is for one caller; never taken by the scan
+  mutable std::mutex find_mutex_;  // Engine::find() must not be called by two threads at once; never taken by the scan
   struct Question {
     std::atomic<unsigned> turn{kIdle};
     ladder::DeviceType type = ladder::DeviceType::kBit;
     std::uint32_t index = 0;
     std::int32_t value = 0;
   };
-  Question question_;  // of read_device()
+  Question question_;  // what read_device() asks of the scan
   std::vector<std::string> warnings_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine of CANopen drives out of the configuration, and what it has for itself alone. See machine_canopen.hpp.
+// Makes a machine of CANopen drives from the configuration, and names what no other control may use at the same time. See machine_canopen.hpp.
 #include "runtime/machine_canopen.hpp"
 
 #include <cstdio>

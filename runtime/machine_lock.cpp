@@ -24,7 +24,7 @@
 namespace nc::rt {
 namespace {
 
-// ---- what is one thing ----
+// ---- keys ----
 
 void add_file(const std::string& path, const std::string& meaning, std::vector<MachineResource>* resources) {
   std::error_code ignored;
@@ -34,7 +34,7 @@ void add_file(const std::string& path, const std::string& meaning, std::vector<M
 
 // ---- names of sockets ----
 
-// Names are short and keys are not: 64 bits of FNV-1a of the key.
+// The name of a socket is limited in length and a key is not. So the name holds a hash of the key (FNV-1a, 64 bits).
 std::string socket_name(const std::string& key) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : key) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
@@ -50,7 +50,7 @@ socklen_t abstract_address(const std::string& name, sockaddr_un* address) {
   return static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
 }
 
-// ---- who has it ----
+// ---- the process that holds a lock ----
 
 std::string process_text(long pid) {
   if (pid <= 0) return "another process";
@@ -59,7 +59,8 @@ std::string process_text(long pid) {
   return "process " + std::to_string(pid) + (name.empty() ? "" : " (" + name + ")");
 }
 
-// The process that listens on a name. 0 = not known (another process namespace), -1 = nobody listens.
+// The process that listens on the socket of this name. 0 = there is one, but its number is not known (another process namespace); -1 = no process
+// listens.
 long listener_of(const sockaddr_un& address, socklen_t length) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (fd < 0) return 0;
@@ -74,7 +75,8 @@ long listener_of(const sockaddr_un& address, socklen_t length) {
   return pid;
 }
 
-// The holder of a flock(), out of the kernel's list: "1: FLOCK  ADVISORY  WRITE 1234 08:01:5678 0 EOF".
+// The process that holds a flock() on the file, from the kernel's list, whose lines are such as "1: FLOCK  ADVISORY  WRITE 1234 08:01:5678 0 EOF". 0 =
+// not known.
 long flock_holder(const struct stat& file) {
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
@@ -92,7 +94,7 @@ std::string taken_text(const std::string& meaning, long pid) {
   return meaning + " is in use: " + process_text(pid) + " runs this machine";
 }
 
-// The descriptor, or -1 with a sentence.
+// Takes one lock. Returns its descriptor, or -1 with a sentence in *error.
 int take_one(const MachineResource& resource, std::string* error) {
   const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (fd < 0) {
@@ -101,7 +103,7 @@ int take_one(const MachineResource& resource, std::string* error) {
   }
   sockaddr_un address;
   const socklen_t length = abstract_address(socket_name(resource.key), &address);
-  constexpr int kAttempts = 50;  // of one that is being ended, or has not come to listen yet
+  constexpr int kAttempts = 50;  // while no process listens: the holder is just ending, or has not called listen() yet
   for (int i = 0; i < kAttempts; ++i) {
     if (bind(fd, reinterpret_cast<const sockaddr*>(&address), length) == 0 && listen(fd, SOMAXCONN) == 0) return fd;
     const int problem = errno;
@@ -130,8 +132,8 @@ std::vector<MachineResource> machine_resources(const Config& config, bool retain
   if (retained)
     for (const std::string& path : {config.retain_path(), config.variables_path(), config.offsets_path()})
       if (!path.empty()) add_file(path, "the file of retained data", &resources);
-  // Always in the same order, so that two that come at once do not take each other's; and each once, also where two links
-  // lead to one unit.
+  // All controls take their locks in the same order: then of two that start at the same time and share several things, one gets all of these. Each
+  // resource is listed once, even where two links lead to the same unit.
   const auto before = [](const MachineResource& a, const MachineResource& b) { return a.key < b.key; };
   const auto same = [](const MachineResource& a, const MachineResource& b) { return a.key == b.key; };
   std::stable_sort(resources.begin(), resources.end(), before);

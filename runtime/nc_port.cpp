@@ -53,7 +53,7 @@ std::string LibNc::tables() {
 }
 nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
   const nc_status status = nc_text_get(control_, api_system(system), id, text);
-  if (status == NC_OK && text->size == 0) make_valid(text->s, sizeof text->s);  // a line of BPRNT is bytes
+  if (status == NC_OK && text->size == 0) make_valid(text->s, sizeof text->s);  // size != 0: bytes of BPRNT, which stay as they are
   return status;
 }
 

@@ -27,24 +27,24 @@ class NcPort {
   virtual unsigned alarm_calls(unsigned /*system*/, nc_source* /*calls*/, unsigned /*capacity*/) { return 0; }
   virtual nc_status modal(unsigned system, std::uint32_t id, nc_modal* modal) = 0;
   virtual nc_status text(unsigned system, std::uint32_t id, nc_text* text) = 0;
-  // What is read beyond the block in execution is given up and read again; NC_WAITING: call again.
+  // Drops what was read ahead of the block in execution, so that it is read again. NC_WAITING: call again.
   virtual nc_status recalculate(unsigned system) {
     (void)system;
     return NC_OK;
   }
-  // What the bits `mask` of #1132..#1135 read until a block writes them; in front of select() and load_mdi().
+  // Gives the values that the bits in `mask` of a word #1132 to #1135 have until a block writes them. To be called before select() and load_mdi().
   virtual void outputs(unsigned system, unsigned word, std::uint32_t mask, std::uint32_t bits) { (void)system, (void)word, (void)mask, (void)bits; }
-  // Positions as the counters show them: changes what lies beyond one turn of a rotary axis that has only one.
+  // Changes positions to what the counters show: the position of a rotary axis that is shown within one turn is reduced to that turn.
   virtual void shown(unsigned system, nc_axes* machine, nc_axes* work) {
     (void)system, (void)machine, (void)work;
   }
-  // What the blocks that were executed have left, for the data that are kept while the power is off: the common variables
-  // (runtime/retain/variables.hpp), offsets and parameters (runtime/retain/tables.hpp).
+  // The data that are kept while the power is off, as the executed blocks have left them: the common variables
+  // (runtime/retain/variables.hpp); offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
   virtual std::string tables() { return {}; }
 };
 
-// libnc behind the port; `system` counts from 0.
+// The port implemented by libnc; `system` counts from 0.
 class LibNc final : public NcPort {
  public:
   LibNc(nc_control* control, const nc_config& config) : control_(control), config_(config) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the runtime's part system index (0...) is named towards the C API.
+// Converts the runtime's index of a part system, which counts from 0, to that of the C API.
 #pragma once
 
 namespace nc::rt {

@@ -25,7 +25,7 @@ const char* asked_text(Asked asked) {
 
 }  // namespace
 
-// Without a default, so that a reason that is new is not forgotten here: the compiler asks for it.
+// The switch has no default, so that the compiler reports a new answer that is missing here.
 RefusalCause refusal_cause(Answer why) {
   switch (why) {
     case Answer::kDone: return RefusalCause::kNone;
@@ -89,7 +89,7 @@ std::string refusal_text(const Config& config, unsigned system, const Refusal& r
   std::string text = asked_text(refusal.asked);
   const nc_system_config& axes = config.nc.system[system];
   if (refusal.axis >= 0 && refusal.axis < static_cast<int>(axes.axis_count)) text += std::string(" ") + axes.axis[refusal.axis].name;
-  const bool waits = refusal.why == Answer::kNoJogFeed;  // it goes when the feed is turned up
+  const bool waits = refusal.why == Answer::kNoJogFeed;  // the jog begins as soon as the feed is turned up
   return text + (waits ? " waits: " : refusal.stopped ? " stopped: " : " refused: ") + answer_text(refusal.why);
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// "This thread is inside the body of a scan": what NC_RT promises is checked against this flag by the test
-// that traps allocation, locks and system calls. Setting it costs two stores per scan.
+// A flag that says whether this thread is inside the body of a scan. A test traps allocations, locks and system calls while the flag is set, and so
+// checks what NC_RT promises. Setting the flag costs two stores per scan.
 #pragma once
 
 namespace nc::rt {
 
-// A char of its own, because the kernel reads it too (syscall user dispatch in the test): 0 = outside, 1 =
-// inside.
+// 0 = outside of a scan, 1 = inside. It is a single char because the kernel reads it, too: the test uses syscall user
+// dispatch.
 inline thread_local volatile unsigned char t_in_scan = 0;
 
 class RtScope {

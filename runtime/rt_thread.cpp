@@ -17,13 +17,13 @@ namespace nc::rt {
 namespace {
 
 #if defined(NC_UNDER_SANITIZER)
-constexpr std::size_t kStackBytes = 8 << 20;  // a sanitizer keeps its own data there
+constexpr std::size_t kStackBytes = 8 << 20;  // a sanitizer keeps data of its own on the stack
 #else
 constexpr std::size_t kStackBytes = 256 * 1024;
 #endif
 constexpr std::size_t kPrefaultBytes = 128 * 1024;
 
-// Touches the stack so that no page of it is missing later.
+// Touches the pages of the stack, so that no page fault happens later.
 __attribute__((noinline)) void prefault_stack() {
   volatile unsigned char block[kPrefaultBytes];
   for (std::size_t i = 0; i < sizeof block; i += 4096) block[i] = 0;

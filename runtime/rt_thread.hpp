@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real-time set-up of the process and a thread with a small stack that may run under SCHED_FIFO.
+// Real-time set-up of the process, and a thread with a small stack that may run under SCHED_FIFO.
 //
-// What is asked for and not allowed is a warning, never a failure: the same program runs on a desk and on a
+// A request that the system does not allow gives a warning, never a failure: the same program runs on a desk computer and on a
 // machine.
 #pragma once
 
@@ -15,11 +15,11 @@
 
 namespace nc::rt {
 
-// Before any other thread exists: one malloc arena (each further one would be locked into memory), no
-// trimming.
+// To be called before any other thread exists: sets malloc to one arena, because each further one would be locked into memory, and turns trimming
+// off.
 void limit_allocator();
 
-// Locks what is mapped now and later. Call when all memory is there; adds a sentence when it is not allowed.
+// Locks all memory that is mapped now or later. To be called when all memory is allocated; adds a warning when that is not allowed.
 void lock_memory(std::vector<std::string>* warnings);
 
 // A thread with a fixed, pre-faulted stack.
@@ -41,9 +41,9 @@ class RtThread {
   bool running_ = false;
 };
 
-// For the calling thread, as the last thing before its loop: SCHED_FIFO and the core, as configured.
+// Gives the calling thread SCHED_FIFO and its core, as configured. To be called last before its loop.
 void promote_scan_thread(const SchedulingConfig& scheduling, std::vector<std::string>* warnings);
-// For a helper thread: timers without the slack of 50 us that Linux gives ordinary threads.
+// Gives the calling thread timers without the slack of 50 us that ordinary threads have on Linux.
 void sharpen_timers();
 
 }  // namespace nc::rt

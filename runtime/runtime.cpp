@@ -23,11 +23,11 @@ namespace {
 
 constexpr std::size_t kControlAlignment = 64;
 constexpr std::uint32_t kNoCode = ~0u;
-constexpr unsigned kAnswerSteps = 100;  // virtual time: scans until an answer must be there
-constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // real time: of the scan
-constexpr auto kFeederTime = std::chrono::seconds(10);  // of the feeder, which waits for files that are written (ProgramText::Options) and reads them
+constexpr unsigned kAnswerSteps = 100;  // on virtual time: number of scans within which an answer must come
+constexpr auto kAnswerTime = std::chrono::milliseconds(500);  // in real time: time within which the scan must answer
+constexpr auto kFeederTime = std::chrono::seconds(10);  // the same for the feeder, which reads files and may wait for one that is being written (ProgramText)
 
-// "M6", "M3 S": the groups that wait; the code of the first of M and T, where it has been given out.
+// The groups that wait, such as "M6" or "M3 S". M or T is shown with its code when the code has been given out.
 std::string fin_groups(std::uint32_t groups, std::uint32_t code) {
   std::string text;
   bool coded = false;
@@ -43,7 +43,7 @@ std::string fin_groups(std::uint32_t groups, std::uint32_t code) {
   return text;
 }
 
-// What is wrong with the handshake, and what it holds up.
+// What is wrong with the handshake of FIN or of a clamp, as a sentence.
 std::string fin_fault_text(std::uint32_t fault, std::uint32_t code) {
   if (fault == kNotUnclamped) return "The index table is not unclamped";
   if (fault == kNotClamped) return "The index table is not clamped";
@@ -71,7 +71,7 @@ Runtime::Runtime(const Config& config, const RuntimeParts& parts) : config_(conf
 std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimeParts& parts,
                                          std::vector<ConfigError>* errors) {
   std::unique_ptr<Runtime> runtime(new Runtime(config, parts));
-  // Both are looked at, so that every mistake is reported at once.
+  // The ladder program is compiled even when the control cannot be made, so that all mistakes are reported at once.
   bool good = parts.nc != nullptr || runtime->make_control(errors);
   if (parts.ladder == nullptr && !config.ladder.program.empty()) {
     runtime->own_ladder_ = LadderTask::create(config, errors);
@@ -184,7 +184,7 @@ bool Runtime::start(std::string* error) {
   if (control_ != nullptr && !config_.offsets_path().empty())
     keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
   keeper_->restore(&warnings_);
-  feeder_->step();  // the first blocks are there before the first scan
+  feeder_->step();  // reads the first blocks before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {
     parts_.hal->stop();
     return false;
@@ -198,7 +198,7 @@ bool Runtime::start(std::string* error) {
     stop();
     return false;
   }
-  // Last, when every stack and buffer is there.
+  // Memory is locked last, when all stacks and buffers exist.
   if (config_.scheduling.lock_memory) lock_memory(&warnings_);
   while (!thread_warnings_ready_.load(std::memory_order_acquire))
     std::this_thread::sleep_for(std::chrono::microseconds(100));
@@ -214,7 +214,7 @@ void Runtime::stop() {
     feeder_thread_.join();
     running_ = false;
     parts_.hal->stop();
-    keeper_->stop();  // writes what the last scan left
+    keeper_->stop();  // writes the data that the last scan has left
   } else if (stepping_) {
     stepping_ = false;
     parts_.hal->stop();
@@ -239,14 +239,14 @@ void Runtime::feeder_thread() {
     const timespec timeout{0, period_ns};
     if (ppoll(&wake, 1, &timeout, nullptr) <= 0) continue;
     std::uint64_t count = 0;
-    if (read(wake_fd_, &count, sizeof count) < 0) continue;  // someone else's wake-up: nothing to take
+    if (read(wake_fd_, &count, sizeof count) < 0) continue;  // the counter was 0 already
   }
-  feeder_->step();  // what the last scans executed
+  feeder_->step();  // takes the events of the last scans
 }
 
 void Runtime::wake_feeder() {
   const std::uint64_t one = 1;
-  if (wake_fd_ >= 0 && write(wake_fd_, &one, sizeof one) < 0) return;  // full: it is awake already
+  if (wake_fd_ >= 0 && write(wake_fd_, &one, sizeof one) < 0) return;  // the counter is full, so the feeder is awake already
 }
 
 std::vector<std::string> Runtime::warnings() const {
@@ -261,7 +261,7 @@ std::vector<std::string> Runtime::warnings() const {
 bool Runtime::find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer) {
   CommandAnswer found;
   while (from_feeder ? feeder_->poll_answer(&found) : scan_->poll_answer(&found)) {
-    if (found.ticket != ticket) continue;  // of a command that was given up
+    if (found.ticket != ticket) continue;  // the answer to an earlier command that was given up
     *answer = found.answer;
     return true;
   }
@@ -292,7 +292,7 @@ Answer Runtime::execute_alone(Command command) {
   while (!find_answer(command.ticket, feeder, &answer)) {
     if (std::chrono::steady_clock::now() > give_up) {
       if (!feeder || taken_back || feeder_->take_back(command.ticket)) return Answer::kNoAnswer;
-      taken_back = true;  // too late for that: what it does it does now
+      taken_back = true;  // the feeder is executing the command already, so its answer is waited for
       give_up += kAnswerTime;
     }
     std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -367,7 +367,7 @@ std::string Runtime::explain(Answer answer) const {
   return text.empty() ? answer_text(answer) : text;
 }
 
-// M700 13.5.5: the device of #100100 by its code in the manual's table, as the program of the machine names it.
+// M700 13.5.5: reads a device of the ladder for #100100. `code` is the device's code in the manual's table; the rows give its name in the ladder program.
 void Runtime::read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value) {
   struct Row {
     unsigned code;
@@ -389,13 +389,13 @@ void Runtime::read_device(void* self, unsigned code, std::uint32_t number, std::
   }
 }
 
-// "common variables are lost and are vacant: ...": the keeper's sentence.
+// What the keeper says of the trouble, such as ": common variables are lost and are vacant: ...".
 std::string Runtime::retain_text(const ActiveAlarm& alarm) const {
   const std::string why = keeper_ != nullptr ? keeper_->trouble(alarm.detail / 4) : "";
   return why.empty() ? "" : ": " + why;
 }
 
-// "mill.il:40: CJ P1: watchdog: ...", without the folder.
+// The fault of the ladder program, such as "mill.il:40: CJ P1: watchdog: ...", with the file named as in the configuration.
 std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
   if (own_ladder_ == nullptr) return "line " + std::to_string(alarm.detail);
   std::string text = own_ladder_->engine().fault_text(alarm.code, alarm.detail);
@@ -404,7 +404,7 @@ std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
   return text;
 }
 
-// A line of a sub program is one of another text than the operator has selected.
+// A line as text. For a line of a sub program it names that program, because its text is not the one that the operator has selected.
 static std::string line_text(const nc_source& source) {
   const std::string sub = source.program != 0 ? "O" + std::to_string(source.program) : "sub program";
   return (source.depth != 0 ? sub + ", " : "") + "line " + std::to_string(source.line);
@@ -412,14 +412,14 @@ static std::string line_text(const nc_source& source) {
 
 static std::string place_text(const nc_source& source) { return source.line == 0 ? "" : " (" + line_text(source) + ")"; }
 
-// The blocks that called the program of the alarm, outermost first: ", called by line 12 > O9001, line 4".
+// The blocks that called the program of the alarm, outermost first, such as ", called by line 12 > O9001, line 4".
 static std::string callers_text(const FeederInfo::System& info) {
   std::string text;
   for (std::uint32_t i = 0; i + 1 < info.alarm_calls; ++i) text += (i == 0 ? ", called by " : " > ") + line_text(info.alarm_call[i]);
   return text;
 }
 
-// ": spindle, actual position"
+// The names of the inputs that were refused, such as ": spindle, measured position".
 static std::string bad_input_text(std::uint32_t bits) {
   struct Row {
     std::uint32_t bit;

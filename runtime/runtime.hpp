@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The runtime: a control, its machine, the scan and the feeder, and the operator's commands.
 //
-//   real time:     start() makes two threads, the scan (SCHED_FIFO, absolute deadlines) and the feeder;
-//   stop() ends them virtual time:  step() runs the feeder once and the scan once, in the caller's thread, as
-//   often as it likes:
-//                  deterministic, and as fast as the processor
+//   real time:     start() makes two threads, the scan (SCHED_FIFO, absolute deadlines) and the feeder; stop() ends them
+//   virtual time:  each step() runs the feeder once and the scan once in the caller's thread: a run is deterministic, and as fast as the
+//                  processor allows
 //
-// Commands may come from several threads: one waits for the other. Everything else about a Runtime may be read from any thread.
+// Commands may come from several threads; they are executed one after the other. Everything that "anyone" may read may be read from any thread.
 #pragma once
 
 #include <atomic>
@@ -28,8 +27,8 @@ namespace nc::rt {
 struct RuntimeParts {
   Clock* clock = nullptr;        // required
   hal::Hal* hal = nullptr;       // required
-  LadderHook* ladder = nullptr;  // none = the program of the configuration, or an empty one
-  NcPort* nc = nullptr;          // none = libnc, made from the configuration
+  LadderHook* ladder = nullptr;  // null = the ladder program of the configuration, or none
+  NcPort* nc = nullptr;          // null = libnc, created from the configuration
 };
 
 class Runtime {
@@ -42,15 +41,15 @@ class Runtime {
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 
-  // The control, for programs and tables before the start (afterwards it belongs to the feeder). Null with a
-  // foreign NcPort.
+  // The control, to load programs and tables before the start; afterwards it belongs to the feeder. Null when RuntimeParts::nc
+  // is given.
   nc_control* control() { return control_; }
   const nc_control* control() const { return control_; }
   // The configuration's ladder program; null without one.
   const LadderTask* ladder() const { return own_ladder_.get(); }
-  // Values of the signals, for one reader.
+  // The values of the signals, for a single reader.
   SignalBoard* signals() { return board_.get(); }
-  // Before the start.
+  // To be set before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
   // Code of an alarm: of the table of the runtime, or of the family. Not for kProgram, whose code comes with it.
   std::string alarm_code(AlarmId id) const;
@@ -58,39 +57,39 @@ class Runtime {
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
 
   // ---- real time ----
-  // False with a sentence in *error when the machine or a thread does not come up; outputs are safe then.
+  // False with a sentence in *error when the machine or a thread cannot be started; the outputs are safe then.
   bool start(std::string* error);
   void stop();
   bool running() const { return running_; }
-  std::vector<std::string> warnings() const;  // what the system did not allow; complete after the first scan
+  std::vector<std::string> warnings() const;  // of the configuration, and of what the system did not allow; complete after the first scan
   std::int64_t first_scan_ns() const { return first_scan_ns_.load(); }  // CLOCK_MONOTONIC; 0 = not yet
 
   // ---- virtual time ----
-  // Brings the machine up without threads. Retained devices begin with 0: the same run gives the same result.
+  // Starts the machine without threads. Retained devices begin with 0, so that the same run always gives the same result.
   bool start_stepping(std::string* error);
   void step();
 
-  // How programs are found by name. Before the start.
+  // Finds programs by name. To be set before the start.
   void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
-  // Called in front of new MDI blocks, to enter the present texts of the sub programs that they may call. To be set before the start.
+  // Called after new MDI blocks have been loaded, to enter the present texts of the programs that they may call. To be set before the start.
   void set_program_refresh(ProgramRefresh refresh) { feeder_->set_program_refresh(std::move(refresh)); }
-  // Says which files have changed meanwhile. Before the start.
+  // Says which files of programs have changed since they were read. To be set before the start.
   void set_changed_programs(ChangedPrograms changed) { feeder_->set_changed_programs(std::move(changed)); }
-  // A part program that will be selected again, be MDI selected now: its place in the store must stay. Feeder thread.
+  // True for a part program that is selected, or that will be selected again after MDI: its entry in the store must stay. Feeder thread.
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
 
   // ---- operator ----
-  // Hands the command over and waits for the answer (on virtual time by stepping).
+  // Hands over the command and waits for the answer; on virtual time it calls step() meanwhile.
   Answer execute(Command command);
-  // Of all part systems where the command may be, as a button of the panel is; else of the first.
+  // The command is for all part systems if that is possible (takes_all_systems()), as from a button of the panel; otherwise it is for the first one.
   Answer execute(CommandKind kind, double value = 0, std::uint32_t number = 0);
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
   Answer load_mdi(const std::string& text, unsigned system = 0);
-  Answer select_program(unsigned system, const std::string& name);  // through the program loader
+  Answer select_program(unsigned system, const std::string& name);  // the program loader finds the program
   // A device of the ladder is held at a value until it is released; "" releases all of them.
   Answer force(const std::string& device, std::int64_t value);
   Answer release(const std::string& device);
-  // What the last answer means, with the reason where one is known. The thread that got it, before its next command.
+  // What the last answer means, with its reason when that is known. To be called by the thread that got the answer, before its next command.
   std::string explain(Answer answer) const;
   std::string forced_name(std::uint32_t number) const;
 
@@ -121,7 +120,7 @@ class Runtime {
   std::unique_ptr<LadderTask> own_ladder_;
   std::unique_ptr<SignalBoard> board_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
-  std::string refused_;                   // a force, under operator_
+  std::string refused_;                   // why a force was refused; guarded by operator_
   struct FreeMemory {
     void operator()(void* memory) const;
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the address or the thread sanitizer is built in: they replace the allocator and need more stack. GCC says it by macros of its own,
-// clang by features.
+// NC_UNDER_SANITIZER is defined when the address or the thread sanitizer is built in: they replace the allocator and need more stack. GCC tells it
+// by macros, clang by __has_feature.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

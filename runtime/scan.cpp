@@ -18,10 +18,10 @@ hal::PointImage initial_image(const hal::PointTable& points) {
   return image;
 }
 
-// A reset is held for some scans, so that its edge is seen whatever the state.
+// A reset is given to the NC for at least this number of scans, so that its edge is seen in every state.
 constexpr unsigned kResetMinScans = 2;
 
-// M700 10.6: the ladder selects the spindles, or points that the selection signals are wired to.
+// M700 10.6: true when the spindles are selected by the ladder, or by points that are wired to the selection signals.
 bool selects_spindles(const Config& config) {
   const std::vector<Signal> signals = machine_signals(config.nc);
   return !config.ladder.program.empty() || std::any_of(config.wires.begin(), config.wires.end(), [&](const SignalWire& wire) {
@@ -29,7 +29,7 @@ bool selects_spindles(const Config& config) {
   });
 }
 
-// Time for the execution histogram; clock_gettime() of the monotonic clock does not enter the kernel.
+// The time for the execution histogram. clock_gettime() of the monotonic clock does not enter the kernel.
 std::int64_t processor_ns() noexcept {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -64,10 +64,11 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
   create_axes();
   std::uint32_t mapped[NC_WORDS];
   macro_.mapped(mapped);
-  tell_found_outputs(mapped);  // their points may begin with another value than 0
+  tell_found_outputs(mapped);  // the points of macro outputs may begin with another value than 0
 }
 
-// What a program reads of its outputs is the feeder's: it is told of those that the bus has found.
+// Programs read their macro outputs from the control, which the feeder supplies. So the feeder is told of outputs that a bus has found with
+// another value.
 void Scan::tell_found_outputs(const std::uint32_t found[NC_WORDS]) noexcept {
   for (unsigned w = 0; w < NC_WORDS; ++w) {
     output_value_[w].store(macro_.output()[w], std::memory_order_relaxed);
@@ -85,8 +86,8 @@ void Scan::loop_step() noexcept {
   const std::int64_t started = processor_ns();
   run_once();
   statistics_.execution.record(processor_ns() - started);
-  // A scan that ends behind its slot is an overrun. Late by less than a period: the next one runs at once.
-  // Later: the missed slots are skipped. The NC's time advances one cycle per scan, so no set-point jumps.
+  // A scan that ends after the end of its slot is an overrun. If it is late by less than a period, the next scan runs at once.
+  // If it is later, the missed slots are skipped. The NC's time advances by one cycle per scan, so no set-point jumps.
   const std::int64_t late = clock_->now_ns() - (next_ns_ + period_ns_);
   next_ns_ += period_ns_;
   if (late < 0) return;
@@ -136,7 +137,8 @@ void Scan::read_inputs() noexcept {
   build_nc_inputs();
 }
 
-// What the machine says of spindles that it does not turn is not believed ([[spindle]]); a point whose bus is silent measures nothing.
+// Replaces what the machine reports of spindles whose speed it does not measure ([[spindle]]) by the value of the configured point. The speed counts as
+// not measured when no point is configured or the bus of the point does not answer.
 void Scan::bind_spindles() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
@@ -157,14 +159,16 @@ void Scan::take_commands() noexcept {
   while (answered_count_ < std::size(answered_) && commands_.pop(&command)) answered_[answered_count_++] = {command.ticket, apply(command)};
 }
 
-// Behind the snapshot: who has an answer finds what the command has done, and so does the feeder in front of the next command.
+// Called after the snapshot is published. So a client that has its answer finds the effect of the command in the snapshot, and so does the feeder before
+// it executes the next command.
 void Scan::answer_commands() noexcept {
-  // The ring of answers is larger than the ring of commands; an operator who never looks loses answers, not commands.
+  // A full ring of answers loses answers, not commands. That happens only when nobody fetches the answers, because the ring is larger than that of the
+  // commands.
   for (unsigned n = 0; n < answered_count_; ++n) (void)answers_.push(answered_[n]);
   answered_count_ = 0;
 }
 
-// Bit per part system; 0 = there is none of this number.
+// The part systems that a command names, one bit each; 0 = the part system does not exist.
 std::uint32_t Scan::named_systems(const Command& command) const noexcept {
   if (command.system == kAllSystems) return all_systems();
   return command.system < systems_ ? 1u << command.system : 0;
@@ -189,7 +193,7 @@ Answer Scan::apply(const Command& command) noexcept {
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;
-      if (mode_ == Mode::kManual) request_reset();  // which a feed hold does not stop
+      if (mode_ == Mode::kManual) request_reset();  // manual motion is stopped by a reset, but not by a feed hold
       else hold(all_systems());
       return Answer::kDone;
     case CommandKind::kReset:
@@ -216,13 +220,14 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
     case CommandKind::kSwitches:
-      break;  // the feeder's
+      break;  // these are commands for the feeder
   }
   return Answer::kOutOfRange;
 }
 
-// Also of what does not run yet: a start of this scan does not go to the NC, and one that waits there is taken back. The start of a button
-// comes behind the commands of its scan (follow_ladder()), and is taken back in start_cycle().
+// Holds programs that run, and cancels starts of this scan: a start that was commanded earlier in this scan is removed here, before the NC sees it, and a
+// hold also reaches a start that the NC has not carried out yet. The start of a button comes after the commands of its scan (follow_ladder()), so
+// start_cycle() cancels it.
 void Scan::hold(std::uint32_t systems) noexcept {
   const std::uint32_t taken_back = start_pulse_ & systems;
   for (unsigned s = 0; s < systems_; ++s)
@@ -232,7 +237,7 @@ void Scan::hold(std::uint32_t systems) noexcept {
   held_now_ |= systems;
 }
 
-// A program in a block stop may be interrupted by manual motion; it goes on in the mode in which it was
+// A program that is stopped at the end of a block may be interrupted by manual motion. To go on, it needs the mode in which it was
 // started.
 Answer Scan::set_mode(Mode mode) noexcept {
   if (mode == mode_) return Answer::kDone;
@@ -252,9 +257,9 @@ Answer Scan::set_mode(Mode mode) noexcept {
   return Answer::kDone;
 }
 
-// What a start of these part systems acts on: a program that is interrupted goes on, else what lies ready for this mode begins. The one
-// button of them all begins nothing beside a program that runs or is interrupted: what has ended meanwhile must not begin again because its
-// neighbour goes on. Who names a part system wants that one to begin.
+// The part systems in which a start has an effect: an interrupted program goes on, otherwise the program that is ready for this mode begins. A start of
+// all part systems (`all`) begins no program while one of them runs or is interrupted: a program that has ended meanwhile must not begin again just
+// because the program of another part system goes on. A start that names one part system begins its program even then.
 std::uint32_t Scan::ready_systems(std::uint32_t systems, bool all) const noexcept {
   const std::uint32_t loaded = loaded_.load(std::memory_order_acquire), wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
   const std::uint32_t active = active_systems();
@@ -269,7 +274,7 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
-  // An alarm that does not stop keeps the next program from starting, not one from going on.
+  // A warning prevents the next program from starting; it does not prevent an interrupted one from going on.
   if (alarms_.stops()) return Answer::kAlarmActive;
   const std::uint32_t ready = ready_systems(systems, all), active = active_systems();
   if ((systems & active) == 0 && alarms_.waits_for_reset()) return Answer::kWarningActive;
@@ -298,7 +303,7 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   return Answer::kDone;
 }
 
-// M700 10.5: an axis that is a spindle as long as its servo is off.
+// M700 10.5: true for an axis that is also a spindle and whose servo is off, so that it turns as a spindle now.
 bool Scan::is_spindle_now(unsigned system, unsigned axis) const noexcept {
   return config_.nc.system[system].axis[axis].spindle != 0 && (out_[system].servo_ready >> axis & 1u) == 0;
 }
@@ -309,7 +314,7 @@ void Scan::build_nc_inputs() noexcept {
     nc_inputs& in = in_[s];
     const hal::SystemFeedback& machine = feedback_.system[s];
     in.cycle_start = (start_pulse_ >> s & 1u) != 0;
-    in.feed_hold = (hold_request_ >> s & 1u) != 0;  // or the machine's: run_ladder()
+    in.feed_hold = (hold_request_ >> s & 1u) != 0;  // run_ladder() adds the feed hold of the machine
     in.reset = reset_phase_ == ResetPhase::kStopping;
     in.single_block = (single_block_ >> s & 1u) != 0;
     in.optional_stop = (optional_stop_ >> s & 1u) != 0;
@@ -318,13 +323,13 @@ void Scan::build_nc_inputs() noexcept {
     in.interlock = false;
     in.macro_interrupt = false;
     in.manual_absolute_off = false;
-    // A program alarm is libnc's own state; the level is for what the machine does wrong.
+    // The level tells the NC of alarms of the machine. A program alarm does not set it, because it is a state of libnc itself.
     in.alarm = false;
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
     in.unclamped = machine.unclamped;
     in.mirror = 0;
-    in.feed_override = feed_override_[s];  // but for decide_overrides()
+    in.feed_override = feed_override_[s];  // decide_overrides() may replace it
     in.rapid_override = rapid_override_[s];
     std::copy(std::begin(machine.spindle), std::end(machine.spindle), in.spindle);
     in.spindle_select = selects_spindles_ ? 0 : 1;
@@ -343,7 +348,7 @@ void Scan::build_nc_inputs() noexcept {
 // ---- 4 outputs ----
 
 void Scan::write_outputs() noexcept {
-  if (!drives_off_ && !drives_not_following()) watch_soft_limits();  // the axes may have coasted anywhere
+  if (!drives_off_ && !drives_not_following()) watch_soft_limits();  // not while drives are off: coasting axes may be anywhere
   drives_off_ |= machine_faulty();
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
@@ -373,7 +378,7 @@ void Scan::write_outputs() noexcept {
     machine.unclamp = out.unclamp;
     std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine.current_limit);
     if (out.message && !message_seen_[s] && !messages_.push({s, out.message_text, out.message_port}) && out.message_port != 0)
-      post_print_trouble(s);  // full: the oldest stay
+      post_print_trouble(s);  // the queue is full, so this line is lost
     message_seen_[s] = out.message;
     if (recording_) record_position(s);
   }
@@ -382,18 +387,18 @@ void Scan::write_outputs() noexcept {
   hal_->write(machine_, points_);
 }
 
-// For drawings: what the feeder does not fetch in four seconds is lost, the machine does not wait for it.
+// Records the path for drawings. Samples that find the queue full (after about four seconds without a feeder) are lost; the machine does not wait.
 void Scan::record_position(unsigned system) noexcept {
   const nc_outputs& out = out_[system];
   if (out.distance_zero && scan_ > 1) return;
   (void)positions_.push({static_cast<std::uint8_t>(system), out.rapid, out.command, out.work});
 }
 
-// What was asked for and has happened now: a hold is released when the path is at rest, a reset goes to the
-// feeder.
+// Ends requests that have been carried out: a request to hold is dropped when the program has stopped, and a reset is handed over to the
+// feeder when the machine is at rest.
 void Scan::follow_requests() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
-    // The NC's own alarm, not the one that it was given.
+    // An alarm state of the NC is a program alarm, unless the NC was given the alarm by the scan.
     const bool alarm = out_[s].state == NC_STATE_ALARM;
     alarm_was_given_[s] = alarm && (alarm_was_given_[s] || in_[s].alarm);
     if (out_[s].inputs_refused != 0) raise(AlarmId::kBadInput, s, -1, out_[s].inputs_refused);
@@ -413,7 +418,7 @@ void Scan::follow_requests() noexcept {
     reset_phase_ = ResetPhase::kHeld;
     drives_off_ = machine_faulty();
   }
-  // Where the control is being ended nothing starts anyhow, and nobody waits for the button.
+  // The reset is over when the reset button goes off. While the control is being ended the button is not waited for, because nothing starts anyway.
   if (reset_phase_ == ResetPhase::kHeld && (!last_requests_.reset || ending_)) reset_phase_ = ResetPhase::kNone;
 }
 

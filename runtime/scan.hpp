@@ -34,23 +34,23 @@
 
 namespace nc::rt {
 
-// Figures of the loop. Execution: from the wake-up to the end of the scan's body, always on the processor's
-// clock. Jitter: from the deadline to the wake-up, on the scan's clock.
+// Figures of the loop. Execution: time from the wake-up to the end of the scan's body, always in real time. Jitter: time from
+// the deadline to the wake-up, on the scan's clock.
 struct ScanStatistics {
   Histogram execution, jitter;
-  std::atomic<std::uint64_t> overruns{0};      // scans that ended behind their slot
-  std::atomic<std::uint64_t> missed_slots{0};  // slots without a scan; the path's time stands still in them
+  std::atomic<std::uint64_t> overruns{0};      // scans that ended after the end of their slot
+  std::atomic<std::uint64_t> missed_slots{0};  // slots without a scan; the time of the path stands still in them
 };
 
-// Not an alarm of the program, which is libnc's own state.
+// True for an alarm that the scan must tell the NC: one that stops the machine and is not an alarm of the program, which libnc has raised itself.
 bool stops_the_nc(const ActiveAlarm& alarm) noexcept;
 
-// Where the machine was sent in one scan, for whoever wants the executed path.
+// The commanded position in one scan, for drawings of the executed path.
 struct PositionSample {
   std::uint8_t system = 0;
   bool rapid = false;
   nc_axes command{};
-  nc_axes work{};  // the same place in workpiece coordinates, tool length out of it
+  nc_axes work{};  // the same position in workpiece coordinates, without the tool length
 };
 
 class Scan {
@@ -60,7 +60,7 @@ class Scan {
   // ---- scan thread ----
   // First deadline = now + one cycle.
   void begin() noexcept;
-  // Sleeps to the next deadline, runs one scan, accounts for it.
+  // Sleeps until the next deadline, runs one scan and records its times.
   void loop_step() noexcept;
   // The body alone. NC_RT.
   void run_once() noexcept;
@@ -74,12 +74,12 @@ class Scan {
   const ScanStatistics& statistics() const { return statistics_; }
 
   // ---- feeder thread ----
-  // What lies in the control, ready to start, two bits for each part system: each belongs to its mode, so that nothing forgotten starts in the
-  // other, be it the part program of one part system with the MDI blocks of another.
+  // What is loaded in the control and ready to start, with kLoadedBits bits for each part system. A part program starts only in AUTO and MDI blocks only in
+  // MDI, so that a start in one mode never begins something that was left over from the other mode in any part system.
   enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2 };
   static constexpr unsigned kLoadedBits = 2;
   void set_loaded(std::uint32_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
-  // A reset came to rest: the feeder resets the interpreter and says so.
+  // The machine has come to rest after a reset: now the feeder resets the interpreter and calls reset_finished().
   bool reset_waits() const noexcept {
     return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
   }
@@ -89,7 +89,7 @@ class Scan {
   struct Message {
     unsigned system;
     std::uint32_t text;
-    std::uint32_t port;  // 0 the operator, 1 the external output
+    std::uint32_t port;  // 0 = message to the operator, 1 = line for the external output
   };
   bool poll_message(Message* message) noexcept { return messages_.pop(message); }
   // A warning, with the next scan: something that a program of this part system has printed is lost.
@@ -97,7 +97,7 @@ class Scan {
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
   void record_positions() { recording_ = true; }
   bool poll_position(PositionSample* sample) noexcept { return positions_.pop(sample); }
-  // Optional block skips that the ladder gives to a part system; and how often it has asked for a recalculation.
+  // The optional block skips that the ladder sets for a part system; below, how often it has asked for a recalculation.
   std::uint32_t skip_switches(unsigned system) const noexcept {
     return skip_switches_[system].load(std::memory_order_relaxed);
   }
@@ -105,31 +105,32 @@ class Scan {
     return recalculations_[system].load(std::memory_order_acquire);
   }
 
-  // Bits of #1132 to #1135 that the machine has had by itself since the last call: at the start, and as a bus finds them (on_stop = "hold").
+  // The bits of a word #1132 to #1135 whose values come from the machine and not from a block, since the last call: the initial values of the points, and
+  // values that a bus finds in its device (on_stop = "hold"). Returns their mask; *bits gets the whole word.
   std::uint32_t take_found_outputs(unsigned word, std::uint32_t* bits) noexcept {
     const std::uint32_t mask = output_found_[word].exchange(0, std::memory_order_acquire);
     *bits = output_value_[word].load(std::memory_order_relaxed);
     return mask;
   }
 
-  // ---- the thread of the retained data ----
-  // Alarm R19 or R20, with the next scan; reset acknowledges it. `detail`: retain_detail(). R20 holds until end_retain_trouble().
+  // ---- the thread that keeps retained data ----
+  // Raises alarm R19 or R20 in the next scan; a reset acknowledges it. `detail`: retain_detail(). The cause of R20 lasts until end_retain_trouble().
   void post_retain_trouble(unsigned detail) noexcept {
     if (!is_lost(static_cast<RetainTrouble>(detail % 4))) retain_holds_.fetch_or(1u << detail, std::memory_order_relaxed);
     retain_trouble_.fetch_or(1u << detail, std::memory_order_release);
   }
   void end_retain_trouble(unsigned detail) noexcept { retain_holds_.fetch_and(~(1u << detail), std::memory_order_relaxed); }
-  // R19 was there and has been acknowledged.
+  // True once R19 has been acknowledged by an operator.
   bool retain_loss_seen() const noexcept { return retain_loss_seen_.load(std::memory_order_acquire); }
 
  private:
-  // kHeld: it is done, and plc.reset is still on.
+  // kStopping: the machine comes to rest. kFeeder: the feeder resets the interpreter. kHeld: the reset is done, but plc.reset is still on.
   enum class ResetPhase : std::uint8_t { kNone, kStopping, kFeeder, kHeld };
   struct Jog {
     std::uint8_t kind = NC_MANUAL_NONE;
     double value = 0;
-    unsigned remaining = 0;  // scans that it still acts
-    bool refused = false;    // a jog: something has refused or stopped it, and it waits to be let go
+    unsigned remaining = 0;  // number of scans for which the command is still given; ~0 = until the axis is there
+    bool refused = false;    // a jog that was refused or stopped: it has no effect until it has been released
   };
 
   // What the scan keeps of an axis and what stands beside it (scan_axes.cpp, scan_homing.cpp).
@@ -258,7 +259,7 @@ class Scan {
   LadderHook* ladder_;
   NcPort* nc_;
   const unsigned systems_;
-  const bool selects_spindles_;  // somebody gives the selection signals
+  const bool selects_spindles_;  // the ladder or wired points give the signals that select spindles
   const std::int64_t period_ns_;
   std::int64_t next_ns_ = 0;
 
@@ -272,39 +273,39 @@ class Scan {
   hal::Command machine_{};
 
   Mode mode_ = Mode::kAuto;
-  Mode program_mode_ = Mode::kAuto;  // in which the program that is active was started
-  double feed_override_[NC_MAX_SYSTEMS], rapid_override_[NC_MAX_SYSTEMS];  // the operator's
-  bool machine_holds_[NC_MAX_SYSTEMS] = {};  // plc.feed_hold_n is 0
-  bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives it
-  std::uint32_t single_block_ = 0, optional_stop_ = 0;  // the operator's; bit per part system
-  LadderRequests last_requests_;     // of the scan before
-  unsigned ladder_start_scans_ = 0;  // the ladder's cycle start has been on for
-  std::uint32_t links_seen_ = 0;  // bit n: the n-th point bus has answered
-  std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // a part system has waited for FIN for
-  std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // for the clamp of an index table
-  std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // of the scan before
-  std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that the FIN that is on has completed
-  std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on
-  Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for its last start
-  std::uint32_t hold_request_ = 0;  // bit per part system: until it stands
+  Mode program_mode_ = Mode::kAuto;  // mode in which the active program was started
+  double feed_override_[NC_MAX_SYSTEMS], rapid_override_[NC_MAX_SYSTEMS];  // overrides that the operator has set
+  bool machine_holds_[NC_MAX_SYSTEMS] = {};  // the machine gives a feed hold (plc.feed_hold_n is 0)
+  bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives the override
+  std::uint32_t single_block_ = 0, optional_stop_ = 0;  // set by the operator; one bit per part system
+  LadderRequests last_requests_;     // requests of the previous scan
+  unsigned ladder_start_scans_ = 0;  // number of scans for which the ladder's cycle start has been on
+  std::uint32_t links_seen_ = 0;  // bit n: the n-th point bus has answered at least once
+  std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // number of scans for which a part system has waited for FIN
+  std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // number of scans for which it has waited for the clamp of an index table
+  std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // strobes of the previous scan
+  std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that have been completed by the FIN that is on now
+  std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on in this scan
+  Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for the last start
+  std::uint32_t hold_request_ = 0;  // bit per part system: its program is to be held, until it stands
   std::uint32_t held_now_ = 0;      // bit per part system: a command of this scan has held it
-  bool ending_ = false;  // nothing starts any more
+  bool ending_ = false;  // the control is being ended, and nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];
   struct JogWatch {
-    Answer why = Answer::kDone;  // as noted last
-    bool went = false;
+    Answer why = Answer::kDone;  // reason that was noted last
+    bool went = false;           // the axis has moved since the jog was asked for
   };
   JogWatch jog_watch_[NC_MAX_SYSTEMS][NC_MAX_AXES];
-  std::int8_t jog_asked_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // direction in this scan, whether or not it acts
-  std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis
-  std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was on while something refused it, and is still
+  std::int8_t jog_asked_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // direction in which a jog is asked for in this scan, with or without effect
+  std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis: a jog is asked for while the jog feed is 0
+  std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was refused or stopped and has been on since
   std::uint32_t pulses_lost_[NC_MAX_SYSTEMS] = {};           // bit per axis: pulses of its handle do not go to the NC in this scan
-  Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // why pulses are lost, as noted last
-  Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return
-  // From a fault of the machine to the end of the reset; the commanded position follows the measured one.
+  Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // reason for lost pulses that was noted last
+  Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return that has not ended
+  // True from a fault of the machine to the end of the reset; meanwhile the commanded position follows the measured one.
   bool drives_off_ = false;
-  nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured
-  unsigned stood_scans_ = 0;
+  nc_axes stood_at_[NC_MAX_SYSTEMS] = {};  // measured position since which stood_scans_ counts
+  unsigned stood_scans_ = 0;               // number of scans for which the axes have stayed there
   bool alarm_was_given_[NC_MAX_SYSTEMS] = {};  // the NC's alarm state comes from an alarm of the runtime
   Jog jog_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   AxisWork axes_[NC_MAX_SYSTEMS][NC_MAX_AXES];
@@ -321,16 +322,16 @@ class Scan {
 
   SpscQueue<Command, 64> commands_;
   SpscQueue<CommandAnswer, 128> answers_;
-  CommandAnswer answered_[64];  // of this scan
+  CommandAnswer answered_[64];  // answers to the commands of this scan
   unsigned answered_count_ = 0;
   SpscQueue<Message, 64> messages_;
   bool recording_ = false;
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<std::uint32_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
-  std::atomic<std::uint32_t> print_trouble_{0};   // has come since the last scan; bit per part system
-  std::atomic<std::uint32_t> retain_trouble_{0};  // has come since the last scan
-  std::atomic<std::uint32_t> retain_holds_{0};    // of these, what is still so
+  std::atomic<std::uint32_t> print_trouble_{0};   // bit per part system: a printed line was lost since the last scan
+  std::atomic<std::uint32_t> retain_trouble_{0};  // bit per retain_detail(): the trouble was reported since the last scan
+  std::atomic<std::uint32_t> retain_holds_{0};    // bit per retain_detail() of R20: the trouble has not ended
   std::atomic<bool> retain_loss_seen_{false};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
   std::atomic<std::uint32_t> output_found_[NC_WORDS] = {}, output_value_[NC_WORDS] = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ladder's place in the scan, and when its requests act.
+// Runs the ladder within the scan, and carries out its requests.
 #include <algorithm>
 
 #include "runtime/scan.hpp"
@@ -7,7 +7,7 @@
 namespace nc::rt {
 namespace {
 
-// A start that is shorter is a bounce of the button.
+// A cycle start that is on for fewer scans is taken for a bounce of the button and ignored.
 constexpr unsigned kStartMinScans = 2;
 
 }  // namespace
@@ -29,20 +29,20 @@ void Scan::run_ladder() noexcept {
   follow_ladder(requests);
 }
 
-// Cycle start acts when it falls, reset and modes when they rise, alarms while they are on. While reset is on nothing starts.
+// Cycle start acts on its falling edge, reset and modes on their rising edge, alarms while they are on. While reset is on nothing starts.
 void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   if (requests.cycle_start) {
     if (ladder_start_scans_ < kStartMinScans) ++ladder_start_scans_;
   } else {
-    if (ladder_start_scans_ == kStartMinScans) {  // the NC sees it in the next scan
+    if (ladder_start_scans_ == kStartMinScans) {  // the start goes to the NC in the next scan
       const Answer answer = start_cycle(all_systems(), true, machine_asker());
-      // What is done has been noted for each part system; the button of a program that runs is nothing to tell of.
+      // For kDone start_cycle() has noted the result for each part system. A start button that is pressed while the program runs is not worth a note.
       if (answer != Answer::kDone && answer != Answer::kAlreadyRunning) settle(Asked::kCycleStart, answer, machine_asker());
     }
     ladder_start_scans_ = 0;
   }
   if (requests.reset && !last_requests_.reset) request_reset();
-  for (unsigned s = 0; s < systems_; ++s) in_[s].reset = reset_phase_ == ResetPhase::kStopping;  // goes before a start of this scan
+  for (unsigned s = 0; s < systems_; ++s) in_[s].reset = reset_phase_ == ResetPhase::kStopping;  // a reset wins over a start in the same scan
   unsigned modes = 0, chosen = 0;
   for (unsigned m = 0; m < 3; ++m) {
     if (!requests.mode[m]) continue;
@@ -53,7 +53,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   for (unsigned n = 0; n < kLadderAlarms; ++n)
     if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
   if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line, requests.stopped_fault);
-  // An alarm that came here stops the machine in this scan.
+  // Alarms that were raised above stop the machine already in this scan.
   for (unsigned s = 0; s < systems_; ++s)
     for (unsigned i = 0; i < alarms_.count; ++i) in_[s].alarm |= stops_the_nc(alarms_.alarm[i]);
   follow_ladder_manual(requests);
@@ -61,13 +61,13 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
     skip_switches_[s].store(now.skip_switches, std::memory_order_relaxed);
     if (now.recalculate && !before.recalculate) recalculations_[s].fetch_add(1, std::memory_order_release);
-    in_[s].recalculate = now.recalculate;  // of a program that runs; in a stop it is the feeder's
+    in_[s].recalculate = now.recalculate;  // for a program that runs; when it is stopped, the feeder recalculates
   }
   last_requests_ = requests;
 }
 
-// The one place where it is decided which override acts. A switch of the machine wins: it is under the operator's hand beside the tool, and
-// what it says must be so; whoever is somewhere else is told that his does not act. What a program says of itself (#3004) is libnc's.
+// Only this function decides which override is in force. A switch of the machine wins, because the operator who stands beside the tool must be able to
+// rely on it; a client elsewhere is told that its override has no effect. What a program sets for itself (#3004) is decided in libnc.
 void Scan::decide_overrides(const LadderRequests& requests) noexcept {
   constexpr double kHundredth = 1e-4;  // 0.01 %
   for (unsigned s = 0; s < systems_; ++s) {
@@ -79,7 +79,7 @@ void Scan::decide_overrides(const LadderRequests& requests) noexcept {
   }
 }
 
-// The operator's; refused where it would act in none of the part systems that are named.
+// Sets an override of the operator. It is refused when switches of the machine are in force in all the part systems that are named.
 Answer Scan::set_override(std::uint32_t systems, double value, double most, const bool* machines, double* operators) noexcept {
   if (!(value >= 0 && value <= most)) return Answer::kOutOfRange;
   bool acts = false;
@@ -94,9 +94,9 @@ void Scan::request_reset() noexcept {
   if (reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder) return;
   reset_phase_ = ResetPhase::kStopping;
   reset_scans_ = 0;
-  for (unsigned i = 0; i < alarms_.count; ++i)  // the program gets its next try; the same fault comes back as R17
+  for (unsigned i = 0; i < alarms_.count; ++i)  // the ladder program starts again; if the fault is still there, R17 comes back
     if (alarms_.alarm[i].id == AlarmId::kLadderStopped) ladder_->restart();
-  acknowledge_alarms();  // a cause that is still there brings its alarm back
+  acknowledge_alarms();  // an alarm whose cause is still there is raised again
 }
 
 }  // namespace nc::rt

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manual motion in the scan: who asks for it (buttons and handles of the machine, commands), what keeps it from acting, and what is noted of that.
+// Manual motion in the scan: who asks for it (buttons and handles of the machine, commands), what prevents it, and which refusals are noted.
 //
-// Motion by hand begins with a press and with nothing else. A button, or a jog that a client repeats, that was on while something refused or
-// stopped it does nothing any more until it is let go: whoever releases a feed hold must not set off an axis whose button he does not see.
-// A jog feed of 0 refuses nothing: the axis goes when it is turned up.
+// Manual motion begins only when a button is pressed. When a button, or a jog that a client repeats, was on while something refused or
+// stopped the motion, it has no effect until it is released: an operator who ends a feed hold must not set an axis in motion whose button somebody else is
+// pressing. A jog feed of 0 is no refusal: the axis begins to move when the feed is turned up.
 #include <algorithm>
 #include <cmath>
 
@@ -20,16 +20,17 @@ int sign(double value) {
   return (value > 0) - (value < 0);
 }
 
-// Reasons that end. At a soft limit the axis cannot go, and at no speed it does not yet: the button itself is obeyed.
+// True when the jog button must be released and pressed again after this reason has gone. A soft limit and a jog feed of 0 need no new press: the button is
+// obeyed all the time, only the axis cannot move.
 bool asks_for_a_new_press(Answer why) {
   return why != Answer::kDone && why != Answer::kSoftLimit && why != Answer::kNoJogFeed;
 }
 
 }  // namespace
 
-// ---- what keeps an axis from moving by hand ----
+// ---- what prevents manual motion of an axis ----
 
-// Where a soft limit ends every motion in this direction.
+// True when the axis stands at its soft limit, so that it cannot move on in this direction.
 bool Scan::at_soft_limit(unsigned system, unsigned axis, int direction) const noexcept {
   const nc_axis_config& limits = config_.nc.system[system].axis[axis];
   if (!limits.soft_limited || direction == 0 || !limits_known(system, axis)) return false;
@@ -67,10 +68,10 @@ Answer Scan::manual(const Command& command) noexcept {
   return command.kind == CommandKind::kJog ? jog(command) : step_or_return(command);
 }
 
-// A client's jog is a button that is on until 0 comes, or nothing for kJogDeadManScans.
+// The jog of a client works like a button: it is on until a command with 0 comes, or until no command has come for kJogDeadManScans.
 Answer Scan::jog(const Command& command) noexcept {
   Jog& jog = jog_[command.system][command.axis];
-  if (command.value == 0) {  // also where nothing may move
+  if (command.value == 0) {  // a stop is always accepted, even where no motion is allowed
     jog = {};
     return Answer::kDone;
   }
@@ -96,10 +97,10 @@ Answer Scan::step_or_return(const Command& command) noexcept {
     if (const Answer why = way_hindrance(s, a, sign(command.value)); why != Answer::kDone) return why;
     if (!(std::abs(command.value) <= kLongestStep)) return Answer::kOutOfRange;
     if (at_soft_limit(s, a, sign(command.value))) return Answer::kSoftLimit;
-    jog_[s][a] = {NC_MANUAL_STEP, command.value, 2, false};  // the distance is taken at the rising edge
+    jog_[s][a] = {NC_MANUAL_STEP, command.value, 2, false};  // two scans are enough: the NC takes the distance at the rising edge
     on_its_way_[s][a] = Asked::kStep;
   } else {
-    jog_[s][a] = {NC_MANUAL_REFERENCE, 0, ~0u, false};  // until the axis is there, or something stops it
+    jog_[s][a] = {NC_MANUAL_REFERENCE, 0, ~0u, false};  // given until the axis is there, or something stops it
     on_its_way_[s][a] = Asked::kReference;
   }
   return Answer::kDone;
@@ -129,9 +130,9 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
   }
 }
 
-// ---- buttons and handles of the machine, in manual mode; they go before the operator's jogs ----
+// ---- buttons and handles of the machine, in manual mode; they have priority over the operator's jogs ----
 
-// Both directions at once are none.
+// When the buttons of both directions are on, there is no jog.
 void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
   if (requests.home && !last_requests_.home) {
     const Command command{CommandKind::kHome, kAllSystems, 0, 0, 0, 0, machine_asker()};
@@ -169,7 +170,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
   }
 }
 
-// ---- what is noted, behind the NC ----
+// ---- what is noted, after the NC ----
 
 void Scan::watch_manual() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
@@ -181,7 +182,8 @@ void Scan::watch_manual() noexcept {
   }
 }
 
-// Once for each reason while a direction is asked for, be it by a button or by a client; what has moved before was stopped.
+// While a direction is asked for, by a button or by a client, each new reason against it is noted once. The jog counts as stopped when the axis had moved,
+// and as refused otherwise.
 void Scan::watch_jog(unsigned s, unsigned a) noexcept {
   JogWatch& watch = jog_watch_[s][a];
   const int direction = jog_asked_[s][a];
@@ -195,7 +197,7 @@ void Scan::watch_jog(unsigned s, unsigned a) noexcept {
     return;
   }
   const bool moves = out_[s].velocity.v[a] * direction > 0;
-  watch.went |= moves && why == Answer::kDone;  // a program may move it, too
+  watch.went |= moves && why == Answer::kDone;  // with a reason against the jog it is a program that moves the axis
   if (why == Answer::kDone) {
     if (moves) happened(s, Asked::kJog);
   } else if (why != watch.why) {
@@ -204,7 +206,7 @@ void Scan::watch_jog(unsigned s, unsigned a) noexcept {
   watch.why = why;
 }
 
-// A step or a reference return that is stopped is given up: it does not go on by itself.
+// A step or a reference return that is stopped is dropped; it does not go on when the reason has gone.
 void Scan::watch_way(unsigned s, unsigned a) noexcept {
   Asked& way = on_its_way_[s][a];
   if (way == Asked::kNothing) return;

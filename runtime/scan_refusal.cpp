@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scan notes of things that were asked for by hand and do not happen. See refusal.hpp.
+// How the scan notes that something asked for at the panel does not happen. See refusal.hpp.
 #include "runtime/scan.hpp"
 
 namespace nc::rt {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scan watches: the machine's faults, the soft limits as a last line behind the program's own check,
-// overruns; and the list of alarms that follows.
+// What the scan watches: faults of the machine, the soft limits as a second check after that of libnc,
+// overruns, links, FIN; and the list of the alarms that are raised.
 #include <algorithm>
 #include <cmath>
 
@@ -9,21 +9,21 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kSoftLimitSlack = 1e-6;  // mm or deg: rounding of a position that stands on its limit
+constexpr double kSoftLimitSlack = 1e-6;  // mm or deg: allows for the rounding of a position that is on the limit
 
-constexpr double kStandstill = 0.005;  // mm or deg: more than an encoder's noise
+constexpr double kStandstill = 0.005;  // mm or deg: more than the noise of an encoder
 constexpr unsigned kStandstillScans = 5;
 
 }  // namespace
 
-// Bit per part system.
+// The part systems that are in this state, one bit each.
 std::uint32_t Scan::in_state(std::uint8_t state) const noexcept {
   std::uint32_t systems = 0;
   for (unsigned s = 0; s < systems_; ++s) systems |= out_[s].state == state ? 1u << s : 0;
   return systems;
 }
 
-// Whose program is in execution or interrupted.
+// The part systems whose program is in execution or interrupted, one bit each.
 std::uint32_t Scan::active_systems() const noexcept {
   return in_state(NC_STATE_RUNNING) | in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
 }
@@ -34,9 +34,9 @@ bool Scan::at_rest() const noexcept {
   return true;
 }
 
-// While the drives are off the axes coast. They come on again when every axis has stayed in one place for
-// some scans: the command has followed, so what an axis still moves between two scans is all that the drive
-// has to catch up.
+// While the drives are off the axes coast. The drives are switched on again only when every axis has stayed in one place for
+// some scans. The commanded position has followed the measured one until then, so the distance that a drive has to catch up is only what its
+// axis moves between two scans.
 void Scan::watch_standstill() noexcept {
   if (feedback_.lost) {
     stood_scans_ = 0;
@@ -46,7 +46,7 @@ void Scan::watch_standstill() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     if (!feedback_.system[s].actual_valid) continue;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      if (is_spindle_now(s, a)) continue;  // a spindle turns
+      if (is_spindle_now(s, a)) continue;  // an axis that turns as a spindle need not stand
       stands &= std::abs(feedback_.system[s].actual.v[a] - stood_at_[s].v[a]) <= kStandstill;
     }
   }
@@ -62,14 +62,14 @@ bool Scan::axes_stand() const noexcept {
   return !drives_off_ || feedback_.lost || stood_scans_ >= kStandstillScans;
 }
 
-// A drive is off, not on yet, or moves its axis by itself.
+// True when a drive is off, is not on yet, or moves its axis by itself.
 bool Scan::drives_not_following() const noexcept {
   for (unsigned s = 0; s < systems_; ++s)
     if (feedback_.system[s].not_following != 0) return true;
   return false;
 }
 
-// Faults at which the drives are switched off.
+// True when an alarm is active at which the drives are switched off.
 bool Scan::machine_faulty() const noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost) return true;
@@ -81,7 +81,7 @@ void Scan::watch_machine() noexcept {
     raise(AlarmId::kHalLost, 0, -1);
     return;
   }
-  if (reset_phase_ == ResetPhase::kStopping && reset_scans_ == 0) return;  // it acknowledges what is so now; what stays comes back
+  if (reset_phase_ == ResetPhase::kStopping && reset_scans_ == 0) return;  // a reset has just acknowledged the faults; those that stay are raised again in the next scan
   for (unsigned s = 0; s < systems_; ++s) {
     const hal::SystemFeedback& machine = feedback_.system[s];
     if ((machine.following_fault | machine.drive_fault) == 0) continue;
@@ -92,8 +92,8 @@ void Scan::watch_machine() noexcept {
   }
 }
 
-// libnc refuses a block that leaves the soft limits before it moves. This is the check behind it, on what is
-// really sent: an alarm when a command is outside and goes further out. Coming back is always allowed.
+// libnc refuses a block that would leave the soft limits before it begins to move. This is a second check, on the positions that
+// are really sent: an alarm is raised when a command is outside and moves further out. Moving back is always allowed.
 void Scan::watch_soft_limits() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_system_config& system = config_.nc.system[s];
@@ -128,7 +128,7 @@ void Scan::watch_overruns() noexcept {
   missed_since_reset_ = 0;
 }
 
-// A link that has not answered yet is given some time, so that the control may be up before its devices.
+// A link that has never answered is given some time after the start, so that the control may start before its devices.
 void Scan::watch_links() noexcept {
   constexpr std::int64_t kGraceNs = 10'000'000'000;
   for (unsigned n = 0; n < config_.buses.size(); ++n) {
@@ -141,7 +141,8 @@ void Scan::watch_links() noexcept {
   }
 }
 
-// What the thread of the retained data has found. What comes again behind a reset, having gone in between, waits for one of its own.
+// Raises the alarms that the thread of the retained data has reported. A trouble that comes again after it had ended needs another reset, even when its
+// first occurrence had been acknowledged.
 void Scan::watch_retained() noexcept {
   std::uint32_t found = 0;
   if (retain_trouble_.load(std::memory_order_relaxed) != 0) found = retain_trouble_.exchange(0, std::memory_order_acquire);
@@ -162,14 +163,15 @@ void Scan::watch_printer() noexcept {
     if ((found >> s & 1u) != 0) raise(AlarmId::kPrinter, s, -1);
 }
 
-// The causes of alarms are looked at in every scan, and raise them again. That of a warning is told once, by a thread of its own.
+// True when the cause of an acknowledged alarm is known to last. Only R20 needs this: the thread of the retained data reports it once, whereas the causes of
+// the other alarms are looked at in every scan and raise them again.
 bool Scan::holds_still(const ActiveAlarm& alarm) const noexcept {
   if (alarm.id == AlarmId::kLimitSwitch) return limit_holds(alarm);
   return alarm.id == AlarmId::kRetainedUnwritable && (retain_holds_.load(std::memory_order_relaxed) >> alarm.detail & 1u) != 0;
 }
 
-// A completion that does not come is named with what it is waited for. Time in a hold does not count. FIN is what
-// the NC got in the scan before, the strobes are what it said to it.
+// Raises an alarm for a FIN that does not come in time; the alarm names the codes that wait. Time in a hold does not count. in_ holds the FIN
+// that the NC got in the previous scan, and out_ the strobes with which it answered.
 void Scan::watch_fin() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const std::uint8_t strobe = out_[s].strobe;
@@ -184,11 +186,11 @@ void Scan::watch_fin() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
     const bool clamps = (out.fin_wait & NC_FIN_WAIT_UNCLAMP) != 0;
-    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN && !clamps;  // also for a FIN that is stuck on
+    const bool waits = out.state == NC_STATE_RUNNING && out.cause == NC_CAUSE_FIN && !clamps;  // true also while a FIN stays on
     fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
     if (fin_scans_[s] <= most) continue;
     std::uint32_t fault = out.fin_wait & kFinGroups;
-    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0);  // else the codes are the last ones'
+    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0);  // otherwise out.m and out.t are those of the codes before
     if (in_[s].fin) fault |= kFinOne;
     if (in_[s].fin2) fault |= kFinTwo;
     if ((fault & (kFinOne | kFinTwo)) != 0) fault |= out.strobe == 0 && given_out ? kFinStays : kFinEarly;
@@ -212,8 +214,8 @@ void Scan::watch_clamps(std::uint64_t most) noexcept {
   }
 }
 
-// Each cause stands in the list once; the list is long enough for all of them on all axes that can fail
-// together in practice, and what does not fit is behind sixteen others that stop the machine already.
+// Each cause is in the list once. The list is long enough for all causes that come together in practice; an alarm that does not
+// fit is dropped, because sixteen others are active then.
 void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, std::uint32_t code) noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i) {
     const ActiveAlarm& other = alarms_.alarm[i];
@@ -228,7 +230,7 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.detail = detail;
   alarm.code = code;
   alarm.acknowledged = false;
-  // What is found behind its block, or belongs to none, names none.
+  // Alarms that belong to no block, or are found only after their block has been executed, get no source.
   if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable && id != AlarmId::kPrinter) alarm.source = out_[system].source;
 }
 
@@ -236,7 +238,7 @@ void Scan::acknowledge_alarms() noexcept {
   for (std::uint64_t& scans : fin_scans_) scans = 0;
   for (std::uint64_t& scans : clamp_scans_) scans = 0;
   for (unsigned i = 0; i < alarms_.count; ++i)
-    if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset of the end is nobody's look
+    if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset at the end of the control is not an operator's acknowledgement
       retain_loss_seen_.store(true, std::memory_order_release);
   remove_alarms([this](const ActiveAlarm& alarm) { return !holds_still(alarm); });
   for (unsigned i = 0; i < alarms_.count; ++i) alarms_.alarm[i].acknowledged = true;

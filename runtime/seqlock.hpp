@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sequence lock: one writer that never waits, any number of readers that repeat when they were overtaken.
+// Sequence lock: one writer that never waits, and any number of readers, which read again when the writer has written meanwhile.
 //
 // The value is kept as an array of relaxed atomic words between two fences, so that there is no data race in
 // the sense of the language (H.-J. Boehm, "Can seqlocks get along with programming language memory models?",
@@ -21,7 +21,7 @@ class SeqLock {
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
 
  public:
-  // `bytes`: as much of T, from its beginning, is ever exchanged; the rest stays as T{} is.
+  // `bytes`: only so many bytes from the beginning of T are exchanged; readers find the rest as in T{}.
   explicit SeqLock(std::size_t bytes = sizeof(T)) : words_used_(kWords) {
     store(T{});
     words_used_ = (bytes + 7) / 8;

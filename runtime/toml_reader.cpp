@@ -19,7 +19,7 @@ unsigned line_of_too_deep_key(std::string_view text) {
   unsigned line = 1, dots = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '"' || c == '\'') {  // to its end on this line; a dot in it joins nothing
+    if (c == '"' || c == '\'') {  // skips a text up to its end on this line, because a dot in it does not separate parts of a key
       for (++i; i < text.size() && text[i] != c && text[i] != '\n'; ++i)
         if (c == '"' && text[i] == '\\') ++i;
       if (i < text.size() && text[i] == '\n') --i;
@@ -100,7 +100,7 @@ void TableReader::error(std::string_view key, std::string message) {
   errors_->add(line(key), path(key), std::move(message));
 }
 
-// "a number" says nothing when the number is the trouble.
+// As type_name(), but nan and inf are named: "a number" would not explain why they are refused.
 std::string shown_type(const toml::node& node) {
   const auto* real = node.as_floating_point();
   if (real == nullptr || std::isfinite(real->get())) return type_name(node);
@@ -164,7 +164,7 @@ bool TableReader::string(std::string_view key, std::string* value) {
     wrong_type(key, *node, "a string");
     return false;
   }
-  if (read->get().find('\0') != std::string::npos) {  // what stands behind it would be lost where it is a path or a name
+  if (read->get().find('\0') != std::string::npos) {  // a path or a name would end at the NUL
     error(key, "must not hold a NUL");
     return false;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads typed values out of a TOML table and collects what is wrong: unknown keys, wrong types, values out of
-// range. Only config*.cpp include this.
+// Reads typed values from a TOML table and collects errors: unknown keys, wrong types, values out of
+// range. Only the files that read the configuration include this.
 #pragma once
 
 #include <toml++/toml.h>
@@ -33,15 +33,15 @@ class ErrorList {
   std::vector<ConfigError> errors_;
 };
 
-// Line of the first key with more parts than anyone means (a.b.c...), 0 = none: the parser makes a table in a table for each part, and
-// would run out of stack when it lets go of them.
+// Line of the first key with far too many parts (a.b.c...), 0 = none. The parser nests a table for each part and would run out of stack when it
+// frees them.
 unsigned line_of_too_deep_key(std::string_view text);
 
 inline unsigned line_of(const toml::node& node) {
   return static_cast<unsigned>(node.source().begin.line);
 }
 const char* type_name(const toml::node& node);
-std::string shown_type(const toml::node& node);  // the same, and nan and inf by name
+std::string shown_type(const toml::node& node);  // as type_name(), but nan and inf are named
 
 // One table. Every key is asked for by name; finish() reports the keys that nobody asked for.
 class TableReader {
@@ -60,7 +60,7 @@ class TableReader {
   }
   bool boolean(std::string_view key, bool* value);
   bool string(std::string_view key, std::string* value);
-  // One word of a list; *index is its place.
+  // One word of a list; *index gets its index in the list.
   bool choice(std::string_view key, std::span<const std::string_view> words, unsigned* index);
   bool choice(std::string_view key, std::initializer_list<std::string_view> words, unsigned* index) {
     return choice(key, std::span(words.begin(), words.size()), index);
@@ -69,10 +69,10 @@ class TableReader {
   bool numbers(std::string_view key, std::vector<double>* values, std::size_t min_size, std::size_t max_size);
   bool strings(std::string_view key, std::vector<std::pair<std::string, unsigned>>* values_and_lines);
 
-  // Sub-structures: `read` is called with a reader for the table (each table of the array).
+  // Tables inside this table: `read` is called with a reader for the table, or for each table of the array.
   bool table(std::string_view key, const std::function<void(TableReader&)>& read);
   void tables(std::string_view key, const std::function<void(TableReader&, std::size_t)>& read);
-  // Every key of this table, for tables whose keys are data.
+  // Calls `read` for every key of this table, for tables whose keys are data.
   void each(const std::function<void(const std::string& key, const toml::node&)>& read);
 
   void require(std::string_view key);
@@ -98,7 +98,7 @@ class TableReader {
 
 // A finite number of a node (integer or float).
 bool node_number(const toml::node& node, double* value);
-// Shortest text that reads back as the same number.
+// The shortest text that is read back as the same number.
 std::string number_text(double value);
 
 }  // namespace nc::rt

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# A fresh Debian 12 in a folder: for scripts/prove-chroot and scripts/prove-packages. Sourced after lib.sh, not run; as root.
-# It gets this machine's apt configuration at run time, so that it reaches packages the way this machine does.
+# Makes a fresh Debian 12 in a folder, for scripts/prove-chroot and scripts/prove-packages. It is sourced after lib.sh, as root.
+# The chroot gets a copy of this machine's apt configuration, so that it reaches packages in the same way.
 
-# make_chroot ROOT: debootstrap, where there is none yet, and mounts. Sets $proxy.
+# make_chroot ROOT: runs debootstrap unless the system is there already, and mounts /proc and /dev. Sets $proxy.
 make_chroot() {
   local root=$1 mirror part
   command -v debootstrap >/dev/null || die "install debootstrap first"
   mkdir -p "$root"
-  chmod 755 "$root"    # mktemp makes it 700: nobody but root could look in
-  # The archive that this machine uses for bookworm, whatever it is.
+  chmod 755 "$root"    # mktemp makes it 700, which only root could enter
+  # The archive from which this machine itself gets bookworm.
   mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(ORIGIN)' 2>/dev/null | awk '$2 == "bookworm" && $3 == "Debian" {print $1; exit}')
   [ -n "$mirror" ] || die "apt on this machine knows no archive with Debian bookworm"
   proxy=$(apt-config shell p Acquire::http::Proxy | sed -n "s/^p='\(.*\)'$/\1/p")
@@ -27,8 +27,8 @@ make_chroot() {
   mount_devices "$root"
 }
 
-# mount_devices ROOT: /proc, and a /dev of its own. Never a bind mount of this machine's: a folder that is deleted while it is still
-# mounted would take the devices of the machine with it.
+# mount_devices ROOT: mounts /proc, and a new /dev for the chroot. It must not be a bind mount of this machine's /dev: if the folder were deleted
+# while that is mounted, the devices of this machine would be deleted with it.
 mount_devices() {
   local dev=$1/dev node name major minor
   mount -t proc proc "$1/proc" && mount -t tmpfs -o mode=755 nc-chroot "$dev" || die "/proc and /dev cannot be mounted in $1"
@@ -44,15 +44,15 @@ mount_devices() {
   for node in stdin:0 stdout:1 stderr:2; do ln -s "/proc/self/fd/${node#*:}" "$dev/${node%:*}"; done
 }
 
-# boot_chroot ROOT SCRIPT SECONDS: systemd as process 1 of the chroot, in namespaces of its own, which runs SCRIPT (a path in there) as a
-# service and powers off. What the script prints goes to its name + ".log", its exit status to its name + ".status". The chroot has no mounts then.
+# boot_chroot ROOT SCRIPT SECONDS: starts systemd as process 1 of the chroot, in its own namespaces, where it runs SCRIPT (a path in the chroot)
+# as a service and powers off. The output of the script goes to SCRIPT.log, its exit status to SCRIPT.status. The chroot must have no mounts.
 boot_chroot() {
   local root=$1 script=$2 seconds=$3 group=
   printf '%s\n' '[Unit]' DefaultDependencies=no '[Service]' Type=oneshot "ExecStart=/bin/sh -c '$script >$script.log 2>&1; echo \$\$? >$script.status'" \
     TimeoutStartSec="$seconds" 'ExecStopPost=/bin/systemctl --force --force poweroff' >"$root/etc/systemd/system/nc-prove.service"
   printf '%s\n' '[Unit]' Wants=nc-prove.service >"$root/etc/systemd/system/nc-prove.target"
   rm -f "$root$script.status"
-  # A group of its own in the unified hierarchy, wherever that is mounted: the root of what the new process 1 sees.
+  # A new control group in the unified hierarchy, wherever that is mounted: for the new process 1 it is the root of the hierarchy.
   for group in /sys/fs/cgroup/unified /sys/fs/cgroup; do [ ! -f "$group/cgroup.procs" ] || break; done
   group=$group/nc-prove.$$
   mkdir "$group" || { rm -f "$root"/etc/systemd/system/nc-prove.*; return 1; }
@@ -73,7 +73,7 @@ boot_chroot() {
   [ -f "$root$script.status" ] && [ "$(cat "$root$script.status")" = 0 ]
 }
 
-# leave_chroot ROOT [KEEP]: takes the mounts away, and the folder unless KEEP is not empty.
+# leave_chroot ROOT [KEEP]: unmounts everything, and deletes the folder unless KEEP is not empty.
 leave_chroot() {
   local place
   for place in "$1/dev/pts" "$1/dev" "$1/proc"; do
@@ -82,7 +82,7 @@ leave_chroot() {
   [ -n "${2:-}" ] || rm -rf --one-file-system "$1"
 }
 
-# in_chroot ROOT COMMAND: a shell command in there with a plain environment.
+# in_chroot ROOT COMMAND: runs a shell command in the chroot with a plain environment.
 in_chroot() {
   chroot "$1" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive \
     ${proxy:+http_proxy="$proxy"} sh -c "$2" </dev/null

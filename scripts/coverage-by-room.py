@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Adds up the summary of gcovr by room (docs/architecture.md): lines and branches that the tests have executed."""
+"""Adds up gcovr's summary for each room (docs/architecture.md): the lines and branches that the tests have executed."""
 import json
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Shared by ./run, ./test, .ci/run and the scripts beside this file: packages and quiet builds. Sourced, not run.
+# Functions for packages and quiet builds, shared by ./run, ./test, .ci/run and the scripts in this folder. It is sourced, not run.
 
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if [ "$(id -u)" -eq 0 ]; then as_root=(); else as_root=(sudo); fi
@@ -9,10 +9,10 @@ installed_something=no
 say() { printf '%s\n' "$*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
 
-# packages_in FILE...: the package names, without comments and blank lines.
+# packages_in FILE...: prints the package names of the lists, without comments and blank lines.
 packages_in() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$@"; }
 
-# ensure_packages FILE...: install those Debian packages of the lists that are missing, and say which.
+# ensure_packages FILE...: installs the Debian packages of the lists that are missing, and prints their names.
 ensure_packages() {
   local package missing=()
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -37,8 +37,8 @@ ensure_packages() {
   installed_something=yes
 }
 
-# build_preset PRESET [-DVAR=VALUE...] [-- TARGET...]: configure where needed, and build, quietly. The build tool itself
-# configures again when a CMake file changes or a source file comes or goes, but it does not know of the presets.
+# build_preset PRESET [-DVAR=VALUE...] [-- TARGET...]: configures where needed, and builds, quietly. The build tool by itself configures again
+# when a CMake file changes or a source file is added or removed, but not when the presets change.
 build_preset() {
   local preset=$1 log=$top/build/$1.log defines=() targets=()
   shift
@@ -54,7 +54,7 @@ build_preset() {
   (cd "$top" && cmake --build --preset "$preset" -j "$jobs" "${targets[@]}") >>"$log" 2>&1 || { build_failed "$log"; return 1; }
 }
 
-# run_ctest PRESET ARGS...: the tests of a built preset. A sanitizer's first finding ends its test; leaks count.
+# run_ctest PRESET ARGS...: runs the tests of a built preset. The first finding of a sanitizer ends its test; leaks are findings.
 run_ctest() {
   local preset=$1
   shift
@@ -67,7 +67,7 @@ run_ctest() {
   )
 }
 
-# build_failed LOG: the errors first, then the end of the log.
+# build_failed LOG: prints the errors, then the end of the log.
 build_failed() {
   { grep -nE 'error:|CMake Error|undefined reference' "$1" | head -n 20; say "--- end of $1"; tail -n 25 "$1"; say "The build failed."; } >&2
 }

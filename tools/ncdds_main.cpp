@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncdds: the DDS gateway of a control. Reads the shared memory of ncrtd and publishes it; brings commands in
-// when it is told to. It waits for ncrtd, and finds it again after a restart.
+// ncdds: the DDS gateway of a control. It reads the shared memory of ncrtd and publishes it, and passes on commands
+// if it is told to. It waits for ncrtd, and finds it again after a restart.
 //
 //   ncdds --machine FILE | --share NAME [--domain N] [--rate HZ] [--commands] [--ready-file FILE]
 //
-// It talks on this computer only (interface lo, no multicast) unless CYCLONEDDS_URI says otherwise.
-// Exit status: 0 ended by SIGTERM or SIGINT, 1 usage, configuration, or DDS that does not come up.
+// It communicates only on this computer (interface lo, no multicast) unless CYCLONEDDS_URI is set.
+// Exit status: 0 ended by SIGTERM or SIGINT, 1 wrong usage or configuration, or DDS cannot be started.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) try {
     return app.exit(error) == 0 ? 0 : 1;
   }
   return nc::dds::gateway_command(command);
-} catch (const std::exception& error) {  // out of memory, above all
+} catch (const std::exception& error) {  // mainly out of memory
   std::fprintf(stderr, "ncdds: %s\n", error.what());
   return 1;
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncmon: a monitor on the terminal. Nothing but a DDS subscriber: it shows what ncdds publishes.
+// ncmon: a monitor on the terminal. It is only a DDS subscriber that shows what ncdds publishes.
 //
 //   ncmon [--control NAME] [--domain N]      full screen; q ends it, s shows the signals, space their next page
-//   ncmon --view signals                     begins with them; also for --once and --json
+//   ncmon --view signals                     begins with the signals; also for --once and --json
 //   ncmon --once [--json] [--wait SECONDS]   one status
 //   ncmon --json                             a line of JSON for each status
-//   ncmon --progress                         one live line, until the control ends
+//   ncmon --progress                         one line that is rewritten, until the control ends
 //   ncmon --latency N                        times of N samples from the scan to here
 //
-// Exit status: 0, 1 usage or DDS that does not come up, 2 nobody publishes (within --wait).
+// Exit status: 0 success, 1 wrong usage, or DDS cannot be started, 2 nothing was published within --wait.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
   std::string view = "status";
   app.set_version_flag("--version", std::string("ncmon ") + nc_version());
   app.add_option("--control", options.machine, "name of the control (ncdds --share); default: the first that is heard")->check(nc::tools::given());
-  // Neither stands in --help.
+  // These options are not listed in --help; they only give a hint.
   for (const std::string option : {"--machine", "--config"})
     app.add_option_function<std::string>(option, [option](const std::string&) {
          throw CLI::ValidationError(option, "is the file of a machine, which ncmon does not read: the name of a control is --control NAME");
@@ -47,7 +47,7 @@ int main(int argc, char** argv) try {
   }
   options.signals = view == "signals";
   return nc::dds::monitor_command(options);
-} catch (const std::exception& error) {  // out of memory, above all
+} catch (const std::exception& error) {  // mainly out of memory
   std::fprintf(stderr, "ncmon: %s\n", error.what());
   return 1;
 }

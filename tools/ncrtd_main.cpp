@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncrtd: the runtime as a program. Runs an NC program (or MDI blocks) on the configured machine.
+// ncrtd: the runtime as a program. It runs an NC program (or MDI blocks) on the configured machine.
 //
-//   ncrtd --machine FILE check                        --machine may stand behind the command, too; --config is the same
+//   ncrtd --machine FILE check                        --machine may also come after the command; --config is the same
 //   ncrtd --machine FILE run [--fast] [--dialect D] [--plot BASE [--view V] [--coordinates C] [--color C]] [--no-progress] PROGRAM
 //   ncrtd --machine FILE mdi [--fast] "G0 X10"
-//   ncrtd --machine FILE serve                       up until SIGTERM or SIGINT, for a service manager
-//   run, mdi and serve:  [--share NAME] [--commands]   shared memory for ncdds (serve has it anyway);
-//                                                      takes commands from it
+//   ncrtd --machine FILE serve                       runs until a signal ends it, for a service manager
+//   run, mdi and serve:  [--share NAME] [--commands]   --share: shared memory for ncdds (serve always has it);
+//                                                      --commands: take commands from it
 //
-// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 usage, configuration or output that cannot be
-// written, 3 another process runs this machine, 128+n ended by signal n (130 SIGINT, 143 SIGTERM): the machine is brought to rest and the summary
-// printed. `serve` ends with 0 when the axes stood before the outputs went off, else with 2.
+// Exit status: 0 the program ended, 2 it stopped on an alarm, 1 wrong usage or configuration, or output that cannot be
+// written, 3 another process runs this machine, 128+n ended by signal n (130 SIGINT, 143 SIGTERM); then the machine was brought to rest and the summary
+// printed. `serve` ends with 0 when the axes stood before the outputs were switched off, otherwise with 2.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) try {
   app.set_version_flag("--version", std::string("ncrtd ") + nc_version());
   app.add_option("--machine,--config", options.config, "machine configuration (TOML)")->required()->check(given());
   app.require_subcommand(1);
-  app.fallthrough();  // --machine FILE before or behind the command
+  app.fallthrough();  // --machine FILE may come before or after the command
   app.add_subcommand("check", "read the configuration, report every error, do nothing");
   CLI::App* run = app.add_subcommand("run", "run a program from cycle start to its end");
   run->add_option("PROGRAM", options.program, "NC program")->required()->check(given());
@@ -63,7 +63,7 @@ int main(int argc, char** argv) try {
   using Command = DaemonOptions::Command;
   options.command = run->parsed() ? Command::kRun : mdi->parsed() ? Command::kMdi : service->parsed() ? Command::kServe : Command::kCheck;
   return status_when_written("ncrtd", daemon_command(options));
-} catch (const std::exception& error) {  // out of memory, above all
+} catch (const std::exception& error) {  // mainly out of memory
   std::fprintf(stderr, "ncrtd: %s\n", error.what());
   return 1;
 }

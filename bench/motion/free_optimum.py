@@ -15,7 +15,8 @@ COARSE_MM = 0.25
 
 
 class OnGrid(toppra.interpolator.AbstractGeometricPath):
-    """The curve at the nodes of a grid, by its length. toppra asks for nothing else. A node where two pieces meet is that of the second one."""
+    """The curve at the nodes of a grid, as a function of its length; toppra asks for it nowhere else. Where two pieces meet in a node the values
+    are those of the second one."""
 
     def __init__(self, grid):
         self.grid = grid
@@ -56,7 +57,7 @@ def squared_speed(grid, limits):
 
 
 def seconds(path, limits):
-    """Of the whole path, rests counted."""
+    """The time of the whole path in s, with its rests."""
     curves, limits = path.tables(), reference.limits_of(path, limits)
     edges = sorted({0, len(path.pieces)} | {k for k in path.stops if k < len(path.pieces)})
     total = sum(path.stops.values())

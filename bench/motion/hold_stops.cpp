@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long after a feed hold the axes stand, compared with the stop on a straight line: in the cycle of the hold the path is left along its
-// tangent in thought, with the speed and the acceleration that the axes have there and all that their limits leave along it. No way to rest
-// along a bent path is as short as that; the difference is what a hold costs.
+// How long after a feed hold the axes stand, compared with an ideal stop: from the cycle of the hold on the machine is thought to go straight on
+// along the tangent of the path, and to stop there as fast as the limits of the axes allow, from the speed and the acceleration that it has.
+// No stop along a bent path is shorter than that. The difference is what the path and the control add to a hold.
 //
 //   hold_stops [--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] PROGRAM.nc ...
 //
-// Each program runs once, with a call of nc_feed in each cycle. In every tenth cycle that is in motion (--every) the process divides, and the
-// copy of it holds and counts the cycles until the axes stand: each hold begins from the motion that the program has without any.
-// Standard output: for each program the holds, and of the difference in ms the median, what 95 % do not exceed, the worst with its cycle; the
-// last row is for all of them. Exit status: 0, 1 with a sentence.
+// Each program runs once, with a call of nc_feed in each cycle. In every tenth cycle (--every) in which it moves the process forks, and the
+// copy presses feed hold and counts the cycles until the axes stand. So each hold begins from the motion of an undisturbed program.
+// Standard output: for each program the number of holds, then of the difference in ms the median, the value that 95 % do not exceed, the worst
+// and the share above 20 ms; then median, 95 % and worst once more, of the time beyond what the slowest axis alone needs; then the worst hold.
+// The last row is for all programs. Exit status: 0; 1 after a message.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,11 +27,11 @@
 namespace {
 
 constexpr unsigned kAxes = 3;
-constexpr uint32_t kBudget = 1000;      // blocks of a call
-constexpr long kMostCycles = 5000;      // until the axes must stand
-constexpr long kMostProgram = 2000000;  // cycles of a program
-constexpr double kLate = 20;            // ms, of which is said how many holds come to rest later
-constexpr double kMoves = 1e-3;         // mm/s: below that the axes are as good as at rest, and a hold there says nothing
+constexpr uint32_t kBudget = 1000;      // blocks per call of nc_feed
+constexpr long kMostCycles = 5000;      // after a hold the axes must stand within so many
+constexpr long kMostProgram = 2000000;  // a program must end within so many cycles
+constexpr double kLate = 20;            // ms: the table gives the share of the holds that are later than this
+constexpr double kMoves = 1e-3;         // mm/s: below that the axes as good as stand, and a hold says nothing
 
 struct Options {
   long every = 10;
@@ -54,8 +55,8 @@ struct FreeAligned {
   void operator()(void* p) const { std::free(p); }
 };
 
-// The shortest time in which a speed and an acceleration come to 0, whatever the place: the acceleration goes with the full jerk to a peak,
-// stays there where that is its limit, and goes to 0.
+// The shortest time in which speed v and acceleration a come to 0, wherever that is: the acceleration goes with the full jerk to a peak,
+// stays there for a while if the peak is its limit, `most`, and goes back to 0 with the full jerk.
 double to_rest(double v, double a, double most, double jerk) {
   const double sign = v + a * std::fabs(a) / (2 * jerk) > 0 ? -1 : 1, from = sign * a, change = -sign * v;  // the speed that is to be gained
   double peak = std::sqrt(std::max(0.0, jerk * change + 0.5 * from * from)), stays = 0;
@@ -112,7 +113,8 @@ class Machine {
   bool cuts() const { return out_.state == NC_STATE_RUNNING; }
   double cycle_s() const { return config_.cycle_s; }
 
-  // Seconds of the stop on the straight line along the tangent; those that an axis needs at least, whatever the path; and the speed.
+  // Duration of the ideal stop along the tangent, in s. Beside it the present speed in mm/s, and in *axes_s the time in s that the slowest axis
+  // needs to come to rest, whatever the path.
   double ideal(const Options& options, double* speed, double* axes_s) const {
     const double dt = cycle_s();
     double v[kAxes], size = 0, along = 0;
@@ -144,7 +146,7 @@ class Machine {
   nc_control* control_ = nullptr;
   nc_inputs in_{};
   nc_outputs out_{};
-  double place_[4][kAxes] = {};  // of the last cycles, the newest one first
+  double place_[4][kAxes] = {};  // positions of the last four cycles, the newest first
 };
 
 int complain(const std::string& what) {
@@ -162,7 +164,7 @@ bool read_file(const std::string& name, std::string* text) {
   return read;
 }
 
-// Cycles until the axes stand, -1 where they do not.
+// Presses feed hold; returns the cycles until the axes stand, -1 if they do not.
 long cycles_to_rest(Machine& m) {
   m.hold();
   for (long n = 1; n <= kMostCycles; ++n) {
@@ -172,7 +174,7 @@ long cycles_to_rest(Machine& m) {
   return -1;
 }
 
-// The copy of the process holds; this one is as it was.
+// Forks: the copy of the process presses feed hold and reports its cycles; the machine of this process stays as it was.
 bool hold_in_a_copy(Machine& m, long* cycles) {
   int pipe_of[2];
   if (pipe(pipe_of) != 0) return false;
@@ -216,7 +218,7 @@ bool measure(const Options& options, const std::string& program, std::vector<Hol
   return true;
 }
 
-// The value that a share of the holds does not exceed.
+// The value in ms that this share of the holds does not exceed.
 template <class Late>
 double quantile(const std::vector<Hold>& holds, double share, Late&& late) {
   std::vector<double> ms;

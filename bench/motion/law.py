@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The time-optimal law by itself against the reference on the same geometry: the path that it made of the lines of a program.
+"""Compares the time-optimal law alone with the reference on the same geometry, which is the path that it made of the lines of a program.
 
 usage: "$(bench/motion/setup)" bench/motion/law.py [--law PATH] [--ncsim PATH] [--step-ms S] [--random N] [PROGRAM ...]
 
-PROGRAM: rapids and straight feeds. --random N: N programs of random lines, the same ones each time, besides. `law_of_lines` (a program of the benches, NC_BENCH=ON) smooths each stretch between two rests and finds the
-law; reference.py gets what it smoothed. Exit status: 0, 1 when a law takes more than --most of the reference or there is none.
+PROGRAM may have rapids and straight feeds only. --random N adds N programs of random lines, the same ones each time. `law_of_lines` (one of
+the benches, NC_BENCH=ON) smooths each stretch between two rests and finds its law; reference.py gets the smoothed path. Exit status: 0, 1 when
+a law takes longer than --most times the reference, or when none was found.
 """
 import argparse
 import os

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time-optimal law on polylines, without a machine around it: smooths them, writes the path that came out
-// as a path file, so that the reference solver can be asked about the same geometry, and prints the time that
-// the law takes.
+// The time-optimal law on polylines, without a machine around it: smooths them, writes the smoothed path as a path
+// file, so that the reference solver can work on the same geometry, and prints the time that the law needs.
 //
 //   law_of_lines POLYLINES OUT.path [V A J TOLERANCE]
 //
-// POLYLINES: for each stretch between two rests the number of vertices, then for each x y z and the feed of
-// the line to it in mm/s (0 = none; that of the first vertex counts for nothing). Exit status: 0, 1 with a
-// sentence.
+// POLYLINES: for each stretch between two rests the number of its vertices, then for each vertex x y z in mm and the
+// feed of the line that ends there in mm/s (0 = no feed; at the first vertex it is ignored). Exit status: 0; 1 after a
+// message.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -45,7 +44,7 @@ int complain(const std::string& what) {
   return 1;
 }
 
-// The next stretch. False at the end of the file, and with *bad when it is damaged.
+// Reads the next stretch. False at the end of the file, and when the file is damaged, which sets *bad.
 bool read_stretch(std::FILE* in, Stretch* stretch, bool* bad) {
   unsigned count = 0;
   const int got = std::fscanf(in, "%u", &count);
@@ -86,7 +85,7 @@ std::vector<Piece> smoothed(const Stretch& stretch, double tolerance) {
   return pieces;
 }
 
-// Coefficients by a parameter from 0 to 1.
+// The path file wants coefficients for a parameter from 0 to 1, a Piece has them for its length in mm.
 void write_pieces(const std::vector<Piece>& pieces, std::FILE* out) {
   for (const Piece& p : pieces) {
     std::fprintf(out, "poly %.17g %u", std::isfinite(p.feed) ? p.feed : 0.0, kTerms - 1);

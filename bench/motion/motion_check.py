@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures a recording of `ncsim motion`: limits by finite differences, distance to the programmed path, feeds, exact stops.
+"""Checks a recording of `ncsim motion`: the limits by finite differences, the distance to the programmed path, the feeds, the exact stops.
 
 usage: motion_check.py [--limits V,A,J] [--path PROGRAMMED.path] [--tolerance MM] [--factor F] MOTION.csv
 
-PROGRAMMED.path is the path as it is programmed (path_from_program.py --blend none). Exit status: 0 all kept, 1 not; every breach is a
-line with axis, time and amount.
+PROGRAMMED.path is the path as it is programmed (path_from_program.py --blend none). Every limit that is not kept is printed with axis, time
+and amount. Exit status: 0 when everything is kept, 1 when not.
 """
 import argparse
 import math
@@ -16,14 +16,14 @@ import numpy as np
 import path_file
 
 ORDERS = ("velocity", "acceleration", "jerk")
-AT_REST = 3  # rows added on both sides: the axes stand before and after
-STOP_MM = 1e-6  # by which an exact stop may be missed
+AT_REST = 3  # rows that are added on both sides, because the axes stand before and after
+STOP_MM = 1e-6  # an exact stop may be missed by this
 SLACK_MM = 1e-6
-ROUNDING = 2e-12  # of a position with 12 decimals
+ROUNDING = 2e-12  # mm, error of a position that is written with 12 decimals
 
 
 def read_motion(name):
-    """Axes, cycle in s, rows of positions."""
+    """Returns the names of the axes, the cycle in s, and the rows of positions."""
     with open(name, encoding="ascii") as lines:
         head = lines.readline().strip().split(",")
         table = np.loadtxt(lines, delimiter=",", ndmin=2)
@@ -35,17 +35,18 @@ def read_motion(name):
 
 
 def differences(rows, cycle_s, order):
-    """The n-th finite difference of every axis with rests added; row k belongs to the time (k + order - AT_REST) * cycle_s."""
+    """The finite difference of this order of every axis, with rests added; row k belongs to the time (k + order - AT_REST) * cycle_s."""
     padded = np.concatenate([rows[:1]] * AT_REST + [rows] + [rows[-1:]] * AT_REST)
     return np.diff(padded, order, axis=0) / cycle_s ** order
 
 
 def worst_ratios(rows, cycle_s, limits):
-    """{order: [(ratio, seconds) of each axis]}; `limits` (velocity, acceleration, jerk) of each axis, jerk 0 or inf: none."""
+    """{order: [(worst ratio to the limit, its time in s) of each axis]}. `limits` are (velocity, acceleration, jerk) of each axis; a jerk of 0
+    or inf is no limit."""
     out = {}
     for order, name in enumerate(ORDERS, 1):
         values = np.abs(differences(rows, cycle_s, order))
-        # what the rounding of the text can make of it
+        # less the part that the rounding of the recorded positions can cause
         values = np.maximum(values - 2 ** order * ROUNDING / 2 / cycle_s ** order, 0)
         where = values.argmax(axis=0)
         row = []
@@ -58,14 +59,14 @@ def worst_ratios(rows, cycle_s, limits):
 
 
 class Line:
-    """A straight piece, for the nearest place on it."""
+    """A straight piece of the programmed path."""
 
     def __init__(self, feed, start, slope):
         self.feed, self.start, self.slope = feed, start, slope
         self.length = math.sqrt(sum(d * d for d in slope))
 
     def nearest(self, p, least):
-        """(distance, share) of the nearest place not before the share `least`."""
+        """(distance, share) of the place nearest to p; places before the share `least` of the piece do not count."""
         if self.length == 0:
             return math.dist(p, self.start), 1.0
         t = sum((x - a) * d for x, a, d in zip(p, self.start, self.slope)) / self.length ** 2
@@ -77,7 +78,7 @@ class Line:
 
 
 class Arc:
-    """A circular piece; the nearest place is taken at the angle of the point."""
+    """A circular piece; the place at the angle of a point is taken as the nearest one."""
 
     def __init__(self, feed, a, b, ca, cb, sweep, start, finish):
         self.feed, self.a, self.b, self.ca, self.cb, self.sweep = feed, a, b, ca, cb, sweep
@@ -90,7 +91,7 @@ class Arc:
     def nearest(self, p, least):
         turned = (math.atan2(p[self.b] - self.cb, p[self.a] - self.ca) - self.angle) / self.sweep
         turn = 2 * math.pi / abs(self.sweep)
-        # of all turns the one next to the last place
+        # of all turns take the one that is closest to the last place
         turned += turn * round((least - turned) / turn)
         if turned < least - 0.25 * turn:
             turned += turn
@@ -117,13 +118,13 @@ def pieces_of(path):
 
 
 class Follower:
-    """Follows a recording along the programmed path, always forward, and keeps the worst that it sees."""
+    """Follows a recording along the programmed path, always forward, and keeps the worst deviation, feed and missed stops."""
 
     def __init__(self, path, cycle_s, tolerance):
         self.pieces, self.stops, self.cycle_s, self.tolerance = pieces_of(path), path.exact, cycle_s, tolerance
         self.deviation = (0.0, 0.0)  # mm, seconds
         self.feed = (0.0, 0.0)  # ratio, seconds
-        self.missed = {}  # number of the piece behind a stop -> smallest distance seen
+        self.missed = {}  # number of the piece behind a stop -> the smallest distance to the stop, mm
         self.piece, self.share = 0, 0.0
 
     def follow(self, rows):
@@ -173,7 +174,7 @@ class Follower:
 
 
 def breaches(axes, rows, cycle_s, limits, path=None, tolerance=0.01, factor=1.001):
-    """A sentence for everything that is not kept."""
+    """One sentence for each limit, stop or end that is not kept."""
     out = []
     for name, row in worst_ratios(rows, cycle_s, limits).items():
         for axis, (ratio, seconds) in zip(axes, row):

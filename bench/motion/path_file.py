@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Path files (README.md, "Path files"): reading, writing, and curves with their derivatives, many places at a time."""
+"""Path files (README.md, "Path files"): reads and writes them, and evaluates their curves with derivatives at many places at a time."""
 import math
 
 import numpy as np
 
 
 class PathError(Exception):
-    """What is wrong, with its line."""
+    """The message says what is wrong, and in which line."""
 
 
 class Path:
-    """Pieces of curves in u from 0 to 1, and where the path rests."""
+    """Pieces, which are curves of a parameter u from 0 to 1, and the places at which the path rests."""
 
     def __init__(self, axes, limits=None, tolerance=None):
         self.axes = list(axes)
@@ -18,7 +18,7 @@ class Path:
         self.tolerance = tolerance
         self.pieces = []  # ("poly", feed, coefficients[axis][power]) or ("arc", feed, a, b, ca, cb, sweep, p0, p1)
         self.stops = {}  # number of the piece that follows -> seconds at rest
-        self.exact = set()  # of these: where the place itself must be hit
+        self.exact = set()  # those of `stops` at which the axes must reach the place exactly
 
     # -- making --
 
@@ -79,7 +79,7 @@ class Path:
 
 
 def read(name):
-    """A path file. PathError says what is wrong and where."""
+    """Reads a path file; PathError says what is wrong and where."""
     path = None
     with open(name, encoding="ascii", errors="replace") as lines:
         for number, text in enumerate(lines, 1):
@@ -185,7 +185,7 @@ class Curves:
         return total * (high - low)
 
     def by_u(self, who, u, order=3):
-        """[q, dq/du, ...], each (places, axes)."""
+        """[q, dq/du, ...] at the parameters u of the pieces `who`; each is an array (places, axes)."""
         out = []
         c = self.coefficient[who]
         for d in range(order + 1):
@@ -209,7 +209,7 @@ class Curves:
         return out
 
     def u_of(self, who, s):
-        """The parameter at length s of each piece."""
+        """The parameters that belong to the lengths s of the pieces `who`."""
         table = self.table[who]
         k = np.clip((table <= s[:, None]).sum(axis=1) - 1, 0, TABLE - 1)
         rows = np.arange(len(who))
@@ -223,7 +223,7 @@ class Curves:
         return u
 
     def by_length(self, who, s):
-        """[q, q', q'', q'''] by length."""
+        """[q, q', q'', q'''], derivatives by the length, at the lengths s of the pieces `who`."""
         return self.by_length_at(who, self.u_of(who, s))
 
     def by_length_at(self, who, u):

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A path file of an NC program: its moves as `ncsim trace` gives them, corners rounded within a tolerance.
+"""Makes a path file from an NC program: its moves as `ncsim trace` gives them, with corners rounded within a tolerance.
 
 usage: path_from_program.py [--tolerance MM] [--blend cubic|parabola|none] [--limits V,A,J] PROGRAM OUT.path
 
-Between two rests (rapids, exact stops, dwells, auxiliary functions) the moves are one polyline; arcs are sampled finely. `cubic` rounds
-sharp corners that stand alone by the curve on which one direction stops while the other starts, each with constant jerk, and makes the rest a
-uniform cubic B-spline, whose curvature is continuous: its control points lie on the polyline, as far apart as the tolerance lets them
-be. For points a distance h apart the curve is |P- - 2P + P+| / 6 from the point P, which is where their distance comes from; it grows
-slowly away from a corner, so a straight stretch stays on its line. The result is measured, and made finer where it is too far away. Then the
-control points move within the tolerance to where the third derivative is least.
-`parabola` rounds every corner by a parabola of half the shorter neighbour's length at most: curvature in steps, for limits without jerk.
-A stretch that is a single move stays the line or arc that it is.
+Between two rests (rapids, exact stops, dwells, auxiliary functions) the moves are one polyline, with arcs sampled finely. `cubic` rounds each
+sharp corner that stands alone by a curve on which the motion in the one direction stops while that in the other starts, both with constant
+jerk. The rest of the polyline becomes a uniform cubic B-spline, whose curvature is continuous. Its control points lie on the polyline, as far
+apart as the tolerance allows: with control points a distance h apart the curve is |P- - 2P + P+| / 6 away from the point P. The distance h
+grows slowly away from a corner, so that a straight stretch stays on its line. The result is measured, and made finer where it is too far away.
+Then the control points are moved within the tolerance to where the third derivative is least.
+`parabola` rounds every corner by a parabola that takes at most half of the shorter line beside it. Its curvature has steps, so it is for limits
+without jerk. A stretch that consists of a single move stays the line or arc that it is.
 """
 import argparse
 import json
@@ -27,14 +27,14 @@ from scipy import sparse
 import path_file
 from quadratic import solve_program
 
-CHORD_MM = 1e-5  # of a sampled arc
-USED = 0.9  # of the tolerance: what is aimed at
-FARTHEST_MM = 8.0  # of two control points
-GROWTH = 0.35  # of their distance along the path
+CHORD_MM = 1e-5  # the chords of a sampled arc are at most this far from it
+USED = 0.9  # part of the tolerance that the first try aims at
+FARTHEST_MM = 8.0  # largest distance of two control points
+GROWTH = 0.35  # their distance grows by at most this much per mm of path
 TRIES = 40
-SHARP = 0.5  # change of the unit direction at a corner of its own
-ROOM = 0.45  # of its neighbours
-STRAIGHT = 1e-9  # turn of the direction below which a corner is none
+SHARP = 0.5  # a corner at which the unit direction changes by more than this can be rounded by itself
+ROOM = 0.45  # such a corner takes at most this part of each line beside it
+STRAIGHT = 1e-9  # a point at which the direction changes by less than this is no corner
 
 
 def trace(ncsim, program, setup=None):
@@ -69,7 +69,7 @@ class Move:
         self.feed, self.start, self.end, self.arc = feed, np.array(start), np.array(end), arc  # arc: a, b, ca, cb, sweep
 
     def points(self):
-        """The polyline behind the start."""
+        """The points of the move's polyline without its start."""
         if self.arc is None:
             return [self.end]
         a, b, ca, cb, sweep = self.arc
@@ -88,8 +88,8 @@ class Move:
 
 
 def moves_of(events, axes, exact, start):
-    """[[Move, ...] between rests], and of the rest behind each [seconds, whether it is exact]."""
-    groups, rests, at, turns = [[]], [[0.0, False]], np.array(start, dtype=float), 0.0  # turns: of the spindle, rev/min
+    """Two lists: the moves [Move, ...] between two rests, and for the rest behind each of them [seconds, whether it is exact]."""
+    groups, rests, at, turns = [[]], [[0.0, False]], np.array(start, dtype=float), 0.0  # turns: spindle speed, rev/min
 
     def rest(seconds=0.0, exact_there=True):
         if groups[-1]:
@@ -141,7 +141,7 @@ def moves_of(events, axes, exact, start):
 
 
 def without_reversals(groups, rests):
-    """The same with a rest where a line turns back: no speed passes it."""
+    """The same groups and rests, with another rest where a line turns back: the axes must stand there in any case."""
     out, between = [], []
     for moves, rest in zip(groups, rests):
         first = 0
@@ -158,7 +158,7 @@ def without_reversals(groups, rests):
 
 
 class Polyline:
-    """Corners without zero steps, lengths, feeds of the pieces."""
+    """The points of a polyline (no two of them at the same place), the lengths up to them, and the feeds of its lines."""
 
     def __init__(self, points, feeds):
         self.points, self.feeds = np.array(points), np.array(feeds)
@@ -198,7 +198,7 @@ class Polyline:
 
 
 def spacing_limit(line, places, tolerance):
-    """The largest distance of control points at each place: |P(s-h) - 2 P(s) + P(s+h)| <= 6 tolerance for every h up to it."""
+    """The largest allowed distance of control points at each place, up to which |P(s-h) - 2 P(s) + P(s+h)| <= 6 tolerance for every h."""
     here = line.at(places)
     out = np.full(len(places), FARTHEST_MM)
     h = FARTHEST_MM
@@ -207,7 +207,7 @@ def spacing_limit(line, places, tolerance):
         sizes.append(h)
         h *= 0.87
     for h in sizes:
-        # beyond an end the line goes on straight
+        # places beyond an end of the line do not count
         left, right = line.at(places - h), line.at(places + h)
         second = np.linalg.norm(left - 2 * here + right, axis=1)
         inside = (places - h >= 0) & (places + h <= line.s[-1])
@@ -216,12 +216,13 @@ def spacing_limit(line, places, tolerance):
 
 
 def control_points(line, tolerance, scale):
-    """Lengths along the polyline; `scale` of (place, factor): where the last try was too far away."""
+    """The control points as lengths along the polyline. `scale` = (places, factors) makes their distances smaller where the last try was too far
+    away."""
     total = line.s[-1]
     steps = max(2, int(math.ceil(total / 0.05)))
     places = np.unique(np.concatenate([line.s, np.linspace(0, total, min(steps, 400_000))]))
     h = spacing_limit(line, places, USED * tolerance) * np.interp(places, *scale)
-    for order in (range(1, len(h)), range(len(h) - 2, -1, -1)):  # it changes slowly
+    for order in (range(1, len(h)), range(len(h) - 2, -1, -1)):  # limit the change of the distance, forward and backward
         for i in order:
             j = i - 1 if order.step == 1 else i + 1
             h[i] = min(h[i], h[j] + GROWTH * abs(places[i] - places[j]))
@@ -242,7 +243,8 @@ SPLINE = np.array([[1, 4, 1, 0], [-3, 0, 3, 0], [3, -6, 3, 0], [-1, 3, -3, 1]]) 
 
 
 def controls_on(line, s):
-    """Control points on the polyline; the ends of the curve are those of the polyline, without curvature."""
+    """Control points at the lengths s of the polyline. One more at each end makes the curve begin and end where the polyline does, without
+    curvature."""
     p = line.at(s)
     return np.concatenate([[2 * p[0] - p[1]], p, [2 * p[-1] - p[-2]]])
 
@@ -256,9 +258,9 @@ INSIDE = (0.0, 0.25, 0.5, 0.75)  # places of a piece at which relax() looks
 
 
 def relax(line, s, p, tolerance):
-    """The control points whose curve has the least third derivative (squares, by length) and stays in a box round the one through p.
+    """Moves the control points p to where the third derivative of the curve (by length, sum of squares) is least, within a box around the path.
 
-    Between vertices that lie on a smooth curve the polyline itself is not smooth, and neither is a spline with its control points there.
+    Even if the vertices lie on a smooth curve, the polyline between them is not smooth, and neither is a spline with its control points on it.
     """
     free = np.arange(3, len(p) - 3)
     if len(free) == 0:
@@ -278,13 +280,13 @@ def relax(line, s, p, tolerance):
     near = np.concatenate([line.at(s[:-1] + u * h) for u in INSIDE])
     own = looks @ p
     for k in np.flatnonzero(moved):
-        # around the polyline, and where the curve cuts a corner by more than the box already, not farther away
+        # The box is around the polyline. Where the curve through p cuts a corner by more than the box, it may stay as far away, but not farther.
         low, high = np.minimum(near[:, k] - box, own[:, k]), np.maximum(near[:, k] + box, own[:, k])
         fixed = np.setdiff1d(np.arange(len(p)), free)
         part = looks[:, free]
         shift = looks[:, fixed] @ p[fixed, k]
         used = np.flatnonzero(np.abs(part).max(axis=1).toarray().ravel() > 0)
-        origin = part @ p[free, k]  # unknowns: movement over the box
+        origin = part @ p[free, k]  # the unknowns are movements, as parts of the box
         t = third[:, free] * box
         q = t.T @ (third @ p[:, k])
         bounds = np.concatenate([(high - shift - origin)[used], -(low - shift - origin)[used]]) / box
@@ -294,14 +296,14 @@ def relax(line, s, p, tolerance):
 
 
 def turn(point, d, e, feed, reach):
-    """Round a sharp corner: while the way to it goes as a cube of time, the way from it does. Constant jerk on either side, no curvature at
-    the ends; |e - d| reach / 8 from the corner at most."""
+    """Rounds a sharp corner: while the motion along d ends as a cube of time, the motion along e begins as one. Both have constant jerk, and the
+    curve has no curvature at its ends. It stays within |e - d| reach / 8 of the corner."""
     before, after = -reach * d, reach * e
     return np.array([point + before, -3 * before, 3 * before, after - before]).T, feed
 
 
 def blend_cubic(line, tolerance):
-    """(coefficients, feed) of each piece: sharp corners that stand alone by turn(), all between them by a spline."""
+    """(coefficients, feed) of each piece: turn() rounds the sharp corners that stand alone, a spline all that is between them."""
     d = np.diff(line.points, axis=0) / line.step[:, None]
     sharpness = np.linalg.norm(np.diff(d, axis=0), axis=1)
     reach = 8 * tolerance / np.maximum(sharpness, 1e-12)
@@ -323,12 +325,12 @@ def blend_cubic(line, tolerance):
 
 
 def feed_of_both(a, b):
-    """The lower one; 0 is none."""
+    """The lower one of two feeds; 0 means no limit."""
     return min(a, b) if a > 0 and b > 0 else max(a, b)
 
 
 def distances(line, s, c, tolerance):
-    """The largest distance of each piece from the polyline near it."""
+    """For each piece its largest distance from the polyline near it."""
     u = np.linspace(0, 1, 9)
     points = np.einsum("up,spa->sua", u[:, None] ** np.arange(4), c).reshape(-1, c.shape[2])
     h = np.diff(s)
@@ -338,7 +340,7 @@ def distances(line, s, c, tolerance):
 
 
 def blend_spline(line, tolerance):
-    """A B-spline, within the tolerance of the polyline by measure."""
+    """A B-spline whose measured distance from the polyline is within the tolerance."""
     scale = (np.array([0.0, line.s[-1]]), np.ones(2))
     for _ in range(TRIES):
         s = control_points(line, tolerance, scale)
@@ -356,7 +358,7 @@ def blend_spline(line, tolerance):
     for share in (0.95, 0.85, 0.7, 0.5):
         try:
             relaxed = spline_pieces(relax(line, s, p, share * tolerance))
-        except RuntimeError:  # what lies on the polyline will do
+        except RuntimeError:  # keep the spline whose control points lie on the polyline
             break
         if distances(line, s, relaxed, tolerance).max() <= tolerance:
             c = relaxed
@@ -389,7 +391,7 @@ def blend_parabola(line, tolerance):
 
 
 def path_of(program, ncsim, tolerance=0.01, blend="cubic", limits=None, setup=None):
-    """The path of a program as a path_file.Path. blend `none`: the moves themselves."""
+    """The path of a program as a path_file.Path. With blend `none` it consists of the moves themselves."""
     events = trace(ncsim, program, setup)
     end = next(e for e in events if e["t"] == "end")
     axes = list(end["machine"])

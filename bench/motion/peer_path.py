@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finds the ncsim that is measured: bench/peer.py knows where it can be."""
+"""Finds the ncsim that is to be measured, as bench/peer.py does."""
 import os
 import sys
 

@@ -4,7 +4,7 @@
 
 usage: programs.py FOLDER
 
-Plain G code in mm, every number with a point. The axes stand at X0 Y0 Z0 before the first block.
+They are plain G code in mm; every number has a decimal point. The axes stand at X0 Y0 Z0 before the first block.
 """
 import math
 import os
@@ -24,7 +24,7 @@ def line(feed=None, **words):
 
 
 def polyline(points, feed, mode="G64"):
-    """G0 over the first point (x, y, z), then G1 through the others."""
+    """G0 to the first point (x, y, z), then G1 through the others."""
     out = [HEAD, mode + "\n", "G0 X{} Y{} Z{}\n".format(*(number(v) for v in points[0]))]
     for k, (x, y, z) in enumerate(points[1:]):
         out.append(line(feed if k == 0 else None, X=x, Y=y, Z=z))
@@ -68,7 +68,7 @@ def dense(curve, length, step, feed):
 
 
 def surface(rows, columns, pitch, feed, height):
-    """Rows to and fro over waves."""
+    """Rows back and forth over a wavy surface."""
     out = []
     for row in range(rows):
         y = row * 0.5
@@ -199,7 +199,7 @@ PROGRAMS = {
 
 
 def write(folder, chosen=None):
-    """All programs; their paths in the order of the table. `chosen`: those of another set."""
+    """Writes all programs, or those of the other set `chosen`; returns their paths in the order of the table."""
     os.makedirs(folder, exist_ok=True)
     out = []
     for name, text in (PROGRAMS if chosen is None else chosen).items():
@@ -211,7 +211,7 @@ def write(folder, chosen=None):
 
 
 def write_random(folder, count):
-    """Short random walks of lines: edges from some um to some mm, turns from smooth to sharp, slow and fast."""
+    """Writes short random walks of lines, from a few um to some mm long, with smooth and sharp turns, slow and fast; returns their paths."""
     os.makedirs(folder, exist_ok=True)
     out = []
     for seed in range(count):

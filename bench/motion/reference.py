@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The shortest time in which a path can be travelled within the limits of velocity, acceleration and jerk of every axis and the feeds.
+"""The shortest time for a path within the feeds and the limits of velocity, acceleration and jerk of every axis.
 
 usage: reference.py [--no-jerk] [--limits V,A,J] [--step-ms S] [--csv FILE] PATH.path      (in the environment that ./setup makes)
 
@@ -52,10 +52,10 @@ class Grid:
         joints = np.concatenate([[0], np.cumsum(length)])
         total = joints[-1]
         inner = np.unique(np.clip(places, 0, total))
-        # Some nodes in every piece: the curve may turn there in less than the time of a cell.
+        # Every piece gets some nodes: the curve may turn in it in less than the time of a cell.
         count = int(np.clip(LEAST_INSIDE_ALL // len(length), 1, LEAST_INSIDE)) if len(length) > 1 else 1
         fixed = np.append((joints[:-1, None] + length[:, None] * np.arange(count) / count).ravel(), total)
-        # No other node next to these: cells keep the size that was meant.
+        # Nodes that are too close to these are left out, so that no cell becomes much smaller than intended.
         which = np.clip(np.searchsorted(fixed, inner, "right") - 1, 0, len(fixed) - 2)
         room = fixed[which + 1] - fixed[which]
         gap = np.minimum(inner - fixed[which], fixed[which + 1] - inner)
@@ -81,7 +81,7 @@ class Grid:
         for end, nodes in ((self.left, slice(0, -1)), (self.right, slice(1, None))):
             with np.errstate(divide="ignore", invalid="ignore"):
                 by_velocity = np.min((limits.velocity / np.abs(end[1])) ** 2, axis=1)
-                # across: |q'' b + q' a| <= A of all axes with the best a; a bound is enough here
+                # across: an upper bound of b from |q'' b + q' a| <= A, of axes that do not move along the path (q' = 0); a bound is enough here
                 across = np.min(np.where(np.abs(end[1]) < 1e-9, limits.acceleration / np.abs(end[2]), np.inf), axis=1)
             out[nodes] = np.minimum(out[nodes], np.minimum(np.minimum(cell, by_velocity), across))
         return out
@@ -101,7 +101,7 @@ def triplets(rows, columns, values, shape):
 
 
 def solve_without_jerk(grid, limits):
-    """b at the nodes. The solution is the largest at every place at once, so a linear program finds it."""
+    """b at the nodes. The optimal b is at every place larger than every other possible b, so a linear program that maximizes the sum finds it."""
     n, h = len(grid.s), grid.step
     most = grid.speed_limit(limits)
     scale = np.where(np.isfinite(most), most, 2 * limits.acceleration.max() * grid.s[-1] * len(limits.velocity))
@@ -130,7 +130,7 @@ def time_without_jerk(grid, b):
 
 
 class JerkStep:
-    """The quadratic program of one step: unknowns b / b0 and a / a0 at the inner nodes."""
+    """The quadratic program of one step. Its unknowns are b and a at the inner nodes, scaled by the last b and by `scale`."""
 
     def __init__(self, grid, limits):
         self.grid, self.limits = grid, limits
@@ -146,12 +146,12 @@ class JerkStep:
         self.strongest = limits.jerk[np.isfinite(limits.jerk)].max()
 
     def inside(self, b, a):
-        """b at JERK_AT of the cells that are no rest; arrays of inner nodes."""
+        """b at the places JERK_AT of the cells that do not touch a rest, one array per place; b and a are those of the inner nodes."""
         h = self.grid.step[1:-1]
         return [np.maximum(b[:-1] + h * z * ((2 - z) * a[:-1] + z * a[1:]), 1e-3 * np.minimum(b[:-1], b[1:])) for z in JERK_AT]
 
     def solve(self, b0, inside):
-        """b and a at the inner nodes from the last b there and inside of the cells."""
+        """The next b and a at the inner nodes, from the last b there (b0) and at the places JERK_AT (inside)."""
         g, n = self.grid, self.count
         h = g.step[1:-1]
         i, node = np.arange(n - 1), np.arange(n)
@@ -203,7 +203,8 @@ class JerkStep:
 
 
     def _limit_jerk(self, add, share, curve, last, cells, b0, scale):
-        """Rows for the jerk at `share` of the way through each of `cells`, where the derivatives are `curve` and b was `last`."""
+        """Adds the rows that limit the jerk at `share` of the way through each of `cells`. There the derivatives of the path are `curve`, and b
+        of the last step is `last`."""
         n, h = self.count, self.grid.step[1:-1][cells]
         i = np.arange(len(cells))
         root = np.sqrt(last)
@@ -221,7 +222,7 @@ class JerkStep:
 
 
 def times_with_jerk(grid, b, a):
-    """Seconds of each cell; b and a at the inner nodes."""
+    """The time of each cell in s; b and a are those of the inner nodes."""
     v = np.sqrt(b)
     first, last = 3 * grid.step[0] / v[0], 3 * grid.step[-1] / v[-1]
     h = grid.step[1:-1]
@@ -249,7 +250,7 @@ class Section:
 
 
 def iterate(grid, limits, b, inside, most_steps, tolerance):
-    """From b at the inner nodes and inside of the cells between them. @return b, a, seconds of the cells, steps."""
+    """Iterates from b at the inner nodes and at the places JERK_AT (inside). Returns b, a, the times of the cells in s, and the number of steps."""
     step = JerkStep(grid, limits)
     b, inside, a = np.maximum(b, 1e-8), [np.maximum(x, 1e-8) for x in inside], None
     best, count = None, 0
@@ -258,7 +259,7 @@ def iterate(grid, limits, b, inside, most_steps, tolerance):
         nb = np.maximum(nb, 1e-10)
         times = times_with_jerk(grid, nb, na)
         share = 1.0
-        while best is not None and times.sum() > best.sum() and share > 0.1:  # the model of the time went too far
+        while best is not None and times.sum() > best.sum() and share > 0.1:  # the model of the time does not hold so far away: go back half of the way
             share /= 2
             nb, na = b + share * (nb - b), a + share * (na - a)
             times = times_with_jerk(grid, nb, na)
@@ -272,22 +273,22 @@ def iterate(grid, limits, b, inside, most_steps, tolerance):
     return b, a, best, count
 
 
-# Of a cell, where the jerk is limited: in the middle on a straight line; on a curve, where it changes more, at the two places of Gauss.
+# Shares of a cell at which the jerk is limited: on a straight line the middle; on a curve, where the jerk changes more, the other two.
 JERK_AT = (0.5 - 0.5 / 3 ** 0.5, 0.5, 0.5 + 0.5 / 3 ** 0.5)
-MOST_GROWTH = 30.0  # of b in one step
-REST_CELLS = 8  # the cell beside a rest takes as long as so many others: there a cell's ends differ too much otherwise
-LEAST_CELLS, MOST_CELLS = 200, 10_000  # of a section, by time
-LEAST_INSIDE, LEAST_INSIDE_ALL = 80, 10_000  # parts of a piece; of all pieces of a section
+MOST_GROWTH = 30.0  # b grows in one step of the iteration by this factor at most
+REST_CELLS = 8  # the cell beside a rest takes as long as so many others, since with shorter ones the values at its ends differ too much
+LEAST_CELLS, MOST_CELLS = 200, 10_000  # cells of a section that are even in time
+LEAST_INSIDE, LEAST_INSIDE_ALL = 80, 10_000  # parts into which a piece is divided, and all pieces of a section together
 
 
 def moments(seconds, step_s):
-    """Times of the inner nodes of a section that takes so long."""
+    """The times at which the inner nodes of a section are passed that takes `seconds`."""
     count = min(MOST_CELLS, max(LEAST_CELLS, int(np.ceil(seconds / step_s))))
     return np.linspace(0, seconds, count + 1)[REST_CELLS:-REST_CELLS]
 
 
 def even_in_time(s, times, step_s):
-    """Places that are step_s apart in time."""
+    """Places along the path that are passed at intervals of step_s."""
     t = np.concatenate([[0], np.cumsum(times)])
     return np.interp(moments(t[-1], step_s), t, s)
 
@@ -326,7 +327,7 @@ def solve_section(curves, first, last, limits, step_s=0.001, jerk=True, toleranc
 
 
 def squared_speed_at(grid, b, a, s):
-    """b at the lengths s of a solution with jerk; b and a at the inner nodes."""
+    """b of a solution with limited jerk at the lengths s; b and a are those of the inner nodes."""
     cell = np.clip(np.searchsorted(grid.s, s, "right") - 1, 0, len(grid.step) - 1)
     out = np.where(cell == 0, b[0] * (np.maximum(s, 0) / grid.step[0]) ** (4 / 3),
                    b[-1] * (np.maximum(grid.s[-1] - s, 0) / grid.step[-1]) ** (4 / 3))
@@ -338,7 +339,7 @@ def squared_speed_at(grid, b, a, s):
 
 
 def place_at(grid, b, a, times, when):
-    """Lengths at the times `when` of a solution with jerk; b and a at the inner nodes."""
+    """The lengths that a solution with limited jerk has reached at the times `when`; b and a are those of the inner nodes."""
     t = np.concatenate([[0], np.cumsum(times)])
     cell = np.clip(np.searchsorted(t, when, "right") - 1, 0, len(times) - 1)
     dt = when - t[cell]
@@ -351,7 +352,7 @@ def place_at(grid, b, a, times, when):
     i = cell[inner] - 1
     p = (a[i + 1] - a[i]) / h[i + 1]
     x = dt[inner]
-    # s'' = a + p s from speed v: hyperbolic, or circular where p < 0
+    # The solution of s'' = a + p s (by time) from speed v has sinh and cosh; where p < 0, sin and cos.
     r = np.sqrt(np.abs(p))
     z = r * x
     small = z < 0.05
@@ -383,7 +384,7 @@ class Solution:
         return sum(s.seconds for _, _, s in self.sections) + sum(self.dwells)
 
     def positions(self, cycle_s):
-        """Axis positions every cycle, from rest to rest."""
+        """The positions of the axes in each cycle, from the rest at the beginning to the rest at the end."""
         out, begin = [], 0.0
         for (first, last, section), dwell in zip(self.sections, self.dwells):
             count = int(np.floor((begin + section.seconds) / cycle_s + 1e-9))

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs programs through `ncsim motion` and prints a table: time, worst ratio to the limits of each axis, distance from the path.
+"""Runs programs through `ncsim motion` and prints a table: time, worst ratio to the limits of the axes, distance from the path.
 
 usage: bench/motion/run [--markdown] [--reference] [--ncsim PATH] [--option "TEXT" ...] [PROGRAM ...]
 
-Without PROGRAM: those of programs.py, and those of ../shared/bench/motion where they are. `ncsim` is given the limits and the options;
-everything is measured from the rows that it writes: finite differences with rests added on both sides, the distance of every row to the
-programmed lines and arcs, followed forward, and the feed. With --reference the shortest possible time on the same program, rounded within
-the tolerance (path_from_program.py), with and without the jerk limit (reference.py); results are kept in build/motion-bench.
+Without PROGRAM it runs those of programs.py, and those of ../shared/bench/motion if that is there. `ncsim` gets the limits and the options.
+Everything is measured from the rows that it writes: finite differences with rests added on both sides, the distance of every row to the
+programmed lines and arcs, which are followed forward, and the feed. --reference adds the shortest possible time of the same program, with its
+corners rounded within the tolerance (path_from_program.py), with and without the jerk limit (reference.py); it is kept in build/motion-bench.
 Exit status: 0, 1 when a limit, the tolerance or a feed is not kept or a program does not run.
 """
 import argparse
@@ -35,11 +35,11 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 SHARED = os.path.join(ROOT, "..", "shared", "bench")
 
 
-AWAY = 300  # rows beside a rest that do not count for the least speed
+AWAY = 300  # so many rows beside a rest do not count for the least speed
 
 
 def slowest_of_mean(rows):
-    """The least distance of two rows over the mean one, away from rests; 0 where there is no such row."""
+    """The least path speed divided by the mean one, away from rests; 0 if no row is far enough from a rest."""
     steps = np.linalg.norm(np.diff(rows, axis=0), axis=1)
     moving = np.concatenate([[0], steps > 0, [0]]).astype(int)
     edges = np.flatnonzero(np.diff(moving))
@@ -51,7 +51,7 @@ def slowest_of_mean(rows):
 
 
 def measured(program, options):
-    """One program on our control: a row of the table."""
+    """Runs one program; returns its row of the table."""
     row = {"program": os.path.splitext(os.path.basename(program))[0]}
     with tempfile.TemporaryDirectory() as folder:
         rows_file = os.path.join(folder, "motion.csv")
@@ -80,7 +80,7 @@ def measured(program, options):
 
 
 def optimum(program, options, jerk):
-    """Seconds of the reference, from the store when it was solved before."""
+    """The time of the reference in s; it is read from build/motion-bench if it was solved before."""
     text = hashlib.sha256()
     for name in (program, *(os.path.join(HERE, f) for f in ("reference.py", "path_file.py", "path_from_program.py", "quadratic.py"))):
         with open(name, "rb") as file:
@@ -104,7 +104,7 @@ def optimum(program, options, jerk):
 
 
 def peers():
-    """{program: [seconds of the facts' columns]} from ../shared/bench/README.md, where it is."""
+    """The names of the columns and {program: [seconds in each column]} of the table in ../shared/bench/README.md; empty without that file."""
     out, names = {}, []
     try:
         with open(os.path.join(SHARED, "README.md"), encoding="utf-8") as lines:
@@ -181,7 +181,7 @@ def common_arguments(description):
 
 
 def finish(rows, options):
-    """Says what is not kept, and ends with 1 where there is any."""
+    """Prints how many programs keep everything, and ends with exit status 1 if one does not."""
     bad = [r for r in rows if "failed" in r or r["breaches"]]
     if options.breaches:
         for r in bad:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the measured set into a folder: what a shop runs, one program of each kind, and random polylines; the same bytes on every run.
+"""Writes the measured set into a folder: one program of each kind that a shop runs, and random polylines; the same bytes on every run.
 
 usage: shop_programs.py FOLDER
 
-It was fixed before anything was measured with it. Pairs that differ in one thing show what that costs: a surface with and without noise,
-in lines of 0.05 and 0.2 mm.
+The set was fixed before anything was measured with it. Some programs are pairs that differ in one thing and so show what that costs: a surface
+with and without noise, in lines of 0.05 and of 0.2 mm.
 """
 import math
 import random
@@ -14,8 +14,8 @@ import sys
 import programs
 from programs import HEAD, line, number, polyline
 
-NOISE_MM = 0.001  # standard deviation, of the height of a surface
-DIGITS = 4  # of a coordinate, as most post-processors write them
+NOISE_MM = 0.001  # standard deviation of the height of a noisy surface
+DIGITS = 4  # decimals of a coordinate, as most post-processors write them
 
 
 def rounded(points):
@@ -23,7 +23,7 @@ def rounded(points):
 
 
 def in_lines(curve, count, feed):
-    """A curve (x, y, z) of a parameter from 0 to 1 in lines that are alike in it."""
+    """A curve (x, y, z) of a parameter from 0 to 1 as lines with equal steps of the parameter."""
     return polyline(rounded(curve(k / count) for k in range(count + 1)), feed)
 
 
@@ -73,7 +73,7 @@ def trochoid():
 
 
 def trochoid_arcs():
-    """Full circles, each a step farther on."""
+    """Full circles, each a step farther than the one before."""
     out = [HEAD, "G64\nG0 X0. Y0. Z0.\n"]
     for k in range(20):
         out.append(f"G3 X{number(0.8 * k)} Y0. I-3. J0." + (" F6000." if k == 0 else "") + "\n" + line(X=round(0.8 * (k + 1), 4), Y=0))
@@ -81,7 +81,7 @@ def trochoid_arcs():
 
 
 def adaptive():
-    """Arcs that cut, and fast ways back that touch them."""
+    """Arcs that cut, and fast return moves that join them tangentially."""
     out = [HEAD, "G64\nG0 X0. Y0. Z0.\n"]
     for k in range(24):
         x = 1.2 * k
@@ -181,7 +181,7 @@ def compensated():
 
 
 def reversals():
-    """To and fro along one line, in steps and at once."""
+    """Back and forth along one line, in several steps and in one."""
     points, x = [(0.0, 0.0, 0.0)], 0.0
     for k in range(30):
         size = (25.0, 4.0, 0.5)[k % 3]

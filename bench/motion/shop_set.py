@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the measured set (shop_programs.py) through `ncsim motion` and compares with the shortest times without a limit of jerk, by toppra.
+"""Runs the measured set (shop_programs.py) through `ncsim motion` and compares its times with the shortest ones without a jerk limit, by toppra.
 
 usage: bench/motion/shop [--markdown] [--worst N] [--ncsim PATH] [--option TEXT ...] [PROGRAM ...]
 
-PROGRAM: names of the set, or files. The columns are those of bench/motion/README.md; `slowest` is the least path speed over the mean one
-away from rests, which is near to 1 where the part is smooth. Optima are kept in build/motion-bench. Exit status: 0, 1 when a limit,
-the tolerance or a feed is not kept or a program does not run.
+PROGRAM: names of the set, or files. The columns are explained in bench/motion/README.md; `slowest` is the least path speed divided by the mean
+one, away from rests, which is near 1 where the part is smooth. Optima are kept in build/motion-bench. Exit status: 0, 1 when a limit, the
+tolerance or a feed is not kept or a program does not run.
 """
 import hashlib
 import json

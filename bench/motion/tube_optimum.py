@@ -1,28 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The shortest time in the tube: path and time law together, anywhere within the tolerance of the programmed path, under limits of velocity,
-acceleration, jerk and feed (README.md, "The tube").
+"""The shortest time in the tube: path and time law are chosen together, anywhere within the tolerance of the programmed path, under limits of
+velocity, acceleration, jerk and feed (README.md, "The tube").
 
-The motion between two rests is N rows, one a cycle of h seconds, from where the recording begins to where it ends; the three differences of
-the rows over h, h^2 and h^3 are what is limited, as in motion_check.py. What is looked for is the least h. Given which part of the path
-each row belongs to, that is a cone program but for h^2 and h^3, whose tangents lie below them; solving it again and again with rows that
-have moved along the path gives a motion that no small change of path and law makes shorter. It begins with a recording, so it is never longer than that.
+The motion between two rests is N rows, one per cycle of h seconds, from the place where the recording begins to the place where it ends. The
+first three differences of the rows, divided by h, h^2 and h^3, are limited, as in motion_check.py. The least h is wanted. When it is known to
+which part of the path each row belongs, this is a cone program except for h^2 and h^3, which are replaced by their tangents; these lie below
+them. It is solved again and again, each time for rows that have moved along the path, until no small change of path and law makes the motion
+shorter. It begins with a recording, so the result is never longer than that.
 """
 import clarabel
 import numpy as np
 from scipy import sparse
 
 STEPS = 40
-AHEAD = 6.0  # rows' way, by which a row may move along a bend in the first steps
-SLOWER = 0.8  # each step the way along a bend is that part of the one before, from the third on
+AHEAD = 6.0  # in the first steps a row may move along a bend by so many distances of neighbouring rows
+SLOWER = 0.8  # from the third step on this way becomes smaller by this factor in each step
 LEAST_AHEAD = 0.02
-SETTLED = 2e-5  # of h, by which three steps in a row have changed it
-BENT = 0.02  # tolerances by which the path may leave the tangent for a row to move along it freely
-WITHIN = 1.002  # tolerances, of a row of the result
+SETTLED = 2e-5  # the end is reached when three steps in succession have changed h by less than this part of it
+BENT = 0.02  # a row may move freely along the tangent where the path leaves it by less than this part of the tolerance
+WITHIN = 1.002  # the rows of the result are within this multiple of the tolerance
 NEAR_REST_MM = 1e-3
 
 
 class Foot:
-    """Where on the polyline each row is: the nearest place on it, never behind that of the row before."""
+    """The place on the polyline that belongs to each row: the nearest one that is not before the place of the preceding row."""
 
     def __init__(self, line, rows, tolerance):
         self.line = line
@@ -44,14 +45,14 @@ class Foot:
             self.place[k], self.off[k] = s, off[best]
 
     def feeds(self):
-        """Of the way between each two rows: the highest feed of the lines there, HUGE for a rapid."""
+        """For each two neighbouring rows the highest feed of the lines between them; infinite for a rapid."""
         edge = np.clip(np.searchsorted(self.line.s, self.place, "right") - 1, 0, len(self.line.step) - 1)
         feed = np.where(self.line.feeds > 0, self.line.feeds, np.inf)
         return np.array([feed[a:b + 1].max() for a, b in zip(edge[:-1], np.maximum(edge[1:], edge[:-1]))])
 
     def tangents(self, ahead, tolerance):
-        """(place, direction, way back, way ahead, least distance to it of the path) of each row: how it may move along the path while that is
-        nearly straight, at least along its own line."""
+        """Place, direction, and how far each row may move back and ahead along this direction: as long as the path is nearly straight, and at least
+        along the line on which its place is."""
         line, out = self.line, []
         for s, off, way in zip(self.place, self.off, ahead):
             e = int(np.clip(np.searchsorted(line.s, s, "right") - 1, 0, len(line.step) - 1))
@@ -64,7 +65,7 @@ class Foot:
                 inner = line.points[np.searchsorted(line.s, low):np.searchsorted(line.s, high, "right")]
                 ends = np.concatenate([chord, inner]) - foot
                 bent = np.linalg.norm(ends - np.outer(ends @ direction, direction), axis=1).max()
-            if bent > max(BENT * tolerance, 0.5 * (tolerance - off)):  # a corner: along its own line only
+            if bent > max(BENT * tolerance, 0.5 * (tolerance - off)):  # at a corner it may move along its own line only
                 direction = (line.points[e + 1] - line.points[e]) / line.step[e]
                 low, high = line.s[e], line.s[e + 1]
             elif bent <= BENT * tolerance:
@@ -74,7 +75,7 @@ class Foot:
 
 
 def differences(count, order):
-    """Of rows at rest before the first one and behind the last one."""
+    """The matrix of the differences of this order, with rows added before the first and behind the last one, at which the axes rest."""
     padded = sparse.diags([np.ones(count)], [0], shape=(count, count)).tolil()
     before = sparse.csr_matrix((np.ones(order), (np.arange(order), np.zeros(order, int))), shape=(order, count))
     behind = sparse.csr_matrix((np.ones(order), (np.arange(order), np.full(order, count - 1))), shape=(order, count))
@@ -85,7 +86,7 @@ def differences(count, order):
 
 
 class Tube:
-    """The rows of one stretch between two rests, [0] and [-1] at rest, and the cone programs that make them faster."""
+    """The rows of one stretch between two rests, of which the first and the last are at rest, and the cone programs that make it faster."""
 
     def __init__(self, line, rows, cycle_s, limits, tolerance):
         self.line, self.rows, self.limits, self.tolerance = line, np.array(rows, dtype=float), limits, tolerance
@@ -97,7 +98,8 @@ class Tube:
         return (len(self.rows) - 1) * self.h
 
     def program(self, foot, ahead):
-        """One cone program; the rows it finds and h. Unknowns: distances of the rows from their places, ways along, h by the one now."""
+        """Solves one cone program; returns the rows that it finds, and h. Its unknowns are the distances of the rows from their places, their ways
+        along the path, and x, the new h divided by the present one."""
         n, axes, tolerance = len(self.rows), self.axes, self.tolerance
         place, direction, low, high = foot.tangents(ahead, tolerance)
         unknown = n * len(axes) + n + 1
@@ -109,7 +111,7 @@ class Tube:
             cones.append(cone)
 
         def wide(matrix, axis, last):
-            """A matrix of the rows of one axis as one of all unknowns, with a column for h."""
+            """Extends a matrix for the rows of one axis to all unknowns; `last` is its column for x."""
             blocks = [sparse.csr_matrix((matrix.shape[0], n))] * len(axes)
             blocks[axis] = matrix
             return sparse.hstack([*blocks, sparse.csr_matrix((matrix.shape[0], n)), sparse.csr_matrix(np.reshape(last, (-1, 1)))]).tocsr()
@@ -117,7 +119,7 @@ class Tube:
         ends = sparse.csr_matrix((np.ones(2), ([0, 1], [0, n - 1])), shape=(2, n))
         for k, i in enumerate(axes):
             add(wide(ends, k, np.zeros(2)), self.rows[[0, -1], i] - place[[0, -1], i], clarabel.ZeroConeT(2))
-        for order, matrix in enumerate(self.matrices, 1):  # |difference| <= limit (h0 x)^order, x^order >= 1 + order (x - 1)
+        for order, matrix in enumerate(self.matrices, 1):  # |difference| <= limit (h x)^order, with x^order replaced by its tangent 1 + order (x - 1)
             most = self.limits[order - 1] * self.h ** order
             for k, i in enumerate(axes):
                 known = matrix @ place[:, i] / most
@@ -127,7 +129,7 @@ class Tube:
         ways = sparse.hstack([sparse.csr_matrix((n, n * len(axes))), sparse.identity(n), sparse.csr_matrix((n, 1))]).tocsr()
         add(ways, high, clarabel.NonnegativeConeT(n))
         add(-ways, -low, clarabel.NonnegativeConeT(n))
-        # (tolerance, distance - way * direction) and (feed h x, difference) in cones of all axes
+        # Cones over all axes: |distance - way * direction| <= tolerance for each row, and |difference| <= feed h x for each two rows.
         near = [sparse.hstack([*[-sparse.identity(n) if j == k else sparse.csr_matrix((n, n)) for j in range(len(axes))],
                                sparse.diags([direction[:, i]], [0]), sparse.csr_matrix((n, 1))]).tocsr() for k, i in enumerate(axes)]
         size, cells = len(axes) + 1, sparse.vstack([sparse.csr_matrix((n, unknown)), *near]).tocsr()
@@ -162,7 +164,7 @@ class Tube:
         return rows, found[-1] * self.h
 
     def solve(self, say=None):
-        """The least time: seconds. Rows are left in `rows`."""
+        """Finds the least time and returns it in s; the rows of the motion are then in `rows`."""
         best, best_rows, settled, share = self.h, self.rows, 0, AHEAD
         for step in range(STEPS):
             foot = Foot(self.line, self.rows, self.tolerance)
@@ -190,8 +192,8 @@ class Tube:
 
 
 def stretches(rows, ends):
-    """The rows of each motion between two rests, beginning and ending with the places of the rests: `ends`, those behind the first one. A rest may
-    lie between two rows; the nearest one is taken for it."""
+    """The rows of each motion between two rests, with the places of the rests as the first and the last row. `ends` are the places of all rests but
+    the first one. A rest may lie between two rows; the nearest row is then replaced by it."""
     out, first, start = [], 0, rows[0]
     for end in ends:
         off = np.linalg.norm(rows[first + 1:] - end, axis=1)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Short pieces of what a shop runs, and how much longer they take than the shortest time in the tube (tube_optimum.py).
+"""Runs short pieces of shop programs and prints how much longer they take than the shortest time in the tube (tube_optimum.py).
 
 usage: bench/motion/tube [--markdown] [--say] [--ncsim PATH] [--option TEXT ...] [PROGRAM ...]
 
-PROGRAM: names of the pieces, or files of some seconds. Every motion between two rests is one problem of its own. Exit status: 0, 1 where a
-program does not run or rests elsewhere than programmed.
+PROGRAM: names of the pieces, or files that run for some seconds. Every motion between two rests is optimized by itself. Exit status: 0, 1 when
+a program does not run or rests at a place that is not programmed.
 """
 import os
 import subprocess
@@ -26,7 +26,7 @@ from programs import HEAD, line, polyline
 
 
 def of_shop(name, moves):
-    """The first moves of a program of the measured set, its head and what is not a move besides."""
+    """The beginning of a program of the measured set up to so many moves; its head and other blocks do not count as moves."""
     out, left = [], moves
     for text in shop_programs.PROGRAMS[name]().splitlines(keepends=True):
         if text.startswith("M30"):
@@ -59,7 +59,7 @@ PROGRAMS = {
 
 
 def measured(program, options):
-    """A row: seconds of the recording in motion and of the tube."""
+    """A row of the table: the time in motion of the recording and the shortest time in the tube, both in s."""
     with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "motion.csv")
         command = [options.ncsim, "motion", "--limits", ",".join(f"{v:g}" for v in options.limits), "--cycle-us", str(options.cycle_us), "-o", name]

@@ -9,9 +9,9 @@
 namespace nc::hal::canopen {
 namespace {
 
-constexpr unsigned kBase = 6;        // control or status word, position
-constexpr unsigned kProbe = 2;       // 60B8h beside them
-constexpr double kFull = 0.95;       // of which the slow part may make use, too
+constexpr unsigned kBase = 6;        // bytes of the control or status word and the position
+constexpr unsigned kProbe = 2;       // bytes of 60B8h, which an axis with a touch probe has in addition
+constexpr double kFull = 0.95;       // largest load of the bus with the frames of the slow part
 
 double bits_of_period(const BusMap& bus) { return static_cast<double>(bus.bit_s) * bus.sync_us * 1e-6; }
 
@@ -26,7 +26,7 @@ std::vector<unsigned> tpdo_bytes(const AxisMap& axis) {
 }
 
 BusLoad bus_load(const BusMap& bus) {
-  std::map<unsigned, unsigned> count;  // PDOs by their bytes
+  std::map<unsigned, unsigned> count;  // number of PDOs for each number of bytes
   for (const NodeMap& node : bus.nodes)
     for (const AxisMap& axis : node.axes) {
       ++count[rpdo_bytes(axis)];

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kStackBytes = 256 * 1024;
 constexpr std::int64_t kServiceNs = 2'000'000;
-constexpr std::int64_t kPhaseShare = 64;      // of what the cycle is away from the middle between two scans, that it comes nearer with each
-constexpr std::int64_t kPhaseStepNs = 2'000;  // at most
+constexpr std::int64_t kPhaseShare = 64;      // with each cycle the bus's thread corrects 1/64 of its distance from the middle between two scans
+constexpr std::int64_t kPhaseStepNs = 2'000;  // the largest such correction
 
-// Does not enter the kernel.
+// The time of CLOCK_MONOTONIC; does not enter the kernel.
 std::int64_t monotonic_ns() noexcept {
   timespec t{};
   clock_gettime(CLOCK_MONOTONIC, &t);
@@ -31,7 +31,8 @@ void sleep_until(std::int64_t ns) {
   }
 }
 
-// Signals are for the operator's thread. With a priority where that is allowed, else without.
+// Makes a thread that takes no signals, because they are for the operator's thread. It gets its priority under SCHED_FIFO if that is allowed; otherwise it is
+// an ordinary thread.
 bool make_thread(void* (*body)(void*), void* self, int priority, const char* name, pthread_t* thread, std::string* error) {
   pthread_attr_t attributes;
   pthread_attr_init(&attributes);
@@ -106,7 +107,8 @@ bool CanMachine::make_threads(std::string* error) {
   return has_service_thread_;
 }
 
-// Its own deadlines, drawn towards the middle between two scans: what the scan has given is there then, and what the drives say reaches the next one.
+// The thread has deadlines of its own, which are moved towards the middle between two scans. So the positions of a scan are complete when a cycle begins,
+// and the answers of the drives are there when the next scan begins.
 void CanMachine::bus_thread() {
   const std::int64_t period = bus_.cycle_us * 1000LL;
   std::int64_t next = monotonic_ns() + period;
@@ -120,7 +122,7 @@ void CanMachine::bus_thread() {
       next += std::clamp((period / 2 - away) / kPhaseShare, -kPhaseStepNs, kPhaseStepNs);
     }
     next += period;
-    if (now > next) next += (now - next + period) / period * period;  // a late cycle is left out, not caught up
+    if (now > next) next += (now - next + period) / period * period;  // cycles that were missed are skipped
   }
 }
 
@@ -138,7 +140,8 @@ void CanMachine::end_threads() {
   has_bus_thread_ = has_service_thread_ = false;
 }
 
-// What runs is stopped by the drives' own ramp while SYNC goes on; then the nodes leave "operational", in which no PDO moves anything.
+// First the drives stop their axes with their own quick stop ramp, while SYNC goes on. Then the nodes are switched to "pre-operational", in which PDOs have
+// no effect.
 void CanMachine::stop() noexcept {
   if (has_bus_thread_) {
     BusWanted& wanted = cyclic_.wanted();
@@ -197,7 +200,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     if (axis.known) out.actual.v[map.axis] = machine(axis.position);
     out.actual_valid = true;
     if (!axis.follows) out.not_following |= bit;
-    if (shown.serial < reset_serial_) continue;  // what was wrong before the reset
+    if (shown.serial < reset_serial_) continue;  // these faults are from before the reset
     if (axis.following_fault) out.following_fault |= bit;
     if ((axis.fault & kFaulty) != 0) {
       out.drive_fault |= bit;
@@ -206,7 +209,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
   }
 }
 
-// The point has risen, and the drive has not begun since. In a program it waits for the end.
+// True when the request point has risen and the drive has not begun homing since. While a program runs the request waits for its end.
 bool CanMachine::asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept {
   const bool on = map.homing_request >= 0 && image.value[map.homing_request] != 0;
   HomingRequest& request = homing_[index];
@@ -229,7 +232,7 @@ void CanMachine::write(const Command& command, const PointImage& image) noexcept
   }
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) strobe_[s] = command.system[s].strobe != 0;
   wanted.serial = ++serial_;
-  const bool reset = command.system[0].reset;  // of the whole control
+  const bool reset = command.system[0].reset;  // a reset always concerns the whole control
   if (reset && !resetting_) reset_serial_ = serial_;
   resetting_ = reset;
   wanted.stamp_ns = monotonic_ns();

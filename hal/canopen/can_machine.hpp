@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A machine whose axes are drives on a CANopen bus: what the scan sees of it, and the two threads behind it.
+// A machine whose axes are drives on a CANopen bus: the interface to the scan, and two threads.
 //
-//   scan             read(), write(): images, no system call
-//   bus's thread     Cyclic::cycle() once per servo cycle, half a period behind the scan, SCHED_FIFO where that is allowed
+//   scan             read(), write(): exchange images, no system call
+//   bus's thread     Cyclic::cycle() once per servo cycle, half a period after the scan, under SCHED_FIFO if that is allowed
 //   service thread   Service::step() every two milliseconds
 //
-// Both parts can be driven by the caller instead (stepping): a test has then one thread and its own time.
+// The caller can drive both parts itself instead (stepping). So a test has a single thread and its own time.
 #pragma once
 
 #include <pthread.h>
@@ -28,16 +28,16 @@ class CanMachine final : public Hal {
   CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report = {});
   ~CanMachine() override;
 
-  // Opens the port and waits until all drives are operational: a machine whose axes are not there cannot be reached.
+  // Opens the port and waits until all drives are operational. False when they are not in time, as for any machine that cannot be reached.
   bool start(const PointImage& initial, std::string* error) override;
   void read(Feedback* feedback, PointImage* image) noexcept override;
   void write(const Command& command, const PointImage& image) noexcept override;
-  // Drives by quick stop to rest and without torque, nodes to pre-operational.
+  // Stops the drives by quick stop, takes their torque away, and switches the nodes to pre-operational.
   void stop() noexcept override;
 
   // ---- without threads ----
   bool start_stepping(std::string* error);
-  void step_bus(std::int64_t now_ns);  // one servo cycle of the bus and a turn of the service
+  void step_bus(std::int64_t now_ns);  // one servo cycle of the bus and one step of the service
 
   // ---- any thread ----
   Service& service() { return service_; }
@@ -57,7 +57,7 @@ class CanMachine final : public Hal {
   Service service_;
 
   // ---- scan ----
-  std::uint64_t serial_ = 0, reset_serial_ = 0;  // the second: with which the last reset began
+  std::uint64_t serial_ = 0, reset_serial_ = 0;  // serial number of the last command, and of the one with which the last reset began
   bool resetting_ = false;
   struct HomingRequest {
     bool on = false, waits = false, begun = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time part of a bus of drives: one cycle, and what comes from the bus. What becomes of an axis is in cyclic_axis.cpp. See cyclic.hpp.
+// The real-time part of a bus of drives: one cycle, and the frames from the bus. The handling of one axis is in cyclic_axis.cpp. See cyclic.hpp.
 #include "hal/canopen/cyclic.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace nc::hal::canopen {
 namespace {
 
 constexpr unsigned kFramesPerCycle = 256;  // more than a bus carries in a cycle of 1 ms
-constexpr double kSilences = 2.5;          // heartbeat times without one
+constexpr double kSilences = 2.5;          // a node is lost after this number of heartbeat periods without a heartbeat
 constexpr std::uint8_t kStateBootUp = 0, kStateOperational = 5;
 
 }  // namespace
@@ -67,7 +67,7 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
     send(beat);
     beat_ns_ = now_ns;
   }
-  bool any = false;  // as long as no drive is moved the bus is the slow part's
+  bool any = false;  // while no node is operational, the slow part may send with every SYNC
   for (const Node& node : nodes_) any |= node.operational;
   if (sync && ++slow_wait_ >= (any ? slow_every_ : 1)) {
     CanFrame slow;
@@ -93,7 +93,7 @@ void Cyclic::take_frames(std::int64_t now_ns) noexcept {
 void Cyclic::dispatch(const CanFrame& frame, std::int64_t now_ns) noexcept {
   if (frame.event != BusEvent::kNone) return take_event(frame.event);
   statistics_.received.fetch_add(1, std::memory_order_relaxed);
-  if (bus_off_) take_event(BusEvent::kRestarted);  // what is heard is a bus
+  if (bus_off_) take_event(BusEvent::kRestarted);  // a frame that is received shows that the bus works again
   if (take_tpdo(frame)) return;
   const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
   const std::int8_t node = node_at_[id];
@@ -103,7 +103,7 @@ void Cyclic::dispatch(const CanFrame& frame, std::int64_t now_ns) noexcept {
   statistics_.strange.fetch_add(1, std::memory_order_relaxed);
 }
 
-// With the bus off nothing is known of any node. When it is there again, each is set up again: it may have been without power.
+// While the bus is off, the state of the nodes is unknown. When the bus is back, each node is set up again, because it may have been without power.
 void Cyclic::take_event(BusEvent event) noexcept {
   if (event == BusEvent::kBusOff) {
     if (!bus_off_) statistics_.bus_off.fetch_add(1, std::memory_order_relaxed);
@@ -117,7 +117,7 @@ void Cyclic::take_event(BusEvent event) noexcept {
 bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
   for (Axis& axis : axes_) {
     if (frame.id != axis.tpdo_id && (axis.probe_id == 0 || frame.id != axis.probe_id)) continue;
-    if (frame.length < 6) {  // not what it was told to map
+    if (frame.length < 6) {  // the PDO does not have the mapping that was written into the drive
       statistics_.strange.fetch_add(1, std::memory_order_relaxed);
     } else if (phase(axis.node) == NodePhase::kOperational) {
       if (frame.id == axis.tpdo_id) take_position(&axis, frame);
@@ -128,7 +128,7 @@ bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
   return false;
 }
 
-// The position counts on over the turns of its 32 bits.
+// The position goes on counting when the drive's 32 bits overflow.
 void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   const auto raw = static_cast<std::int32_t>(get_le(frame.data + 2, 4));
   const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) - static_cast<std::uint32_t>(axis->raw));
@@ -149,7 +149,7 @@ void Cyclic::hand_over(const CanFrame& frame) noexcept {
   if (!in_.push(frame)) statistics_.strange.fetch_add(1, std::memory_order_relaxed);
 }
 
-// A node that begins anew, or leaves "operational", has lost what it was told.
+// A node that boots again or leaves "operational" has lost its set-up, so it is set up again.
 void Cyclic::take_heartbeat(unsigned n, const CanFrame& frame, std::int64_t now_ns) noexcept {
   if (frame.length < 1) return;
   nodes_[n].heard_ns = now_ns;
@@ -183,7 +183,7 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
         axis.fresh = true;
       }
       if (silent) fault(&axis, DriveTrouble::kHeartbeat);
-      if (!operational && node.operational) fault(&axis, DriveTrouble::kHeartbeat);  // unless it is known better
+      if (!operational && node.operational) fault(&axis, DriveTrouble::kHeartbeat);  // has no effect when a more exact reason was noted before
     }
     if (silent) set_phase(n, NodePhase::kAway);
     node.operational = operational && !silent;

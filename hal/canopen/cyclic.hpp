@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time part of a bus of drives: SYNC, PDOs, the state machine of each axis, heartbeats, and what is watched. One call of cycle()
-// per servo cycle in the bus's thread: bounded work, no allocation, no lock, no system call but the port's send and receive.
+// The real-time part of a bus of drives: SYNC, PDOs, the state machine of each axis, heartbeats, and what is watched. cycle() is called once
+// per servo cycle in the bus's thread: bounded work, no allocation, no lock, no system call other than the port's send and receive.
 //
-//   cycle k:  SYNC, heartbeat ─▶ RPDOs with the newest positions of the scan ─▶ what has come in since ─▶ publish
+//   cycle k:  SYNC ─▶ frames that have come in ─▶ RPDOs with the newest positions of the scan ─▶ heartbeat, a frame of the slow part ─▶ publish
 //
-// A drive takes with SYNC k+1 what came behind SYNC k, and says with SYNC k where it stood then. So a position of the scan acts one to two cycles
-// later, and the following error is taken from the command of two SYNCs before.
+// With SYNC k+1 a drive takes over the set-point that came after SYNC k, and with SYNC k it measures the position that it reports. So a position of the scan
+// takes effect one to two cycles later, and the following error is measured from the commands of the last SYNCs (check_following()).
 //
-// With the scan it exchanges images (triple buffers), with the slow part (service.hpp) frames (queues) and a phase for each node.
+// It exchanges images with the scan (triple buffers), and frames (queues) and a phase for each node with the slow part (service.hpp).
 #pragma once
 
 #include <array>
@@ -24,47 +24,47 @@
 
 namespace nc::hal::canopen {
 
-// What the slow part makes of a node.
+// The phase of a node; the slow part brings it forward.
 enum class NodePhase : std::uint8_t {
-  kAway,         // it has not answered, or not again
+  kAway,         // the node has not answered yet, or is lost
   kSetUp,        // its objects are being written
-  kOperational,  // its PDOs count
-  kRefused       // it cannot be set up; someone has to look
+  kOperational,  // its PDOs are used
+  kRefused       // it cannot be set up, which somebody has to look at; the set-up is tried again after some seconds
 };
 
-// What is asked of the slow part for one axis: the mode of operation (6060h).
+// Modes of operation (6060h) of an axis, which the slow part switches on request.
 inline constexpr std::int8_t kModeHoming = 6, kModeCyclicPosition = 8;
 
-// Of one axis, from the scan.
+// What the scan wants of one axis.
 struct AxisWanted {
   std::int64_t target = 0;  // increments
   bool on = false;
-  bool reset = false;       // forget faults; where the drive has one, reset it, too
-  bool home = false;        // homing begins when it goes on
+  bool reset = false;       // clear faults; if the drive has a fault, reset it, too
+  bool home = false;        // homing begins at the rising edge
 };
 struct BusWanted {
-  std::uint64_t serial = 0;  // counts the scans
+  std::uint64_t serial = 0;  // number of the command; counts up with each scan
   std::int64_t stamp_ns = 0;
   std::array<AxisWanted, kMaxAxes> axis{};
 };
 
-// Of one axis, to the scan.
+// What the scan sees of one axis.
 struct AxisShown {
   std::int64_t position = 0;  // increments
-  bool known = false;         // there has been one
-  bool follows = false;       // enabled, in cyclic position, and bit 12 says that it takes the command
+  bool known = false;         // a position has come
+  bool follows = false;       // the drive is enabled, in cyclic position, and bit 12 says that it follows the command
   bool homed = false;
   bool homing = false;
   bool following_fault = false;
   std::uint32_t fault = 0;    // drive_fault_code() | kFaulty
-  std::int64_t probe = 0;     // increments that the drive has latched
+  std::int64_t probe = 0;     // position latched by the touch probe, in increments
   bool probe_on = false;
 };
 inline constexpr std::uint32_t kFaulty = 0x80000000u;
 struct BusShown {
   std::array<AxisShown, kMaxAxes> axis{};
-  bool lost = true;  // bus off, or no node is operational
-  std::uint64_t serial = 0;  // of the scan's last image that has been acted on
+  bool lost = true;  // the bus is off, or no node is operational
+  std::uint64_t serial = 0;  // serial number of the last command that has been carried out
 };
 
 struct CyclicStatistics {
@@ -77,7 +77,7 @@ class Cyclic {
 
   // ---- bus's thread ----
   void cycle(std::int64_t now_ns) noexcept;
-  // When the scan took its last image: the thread keeps its own cycle half a period behind.
+  // The time at which the scan gave its last command. The bus's thread keeps its cycle half a period after it.
   std::int64_t scan_stamp_ns() const noexcept { return wanted_.front().stamp_ns; }
 
   // ---- scan ----
@@ -93,7 +93,7 @@ class Cyclic {
   bool to_bus(const CanFrame& frame) noexcept { return out_.push(frame); }
   void set_phase(unsigned node, NodePhase phase) noexcept { phase_[node].store(phase, std::memory_order_release); }
   NodePhase phase(unsigned node) const noexcept { return phase_[node].load(std::memory_order_acquire); }
-  // The mode that an axis is to be in, and the one that the drive has confirmed.
+  // The mode that an axis should be in, and (set) the mode that its drive has confirmed.
   std::int8_t wanted_mode(unsigned axis) const noexcept { return wanted_mode_[axis].load(std::memory_order_acquire); }
   void set_mode(unsigned axis, std::int8_t mode) noexcept { mode_[axis].store(mode, std::memory_order_release); }
 
@@ -101,9 +101,9 @@ class Cyclic {
   const CyclicStatistics& statistics() const { return statistics_; }
   unsigned axis_count() const { return static_cast<unsigned>(axes_.size()); }
   const AxisMap& axis(unsigned index) const { return *axes_[index].map; }
-  // Every node is operational and every axis has said where it stands.
+  // True when every node is operational and every axis has sent its position.
   bool ready() const noexcept { return ready_.load(std::memory_order_acquire); }
-  // The drive holds the axis: operation enabled, or on its way to rest.
+  // True while the drive controls the axis: its operation is enabled, or it is stopping.
   bool is_enabled(unsigned index) const noexcept { return enabled_[index].load(std::memory_order_relaxed); }
 
  private:
@@ -118,9 +118,9 @@ class Cyclic {
     std::int64_t position = 0;
     bool known = false, fresh = false;
     unsigned missed = 0, twice = 0;
-    std::int64_t target[3] = {};  // of the last SYNC and of the two before, the newest first
-    unsigned on_syncs = 0;       // SYNCs since it was wanted on
-    bool was_on = false;         // it has followed since then
+    std::int64_t target[3] = {};  // set-points of the last SYNC and of the two before it, the newest first
+    unsigned on_syncs = 0;       // SYNCs since the axis was to be switched on
+    bool was_on = false;         // the drive has followed since then
     DriveTrouble trouble = DriveTrouble::kNone;
     bool faulty = false, following_fault = false;
     unsigned reset_left = 0;     // SYNCs in which a fault is still being reset
@@ -137,7 +137,7 @@ class Cyclic {
   struct Node {
     unsigned id = 0;
     std::int64_t heard_ns = 0;
-    bool operational = false;  // as of the last cycle
+    bool operational = false;  // state in the last cycle
     std::uint16_t emergency = 0;
     std::uint8_t error_register = 0;
   };
@@ -173,7 +173,7 @@ class Cyclic {
   const unsigned cycles_per_sync_, slow_every_;
   std::vector<Axis> axes_;
   std::vector<Node> nodes_;
-  std::array<std::int8_t, kLastNode + 1> node_at_{};  // by node id, -1 = none of ours
+  std::array<std::int8_t, kLastNode + 1> node_at_{};  // index in nodes_ for each node id, -1 = not configured
 
   TripleBuffer<BusWanted> wanted_{BusWanted{}};
   TripleBuffer<BusShown> shown_{BusShown{}};
@@ -187,7 +187,7 @@ class Cyclic {
 
   unsigned cycles_ = 0, slow_wait_ = 0;
   std::int64_t beat_ns_ = 0;
-  std::int64_t command_ns_ = 0;  // when the serial of the scan changed last
+  std::int64_t command_ns_ = 0;  // time at which the last new command of the scan was seen
   std::uint64_t serial_ = 0;
   bool fresh_command_ = false;
   bool bus_off_ = false;

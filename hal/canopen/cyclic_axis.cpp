@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time part of a bus of drives: what becomes of one axis with each SYNC. See cyclic.hpp.
+// The real-time part of a bus of drives: the handling of one axis with each SYNC. See cyclic.hpp.
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +8,12 @@
 namespace nc::hal::canopen {
 namespace {
 
-constexpr unsigned kTwiceLimit = 20;      // SYNCs with two positions of one axis, less those with one
-constexpr unsigned kHomingSettle = 10;    // SYNCs behind the start bit in which its status may still be that of the last homing
-constexpr unsigned kProbeHold = 20;       // SYNCs that the skip signal stays on
-constexpr double kJumpFactor = 2;         // of the largest velocity
-constexpr double kJumpSlack = 0.02;       // mm or deg
-constexpr unsigned kResetMs = 500;        // that a drive may take to get out of its fault
+constexpr unsigned kTwiceLimit = 20;      // SYNCs with two positions of one axis, minus those with one, until that is a fault
+constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which the status may still be that of the previous homing
+constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
+constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
+constexpr double kJumpSlack = 0.02;       // mm or deg in addition
+constexpr unsigned kResetMs = 500;        // time that a drive may take to leave its fault
 constexpr std::uint16_t kProbeEnable = 0x0001, kProbeRising = 0x0010, kProbeFalling = 0x0020;  // 60B8h
 constexpr std::uint16_t kStoredRising = 0x0002, kStoredFalling = 0x0004;                       // 60B9h
 
@@ -32,7 +32,7 @@ bool Cyclic::follows(unsigned index) const noexcept {
          mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
 }
 
-// Whether its positions come, and what its status says.
+// Checks whether positions of the axis come, and whether its status reports a fault.
 void Cyclic::watch_axis(unsigned index) noexcept {
   Axis& axis = axes_[index];
   if (!nodes_[axis.node].operational) return;
@@ -49,7 +49,7 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   }
 }
 
-// True while the scan gives positions. The serial of the scan tells a new one from the one before.
+// True while the scan gives positions in time. A new command is recognized by its serial number.
 bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
   wanted_.take();
   fresh_command_ = wanted_.front().serial != serial_;
@@ -59,7 +59,7 @@ bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
   return serial_ != 0 && now_ns - command_ns_ <= command_limit_ns_;
 }
 
-// What an axis in a fault is to do is nobody's but the reset's.
+// What the drive is to do now. An axis with a fault stays off until a reset.
 DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept {
   const DriveWish wish = wanted.on ? DriveWish::kOn : DriveWish::kOff;
   if (wanted.reset && commanded) {
@@ -114,7 +114,8 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   send_rpdo(axis);
 }
 
-// A scan that is late by one SYNC moves on as it did; by more, the axes stand until its positions come again. What no axis can do is not done.
+// The set-point for this SYNC. When the command of the scan is missing, the axis goes on for one SYNC as in the last one, or with a longer SYNC keeps the last
+// set-point; command_timeout_ms ends that. A jump that the axis can never follow is a fault, and the last set-point stays.
 std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
   const std::int64_t last = axis->target[1];
   if (!fresh_command_) return bus_.sync_us > bus_.cycle_us ? wanted.target : last + (last - axis->target[2]);
@@ -124,7 +125,8 @@ std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
   return last;
 }
 
-// The distance from where the axis may be on its way: the command of this SYNC and of the two before.
+// The following error is the distance of the axis from the range between the set-points of this SYNC and of the two before, because on its way the axis may be
+// anywhere in it.
 void Cyclic::check_following(Axis* axis) noexcept {
   const auto [least, most] = std::minmax({axis->target[0], axis->target[1], axis->target[2]});
   const std::int64_t away = std::max({std::int64_t{0}, least - axis->position, axis->position - most});
@@ -133,7 +135,7 @@ void Cyclic::check_following(Axis* axis) noexcept {
   if (own || (axis->status & kStatusError) != 0) axis->following_fault = true;
 }
 
-// Homing by the drive itself. It moves the axis, so the scan follows it meanwhile. True while it is under way.
+// Homing by the drive itself: the drive moves the axis, and the commanded position follows meanwhile. True while homing is under way.
 bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept {
   const bool rises = wanted.home && !axis->home_before;
   axis->home_before = wanted.home;
@@ -165,7 +167,8 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   return axis->homing != Homing::kNo;
 }
 
-// The drive latches where its axis stood at the edge. The skip signal is on for some SYNCs, then the probe is made ready for the next edge.
+// The drive latches the position of its axis at the edge of the probe. The skip signal is then on for some SYNCs, and after that the probe is made ready for
+// the next edge.
 void Cyclic::work_probe(Axis* axis) noexcept {
   const bool falling = axis->map->skip_falling;
   const bool stored = (axis->probe_status & (falling ? kStoredFalling : kStoredRising)) != 0;

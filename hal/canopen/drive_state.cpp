@@ -5,7 +5,7 @@
 namespace nc::hal::canopen {
 namespace {
 
-constexpr unsigned kResetHalf = 4;  // SYNCs that bit 7 is off, then on: the drive wants its rising edge, and may sample more slowly
+constexpr unsigned kResetHalf = 4;  // number of SYNCs for which bit 7 is off and then on: a drive needs its rising edge and may sample it more slowly
 
 }  // namespace
 
@@ -43,7 +43,8 @@ std::uint16_t DriveWay::next(std::uint16_t status, DriveWish wish) noexcept {
   return wish == DriveWish::kOn ? on(state) : off(state);
 }
 
-// A drive that holds an axis stops it by its own quick stop (605Ah) and leaves the state by itself, or stays there when it is set so.
+// A drive that controls its axis stops it by its own quick stop and then leaves the state by itself, or stays in it, depending on its object 605Ah. When the time
+// for stopping is over, the voltage is switched off.
 std::uint16_t DriveWay::off(DriveState state) noexcept {
   if (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive)
     return stopping_ < stop_syncs_ ? (++stopping_, kQuickStop) : kDisableVoltage;

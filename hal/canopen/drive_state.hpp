@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state machine of CiA 402, without a bus: what the status word says, and which control word leads where the control wants to be.
+// The state machine of CiA 402, without a bus: the meaning of the status word, and the control word that leads to the state that is wanted.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ enum class DriveState : std::uint8_t {
   kFault
 };
 
-// Of 6041h (CiA 402-2, table "state coding").
+// The state that the status word 6041h means (CiA 402-2, table "state coding").
 DriveState drive_state(std::uint16_t status) noexcept;
 const char* drive_state_name(DriveState state) noexcept;
 
 // Bits of the status word that this control looks at.
 inline constexpr std::uint16_t kStatusRemote = 1u << 9, kStatusReached = 1u << 10, kStatusLimit = 1u << 11,
-                               kStatusFollows = 1u << 12,  // cyclic position: the drive follows; homing: attained
+                               kStatusFollows = 1u << 12,  // cyclic position: the drive follows the command; homing: attained
     kStatusError = 1u << 13;    // cyclic position: following error; homing: error
 
 // Control words (CiA 402-2, "command coding").
@@ -31,15 +31,15 @@ inline constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kS
                                kFaultReset = 0x0080, kStartHoming = 0x0010;
 
 enum class DriveWish : std::uint8_t {
-  kOff,     // stop by the drive's quick stop, then without torque
+  kOff,     // stop by the drive's quick stop, then no torque
   kOn,      // operation enabled
-  kReset    // out of a fault; else as kOff
+  kReset    // leave a fault; without a fault the same as kOff
 };
 
-// The way from where a drive is to where it is wanted, one control word per SYNC.
+// Leads a drive from its state to the one that is wanted, with one control word per SYNC.
 class DriveWay {
  public:
-  // `stop_syncs`: a quick stop that has not ended by then ends by switching the voltage off.
+  // `stop_syncs`: after this number of SYNCs a quick stop that has not ended is ended by switching the voltage off.
   explicit DriveWay(unsigned stop_syncs = 1000) : stop_syncs_(stop_syncs) {}
   std::uint16_t next(std::uint16_t status, DriveWish wish) noexcept;
 

@@ -13,7 +13,7 @@
 namespace nc::hal::canopen {
 namespace {
 
-constexpr std::size_t kMostErrors = 20;  // of a file that is none
+constexpr std::size_t kMostErrors = 20;  // a file that is no data sheet would give an error for each line
 constexpr unsigned kMostSubs = 254;
 
 std::string_view trimmed(std::string_view text) {
@@ -29,7 +29,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// 0x1A, 26.
+// A number such as 0x1A or 26.
 std::optional<std::uint32_t> number_of(std::string_view text) {
   const bool hex = text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
   if (hex) text.remove_prefix(2);
@@ -44,7 +44,7 @@ std::optional<std::uint32_t> number_of(std::string_view text) {
   return static_cast<std::uint32_t>(value);
 }
 
-// Bits of a data type (CiA 301, table "data types"); 0 = of no fixed length, or unknown.
+// The bits of a data type (CiA 301, table "data types"); 0 = it has no fixed length, or is unknown.
 unsigned bits_of_type(unsigned type) {
   switch (type) {
     case 0x01: return 1;
@@ -77,7 +77,7 @@ struct Section {
   bool is_sub = false;
 };
 
-// "6040", "1A00sub1": an object; "1018Value" and others are none.
+// Which section a heading begins. "6040" and "1A00sub1" are objects; "1018Value" and others are not.
 Section section_of(std::string_view name) {
   const std::string word = lower(name);
   if (word == "deviceinfo") return {Section::Kind::kDeviceInfo, 0, false};
@@ -111,8 +111,8 @@ class Reader {
   std::vector<EdsError> errors_;
   Section section_;
   EdsObject object_;
-  unsigned compact_ = 0;   // subs that share one description
-  bool has_subs_ = false;  // an array or a record: what stands under its own number is only its heading
+  unsigned compact_ = 0;   // number of sub-objects that share one description
+  bool has_subs_ = false;  // an array or a record: the section without a sub-index only describes the whole
   bool any_ = false;
   unsigned line_ = 0;
 };
@@ -186,7 +186,7 @@ std::vector<EdsError> Reader::read(std::string_view text) {
   return errors_;
 }
 
-// What of one PDO cannot be.
+// Checks whether one PDO can have its mapping.
 void check_pdo(const Eds& eds, const std::vector<std::uint32_t>& mapping, bool taken, std::vector<EdsError>* errors) {
   for (const std::uint32_t entry : mapping) {
     const unsigned index = entry >> 16, sub = entry >> 8 & 0xFF, bits = entry & 0xFF;

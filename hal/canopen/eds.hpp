@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive's electronic data sheet (CiA 306): which objects it has, how long they are, and whether a PDO can carry them. It is read before
-// anything is sent to the drive, so that an impossible mapping is an error of the configuration with its line.
+// The electronic data sheet of a drive (CiA 306): which objects it has, how long they are, and whether a PDO can carry them. It is read before
+// anything is sent to the drive, so that an impossible mapping is an error in the configuration, with its line.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace nc::hal::canopen {
 
 struct EdsObject {
   unsigned line = 0;
-  unsigned type = 0;  // number of the data type: 0007h UNSIGNED32
-  unsigned bits = 0;  // 0 = of no fixed length
+  unsigned type = 0;  // number of the data type, such as 0007h for UNSIGNED32
+  unsigned bits = 0;  // 0 = no fixed length
   std::string access;  // "rw", "rww", "ro" ...
   bool mappable = false;
 };
@@ -28,7 +28,7 @@ struct EdsError {
 
 struct Eds {
   std::map<std::uint32_t, EdsObject> objects;  // index << 8 | sub-index
-  std::uint32_t vendor = 0, product = 0;        // [DeviceInfo]; 0 = not said
+  std::uint32_t vendor = 0, product = 0;        // from [DeviceInfo]; 0 = not given
 
   const EdsObject* find(unsigned index, unsigned sub) const {
     const auto entry = objects.find(index << 8 | sub);
@@ -38,10 +38,10 @@ struct Eds {
 
 inline constexpr std::size_t kMostEdsBytes = 4 << 20;
 
-// Errors of the text itself; empty = *eds holds all of it.
+// Reads a data sheet. Returns the errors in the text; when there are none, *eds holds all of it.
 std::vector<EdsError> read_eds(std::string_view text, Eds* eds);
 
-// What this control needs of the drive and the data sheet does not have.
+// Errors for everything that this control needs of the drive and that the data sheet does not have.
 std::vector<EdsError> check_eds(const Eds& eds, const NodeMap& node);
 
 }  // namespace nc::hal::canopen

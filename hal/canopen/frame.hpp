@@ -8,13 +8,13 @@ namespace nc::hal::canopen {
 
 inline constexpr unsigned kMaxData = 8;
 
-// What the controller says of the bus, in the place of data.
+// What the CAN controller reports about the bus, in place of a frame.
 enum class BusEvent : std::uint8_t { kNone, kBusOff, kErrorPassive, kRestarted, kOverflow };
 
 struct CanFrame {
   std::uint16_t id = 0;
   std::uint8_t length = 0;
-  BusEvent event = BusEvent::kNone;  // other than kNone: `id` and `data` mean nothing
+  BusEvent event = BusEvent::kNone;  // unless it is kNone, `id` and `data` have no meaning
   std::uint8_t data[kMaxData] = {};
 };
 

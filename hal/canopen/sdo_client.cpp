@@ -9,7 +9,7 @@ namespace nc::hal::canopen {
 namespace {
 
 constexpr std::size_t kSegment = 7, kExpedited = 4;
-constexpr std::size_t kMostBytes = 65536;  // of an answer: a node does not fill the memory
+constexpr std::size_t kMostBytes = 65536;  // limit for an answer, so that a node cannot fill the memory
 constexpr std::uint32_t kToggle = 0x05030000, kTimeout = 0x05040000, kNoMemory = 0x05040005, kLengthWrong = 0x06070010;
 
 struct AbortRow {
@@ -122,7 +122,7 @@ CanFrame SdoClient::frame() const {
 }
 
 bool SdoClient::request(std::int64_t now_ns, CanFrame* out) {
-  if (aborting_) {  // what the node knows of the transfer ends, too
+  if (aborting_) {  // tells the node to end the transfer, too
     *out = frame();
     aborting_ = false;
     return true;
@@ -154,7 +154,7 @@ bool SdoClient::answer(const CanFrame& frame) {
   if (frame.id != kSdoAnswerId + node_ || frame.length < 1 || state_ != State::kBusy || !waits_) return false;
   const unsigned command = frame.data[0];
   const bool whole = frame.length == kMaxData, same = whole && get_le(frame.data + 1, 2) == index_ && frame.data[3] == sub_;
-  if (command >> 5 == 4) {  // abort; its object is named
+  if (command >> 5 == 4) {  // an abort, which names its object
     if (!same) return false;
     const std::uint32_t reason = get_le(frame.data + 4, 4);
     return fail(abort_text(reason), reason, false);

@@ -9,10 +9,10 @@ namespace nc::hal::canopen {
 namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kBootWaitNs = 300 * kMs;   // behind a reset, for the boot-up message of those that send it late
-constexpr std::int64_t kPauseNs = 1000 * kMs;     // of a node that was silent
-constexpr std::int64_t kRefusedNs = 5000 * kMs;   // of one that cannot be set up
-constexpr std::int64_t kStateNs = 2000 * kMs;     // for "operational", and for a mode of operation
+constexpr std::int64_t kBootWaitNs = 300 * kMs;   // time after a reset within which a node should send its boot-up message
+constexpr std::int64_t kPauseNs = 1000 * kMs;     // pause before a silent node is tried again
+constexpr std::int64_t kRefusedNs = 5000 * kMs;   // pause before a node that cannot be set up is tried again
+constexpr std::int64_t kStateNs = 2000 * kMs;     // time in which a node must become operational, or a drive must take its mode of operation
 constexpr std::uint8_t kStart = 0x01, kPreOperational = 0x80, kResetCommunication = 0x82;  // CiA 301, NMT
 constexpr std::uint8_t kBootUp = 0x00, kOperational = 0x05;
 constexpr std::uint32_t kNoObject = 0x06020000, kNoSub = 0x06090011, kNoAccess = 0x06010000, kReadOnly = 0x06010002;
@@ -84,7 +84,7 @@ void Service::nmt(const Node& node, std::uint8_t command) {
   frame.length = 2;
   frame.data[0] = command;
   frame.data[1] = static_cast<std::uint8_t>(node.map->id);
-  (void)cyclic_->to_bus(frame);  // a full queue empties with the next SYNCs, and what was not said is missed by a time-out
+  (void)cyclic_->to_bus(frame);  // a full queue loses the command; then a time-out follows, and the node is tried again
 }
 
 void Service::begin(Node* node, Step step, std::int64_t now_ns) {
@@ -98,7 +98,7 @@ void Service::fail(Node* node, const std::string& why, NodePhase phase, std::int
   begin(node, Step::kPause, now_ns);
 }
 
-// ---- what comes ----
+// ---- frames from the bus ----
 
 void Service::take(const CanFrame& frame) {
   const unsigned id = frame.id & kLastNode, kind = frame.id & ~kLastNode;
@@ -107,7 +107,7 @@ void Service::take(const CanFrame& frame) {
     if (kind == kSdoAnswerId && !node.sdo->answer(frame)) ++node.unasked;
     if (kind == kHeartbeatId) {
       node.state = frame.data[0] & 0x7F;
-      // One that begins anew while it is set up has lost what it was told.
+      // A node that boots while it is being set up has lost its set-up, so it begins again.
       if (node.state == kBootUp && (node.step == Step::kPlan || node.step == Step::kPause)) node.step = Step::kBoot;
     }
     if (kind == kEmergencyId && get_le(frame.data, 2) != 0)
@@ -172,7 +172,7 @@ void Service::step_node(Node* node, std::int64_t now_ns) {
   }
 }
 
-// One object after the other.
+// Works through the set-up plan, one object after the other.
 void Service::work_plan(Node* node, std::int64_t now_ns) {
   SdoClient& sdo = *node->sdo;
   if (node->unasked >= kUnaskedLimit && !node->silent)
@@ -216,7 +216,7 @@ void Service::judge_plan_step(Node* node, std::int64_t now_ns) {
 
 bool Service::was_silent(const Node& node) const { return node.sdo->abort_code() == 0x05040000; }
 
-// Brings each axis into the mode that it is wanted in: 6060h is written, 6061h says when the drive is there.
+// Brings each axis into the mode that is wanted: 6060h is written, then 6061h is read until it shows that mode.
 void Service::work_mode(Node* node, std::int64_t now_ns) {
   SdoClient& sdo = *node->sdo;
   CanFrame frame;
@@ -248,7 +248,7 @@ void Service::judge_mode(Node* node, std::int64_t now_ns) {
   node->job = Node::Job::kNone;
   if (sdo.state() != SdoClient::State::kDone) {
     if (node->step == Step::kMode) return fail(node, sdo.error(), was_silent(*node) ? NodePhase::kAway : NodePhase::kRefused, now_ns);
-    return say(node, sdo.error());  // it is tried again; a homing that waits for it ends by its time
+    return say(node, sdo.error());  // it is tried again; a homing that waits for the mode ends with its time-out
   }
   const auto shown = static_cast<std::int8_t>(sdo.number());
   if (job == Node::Job::kRead && shown == node->wanted) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slow part of a bus of drives: NMT, the set-up of each node by SDO, changes of the mode of operation, and sentences for the log.
-// step() is called every few milliseconds in an ordinary thread; all nodes are served side by side, with one SDO transfer each.
+// The slow part of a bus of drives: NMT, the set-up of each node by SDO, changes of the mode of operation, and messages for the log.
+// step() is called every few milliseconds in an ordinary thread. All nodes are served at the same time, with one SDO transfer each.
 //
-// A node that is away is asked again and again, and one that has come back is set up as at the start; its axes stay in their alarm until a reset.
+// A node that is away is tried again and again. When it has come back, it is set up as at the start; its axes keep their alarm until a reset.
 #pragma once
 
 #include <functional>
@@ -29,9 +29,9 @@ class Service {
 
   // ---- any thread ----
   bool all_operational() const;
-  // Nodes that are not operational, and what is wrong with each: "node 3 (y): no answer"; empty = all are.
+  // The nodes that are not operational and what is wrong with each: "node 3 (y): no answer"; empty = all are operational.
   std::string missing() const;
-  bool refused() const;  // one of them cannot be set up
+  bool refused() const;  // some node cannot be set up
 
  private:
   enum class Step : std::uint8_t { kReset, kBoot, kPlan, kStart, kMode, kRun, kPause };
@@ -44,14 +44,14 @@ class Service {
     Step step = Step::kReset;
     std::size_t at = 0;
     std::int64_t since_ns = 0;
-    std::uint8_t state = 0xFF;  // of its last heartbeat
-    unsigned unasked = 0;       // answers that nothing was asked for, in this set-up
-    bool silent = false;        // a request was not answered in this set-up
-    Job job = Job::kNone;       // of the mode of an axis
+    std::uint8_t state = 0xFF;  // state in its last heartbeat
+    unsigned unasked = 0;       // number of answers without a request during this set-up
+    bool silent = false;        // a request was not answered during this set-up
+    Job job = Job::kNone;       // transfer that changes the mode of an axis
     std::size_t axis = 0;
     std::int8_t wanted = 0;
-    std::vector<std::int8_t> mode;  // of each axis, as the drive has confirmed it
-    std::string said;           // last
+    std::vector<std::int8_t> mode;  // mode of each axis that the drive has confirmed
+    std::string said;           // last message for the log
   };
 
   void take(const CanFrame& frame);
@@ -73,7 +73,7 @@ class Service {
   std::vector<Node> nodes_;
   std::vector<unsigned> first_axis_;
   mutable std::mutex mutex_;
-  std::vector<std::string> wrong_;  // of each node, under the mutex
+  std::vector<std::string> wrong_;  // what is wrong with each node; guarded by mutex_
 };
 
 }  // namespace nc::hal::canopen

@@ -12,8 +12,8 @@ namespace {
 using Kind = SetupStep::Kind;
 
 constexpr std::uint32_t kPdoOff = 0x80000000, kEverySync = 1, kProfile402 = 0x0192;
-constexpr unsigned kDefaultPdos = 4;  // of each direction: what a drive may have switched on by itself
-constexpr double kPatience = 2.5;     // heartbeat times
+constexpr unsigned kDefaultPdos = 4;  // number of PDOs of each direction that a drive may have switched on by default
+constexpr double kPatience = 2.5;     // heartbeat periods after which the drive takes the control for lost
 
 class Plan {
  public:
@@ -23,8 +23,8 @@ class Plan {
   void write(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value) { add(Kind::kWrite, index, sub, bytes, value); }
   void try_write(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value) { add(Kind::kWriteIfThere, index, sub, bytes, value); }
 
-  // CiA 301: the identifier is switched off, the mapping emptied, filled and counted, then the identifier is switched on. What the drive
-  // has made of it is read back: some keep a mapping of their own without a word.
+  // CiA 301: the identifier is switched off, the mapping is emptied, filled and its count written, then the identifier is switched on. The mapping
+  // is read back, because some drives keep a mapping of their own without an error.
   void pdo(unsigned communication, unsigned mapping, unsigned number, std::uint32_t cob_id, const std::vector<std::uint32_t>& objects) {
     const unsigned c = communication + number - 1, m = mapping + number - 1;
     write(c, 1, 4, cob_id | kPdoOff);
@@ -94,8 +94,8 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
     plan.pdo(0x1400, 0x1600, axis.rpdo, kRpdoId + kPdoStep * takes++ + node.id, rpdo_mapping(axis));
     plan.pdo(0x1800, 0x1A00, axis.tpdo, kTpdoId + kPdoStep * sends++ + node.id, tpdo_mapping(axis));
     if (axis.has_probe()) plan.pdo(0x1800, 0x1A00, axis.tpdo + 1, kTpdoId + kPdoStep * sends++ + node.id, probe_mapping(axis));
-    plan.try_write(axis.object(0x6007), 0, 2, 3);  // connection lost: quick stop
-    plan.try_write(axis.object(0x605A), 0, 2, 2);  // quick stop: its own ramp, then without torque
+    plan.try_write(axis.object(0x6007), 0, 2, 3);  // when the connection is lost: quick stop
+    plan.try_write(axis.object(0x605A), 0, 2, 2);  // at a quick stop: the drive's own ramp, then no torque
     interpolation_time(&plan, axis, bus.sync_us);
     if (axis.has_homing()) homing(&plan, axis);
   }

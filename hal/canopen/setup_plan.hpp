@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a drive is told before its PDOs count, in order: identity, heartbeats, PDOs, units of time, homing, and what the configuration adds.
+// The SDO transfers with which a drive is set up, in this order: identity, heartbeats, PDOs, units of time, homing, and the objects of the configuration.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace nc::hal::canopen {
 struct SetupStep {
   enum class Kind : std::uint8_t {
     kWrite,
-    kWriteIfThere,  // a drive without this object does without it
-    kCheck          // read; `mask` of it must be `value`
+    kWriteIfThere,  // skipped when the drive does not have this object
+    kCheck          // the object is read, and its bits in `mask` must be those of `value`
   };
   Kind kind = Kind::kWrite;
   ObjectValue object;
@@ -22,14 +22,14 @@ struct SetupStep {
 
 std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node);
 
-// 60C2h: a period as mantissa x 10^exponent seconds. It can be told when the mantissa fits into one byte.
+// 60C2h: a period as mantissa x 10^exponent seconds. The mantissa must fit into one byte.
 struct InterpolationTime {
   unsigned mantissa = 1;
   int exponent = -3;
 };
 InterpolationTime interpolation_time_of(unsigned us);
 
-// One PDO as its mapping parameter says: index << 16 | sub-index << 8 | bits.
+// The objects in one PDO, each as the mapping parameter has it: index << 16 | sub-index << 8 | bits.
 std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis);
 std::vector<std::uint32_t> tpdo_mapping(const AxisMap& axis);
 std::vector<std::uint32_t> probe_mapping(const AxisMap& axis);

@@ -42,7 +42,7 @@ std::size_t slcan_text(const CanFrame& frame, char* text) noexcept {
   return n;
 }
 
-// Lines that are no data frame of 11 bits (answers of the adapter, other frames, garbage) are passed over.
+// Lines that are not a data frame with an identifier of 11 bits are skipped: answers of the adapter, other frames, garbage.
 bool SlcanReader::take(char c, CanFrame* frame) noexcept {
   if (c != '\r' && c != '\a') {
     if (size_ < kLine) line_[size_++] = c;
@@ -60,7 +60,7 @@ bool SlcanReader::take(char c, CanFrame* frame) noexcept {
     id = id << 4 | static_cast<unsigned>(digit(line_[i]));
   }
   const int length = digit(line_[4]);
-  // An adapter may add four digits of a time stamp.
+  // An adapter may add a time stamp of four digits.
   if (id > 0x7FF || length < 0 || length > 8) return false;
   const std::size_t data = 5 + 2 * static_cast<std::size_t>(length);
   if (size != data && size != data + 4) return false;
@@ -92,7 +92,7 @@ bool SlcanPort::open(std::string* error) {
     return false;
   }
   cfmakeraw(&line);
-  cfsetspeed(&line, B115200);  // an adapter on USB has no speed of its own
+  cfsetspeed(&line, B115200);  // an adapter on USB ignores the speed
   tcsetattr(fd_, TCSANOW, &line);
   const char begin[] = {'C', '\r', 'S', letter, '\r', 'O', '\r'};
   if (write(fd_, begin, sizeof begin) != static_cast<ssize_t>(sizeof begin)) {
@@ -107,7 +107,7 @@ void SlcanPort::close() noexcept {
   if (fd_ < 0) return;
   const char end[] = {'C', '\r'};
   if (write(fd_, end, sizeof end) < 0) {
-    // The adapter is gone, and with it what it had to be told.
+    // An error is ignored: the adapter is gone, so there is no channel to close.
   }
   ::close(fd_);
   fd_ = -1;

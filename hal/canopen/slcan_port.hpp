@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An adapter on a serial line that speaks the ASCII protocol of slcan ("LAWICEL"): t, three digits of the identifier, the length, the data, a
-// carriage return. For commissioning and for tests through a pseudo terminal; its jitter is that of a serial line.
+// An adapter on a serial line with the ASCII protocol slcan ("LAWICEL"). A frame is `t`, three digits of the identifier, the length, the data and a
+// carriage return. For commissioning, and for tests through a pseudo terminal; it has the jitter of a serial line.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace nc::hal::canopen {
 
-// The text of a frame, with its carriage return; `text` has room for 32 characters. Returns the length.
+// Writes the text of a frame with its carriage return into `text`, which has room for 32 characters. Returns the length.
 std::size_t slcan_text(const CanFrame& frame, char* text) noexcept;
 // Takes characters as they come; true with the frame when one is complete.
 class SlcanReader {

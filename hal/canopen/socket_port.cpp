@@ -75,7 +75,7 @@ bool SocketPort::send(const CanFrame& frame) noexcept {
   return write(fd_, &raw, sizeof raw) == static_cast<ssize_t>(sizeof raw);
 }
 
-// Frames with an identifier of 29 bits and remote frames are none of CANopen's.
+// Frames with an identifier of 29 bits and remote frames are skipped, because CANopen does not use them.
 bool SocketPort::receive(CanFrame* frame) noexcept {
   for (;;) {
     can_frame raw{};

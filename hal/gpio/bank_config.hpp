@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GPIO: what a bank of lines is and which points they are, as plain data. docs/gpio.md.
+// GPIO: the description of a bank of lines and of their points, as plain data. docs/gpio.md.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace nc::hal::gpio {
 struct PointLine {
   unsigned point = 0;  // index in the PointTable
   LineSetup line;
-  unsigned debounce_ms = 0;       // of an input: a new level counts when it has stood for so long
-  bool hold_on_loss = false;      // of an input: it keeps its last value while nobody knows the line
-  std::uint8_t loss_value = 0;    // else it has this one
-  std::uint8_t stop_value = 0;    // of an output, written when the control ends in order
+  unsigned debounce_ms = 0;       // input: a new level counts when it has lasted for this time
+  bool hold_on_loss = false;      // input: it keeps its last value while the line cannot be read
+  std::uint8_t loss_value = 0;    // input: otherwise it has this value then
+  std::uint8_t stop_value = 0;    // output: value that is written when the control ends properly
 };
 
 struct BankConfig {
@@ -24,9 +24,9 @@ struct BankConfig {
   std::string chip;  // label, name or path
   std::string consumer = "ncrtd";
   unsigned poll_ms = 1;
-  unsigned lost_after = 3;   // errors in a row
+  unsigned lost_after = 3;   // errors in a row after which the bank is lost
   bool has_watchdog = false;
-  LineSetup watchdog;        // an output that is no point
+  LineSetup watchdog;        // an output line that is not a point
   unsigned ok_point = 0;     // the input point "<name>.ok"
   std::vector<PointLine> lines;
 };

@@ -100,12 +100,12 @@ void GpioBus::run() {
     bank_.poll(now, outputs_.front(), scans_now != scans);
     scans = scans_now;
     publish();
-    next = std::max(next + milliseconds(config_.poll_ms), now);  // a poll that was late is not made up for
+    next = std::max(next + milliseconds(config_.poll_ms), now);  // polls that were missed are skipped
   } while (wait_until(next));
   bank_.close();
 }
 
-// False when the bus shall end.
+// False when the bus is to end.
 bool GpioBus::wait_until(LineBank::Time time) {
   std::unique_lock lock(mutex_);
   return !wake_.wait_until(lock, time, [this] { return stopping_; });

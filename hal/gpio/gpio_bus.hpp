@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One bank of GPIO lines as a point bus: an ordinary thread that polls the lines (line_bank.hpp), and the image that it exchanges with the scan.
+// One bank of GPIO lines as a point bus: an ordinary thread that polls the lines (line_bank.hpp), and the images that it exchanges with the scan.
 //
-// The thread itself is watched by the scan: when it has been stuck for more than a second, the values of its points count as lost.
+// The scan also watches the thread: when it has made no progress for more than a second, the values of its points count as lost.
 #pragma once
 
 #include <pthread.h>
@@ -21,19 +21,19 @@ namespace nc::hal::gpio {
 
 class GpioBus final : public PointBus {
  public:
-  // The chip is this bus's own. `report` is called in the thread that calls start(), and between start() and stop() in the bus's.
+  // `report` is called in the thread that calls start(), and between start() and stop() in the thread of the bus.
   GpioBus(const BankConfig& config, std::unique_ptr<LineChip> chip, Report report = {});
   ~GpioBus() override;
 
-  // Requests the lines. False when a line is taken, or does not exist on a chip that does.
+  // Requests the lines. False with a sentence in *error when a line is in use, or when the chip is there but does not have the line or refuses its setting.
   bool start(const PointImage& initial, std::string* error) override;
   void read(PointImage* image) noexcept override;
   void write(const PointImage& image) noexcept override;
-  // Writes the values for the end and gives the lines back. Waits for the call of the kernel in which the thread is, which nothing can break off.
+  // Writes the values for the end and releases the lines. It waits for the thread, whose call of the kernel cannot be interrupted.
   void stop() noexcept override;
 
  private:
-  // By place in config_.lines.
+  // Indexed as config_.lines.
   struct Shown {
     std::vector<std::uint8_t> value;
     std::vector<std::uint8_t> good;
@@ -45,16 +45,16 @@ class GpioBus final : public PointBus {
   void publish();
 
   const BankConfig config_;
-  LineBank bank_;  // the thread's, once there is one
+  LineBank bank_;  // used only by the thread while it runs
   pthread_t thread_{};
   bool has_thread_ = false;
 
   // ---- scan ----
   TripleBuffer<Shown> inputs_;
   TripleBuffer<LineBank::Values> outputs_;
-  LineBank::Values sent_;                   // as last published
-  std::atomic<std::uint32_t> scans_{0};     // written by the scan, for the watchdog's line
-  std::atomic<std::int64_t> alive_ns_{0};   // of the thread
+  LineBank::Values sent_;                   // outputs that were published last
+  std::atomic<std::uint32_t> scans_{0};     // number of scans, from which the thread drives the line of the watchdog
+  std::atomic<std::int64_t> alive_ns_{0};   // time at which the thread published last
 
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of a chip through libgpiod 1.6 (Debian 12): the one file that knows its interface. It is built where that version is found.
+// Lines of a chip through libgpiod 1.6 (Debian 12). Only this file uses the interface of that library, and it is built only where that version is found.
 //
-// This version requests lines in bulks of at most 64 that share direction and flags, and knows no debounce of the kernel: hal/gpio/line_bank.cpp has one.
+// This version requests lines in groups of at most 64 with the same direction and flags. It cannot use the debouncing of the kernel, so
+// hal/gpio/line_bank.cpp debounces.
 #include <gpiod.h>
 
 #include <array>
@@ -31,7 +32,8 @@ int flags_of(const LineSetup& line) {
   return flags;
 }
 
-// The chip with this label, null when there is none or several; their number in *found. A chip that this user may not open hides all labels: errno.
+// The chip with this label; *found gets the number of such chips. Null when there is not exactly one, or, with errno, when some chip cannot be opened by this
+// user, because then no labels can be read.
 gpiod_chip* chip_by_label(const std::string& label, unsigned* found) {
   *found = 0;
   gpiod_chip_iter* chips = gpiod_chip_iter_new();
@@ -52,11 +54,11 @@ gpiod_chip* chip_by_label(const std::string& label, unsigned* found) {
   return match;
 }
 
-// Lines of one direction and the same flags: one request of the kernel.
+// Lines with the same direction and flags, which are requested together.
 struct Bulk {
   gpiod_line_bulk lines = GPIOD_LINE_BULK_INITIALIZER;
   bool output = false;
-  std::vector<std::size_t> places;  // in the request
+  std::vector<std::size_t> places;  // index in the request for each of the lines
 };
 using Levels = std::array<int, GPIOD_LINE_BULK_MAX_LINES>;
 
@@ -122,7 +124,7 @@ class GpiodChip final : public LineChip {
     return opening;
   }
 
-  // A name that two lines have means neither.
+  // A name that two lines have is refused.
   Opening offset_of(const LineSetup& line, unsigned* offset, std::string* error) {
     const unsigned count = gpiod_chip_num_lines(chip_);
     *offset = line.offset;
@@ -141,7 +143,7 @@ class GpiodChip final : public LineChip {
 
   Opening sort_lines(std::span<const LineSetup> lines, std::string* error) {
     std::map<unsigned, std::size_t> owner;
-    std::map<std::pair<bool, int>, std::size_t> filling;  // the bulk that such lines go to
+    std::map<std::pair<bool, int>, std::size_t> filling;  // for each direction and flags the bulk that takes further lines
     for (std::size_t i = 0; i < lines.size(); ++i) {
       unsigned offset = 0;
       if (const Opening opening = offset_of(lines[i], &offset, error); opening != Opening::kOpen) return opening;
@@ -204,7 +206,7 @@ class GpiodChip final : public LineChip {
   std::string name_;
   gpiod_chip* chip_ = nullptr;
   std::vector<Bulk> bulks_;
-  std::size_t requested_ = 0;  // the first of bulks_
+  std::size_t requested_ = 0;  // number of bulks_, from the first on, that the kernel has granted
 };
 
 }  // namespace

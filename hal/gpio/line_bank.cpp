@@ -9,8 +9,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kFirstPause{100}, kLastPause{5000};  // between two requests of lines that are not there
-// A bank that has outputs alone learns by writing that its chip is gone, and an expander whose supply has dipped has forgotten what it had.
+constexpr milliseconds kFirstPause{100}, kLastPause{5000};  // shortest and longest pause between two requests for lines that are not there
+// Outputs are written again after this time even when they have not changed: a bank without inputs notices only by writing that its chip is gone, and an
+// expander forgets its outputs when its supply fails for a moment.
 constexpr milliseconds kRefresh{100};
 
 }  // namespace
@@ -22,7 +23,7 @@ LineBank::LineBank(const BankConfig& config, std::unique_ptr<LineChip> chip, Rep
   read_.resize(setup_.size());
 }
 
-// ---- the lines come and go ----
+// ---- getting and losing the lines ----
 
 bool LineBank::open(Time now, const Values& initial, std::string* error) {
   for (std::size_t i = 0; i < filter_.size(); ++i) filter_[i].shown = initial[i];
@@ -55,7 +56,7 @@ Opening LineBank::request(Time now, const Values& outputs, std::string* why) {
   return opening;
 }
 
-// The same trouble is said once, however often it is met.
+// Sets the time of the next attempt. The same trouble is reported only once in a row.
 void LineBank::wait_for_lines(Time now, const std::string& why) {
   if (trouble_ != why) report(why);
   trouble_ = why;
@@ -107,7 +108,7 @@ bool LineBank::exchange(Time now, const Values& wanted, std::string* why) {
   return true;
 }
 
-// What the chip is given: a value for each line, of which those of inputs mean nothing.
+// The values that the chip is given, one for each line; those of inputs have no meaning.
 LineBank::Values LineBank::levels(const Values& wanted) const {
   Values values(setup_.size(), 0);
   for (std::size_t i = 0; i < config_.lines.size(); ++i)
@@ -116,7 +117,7 @@ LineBank::Values LineBank::levels(const Values& wanted) const {
   return values;
 }
 
-// The first level since the request counts at once: there is nothing yet that it could bounce from.
+// Debounces an input. The first level after the request counts at once, because there is no earlier level.
 void LineBank::take(Time now, std::size_t line, std::uint8_t raw) {
   Filter& filter = filter_[line];
   if (!filter.known || filter.raw != raw) filter.since = now;
@@ -125,7 +126,7 @@ void LineBank::take(Time now, std::size_t line, std::uint8_t raw) {
   filter.known = true;
 }
 
-// ---- what the points show ----
+// ---- the values of the points ----
 
 bool LineBank::good(std::size_t line) const {
   return up_ && (setup_[line].output || filter_[line].known);

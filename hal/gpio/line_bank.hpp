@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines of one chip over time: requested, read and written in bulk, lost and requested again. It has no thread and no clock of its own: who
-// calls it says what time it is.
+// The lines of one chip: they are requested, read and written together, and requested again when they were lost. The class has no thread and no clock of its
+// own; the caller passes the time.
 //
-// Lost is a bank whose chip is not there, or which failed lost_after times in a row: its inputs have their values for that case, nothing is good, and
-// it asks for the lines again after 0.1 s, doubling to 5 s. An error before that changes nothing: the last values stay, and the next poll tries again.
+// A bank is lost when its chip is not there, or when it has failed lost_after times in a row. Then its inputs have their values for that case, no point is good,
+// and the lines are requested again after 0.1 s; that pause doubles up to 5 s. An error before that changes nothing: the last values stay, and the next poll
+// tries again.
 #pragma once
 
 #include <chrono>
@@ -22,17 +23,18 @@ using Report = std::function<void(const std::string& line)>;
 class LineBank {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // One for each of BankConfig::lines, at the same place.
+  // One value for each of BankConfig::lines, in the same order.
   using Values = std::vector<std::uint8_t>;
 
   LineBank(const BankConfig& config, std::unique_ptr<LineChip> chip, Report report);
 
-  // The first attempt, with the values that the points begin with. False with a sentence in *error for what does not heal by itself: a line that another
-  // has, a line or a setting that the chip does not know. A chip that is not there yet is no error, poll() goes on asking for it.
+  // Requests the lines for the first time, with the initial values of the points. False with a sentence in *error for an error that waiting does not cure: a line
+  // in use by another process, or a line or setting that the chip does not have. A chip that is not there yet is no error: poll() goes on trying.
   bool open(Time now, const Values& initial, std::string* error);
-  // Outputs that have changed, or were not written for 0.1 s, are written; then all inputs are read. The watchdog's line changes its level when `scanned`: the scan has run since the last poll.
+  // Writes the outputs when one has changed or they were not written for 0.1 s, then reads all inputs. `scanned`: the scan has run since the last poll; only
+  // then does the line of the watchdog change its level.
   void poll(Time now, const Values& wanted, bool scanned);
-  // The values for the end, and the watchdog off, are written where the lines are there; then the lines are given back.
+  // Writes the values for the end and switches the watchdog off, if the lines are there; then releases the lines.
   void close();
 
   bool up() const { return up_; }
@@ -40,12 +42,12 @@ class LineBank {
   bool good(std::size_t line) const;
 
  private:
-  // An input between what the line says and what the point shows.
+  // The debouncing of one input.
   struct Filter {
-    bool known = false;        // read since the lines were requested
-    std::uint8_t shown = 0;    // the point's value
-    std::uint8_t raw = 0;      // the line's, at the last poll
-    Time since{};              // raw is what it is since then
+    bool known = false;        // it has been read since the lines were requested
+    std::uint8_t shown = 0;    // value of the point
+    std::uint8_t raw = 0;      // level of the line at the last poll
+    Time since{};              // time since which raw has not changed
   };
 
   Opening request(Time now, const Values& outputs, std::string* why);
@@ -59,14 +61,14 @@ class LineBank {
   const BankConfig config_;
   const std::unique_ptr<LineChip> chip_;
   const Report report_;
-  std::vector<LineSetup> setup_;  // of the points, then the watchdog
+  std::vector<LineSetup> setup_;  // the lines of the points, then that of the watchdog
   std::vector<Filter> filter_;
   bool up_ = false;
-  Values written_;                // what the outputs have, with the watchdog
+  Values written_;                // values that were written last, with the watchdog
   Time written_at_{};
   Values read_;
   std::uint8_t watchdog_ = 0;
-  unsigned errors_ = 0;           // in a row
+  unsigned errors_ = 0;           // number of errors in a row
   std::chrono::milliseconds pause_;
   Time retry_at_{};
   std::string trouble_;           // the last one that was reported

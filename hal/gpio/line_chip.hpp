@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of one GPIO chip behind a small interface, so that the bus knows no version of the library that it uses and the tests have a chip of
-// their own. Values are those of the point: 1 is active, whatever level that is on the wire.
+// The lines of one GPIO chip behind a small interface, so that the bus does not depend on a version of the library, and tests can have a simulated
+// chip. Values are those of the points: 1 is active, whatever level that is on the wire.
 //
-// All functions are called in one thread at a time, and may enter the kernel: never in the scan. A chip on an expander (I2C, SPI) may sleep in
-// them for a millisecond.
+// The functions are called by one thread at a time. They may enter the kernel, so the scan must not call them. For a chip on an expander (I2C, SPI) they may
+// take a millisecond.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace nc::hal::gpio {
 enum class Bias : std::uint8_t { kAsIs, kNone, kPullUp, kPullDown };
 enum class Drive : std::uint8_t { kPushPull, kOpenDrain, kOpenSource };
 
-// One line as it is asked for.
+// One line and its settings.
 struct LineSetup {
-  std::string name;     // as the device tree or the board names it; empty = the offset says which
-  unsigned offset = 0;  // on the chip
+  std::string name;     // its name in the device tree or on the board; empty = the line is given by its offset
+  unsigned offset = 0;  // number of the line on the chip
   bool output = false;
   bool active_low = false;
   Bias bias = Bias::kAsIs;
-  Drive drive = Drive::kPushPull;  // of an output
+  Drive drive = Drive::kPushPull;  // only for an output
 
   // "ESTOP", or "17" without a name.
   std::string text() const { return name.empty() ? std::to_string(offset) : name; }
@@ -32,26 +32,26 @@ struct LineSetup {
 
 enum class Opening : std::uint8_t {
   kOpen,
-  kNoChip,   // there is no such chip now: it may come
-  kTaken,    // a line has another owner
-  kRefused,  // no such line, a bias or drive that the chip cannot do, no right to open it
+  kNoChip,   // there is no such chip now; it may come later
+  kTaken,    // a line is in use by another process
+  kRefused,  // there is no such line, the chip does not have this bias or drive, or the process may not open it
 };
 
 class LineChip {
  public:
   virtual ~LineChip() = default;
-  // All lines of the chip with this label, name (gpiochip0) or path, or none of them. An output has its value of `values` (one for each line) from
-  // the first moment on. The lines belong to `consumer` (at most 31 bytes) until release(). With a sentence in *error unless it is kOpen.
+  // Requests lines of the chip with this label, name (gpiochip0) or path: all of them or none. `values` has one value for each line; an output has its value
+  // from the first moment on. The lines belong to `consumer` (at most 31 bytes) until release(). Unless the result is kOpen, *error gets a sentence.
   virtual Opening request(const std::string& chip, const std::string& consumer, std::span<const LineSetup> lines, std::span<const std::uint8_t> values, std::string* error) = 0;
-  // The inputs, at the places of their lines; those of outputs are left as they are. False with a sentence: nothing in *values counts then.
+  // Reads the inputs into *values, in the order of the request; the values of outputs are not changed. False with a sentence in *error: then *values is not valid.
   virtual bool read(std::vector<std::uint8_t>* values, std::string* error) = 0;
-  // The outputs, from the places of their lines.
+  // Writes the outputs from `values`, in the order of the request.
   virtual bool write(std::span<const std::uint8_t> values, std::string* error) = 0;
-  // The lines are free for others. What an output does then is the chip's affair.
+  // Releases the lines for other processes. The level of an output after that depends on the chip.
   virtual void release() noexcept = 0;
 };
 
-// A chip of this computer's kernel, through libgpiod. It is there where the build has that library.
+// A chip of this computer, through libgpiod. Defined only when the program is built with that library.
 std::unique_ptr<LineChip> make_gpiod_chip();
 
 }  // namespace nc::hal::gpio

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points merged into requests. See blocks.hpp.
+// Merges points into requests. See blocks.hpp.
 #include "hal/modbus/blocks.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers to point values and back. See codec.hpp.
+// Converts registers to values of points and back. See codec.hpp.
 #include "hal/modbus/codec.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ std::uint16_t swap_bytes(std::uint16_t word) {
   return static_cast<std::uint16_t>((word << 8 | word >> 8) & 0xFFFF);
 }
 
-// BADC and DCBA swap the bytes of both words, CDAB and DCBA the words. Both are their own inverse.
+// BADC and DCBA swap the bytes in both words; CDAB and DCBA swap the words. Each swap is its own inverse.
 void reorder(WordOrder order, std::uint16_t* high, std::uint16_t* low) {
   if (order == WordOrder::kBadc || order == WordOrder::kDcba) {
     *high = swap_bytes(*high);
@@ -23,7 +23,7 @@ void reorder(WordOrder order, std::uint16_t* high, std::uint16_t* low) {
   if (order == WordOrder::kCdab || order == WordOrder::kDcba) std::swap(*high, *low);
 }
 
-// To the nearest number of T, halves away from zero, saturated. `value` is not NaN.
+// Rounds to the nearest number of type T, halves away from zero, and saturates. `value` must not be NaN.
 template <class T>
 T saturated(double value) {
   constexpr double kMin = std::numeric_limits<T>::min(), kMax = std::numeric_limits<T>::max();
@@ -118,7 +118,7 @@ ValueRange value_range(const PointMap& map) noexcept {
   const double low = is_signed ? -2147483648.0 : 0, high = is_signed ? 2147483647.0 : 4294967295.0;
   const auto scaled = [&](double from, double to) -> ValueRange {
     const double a = from * map.scale + map.offset, b = to * map.scale + map.offset;
-    // Rounded as decode() does, so that every value that it can give is in the range.
+    // Rounded in the same way as in decode(), so that every value that decode() can give is in the range.
     return {static_cast<std::int64_t>(std::clamp(std::round(std::min(a, b)), low, high)),
             static_cast<std::int64_t>(std::clamp(std::round(std::max(a, b)), low, high))};
   };

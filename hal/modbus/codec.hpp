@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers to point values and back: word order, sign, scaling, saturation.
+// Converts registers to values of points and back: word order, sign, scaling, saturation.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 
 namespace nc::hal::modbus {
 
-// The 32 bits of a point are read as a signed number when the raw value is signed or a float, or when scale
-// or offset are negative; otherwise as an unsigned one. It saturates at the ends of that range.
+// The 32 bits of a point are a signed number when the raw value is signed or a float, or when scale
+// or offset are negative; otherwise they are an unsigned number. Values saturate at the ends of that range.
 bool point_is_signed(const PointMap& map) noexcept;
 
-// `cells`: the registers (or bits, 0 and 1) from map.address on. False when they are no number: a float NaN.
+// `cells`: the registers (or bits as 0 and 1) from map.address on. False when they are a float NaN.
 bool decode(const PointMap& map, const std::uint16_t* cells, std::uint32_t* value) noexcept;
 
-// The inverse, for outputs; a bit of a register changes that bit only. Saturates at the raw range.
+// The inverse of decode(), for outputs. The value saturates at the range of the raw value. A bit of a register changes only that bit.
 void encode(const PointMap& map, std::uint32_t value, std::uint16_t* cells) noexcept;
 
-// The whole numbers that a point can have: its raw range, scaled, within its 32 bits.
+// The whole numbers that a point can have: the range of its raw value, scaled and limited to 32 bits.
 struct ValueRange {
   std::int64_t min = 0, max = 1;
   bool holds(std::int64_t value) const { return value >= min && value <= max; }

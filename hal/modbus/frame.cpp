@@ -8,12 +8,12 @@ namespace nc::hal::modbus {
 namespace {
 
 // Function codes. V1.1b3, 6.1 to 6.6, 6.11, 6.12.
-constexpr std::uint8_t kReadFunction[] = {1, 2, 4, 3};  // by Table
+constexpr std::uint8_t kReadFunction[] = {1, 2, 4, 3};  // indexed by Table
 constexpr std::uint8_t kWriteOneCoil = 5, kWriteOneRegister = 6, kWriteCoils = 15, kWriteRegisters = 16;
-constexpr std::size_t kPdu = 7, kData = 8;  // place of the function, and of what follows it
+constexpr std::size_t kPdu = 7, kData = 8;  // offsets of the function code and of the data after it
 constexpr std::uint8_t kExceptionBit = 0x80;
-constexpr unsigned kLastException = 11;  // 7
-// 7, and 7 to 9 as older devices have them.
+constexpr unsigned kLastException = 11;  // V1.1b3, 7
+// The names of V1.1b3, 7. Code 7 is from older devices; 0 and 9 have no name.
 constexpr const char* kExceptions[kLastException + 1] = {"exception 0",
                                                          "Illegal function",
                                                          "Illegal data address",
@@ -41,8 +41,8 @@ unsigned get16(const std::uint8_t* at) {
 Frame begin(const Block& block, std::uint16_t transaction, std::uint8_t function) {
   Frame frame;
   put16(&frame, transaction);
-  put16(&frame, 0);  // the protocol is Modbus
-  put16(&frame, 0);  // length, by end()
+  put16(&frame, 0);  // protocol 0 is Modbus
+  put16(&frame, 0);  // the length, which end() sets
   put(&frame, block.unit);
   put(&frame, function);
   put16(&frame, block.first);
@@ -50,13 +50,13 @@ Frame begin(const Block& block, std::uint16_t transaction, std::uint8_t function
 }
 
 Frame end(Frame frame) {
-  const std::size_t length = frame.size - 6;  // from the unit on
+  const std::size_t length = frame.size - 6;  // counted from the unit on
   frame.bytes[4] = static_cast<std::uint8_t>(length >> 8);
   frame.bytes[5] = static_cast<std::uint8_t>(length & 0xFF);
   return frame;
 }
 
-// Bytes of data in the answer to a read request.
+// The number of bytes of data in the answer to a read request.
 std::size_t data_bytes(const Frame& request) {
   const unsigned count = get16(&request.bytes[10]);
   return request.function() <= 2 ? (count + 7) / 8 : 2 * count;
@@ -128,7 +128,7 @@ Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size
       return foreign("the answer holds another number of values");
     return Verdict::kGood;
   }
-  // What was written comes back: the address, and the value or the count.
+  // The answer to a write request repeats the address, and the value or the count.
   if (size != kData + 4) return foreign("the answer has a wrong length");
   if (!std::equal(answer + kData, answer + kData + 4, asked + kData))
     return foreign("the answer is of another address or value");

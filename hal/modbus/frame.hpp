@@ -2,8 +2,8 @@
 // Requests and answers as the bytes of Modbus TCP: MBAP header and PDU. A serial line has the unit and the PDU of them. Modbus application protocol V1.1b3, 6;
 // Modbus messaging on TCP/IP V1.0b, 3.1.3.
 //
-// An answer is believed only when all of it fits: transaction, protocol, length, unit, function, and, by function, the
-// number of bytes or the echo of what was written. libmodbus 3.1.6 looks at the transaction and the function alone.
+// An answer is accepted only when all of it fits: transaction, protocol, length, unit, function, and, depending on the function, the
+// number of bytes or the echo of what was written. libmodbus 3.1.6 checks only the transaction and the function.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace nc::hal::modbus {
 
 constexpr std::size_t kMaxFrame = 260;  // 7 bytes of header, 253 of PDU
 
-// Exceptions that mean that the partner never does what was asked of it; every other one may pass. V1.1b3, 7.
+// Exceptions that mean that the partner cannot ever do what was requested; every other one may be temporary. V1.1b3, 7.
 constexpr unsigned kIllegalFunction = 1, kIllegalAddress = 2;
 
 struct Frame {
@@ -27,7 +27,7 @@ struct Frame {
 };
 
 Frame read_request(const Block& block, std::uint16_t transaction);
-// One cell goes out by functions 5 and 6, which every device has; more by 15 and 16.
+// One cell is written with function 5 or 6, which every device has; several with 15 or 16.
 Frame write_request(const Block& block, const std::uint16_t* cells, std::uint16_t transaction);
 
 // The answer of a serial line, unit and PDU without its check sum, as that of TCP to this request would be. `answer` has room for kMaxFrame; the
@@ -36,10 +36,10 @@ std::size_t answer_of_line(const Frame& request, const std::uint8_t* unit_and_pd
 
 enum class Verdict : std::uint8_t {
   kGood,
-  kException,  // of this request; *exception is its code
-  kForeign     // the answer of something else, or none
+  kException,  // an exception as answer to this request; *exception is its code
+  kForeign     // not an answer to this request
 };
-// `why`: a sentence for kForeign and the words for kException, static.
+// `why` gets a static text: a sentence for kForeign, the name of the exception for kException.
 Verdict check_answer(const Frame& request, const std::uint8_t* answer, std::size_t size, unsigned* exception,
                      const char** why);
 

@@ -14,9 +14,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr unsigned kSliceMs = 100;                            // a waiting thread shows that it lives
-constexpr milliseconds kStopLimit{5000};                      // for the safe values of one link
-constexpr unsigned kFirstPauseMs = 100, kLastPauseMs = 5000;  // of a block that does not come through
+constexpr unsigned kSliceMs = 100;                            // interval at which a waiting thread shows that it is alive
+constexpr milliseconds kStopLimit{5000};                      // time for writing the safe values of one link
+constexpr unsigned kFirstPauseMs = 100, kLastPauseMs = 5000;  // pauses between the attempts for a block that fails
 
 }  // namespace
 
@@ -104,7 +104,7 @@ void ModbusLink::run() {
   wake_.notify_all();
 }
 
-// False when the link shall end.
+// False when the link is to end.
 bool ModbusLink::wait(milliseconds time) {
   const Time end = steady_clock::now() + time;
   std::unique_lock lock(mutex_);
@@ -117,8 +117,8 @@ bool ModbusLink::wait(milliseconds time) {
   }
 }
 
-// Doubles each time, so that a partner that is off costs nothing; spread by a quarter to either side, so that
-// many links do not come back in one moment.
+// The pause doubles each time, so that a partner that is off costs little. It is varied at random by up to a quarter, so that
+// many links do not reconnect at the same moment.
 milliseconds ModbusLink::next_backoff() {
   const unsigned base = backoff_ms_;
   backoff_ms_ = std::min(std::max(1u, 2 * base), config_.backoff_max_ms);
@@ -135,11 +135,11 @@ bool ModbusLink::connect() {
     publish();
     return false;
   }
-  for (Job& job : jobs_) job.written = false;  // the partner may have forgotten them
+  for (Job& job : jobs_) job.written = false;  // write all outputs again, because the partner may have lost them
   return true;
 }
 
-// Every block once; ends early when the connection breaks.
+// Serves every block once; ends early when the connection breaks.
 void ModbusLink::round() {
   const std::size_t first = cursor_;
   for (std::size_t i = 0; i < jobs_.size(); ++i) {
@@ -187,8 +187,9 @@ bool ModbusLink::serve(Job* job) {
   return true;
 }
 
-// What outputs that hold have before this control writes to them. A partner that never lets them be read is said, and they begin as
-// others do; one that is busy, or whose gateway does not reach it yet, is asked again: a device that has just got power answers so.
+// Takes the values that outputs that hold have before this control writes to them. When the partner does not support reading them, that is reported, and they
+// begin with their initial values. When the partner is busy or its gateway does not reach it yet, it is asked again, because a device that has
+// just been switched on answers so.
 Result ModbusLink::find_outputs(Job* job, Result result) {
   const bool never = result == Result::kException && (session_->exception() == kIllegalFunction || session_->exception() == kIllegalAddress);
   if (result != Result::kOk && !never) return result;
@@ -201,7 +202,7 @@ Result ModbusLink::find_outputs(Job* job, Result result) {
   return Result::kOk;
 }
 
-// An output of the block is still the partner's: it has not been read, or no scan has seen the answer yet.
+// True while an output of the block must not be written: it has not been read back yet, or no scan has taken over the value that was found.
 bool ModbusLink::waits_for_scan(const Job& job, const Wanted& wanted) const {
   return std::any_of(job.block.maps.begin(), job.block.maps.end(), [&](unsigned i) { return wanted.own[i] == 0; });
 }
@@ -226,7 +227,7 @@ void ModbusLink::take_inputs(const Job& job) {
   }
 }
 
-// ---- what an answer, or none, means ----
+// ---- the consequences of an answer or of its absence ----
 
 void ModbusLink::account(Result result, Time sent, bool request) {
   const auto us = std::chrono::duration_cast<std::chrono::microseconds>(steady_clock::now() - sent).count();
@@ -290,12 +291,12 @@ void ModbusLink::unanswered(Job* job) {
 
 void ModbusLink::lose(const std::string& why) {
   for (Job& job : jobs_) job.bad = true;
-  if (!lost_ || errors_ == config_.lost_after) report("lost: " + why);  // also when it never was there
+  if (!lost_ || errors_ == config_.lost_after) report("lost: " + why);  // reported once; also when the link was never connected
   lost_ = true;
 }
 
-// A block that does not come through is tried less and less often: it costs its neighbours a time-out each
-// time.
+// A block that fails is tried less and less often, because each attempt may delay the other blocks by a
+// time-out.
 void ModbusLink::postpone(Job* job) {
   job->pause_ms = job->pause_ms == 0 ? kFirstPauseMs : std::min(2 * job->pause_ms, kLastPauseMs);
   job->retry_at = steady_clock::now() + milliseconds(job->pause_ms);

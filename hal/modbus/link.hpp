@@ -2,18 +2,18 @@
 // One Modbus link: an ordinary thread that talks to one host or serial line, and the image that it exchanges with the
 // scan.
 //
-// A link is LOST when it never answered yet or after lost_after errors in a row: every input shows its
-// on-loss value, nothing is good. It is DEGRADED when it answers, but an error is recent or a block does not
-// come through; else OK.
+// A link is LOST when it has never answered, and after lost_after errors in a row. Then every input has its
+// on-loss value, and no point is good. It is DEGRADED when it answers, but the last request failed or a block
+// fails. Otherwise it is OK.
 //
-// A point is good while its block comes through. A block stops being good by an exception reply at once, by
-// time-outs after lost_after of its own (a dead unit behind a living gateway), with the link in any case. The
-// thread itself is watched by the scan: when it has been stuck in one call for longer than a request may take
-// and a second, its values count as lost.
+// A point is good while the requests of its block succeed. A block stops being good at once after an exception reply, after
+// lost_after time-outs of its own (a dead unit behind a gateway that works), and when the link is lost. The
+// scan also watches the thread: when it has been in one call for a second longer than a request may take,
+// its values count as lost.
 //
-// An output that holds (OnStop::kHold) belongs to the partner until the control has taken it over: its block is read before anything
-// is written to it, the scan begins with what was found, and at the end nothing is written. So a clamp stays closed from one
-// control to the next, whether the first one ended in order or not.
+// An output that holds (OnStop::kHold) keeps its value until the control has taken it over: its block is read before it is
+// written, the scan begins with the value that was found, and at the end nothing is written. So a clamp stays closed from one
+// control to the next, whether or not the first one ended properly.
 #pragma once
 
 #include <pthread.h>
@@ -39,13 +39,13 @@ const char* state_name(LinkState state);
 
 struct LinkStatistics {
   LinkState state = LinkState::kLost;
-  std::uint64_t requests = 0;  // sent, connecting not counted
-  std::uint64_t errors = 0;    // connecting or requests without a valid answer, time-outs among them
+  std::uint64_t requests = 0;  // requests sent; attempts to connect are not counted
+  std::uint64_t errors = 0;    // attempts to connect that failed and requests without a valid answer, including time-outs
   std::uint64_t timeouts = 0;
   std::uint64_t exceptions = 0;                            // exception replies
-  std::uint64_t connects = 0;                              // connections that came about
+  std::uint64_t connects = 0;                              // attempts to connect that succeeded
   std::string last_error;                                  // empty = none yet
-  std::uint32_t round_trip_us = 0, round_trip_max_us = 0;  // of requests that were answered
+  std::uint32_t round_trip_us = 0, round_trip_max_us = 0;  // last and longest time of requests that were answered
   double round_trip_mean_us = 0;
 
   std::uint64_t reconnects() const { return connects > 0 ? connects - 1 : 0; }
@@ -62,41 +62,41 @@ class ModbusLink final : public PointBus {
   bool start(const PointImage& initial, std::string* error) override;
   void read(PointImage* image) noexcept override;
   void write(const PointImage& image) noexcept override;
-  // Writes the safe values when the link is up (one attempt to connect when it is not lost) and ends the
-  // thread; a partner that does not answer ends it by force.
+  // Writes the safe values if the link is connected (if it is not but is not lost either, there is one attempt to connect) and ends the
+  // thread. When the partner does not answer, the connection is closed by force.
   void stop() noexcept override;
 
   // ---- any thread ----
-  // Every block of a link that is OK has come through, with them those of the outputs that hold.
+  // True when the link is OK: then every block has succeeded, also those of the outputs that hold.
   bool held_outputs_known() const override;
   LinkStatistics statistics() const;
   const LinkConfig& config() const { return config_; }
 
  private:
   using Time = std::chrono::steady_clock::time_point;
-  // A request that comes again and again.
+  // A block and the state of its request, which is repeated.
   struct Job {
     Block block;
     bool bad = true;      // its points are not good
-    unsigned errors = 0;  // without a valid answer, in a row
+    unsigned errors = 0;  // attempts in a row without a valid answer
     unsigned pause_ms = 0;
-    Time retry_at{};       // while bad
-    std::string trouble;   // the last one that was reported
-    bool written = false;  // outputs: since the connection came about
+    Time retry_at{};       // time of the next attempt while bad
+    std::string trouble;   // the trouble that was reported last
+    bool written = false;  // outputs: they have been written on this connection
     std::vector<std::uint16_t> cells;
     Time written_at{};
-    bool known = false;    // outputs that hold: what the partner had at the start has been read
+    bool known = false;    // outputs that hold: their values at the start have been read
   };
-  // By place in config_.points.
+  // Indexed as config_.points.
   struct Shown {
     std::vector<std::uint32_t> value;
     std::vector<std::uint8_t> good;
     bool ok = false;
-    std::vector<std::uint32_t> found;  // outputs that hold: what they had at the start, where `known`
+    std::vector<std::uint32_t> found;  // outputs that hold: their values at the start, valid where `known` is 1
     std::vector<std::uint8_t> known;
   };
-  // Outputs as the scan wants them. One that holds is the scan's own, and written, when the scan has taken over what was found,
-  // or has given it another value before that was known.
+  // Outputs as the scan wants them. `own`: the output may be written. For one that holds it is set when the scan has taken over the value that
+  // was found, or when the scan has given it another value before.
   struct Wanted {
     std::vector<std::uint32_t> value;
     std::vector<std::uint8_t> own;
@@ -135,19 +135,19 @@ class ModbusLink final : public PointBus {
   // ---- scan ----
   TripleBuffer<Shown> inputs_;
   TripleBuffer<Wanted> outputs_;
-  Wanted sent_;                       // outputs as last published
-  std::vector<std::uint32_t> start_;  // as the control began
-  bool taken_over_ = false;           // since then
+  Wanted sent_;                       // outputs that were published last
+  std::vector<std::uint32_t> start_;  // values of the outputs at the start of the control
+  bool taken_over_ = false;           // a value that was found has been taken over and is not published yet
   std::atomic<std::int64_t> alive_ns_{0};
 
   // ---- link's thread ----
   std::vector<Job> jobs_;             // outputs first
-  std::size_t cursor_ = 0;            // where the next round begins: behind the job that broke the last one
-  std::vector<std::uint32_t> value_;  // last valid input values
-  std::vector<std::uint8_t> valid_;   // the answer held a number
-  std::vector<std::uint32_t> found_;  // of outputs that hold
+  std::size_t cursor_ = 0;            // job with which the next round begins: after a failure the one after the job that failed
+  std::vector<std::uint32_t> value_;  // last valid values of the inputs
+  std::vector<std::uint8_t> valid_;   // 1 = the last answer held a number
+  std::vector<std::uint32_t> found_;  // values that were found, of outputs that hold
   std::vector<std::uint16_t> scratch_;
-  unsigned errors_ = 0;  // in a row
+  unsigned errors_ = 0;  // number of errors in a row
   bool lost_ = true;
   unsigned backoff_ms_;
   std::minstd_rand random_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modbus: what a link is and where its points stand in the partner's tables, as plain data.
+// Modbus: the description of a link and the places of its points in the tables of the partner, as plain data.
 //
 // Addresses are those on the wire: 0 to 65535 in each of the four tables. Manuals that count from 1
 // ("register 40001") mean address 0 of the holding registers. docs/modbus.md.
@@ -13,16 +13,16 @@ namespace nc::hal::modbus {
 
 enum class Table : std::uint8_t { kCoil, kDiscrete, kInput, kHolding };
 
-// What a point is made of. kBit: a coil, a discrete input, or one bit of a register.
+// The raw value of a point. kBit: a coil, a discrete input, or one bit of a register.
 enum class Format : std::uint8_t { kBit, kU16, kS16, kU32, kS32, kF32 };
 
 // Order of the four bytes of a 32-bit value in two registers, A the most significant one.
 enum class WordOrder : std::uint8_t { kAbcd, kCdab, kBadc, kDcba };
 
-// What an input shows while nobody knows what the partner says.
+// The value of an input while the partner does not answer.
 enum class OnLoss : std::uint8_t { kOff, kHold, kValue };
 
-// What is written to an output when the control ends in order. kHold: nothing, and the next control goes on with what it finds.
+// The value that is written to an output when the control ends properly. kHold: none is written, and the next control goes on with the value that it finds.
 enum class OnStop : std::uint8_t { kInitial, kHold, kValue };
 
 constexpr bool is_bit_table(Table table) {
@@ -43,12 +43,12 @@ struct PointMap {
   std::uint8_t unit = 1;
   std::uint16_t address = 0;
   Format format = Format::kBit;
-  std::uint8_t bit = 0;  // of a register, for kBit
+  std::uint8_t bit = 0;  // number of the bit in a register, for kBit
   WordOrder order = WordOrder::kAbcd;
   double scale = 1, offset = 0;  // point = raw * scale + offset
   OnLoss on_loss = OnLoss::kOff;
   std::uint32_t loss_value = 0;  // for OnLoss::kValue
-  std::uint32_t initial = 0;     // of the point; the safe value of an output
+  std::uint32_t initial = 0;     // initial value of the point, which is also the safe value of an output
   OnStop on_stop = OnStop::kInitial;
   std::uint32_t stop_value = 0;  // for OnStop::kValue
 
@@ -79,11 +79,11 @@ struct LinkConfig {
   std::string host;
   std::uint16_t port = 502;
   unsigned poll_ms = 20;               // period of the exchange
-  unsigned response_timeout_ms = 500;  // to connect; from a request to the beginning of its answer
-  unsigned byte_timeout_ms = 500;      // between two pieces of an answer
-  unsigned lost_after = 3;             // errors in a row
-  unsigned refresh_ms = 1000;          // outputs are written again after so long, changed or not
-  unsigned merge_gap = 0;              // so many cells that nobody asked for may be read between two points
+  unsigned response_timeout_ms = 500;  // limit for connecting, and from a request to the beginning of its answer
+  unsigned byte_timeout_ms = 500;      // limit between two parts of an answer
+  unsigned lost_after = 3;             // errors in a row after which the link is lost
+  unsigned refresh_ms = 1000;          // outputs are written again after this time, even when they have not changed
+  unsigned merge_gap = 0;              // at most so many cells without a point are read between two points
   unsigned backoff_min_ms = 100, backoff_max_ms = 5000;  // pause before the next attempt to connect
   unsigned ok_point = 0;                                 // the input point "<name>.ok"
   std::vector<PointMap> points;

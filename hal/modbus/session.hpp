@@ -43,10 +43,10 @@ class Session {
   // Reads block.count cells (registers, or bits as 0 and 1).
   Result read(const Block& block, std::uint16_t* cells);
   Result write(const Block& block, const std::uint16_t* cells);
-  // What went wrong in the last call: "holding 10..13 unit 1, function 3: illegal data address".
+  // The error of the last call, such as "holding 10..13 unit 1, function 3: illegal data address".
   const std::string& error() const { return error_; }
 
-  // Code of the exception that the last call has brought, 0 = none.
+  // Code of the exception in the last call, 0 = none.
   unsigned exception() const { return exception_; }
 
   // ---- any thread ----

@@ -105,8 +105,8 @@ void InputScript::restart() noexcept {
 
 void InputScript::step(std::uint64_t scan, const nc_source& source, bool m_strobe, std::uint32_t m,
                        PointImage* image) noexcept {
-  // A line "comes" when the block in execution changes to it; inside sub programs the main line has not
-  // changed.
+  // A line "comes" when it becomes the block in execution. While a sub program runs, the line of the main program does not
+  // change.
   const std::uint32_t line = source.depth == 0 ? source.line : last_line_;
   const bool line_comes = line != last_line_;
   const bool strobe_comes = m_strobe && !last_strobe_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Input script of the simulated machine: input points that change at a scan, at a program line or at an M
+// Input script of the simulated machine: statements that change input points at a scan, at a line of the program or at an M
 // code.
 //
 //   at scan 250: part_present = 1
@@ -24,7 +24,7 @@ struct InputChange {
   enum class When : std::uint8_t { kScan, kLine, kM };
   When when = When::kScan;
   std::uint64_t at = 0;     // scan number, line or M number
-  std::uint32_t count = 1;  // n-th time (line and M)
+  std::uint32_t count = 1;  // the change is made when the line or M code comes for this time
   unsigned point = 0;       // index in the table
   std::uint32_t value = 0;
 };
@@ -33,7 +33,7 @@ struct InputChange {
 bool parse_input_change(std::string_view text, const PointTable& table, InputChange* change,
                         std::string* error);
 
-// Runs the changes. All memory is taken in the constructor; step() is NC_RT.
+// Executes the changes. All memory is allocated in the constructor; step() is NC_RT.
 class InputScript {
  public:
   explicit InputScript(std::vector<InputChange> changes);
@@ -44,7 +44,7 @@ class InputScript {
 
  private:
   std::vector<InputChange> changes_;
-  std::vector<std::uint32_t> seen_;  // per change: how often its line or M code came
+  std::vector<std::uint32_t> seen_;  // for each change the number of times that its line or M code has come
   std::vector<bool> done_;
   std::uint32_t last_line_ = 0;
   bool last_strobe_ = false;

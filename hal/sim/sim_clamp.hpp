@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated clamp of an index table: it is released, and closed again, so many seconds after it has been asked for.
+// The simulated clamp of an index table: it opens and closes a fixed time after it was commanded.
 #pragma once
 
 namespace nc::hal {
@@ -10,7 +10,7 @@ struct SimClamp {
 
 class SimClampState {
  public:
-  // One cycle; true while the table is unclamped.
+  // Simulates one cycle; true while the table is unclamped.
   bool step(const SimClamp& clamp, bool unclamp, double cycle_s) noexcept {
     if (unclamp == unclamped_) {
       gone_s_ = 0;

@@ -74,7 +74,7 @@ void SimMachine::fail_unclamp(unsigned system, unsigned axis, bool fault) {
 
 void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
   feedback->lost = lost_;
-  if (lost_) return;  // everything else stays as it was: old
+  if (lost_) return;  // everything else keeps the values of before
   for (unsigned s = 0; s < config_.system_count; ++s) {
     const System& system = system_[s];
     SystemFeedback& out = feedback->system[s];
@@ -123,7 +123,7 @@ void SimMachine::move_axes(unsigned index, const SystemCommand& command) noexcep
   for (unsigned a = 0; a < config_.axis_count[index]; ++a) {
     const std::uint32_t bit = 1u << a;
     system.command.v[a] = command.position.v[a];
-    if (is_spindle_now(index, a, command)) {  // it turns under the axis
+    if (is_spindle_now(index, a, command)) {  // the axis follows the turning spindle
       system.actual.v[a] = spindle(index, config_.axis_spindle[index][a] - 1u).angle_deg();
       system.step[a] = 0;
       system.following_fault &= ~bit;
@@ -170,7 +170,7 @@ void SimMachine::work_switches(unsigned index, const PointImage& outputs) noexce
     system_[index].switches[a].step(config_.axis[index][a].switches, place(index, a), config_.cycle_s, outputs, &input_);
 }
 
-// Not, or not yet, the axis that the NC positions.
+// True while the axis turns as a spindle: the NC does not position it, or the spindle does not hold its position yet.
 bool SimMachine::is_spindle_now(unsigned system, unsigned axis, const SystemCommand& command) const noexcept {
   const unsigned number = config_.axis_spindle[system][axis];
   return number != 0 && !(spindle(system, number - 1).ready() && (command.servo_ready >> axis & 1) != 0);
@@ -181,7 +181,7 @@ void SimMachine::switch_servos(unsigned index, const SystemCommand& command) noe
     const unsigned number = config_.axis_spindle[index][a];
     if (number == 0) continue;
     const bool on = command.enable && (command.servo_on >> a & 1) != 0;
-    if (on) system_[index].direction[number - 1] = 0;  // it turns again with the next code that starts it
+    if (on) system_[index].direction[number - 1] = 0;  // afterwards it turns only with the next code that starts it
     spindle(index, number - 1).set_servo(on);
   }
 }
@@ -207,7 +207,7 @@ void SimMachine::turn_spindles(unsigned index, const SystemCommand& command) noe
   }
 }
 
-// The codes for turning and stopping are for the spindles that the NC has selected; the end of the program stops all of them.
+// The codes that turn and stop spindles are for those that the NC has selected; the end of the program stops all of them.
 void SimMachine::direct_spindles(System* system, const SystemCommand& command) noexcept {
   const nc_code_role role = role_of(command.m);
   const bool ends = role == NC_CODE_PROGRAM_END, forward = role == NC_CODE_SPINDLE_FORWARD, reverse = role == NC_CODE_SPINDLE_REVERSE;
@@ -231,7 +231,7 @@ double SimMachine::begin_function(System* system, const SystemCommand& command,
       time = std::max(time, config_.tool_change_s);
     }
   }
-  // A spindle function is complete when the speed is reached.
+  // A function of a spindle is complete when the speed is reached.
   for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
     if ((command.spindle_selected >> n & 1) != 0) system->wanted_rpm[n] = std::abs(command.spindle_rev_min[n]);
     time = std::max(time, std::abs(target_rpm(*system, n) - system->spindle[n].rpm()) / config_.spindle_ramp_rpm_per_s);
@@ -239,9 +239,9 @@ double SimMachine::begin_function(System* system, const SystemCommand& command,
   return time;
 }
 
-// FIN1 style: strobe on -> function -> FIN on -> strobe off -> FIN off. A strobe that drops early (reset)
-// ends it at once; a strobe that rises while the FIN of the one before is still on makes FIN drop first and
-// is then a function of its own.
+// The handshake of FIN1: strobe on -> function -> FIN on -> strobe off -> FIN off. When the strobe goes off early (reset), the
+// function ends at once. When a new strobe comes while the FIN of the previous one is still on, FIN goes off and a
+// new function begins.
 void SimMachine::handshake(System* system, const SystemCommand& command) noexcept {
   const auto rising = static_cast<std::uint8_t>(command.strobe & ~system->strobe);
   const bool another = command.strobe != 0 && command.serial != system->serial && system->fin;

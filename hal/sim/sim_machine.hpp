@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated machine: a plant that behaves like one, on the clock of the scan (one read/write pair = one
-// cycle), so that it is the same under real and virtual time.
+// The simulated machine. Its time is that of the scan (one pair of read() and write() is one
+// cycle), so that it behaves in the same way in real and in virtual time.
 //
-//  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v *
-//  lag:
-//      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis faults.
+//  * axes: first-order servo. A position loop with gain Kv = 1/lag follows a ramp with the constant error v * lag:
+//      actual += (command - actual) * (1 - exp(-cycle/lag)).  Beyond following_error_limit the axis has a fault.
 //      Without its drive (switched off, bus lost) it coasts: its speed fades with the time constant coast_s.
 //  * spindles: their speed follows the commanded one with a fixed ramp; M03/M04 turn those that the NC has selected,
 //  M05 (and M02/M30) stops them. One that is an axis too becomes that axis with its servo (sim_spindle.hpp).
@@ -37,7 +36,7 @@ struct SimSolid {
 };
 
 struct SimAxis {
-  double lag_s = 0.0;                // 0 = actual is the command of the cycle before
+  double lag_s = 0.0;                // 0 = the measured position is the command of the previous cycle
   double following_error_limit = 0;  // mm or deg; 0 = never faults
   double coast_s = 0.03;             // 0 = stands at once
   SimClamp clamp;                    // of an index table
@@ -46,7 +45,7 @@ struct SimAxis {
 
 struct SimConfig {
   double cycle_s = 0.001;
-  std::uint8_t dialect = 0;  // nc_dialect: what M codes are for
+  std::uint8_t dialect = 0;  // nc_dialect, which gives the meaning of M codes
   unsigned system_count = 1;
   unsigned axis_count[NC_MAX_SYSTEMS] = {3, 0, 0, 0};
   SimAxis axis[NC_MAX_SYSTEMS][NC_MAX_AXES];
@@ -55,10 +54,10 @@ struct SimConfig {
   std::uint8_t axis_spindle[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};  // number of the spindle that is this axis, 0 = none
   double spindle_ramp_rpm_per_s = 3000.0;
   double spindle_max_rpm = 12000.0;
-  double tool_change_s = 1.0;   // of the M code for it
-  double tool_select_s = 0.02;  // T
-  double m_time_s = 0.01;       // every other M, S and B
-  SimPlantConfig plant;         // spindle and tool changer driven by points instead of codes
+  double tool_change_s = 1.0;   // time of the M code for a tool change
+  double tool_select_s = 0.02;  // time of T
+  double m_time_s = 0.01;       // time of every other M, S and B
+  SimPlantConfig plant;         // spindle and tool changer that points drive instead of codes
   std::vector<SimSolid> solids;
   std::vector<InputChange> script;
 };
@@ -92,12 +91,12 @@ class SimMachine final : public Hal {
   std::uint64_t scans() const { return scan_; }
   bool stopped() const { return stopped_; }
   const PointImage& outputs() const { return output_; }
-  // Changes of output points in order, as far as the fixed record reaches; `lost_changes()` counts the rest.
+  // The changes of output points in order, until the record of fixed size is full; `lost_changes()` counts the rest.
   std::size_t change_count() const { return change_count_; }
   const SimOutputChange& change(std::size_t i) const { return changes_[i]; }
   std::uint64_t lost_changes() const { return lost_changes_; }
 
-  // Faults that tests inject; they act from the next read().
+  // Faults that tests inject; they take effect with the next read().
   void fail_bus(bool lost) { lost_ = lost; }
   void fail_drive(unsigned system, unsigned axis, bool fault);
   void block_axis(unsigned system, unsigned axis, bool blocked);  // the axis does not follow: following error
@@ -110,14 +109,14 @@ class SimMachine final : public Hal {
     nc_axes command{}, actual{};
     double follow[NC_MAX_AXES] = {};  // 1 - exp(-cycle/lag)
     double fade[NC_MAX_AXES] = {};    // exp(-cycle/coast)
-    double step[NC_MAX_AXES] = {};    // way of the last cycle
+    double step[NC_MAX_AXES] = {};    // distance moved in the last cycle
     std::uint32_t following_fault = 0, drive_fault = 0, blocked = 0;
     std::uint32_t unclamped = 0, clamp_failed = 0;
     std::uint32_t off = 0;            // drives that are switched off one by one
     SimSwitchState switches[NC_MAX_AXES];
     SimClampState clamp[NC_MAX_AXES];
     SimSpindle spindle[NC_MAX_SPINDLES];
-    double wanted_rpm[NC_MAX_SPINDLES] = {};  // without a sign
+    double wanted_rpm[NC_MAX_SPINDLES] = {};  // commanded speed without a sign
     int direction[NC_MAX_SPINDLES] = {};      // +1 M03, -1 M04, 0 stopped
     unsigned tool = 0, selected = 0;
     bool busy = false, fin = false;

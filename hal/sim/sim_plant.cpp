@@ -7,7 +7,7 @@
 namespace nc::hal {
 namespace {
 
-constexpr double kAtSpeed = 0.03;   // of the commanded speed
+constexpr double kAtSpeed = 0.03;   // fraction of the commanded speed
 constexpr double kStanding = 1e-3;  // r/min
 
 bool on(const PointImage& image, int point) noexcept {

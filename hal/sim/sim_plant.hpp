@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of the simulated machine that a ladder program drives through points: a spindle with a drive and a
-// tool changer. It knows nothing of M, S and T codes; making commands of these is the ladder's business.
+// The part of the simulated machine that a ladder program drives through points: spindles with drives and a
+// tool changer. It does not know M, S and T codes; the ladder makes commands from them.
 //
-//  * spindles: `forward` and `reverse` (bits) and `speed` (r/min) command it; it ramps. `at_speed` is on while it
-//    turns within 3 % of what is commanded, `stopped` while it stands. Both directions at once stop it.
-//  * tool changer: `prepare` with `pocket` brings that tool to the change position, `prepared` answers as long
-//    as `prepare` is on; `change` exchanges it with the one in the spindle, `changed` answers in the same way.
-//    A change with a turning spindle, or of a tool that was not prepared, jams: there is no answer.
+//  * spindles: `forward` and `reverse` (bits) and `speed` (r/min) command a spindle, which follows with a ramp. `at_speed` is on while
+//    the speed is within 3 % of the commanded one, `stopped` while the spindle stands. Both directions at once stop it.
+//  * tool changer: `prepare` with `pocket` brings that tool to the change position; when it is there, `prepared` is on as long
+//    as `prepare` is on. `change` exchanges it with the tool in the spindle, and `changed` answers in the same way.
+//    A change while the spindle turns, or of a tool that was not prepared, jams: there is no answer.
 #pragma once
 
 #include "hal/points.hpp"
@@ -15,7 +15,7 @@
 
 namespace nc::hal {
 
-// Indices of points, -1 = not there. Outputs of the control first.
+// Indices of points, -1 = not used. Outputs of the control come first.
 struct SimSpindlePoints {
   bool driven = false;
   int forward = -1, reverse = -1, speed = -1;
@@ -45,7 +45,7 @@ class SimPlant {
   const SimSpindle& spindle(unsigned number) const { return spindle_[number]; }
   double rpm(unsigned number = 0) const { return spindle_[number].rpm(); }  // signed, + is forward
   unsigned tool() const { return tool_; }
-  // One cycle: takes the outputs of the control, sets its inputs.
+  // Simulates one cycle: takes the outputs of the control and sets its inputs.
   void step(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One spindle of the simulated machine. It ramps to the speed that it is wanted at, and its encoder counts. With its servo on it comes
-// to rest, turns on to its zero mark (orientation) and holds its position from then on: it is a C axis (M700 10.5).
+// One spindle of the simulated machine. Its speed follows the commanded one with a ramp, and its encoder counts. When its servo is switched on, it comes
+// to rest, turns on to its zero mark (orientation) and from then on holds its position as a C axis (M700 10.5).
 #pragma once
 
 namespace nc::hal {
@@ -8,7 +8,7 @@ namespace nc::hal {
 class SimSpindle {
  public:
   void set_servo(bool on) noexcept;
-  // One cycle towards `wanted_rpm` (signed), or what the servo asks for.
+  // Simulates one cycle: the speed goes towards `wanted_rpm` (signed), or to what the servo asks for.
   void step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) noexcept;
   // Of a synchronous tap: it comes to rest, and then its angle follows so many revolutions from there on.
   void follow(double turns, double cycle_s, double ramp_rpm_per_s) noexcept;

@@ -15,16 +15,16 @@ constexpr std::string_view kReplacement = "\xEF\xBF\xBD";  // U+FFFD
 struct EncodingRow {
   Encoding encoding;
   std::string_view name;
-  const char* charset;  // of iconv
+  const char* charset;  // name that iconv_open() takes
 };
-// Of the Shift-JIS encodings the one of Windows: what editors and CAM systems write; its 0x5c and 0x7e are those of ASCII.
+// Of the variants of Shift-JIS it is that of Windows, which editors and CAM systems write; in it 0x5c and 0x7e mean the same as in ASCII.
 constexpr EncodingRow kEncodings[] = {
     {Encoding::kUtf8, "utf-8", "UTF-8"},
     {Encoding::kLatin1, "latin-1", "ISO-8859-1"},
     {Encoding::kShiftJis, "shift-jis", "CP932"},
 };
 
-const iconv_t kNone = reinterpret_cast<iconv_t>(-1);  // NOLINT(performance-no-int-to-ptr): as iconv_open() gives it
+const iconv_t kNone = reinterpret_cast<iconv_t>(-1);  // NOLINT(performance-no-int-to-ptr): the value that iconv_open() returns on failure
 
 std::size_t ascii_length(std::string_view text) {
   std::size_t n = 0;
@@ -94,7 +94,7 @@ std::size_t Decoder::take(std::string_view piece, bool last, std::string* out) {
   std::size_t used = 0;
   while (used < piece.size()) {
     const std::string_view left = piece.substr(used);
-    if (const std::size_t ascii = ascii_length(left); ascii != 0) {  // nearly all of a program
+    if (const std::size_t ascii = ascii_length(left); ascii != 0) {  // a fast path, because nearly all of a program is ASCII
       out->append(left.substr(0, ascii));
       used += ascii;
       continue;
@@ -107,7 +107,7 @@ std::size_t Decoder::take(std::string_view piece, bool last, std::string* out) {
       used += n != 0 ? n : 1;
       continue;
     }
-    // One character at a time, so that what is wrong with one is told from the next: a lead byte and the byte behind it.
+    // Converts one character at a time, which is one byte or a lead byte and a second one. So a wrong character does not spoil the next one.
     char converted[8];
     std::size_t length = 1, room = sizeof converted;
     char* to = converted;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoding of program files, and texts as UTF-8. Inside of the control every text is UTF-8: a file in another encoding is converted
-// where it is read, so that neither the lexer nor anybody who shows a text has to know of it. (A second byte of Shift-JIS may look like
-// `)`, `;`, `%` or a backslash; in UTF-8 no byte of a longer character looks like one of ASCII.)
+// The encodings of program files, and functions for texts in UTF-8. Inside the control every text is UTF-8: a file in another encoding is converted
+// when it is read, so that neither the lexer nor the displays have to know of encodings. (In Shift-JIS the second byte of a character may be the code
+// of `)`, `;`, `%` or a backslash; in UTF-8 no byte of a longer character is an ASCII code.)
 #pragma once
 
 #include <cstddef>
@@ -19,12 +19,12 @@ std::optional<Encoding> encoding_from_name(std::string_view name);
 
 // Bytes of the well-formed UTF-8 character at the start of `text`, 0 when there is none (overlong, surrogate, cut off).
 std::size_t utf8_length(std::string_view text);
-// The text with U+FFFD in the place of each byte that belongs to no character.
+// The text, in which each byte that belongs to no character is replaced by U+FFFD.
 std::string valid_utf8(std::string_view text);
 // The longest beginning of a valid text that has at most `bytes` bytes and ends with a whole character.
 std::string_view cut_utf8(std::string_view text, std::size_t bytes);
 
-// The same for a text that ends with a NUL in an array of `size` bytes.
+// Makes a text that ends with a NUL in an array of `size` bytes valid UTF-8, cut to the array at a whole character.
 void make_valid(char* text, std::size_t size);
 
 // Converts to UTF-8, piece by piece, with iconv() of the C library. Bytes that are no character become U+FFFD.
@@ -37,8 +37,8 @@ class Decoder {
 
   // False when the C library does not know the encoding.
   bool usable() const;
-  // Appends to *out what `piece` is in UTF-8. Returns the bytes used: all, but for the first bytes of a character whose others are to come,
-  // unless `last`.
+  // Appends `piece` in UTF-8 to *out. Returns the number of bytes used. That is all of them, except for an incomplete character at the end, which is
+  // left for the next call unless `last` is set.
   std::size_t take(std::string_view piece, bool last, std::string* out);
 
  private:

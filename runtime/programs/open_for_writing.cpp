@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether somebody has a file open for writing. See open_for_writing.hpp.
 //
-// Linux grants a lease for reading only where nobody has the file open for writing, so trying for one is the question. It is given back at
-// once. Somebody who opens the file in the moment between waits for that, and the kernel tells the holder by SIGIO, which would end the
-// process: it is sent to this thread alone, which has it blocked meanwhile and takes it off.
+// Linux grants a lease for reading only when no process has the file open for writing. So this code asks for such a lease and gives it back
+// at once. When another process opens the file between these two calls, it waits until the lease is back, and the kernel sends SIGIO to the holder
+// of the lease. SIGIO would end this process, so it is directed to this thread, which blocks it during the calls and then removes it.
 #include "runtime/programs/open_for_writing.hpp"
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 namespace nc::rt {
 
 OpenForWriting open_for_writing(int descriptor) {
-  if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY) return OpenForWriting::kNo;  // it would find itself
+  if ((fcntl(descriptor, F_GETFL) & O_ACCMODE) != O_RDONLY) return OpenForWriting::kNo;  // this process itself has the file open for writing
   sigset_t io, before;
   sigemptyset(&io);
   sigaddset(&io, SIGIO);

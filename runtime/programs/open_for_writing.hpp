@@ -4,10 +4,11 @@
 
 namespace nc::rt {
 
-// kNotTold: the file belongs to another user and this process has no CAP_LEASE, or the file system knows no leases (some network ones).
+// kNotTold: it cannot be found out, because the file belongs to another user and this process has no CAP_LEASE, or because the file system has no leases
+// (as some network file systems).
 enum class OpenForWriting : unsigned char { kNo, kYes, kNotTold };
 
-// A descriptor that is open for writing too is one's own: a file without a name, and kNo.
+// For a descriptor that is itself open for writing the answer is kNo: it is a temporary file without a name, made by this process.
 OpenForWriting open_for_writing(int descriptor);
 
 }  // namespace nc::rt

@@ -25,26 +25,26 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 nanoseconds time_of(const struct timespec& t) { return std::chrono::seconds(t.tv_sec) + nanoseconds(t.tv_nsec); }
 
-// The clock that the kernel stamps files with.
+// The time on the clock from which the kernel takes the times of files.
 nanoseconds stamp_now() {
   struct timespec now = {};
   clock_gettime(CLOCK_REALTIME_COARSE, &now);
   return time_of(now);
 }
 
-// The time of the last change of the inode is among it: unlike that of the content nobody can set it back (cp -p, touch).
+// Compares also the time of the last change of the inode: a program such as cp -p or touch can set back the time of the content, but not this one.
 bool same_content(const struct stat& a, const struct stat& b) {
   return a.st_size == b.st_size && time_of(a.st_mtim) == time_of(b.st_mtim) && time_of(a.st_ctim) == time_of(b.st_ctim) &&
          a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// How long to wait until the file has been left alone for `quiet`. A time in the future says nothing.
+// The time until the file has been unchanged for `quiet`; 0 when it has been. A time of the file that lies in the future is ignored.
 nanoseconds unrest(const struct stat& info, nanoseconds quiet) {
   const nanoseconds age = stamp_now() - std::max(time_of(info.st_mtim), time_of(info.st_ctim));
   return age >= nanoseconds(0) && age < quiet ? quiet - age : nanoseconds(0);
 }
 
-// Up to `size` bytes from `offset`; fewer only at the end. False: errno says why.
+// Reads `size` bytes from `offset`, fewer only at the end of the file. False with errno on failure.
 bool read_file(int descriptor, std::uint64_t offset, std::size_t size, std::string* bytes) {
   bytes->resize(size);
   std::size_t got = 0;
@@ -59,7 +59,8 @@ bool read_file(int descriptor, std::uint64_t offset, std::size_t size, std::stri
   return true;
 }
 
-// Tells changed texts apart, not attackers: eight bytes at a time, each multiplied into the next (the constants are those of splitmix64).
+// A hash that detects changed texts; it does not resist deliberate collisions. It takes eight bytes at a time and multiplies after each (with the
+// constants of splitmix64).
 std::uint64_t hash_of(std::string_view bytes) {
   std::uint64_t h = 0x9e3779b97f4a7c15u ^ bytes.size();
   const auto mix = [&h](std::uint64_t word) {
@@ -123,7 +124,7 @@ std::shared_ptr<ProgramText> ProgramText::open_file(const std::string& path, con
   return nullptr;
 }
 
-// False with an empty *error: it was written meanwhile.
+// Reads a small file whole, twice. False with an empty *error when the file was written meanwhile.
 bool ProgramText::copy(std::string* error) {
   std::string bytes, again;
   const auto size = static_cast<std::size_t>(info_.st_size);
@@ -152,8 +153,8 @@ bool ProgramText::copy(std::string* error) {
   return true;
 }
 
-// A byte order mark, as editors write it, is no part of a program. Where no line feed is, lines end with carriage returns, as on machines
-// of old; elsewhere a carriage return is a blank.
+// A byte order mark, which some editors write, is not part of the program. In a file without line feeds the lines end with carriage returns, as on
+// old machines; in other files a carriage return is a blank.
 void ProgramText::look_at_head(const std::string& head) {
   if (options_.as_it_is) return;
   mark_ = head.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
@@ -164,8 +165,8 @@ void ProgramText::finish(std::string* text) const {
   if (cr_ends_line_) std::replace(text->begin(), text->end(), '\r', '\n');
 }
 
-// The parts of a large file. UTF-8 stays as it is, so nothing need be read for that; what is converted has another length, and where each
-// part begins in the text comes from reading all of it once.
+// Divides a large file into parts. UTF-8 is not converted, so the parts of the text are those of the file, and nothing has to be read. A conversion
+// changes the length, so the whole file is read once to find where each part begins in the text.
 bool ProgramText::divide() {
   const auto end = static_cast<std::uint64_t>(info_.st_size);
   std::string bytes, text;
@@ -229,7 +230,8 @@ bool ProgramText::load(std::size_t index) {
     give_up(NC_READ_FAILED);
     return false;
   }
-  // The time of a file is set before what is written gets into it: bytes that are new have a new time by now.
+  // The file is compared after the bytes were read: the kernel sets the time of a file before it stores what is written, so when new bytes
+  // were read, the new time is there as well.
   const std::uint64_t hash = hash_of(bytes);
   if (bytes.size() != end - part.file_begin || !is_unchanged() || (part.hashed && part.hash != hash)) {
     give_up(NC_READ_CHANGED);

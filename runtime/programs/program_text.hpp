@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text of a program file as it was when the program was selected, or first called; UTF-8, lines ended by line feeds.
+// The text of a program file as it was when the program was selected or first called, in UTF-8 with lines that end with a line feed.
 //
-// Whoever writes into the file meanwhile (an editor, cp, a post processor) must not change what runs: a program half old and half new is
-// none that anybody has written. A file of up to Options::copy_bytes is read whole and never looked at again. Of a larger one each part is
-// read when it is needed; then size, times and place of the file must be what they were, and a part that is read again must have the hash
-// that it had, or the text counts as changed from then on and nothing more of it can be read. Nothing is mapped: a mapped file that is
-// truncated ends the process.
+// A writer that changes the file meanwhile (an editor, cp, a post processor) must not change the program that runs: half of the old text with half of
+// the new one is a program that nobody has written. A file of up to Options::copy_bytes is read whole and not looked at again. Of a larger file each
+// part is read when it is needed. At that moment the size, times and place of the file must be unchanged, and a part that is read again must have the
+// same hash as before. Otherwise the text counts as changed, and nothing more of it can be read. The file is not mapped into memory, because
+// truncating a mapped file would end the process.
 //
-// A file that is being written just now is no program yet: it is taken when nobody has it open for writing, it has been left alone for
-// kQuiet, and two readings of it are the same. Where the system does not tell who has it open (another user's file without CAP_LEASE, which the
-// service has; some network file systems) it must have been left alone for kQuietNotTold: a writer who pauses for longer than that in the
-// middle of the file cannot be told from one who has finished.
+// A file that is being written is not a complete program. It is taken only when no process has it open for writing, it has been unchanged for
+// kQuiet, and, if it is small, two readings of it are the same. Where the system does not tell whether it is open for writing (a file of another user, unless
+// the process has CAP_LEASE, as the service has; some network file systems) it must have been unchanged for kQuietNotTold. A writer that pauses longer than
+// that in the middle of the file cannot be distinguished from one that has finished.
 #pragma once
 
 #include <sys/stat.h>
@@ -31,14 +31,14 @@ class ProgramText {
   struct Options {
     Encoding encoding = Encoding::kUtf8;
     std::uint64_t copy_bytes = std::uint64_t{16} << 20;
-    bool as_it_is = false;                        // the image of a tape: no text, nothing is converted
-    std::chrono::milliseconds patience{2000};     // with a file that is being written
+    bool as_it_is = false;                        // the file is the image of a tape, not a text, and is not converted
+    std::chrono::milliseconds patience{2000};     // how long open() waits for a file that is being written
   };
   static constexpr std::chrono::milliseconds kQuiet{20}, kQuietNotTold{1000};
   static constexpr std::size_t kPart = 65536;     // bytes of the file that are read and hashed together
 
-  // Takes the descriptor over, also on failure. `path`: where the file was found; "" = it has no place that could be looked at (standard
-  // input). Null on failure, with a sentence that does not name the file.
+  // Takes over the descriptor and closes it even on failure. `path`: where the file was found; "" = it has no path at which it could be compared later
+  // (standard input). Null on failure, with a sentence in *error that does not name the file.
   static std::shared_ptr<ProgramText> open(int descriptor, const std::string& path, const Options& options, std::string* error);
   // The file at `path`.
   static std::shared_ptr<ProgramText> open_file(const std::string& path, const Options& options, std::string* error);
@@ -50,9 +50,9 @@ class ProgramText {
   bool copied() const { return descriptor_ < 0; }
   // As nc_read_at. Any thread.
   long read(std::uint64_t offset, char* buffer, std::size_t size);
-  // The file at this place is the one that was opened, and unchanged as far as size and time tell.
+  // True when `info` is that of the file that was opened, unchanged as far as its size and times tell.
   bool is_file(const struct stat& info) const;
-  // What stands at its place now is not that, or nothing is there; never of a text without a place.
+  // True when another file or a changed one is at the path now, or none. Always false for a text without a path.
   bool has_changed() const;
 
  private:
@@ -77,8 +77,8 @@ class ProgramText {
   std::uint64_t size_ = 0;
   std::size_t mark_ = 0;       // bytes of a byte order mark
   bool cr_ends_line_ = false;
-  std::string text_;           // all of it, or the part that was read last
-  std::mutex mutex_;           // guards what is below, and text_ where it is a part
+  std::string text_;           // the whole text, or of a large file the part that was read last
+  std::mutex mutex_;           // guards the members below, and text_ when it is a part
   std::vector<Part> parts_;
   std::size_t loaded_ = SIZE_MAX;
   long failure_ = 0;

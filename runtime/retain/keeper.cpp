@@ -56,7 +56,7 @@ void RetainKeeper::restore(Entry* entry, std::vector<std::string>* warnings) {
   }
   if (entry->unseen) return;
   entry->saved = entry->data->now();
-  entry->failed = !entry->store->save(entry->saved, &error);  // tells now whether it will work later
+  entry->failed = !entry->store->save(entry->saved, &error);  // shows at the start whether writing works
   if (entry->failed) tell(entry, RetainTrouble::kUnwritable, name + " cannot be written: " + error, warnings);
 }
 
@@ -104,7 +104,7 @@ void RetainKeeper::run() {
   }
 }
 
-// Who writes over a loss that nobody has seen makes the next control start as if nothing had happened.
+// After a loss nothing is written until an operator has acknowledged it: otherwise the next control would start as if nothing had happened.
 bool RetainKeeper::may_save(Entry* entry) {
   if (!entry->unseen) return true;
   if (!seen_()) return false;
@@ -114,7 +114,7 @@ bool RetainKeeper::may_save(Entry* entry) {
   return true;
 }
 
-// What could not be written is tried again each time, and told again when it had worked in between.
+// Data that could not be written are written again each time. A failure is reported once, and again only after a write has succeeded in between.
 void RetainKeeper::save(Entry* entry, const std::string& bytes) {
   if (!entry->failed && bytes == entry->saved) return;
   std::string error;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps retained data over a restart: reads them before the first scan, looks at them now and then and writes them
-// when they have changed, and once more behind the last scan. An ordinary thread; scan and feeder leave a copy when
-// they are asked for one.
+// Keeps retained data over a restart. It reads them before the first scan, looks at them at a fixed interval and writes them
+// when they have changed, and once more after the last scan. It runs in an ordinary thread and asks scan and feeder for copies
+// of the data.
 //
-// What is lost or cannot be written is an alarm, not only a line of text: a machine that has forgotten which tool is
+// When data are lost or cannot be written, that is an alarm and not only a line of text: a machine that has forgotten which tool is
 // in the spindle must not start as if nothing had happened.
 #pragma once
 
@@ -23,28 +23,28 @@ namespace nc::rt {
 
 class RetainKeeper {
  public:
-  // Takes retain_detail() of what has gone wrong, or is right again; called before the first scan and in the keeper's thread.
+  // Takes retain_detail() of a trouble that begins or ends; called before the first scan and in the keeper's thread.
   using Trouble = std::function<void(unsigned detail, bool begins)>;
 
-  // Whether what was told to be lost has been acknowledged. Any thread.
+  // Returns whether a reported loss has been acknowledged. Any thread.
   using Seen = std::function<bool()>;
 
   RetainKeeper(unsigned every_ms, Trouble trouble, Seen seen)
       : every_ms_(every_ms), trouble_(std::move(trouble)), seen_(std::move(seen)) {}
   ~RetainKeeper() { stop(); }
 
-  // `number`: of the data in alarms.
+  // `number`: the number of these data in alarms (kRetainedData).
   void add(unsigned number, std::unique_ptr<RetainedData> data, const std::string& path);
   bool empty() const { return entries_.empty(); }
 
-  // Before the first scan. What is damaged or cannot be written is told, and a sentence in *warnings: the control
-  // comes up all the same, with data as at its first start.
+  // Before the first scan. Data that are damaged or cannot be written are reported as a trouble and as a sentence in *warnings. The control
+  // starts all the same, with damaged data replaced by those of a first start.
   void restore(std::vector<std::string>* warnings);
-  // The thread. False with a sentence in *error.
+  // Starts the thread. False with a sentence in *error.
   bool start(std::string* error);
-  // Behind the last scan.
+  // Ends the thread and writes the data once more; to be called after the last scan.
   void stop();
-  // What was wrong with these data last, "" = nothing. Any thread.
+  // The last trouble with these data as a sentence, "" = none. Any thread.
   std::string trouble(unsigned number) const;
 
  private:
@@ -53,13 +53,13 @@ class RetainKeeper {
     std::unique_ptr<RetainedData> data;
     std::unique_ptr<RetainStore> store;
     bool usable = false;
-    bool failed = false;  // the last write; told once
-    bool unseen = false;  // a loss that nobody has acknowledged: nothing is written, so that the next start tells it again
+    bool failed = false;  // the last write failed, which has been reported
+    bool unseen = false;  // a loss has not been acknowledged yet: nothing is written, so that the next start reports it again
     std::string saved, trouble;
   };
   void restore(Entry* entry, std::vector<std::string>* warnings);
   void run();
-  bool pause_ms(unsigned time);  // false: it ends
+  bool pause_ms(unsigned time);  // false: the thread is to end
   bool may_save(Entry* entry);
   void save(Entry* entry, const std::string& bytes);
   void tell(Entry* entry, RetainTrouble what, const std::string& why, std::vector<std::string>* warnings);

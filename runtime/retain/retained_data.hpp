@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data that survive a power cut: what the keeper asks of them.
+// Data that survive a power cut: the interface through which the keeper reads and restores them.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ class RetainedData {
  public:
   virtual ~RetainedData() = default;
   virtual const char* name() const = 0;  // "devices of the ladder"
-  virtual const char* start() const = 0; // what they begin with without a file: "are 0"
+  virtual const char* start() const = 0; // the values that they have without a file, as part of a sentence: "are 0"
 
-  // ---- before the first scan and behind the last ----
+  // ---- before the first scan and after the last one ----
   // False when the bytes make no sense; nothing has changed then.
   virtual bool restore(const std::string& bytes) = 0;
   virtual std::string now() = 0;
 
-  // ---- in between, from one thread: a copy is asked for, and taken when it is there ----
+  // ---- in between, from one thread: want() asks for a copy, and take() fetches it and is false until it is there ----
   virtual void want() = 0;
   virtual bool take(std::string* bytes) = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Retained devices as bytes: rows of devices by name and first number, so that a program that was changed, or
-// another choice of D, takes over what it still has.
+// Retained devices as bytes: rows of devices with their name and first number, so that a changed ladder program or
+// another choice of the retained D takes over the devices that it still has.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace nc::rt {
 
 struct RetainedRow {
-  std::string name;         // "L", "D": as ladder::RetainedRange
+  std::string name;         // "L", "D": the name in ladder::RetainedRange
   std::uint32_t first = 0;  // number of the first device
   std::vector<std::int16_t> values;  // a bit is 0 or 1
   bool operator==(const RetainedRow&) const = default;

@@ -29,7 +29,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 constexpr std::size_t kChecked = offsetof(Header, generation);
-// No file is written so often; the one behind it would count as the oldest, and be lost.
+// A file with this generation is refused as damaged. No file is written so often, and the next generation would be 0 and count as the oldest.
 constexpr std::uint64_t kNoGeneration = ~std::uint64_t{0};
 
 // CRC-32 of IEEE 802.3, reflected.
@@ -52,7 +52,7 @@ std::string system_error(const std::string& path) {
   return path + ": " + std::strerror(errno);
 }
 
-// All of a regular file, at most `limit` bytes. False with errno, or with errno 0 when it is something else.
+// Reads a whole regular file of at most `limit` bytes. False with errno, or with errno 0 when it is not such a file.
 bool read_all(const std::string& path, std::size_t limit, std::string* bytes) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
@@ -102,7 +102,7 @@ bool is_whole(const std::string& bytes, std::uint64_t* generation, std::string* 
   return true;
 }
 
-// What is wrong with a file that is not whole.
+// What is wrong with a file that is not whole, as the rest of a sentence.
 const char* trouble_of(const std::string& bytes) {
   Header header;
   if (bytes.size() < sizeof header) return " is damaged";
@@ -116,11 +116,11 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-// The names are on the disk too.
+// Brings the names in the folder of a file to the disk, so that a rename survives a power cut.
 bool sync_folder(const std::string& path) {
   const int folder = open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return false;
-  const bool good = fsync(folder) == 0 || errno == EINVAL;  // some file systems have no such thing
+  const bool good = fsync(folder) == 0 || errno == EINVAL;  // some file systems cannot sync a folder
   close(folder);
   return good;
 }
@@ -144,14 +144,14 @@ bool RetainStore::lock(std::string* error) {
 RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) {
   bool found = false, last_is_whole = false, any = false;
   std::string damaged;
-  for (const char* ending : {"", ".new", ".old"}) {  // of two that are equally new the first counts
+  for (const char* ending : {"", ".new", ".old"}) {  // of two files with the same generation the first one counts
     const std::string name = path_ + ending;
     std::string bytes, read;
     std::uint64_t generation = 0;
     const bool there = read_all(name, kMaxPayload + sizeof(Header), &bytes);
     if (!there && errno == ENOENT) continue;
     const bool whole = there && is_whole(bytes, &generation, &read);
-    // A file that is being written when the power goes is no damage.
+    // A PATH.new that is not whole is no damage: it was being written when the power went.
     if (ending[0] == '\0' || ending[1] != 'n') any = true;
     if (ending[0] == '\0') last_is_whole = whole;
     if (!whole) {
@@ -165,7 +165,8 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
     generation_ = generation;
     *payload = std::move(read);
   }
-  // PATH.old alone is a generation back; beside a PATH.new that is newer, the power went between the two renames.
+  // When only PATH.old is whole, the last generation is missing. When PATH.new is whole and newer, nothing is missing: the power went between the two
+  // renames of put_in_place().
   if (found && damaged.empty() && !last_is_whole && !newest_is_new_) damaged = path_ + " is missing";
   *error = damaged;
   if (found) return last_is_whole || damaged.empty() ? Loaded::kWhole : Loaded::kOlder;
@@ -173,7 +174,7 @@ RetainStore::Loaded RetainStore::load(std::string* payload, std::string* error) 
 }
 
 void RetainStore::set_aside() {
-  (void)rename(path_.c_str(), (path_ + ".damaged").c_str());  // not there is no loss
+  (void)rename(path_.c_str(), (path_ + ".damaged").c_str());  // a failure is ignored: PATH may not exist
 }
 
 bool RetainStore::put_in_place() {
@@ -197,7 +198,7 @@ bool RetainStore::save(const std::string& payload, std::string* error) {
   std::memcpy(bytes.data(), &header, sizeof header);
 
   const std::string next = path_ + ".new";
-  // The newest generation is not written over before the next one is whole.
+  // PATH.new is about to be overwritten. When it holds the newest generation, it is first renamed to PATH.
   if (newest_is_new_ && !put_in_place()) {
     *error = system_error(path_);
     return false;
@@ -208,7 +209,7 @@ bool RetainStore::save(const std::string& payload, std::string* error) {
   const int problem = errno;
   if (file >= 0 && close(file) != 0) good = false;
   if (!good && problem != 0) errno = problem;
-  // What is whole becomes the one before only when the new one is on the disk.
+  // PATH becomes PATH.old only after the new file is on the disk.
   good = good && put_in_place();
   if (good) {
     ++generation_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small file that survives a power cut: written beside the old one, brought to the disk, then renamed. Two
-// generations stay, each under a check sum, so that whatever moment the power goes, one of them is whole.
+// A small file that survives a power cut: it is written beside the old one, brought to the disk, then renamed. Two
+// generations are kept, each with a check sum, so that at whatever moment the power goes, one of them is whole.
 //
 //   PATH.new   being written       PATH   the last one       PATH.old   the one before
 #pragma once
@@ -21,13 +21,13 @@ class RetainStore {
   bool lock(std::string* error);
 
   enum class Loaded { kWhole, kOlder, kNothing, kDamaged };
-  // The newest whole generation. kOlder: the last one is damaged or missing, this is the one before. kNothing: there
-  // is no file yet. kDamaged: there are files, and none is whole. A sentence in *error for kOlder and kDamaged. Changes
-  // nothing: the next one finds the same.
+  // Reads the newest whole generation. kOlder: the last generation is damaged or missing, and the one before was read. kNothing: there
+  // is no file yet. kDamaged: there are files, and none is whole. A sentence in *error for kOlder and kDamaged. The files are
+  // not changed, so another load() has the same result.
   Loaded load(std::string* payload, std::string* error);
-  // PATH becomes PATH.damaged, for whoever wants to look. Before the first save() behind a loss.
+  // Renames PATH to PATH.damaged, so that it can be examined. To be called before the first save() after a loss.
   void set_aside();
-  // False with a sentence in *error; what was there before is there still.
+  // Writes the next generation. False with a sentence in *error; what was there before is still there.
   bool save(const std::string& payload, std::string* error);
 
   std::uint64_t generation() const { return generation_; }
@@ -37,8 +37,8 @@ class RetainStore {
  private:
   bool put_in_place();  // PATH becomes PATH.old, PATH.new becomes PATH
   const std::string path_;
-  std::uint64_t generation_ = 0;  // of the last one read or written
-  bool newest_is_new_ = false;    // what was read last is PATH.new: whole, but its rename did not come to pass
+  std::uint64_t generation_ = 0;  // generation that was read or written last
+  bool newest_is_new_ = false;    // load() has read PATH.new, which is whole but was not renamed before the power went
   int lock_ = -1;
 };
 

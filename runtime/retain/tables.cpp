@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Offsets and parameters as text. See tables.hpp.
 //
-//   "nc tables 1"; each change: three lines, key, value of the configuration ("" = none), value; "end"
+// The first line is "nc tables 1" and the last one is "end". Each change has three lines: its key, the value in the configuration ("" = none), the value.
 #include "runtime/retain/tables.hpp"
 
 #include <charconv>
@@ -16,10 +16,10 @@ namespace {
 
 constexpr char kHead[] = "nc tables 1", kEnd[] = "end";
 constexpr unsigned kColumns = 4;
-constexpr unsigned kPlainSets = 6, kExtended = 100;  // as nc_work_offset_set() counts
+constexpr unsigned kPlainSets = 6, kExtended = 100;  // indices as nc_work_offset_set() counts: G54 to G59 are 1 to 6, G54.1P<n> is 100 + n
 constexpr char kAllAxes = '-';
 
-// Without an exponent: nc_parameter_set() takes none.
+// The number as a text without an exponent, because nc_parameter_set() accepts none.
 std::string plain(double value) {
   char text[400];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
@@ -66,7 +66,7 @@ std::string value_of(const TableRows& rows, const std::string& key) {
   return key.rfind("parameter ", 0) == 0 ? "" : "0";
 }
 
-// What the control does not have is left out.
+// Writes one value into the control. A value that this control does not have is skipped.
 void apply(nc_control* control, const nc_config& config, const std::string& key, const std::string& text) {
   std::istringstream words(key);
   std::string kind, number;
@@ -147,7 +147,7 @@ bool parse_tables(const std::string& text, TableRows* rows) {
 }
 
 std::string encode_changes(const TableRows& now, const TableRows& configured) {
-  TableRows all = configured;  // every key of both
+  TableRows all = configured;  // becomes the set of the keys of both tables
   all.insert(now.begin(), now.end());
   std::string text = std::string(kHead) + "\n";
   for (const auto& [key, ignored] : all) {

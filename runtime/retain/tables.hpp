@@ -2,8 +2,8 @@
 // Work offsets, tool offsets and parameters that were changed since the configuration was read (G10, system variables ...), as text
 // and back. They are kept while the power is off, as on a control with a battery.
 //
-// The configuration gives the values of the first start. What is kept is what differs from it, beside the value that the configuration had
-// then: a value that is changed in the configuration afterwards counts from there, and what was kept for it is dropped.
+// The configuration gives the values of the first start. The file keeps each value that differs from the configuration, together with the value that the
+// configuration had when the file was written. When that value is changed in the configuration later, the configuration wins and the kept value is dropped.
 #pragma once
 
 #include <map>
@@ -15,27 +15,27 @@
 
 namespace nc::rt {
 
-// "work 0 1 X" (part system, index of nc_work_offset_set(), axis), "tool 3 0" (number, column), "parameter 0 - 8012" (part system, axis, key)
-// -> value. An offset that is not there is 0.
+// Maps keys to values. Keys are "work 0 1 X" (part system, index of nc_work_offset_set(), axis), "tool 3 0" (number, column) and "parameter 0 - 8012"
+// (part system, axis, key). An offset without an entry is 0.
 using TableRows = std::map<std::string, std::string>;
 TableRows read_tables(const nc_control* control, const nc_config& config);
 
-// The same as the blocks have left them that the machine has executed.
+// The tables as they are after the blocks that the machine has executed, without what was only read ahead.
 TableRows executed_tables(nc_control* control, const nc_config& config);
 
-// One row in a line, and back.
+// The rows as text, one in each line, and back.
 std::string table_text(const TableRows& rows);
 bool parse_tables(const std::string& text, TableRows* rows);
 
-// What of `now` differs from `configured`, for the file.
+// The values of `now` that differ from `configured`, as the contents of the file.
 std::string encode_changes(const TableRows& now, const TableRows& configured);
-// Into a control that has the tables `configured`. False when the bytes are not such changes; nothing has changed then. What the control does
-// not have (any more), and what the configuration says otherwise now, is left out.
+// Writes the changes into a control that has the tables `configured`. False when the bytes are not such changes; nothing has changed then. Values that the
+// control does not have (any more) are skipped, and so are those for which the configuration has another value than when the file was written.
 bool restore_changes(nc_control* control, const nc_config& config, const TableRows& configured, const std::string& bytes);
 
 class TableData final : public RetainedData {
  public:
-  // While the control is as the configuration has made it.
+  // To be made while the control still has the values of the configuration.
   TableData(nc_control* control, const nc_config& config, Feeder* feeder)
       : control_(control), config_(config), feeder_(*feeder), configured_(read_tables(control, config)) {}
   const char* name() const override { return "offsets and parameters"; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Common variables as bytes. See variables.hpp.
 //
-//   u32 number of variables; each: u32 number, with the part system from 0 in its highest byte, f64 value; u32 number of names; each:
-//   u32 number, 8 bytes
+//   u32 count of variables; for each: u32 number, with the index of the part system in its highest byte, f64 value
+//   u32 count of names; for each: u32 number, 8 bytes
 //
-// What part systems share stands in the rows of each of them.
+// A variable that part systems share stands in the rows of each of them.
 #include "runtime/retain/variables.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr std::uint32_t kMaxVariables = 200000;  // every part system with all that there can be
+constexpr std::uint32_t kMaxVariables = 200000;  // more than all part systems together can have
 constexpr unsigned kSystemShift = 24;
 constexpr std::uint32_t kNumber = (1u << kSystemShift) - 1;
 constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
@@ -66,7 +66,7 @@ bool decode(const std::string& bytes, std::vector<Variable>* variables, std::vec
 
 std::string encode_variables(const nc_control* control) {
   std::vector<Variable> variables;
-  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {  // one that there is not has none
+  for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {  // a part system that does not exist has no variables
     Variable next;
     while (nc_variable_next(control, api_system(s), next.number, &next.number, &next.value) == NC_OK) {
       if (std::isfinite(next.value)) variables.push_back({s << kSystemShift | next.number, next.value});

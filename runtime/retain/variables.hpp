@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The common variables of the programs (#100 to #199, #500 to #999 ...) and their names as bytes, and back. They are
-// kept while the power is off (M700 13.4, 13.5.4): as the blocks have left them that the machine has executed.
+// kept while the power is off (M700 13.4, 13.5.4), with the values that the executed blocks have left.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@
 
 namespace nc::rt {
 
-// What is not vacant. The thread that the control belongs to.
+// All variables that are not vacant. To be called in the thread that the control belongs to.
 std::string encode_variables(const nc_control* control);
-// The same as the blocks have left them that the machine has executed.
+// The variables as they are after the blocks that the machine has executed, without what was only read ahead.
 std::string executed_variables(nc_control* control);
 // False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
-// more) are left out, and so are those of `not_kept`, and #100 to #199 when #1129 PwrVC1 is on.
+// more) are skipped, and so are those of `not_kept`, and #100 to #199 when #1129 PwrVC1 is on.
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
 
 class VariableData final : public RetainedData {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the list of active alarms of each snapshot to occurrences: each gets a number when it comes and a time
-// when it goes; the last 256 are kept, with the operator messages among them.
+// Makes occurrences from the list of active alarms of each snapshot. An occurrence gets a number when the alarm comes and a time
+// when it goes. The last 256 occurrences are kept; operator messages are among them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace nc::rt::share {
 
 class AlarmLog {
  public:
-  // Texts of an alarm; false = not known yet (they come from the feeder): asked again the next time.
+  // Supplies the texts of an alarm. False = they are not known yet, because they come from the feeder; then it is asked again in the next update.
   class Describer {
    public:
     virtual ~Describer() = default;
@@ -27,7 +27,7 @@ class AlarmLog {
   const std::vector<Entry>& active() const { return active_entries_; }
   const HistoryBlock& history() const { return history_; }
 
-  // An alarm is shown without its texts when they have not come by then.
+  // An alarm whose texts have not come within this time is shown without them.
   static constexpr std::int64_t kWaitForTextNs = 200'000'000;
 
  private:

@@ -55,9 +55,9 @@ std::string BlockText::line(const std::shared_ptr<ProgramText>& program, std::ui
       passed += buffer_.size();
     }
     const std::size_t end = buffer_.find('\n');
-    const bool ended = end != std::string::npos || buffer_.empty();  // by its end, or with the text
+    const bool ended = end != std::string::npos || buffer_.empty();  // the line has ended, with a line feed or with the text
     const std::size_t length = std::min(end, buffer_.size());
-    if (begun_.size() <= kShown) begun_.append(buffer_, 0, length);  // more than is shown, so that it is cut at a character
+    if (begun_.size() <= kShown) begun_.append(buffer_, 0, length);  // keeps more than is shown, so that shown() can cut at a whole character
     const std::size_t used = end != std::string::npos ? length + 1 : length;
     buffer_.erase(0, used);
     offset_ += used;

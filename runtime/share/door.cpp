@@ -22,14 +22,14 @@ namespace nc::rt::share {
 namespace {
 
 constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW;
-constexpr int kWaiting = 16;                 // readers that knock at the same time
-constexpr timeval kPatience = {0, 500'000};  // of a reader, for an owner that hangs
+constexpr int kWaiting = 16;                 // readers that may connect at the same time
+constexpr timeval kPatience = {0, 500'000};  // time for which a reader waits for an owner that hangs
 
 std::string system_error(const std::string& what) {
   return what + ": " + std::strerror(errno);
 }
 
-// The address has no NUL at its end: its length counts.
+// Makes an address without a NUL at its end, so its length, which is returned, must be passed with it.
 socklen_t address_of(const std::string& name, sockaddr_un* address) {
   *address = {};
   address->sun_family = AF_UNIX;
@@ -45,7 +45,7 @@ bool is_member(gid_t group, gid_t primary, const std::vector<gid_t>& others) {
 std::vector<gid_t> groups_of_peer(int socket) {
   std::vector<gid_t> groups(256);
   socklen_t size = static_cast<socklen_t>(groups.size() * sizeof(gid_t));
-  // A kernel that does not know them, or a peer with more of them: its first group alone counts.
+  // When the kernel does not know this option, or the peer has more groups than fit, only the peer's primary group counts.
   if (getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &size) != 0) size = 0;
   groups.resize(size / sizeof(gid_t));
   return groups;
@@ -75,7 +75,7 @@ bool send_descriptor(int socket, int descriptor) {
   return sendmsg(socket, &message, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
 }
 
-// -1 with errno, or with errno 0 when the other side closed without a word.
+// Receives a descriptor. -1 with errno, or with errno 0 when the other side has closed the connection without sending one.
 int receive_descriptor(int socket) {
   char byte = 0;
   iovec data{&byte, 1};
@@ -101,7 +101,8 @@ int receive_descriptor(int socket) {
   return descriptor;
 }
 
-// Memory of a stranger is not mapped: he could let commands look like accepted ones, and positions like true.
+// True when the owner of the memory is this user, root, or in a group of this user; root trusts every owner. Memory of anybody else is not mapped, because
+// its owner could fake positions and answers to commands.
 bool owner_is_trusted(int socket) {
   ucred owner{};
   socklen_t size = sizeof owner;
@@ -162,7 +163,7 @@ bool Door::may_enter(int client) const {
   return group_ && is_member(getegid(), peer.gid, groups_of_peer(client));
 }
 
-// Nobody is waited for: who knocks gets the descriptor or nothing, at once.
+// A reader that connects gets the descriptor or nothing, at once; the loop never waits for a single reader.
 void Door::serve() {
   pollfd ready[2] = {{stop_, POLLIN, 0}, {socket_, POLLIN, 0}};
   for (;;) {
@@ -170,11 +171,11 @@ void Door::serve() {
     if ((ready[0].revents & POLLIN) != 0) return;
     const int client = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (client < 0) {
-      // No descriptors left: the next try comes in a while, not in a busy loop.
+      // No descriptors are left: wait before the next try, instead of trying in a busy loop.
       if (errno == EMFILE || errno == ENFILE || errno == ENOMEM) poll(ready, 1, 100);
       continue;
     }
-    if (may_enter(client)) (void)send_descriptor(client, memory_);  // a reader that is gone already misses it
+    if (may_enter(client)) (void)send_descriptor(client, memory_);  // an error is ignored: the reader has gone
     ::close(client);
   }
 }

@@ -10,7 +10,7 @@
 namespace nc::rt::share {
 namespace {
 
-constexpr double kMaxVelocity = 1e6;  // mm/s; the axis's own limit is the scan's affair
+constexpr double kMaxVelocity = 1e6;  // mm/s; the scan checks the limit of the axis itself
 
 bool is_graphic(std::string_view text) {
   for (const char c : text)
@@ -18,14 +18,14 @@ bool is_graphic(std::string_view text) {
   return true;
 }
 
-// NC text: bytes of a program, no control characters but tab and line ends.
+// True when the text has no control characters other than tabs and line ends.
 bool is_program_text(std::string_view text) {
   for (const char c : text)
     if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\r' && c != '\t') return false;
   return true;
 }
 
-// A file in the folder of programs: no way out of it, no hidden files.
+// True for the name of a file in the folder of programs: a name without a path, and not of a hidden file.
 bool is_file_name(std::string_view text) {
   if (text.empty() || text[0] == '.' || text.find('/') != std::string_view::npos) return false;
   for (const char c : text)
@@ -33,7 +33,7 @@ bool is_file_name(std::string_view text) {
   return true;
 }
 
-// A device of the ladder: letters, digits, '_', '-', '.'.
+// True when the text may be the name of a device of the ladder: at most 64 printable ASCII characters.
 bool is_device_name(std::string_view text) {
   return !text.empty() && text.size() <= 64 && is_graphic(text);
 }
@@ -45,7 +45,7 @@ constexpr bool is_from_gateway(RequestKind kind) {
 struct Row {
   RequestKind kind;
   CommandKind command;
-  bool takes_time;  // answered `accepted` first
+  bool takes_time;  // answered with `accepted` first, and with `done` or `failed` later
 };
 constexpr Row kRows[] = {
     {RequestKind::kCycleStart, CommandKind::kCycleStart, true},
@@ -75,12 +75,12 @@ Ack make_ack(const Request& request, std::int64_t now_ns) {
   return ack;
 }
 
-// What must name one part system.
+// Commands that must name one part system.
 constexpr bool is_of_one_system(RequestKind kind) {
   return kind == RequestKind::kJog || kind == RequestKind::kMdi || kind == RequestKind::kSelectProgram;
 }
 
-// What acts on the whole control, whichever part system is named.
+// Commands that act on the whole control, whichever part system is named.
 constexpr bool is_of_the_control(RequestKind kind) {
   return kind == RequestKind::kReset || kind == RequestKind::kSetMode;
 }
@@ -89,7 +89,7 @@ bool is_named(const Request& request, unsigned system) {
   return request.system == kEverySystem || request.system == system;
 }
 
-// Who names one part system reads that all of them follow.
+// The text of the answer to a client that has named one part system in a command that acts on all of them.
 const char* scope_text(const Request& request, unsigned systems) {
   const bool more = systems > 1 && request.system != kEverySystem && is_of_the_control(static_cast<RequestKind>(request.kind));
   return more ? "of all part systems" : "";
@@ -102,7 +102,8 @@ bool any_system(const Machine::State& state, Is is) {
   return false;
 }
 
-// Whether the state that an accepted command asks for is there. A start of all of them begins those that have something to begin with.
+// Whether the state that an accepted command asks for has been reached. A start is done when one of the named part systems runs or has run, because a start of
+// all part systems begins only those that are ready.
 bool reached(const Request& request, const Machine::State& state, const std::array<std::uint64_t, NC_MAX_SYSTEMS>& runs_before) {
   const auto& run = state.run_state;
   switch (static_cast<RequestKind>(request.kind)) {
@@ -202,7 +203,7 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
 
 // ---- clients ----
 
-// The client of a command; a new one takes a free place or that of one long silent. Null = none is free.
+// The client that a command comes from. A new client takes a free place, or that of a client that has been silent for a long time. Null = there is no place.
 Intake::Client* Intake::client_of(const Request& request, std::int64_t now_ns) {
   Client* place = nullptr;
   for (Client& client : client_) {
@@ -223,7 +224,7 @@ void Intake::remember(Client* client, const Ack& ack) {
   client->answered[client->answers++ % kRemembered] = ack;
 }
 
-// Jogs end with the control they were given under.
+// When a client loses control, the jogs that it has commanded are stopped.
 void Intake::lose_control() {
   control_ = nullptr;
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {
@@ -233,13 +234,14 @@ void Intake::lose_control() {
       stop.kind = CommandKind::kJog;
       stop.system = static_cast<std::uint8_t>(s);
       stop.axis = static_cast<std::uint8_t>(a);
-      (void)machine_.execute(stop);  // in another mode there is no jog any more
+      (void)machine_.execute(stop);  // a refusal is ignored: in another mode nothing jogs any more
       jogging_[s][a] = false;
     }
   }
 }
 
-// A participant may speak for several clients: the one that is named, or all of them.
+// Removes the clients of a participant that is gone. A participant may have several clients: only the named one is removed, or all of them when none is
+// named.
 void Intake::gone(const Request& request, bool everyone) {
   const bool named = is_ended(request.client) && !text_of(request.client).empty();
   const auto is_meant = [&](const Text<32>& name, std::uint64_t writer) {
@@ -250,7 +252,7 @@ void Intake::gone(const Request& request, bool everyone) {
     if (&client == control_) lose_control();
     client = {};
   }
-  for (Pending& pending : pending_)  // nobody listens any more
+  for (Pending& pending : pending_)  // their answers would reach nobody
     if (pending.used && is_meant(pending.request.client, pending.request.writer)) pending.used = false;
 }
 
@@ -265,7 +267,7 @@ Intake::Verdict Intake::take_control(Client* client, const Request& request, std
   return {AckState::kDone, AckReason::kNone, "has control"};
 }
 
-// Of each part system that is named.
+// Rule 6: whether mode, run state and program of each named part system are those that the client expects.
 bool Intake::expected(const Request& request, const Machine::State& state, std::string* text) const {
   if (request.expected_mode != kAny && request.expected_mode != static_cast<std::int32_t>(state.mode)) {
     *text = "the mode is another one";
@@ -277,7 +279,7 @@ bool Intake::expected(const Request& request, const Machine::State& state, std::
     return false;
   }
   const std::string_view program = text_of(request.expected_program);
-  const auto program_differs = [&](unsigned s) {  // a name may be longer than status shows it, and than a client can write it
+  const auto program_differs = [&](unsigned s) {  // compares the name as status shows it, cut to the length that a client can write
     Text<sizeof request.expected_program> shown;
     set_text(&shown, state.program[s]);
     return is_named(request, s) && program != text_of(shown);
@@ -320,7 +322,7 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
                                const Now& now) {
   const auto kind = static_cast<RequestKind>(request.kind);
   const std::int64_t lifespan_ns = std::int64_t{request.lifespan_ms} * 1'000'000;
-  // Compared without a subtraction of what came from outside: that could overflow.
+  // The lifespan is subtracted from our own time and not from issued_ns: that comes from outside, so the subtraction could overflow.
   if (request.issued_ns < now.wall_ns - lifespan_ns)
     return {AckState::kRejected, AckReason::kLate, "older than its lifespan"};
   if (request.issued_ns > now.wall_ns + kClockSkewNs)
@@ -352,7 +354,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     gone(request, kind == RequestKind::kGatewayBegan);
     return;
   }
-  // Without a name there is nobody to answer, and nothing to remember.
+  // A request without a valid name of a client can neither be answered nor remembered.
   if (!is_ended(request.client) || text_of(request.client).empty() || !is_graphic(text_of(request.client))) return;
   Ack ack = make_ack(request, now.wall_ns);
   const auto answer = [&](const Verdict& verdict) {
@@ -380,7 +382,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
   }
   const Machine::State state = machine_.state();
   if (Verdict form = check_form(request, state); form.state != AckState::kDone) {
-    // Its number is used up, so that it can be answered again; a number of 0 cannot.
+    // The number counts as used, so that a duplicate gets the same answer. That is not possible for the number 0.
     if (request.sequence > client->last_sequence) {
       client->last_sequence = request.sequence;
       answer(form);
@@ -402,7 +404,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
 
 // ---- what comes with time ----
 
-// False when the list is full: the command is executed all the same, its answer is `done` at once.
+// Notes a command whose state comes later. False when the list is full: then the command has been executed all the same, and its answer is `done` at once.
 bool Intake::wait_for(const Request& request, std::int64_t now_ns, const Machine::State& before) {
   for (Pending& pending : pending_) {
     if (pending.used) continue;
@@ -423,7 +425,7 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   for (Client& client : client_) {
     if (!client.used || text_of(client.name) != text_of(ack.client)) continue;
     for (Ack& answered : client.answered)
-      if (answered.sequence == ack.sequence) answered = ack;  // what a duplicate gets from now on
+      if (answered.sequence == ack.sequence) answered = ack;  // a duplicate gets this answer from now on
   }
 }
 

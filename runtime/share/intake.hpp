@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes commands that came over a network and decides which of them the machine gets.
+// Takes commands that come over a network and decides which of them the machine gets.
 //
-// The rules, in this order:
+// The rules are asked in this order, except that rule 2 is asked before rule 1:
 //   1  well formed: known kind, numbers finite and in range, texts ended and printable       else malformed
 //   2  a (client, sequence) that was answered before gets the same answer; nothing is executed again
 //   3  sequence above the last one of this client                                            else out of order
 //   4  younger than its lifespan                                                             else late
-//   5  from the client that has control; a feed hold is taken from anyone                   else no control
-//   6  mode, run state and program are what the client believes                              else expected state
-//   7  the runtime agrees                                                                    else refused
-// A command is of the part system that it names, or of all (kEverySystem); mode and reset always of all, which their answer says.
-// Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or does
-// not send anything for its lease. Whoever loses control loses its jogs: the axes are stopped.
+//   5  from the client that has control; a feed hold is accepted from every client           else no control
+//   6  mode, run state and program are those that the client expects                         else expected state
+//   7  the runtime accepts the command                                                       else refused
+// A command concerns the part system that it names, or all of them (kEverySystem). Mode and reset always concern all of them, and their answer says so.
+// Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or has not
+// sent anything for the time of its lease. When a client loses control, its jogs are stopped.
 //
-// An executed command is answered `accepted` and later `done` (or `failed`) when it asks for a state that comes
-// with time (a start, a hold, a reset, a mode), else `done` at once.
+// An executed command that asks for a state which takes time (a start, a hold, a reset, a mode) is answered `accepted`, and later
+// `done` or `failed`. Any other one is answered `done` at once.
 //
-// One thread. Everything is bounded; nothing here knows DDS or shared memory.
+// All calls come from one thread. Everything is bounded; nothing here depends on DDS or shared memory.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@
 
 namespace nc::rt::share {
 
-// What the runtime is to the intake.
+// The runtime as the intake sees it.
 class Machine {
  public:
   struct State {
@@ -39,9 +39,9 @@ class Machine {
     unsigned system_count = 1;
     std::array<unsigned, NC_MAX_SYSTEMS> axis_count{};
     std::array<std::uint8_t, NC_MAX_SYSTEMS> run_state{};  // nc_run_state
-    std::array<bool, NC_MAX_SYSTEMS> moves{};              // an axis is commanded to move, whatever the state is called
+    std::array<bool, NC_MAX_SYSTEMS> moves{};              // an axis is commanded to move, in whatever run state
     std::array<std::string, NC_MAX_SYSTEMS> program;       // file name without folder
-    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};      // programs that came to their end
+    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};      // number of programs that came to their end
     double max_feed_override = 2.0;
   };
   virtual ~Machine() = default;
@@ -52,12 +52,12 @@ class Machine {
   // Devices of the ladder; "" releases all of them.
   virtual Answer force(const std::string& device, std::int64_t value) = 0;
   virtual Answer release(const std::string& device) = 0;
-  // What the last answer means, with the reason where one is known.
+  // What the last answer means, with its reason when that is known.
   virtual std::string explain(Answer answer) { return answer_text(answer); }
 };
 
-// Time of day, by which a command is late or not, and a clock that nobody sets, by which a lease ends: a control that
-// gets its time from a server while a client is silent must not keep an axis or a token for it.
+// Two clocks. The time of day decides whether a command is late. Leases end by a clock that is never set: when a time server sets the time of day back
+// while a client is silent, that must not prolong its control or its jog.
 struct Now {
   Now(std::int64_t both) : wall_ns(both), steady_ns(both) {}
   Now(std::int64_t wall, std::int64_t steady) : wall_ns(wall), steady_ns(steady) {}
@@ -68,9 +68,9 @@ class Intake {
  public:
   explicit Intake(Machine* machine) : machine_(*machine) {}
 
-  // One command. Adds its acknowledgement, and those of what ends because of it.
+  // Takes one command and adds its acknowledgement to *acks.
   void take(const Request& request, const Now& now, std::vector<Ack>* acks);
-  // Leases, and accepted commands whose state has come. Call it every few ms.
+  // Ends leases, and answers accepted commands whose state has been reached. To be called every few ms.
   void tick(const Now& now, std::vector<Ack>* acks);
 
   // The client that has control, "" = nobody.
@@ -79,10 +79,10 @@ class Intake {
   static constexpr unsigned kClients = 16, kRemembered = 32, kPending = 16;
   static constexpr std::uint32_t kMaxLifespanMs = 10'000, kMinLeaseMs = 100, kMaxLeaseMs = 60'000;
   static constexpr std::uint32_t kDefaultLeaseMs = 2'000;
-  // A client that has been silent for this long can be forgotten: nothing of it can still be on its way.
+  // A client that has been silent for this long may be forgotten: none of its commands can still be on the way, because lifespans are shorter.
   static constexpr std::int64_t kForgetNs = 60'000'000'000;
-  static constexpr std::int64_t kClockSkewNs = 500'000'000;    // a command may come from so far in the future
-  static constexpr std::int64_t kReachNs = 10'000'000'000;     // for an accepted command to reach its state
+  static constexpr std::int64_t kClockSkewNs = 500'000'000;    // a command may be dated in the future by at most this much
+  static constexpr std::int64_t kReachNs = 10'000'000'000;     // time within which an accepted command must reach its state
 
  private:
   struct Client {
@@ -90,20 +90,20 @@ class Intake {
     Text<32> name{};
     std::uint64_t writer = 0, last_sequence = 0;
     std::int64_t heard_ns = 0;
-    std::array<Ack, kRemembered> answered{};  // ring by sequence of arrival
+    std::array<Ack, kRemembered> answered{};  // ring of the last answers, in the order of arrival
     unsigned answers = 0;
   };
   struct Pending {
     bool used = false;
     Request request{};
     std::int64_t since_ns = 0;
-    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // before it
+    std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // State::runs before the command
   };
   struct Verdict {
     AckState state = AckState::kDone;
     AckReason reason = AckReason::kNone;
     std::string text;
-    RefusalCause refusal = RefusalCause::kNone;  // which of them, when the runtime refuses
+    RefusalCause refusal = RefusalCause::kNone;  // with kRefused: the cause for which the runtime refuses
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shared-memory segment between ncrtd and its readers (the DDS gateway): plain data with a fixed layout.
 //
-//   header | machine | point table        fixed after creation, under a check sum
+//   header | machine | point table        fixed after creation, with a check sum
 //   status | history | points | signals   each under a sequence lock of its own, written by ncrtd
 //   commands | acknowledgements           rings with one producer and one consumer
 //
-// Nothing in here is a pointer, and every text has a terminating NUL inside its array. A change of any struct
+// There are no pointers in it, and every text has a terminating NUL inside its array. A change in the sizes and places of the structs
 // changes layout_hash(), so that a reader of another build refuses the segment instead of misreading it.
 // Units: mm, degrees, mm/min for feeds, mm/s for velocities, ns since 1970 (CLOCK_REALTIME) for times of day.
 #pragma once
@@ -23,10 +23,10 @@ namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
 inline constexpr std::uint32_t kLayoutVersion = 6;
-inline constexpr unsigned kHistory = 256;  // alarms and messages kept
+inline constexpr unsigned kHistory = 256;  // alarms and messages that are kept
 inline constexpr unsigned kAlarms = 16;
-inline constexpr unsigned kMaxSignals = 1024;  // between NC and ladder
-inline constexpr unsigned kForced = 32;       // devices of the ladder
+inline constexpr unsigned kMaxSignals = 1024;  // signals between NC and ladder
+inline constexpr unsigned kForced = 32;       // forced devices of the ladder
 inline constexpr unsigned kCommandRing = 64;
 inline constexpr unsigned kAckRing = 256;
 inline constexpr std::size_t kMdiText = 1024;  // with its NUL; nc_mdi_load() takes no more
@@ -36,7 +36,7 @@ using Text = std::array<char, kSize>;
 
 struct AxisStatus {
   double commanded, actual;  // machine coordinates
-  double work;               // commanded, in the workpiece coordinates of the block in execution
+  double work;               // commanded position in the workpiece coordinates of the block in execution
   double distance_to_go;
   double velocity;  // mm/s or deg/s
 };
@@ -46,46 +46,46 @@ struct SystemStatus {
   std::uint32_t stop_cause;  // nc_stop_cause
   Text<64> state_text;       // the state in words, with the reason when nothing moves
   std::uint32_t axis_count;
-  std::uint32_t rapid, manual_allowed, strobe;  // strobe: bit 0 M, 1 S, 2 T, 3 B waits for FIN
+  std::uint32_t rapid, manual_allowed, strobe;  // strobe: groups that wait for FIN; bit 0 M, 1 S, 2 T, 3 B
   std::uint32_t m, t, b;
   double s_commanded, spindle_rpm;  // spindle_rpm: measured, 0 when it is not
   std::uint32_t spindle_measured;
-  std::uint32_t program_ready;  // selected, at its head or running
+  std::uint32_t program_ready;  // a program is selected, at its head or running
   double feed_mm_min, feed_command_mm_min;
-  double feed_override, rapid_override;                       // in force
+  double feed_override, rapid_override;                       // the overrides in force
   std::uint32_t feed_override_source, rapid_override_source;  // nc::rt::OverrideSource
-  Text<192> modal;     // "G01 G17 G90 ...", of the last finished block
-  Text<128> program;   // file of the main program, "" none, "MDI"
+  Text<192> modal;     // modal codes after the last finished block: "G01 G17 G90 ..."
+  Text<128> program;   // file of the main program, "MDI", or "" when there is none
   Text<128> file;      // file of the block in execution
-  Text<128> block;     // text of the block in execution, "" when it is not at hand
-  std::uint32_t program_number;  // O number of the program the block stands in
+  Text<128> block;     // text of the block in execution, "" when it has not been found
+  std::uint32_t program_number;  // O number of the program in which the block stands
   std::uint32_t line, sequence_number, depth;
-  std::uint64_t serial;  // item in execution
-  std::uint64_t blocks;  // finished since cycle start
+  std::uint64_t serial;  // serial number of the item in execution
+  std::uint64_t blocks;  // number of blocks finished since cycle start
   double path_length;    // mm since cycle start
-  double run_s;          // s in execution since cycle start
+  double run_s;          // seconds in execution since cycle start
   std::uint32_t refusals, refusal_cause;  // nc::rt::RefusalCause
-  std::uint64_t runs;           // programs that came to their end
-  std::uint32_t main_line;      // of the main program: finished last, or in execution
+  std::uint64_t runs;           // number of programs that came to their end
+  std::uint32_t main_line;      // line of the main program that is in execution or was finished last
   std::uint32_t program_lines;  // 0 = not known
-  std::uint32_t percent;        // of the main program
+  std::uint32_t percent;        // part of the main program that is done
   std::uint32_t last_run_ok;    // the last run ended without an alarm
-  Text<128> refusal_text;  // why what was asked for at the panel did not happen, "" = nothing was refused since
+  Text<128> refusal_text;  // why something asked for at the panel did not happen, "" = nothing, or it has happened since
   std::uint64_t message_count;
-  Text<128> message;  // its last one
+  Text<128> message;  // last message of this part system
   std::array<AxisStatus, NC_MAX_AXES> axis;
 };
 
 // An alarm or a message, in the list of active ones and in the history.
 struct Entry {
-  std::uint64_t sequence;     // from 1; names this occurrence
+  std::uint64_t sequence;     // number of this occurrence, from 1
   std::int64_t raised_ns;     // time of day
   std::int64_t cleared_ns;    // 0 = active (a message has no end: cleared_ns = raised_ns)
   std::uint32_t is_message;
   std::uint32_t system;       // index
-  std::uint32_t line;         // of the block in execution when it came, 0 = none
+  std::uint32_t line;         // line of the block that was in execution when it came, 0 = none
   std::uint32_t program_number;
-  std::uint32_t is_warning;   // lets a program end
+  std::uint32_t is_warning;   // lets a program go on to its end
   std::uint32_t reserved;
   Text<16> code;
   Text<8> axis;  // "X", "" none
@@ -105,8 +105,8 @@ struct ForcedText {
 };
 
 struct StatusBlock {
-  std::uint64_t scan;          // number of the scan this is a picture of
-  std::int64_t scan_time_ns;   // time of day at its start (virtual time: of publication)
+  std::uint64_t scan;          // number of the scan that is shown
+  std::int64_t scan_time_ns;   // time of day at its start (on virtual time: time of publication)
   std::int64_t published_ns;   // time of day
   std::uint32_t mode;          // nc::rt::Mode
   std::uint32_t system_count;
@@ -117,10 +117,10 @@ struct StatusBlock {
   std::array<Entry, kAlarms> alarm;
   std::uint32_t forced_count, resetting;
   std::array<ForcedText, kForced> forced;
-  std::array<SystemStatus, NC_MAX_SYSTEMS> system;  // system_count of them
+  std::array<SystemStatus, NC_MAX_SYSTEMS> system;  // the first system_count are used
 };
 
-// Entry with sequence n stands in entry[(n - 1) % kHistory].
+// The entry with sequence n is in entry[(n - 1) % kHistory].
 struct HistoryBlock {
   std::uint64_t last_sequence;  // 0 = empty
   std::array<Entry, kHistory> entry;
@@ -139,7 +139,7 @@ struct PointRow {
   Text<128> meaning;
 };
 
-// A signal between NC and ladder (runtime/signals/): its row of the table.
+// A signal between NC and ladder, from its row of the table in runtime/signals/.
 struct SignalText {
   Text<56> name;
   std::uint32_t type;  // ladder::DeviceType
@@ -165,7 +165,7 @@ struct AxisRow {
 
 // What does not change while ncrtd runs.
 struct MachineBlock {
-  Text<64> machine;  // as configured
+  Text<64> machine;  // name of the machine in the configuration
   Text<64> share;    // name of the segment without its prefix; the partition in DDS
   Text<32> version;  // of libnc
   std::uint32_t dialect, system_count, cycle_us, point_count, signal_count, reserved;
@@ -179,7 +179,7 @@ struct MachineBlock {
 // ---- commands ----
 
 enum class RequestKind : std::uint32_t {
-  kTakeControl,  // becomes the one client whose commands act; also renews the lease
+  kTakeControl,  // the client becomes the only one whose commands are executed; also renews the lease
   kReleaseControl,
   kCycleStart,
   kFeedHold,
@@ -189,34 +189,34 @@ enum class RequestKind : std::uint32_t {
   kRapidOverride,  // value 0..1
   kSingleBlock,    // number 0, 1
   kOptionalStop,   // number 0, 1
-  kJog,            // system, axis, value: velocity mm/s signed; to be repeated, 0 stops
+  kJog,            // system, axis, value: velocity in mm/s with its sign; to be repeated, 0 stops
   kMdi,            // system, text: blocks
   kSelectProgram,  // system, text: file name in the folder of programs
-  kForce,          // text: device of the ladder, value: what it is held at
-  kReleaseForce,   // text: device, "" all of them
+  kForce,          // text: device of the ladder, value: value at which it is held
+  kReleaseForce,   // text: device, "" = all of them
   // from the gateway itself, without acknowledgement
   kClientGone,    // writer: this participant is dead or has left
-  kGatewayBegan,  // a new gateway: every client of the one before is gone
+  kGatewayBegan,  // a new gateway has started: every client of the previous one is gone
   kCount
 };
 
 inline constexpr std::int32_t kAny = -1;
-inline constexpr std::uint32_t kEverySystem = ~0u;  // as index of a part system: all of them
+inline constexpr std::uint32_t kEverySystem = ~0u;  // all part systems, in place of an index
 
-// One command. Everything in it comes from the network: nothing is believed before Intake has looked at it.
+// One command. Everything in it comes from the network, so nothing is trusted before Intake has checked it.
 struct Request {
   Text<32> client;  // printable ASCII
   std::uint64_t sequence;  // strictly increasing for one client, from 1
-  std::uint64_t writer;    // who wrote it, by the gateway
+  std::uint64_t writer;    // participant that wrote it; set by the gateway
   std::int64_t issued_ns;  // time of day at the client
   std::uint32_t kind;      // RequestKind
   std::uint32_t lifespan_ms, lease_ms;
-  std::int32_t expected_mode;       // nc::rt::Mode, kAny
-  std::int32_t expected_run_state;  // nc_run_state of `system`, kAny
-  std::uint32_t system, axis;       // indices; system: or kEverySystem
+  std::int32_t expected_mode;       // nc::rt::Mode, or kAny
+  std::int32_t expected_run_state;  // nc_run_state of `system`, or kAny
+  std::uint32_t system, axis;       // indices; system may be kEverySystem
   std::uint32_t number;
   double value;
-  Text<128> expected_program;  // file name without folder, "" any
+  Text<128> expected_program;  // file name without folder, "" = any
   Text<kMdiText> text;
 };
 
@@ -224,16 +224,16 @@ enum class AckState : std::uint32_t { kAccepted, kDone, kRejected, kFailed, kCou
 
 enum class AckReason : std::uint32_t {
   kNone,
-  kMalformed,      // a field out of its range, not a number, not a text
+  kMalformed,      // a field is out of its range, is not a number or is not a text
   kUnknownKind,
   kLate,           // older than its lifespan
   kOutOfOrder,     // sequence number not above the last one of this client
-  kNoControl,      // another client has control, or nobody: take it first
-  kExpectedState,  // mode, run state or program is not what the client believed
+  kNoControl,      // another client has control, or nobody has: take it first
+  kExpectedState,  // mode, run state or program is not what the client expected
   kOverflow,       // too many commands at once
   kTooManyClients,
   kRefused,        // by the runtime; the text says why
-  kNotReached,     // accepted, but the state did not come within its time
+  kNotReached,     // accepted, but the state was not reached in time
   kClientInUse,    // this client id belongs to another participant
   kCount
 };
@@ -242,28 +242,28 @@ struct Ack {
   Text<32> client;
   std::uint64_t sequence;
   std::uint64_t writer;
-  std::uint32_t kind;    // of the command
+  std::uint32_t kind;    // RequestKind of the command
   std::uint32_t state;   // AckState
   std::uint32_t reason;  // AckReason
-  std::uint32_t repeated;  // answer to a duplicate: nothing was executed
+  std::uint32_t repeated;  // 1 = answer to a duplicate: nothing was executed
   std::int64_t time_ns;
-  std::uint32_t refusal, reserved;  // nc::rt::RefusalCause: which reason of the runtime kRefused is
+  std::uint32_t refusal, reserved;  // nc::rt::RefusalCause: with kRefused the cause for which the runtime refuses
   Text<128> text;
 };
 
 // ---- the segment ----
 
-// How long one request for the points holds.
+// How long the points are published after one request for them.
 inline constexpr std::int64_t kPointsWantedNs = 2'000'000'000;
 
-// Fixed part of the header, under the check sum.
+// Fixed part of the header, covered by the check sum.
 struct Identity {
   std::uint64_t magic;
   std::uint32_t layout_version, layout_hash;
   std::uint64_t size;       // of the segment
   std::int32_t owner_pid;
   std::uint32_t commands;   // 1: ncrtd takes commands
-  std::uint64_t owner_start;  // start time of that process in clock ticks since boot: a number is used again
+  std::uint64_t owner_start;  // start time of that process in clock ticks since boot, because the system uses a pid again
   std::int64_t created_ns;
 };
 
@@ -271,24 +271,24 @@ enum class Life : std::uint32_t { kMaking = 0, kAlive = 1, kEnded = 2 };
 
 struct Segment {
   Identity identity;
-  std::uint64_t check;  // of identity and machine
+  std::uint64_t check;  // check sum of identity and machine
   std::atomic<std::uint32_t> life;         // Life
   std::atomic<std::uint32_t> wake_reader;  // futex word: counts publications and acknowledgements
   std::atomic<std::uint32_t> wake_intake;  // futex word: counts commands
-  std::atomic<std::int32_t> command_pid;   // process that may put commands in, 0 = none
-  std::atomic<std::uint64_t> heartbeat;    // of the publisher
+  std::atomic<std::int32_t> command_pid;   // process that may write commands, 0 = none
+  std::atomic<std::uint64_t> heartbeat;    // counted up by the publisher
   std::atomic<std::int64_t> points_until;  // CLOCK_MONOTONIC, ns: until then a reader wants the points
   std::atomic<std::uint64_t> reserved[7];
   MachineBlock machine;
   SharedBlock<StatusBlock> status;
   SharedBlock<HistoryBlock> history;
   SharedBlock<PointsBlock> points;
-  SharedBlock<SignalsBlock> signals;  // asked for with the points
+  SharedBlock<SignalsBlock> signals;  // published when the points are
   SharedRing<Request, kCommandRing> commands;
   SharedRing<Ack, kAckRing> acks;
 };
 
-// Over the places and sizes of what the segment is made of.
+// A hash of the places and sizes of the parts of the segment.
 constexpr std::uint32_t layout_hash() {
   const std::size_t figures[] = {sizeof(Segment), offsetof(Segment, machine), offsetof(Segment, status),
                                  offsetof(Segment, history), offsetof(Segment, points), offsetof(Segment, signals), sizeof(SignalText), offsetof(Segment, commands),

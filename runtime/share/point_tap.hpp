@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands the process image out of the scan when someone wants it: stands between the scan and the machine. The
-// buffer belongs to the scan or to the reader, by turns, so neither waits; a scan in which nobody wants
-// anything reads one flag.
+// Copies the process image for a reader in another thread when it asks for it; stands between the scan and the machine. The
+// buffer belongs alternately to the scan and to the reader, so neither waits for the other. A scan without a request only
+// reads one flag.
 #pragma once
 
 #include <atomic>
@@ -49,7 +49,7 @@ class PointTap final : public hal::Hal {
   enum Turn : unsigned { kIdle, kWanted, kFilled };
   hal::Hal& machine_;
   const unsigned count_;
-  bool lost_now_ = false;  // scan thread
+  bool lost_now_ = false;  // used only by the scan thread
   std::atomic<unsigned> turn_{kIdle};
   hal::PointImage image_;
   bool lost_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which file a place in the program store is, for those who show it: its name, and its text as it runs. Any thread.
+// For each entry of the program store the name of its file and the text that runs, for displays. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ class ProgramTable {
   struct Program {
     std::string path;
     std::uint64_t lines = 0;          // up to its end code, 0 = not known
-    std::weak_ptr<ProgramText> text;  // gone when the program is
+    std::weak_ptr<ProgramText> text;  // empty once the store has dropped the program
   };
 
-  // Counts the lines: call it where that time is at hand.
+  // Also counts the lines, which takes time.
   void add(unsigned file, const std::string& path, const Text& text);
-  // Without counting.
+  // Adds the program without counting its lines.
   void add_name(unsigned file, const std::string& path, const Text& text) {
     const std::lock_guard lock(mutex_);
     Program& program = programs_[file];
@@ -37,7 +37,7 @@ class ProgramTable {
     const auto found = programs_.find(file);
     return found == programs_.end() ? Program{} : found->second;
   }
-  // The blocks of MDI of a part system, as they were loaded last.
+  // The MDI blocks that were loaded last in a part system.
   void set_mdi(unsigned system, const std::string& blocks) {
     const std::lock_guard lock(mutex_);
     mdi_[system] = blocks;

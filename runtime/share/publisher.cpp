@@ -12,7 +12,7 @@
 namespace nc::rt::share {
 namespace {
 
-constexpr unsigned kFiguresEvery = 10;  // pictures; a percentile walks the whole histogram
+constexpr unsigned kFiguresEvery = 10;  // figures are computed in every tenth publication only, because a percentile walks through the whole histogram
 
 std::string modal_text(const nc_control* control, const nc_modal& modal) {
   char codes[NC_GROUPS][8];
@@ -22,7 +22,7 @@ std::string modal_text(const nc_control* control, const nc_modal& modal) {
   return text;
 }
 
-// "R11 Following error beyond its limit, axis X (line 7)" without its code, axis and line: they have fields of
+// Takes code, axis and line out of a text such as "R11 Following error beyond its limit, axis X (line 7)", because they have fields of
 // their own.
 std::string without_place(std::string text, const std::string& code, const std::string& axis) {
   if (text.rfind(code + " ", 0) == 0) text.erase(0, code.size() + 1);
@@ -67,7 +67,7 @@ MachineBlock machine_block(const Config& config, const std::string& name) {
     set_text(&block.point[p].meaning, point.meaning);
   }
   for (const Signal& signal : machine_signals(config.nc)) {
-    if (block.signal_count == kMaxSignals) break;  // the largest machine has fewer; a test says so
+    if (block.signal_count == kMaxSignals) break;  // even the largest machine has fewer, which a test checks
     SignalText& row = block.signal[block.signal_count++];
     set_text(&row.name, signal.name);
     row.type = static_cast<std::uint32_t>(signal.row->type);
@@ -169,7 +169,7 @@ void Publisher::fill_system(unsigned index, const Snapshot& snapshot, const Feed
   fill_block(index, nc, info.selected, &out);
 }
 
-// How far its program is, and what has become of those before.
+// Fills in how far the program has come, and how the previous runs ended.
 void Publisher::fill_run(const nc_outputs& nc, const FeederInfo::System& info, SystemStatus* out) {
   const std::uint64_t lines = info.selected.any && !info.selected.mdi ? programs_.at(info.selected.file).lines : 0;
   const RunProgress progress = run_progress(info, nc, lines);
@@ -181,7 +181,7 @@ void Publisher::fill_run(const nc_outputs& nc, const FeederInfo::System& info, S
   out->last_run_ok = info.ended_ok;
 }
 
-// Program, line and text of the block in execution.
+// Fills in program, line and text of the block in execution.
 void Publisher::fill_block(unsigned index, const nc_outputs& nc, const FeederInfo::Selected& selected, SystemStatus* out) {
   out->program_number = nc.source.program;
   out->line = nc.source.line;
@@ -217,7 +217,7 @@ void Publisher::fill_figures() {
 
 void Publisher::fill_alarms(const Snapshot& snapshot, const FeederInfo& info) {
   bool changed = log_.update(snapshot.alarms, this, status_.published_ns);
-  for (const FeederInfo::Message& message : info.messages_since(messages_)) {  // several may have come between two pictures
+  for (const FeederInfo::Message& message : info.messages_since(messages_)) {  // several may have come since the last publication
     log_.add_message(message.text, message.system, status_.published_ns);
     SystemStatus& system = status_.system[message.system];
     set_text(&system.message, message.text);

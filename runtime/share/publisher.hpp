@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what the runtime looks like into the segment. Reads snapshots like any other reader: the scan does
-// not know of it. One ordinary thread.
+// Writes the state of the runtime into the segment. It reads snapshots like any other reader, so the scan does
+// not depend on it. It runs in one ordinary thread.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class Publisher final : private AlarmLog::Describer {
  public:
   // `tap` may be null (no points). `virtual_time`: the runtime's clock is not the time of day.
   Publisher(Runtime* runtime, const ProgramTable* programs, PointTap* tap, Segment* segment, bool virtual_time);
-  // One picture; wakes the readers.
+  // Writes the present state and wakes the readers.
   void publish();
 
  private:
@@ -43,7 +43,7 @@ class Publisher final : private AlarmLog::Describer {
   const bool virtual_time_;
   BlockText text_[NC_MAX_SYSTEMS];
   AlarmLog log_;
-  FeederInfo info_;  // of this picture, for describe()
+  FeederInfo info_;  // the info of this publication, for describe()
   std::uint64_t messages_ = 0;
   unsigned pictures_ = 0;
   StatusBlock status_{};

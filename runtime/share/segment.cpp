@@ -36,7 +36,7 @@ std::string system_error(const std::string& what) {
 // What is wrong with an existing segment of this size, "" = nothing.
 std::string fault_of(const Segment& segment, std::uint64_t size) {
   const Identity& identity = segment.identity;
-  // The owner fills zeros, its life last.
+  // The memory begins as zeros, and the owner fills it and sets `life` last.
   const bool making = segment.life.load(std::memory_order_acquire) == static_cast<std::uint32_t>(Life::kMaking);
   if (identity.magic == 0 && making) return "is not complete yet";
   if (identity.magic != kMagic) return "is not a segment of ncrtd";
@@ -190,7 +190,7 @@ bool SegmentReader::open(const std::string& name, std::string* error) {
   if (fstat(descriptor, &status) != 0) fault = std::strerror(errno);
   else if (status.st_size == 0) fault = "is not complete yet";
   else if (static_cast<std::uint64_t>(status.st_size) < sizeof(Identity)) fault = "is too short for a segment of ncrtd";
-  // A page behind the end of the memory would be a bus error: the size is judged before anything is read.
+  // Reading a page beyond the end of the memory would be a bus error, so the size is checked before anything is read.
   else if (static_cast<std::uint64_t>(status.st_size) < sizeof(Segment)) {
     Identity identity{};
     const ssize_t got = pread(descriptor, &identity, sizeof identity, 0);
@@ -228,7 +228,7 @@ bool SegmentReader::status(StatusBlock* block, std::string* error) const {
     return false;
   }
   if (status_is_sound(*block, segment_->machine.system_count)) return true;
-  *block = {};  // nobody may use what was refused
+  *block = {};  // so that the refused contents cannot be used
   *error = kNonsense;
   return false;
 }

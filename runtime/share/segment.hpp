@@ -16,10 +16,10 @@ namespace nc::rt::share {
 // Name of a segment: "nc-sim-mill".
 std::string segment_path(const std::string& name);
 
-// Check sum of what does not change: FNV-1a over identity and machine, 64 bits.
+// Check sum of the parts that do not change: FNV-1a over identity and machine, 64 bits.
 std::uint64_t check_sum(const Segment& segment);
 
-// Start time of a process in clock ticks since boot, 0 = there is none. A pid with another start time is
+// Start time of a process in clock ticks since boot, 0 = there is no such process. When a pid has another start time, it is that of
 // another process.
 std::uint64_t process_start(pid_t pid);
 
@@ -32,9 +32,9 @@ class SegmentOwner {
   SegmentOwner& operator=(const SegmentOwner&) = delete;
 
   // Makes the segment and opens its door. A name that a living process has is refused. False with a sentence in
-  // *error. `group`: readers of this process's group too, else of its user only.
+  // *error. `group`: readers of this process's group are admitted, too, otherwise only those of its user.
   bool create(const std::string& name, bool group, bool commands, const MachineBlock& machine, std::string* error);
-  // Says goodbye to readers and takes the name away; readers that have it open keep the last values.
+  // Tells readers that this is the end and frees the name; readers that have the segment open keep the last values.
   void remove();
 
   Segment* get() { return segment_; }
@@ -53,23 +53,23 @@ class SegmentReader {
   SegmentReader(const SegmentReader&) = delete;
   SegmentReader& operator=(const SegmentReader&) = delete;
 
-  // False with a sentence in *error when there is none, or when it is not a segment of this build.
+  // False with a sentence in *error when there is no such segment, or when it has the layout of another build.
   bool open(const std::string& name, std::string* error);
   void close();
   bool is_open() const { return segment_ != nullptr; }
   Segment* get() { return segment_; }
   const Segment* get() const { return segment_; }
 
-  // Consistent copies whose counts and texts are what they must be. False with a sentence in *error: the
-  // writer died in the middle, or someone else has written here.
+  // Consistent copies whose counts and texts have been checked. False with a sentence in *error: the
+  // writer died in the middle of writing, or another process has written here.
   bool status(StatusBlock* block, std::string* error) const;
   bool history(HistoryBlock* block, std::uint64_t* sequence, std::string* error) const;
   bool points(PointsBlock* block, std::string* error) const;
   bool signals(SignalsBlock* block, std::string* error) const;
 
-  // The owner has said goodbye, or its process is gone.
+  // True when the owner has told that this is the end, or its process is gone.
   bool owner_gone() const;
-  // The right to put commands in. One process at a time; one that died loses it.
+  // Takes the right to write commands. Only one process has it at a time, and it loses it when it ends.
   bool claim_commands(std::string* error);
   void release_commands();
 
@@ -77,11 +77,11 @@ class SegmentReader {
   Segment* segment_ = nullptr;
 };
 
-// Sees a writer that stands still: alive as long as its heart beats.
+// Detects a writer that has stopped: it is alive as long as its heartbeat changes.
 class HeartbeatWatch {
  public:
   explicit HeartbeatWatch(std::int64_t limit_ns = 1'000'000'000) : limit_ns_(limit_ns) {}
-  // `now_ns` monotonic. True while the last beat is younger than the limit.
+  // `now_ns`: monotonic time. True while the last change of `beat` is younger than the limit.
   bool alive(std::uint64_t beat, std::int64_t now_ns) {
     if (!started_ || beat != beat_) {
       started_ = true;
@@ -98,9 +98,9 @@ class HeartbeatWatch {
   bool started_ = false;
 };
 
-// Futex words shared by processes.
+// Counts up a futex word that processes share, and wakes those that wait for it.
 void wake(std::atomic<std::uint32_t>* word);
-// Returns when the word is no longer `seen`, or after the time, or on a signal.
+// Returns when the word is no longer `seen`, after the timeout, or on a signal.
 void wait_for_change(std::atomic<std::uint32_t>* word, std::uint32_t seen, std::int64_t timeout_ns);
 
 }  // namespace nc::rt::share

@@ -8,7 +8,7 @@ namespace nc::rt::share {
 namespace {
 
 constexpr std::int64_t kPublishNs = 10'000'000;
-constexpr std::int64_t kIntakeNs = 5'000'000;  // leases and jogs are looked at so often, commands wake it at once
+constexpr std::int64_t kIntakeNs = 5'000'000;  // interval at which leases and pending commands are looked at; a new command wakes the thread at once
 constexpr unsigned kCommandsPerTurn = 32;
 
 void sleep_until(std::int64_t when_ns) {
@@ -96,7 +96,7 @@ void Service::intake_thread() {
   while (!stop_) {
     const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
     Request request;
-    // No answer is lost: while some wait for room, no command is taken that would make more of them.
+    // Answers are never lost: while some of them wait for room in the ring, no more commands are taken.
     for (unsigned i = 0; acks.size() < kCommandsPerTurn && i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
       intake_.take(request, {wall_ns(), RealClock().now_ns()}, &acks);
     intake_.tick({wall_ns(), RealClock().now_ns()}, &acks);

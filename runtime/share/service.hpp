@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncrtd's end of the segment: makes it, publishes every 10 ms, takes commands where that is allowed. Its
+// ncrtd's side of the segment: makes it, publishes every 10 ms, and takes commands if that is allowed. Its
 // threads are ordinary ones.
 #pragma once
 
@@ -46,11 +46,11 @@ class Service {
   // All must outlive the service. `tap` may be null.
   Service(Runtime* runtime, ProgramTable* programs, PointTap* tap, const ServiceOptions& options);
   ~Service() { stop(); }
-  // Makes the segment; before the runtime starts, so that a name in use is an error before anything moves.
+  // Makes the segment. To be called before the runtime starts, so that a name in use is an error before anything moves.
   bool create(std::string* error);
-  // After the start of the runtime.
+  // Starts the threads. To be called after the start of the runtime.
   bool start(std::string* error);
-  // The last picture is published, then readers are told that this is the end.
+  // Publishes the last state, then tells the readers that this is the end.
   void stop();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value in shared memory under a sequence lock, as runtime/seqlock.hpp, between two processes: the reader
-// gives up when the writer died in the middle, and knows from the sequence whether anything is new.
+// A value in shared memory with a sequence lock as in runtime/seqlock.hpp, but between two processes: the reader
+// gives up when the writer died in the middle of writing, and the sequence tells it whether the value is new.
 #pragma once
 
 #include <sched.h>
@@ -21,7 +21,7 @@ class SharedBlock {
   static constexpr std::size_t kWords = sizeof(T) / 8;
 
  public:
-  // One writer. A sequence left odd by a writer that died is made even by the next one.
+  // For one writer. When a writer died and left the sequence odd, the next store() makes it even.
   void store(const T& value) noexcept {
     const std::uint64_t sequence = sequence_.load(std::memory_order_relaxed) | 1;
     sequence_.store(sequence, std::memory_order_relaxed);
@@ -29,12 +29,12 @@ class SharedBlock {
     for (std::size_t i = 0; i < kWords; ++i) {
       std::uint64_t word = 0;
       std::memcpy(&word, bytes + 8 * i, 8);
-      words_[i].store(word, std::memory_order_release);  // behind the odd sequence
+      words_[i].store(word, std::memory_order_release);  // not before the odd sequence
     }
     sequence_.store(sequence + 1, std::memory_order_release);
   }
 
-  // False when no consistent value was found: the writer stopped in the middle of one.
+  // False when no consistent value was found, because the writer has stopped in the middle of writing.
   bool load(T* value, std::uint64_t* sequence = nullptr) const noexcept {
     for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
       if (attempt != 0) sched_yield();

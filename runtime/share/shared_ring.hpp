@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Queue between two processes in shared memory: one producer, one consumer, neither ever waits. Either may die
-// at any place: an element counts when the head has moved behind it. The consumer believes no index: what
-// cannot be is dropped and counted.
+// Queue between two processes in shared memory: one producer and one consumer, which never wait for each other. Either may die
+// at any moment, because an element counts only when the head has moved past it. The consumer trusts no index: impossible ones empty the ring.
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@ class SharedRing {
     head_.store(head + 1, std::memory_order_release);
     return true;
   }
-  // False when empty, or when the indices were nonsense (the ring is empty then).
+  // False when the ring is empty, or when the indices were impossible; then the ring is emptied.
   bool pop(T* value) noexcept {
     const std::uint32_t tail = tail_.load(std::memory_order_relaxed);
     const std::uint32_t head = head_.load(std::memory_order_acquire);

@@ -19,7 +19,7 @@ void set_text(Text<kSize>* text, std::string_view value) {
   std::memcpy(text->data(), kept.data(), kept.size());
 }
 
-// Up to the NUL, or all of it when there is none.
+// The text up to the NUL, or the whole array when there is no NUL.
 template <std::size_t kSize>
 std::string_view text_of(const Text<kSize>& text) {
   return {text.data(), strnlen(text.data(), kSize)};
@@ -30,7 +30,7 @@ bool is_ended(const Text<kSize>& text) {
   return strnlen(text.data(), kSize) < kSize;
 }
 
-// Name of a machine as a name of a segment and of a partition: lower case letters, digits and '-'.
+// The name of a machine in the form that names of segments and DDS partitions have: lower case letters, digits and '-'.
 std::string share_name(std::string_view machine);
 // Time of day, ns since 1970.
 std::int64_t wall_ns();

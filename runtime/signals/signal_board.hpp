@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signals of this machine around its ladder program: what the configuration connects directly to points,
-// and the values of all of them for monitors. Stands between the scan and the ladder.
+// Connects signals with points directly, as the configuration says, and supplies the values of all signals to monitors. It stands
+// between the scan and the ladder.
 //
-// The buffer for monitors belongs to the scan or to the reader, by turns, so neither waits; a scan in which
-// nobody wants anything reads one flag.
+// The buffer for monitors belongs alternately to the scan and to the reader, so neither waits for the other. A scan without a
+// request only reads one flag.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ class LadderTask;
 
 class SignalBoard final : public LadderHook {
  public:
-  // `inner`: the ladder's hook. `task`: the program behind it, null when it is none of ours. Both must outlive
+  // `inner`: the ladder's hook. `task`: the ladder program, null when `inner` is not a LadderTask. Both must outlive
   // this object.
   SignalBoard(const Config& config, LadderHook* inner, const LadderTask* task);
 
@@ -36,7 +36,7 @@ class SignalBoard final : public LadderHook {
   void want() {
     if (turn_.load(std::memory_order_relaxed) == kIdle) turn_.store(kWanted, std::memory_order_release);
   }
-  // The values asked for, by place in signals(), once they are there; false before. `scan`: they are of.
+  // The values asked for with want(), in the order of signals(), once they are there; false before. `scan` gets the number of the scan that they are from.
   bool take(std::int32_t* values, std::uint64_t* scan);
 
  private:
@@ -45,7 +45,7 @@ class SignalBoard final : public LadderHook {
     const SignalRow* row;
     std::uint8_t system, index;
     unsigned point;
-    unsigned signal;  // place in signals_
+    unsigned signal;  // index in signals_
   };
   std::int32_t given(unsigned signal, const LadderImage& image) const noexcept;
 
@@ -53,7 +53,7 @@ class SignalBoard final : public LadderHook {
   const LadderTask* task_;
   std::vector<Signal> signals_;
   std::vector<Wire> wires_;
-  std::vector<int> wired_;  // by signal: point that gives a signal to the NC, -1 = none
+  std::vector<int> wired_;  // for each signal the point that gives it to the NC, -1 = none
   std::vector<std::int32_t> values_;
   std::uint64_t scan_ = 0;
   std::atomic<unsigned> turn_{kIdle};

@@ -23,7 +23,7 @@ constexpr auto kNumbered = SignalScope::kNumbered;
 constexpr auto kSpindle = SignalScope::kSpindle;
 constexpr auto kSpindleAxis = SignalScope::kSpindleAxis;
 
-constexpr double kAtSpeed = 0.03;  // of the speed that a spindle is wanted at
+constexpr double kAtSpeed = 0.03;  // a spindle is at speed within this fraction of the commanded speed
 
 enum : std::uint8_t { kStrobeM = 1, kStrobeS = 2, kStrobeT = 4, kStrobeB = 8 };
 

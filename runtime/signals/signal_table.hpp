@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The signals between NC and ladder: one table of name, direction, type, meaning, timing and safe value. The
-// devices of the ladder and docs/signals.md come from it.
+// devices of the ladder and docs/signals.md are made from it.
 //
-// Names: "nc." is what the NC says, "plc." what the ladder tells it. A second part system is "nc2." and
-// "plc2.". A signal of an axis carries the axis letter behind a point (nc.in_position.X), a numbered one its
-// number from 1 (plc.skip.1). Signals that are active when off, so that a broken wire stops the machine, have
+// Names: signals from the NC begin with "nc.", signals to the NC with "plc."; those of the second part system with "nc2." and
+// "plc2.". The name of a signal of an axis ends with a point and the letter of the axis (nc.in_position.X), that of a numbered one with a point and its
+// number from 1 (plc.skip.1). A signal that is active when it is off, so that a broken wire stops the machine, has
 // a name that ends in _n.
 #pragma once
 
@@ -18,8 +18,9 @@
 namespace nc::rt {
 
 enum class SignalDirection : std::uint8_t { kFromNc, kToNc };
-// kControl: once for the machine; the others once for each part system, its axes, or the numbers 1...count. kSpindle: the spindles of a
-// part system that has more than one; kSpindleAxis: its axes that are a spindle, too.
+// How often a signal exists. kControl: once for the machine; kNumberedControl: `count` times for the machine. kSystem: once for each part system. kAxis,
+// kNumbered, kSpindle and kSpindleAxis: in each part system once for each axis, `count` times, once for each spindle if it has more than one, and once for each
+// axis that is also a spindle.
 enum class SignalScope : std::uint8_t { kControl, kNumberedControl, kSystem, kAxis, kNumbered, kSpindle, kSpindleAxis };
 
 struct SignalRow {
@@ -27,11 +28,11 @@ struct SignalRow {
   ladder::DeviceType type;
   SignalDirection direction;
   SignalScope scope;
-  unsigned count;     // numbered ones: how many
-  std::int32_t safe;  // kToNc: until the program writes it, and when it does not run
+  unsigned count;     // number of signals, for the numbered scopes
+  std::int32_t safe;  // kToNc: value until the ladder program writes it, and while the program does not run
   const char* meaning;
   const char* timing;
-  // One of them. `index`: axis, or number from 0. NC_RT.
+  // read: signals from the NC; write: signals to the NC; the other one is null. `index`: axis, or number from 0. NC_RT.
   std::int32_t (*read)(const LadderImage& image, unsigned system, unsigned index);
   void (*write)(std::int32_t value, LadderImage* image, unsigned system, unsigned index);
 };
@@ -49,7 +50,7 @@ struct Signal {
 // Every signal that a machine with these part systems and axes has, in the order of the table.
 std::vector<Signal> machine_signals(const nc_config& nc);
 
-// The tables of docs/signals.md, in Markdown.
+// The tables of docs/signals.md in Markdown.
 std::string signal_document();
 
 }  // namespace nc::rt

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The motion benchmark's own tools: the reference solver against closed forms, the checker against recordings that are spoiled on purpose.
+"""The tools of the motion benchmark: the reference solver is compared with closed forms, the checker gets recordings that are spoiled on purpose.
 
 Runs in the environment that bench/motion/setup makes; skipped where it cannot be made.
 """
@@ -54,7 +54,7 @@ def solve(path, limits=LIMITS, jerk=True, step_s=0.001):
 
 
 def seven_phases(length, feed):
-    """Rest to rest on a straight line: jerk, acceleration and speed limited."""
+    """The time from rest to rest on a straight line with limits of jerk, acceleration and speed."""
     def ramp(v):
         return v / A + A / J if v >= A * A / J else 2 * math.sqrt(v / J)
 
@@ -116,7 +116,7 @@ class PathFiles(unittest.TestCase):
 
 
 class FreeOptimum(unittest.TestCase):
-    """Without a limit of jerk, by toppra."""
+    """The optimum without a jerk limit, by toppra."""
 
     def test_a_line_is_a_trapezoid(self):
         for length, feed in ((50, 50), (1, 200), (300, 200)):
@@ -192,7 +192,7 @@ class Reference(unittest.TestCase):
         self.assertGreater(solve(path, jerk=False).seconds, (10 + 2.5 * math.pi) / 50)
 
     def test_a_corner_between_two_lines_overlaps_their_ramps(self):
-        """One axis stops while the other starts, each with constant jerk, as far as the tolerance lets them: 6 reach / J = time^3."""
+        """One axis stops while the other starts, both with constant jerk, over the length that the tolerance allows: 6 reach / J = time^3."""
         reach, feed = 0.06, 50
         path = path_file.Path("XY")
         path.line(feed, [0, 0], [10 - reach, 0])
@@ -213,7 +213,7 @@ class Reference(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
-    """Programs through ncsim, as the benchmark does."""
+    """Runs programs with ncsim, as the benchmark does."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -277,7 +277,7 @@ class Programs(unittest.TestCase):
 
 
 class Checker(unittest.TestCase):
-    """A recording that keeps everything, and what is said when something in it is changed."""
+    """A recording in which everything is kept, and what is reported when something in it is changed."""
 
     @classmethod
     def setUpClass(cls):

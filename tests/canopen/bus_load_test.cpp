@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The load of a bus with worst-case bit stuffing: how many axes run at which SYNC.
+// The load of a bus with worst-case bit stuffing: how many axes are possible with which SYNC period.
 #include "hal/canopen/bus_load.hpp"
 
 #include <gtest/gtest.h>

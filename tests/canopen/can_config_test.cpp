@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section [canopen]: what it makes, and what is refused with its line and key.
+// The section [canopen]: what is made from it, and what is refused, with line and key.
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -136,7 +136,7 @@ TEST(CanConfig, TheInterfaceIsTheMachinesOwnAndThereIsNoVirtualTime) {
   expect_in(nc::tools::conflict_of(options, config), "--fast cannot be: the drives of a bus run in real time (hal = \"canopen\")");
 }
 
-// Whoever has the adapter under one of its names keeps everybody else from it under all of them.
+// A control that has the adapter under one of its names locks it under all of them.
 TEST(CanConfig, OneAdapterIsOneMachineUnderEveryName) {
   char folder[] = "/tmp/nc-can-XXXXXX";
   ASSERT_NE(mkdtemp(folder), nullptr);
@@ -162,7 +162,7 @@ TEST(CanConfig, OneAdapterIsOneMachineUnderEveryName) {
   ::rmdir(folder);
 }
 
-// The example as it is shipped cuts on drives of its numbers.
+// The shipped example cuts on simulated drives that have its node numbers.
 TEST(CanConfig, TheExampleRuns) {
   Config config;
   for (const auto& error : nc::rt::load_config(nc::test::kSourceDir + "/etc/can_mill.toml", &config)) ADD_FAILURE() << error.text();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong on a bus of drives: each cause stops the axes, is an alarm that names it, and lets the machine run again behind a reset when it
-// has gone. Nothing moves before the operator starts it again.
+// Faults on a bus of drives: each one stops the axes and raises an alarm that names it. When its cause is gone the machine runs again after a reset,
+// but nothing moves before the operator starts it.
 #include <gtest/gtest.h>
 
 #include "can_rig.hpp"
@@ -14,7 +14,7 @@ using nc::test::CanRig;
 
 void expect_in(const std::string& text, const std::string& part) { EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in: " << text; }
 
-// In the middle of a long move.
+// Starts a long move, and runs to its middle.
 void start_moving(CanRig* rig) {
   rig->bring_up();
   ASSERT_EQ(rig->mdi("G90 G01 X300. Y150. Z60. F9000"), Answer::kDone);
@@ -29,7 +29,7 @@ bool plants_stand(CanRig* rig) {
   return rig->plant_mm(0) == x && rig->plant_mm(1) == y && rig->plant_mm(2) == z;
 }
 
-// Everything stands, and stays so without the operator.
+// Expects that all axes stop with this alarm, and stay at rest without the operator.
 void expect_stopped(CanRig* rig, const std::string& alarm) {
   EXPECT_TRUE(rig->until([&] { return plants_stand(rig); }, 400));
   expect_in(rig->alarms(), alarm);
@@ -39,7 +39,7 @@ void expect_stopped(CanRig* rig, const std::string& alarm) {
   EXPECT_EQ(rig->plant_mm(0), x);
 }
 
-// Reset, and a program that comes to its end where it says.
+// Expects that after a reset nothing moves, and that a program then runs to its end.
 void expect_runs_again(CanRig* rig) {
   ASSERT_EQ(rig->run(CommandKind::kReset), Answer::kDone);
   const double x = rig->plant_mm(0);
@@ -120,7 +120,7 @@ TEST(CanFault, ABlockedAxisIsAFollowingError) {
 }
 
 TEST(CanFault, TheDrivesOwnFollowingErrorIsToldAsItsEmergency) {
-  CanRig rig(can_toml("", "", "objects = [{ index = 0x6065, value = 1000 }]\n"));  // 0.5 mm: before ours
+  CanRig rig(can_toml("", "", "objects = [{ index = 0x6065, value = 1000 }]\n"));  // 0.5 mm, less than the limit of the control
   start_moving(&rig);
   EXPECT_EQ(rig.drives[0]->object(0x6065, 0), 1000u);
   rig.drives[0]->plant().blocked = true;
@@ -216,7 +216,7 @@ TEST(CanFault, TheEndOfTheControlStopsTheDrivesAndTheirNodes) {
   }
 }
 
-// The control dies: its heartbeat ends, and each drive stops by itself (1016h, 6007h).
+// The control crashes: its heartbeat ends, and each drive stops by itself (1016h, 6007h).
 TEST(CanFault, DrivesStopByThemselvesWhenTheControlIsGone) {
   CanRig rig;
   start_moving(&rig);

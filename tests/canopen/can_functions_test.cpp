@@ -103,7 +103,7 @@ TEST(CanFunctions, NothingStartsWhileADriveHomes) {
   EXPECT_EQ(rig.mdi("G01 Y5. F600"), Answer::kDrivesOff);
 }
 
-// A drive that loses its power while it homes comes back in cyclic position.
+// A drive that loses its power while it homes comes back in the mode cyclic position.
 TEST(CanFunctions, ADriveThatIsLostWhileItHomesComesBack) {
   CanRig rig(can_toml("", kHoming));
   rig.bring_up();
@@ -119,7 +119,7 @@ TEST(CanFunctions, ADriveThatIsLostWhileItHomesComesBack) {
   ASSERT_TRUE(rig.until([&] { return rig.following(); }, 3000)) << rig.alarms() << rig.said();
 }
 
-// An axis of a program that is interrupted is not taken away from it.
+// The axis of an interrupted program cannot be homed.
 TEST(CanFunctions, NothingHomesInAProgram) {
   CanRig rig(can_toml("", kHoming));
   rig.bring_up();
@@ -154,7 +154,7 @@ TEST(CanFunctions, ATouchProbeIsASkipSignalAndIsReadyAgain) {
     const double at = rig.plant_mm(0);
     rig.step(5);
     ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 1000)) << rig.alarms();
-    EXPECT_LT(std::abs(rig.plant_mm(0) - at), 3.0) << edge;  // it has braked there
+    EXPECT_LT(std::abs(rig.plant_mm(0) - at), 3.0) << edge;  // it has stopped near that place
     rig.step(200);
   }
   EXPECT_EQ(rig.alarms(), "");

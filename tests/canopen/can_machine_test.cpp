@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A control cuts on three drives over a bus: the plants behind the drives are where the control says, and what goes wrong stops them by name.
+// A control cuts with three drives on a bus: the simulated axes are where the control commands them.
 #include "hal/canopen/can_machine.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(CanMachine, DrivesAreSetUpAndFollowFromWhereTheyStand) {
   rig.drives[2]->plant().position = -50'000;
   rig.bring_up();
   EXPECT_TRUE(rig.enabled());
-  EXPECT_NEAR(rig.command(0), 6.0, 1e-9);  // not where the configuration starts: where the axis is
+  EXPECT_NEAR(rig.command(0), 6.0, 1e-9);  // the place of the axis, not the start position of the configuration
   EXPECT_NEAR(rig.command(2), -25.0, 1e-9);
   rig.step(200);
   EXPECT_DOUBLE_EQ(rig.drives[0]->plant().position, 12'000);  // nothing has jumped
@@ -51,7 +51,7 @@ TEST(CanMachine, AMoveEndsWhereItIsProgrammedAndThePlantStaysBesideTheCommand) {
   EXPECT_NEAR(rig.actual(0), 20.0, kIncrement);
 }
 
-// An operator, or ncrtd mdi, need not wait with loading: only the start is refused.
+// An operator, or ncrtd mdi, may load a program before the drives are on: only the start is refused until then.
 TEST(CanMachine, ABlockThatWasReadBeforeTheDrivesCameOnBeginsWhereTheAxesAre) {
   CanRig rig;
   rig.drives[0]->plant().position = 12'000;

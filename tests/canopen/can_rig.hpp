@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole control on drives in memory: runtime, bus and plants on one virtual time.
+// A whole control with simulated drives in memory: runtime, bus and axes on one virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class CanRig {
     if (machine != nullptr) machine->stop();
   }
 
-  // False when the drives do not become operational within `ms`.
+  // Makes the machine; false when the drives do not become operational within `ms`.
   bool boot(unsigned ms = 8000) {
     machine = std::make_unique<hal::canopen::CanMachine>(config.canopen, std::make_unique<LoopbackBus::Port>(&bus), [this](const std::string& line) { log.push_back(line); });
     std::string error;
@@ -67,7 +67,7 @@ class CanRig {
     std::string error;
     ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   }
-  // The whole way to a machine whose axes follow.
+  // Brings the machine up until its axes follow the command.
   void bring_up() {
     ASSERT_TRUE(boot()) << said();
     make_runtime();
@@ -124,7 +124,7 @@ class CanRig {
   rt::Answer run(rt::CommandKind kind, std::uint32_t number = 0) { return runtime->execute(kind, 0, number); }
   bool idle() const { return runtime->snapshot().system[0].nc.state == NC_STATE_IDLE && runtime->snapshot().system[0].nc.distance_zero; }
 
-  // Runtime::execute() steps the runtime alone, so the bus steps with the scan, whoever makes it.
+  // Runtime::execute() steps only the runtime. So the bus is stepped in each scan, whoever makes it.
   struct Shell final : hal::Hal {
     hal::canopen::CanMachine* inner = nullptr;
     CanRig* rig = nullptr;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set-up of the nodes: what they are told, and drives that are not what the configuration says. Each is refused with its object and reason.
+// The set-up of the nodes: what is written into them; and drives that differ from the configuration, each of which is refused with object and
+// reason.
 #include <gtest/gtest.h>
 
 #include "can_rig.hpp"
@@ -24,7 +25,7 @@ TEST(CanSetup, PdosAreMappedAndHeartbeatsGoBothWays) {
   EXPECT_EQ(drive.object(0x1400, 1), 0x202u);
   EXPECT_EQ(drive.object(0x1800, 1), 0x182u);
   EXPECT_EQ(drive.object(0x1800, 2), 1u);
-  EXPECT_NE(drive.object(0x1801, 1) & 0x80000000u, 0u);  // what it had of its own is off
+  EXPECT_NE(drive.object(0x1801, 1) & 0x80000000u, 0u);  // a PDO of the drive's own mapping is switched off
   EXPECT_EQ(drive.object(0x1017, 0), 100u);
   EXPECT_EQ(drive.object(0x1016, 1), 127u << 16 | 250u);
   EXPECT_EQ(drive.object(0x60C2, 1), 1u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of the bus: a machine that starts, moves and stops with them. Nothing is said about time.
+// A machine starts, moves and stops with the threads of the bus. Its timing is not tested.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -16,7 +16,7 @@ using nc::hal::canopen::CanMachine;
 
 std::int64_t now_ns() { return std::chrono::steady_clock::now().time_since_epoch().count(); }
 
-// The drives live in the bus's thread.
+// A port that steps the simulated drives in the thread of the bus.
 struct TickingPort final : nc::hal::canopen::CanPort {
   explicit TickingPort(nc::test::LoopbackBus* made) : bus(made), port(made) {}
   bool open(std::string* error) override { return port.open(error); }

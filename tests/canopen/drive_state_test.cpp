@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state machine of CiA 402: each row of the table of the status word, and the control word on the way.
+// The state machine of CiA 402: each row of the table of the status word, and the control words that lead through the states.
 #include "hal/canopen/drive_state.hpp"
 
 #include <gtest/gtest.h>
@@ -29,15 +29,15 @@ TEST(DriveState, TheWayToOperationEnabled) {
   EXPECT_EQ(way.next(0x0023, DriveWish::kOn), kEnableOperation);
   EXPECT_EQ(way.next(0x0027, DriveWish::kOn), kEnableOperation);
   EXPECT_EQ(way.next(0x0007, DriveWish::kOn), kDisableVoltage);
-  EXPECT_EQ(way.next(0x0008, DriveWish::kOn), kDisableVoltage);  // a fault is left by a reset only
+  EXPECT_EQ(way.next(0x0008, DriveWish::kOn), kDisableVoltage);  // only a reset leaves a fault
 }
 
 TEST(DriveState, OffIsAQuickStopThatEnds) {
   DriveWay way(3);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(way.next(i == 0 ? 0x0027 : 0x0007, DriveWish::kOff), kQuickStop);
-  EXPECT_EQ(way.next(0x0007, DriveWish::kOff), kDisableVoltage);  // one that stays in it is switched off
+  EXPECT_EQ(way.next(0x0007, DriveWish::kOff), kDisableVoltage);  // a drive that stays in quick stop is switched off
   EXPECT_EQ(way.next(0x0040, DriveWish::kOff), kShutdown);
-  EXPECT_EQ(way.next(0x0027, DriveWish::kOff), kQuickStop);  // the time begins anew
+  EXPECT_EQ(way.next(0x0027, DriveWish::kOff), kQuickStop);  // the time limit begins again
 }
 
 TEST(DriveState, AResetIsARisingEdgeAgainAndAgain) {

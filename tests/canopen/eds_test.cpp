@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Data sheets of drives: what is read of them, and what of a configuration they show to be impossible.
+// Electronic data sheets (EDS) of drives: what is read from them, and which parts of a configuration they show to be impossible.
 #include "hal/canopen/eds.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ std::string object(const char* name, unsigned type, const char* access, int mapp
   return text;
 }
 
-// All that an axis needs.
+// A data sheet with all objects that an axis needs.
 std::string good_eds() {
   std::string text = "; a drive\n[DeviceInfo]\nVendorNumber=0x1234\nProductNumber=22136\n";
   text += object("6040", 6, "rww", 1) + object("607A", 4, "rw", 1) + object("6041", 6, "ro", 1) + object("6064", 4, "ro", 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CAN bus in the memory of a test: whatever the control sends, every drive hears, and the other way round.
+// A CAN bus in the memory of a test: every drive gets what the control sends, and the control what a drive sends.
 #pragma once
 
 #include <deque>
@@ -10,7 +10,7 @@
 
 namespace nc::test {
 
-// Lives longer than its port, which the machine owns.
+// It must exist longer than its port, which the machine owns.
 class LoopbackBus {
  public:
   void attach(SimDrive* drive) {
@@ -41,7 +41,7 @@ class LoopbackBus {
 
   bool off = false, refuses_to_open = false;
   std::size_t frames = 0;
-  std::vector<CanFrame> sent;  // by the control, while `records`
+  std::vector<CanFrame> sent;  // frames of the control, collected while `records` is true
   bool records = false;
 
   class Port final : public hal::canopen::CanPort {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""ncrtd on drives of another make: python canopen's, through slcan over a pair of pseudo terminals. A block ends where it says; a drive that trips in it
-ends the run with the text of its EMCY."""
+"""ncrtd with drives of another maker, python canopen, through slcan over a pair of pseudo terminals. A block ends at its place; a drive that trips
+during it ends the run with the text of its EMCY."""
 import fcntl
 import os
 import pathlib
@@ -63,7 +63,7 @@ def skip(why):
 
 
 def environment():
-    """The interpreter of a virtual environment that holds the pinned packages; made when it is not there."""
+    """The Python of a virtual environment with the pinned packages, which is made if it does not exist."""
     folder, stamp = BUILD / "canopen-venv", BUILD / "canopen-venv" / "installed"
     with open(BUILD / "canopen-venv.lock", "w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -111,7 +111,7 @@ class Cable:
 
 
 def run(python, block, fault=()):
-    """(exit status of ncrtd, what it has said, what each drive says)"""
+    """(exit status of ncrtd, its output, the reports of the drives)"""
     cable = Cable()
     with tempfile.TemporaryDirectory() as folder:
         machine = os.path.join(folder, "machine.toml")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO transfers byte by byte as CiA 301 prints them, and what is not believed.
+// SDO transfers byte by byte as in CiA 301, and answers that are rejected.
 #include "hal/canopen/sdo_client.hpp"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(SdoClient, AnAbortHasItsObjectAndText) {
   EXPECT_EQ(sdo.state(), State::kFailed);
   EXPECT_EQ(sdo.error(), "1600h:2: the object cannot be mapped into a PDO");
   EXPECT_EQ(nc::hal::canopen::abort_text(0x12345678), "abort code 12345678h");
-  EXPECT_TRUE(sent(&sdo).empty());  // the node knows
+  EXPECT_TRUE(sent(&sdo).empty());  // no abort is sent: the node has aborted itself
 }
 
 TEST(SdoClient, SilenceEndsTheTransferAndTellsTheNode) {
@@ -100,7 +100,7 @@ TEST(SdoClient, WhatAnswersSomethingElseIsNotTaken) {
   EXPECT_FALSE(sdo.answer(from_node({0x4B, 0x41, 0x60, 0, 0, 0, 0, 0}, 4)));  // another node
   EXPECT_FALSE(sdo.answer(from_node({0x4B, 0x40, 0x60, 0, 0, 0, 0, 0})));     // another object
   EXPECT_FALSE(sdo.answer(from_node({0x4B, 0x41, 0x60, 1, 0, 0, 0, 0})));     // another sub-index
-  EXPECT_FALSE(sdo.answer(from_node({0x60, 0x41, 0x60, 0, 0, 0, 0, 0})));     // of a write
+  EXPECT_FALSE(sdo.answer(from_node({0x60, 0x41, 0x60, 0, 0, 0, 0, 0})));     // the answer to a write
   EXPECT_FALSE(sdo.answer(from_node({0x4B, 0x41, 0x60})));                    // half a frame
   EXPECT_FALSE(sdo.answer(from_node({})));
   EXPECT_EQ(sdo.state(), State::kBusy);
@@ -128,7 +128,7 @@ TEST(SdoClient, ALengthThatIsNotKeptIsAnError) {
   sdo.read(0x1008, 0);
   (void)sent(&sdo);
   (void)sdo.answer(from_node({0x41, 0x08, 0x10, 0, 0xFF, 0xFF, 0xFF, 0xFF}));
-  EXPECT_EQ(sdo.state(), State::kFailed);  // no node fills the memory
+  EXPECT_EQ(sdo.state(), State::kFailed);  // a node must not be able to fill the memory
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ std::uint32_t SimDrive::write_object(unsigned index, unsigned sub, const std::ve
   if (mapping) {
     if (sub == 0 && value != 0)
       if (const std::uint32_t why = check_mapping(index, value); why != 0) return why;
-    if (sub != 0 && found.bytes == 4 && object(index, 0) != 0) return 0x06010000;  // only while it counts none
+    if (sub != 0 && found.bytes == 4 && object(index, 0) != 0) return 0x06010000;  // entries may be written only while their count is 0
     if (keeps_mapping && sub != 0) return 0;
   }
   found.value = value;
@@ -391,7 +391,7 @@ void SimDrive::move(Axis& axis, unsigned number) {
     if (std::abs(plant.command - plant.position) > window) trip(number, 0x8611, 0x21);
   } else if (axis.state == State::kEnabled && mode == 6) {
     home(axis, number);
-  } else {  // its own ramp, or friction
+  } else {  // the drive's own ramp, or friction
     plant.coast *= axis.state == State::kQuickStop ? 0.8 : 0.95;
     if (std::abs(plant.coast) < 0.5) plant.coast = 0;
     if (!plant.blocked) plant.position += plant.coast;
@@ -399,7 +399,7 @@ void SimDrive::move(Axis& axis, unsigned number) {
   }
 }
 
-// A drive that homes moves for a while, then its position is what 607Ch says.
+// A drive that homes moves for a while, then its position becomes the value of 607Ch.
 void SimDrive::home(Axis& axis, unsigned number) {
   const bool start = (axis.control & 0x10) != 0;
   if (!start) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drive as a test needs one: an object dictionary behind an SDO server, NMT, PDOs on SYNC, the states of CiA 402, heartbeats both ways, and
-// behind each axis a plant whose position is known. Written from the standards, and nothing of the master's is used but the frame itself.
+// A simulated drive for tests: an object dictionary with an SDO server, NMT, PDOs on SYNC, the states of CiA 402, heartbeats in both directions,
+// and for each axis a plant whose position is known. It was written from the standards, and uses no code of the master but the frame.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@ namespace nc::test {
 
 using hal::canopen::CanFrame;
 
-// One axis: what the motor does, apart from what the drive says.
+// One axis: what its motor really does, whatever the drive reports.
 struct SimPlantAxis {
   double position = 0;      // increments
-  double lag = 0;           // share of the distance that is left behind in each SYNC, 0 = stiff
+  double lag = 0;           // share of the distance to the command that is left after each SYNC, 0 = stiff
   bool blocked = false;
   std::int32_t command = 0;
   bool enabled = false;     // torque
-  double coast = 0;         // increments per SYNC that it goes on with when it loses its torque
+  double coast = 0;         // increments per SYNC at which it coasts on without torque
 };
 
 class SimDrive {
  public:
   explicit SimDrive(unsigned node, unsigned axes = 1);
 
-  // Where its frames go.
+  // Gets the frames that the drive sends.
   std::function<void(const CanFrame&)> out;
   void on_frame(const CanFrame& frame);
-  // Time passes: heartbeats, delays.
+  // To be called as time passes: for heartbeats and delays.
   void tick(std::int64_t now_ns);
 
   SimPlantAxis& plant(unsigned axis = 0) { return axis_[axis].plant; }
@@ -53,18 +53,18 @@ class SimDrive {
   bool no_tpdo = false;
   bool faults_at_enabling = false;
   bool never_enables = false;
-  bool keeps_mapping = false;      // takes another mapping without a word, and keeps its own
-  bool answers_segmented = false;  // numbers, too, come in segments
+  bool keeps_mapping = false;      // accepts another mapping without an error, but keeps its own
+  bool answers_segmented = false;  // sends numbers in segments, too
   std::map<unsigned, std::uint32_t> refuses;  // index << 8 | sub -> abort code of a write
-  int answers_as = -1;             // number that it answers SDO under
+  int answers_as = -1;             // node number in its SDO answers; -1: its own
   bool homing_fails = false;
   void trip(unsigned axis, std::uint16_t code, std::uint8_t error_register);  // fault, and EMCY
   void emergency(std::uint16_t code, std::uint8_t error_register);
   void power_cycle();
-  void leave_enabled(unsigned axis) { axis_[axis].state = State::kSwitchOnDisabled; }  // as a safety input (STO) makes it do
+  void leave_enabled(unsigned axis) { axis_[axis].state = State::kSwitchOnDisabled; }  // as a safety input (STO) does
   void probe_edge(unsigned axis = 0);  // its touch probe input rises
 
-  // What has been seen.
+  // Counts of what the drive has received.
   unsigned syncs = 0, rpdos = 0, resets_seen = 0;
   std::set<unsigned> heard_heartbeats;
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs every shared conformance case through the ncsim of this build. The list of known failures may only shrink:
-# a new failure fails, and so does a case on the list that passes. Exit 77 (skipped) where the cases are not at hand.
+# Runs every shared conformance case with the ncsim of this build. The list of known failures may only shrink: the test
+# fails for a new failure, and for a case on the list that passes. Exit status 77 (skipped) if the cases are not present.
 set -u
 cases=$NC_SHARED_DIR/conformance
 ncsim=$NC_BINARY_DIR/bin/ncsim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corner chamfering and rounding as a program meets them (M700 13.7): words, alarms, other functions, going back, the machine.
+// Corner chamfering and rounding in programs (M700 13.7): words, alarms, other functions, rewinding, the machine.
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
@@ -34,7 +34,7 @@ TEST(Corners, TheManualsExamples) {
   EXPECT_EQ(path_of("G91 G1 X100. ,C10. F200\nX100. Y100.\nM30"), (Path{"line 90 0 0", "line 107.071068 7.071068 0", "line 200 100 0"}));
   EXPECT_EQ(path_of("G91 G1 X100. ,R10. F200\nX100. Y100.\nM30"),
             (Path{"line 95.857864 0 0", "ccw 102.928932 2.928932 0 c95.857864,10", "line 200 100 0"}));
-  EXPECT_EQ(path_of("G90 G1 Y-60. ,R5. ,C8. F150\nX45.\nM30"), (Path{"line 0 -52 0", "line 8 -60 0", "line 45 -60 0"}));  // the later one counts
+  EXPECT_EQ(path_of("G90 G1 Y-60. ,R5. ,C8. F150\nX45.\nM30"), (Path{"line 0 -52 0", "line 8 -60 0", "line 45 -60 0"}));  // the last one counts
   EXPECT_EQ(path_of("G90 G1 Y-60. ,C8. ,R5. F150\nX45.\nM30"), (Path{"line 0 -55 0", "ccw 5 -60 0 c5,-55", "line 45 -60 0"}));
 }
 
@@ -43,7 +43,7 @@ TEST(Corners, TheSizeIsALength) {
   EXPECT_EQ(path_of("G91 G20 G1 X2. ,C1. F200\nY2.\nM30"), (Path{"line 25.4 0 0", "line 50.8 25.4 0", "line 50.8 50.8 0"}));
   EXPECT_EQ(path_of("#1=5.\nG91 G1 X50. ,C[#1*2] F200\nY50.\nM30"), (Path{"line 40 0 0", "line 50 10 0", "line 50 50 0"}));
   EXPECT_EQ(path_of("G91 G1 X50. ,C0 F200\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));
-  EXPECT_EQ(path_of("G91 G1 X50. F200 ,C#9\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));  // vacant: no word
+  EXPECT_EQ(path_of("G91 G1 X50. F200 ,C#9\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));  // a vacant variable is no word
 }
 
 TEST(Corners, Alarms) {
@@ -53,7 +53,7 @@ TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nM8\nX20.\nM30"), "P382 L2");
   EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG0 X20.\nM30"), "P382 L2");
   EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nM30"), "P382 L2");
-  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nX#5041\nM30"), "P382 L2");  // a position that is there only behind the corner
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nX#5041\nM30"), "P382 L2");  // a position that is known only after the corner
   EXPECT_EQ(alarm_of("G1 X30. ,C31. F100\nY40.\nM30"), "P383 L1");
   EXPECT_EQ(alarm_of("G1 X30. F100\nX30. ,C1.\nY40.\nM30"), "P383 L2");
   EXPECT_EQ(alarm_of("G1 X30. F100\n,C1.\nY40.\nM30"), "P383 L2");
@@ -69,7 +69,7 @@ TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of(statements + "Y40.\nM30"), "P990 L1");
 }
 
-TEST(Corners, NothingOfTheBlockHappensWhenItsCornerDoesNotFit) {  // as with a stroke limit: its M codes wait
+TEST(Corners, NothingOfTheBlockHappensWhenItsCornerDoesNotFit) {  // as with a stroke limit, its M codes wait
   const Outcome run = m700("G1 X5. F100\nM3 X30. ,C4.\nM5 G4 X1.\nM30");
   EXPECT_EQ(run.alarm, "P382");
   EXPECT_EQ(run.aux(), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stage of pending moves by itself: what it waits for, what it gives out, where it goes on from, and what it does not wait for.
+// The stage of pending moves alone: what it waits for, what it gives out, from where it can continue, and what it does not wait for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ Item of_kind(ItemKind kind) {
   return item;
 }
 
-/// "8,0 10,2c |1 10,10 |2": ends of moves (c: the cut of a corner), | and the marks.
+/// Items as text, as "8,0 10,2c |1 10,10 |2": the ends of moves (c: the cut of a corner), and marks behind a |.
 std::string text_of(const Item& item) {
   char text[80];
   switch (item.kind) {
@@ -84,7 +84,7 @@ std::string alarm(Condition condition) { return "alarm " + std::to_string(static
 
 struct Passed {
   std::vector<Item> items;
-  std::vector<ContourResume> resume;  ///< behind each of them
+  std::vector<ContourResume> resume;  ///< the state after each of them
 };
 
 void fetch(ContourStage& stage, Passed* passed) {
@@ -121,7 +121,7 @@ TEST(Contour, APendingMoveWaitsForTheNextOneWithAllThatComesBetween) {
   EXPECT_EQ(text_of(out.items), "");
   EXPECT_FALSE(stage.idle());
   stage.push(line(kK, kB)), fetch(stage, &out);
-  // The cut belongs to its block: a single block stops behind it.
+  // The cut belongs to its block: single block stops after it.
   EXPECT_EQ(text_of(out.items), "8,0 10,2c |1 M |2 10,10");
   EXPECT_TRUE(stage.idle());
   EXPECT_EQ(out.items[5].move.start, point(10, 2));  // the next line begins where the cut ends
@@ -131,7 +131,7 @@ TEST(Contour, APendingMoveWaitsForTheNextOneWithAllThatComesBetween) {
 TEST(Contour, APendingMoveBehindAPendingMove) {
   EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 2), mark(1), line(kK, kB, Corner::rounding, 3), mark(2), line(kB, kC), mark(3)}),
             "8,0 10,2c |1 10,7 7,10c |2 0,10 |3");
-  // Together as long as the line between: nothing is left of it but its cut; any longer does not go.
+  // If two cuts are together as long as the line between them, only the cuts are left of it; longer ones are refused.
   EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 4), mark(1), line(kK, kB, Corner::chamfer, 6), mark(2), line(kB, kC)}),
             "6,0 10,4c |1 10,4 4,10c |2 0,10");
   EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 4), mark(1), line(kK, kB, Corner::chamfer, 6.001), mark(2), line(kB, kC)}),
@@ -151,8 +151,8 @@ TEST(Contour, WhatCannotBeWaitedForStopsBeforeThePendingMove) {
   EXPECT_EQ(passed({pending, mark(1), arc}), alarm(Condition::corner_arc));
   EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 10.001), mark(1)}), alarm(Condition::corner_short));
   EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 9), mark(1), line(kK, point(10, 8.9))}), alarm(Condition::corner_next_short));
-  EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 10), mark(1), line(kK, kB)}), "0,0 10,10c |1 10,10");  // equality is none
-  std::vector<Item> many{pending, mark(1)};  // macro statements: each a mark, none a block
+  EXPECT_EQ(passed({line(kA, kK, Corner::chamfer, 10), mark(1), line(kK, kB)}), "0,0 10,10c |1 10,10");  // equal lengths are allowed
+  std::vector<Item> many{pending, mark(1)};  // macro statements, which have a mark each but are no blocks
   for (unsigned i = 0; i < 40; ++i) many.push_back(mark(2 + i, false));
   EXPECT_EQ(passed(many), alarm(Condition::pre_read));
   many.resize(28);
@@ -174,7 +174,7 @@ TEST(Contour, ARotaryAxisIsNoLength) {
   Stage stage(1u << 2);
   const Passed out = pass(stage, {line(kA, point(10, 0, 90), Corner::chamfer, 2), mark(1), line(point(10, 0, 90), point(10, 10, 90))});
   ASSERT_EQ(out.items.size(), 4u);
-  EXPECT_EQ(out.items[0].move.end, point(8, 0, 72));  // it goes along with its share
+  EXPECT_EQ(out.items[0].move.end, point(8, 0, 72));  // the rotary axis has its share
   EXPECT_EQ(out.items[1].move.end, point(10, 2, 90));
 }
 
@@ -187,14 +187,14 @@ TEST(Contour, NothingIsLeftBehindAReset) {
   fetch(stage, &out);
   EXPECT_TRUE(out.items.empty());
   EXPECT_EQ(passed({line(kA, kK), mark(1)}), "10,0 |1");
-  // Nor behind an alarm, which ends what is read.
+  // The stage does not wait after an alarm either, which ends the reading.
   pass(stage, {line(kA, kK, Corner::chamfer, 20), mark(1), line(kK, kB)});
   EXPECT_FALSE(stage.idle());
   stage.reset();
   EXPECT_TRUE(stage.idle());
 }
 
-/// Random rows of lines with and without corners, marks and actions between.
+/// A random sequence of lines with and without corners, with marks and actions in between.
 std::vector<Item> random_row(std::mt19937& random) {
   const auto real = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
   std::vector<Item> items;
@@ -237,7 +237,7 @@ TEST(ContourProperty, ThePathIsOnePieceAndARoundingTouchesBothLines) {
           ASSERT_NEAR(c.center[0] + c.radius_start * std::cos(c.angle_start + share * c.sweep), p[0], 1e-9);
           ASSERT_NEAR(c.center[1] + c.radius_start * std::sin(c.angle_start + share * c.sweep), p[1], 1e-9);
         }
-        // Along the line before: at right angles to the radius, in the sense of the arc.
+        // The arc must begin along the line before it, that is, at right angles to the radius, in the direction of the arc.
         const double dx = last->end[0] - last->start[0], dy = last->end[1] - last->start[1], length = std::hypot(dx, dy);
         const double sense = c.sweep > 0 ? 1 : -1;
         if (length > 1e-6) {
@@ -270,7 +270,7 @@ TEST(ContourProperty, FromEveryMarkItGoesOnAsItDid) {
       size_t from = 0;  // the text behind this mark
       while (items[from].kind != ItemKind::mark || items[from].mark.seq != whole.items[i].mark.seq) ++from;
       Stage again;
-      pass(again, items);  // whatever it had held before
+      pass(again, items);  // so that it holds something else before
       again.restore(whole.resume[i]);
       beside += whole.resume[i].displaced;
       const Passed rest = pass(again, items, from + 1);

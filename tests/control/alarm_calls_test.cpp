@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has called the block in which an alarm of the machine stops a program: a servo, a door, the ladder. Nothing in the program says so, and
-// the reader is far ahead of it.
+// An alarm of the machine (a servo, a door, the ladder) stops a program: which programs have called the block in execution? The reader is far
+// ahead of that block.
 #include <gtest/gtest.h>
 
 #include "online_helpers.hpp"
@@ -9,11 +9,11 @@
 namespace nc::test {
 namespace {
 
-/// Each move goes 1 mm, so that the place of X says which one is in execution.
+/// Each move goes 1 mm, so that the position of X tells which one is in execution.
 const std::vector<std::string> kMain = {"G91 G1 F1500", "M98 P1", "X1.", "M98 P1 L2", "G65 P2", "X1.", "M98 P3", "X1.", "M30"};
 const std::vector<std::vector<std::string>> kSubs = {{"X1.", "M98 P3", "X1.", "M99"}, {"M98 P3", "X1.", "M98 P1", "M99"}, {"X1.", "X1. M99"}};
 
-/// "4 > O1:2 > O3:1" for each move, as the texts say it.
+/// The callers of each move as the texts give them, for example "4 > O1:2 > O3:1".
 void expand(const std::vector<std::string>& program, const std::string& callers, const std::string& name, std::vector<std::string>* moves) {
   for (size_t line = 0; line < program.size(); ++line) {
     const std::string &text = program[line], here = callers + name + std::to_string(line + 1);
@@ -56,7 +56,7 @@ struct Calls : testing::TestWithParam<nc_motion_mode> {
     for (size_t i = 0; i < kSubs.size(); ++i) bench.add("O" + std::to_string(i + 1), joined(kSubs[i]));
     expand(kMain, "", "", &moves);
   }
-  /// To where X is, the program running, or in the block stop there.
+  /// Runs the program until X is at `x`, or to the block stop there.
   void go_to(Drive& drive, double x, bool block_stop) {
     drive.in.single_block = block_stop;
     for (unsigned n = 0; n < 20000 && (drive.out.command.v[0] < x - 1e-9 || (block_stop && drive.out.state != NC_STATE_STOPPED)); ++n) {
@@ -120,7 +120,7 @@ TEST_P(Calls, OfNoProgram) {
   ASSERT_TRUE(drive.ended);
   for (unsigned n = 0; n < 5; ++n) drive.step();
   alarm(5);
-  drive.in.cycle_start = true;  // and in the cycle of a start nothing of the program has been executed yet
+  drive.in.cycle_start = true;  // in the cycle of a start no block of the program has been executed yet
   drive.in.alarm = true;
   drive.step(0);
   drive.in.cycle_start = false;

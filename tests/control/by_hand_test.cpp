@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axes moved by hand in a block stop, blocks of MDI and resets in between, in every map and beside every curve: the program goes on from where
-// the axes really are, or is refused with an alarm. No axis is ever asked for more than it can do in one cycle.
+// Axes are moved by hand in a block stop, with MDI blocks and resets in between, under every map and at every curve: the program goes on from
+// where the axes really are, or is refused with an alarm. No axis ever gets a larger step than it can do in one cycle.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -29,7 +29,7 @@ std::function<void(nc_config&)> machine(bool optimal) {
   };
 }
 
-/// A machine, and the largest step of an axis that it was ever given, in parts of what its velocity allows.
+/// A machine, and the largest step that it gave to an axis, divided by the step that the axis' velocity allows.
 class HandMachine {
  public:
   explicit HandMachine(bool optimal, double x = 20) : bench(NC_DIALECT_M700, machine(optimal)) {
@@ -65,7 +65,7 @@ class HandMachine {
     }
     return false;
   }
-  /// By hand to a place `by` away; the manual motion of the machine, nothing else.
+  /// Moves an axis by hand, by a distance of `by`.
   void move(unsigned axis, double by) {
     drive->in.manual[axis] = {NC_MANUAL_STEP, 0, by};
     step();
@@ -163,7 +163,7 @@ TEST_P(ByHand, NothingJumpsWhateverIsDone) {
       m.press();
     }
     ASSERT_LT(m.worst, 1.001) << program.name << " seed " << seed << " axis " << m.worst_axis << " line " << m.worst_line;
-    // MDI and the program once more, from wherever the axes are.
+    // MDI, then the program once more, from where the axes are.
     m.drive->in.single_block = false;
     m.step(20);
     if (m.drive->out.state != NC_STATE_IDLE) continue;
@@ -208,9 +208,9 @@ TEST_P(ByHand, ManualAbsoluteOnAnAbsoluteWordGoesToItsPlace) {  // M700 12.4.4 (
   std::vector<uint32_t> marked;
   const std::vector<nc_axes> stops = with_z_raised(m, kRaised, false, &marked);
   ASSERT_GE(stops.size(), 5u);
-  EXPECT_NEAR(stops[2].v[2], 35.5, 0.011);  // an axis that is not named stays, and that is said
+  EXPECT_NEAR(stops[2].v[2], 35.5, 0.011);  // an axis that the block does not name stays, and the mark says so
   EXPECT_EQ(marked[2], 4u);
-  EXPECT_NEAR(stops[3].v[2], 34.5, 0.011);  // incremental: from there
+  EXPECT_NEAR(stops[3].v[2], 34.5, 0.011);  // an incremental word counts from there
   EXPECT_EQ(marked[3], 0u);
   EXPECT_NEAR(stops[4].v[2], 5, 1e-3);
   EXPECT_NEAR(m.bench.var_now(100), 5, 1e-3);
@@ -225,8 +225,8 @@ TEST_P(ByHand, ManualAbsoluteOffTheCoordinatesGoAlong) {  // M700 12.4.4 (1), 14
   EXPECT_EQ(marked[2], 0u);
   EXPECT_NEAR(stops[3].v[2], 34.5, 0.011);
   EXPECT_NEAR(stops[4].v[2], 42.5, 1e-3);
-  EXPECT_NEAR(m.bench.var_now(100), 5, 1e-3);  // Z5 in the system that has moved
-  // Until it is preset (G92.1).
+  EXPECT_NEAR(m.bench.var_now(100), 5, 1e-3);  // Z5 in the shifted coordinate system
+  // The shift lasts until the coordinate system is preset (G92.1).
   m.drive->in.single_block = false;
   const std::string mdi = "G92.1 Z0;G90 G0 Z5.";
   m.step(50);
@@ -282,7 +282,7 @@ TEST_P(ByHand, BetweenBlocksOfMdi) {
   }
 }
 
-/// An axis that was moved by hand says so until the program moves it, whatever is left of its place behind the coordinate systems.
+/// The marks name an axis that was moved by hand until the program moves it, whatever the coordinate systems leave of the difference.
 TEST_P(ByHand, SaysSoUntilTheProgramMovesTheAxis) {
   std::mt19937 random(7);
   for (unsigned n = 0; n < 30; ++n) {
@@ -300,8 +300,8 @@ TEST_P(ByHand, SaysSoUntilTheProgramMovesTheAxis) {
   }
 }
 
-/// A block stop at a corner that the optimal mode rounds lies beside the corner; with manual absolute off the coordinate systems go along with
-/// the hand alone. What a stop lies beside would add up, stop by stop.
+/// A block stop at a corner that the optimal mode rounds is beside the corner. With manual absolute off the coordinate systems are shifted only
+/// by the motion by hand, since the distances from the corners would add up from stop to stop.
 TEST_P(ByHand, ManualAbsoluteOffShiftsByTheHandAlone) {
   HandMachine m(GetParam());
   std::string text = "G90 G1 F3000\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A spindle that is a C axis, too (M700 10.5), on a control that is driven cycle by cycle with a drive of the test's own.
+// A spindle that is a C axis, too (M700 10.5), on a control that is driven cycle by cycle, with a drive that the test simulates.
 #include "online_helpers.hpp"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ class CAxis : public testing::TestWithParam<bool> {
     drive->press_start();
     drive->step(50);
   }
-  /// Slows down, turns on to `stands_at` and is ready.
+  /// The spindle follows its speed; with the servo on it slows down, turns on to `stands_at`, and is then ready.
   void turn_spindle(const nc_outputs& out) {
     if ((out.servo_on & kServoC) == 0) {
       speed = out.spindle_rev_min[0] / 60;
@@ -97,7 +97,7 @@ class CAxis : public testing::TestWithParam<bool> {
 
   Bench bench;
   std::unique_ptr<Drive> drive;
-  bool asks_again = false;  // with the M80
+  bool asks_again = false;  // the ladder requests a recalculation with the M80
   bool servo = false, ready = false, passed = false, finds_zero = true;
   double speed = 0, angle = 30, stands_at = 0;
   unsigned count = 0;
@@ -202,7 +202,7 @@ TEST_P(CAxis, TheServoComesOnWhileTheSpindleTurns) {  // precaution (4)
   EXPECT_NEAR(value, 200, 1e-6);
 }
 
-// Precaution (3): the feed stops, spindle control occurs, and what is left of the command is dropped at servo ON.
+// Precaution (3): the feed stops, the axis becomes a spindle, and the rest of the command is dropped at servo ON.
 TEST_P(CAxis, TheServoGoesOffDuringACommand) {
   start("M80\nG1 X50. C360. F3000\nX60. F3000\nG0 C90.\nM30");
   ASSERT_TRUE(until([&] { return drive->out.source.line == 2 && x() > 20; }));
@@ -223,12 +223,12 @@ TEST_P(CAxis, TheServoGoesOffDuringACommand) {
   EXPECT_NEAR(c(), 90, 1e-9);
 }
 
-// A C command that was read while the axis was one, and is reached after a time as spindle, goes to its place all the same.
+// A C command that was read while C was an axis, and is reached after C has been a spindle for a time, still goes to its place.
 TEST_P(CAxis, WhatWasReadAheadIsReadAgain) {
   bench.param("PREREAD_STOP_M1", "0").param("2031", "1", 'C');
   servo = true;
   start("G4 P200\nG4 P200\nM30");
-  ASSERT_TRUE(until_end());  // an axis now
+  ASSERT_TRUE(until_end());  // now C is an axis
   for (unsigned n = 0; n < 10; ++n) step();
   stands_at = 123;
   start("G0 C20.\nM81\nG1 X10. F3000\nM80\nX20.\nG0 C90.\nG91 C5.\nM30");
@@ -257,7 +257,7 @@ TEST_P(CAxis, OnlyAsAnAxisItIsMovedByHand) {
   EXPECT_GT(c(), 41);
 }
 
-// Its place goes through the coordinate systems and back with every move: what that leaves in the last digits is no command.
+// The position of C is converted through the coordinate systems and back with every move: rounding in its last digits must not be a command.
 TEST_P(CAxis, OtherAxesMoveWhateverPlaceItWasLeftAt) {
   for (unsigned n = 0; n < 40; ++n) {
     nc_axes place{};
@@ -270,7 +270,7 @@ TEST_P(CAxis, OtherAxesMoveWhateverPlaceItWasLeftAt) {
   }
 }
 
-/// Precaution (3) by hand: what was wanted of the axis before its servo went off, or while it was off, does not happen when it comes on.
+/// Precaution (3) by hand: a motion that was requested before the servo went off, or while it was off, does not happen when it comes on.
 TEST_P(CAxis, ByHandNothingIsLeftOverTheServo) {
   for (const nc_manual_kind kind : {NC_MANUAL_STEP, NC_MANUAL_HANDLE, NC_MANUAL_REFERENCE}) {
     servo = true;
@@ -298,7 +298,7 @@ TEST_P(CAxis, ByHandNothingIsLeftOverTheServo) {
   }
 }
 
-/// Precaution (3): of a skip move, too; the other axes are not at its end then.
+/// Precaution (3) is true for a skip move, too; the other axes have not reached its end then.
 TEST_P(CAxis, TheServoGoesOffDuringASkipMove) {
   start("M80\nG31 X50. C360. F3000\n#100=#5061\nG90 G0 X60. C5.\nM30");
   ASSERT_TRUE(until([&] { return drive->out.source.line == 2 && x() > 20; }));

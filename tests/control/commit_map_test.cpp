@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commit under maps that do more than move: what they make of lines and arcs, of their place on the machine, and of the coordinates shown.
+// Commit under maps that do more than shift: what becomes of lines and arcs, of their place on the machine, and of the displayed coordinates.
 #include "control/commit.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ class Stage {
     commit.create(config_, arena);
     commit.set_machine(machine);
   }
-  /// What a move names that has no shape and no parameters of its own.
+  /// The references of a move that has no shape and no parameters of its own.
   static Named named(const Affine& map) {
     static constexpr MotionSettings kNone{};
     return {&map, nullptr, &kNone};
@@ -63,7 +63,7 @@ Item move_of(const AxisVec& start, const AxisVec& end) {
   return item;
 }
 
-/// An arc of the plane (h, v) about `center` from the angle `from` on; axis 2 goes `rise` along with it where it is not of the plane.
+/// An arc in the plane (h, v) about (ch, cv), from the angle `from` on; if axis 2 is not in the plane it moves by `rise` meanwhile.
 Item arc_of(unsigned h, unsigned v, double ch, double cv, double radius, double from, double sweep, double rise) {
   AxisVec start{{1, 2, 3, 40}};
   start[h] = ch + radius * std::cos(from);
@@ -82,7 +82,7 @@ Item arc_of(unsigned h, unsigned v, double ch, double cv, double radius, double 
   return item;
 }
 
-/// The point of an arc of arc_of() at `share` of its way.
+/// The point of an arc of arc_of() at `share` (0 to 1) of its length.
 AxisVec on_arc(const Item& item, double share) {
   const Circle& c = item.move.circle;
   AxisVec p;
@@ -92,7 +92,7 @@ AxisVec on_arc(const Item& item, double share) {
   return p;
 }
 
-/// Turns and reflects the three linear axes, about any place.
+/// A random map that turns and reflects the three linear axes about any place.
 Affine any_isometry(std::mt19937_64& random, bool tilts) {
   const auto any = [&random](double most) { return std::uniform_real_distribution<double>(-most, most)(random); };
   Affine map = Affine::rotation(0, 1, Affine::Angle::degrees(any(200)), any(50), any(50));
@@ -128,7 +128,7 @@ TEST(CommitUnderAMap, EveryPointOfAnArcGoesWhereTheMapTakesIt) {
     expect_place(stage.commit.machine(), map.apply(item.move.end), "end");
     const Segment segment = stage.segment(item, map);
     expect_place(segment.to_work.apply(stage.commit.machine()), item.move.end, "shown");
-    // What the outside is told of it.
+    // The item as the host sees it.
     const nc_move shown = stage.shown(item).u.move;
     AxisVec center = item.move.start;
     center[plane[0]] = 5;
@@ -152,7 +152,7 @@ TEST(CommitUnderAMap, TheWholeWayOfATiltedArcIsHeldAgainstTheLimits) {
   curve_bounds(stage.commit.curve(), kAxes, &low, &high);
   EXPECT_NEAR(high[2], 10, 1e-9);
   EXPECT_NEAR(low[2], 0, 1e-9);
-  EXPECT_NEAR(high[1], -3, 1e-9);  // the Z of the program
+  EXPECT_NEAR(high[1], -3, 1e-9);  // this is the Z of the program
   EXPECT_NEAR(low[1], -3, 1e-9);
   Stage lower(map.apply(item.move.start), 9.999);
   EXPECT_EQ(lower.commit.commit(item, Stage::named(map)), Committed::soft_limit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nc_commit_watch_set(): the watch is shown the stream that is executed, item by item, and an item that it puts off is not executed.
+// nc_commit_watch_set(): the watch sees the executed stream item by item, and an item that it postpones is not executed meanwhile.
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
@@ -16,7 +16,7 @@ struct Seen {
 
 struct Watch {
   nc_control* control = nullptr;
-  uint64_t hold = 0;  ///< this serial is put off
+  uint64_t hold = 0;  ///< serial of the item that is postponed
   unsigned asked = 0;
   std::vector<Seen> seen;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A refused configuration says which member it is, and why.
+// When a configuration is refused the fault names the member and the reason.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-/// Two part systems, the second with a rotary axis C that may be a spindle: every member has a meaning.
+/// Two part systems, the second with a rotary axis C that may be a spindle, so that every member has a meaning.
 nc_config good() {
   nc_config c;
   nc_config_init(&c);
@@ -44,7 +44,7 @@ Fault fault_of(const nc_config& c) {
   return {fault.field, fault.reason};
 }
 
-/// Each member, how a value gets into it, values that are refused and ones that are not.
+/// One member: how a value is written into it, values that are refused, and values that are accepted.
 struct Row {
   const char* field;
   std::function<void(nc_config&, double)> set;

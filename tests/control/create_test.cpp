@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Building a control, and what its functions say to arguments that make no sense.
+// Building a control, and what its functions return for arguments that make no sense.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -15,7 +15,7 @@ struct Release {
 };
 using Memory = std::unique_ptr<void, Release>;
 
-/// Exactly `size` bytes, aligned: a byte more is seen by the address sanitizer.
+/// Exactly `size` aligned bytes, so that the address sanitizer finds a use of more.
 Memory exact_memory(size_t size) {
   void* memory = nullptr;
   if (posix_memalign(&memory, 64, size) != 0) memory = nullptr;
@@ -116,7 +116,7 @@ TEST(Create, MemoryIsUsedAgain) {
     double value = 1;
     bool vacant = false;
     ASSERT_EQ(nc_variable_get(control, 0, 500, &value, &vacant), NC_OK);
-    EXPECT_TRUE(vacant);  // of the control before nothing is left
+    EXPECT_TRUE(vacant);  // nothing is left of the control that was there before
     nc_variable_set(control, 0, 500, 5, false);
   }
 }
@@ -155,7 +155,7 @@ TEST(Create, ConfigurationsThatAreNone) {
       [](nc_config& c) { c.variable_sets = 7; },
       [](nc_config& c) { c.max_feed_override = 0.5; },
       [=](nc_config& c) { c.max_feed_override = kNan; },
-      [=](nc_config& c) { c.path_tolerance = kNan; },  // whether the mode has one or not
+      [=](nc_config& c) { c.path_tolerance = kNan; },  // whether the mode uses it or not
       [](nc_config& c) { c.path_tolerance = 11; },
   };
   const Memory memory = exact_memory(1 << 20);
@@ -311,7 +311,7 @@ TEST(Misuse, NumbersOutOfTheirTables) {
   EXPECT_EQ(nc_tool_offset_set(c, 1, NC_TOOL_LENGTH, kNan), NC_E_ARGUMENT);
   EXPECT_EQ(nc_variable_set(c, 0, 99, 1, false), NC_E_NOT_FOUND);
   EXPECT_EQ(nc_variable_set(c, 0, 500, kNan, false), NC_E_ARGUMENT);
-  EXPECT_EQ(nc_variable_set(c, 0, 500, kNan, true), NC_OK);  // vacant: the number does not count
+  EXPECT_EQ(nc_variable_set(c, 0, 500, kNan, true), NC_OK);  // to make it vacant, where the value is ignored
   nc_axes axes{};
   axes.v[1] = kInf;
   EXPECT_EQ(nc_position_set(c, 0, &axes), NC_E_ARGUMENT);
@@ -361,7 +361,7 @@ TEST(Misuse, AnswersThatNobodyAskedFor) {
 TEST(Parameters, KeysOfBothDialects) {
   Bench m;
   nc_control* c = m.control();
-  EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, "5"), NC_OK);  // changes nothing here, is kept
+  EXPECT_EQ(nc_parameter_set(c, 0, "8999", 0, "5"), NC_OK);  // this parameter does nothing in the control, but is kept
   double value = 0;
   EXPECT_EQ(nc_parameter_get(c, 0, "8999", 0, &value), NC_OK);
   EXPECT_EQ(value, 5);
@@ -395,7 +395,7 @@ TEST(Parameters, BitsAreBitsOfTheWhole) {
   EXPECT_EQ(get("1229"), 7);
   bench.param("1229/bit2", "0");
   EXPECT_EQ(get("1229"), 3);
-  bench.param("1229", "0");  // the whole sets every bit
+  bench.param("1229", "0");  // to write the whole parameter sets every bit
   EXPECT_EQ(get("1229/bit0"), 0);
   EXPECT_EQ(nc_parameter_set(c, 0, "1229/bit0", 0, "2"), NC_E_ARGUMENT);
   bench.param("1230/bit31", "1");
@@ -444,7 +444,7 @@ TEST(Mdi, AMarkInTheBlocksIsNotDoubled) {  // DGSHAPE 2-6, M700 App.1 P36
     return on.finish();
   };
   EXPECT_EQ(mdi(bench, " \n%\nG0X5000").path(), (Path{"rapid 5 0 0"}));
-  EXPECT_EQ(mdi(bench, "G0X6000\n%\nG0X7000").alarm, "NC-END");  // what stands behind is not lost without a word
+  EXPECT_EQ(mdi(bench, "G0X6000\n%\nG0X7000").alarm, "NC-END");  // the block behind the mark must not be lost without an alarm
   Bench m700_bench;
   EXPECT_EQ(mdi(m700_bench, "G0X6.\n%\nG0X7.").alarm, "P36");
 }
@@ -466,7 +466,7 @@ TEST(Mdi, ModalCodesStayFromOneToTheNextUntilResetOrAProgram) {  // M700 5.1
   EXPECT_EQ(bench.run("G0 X7.\nM30").path(), (Path{"rapid 7 1 0"})) << "a program begins with the initial codes";
 }
 
-// What a host asks for by what it does, whatever number the dialect gives it.
+// A host can ask for a parameter by its role, whatever number the dialect gives it.
 TEST(Create, TellsTheKeysOfParametersByTheirRole) {
   Bench m700(NC_DIALECT_M700), dgshape(NC_DIALECT_DGSHAPE);
   const auto key = [](Bench& bench, nc_parameter_role role) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macro interrupts, input changes and resets at random points of random macro programs, all in one run: what
-// the machine has executed until the reset is what the trace with the same events executes, what the reset
-// leaves is the same, and so is the run after it.
+// Macro interrupts, input changes and resets at random points of random macro programs, all in one run: the machine
+// executes the same until the reset as the trace with the same events, the reset leaves the same, and so does the run
+// after it.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -14,7 +14,7 @@ namespace {
 
 const uint32_t kPrograms = sanitized() ? 10 : 40;
 
-/// What one run of the machine was: its items, and what it knew at each sync.
+/// A run of the machine: its items, and its answers to the syncs.
 struct MachineRun {
   std::vector<nc_event> events;
   std::deque<nc_world> answers;
@@ -22,10 +22,10 @@ struct MachineRun {
   unsigned input_changes = 0;
 };
 
-/// The clock is the machine's own; everything else that a program can read is part of the events.
+/// Makes the program read an input instead of the clock, which differs from run to run; everything else that it reads is part of the events.
 std::string with_reads(std::string text) {
   for (size_t at; (at = text.find("#3001")) != std::string::npos;) text.replace(at, 5, "#1033");
-  // Blocks that read the machine and move: cut, they must go on with what they have read.
+  // Blocks that read the machine and move: when they are cut they must go on with the values that they have read.
   for (size_t at = 0; (at = text.find("G1 X", at)) != std::string::npos; at += 4)
     if (text.compare(at, 5, "G1 X[") != 0 && text.find('.', at) < text.find_first_of(" \n", at + 3))
       text.insert(text.find_first_of(" \n", at + 3), "+#1000");
@@ -63,16 +63,16 @@ MachineRun run_machine(Bench& bench, std::mt19937& random, nc_inputs& in, unsign
     run.reset = run.reset || (idle && !run.ended);
   }
   in.reset = in.macro_interrupt = in.cycle_start = false;
-  for (unsigned n = 0; n < 3; ++n) {  // the feeder takes the reset in
+  for (unsigned n = 0; n < 3; ++n) {  // the feeder handles the reset
     nc_feed(control, 100);
     nc_cycle(control, &in, &out);
   }
-  if (run.reset)  // what has happened of a block that was not finished is the machine's to know
+  if (run.reset)  // how much of an unfinished block was executed depends on the machine: it is not compared
     while (!run.events.empty() && run.events.back().kind != NC_ITEM_MARK) run.events.pop_back();
   return run;
 }
 
-/// The trace with what the machine has seen, up to its last item.
+/// The trace with the events that the machine has seen, up to its last item.
 Outcome trace_machine(Bench& bench, MachineRun& run) {
   const std::vector<Seen> interrupts = interrupts_of(run.events);
   bench.on_sync = [&](const nc_item&) {
@@ -101,7 +101,7 @@ Outcome trace_machine(Bench& bench, MachineRun& run) {
   return traced;
 }
 
-/// What stands around item `at`, for a person.
+/// The items around item `at` as text, for the message of a failed test.
 std::string around(const MachineRun& run, const Outcome& traced, size_t at) {
   std::string text;
   for (size_t i = at < 6 ? 0 : at - 6; i < at + 4 && i < run.events.size() && i < traced.steps.size(); ++i) {
@@ -125,7 +125,7 @@ void expect_same(const MachineRun& run, const Outcome& traced) {
     ASSERT_EQ(event.kind, step.item.kind) << around(run, traced, i);
     ASSERT_EQ(event.source.line, step.item.source.line) << around(run, traced, i);
     ASSERT_EQ(event.source.program, step.item.source.program) << around(run, traced, i);
-    if (event.kind != NC_ITEM_MOVE) continue;  // between, the machine stands where it was cut
+    if (event.kind != NC_ITEM_MOVE) continue;  // at other items the machine may stand where a move was cut
     for (unsigned axis = 0; axis < 3; ++axis)
       ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << around(run, traced, i);
   }
@@ -143,7 +143,7 @@ TEST(Disturbance, InterruptsInputsAndResetsTogether) {
     const auto prepare = [&](Bench& bench) {
       set_up(bench, program);
       bench.param("1174", "100");
-      // Nowhere where a move of the program may have been cut: a move of no length is none.
+      // The interrupt program moves to a place at which no move of the program can have been cut; else its own move would have no length.
       bench.add("O1000", std::string("#199=#199+1\n#198=#1000+#1034\nIF[#1001 EQ 1] GOTO 5\n") +
                              (moves ? "G90 G49 G80 G40 G0 X[#199+0.00037] Y[5+#198] Z30.\nM7\n"
                                     : "#197=#1035\nG91 F1\n") +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nc_look_executed(): in the middle of a run the tables are those of the blocks that the machine has executed, and the look leaves no trace.
+// nc_look_executed(): in the middle of a run it shows the tables as the executed blocks have left them, and the look changes nothing.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -54,7 +54,7 @@ std::string executed(nc_control* control) {
   return all;
 }
 
-/// Runs for so many cycles; serial of the newest block end that was executed, 0: none.
+/// Runs for so many cycles; returns the serial of the last block end that was executed, 0 if there is none.
 uint64_t run_for(Bench& bench, const std::string& text, unsigned cycles, nc_outputs* out) {
   bench.start(text);
   nc_control* control = bench.control();
@@ -98,7 +98,7 @@ TEST(Executed, ALookShowsWhatTheExecutedBlocksHaveDone) {
     }
     inside += last > 0 && step.item.serial == last;
     ahead += seen != read;
-    nc_reset(offline.control(), 0);  // what the interpreter has read beyond that item
+    nc_reset(offline.control(), 0);  // takes back what the interpreter has read beyond that item
     ASSERT_EQ(seen, tables(offline.control())) << "behind item " << last;
   }
   EXPECT_GT(inside, kPrograms);
@@ -146,7 +146,7 @@ TEST(Executed, TheNextParameterIsOneThatIsSet) {
   Bench bench;
   bench.param("8075", "0.25");
   EXPECT_EQ(bench.run("G10 L70\nP8013 D2\nG11\nM30").alarm, "");
-  ASSERT_EQ(bench.rewind(0, nc_axes{}), NC_OK);  // #8013 was set, and that is taken back
+  ASSERT_EQ(bench.rewind(0, nc_axes{}), NC_OK);  // the program has set #8013, which is taken back
   bench.param("1037", "2");
   char key[24] = "", text[64] = "", axis = 0;
   unsigned place = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feed functions (M700 7) from the program to the motion: what the axes really do.
+// Feed functions (M700 7) from the program to the motion of the axes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ void quick_machine(nc_config& c) {
   }
 }
 
-/// Runs the text to its end; `see` after every cycle.
+/// Runs the text to its end, and calls `see` after every cycle.
 void run_online(Bench& bench, const std::string& text, const std::function<void(nc_inputs&, const nc_outputs&)>& see) {
   Drive drive(bench, text);
   drive.in.spindle[0].rev_per_s = 0;
@@ -35,7 +35,7 @@ void run_online(Bench& bench, const std::string& text, const std::function<void(
   FAIL() << "the program does not end";
 }
 
-/// Speed in the middle of the time that each line takes, mm/min.
+/// For each line the speed in the middle of its time, mm/min.
 std::map<unsigned, double> speeds(Bench& bench, const std::string& text) {
   std::map<unsigned, std::vector<double>> all;
   bench.at(0, 0, 0);
@@ -63,11 +63,11 @@ TEST(FeedOnline, InverseTimeKeepsTheSpeedAtTheCut) {  // M700 7.5, the printed e
 TEST(FeedOnline, InverseTimeIsTheTimeOfTheBlock) {
   Bench bench(NC_DIALECT_M700, quick_machine);
   bench.tool(1, 5).param("8103", "1");
-  // Around a square: the compensated lines have another length and take the same time.
+  // Around a square: the compensated lines have other lengths, but take the same time.
   const std::string square = " D1 G1 X0 Y10. F60\nX0 Y50. F60\nX50. F60\nY0 F60\nX-9. F60\nG40 G0 X-20. Y-20.\nM30";
   auto speed = speeds(bench, "G93 G41" + square);
-  EXPECT_NEAR(speed[2], 60 * 45, 1e-6);  // outside: longer by the radius at its end
-  EXPECT_NEAR(speed[3], 60 * 60, 1e-6);  // and at either end
+  EXPECT_NEAR(speed[2], 60 * 45, 1e-6);  // the path outside the square is longer by the radius at the end of this line
+  EXPECT_NEAR(speed[3], 60 * 60, 1e-6);  // and of this one at both ends
   speed = speeds(bench, "G93 G42" + square);
   EXPECT_NEAR(speed[2], 60 * 35, 1e-6);
   EXPECT_NEAR(speed[3], 60 * 40, 1e-6);
@@ -142,7 +142,7 @@ TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed example
   const std::string smooth = "G91 G1 X100. Y100. F4000\nX100. Y100.\nG4 P1\nM30", axis = "G91 G1 X100. Y1. F4000\nX80.\nG4 P1\nM30";
   EXPECT_GT(rests("1", smooth), 500);
   EXPECT_GT(rests("1", axis), 500);
-  // Y turns round at a joint that could be passed at speed.
+  // Y reverses at a joint that could be passed at speed.
   const std::string back = "G91 G1 X100. Y.5 F4000\nX100. Y-.5\nG4 P1\nM30";
   EXPECT_GT(rests("0", back), 500);
   EXPECT_LT(rests("1", back), 500);

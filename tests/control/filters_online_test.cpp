@@ -21,8 +21,8 @@ void machine(nc_config& c) {
 }
 
 struct Course {
-  double seconds = 0;      ///< until the axes stand for good
-  double nearest = 1e9;    ///< to the corner 50, 0
+  double seconds = 0;      ///< until the axes stand at the end
+  double nearest = 1e9;    ///< least distance to the corner 50, 0
   double fastest = 0;      ///< of X and Y together, mm/s
   double acceleration = 0; ///< largest of any axis by finite differences, mm/s^2
   double largest = 0;      ///< distance from 0, 0
@@ -51,7 +51,7 @@ Course run(Bench& bench, const std::string& text, const std::function<void(nc_in
   }
   EXPECT_TRUE(drive.ended) << drive.alarm();
   while (nc_feed(bench.control(), 100) == NC_OK) {}
-  nc_feed(bench.control(), 100);  // hears that the program has ended
+  nc_feed(bench.control(), 100);  // the feeder sees that the program has ended
   return c;
 }
 
@@ -61,7 +61,7 @@ TEST(FiltersOnline, ConstantsOfTheAxesAreAtWork) {
   Bench plain(NC_DIALECT_M700, machine), filtered(NC_DIALECT_M700, machine);
   filtered.param("2007", "100");
   const Course a = run(plain, kCorner), b = run(filtered, kCorner);
-  EXPECT_LT(a.nearest, 0.06);  // the trapezoid comes to the corner, filters round it
+  EXPECT_LT(a.nearest, 0.06);  // without filters the trapezoid reaches the corner; filters round it
   EXPECT_NEAR(b.nearest, 50 * 0.1 / 8 * std::sqrt(2.0), 0.03);
   EXPECT_NEAR(b.acceleration, 50 / 0.1, 1);
   EXPECT_NEAR(b.seconds - 0.003, 2 + 0.1, 0.004);
@@ -139,7 +139,7 @@ TEST(FiltersOnline, AProgramChangesThemWhereItSays) {  // G10 L70
 
 TEST(FiltersOnline, HighAccuracyHasItsSlopeAndItsFilters) {  // 13.15
   Bench bench(NC_DIALECT_M700, machine);
-  bench.param("2007", "100").param("1206", "6000").param("1207", "100");  // dV: 1000 mm/s^2
+  bench.param("2007", "100").param("1206", "6000").param("1207", "100");  // these parameters give 1000 mm/s^2
   const Course slope = run(bench, "G61.1\nG1 X50. F3000\nM02");
   EXPECT_NEAR(slope.acceleration, 1000, 1);
   constexpr double kRounding = 0.005;  // the mean that rounds corners within 0.01 mm, where no filter is set
@@ -214,10 +214,10 @@ TEST(FiltersOnline, AMacroInterruptCutsWhereTheAxesStand) {  // 13.12 type 1
     last = drive.out.velocity.v[0];
   }
   ASSERT_TRUE(drive.ended) << drive.alarm();
-  EXPECT_NEAR(stood_at, 30 + 50 * 0.1 / 2, 0.2);  // what was on its way
+  EXPECT_NEAR(stood_at, 30 + 50 * 0.1 / 2, 0.2);  // plus what was still in the filters
   EXPECT_EQ(aside, 0);
   EXPECT_NEAR(acceleration, 500, 1);
-  EXPECT_EQ(drive.out.command.v[0], stood_at);  // its moves are there in the place of the rest of the block
+  EXPECT_EQ(drive.out.command.v[0], stood_at);  // the interrupt program has moves, and replaces the rest of the block
   EXPECT_EQ(drive.out.command.v[1], 0);
 }
 
@@ -232,7 +232,7 @@ TEST(FiltersOnline, ByHandInABlockStop) {  // and the program goes on from there
   while (drive.cycle < 20000 && !drive.ended) {
     const bool stopped = drive.out.state == NC_STATE_STOPPED;
     waited = stopped ? waited + 1 : 0;
-    if (waited == 1 && drive.out.source.line > stops) {  // not the end of the manual motion
+    if (waited == 1 && drive.out.source.line > stops) {  // a new block stop, not the end of the manual motion
       ++stops;
       EXPECT_TRUE(drive.out.distance_zero);
       EXPECT_EQ(drive.out.command.v[0], stops == 1 ? 20 : 25);

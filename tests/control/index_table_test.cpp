@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Index tables (M700 9.3): whatever moves one is preceded by its unclamp and followed by its clamp, and nothing else goes on in between.
+// Index tables (M700 9.3): before any motion of a table it is unclamped, and clamped after it, and nothing else is executed in between.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ class TableMachine {
   explicit TableMachine(Bench& bench, const std::string& text) : drive(bench, text) {}
 
   Drive drive;
-  unsigned slow_feeder = 1;     ///< the feeder gets its turn in every so many cycles
+  unsigned slow_feeder = 1;     ///< the feeder is called once in so many cycles
   unsigned clamp_cycles = kClampCycles;
   uint32_t broken = 0;          ///< axes that are never unclamped
   std::string diary;
@@ -42,7 +42,7 @@ class TableMachine {
     drive.step(drive.cycle % slow_feeder == 0 ? 100 : 0);
     write(before, unclamped_before);
   }
-  /// False when it does not come.
+  /// Steps until `done` returns true; false if it does not within `most` cycles.
   template <class Done>
   bool until(Done done, unsigned most = 60000) {
     for (unsigned n = 0; n < most; ++n) {
@@ -90,7 +90,7 @@ class TableMachine {
     if (out.strobe != 0 && before.strobe == 0) note("M" + std::to_string(out.m));
     for (unsigned i = 0; i < 5; ++i) {
       if ((tables >> i & 1) == 0 || out.command.v[i] == before.command.v[i] || drive.cycle < 3) continue;
-      // A cycle late: it brakes when the answer goes off.
+      // When the answer "unclamped" goes off the axis begins to brake one cycle later, so the last two cycles count.
       if ((drive.in.unclamped >> i & 1) == 0 && (unclamped_before >> i & 1) == 0 && broken == 0) note("MOVES CLAMPED");
       if ((out.unclamp >> i & 1) == 0) note("MOVES WITHOUT A COMMAND");
     }
@@ -212,7 +212,7 @@ TEST(IndexTable, AProgramStopWaitsForTheClamp) {
   EXPECT_EQ(m.diary, "+B b B -B b- M0");
 }
 
-/// What comes next is not known yet: the table stays as it is, whenever it comes.
+/// While the next block is not known yet the table stays as it is, so a late feeder changes nothing.
 TEST(IndexTable, ALateFeederChangesNothing) {
   for (const char* text : {"G0 B90.\nB180.\nX10.\nB0\nM8\nM30", "G0 X5. B90.\n#1=1\n#2=2\n#3=3\nB180.\nM30"}) {
     const std::string expected = diary(text);
@@ -339,7 +339,7 @@ void reset(TableMachine* m) {
 }
 
 TEST(IndexTable, AResetClampsWhatCanBeClamped) {
-  {  // on the way to its unclamp: it has not moved
+  {  // while it is being unclamped: it has not moved
     Bench bench(NC_DIALECT_M700, five_axes);
     bench.param("2076", "1", 'B').param("2106", "5", 'B');
     TableMachine m(bench, "G0 B90.\nM30");
@@ -350,7 +350,7 @@ TEST(IndexTable, AResetClampsWhatCanBeClamped) {
     EXPECT_FALSE(m.unclamp());
     EXPECT_EQ(m.drive.in.unclamped, 0u);
   }
-  {  // on its way: without places of its own (#2106) anywhere
+  {  // in a motion: a table without fixed places (#2106) can be clamped anywhere
     Bench bench(NC_DIALECT_M700, five_axes);
     bench.param("2076", "1", 'B');
     TableMachine m(bench, "G1 F3600 B90.\nM30");
@@ -372,14 +372,14 @@ TEST(IndexTable, ATableWithPlacesStaysUnclampedBetweenThem) {  // (8)
   reset(&m);
   m.steps(60);
   EXPECT_TRUE(m.unclamp());
-  // A program that does not move it does not go on.
+  // A program that does not move it has to wait.
   bench.start("G0 X10.\nM30");
   m.press_start();
   m.steps(200);
   EXPECT_EQ(m.drive.out.command.v[0], 0);
   EXPECT_EQ(m.drive.out.fin_wait, 0x800);
   reset(&m);
-  // By hand to one of its places: clamped there.
+  // Moved by hand to one of its places, it is clamped there.
   nc_manual& hand = m.drive.in.manual[kB];
   hand = {NC_MANUAL_STEP, 0, 2};
   m.steps(100);
@@ -408,7 +408,7 @@ TEST(IndexTable, ATableThatWasStoppedGoesOnWithItsNextCommand) {
   EXPECT_EQ(m.diary, "+B b B B -B b- X M30");
 }
 
-/// (8), 2.3: by a whole number of places it comes to none of them.
+/// (8), 2.3: from between two places, an incremental move by whole places does not end at a place.
 TEST(IndexTable, FromBetweenItsPlacesItDoesNotGoOnInG91) {
   for (const char* block : {"G91 G0 B30.", "G91 G28 B30.", "G91 G31 B30. F100"}) {
     Bench bench(NC_DIALECT_M700, five_axes);
@@ -589,7 +589,7 @@ TEST(IndexTable, ASkipEndsWhereATableWithPlacesCannotBeClamped) {  // (8)
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 B92.\nM30").alarm, "P20");
 }
 
-/// Type 1 of the macro interrupt: the table comes to its place before it (M700 13.12).
+/// Type 1 of the macro interrupt: the table moves to its place before the interrupt program begins (M700 13.12).
 TEST(IndexTable, AMacroInterruptWaitsForTheTable) {
   Bench bench(NC_DIALECT_M700, five_axes);
   bench.param("2076", "1", 'B').param("1109", "0").param("1113", "0");
@@ -606,7 +606,7 @@ TEST(IndexTable, AMacroInterruptWaitsForTheTable) {
   EXPECT_EQ(m.diary.substr(0, 17), "+B b B -B b- X Y ") << m.diary;
 }
 
-/// Moves of the table and of others, codes, dwells, calculations, reads.
+/// A random program with moves of the table and of other axes, codes, dwells, calculations and reads.
 std::string random_text(std::mt19937& random) {
   static constexpr const char* kBlocks[] = {"G0 B%d.",          "G1 B%d. F9000",   "G0 X%d.", "G1 X%d. B%d. F9000", "M8", "G4 P10", "#1=%d", "#100=#5044",
                                             "G2 X%d. I%d. F9000", "G91 G0 B%d.\nG90", "G0 C%d.", "#1100=1",            "G53 G0 B%d.", "G0 B%d. C%d."};
@@ -623,8 +623,8 @@ std::string random_text(std::mt19937& random) {
   return text + "M30\n";
 }
 
-/// Under holds, interlocks, single block, slow feeders and slow clamps: all of the program is executed in its order, and no table is
-/// driven while it is clamped.
+/// With holds, interlocks, single block, slow feeders and slow clamps the whole program is executed in its order, and no table is moved while it
+/// is clamped.
 TEST_P(IndexTableInMode, UnderDisturbance) {
   for (uint32_t seed = 1; seed <= 9; ++seed) {
     SCOPED_TRACE(seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joints behind the axes (nc_config::kinematics): what comes out each cycle, what of their limits is looked at, what stops.
+// Joints behind the axes (nc_config::kinematics): what comes out in each cycle, which of their limits are checked, and what stops the machine.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ bool forward(void*, const nc_axes* joint, nc_axes* machine) {
   machine->v[0] = kFirst * std::cos(a) + kSecond * std::cos(b);
   machine->v[1] = kFirst * std::sin(a) + kSecond * std::sin(b);
   machine->v[2] = joint->v[2];
-  return joint->v[3] == 0;  // the encoders are ready
+  return joint->v[3] == 0;  // 0: the encoders are ready
 }
 
 struct Arm {
@@ -66,7 +66,7 @@ struct Arm {
 
 TEST(Joints, FollowTheCommandedPlaceInEveryCycle) {
   Arm arm;
-  arm.kinematics.joint_count = 1;  // the control has a copy
+  arm.kinematics.joint_count = 1;  // the control has its own copy
   arm.start("G1 X300. Y200. Z-5. F6000\nM30");
   nc_axes before = arm.out.joint;
   for (unsigned n = 0; n < 3000 && arm.out.state != NC_STATE_IDLE; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A block that its stroke stops gives out nothing: neither M S T B nor a part of its path that stands before the fault.
+// A block that would leave the stroke is not executed at all: neither its M S T B nor the part of its path before the fault.
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
@@ -23,7 +23,7 @@ Outcome limited(const std::string& text, uint32_t budget = 1000) {
   return bench.run(text, budget);
 }
 
-/// Nothing of the last block of `before` + `block` happens, and everything of `before` does.
+/// Expects that `before` is executed, and nothing of `block`.
 void expect_nothing_of(const std::string& before, const std::string& block, const char* alarm = "M01-0007") {
   SCOPED_TRACE(block);
   const Outcome good = limited(before + "M30");
@@ -34,7 +34,7 @@ void expect_nothing_of(const std::string& before, const std::string& block, cons
     Path path = good.path();
     EXPECT_EQ(run.path(), path);
     EXPECT_EQ(run.aux() + (run.aux().empty() ? "M30" : " M30"), good.aux());
-    EXPECT_EQ(run.of(NC_ITEM_GATE).size() + 1, good.of(NC_ITEM_GATE).size());  // that of M30
+    EXPECT_EQ(run.of(NC_ITEM_GATE).size() + 1, good.of(NC_ITEM_GATE).size());  // less the one of M30
   }
 }
 
@@ -139,7 +139,7 @@ TEST(LookAhead, TheMachineDoesAsTheTrace) {
     EXPECT_EQ(drive.alarm(), "M01-0007");
     EXPECT_EQ(m8, trace.aux().find("M8") != std::string::npos);
     EXPECT_FALSE(other);
-    // The machine stops at the alarm; the trace has the end behind it.
+    // The machine stops at the alarm; the trace has one more item, the end.
     ASSERT_GE(trace.steps.size(), drive.events.size());
     for (size_t i = 0; i < drive.events.size(); ++i) {
       EXPECT_EQ(drive.events[i].serial, trace.steps[i].item.serial);
@@ -149,7 +149,7 @@ TEST(LookAhead, TheMachineDoesAsTheTrace) {
   }
 }
 
-/// M8 in some of the blocks that move.
+/// Adds M8 to some of the blocks that move.
 std::string with_codes(const std::string& text, uint32_t seed) {
   std::mt19937 random(seed);
   std::string all;
@@ -162,7 +162,7 @@ std::string with_codes(const std::string& text, uint32_t seed) {
   return all;
 }
 
-/// Random programs within random limits do what they do without, until a block is stopped; of that one no code has gone out.
+/// Random programs with random limits do the same as without limits until a block is stopped; no code of that block is given out.
 TEST(LookAhead, RandomProgramsWithinLimits) {
   unsigned stopped = 0, ended = 0, held_back = 0;
   for (uint32_t seed = 0; seed < 150; ++seed) {

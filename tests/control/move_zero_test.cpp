@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // nc_move_zero(): the end of a move less its zero is the place on the workpiece that the program names, whatever offsets and tool lengths
-// come and go between the moves.
+// change between the moves.
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
@@ -8,7 +8,7 @@
 namespace nc::test {
 namespace {
 
-/// Zeros of the moves of a program, "1 2 13"; what does not hold of the end points is added to `wrong`.
+/// The zeros of the moves of a program, as "1 2 13"; end points that are not right are added to `wrong`.
 std::vector<std::string> zeros(Bench& bench, const std::string& text, std::string* wrong) {
   bench.start(text);
   std::vector<std::string> all;
@@ -52,7 +52,7 @@ TEST(MoveZero, FollowsOffsetsAndTheToolLengthAsItIsApplied) {
   EXPECT_EQ(wrong, "");
 }
 
-/// What lies in front of compensation bends the path about the workpiece and leaves its zero; the radius stays in the path.
+/// Maps of the program, which act before compensation, change the path but not its zero; the tool radius is part of the path, too.
 TEST(MoveZero, MapsOfTheProgramAndTheRadiusLeaveIt) {
   Bench bench;
   bench.work_offset(1, {1, 2, 3}).tool(4, 1.5, NC_TOOL_RADIUS);

@@ -40,7 +40,7 @@ struct Seen {
 inline std::vector<Seen> interrupts_of(const std::vector<nc_event>& events) {
   std::vector<Seen> all;
   for (size_t i = 1; i < events.size(); ++i) {
-    // What announces the interrupt has the source of the block before; the program's own items follow.
+    // The item that announces the interrupt has the source of the block before; the items of the interrupt program follow.
     if (events[i].source.program != 1000 || events[i - 1].source.program == 1000 || i < 2) continue;
     const nc_event &announced = events[i - 1], &before = events[i - 2];
     bool moved = false;
@@ -50,7 +50,7 @@ inline std::vector<Seen> interrupts_of(const std::vector<nc_event>& events) {
   return all;
 }
 
-/// Tools and common variables as a run has left them, as text.
+/// The tool offsets and common variables that a run has left, as text.
 inline std::string left_by(Bench& bench) {
   std::string all;
   for (unsigned n = 1; n <= 20; ++n) all += brief(bench.tool_now(n)) + " ";

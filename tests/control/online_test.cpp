@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two ways to drive a control see the same stream: what nc_cycle() executes, under holds, overrides, single block and
-// recalculation requests, is what nc_pull() gave.
+// The two ways to drive a control give the same stream: with holds, overrides, single block and recalculation requests
+// nc_cycle() executes the items that nc_pull() gives.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ Executed execute(Bench& bench, const std::string& text, const Disturbance& distu
   Executed done;
   bool asking = false;
   for (unsigned n = 0; n < 400000 && !drive.ended; ++n) {
-    if (random() % 3 != 0 || n < 3) nc_feed(bench.control(), 1 + random() % 40);  // the feeder has its own pace
+    if (random() % 3 != 0 || n < 3) nc_feed(bench.control(), 1 + random() % 40);  // the feeder is slower than the scan at times
     const bool stopped = drive.out.state == NC_STATE_STOPPED;
     if (asking || (disturb.recalculate && stopped && random() % 3 == 0)) {
       const nc_status status = nc_recalculate(bench.control(), 0);
@@ -132,7 +132,7 @@ TEST(Online, InterruptsAtRandomPoints) {
   EXPECT_GT(served, kPrograms);
 }
 
-/// Runs on the machine and raises the interrupt signal whenever `wanted` says so. Where the axes were in every cycle, and the items.
+/// A run on the machine in which `wanted` switches the interrupt signal: its items, and the places of the axes in every cycle.
 struct Interrupted {
   std::vector<nc_event> events;
   std::vector<nc_axes> places;
@@ -201,7 +201,7 @@ TEST(OnlineInterrupt, WithoutMovesTheRestOfTheBlockIsGone) {
   EXPECT_GT(stood_at, 5);
 }
 
-/// A skip move is cut like any other, and measures when it goes on.
+/// A skip move is cut like any other, and still measures when it goes on.
 TEST(OnlineInterrupt, ASkipMoveGoesOnWhereItWasCut) {
   for (const bool touches : {true, false}) {
     Bench bench(NC_DIALECT_M700, kSlowMachine);
@@ -282,7 +282,7 @@ TEST(OnlineInterrupt, ASignalThatStaysOnLetsTheProgramEnd) {
                                               [](const nc_outputs&) { return true; });
       ASSERT_TRUE(run.ended) << type_2 << moves;
       EXPECT_EQ(run.places.back().v[0], 4) << type_2 << moves;
-      EXPECT_GE(bench.var_now(100), 2) << type_2 << moves;  // type 2 accepts it in the block behind and comes at its end
+      EXPECT_GE(bench.var_now(100), 2) << type_2 << moves;  // type 2 accepts the signal in the next block, and comes at its end
       EXPECT_LE(bench.var_now(100), 6) << type_2 << moves;
     }
 }
@@ -366,7 +366,7 @@ TEST(Online, InterruptsWithMovesExecuteAsTheyTrace) {
       ASSERT_EQ(event.serial, step.item.serial);
       ASSERT_EQ(event.kind, step.item.kind) << event.serial;
       ASSERT_EQ(event.source.line, step.item.source.line) << event.serial;
-      if (event.kind != NC_ITEM_MOVE) continue;  // between, the machine stands where it was cut
+      if (event.kind != NC_ITEM_MOVE) continue;  // at other items the machine may stand where a move was cut
       for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], 1e-9) << event.serial;
     }
     for (uint32_t n = 100; n < 200; ++n) ASSERT_EQ(brief(online.var_now(n)), brief(offline.var_now(n))) << n;
@@ -379,14 +379,14 @@ TEST(Online, InterruptsWithMovesExecuteAsTheyTrace) {
   EXPECT_GT(compared, 40 * kPrograms);
 }
 
-/// G92 and G52 outlive a reset and can only be read by a program.
+/// Removes G92 and G52, whose shifts survive a reset and can be read only by a program.
 void without_shifts(std::string& text) {
   for (const char* code : {"G92 ", "G52 "})
     for (size_t at; (at = text.find(code)) != std::string::npos;) text.erase(at, text.find('\n', at) - at);
 }
 
-/// A reset at a random point, in the middle of moves, dwells, macros and interrupts: the program from its head is then that of a control
-/// that was given what the reset has left.
+/// A reset at a random point, in the middle of moves, dwells, macros and interrupts: the program then runs from its head as on a new control that
+/// was given what the reset has left.
 TEST(Online, ResetsAtRandomPoints) {
   unsigned inside = 0;
   for (uint32_t seed = 0; seed < kPrograms; ++seed) {
@@ -462,7 +462,7 @@ TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next bl
   EXPECT_EQ(out.state, NC_STATE_IDLE);
 }
 
-/// Runs the program until a reset in cycle `cycles`; serial of the newest block end that was executed, 0: none.
+/// Runs the program until a reset in cycle `cycles`; returns the serial of the last block end that was executed, 0 if there is none.
 uint64_t reset_after(Bench& bench, const std::string& text, unsigned cycles) {
   Drive drive(bench, text);
   while (drive.cycle < cycles + 500 && !(drive.in.reset && drive.out.state == NC_STATE_IDLE)) {
@@ -478,8 +478,8 @@ uint64_t reset_after(Bench& bench, const std::string& text, unsigned cycles) {
   return last;
 }
 
-/// What was only read ahead when the program was given up has not happened: offsets, variables and outputs are those of the blocks that
-/// were executed.
+/// Blocks that were only read ahead when the program was given up have no effect: offsets, variables and outputs are those of the executed
+/// blocks.
 TEST(Online, AResetLeavesWhatTheExecutedBlocksHaveDone) {
   unsigned inside = 0;
   for (uint32_t seed = 0; seed < 3 * kPrograms; ++seed) {
@@ -575,7 +575,7 @@ TEST(Online, AnAlarmStopsTheMachineWhereTheBlockBeforeEnded) {
   EXPECT_EQ(alarm.source.line, 3u);
 }
 
-/// M700 13.6: the signals count when a program is started, and the axes are mirrored about where they stand then.
+/// M700 13.6: the signals count at the start of a program, and the axes are mirrored about the places at which they stand then.
 TEST(Online, MirrorImageBySignal) {
   Bench bench(NC_DIALECT_M700, machine(64));
   Drive drive(bench, "G0 X10. Y5.\n#100=#3007\nG91 X2.\nM30");
@@ -611,7 +611,7 @@ TEST(Online, MirrorImageBySignal) {
   EXPECT_NEAR(drive.out.command.v[1], 6, 1e-9);
 }
 
-/// The counters of the workpiece while nothing runs: from power on, when an offset is changed, and behind a program.
+/// The workpiece position while nothing runs: after power on, when an offset is changed, and after a program.
 TEST(Online, WorkPositionsKnowTheOffsetsWhileNoProgramRuns) {
   Bench bench(NC_DIALECT_M700, machine(64));
   bench.work_offset(1, {1, 2, 3}).work_offset(2, {10, 20, 30});
@@ -627,7 +627,7 @@ TEST(Online, WorkPositionsKnowTheOffsetsWhileNoProgramRuns) {
   expect_work(4, 3, 2);  // G54 at power on
   bench.work_offset(1, {2, 2, 3});
   drive.step();
-  expect_work(3, 3, 2);  // of the host, between programs
+  expect_work(3, 3, 2);  // the host has changed G54 between programs
   drive.cycle = 0;
   while (drive.cycle < 3000 && !drive.ended) {
     drive.press_start();
@@ -642,10 +642,10 @@ TEST(Online, WorkPositionsKnowTheOffsetsWhileNoProgramRuns) {
   drive.step();
   double zero = 0;
   ASSERT_EQ(nc_work_offset_get(bench.control(), 0, 1, 0, &zero), NC_OK);
-  EXPECT_NEAR(drive.out.work.v[0], 11 - zero, 1e-9);  // which the reset chooses again
+  EXPECT_NEAR(drive.out.work.v[0], 11 - zero, 1e-9);  // the reset chooses G54 again
 }
 
-/// The two ways exclude each other: what the one takes, the other would miss.
+/// The two ways exclude each other: an item that the one takes would be missing in the other.
 TEST(Online, TheStreamOfARunningProgramCannotBePulled) {
   Bench bench(NC_DIALECT_M700, machine(64));
   std::string text = "G91 F60000\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program store through the public API: what may leave it and when, and what is always there.
+// The program store through the public API: which programs may be removed and when, and which are always there.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -50,7 +50,7 @@ TEST(ProgramsOfAControl, WhatNothingRefersToCanBeRemoved) {
   EXPECT_EQ(nc_program_remove(nullptr, a), NC_E_ARGUMENT);
 }
 
-/// Blocks that were read ahead may be taken back: then the sub program is in the call stack again.
+/// Blocks that were read ahead may be taken back, which brings the sub program back into the call stack.
 TEST(ProgramsOfAControl, ACallThatMayComeBackKeepsItsProgram) {
   Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 64; });
   std::string text = "M98 P1\n";
@@ -136,7 +136,7 @@ TEST(ProgramsOfAControl, NamesOf255Bytes) {
   EXPECT_EQ(nc_program_add_text(bench.control(), std::string(NC_MAX_NAME, 'n').c_str(), "M30", 3, nullptr), NC_E_ARGUMENT);
 }
 
-/// What has changed is an alarm on the block that needed it, whatever it looked for.
+/// A text that has changed raises an alarm in the block that needs it, whatever the block looks for.
 TEST(ProgramsOfAControl, ATextThatHasChangedIsAnAlarm) {
   struct Host {
     std::string text;

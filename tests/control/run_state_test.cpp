@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The states of a run between scan and feeder (interpolate/run_word.hpp): whatever has been pressed and called in whatever order, a reset
-// comes to IDLE within a bounded number of turns, and from there everything works.
+// The states of a run between scan and feeder (interpolate/run_word.hpp): after any presses and calls in any order, a reset leads to IDLE
+// within a bounded number of turns, and from there everything works.
 #include <gtest/gtest.h>
 
 #include "online_helpers.hpp"
@@ -29,7 +29,7 @@ class Rig {
             c.system[0].axis[i].soft_max = 1000;
           }
         }) {
-    // Long enough to be interrupted anywhere; it ends where the work offset of Y says.
+    // Long enough to be interrupted anywhere; its end in Y depends on the work offset.
     file_ = bench_.add("O1", "G90 G54 G0 X1.\nG1 X3. Y1. F6000\nM0\nX4.\nM30\n");
     in_.feed_override = in_.rapid_override = 1;
     select();
@@ -43,7 +43,7 @@ class Rig {
       case kFeed: nc_feed(bench_.control(), 3); break;
       case kCycle: cycle(); break;
       case kSelect: select(); break;
-      case kMdi: {  // the second block is an alarm: behind a soft limit
+      case kMdi: {  // the second block raises an alarm, since it goes beyond a soft limit
         static constexpr char kText[] = "G91 G0 X1.\nG90 G0 X5000.\n";
         (void)nc_mdi_load(bench_.control(), 0, kText, sizeof kText - 1);
         break;
@@ -58,7 +58,7 @@ class Rig {
     }
   }
 
-  /// A reset, and then turns of feeder and scan until the state is IDLE. @return turns that it took
+  /// Presses reset, and lets feeder and scan run until the state is IDLE. @return the number of turns
   unsigned reset() {
     press(&in_.reset);
     unsigned n = 0;
@@ -67,7 +67,7 @@ class Rig {
   }
   nc_status select() { return nc_program_select(bench_.control(), 0, file_); }
 
-  /// Runs what is selected; empty when it came to its end where it should.
+  /// Runs the program; returns an empty text if it ended where it should, else what went wrong.
   std::string run() {
     if (const nc_status status = select(); status != NC_OK) return "select: " + std::to_string(status);
     drop_events();
@@ -88,7 +88,7 @@ class Rig {
   static constexpr unsigned kMost = 200;  ///< turns from a reset to IDLE: the longest stop, and the records of the ring
 
  private:
-  /// @return ends of programs among them
+  /// Takes all events. @return how many of them are ends of programs
   unsigned drop_events() {
     unsigned ends = 0;
     nc_event event;
@@ -143,7 +143,7 @@ TEST_P(RunState, EverySequence) {
   }
 }
 
-/// Longer ones, at random.
+/// Longer sequences, at random.
 TEST_P(RunState, LongSequences) {
   Rig rig(GetParam());
   std::mt19937 random(31);
@@ -154,7 +154,7 @@ TEST_P(RunState, LongSequences) {
   }
 }
 
-/// An alarm anywhere in programs of all kinds, while the operator does what he likes and the feeder is late.
+/// An alarm anywhere in programs of all kinds, while the operator does anything and the feeder is late.
 TEST_P(RunState, AlarmsAnywhere) {
   constexpr unsigned kLongest = 3000;  // cycles of 4 ms: a stop from full speed on every axis, and the rings emptied
   for (uint32_t seed = 0; seed < (sanitized() ? 8u : 40u); ++seed) {
@@ -168,7 +168,7 @@ TEST_P(RunState, AlarmsAnywhere) {
         c.system[0].axis[i].max_acceleration = 3000;
         c.system[0].axis[i].max_jerk = 100000;
         c.system[0].axis[i].soft_limited = true;
-        c.system[0].axis[i].soft_min = -60;  // some programs leave them
+        c.system[0].axis[i].soft_min = -60;  // some programs go beyond these limits
         c.system[0].axis[i].soft_max = 60;
       }
     });
@@ -218,7 +218,7 @@ TEST_P(RunState, AlarmsAnywhere) {
 INSTANTIATE_TEST_SUITE_P(Both, RunState, ::testing::Values(NC_MOTION_TRAPEZOID, NC_MOTION_OPTIMAL),
                          [](const auto& mode) { return mode.param == NC_MOTION_OPTIMAL ? "Optimal" : "Trapezoid"; });
 
-/// Cycle start while the reset button is held starts nothing, then or when it is let go.
+/// Cycle start while the reset button is held starts nothing, neither then nor when the reset button is released.
 TEST(ResetHeld, NothingIsStarted) {
   for (const nc_motion_mode mode : {NC_MOTION_TRAPEZOID, NC_MOTION_OPTIMAL}) {
     Bench bench(NC_DIALECT_M700, [mode](nc_config& c) {

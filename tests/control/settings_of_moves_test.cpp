@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A move goes by the parameters as they were when it was made, however long a stage holds it back: what a program writes behind it (G10
-// L70), or the operator meanwhile, is for what comes later.
+// A move is executed with the parameters as they were when it was made, however long a stage holds it back. A parameter that the program writes
+// after it (G10 L70), or the operator meanwhile, acts on later moves.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint8_t kX = 1u << 0, kB = 1u << 3;
 
-/// Index tables that the first move of line 3 drives. Compensation, a corner or fairing holds it back while #2076 is written.
+/// The index tables that the first move of line 3 drives. Compensation, a corner or fairing holds it back while #2076 is written.
 int tables_of_held_move(const std::string& text, const std::function<void(Bench&)>& set, const std::function<void(Bench&)>& meanwhile = {}) {
   Bench bench(NC_DIALECT_M700, axes("XYZb"));
   bench.tool(1, 2).param("8033", "1").param("8029", "0.1");
@@ -36,7 +36,7 @@ TEST(SettingsOfMoves, AProgramWritesBehindAHeldMove) {
   const auto lines = [](const char* value) { return "G5 P10000\nG1 F1000\nX10.\nG10 L70\nP2076 A1 D" + std::string(value) + "\nG11\nX20.\nX30.\nG5 P0\nM30"; };
   EXPECT_EQ(tables_of_held_move(lines("1"), table("0", 'X')), 0);
   EXPECT_EQ(tables_of_held_move(lines("0"), table("1", 'X')), kX);
-  // Before the move it is for the move.
+  // Written before the move it acts on the move.
   EXPECT_EQ(tables_of_held_move("G5 P10000\nG1 F1000\nX10.\nX20.\nG5 P0\nM30", table("1", 'X')), kX);
 }
 
@@ -44,7 +44,7 @@ TEST(SettingsOfMoves, TheOperatorWritesWhileAMoveIsHeld) {
   const std::string end = "X30.\nY40.\nG40 X50.\nM30";
   struct Held {
     const char* text;
-    unsigned read;  ///< so many blocks of it give nothing out when they are read: the last of them is line 3
+    unsigned read;  ///< so many blocks give out no item when they are read; the last of them is line 3
   };
   for (const auto& [held, read] : {Held{"G1 F100\nG41 D1 X10.\nY10. B90.\n", 3}, Held{"G1 F100\nX10.\nY10. B90. ,C1.\n", 1}}) {
     for (const char* before : {"0", "1"}) {

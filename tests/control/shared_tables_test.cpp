@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables that part systems share: what the machine has executed in one of them is seen by the others, in the order of execution, and what one of
-// them takes back is its own (M700 13.4).
+// Tables that part systems share: a write that the machine has executed in one part system is seen by the others, in the order of execution, and
+// a part system takes back only its own writes (M700 13.4).
 #include <gtest/gtest.h>
 
 #include <map>
@@ -28,14 +28,14 @@ class Pair {
     EXPECT_EQ(nc_program_select(control(), system, bench.add("main" + std::to_string(system), text)), NC_OK);
   }
   nc_control* control() { return bench.control(); }
-  /// What a part system has for a variable, NaN = vacant.
+  /// The value of a variable for a part system, with what it has read ahead; NaN = vacant.
   double var(unsigned system, uint32_t number) {
     double value = 0;
     bool vacant = false;
     EXPECT_EQ(nc_variable_get(control(), system, number, &value, &vacant), NC_OK);
     return vacant ? NAN : value;
   }
-  /// The same of what has been executed.
+  /// The same value as the executed blocks have left it.
   double executed(unsigned system, uint32_t number) {
     struct Look {
       unsigned system;
@@ -59,7 +59,7 @@ class Pair {
   }
 
   // ---- offline
-  /// The next item, false: there is none. A sync is answered.
+  /// Pulls the next item, and answers a sync; false if there is none.
   bool pull(unsigned system, nc_item* item) {
     nc_status status = NC_BUDGET;
     while (status == NC_BUDGET) status = nc_pull(control(), system, 100, item);
@@ -93,7 +93,7 @@ class Pair {
     unsigned system;
     uint32_t line;
   };
-  std::vector<Mark> marks;  ///< of blocks that have been executed, in their order
+  std::vector<Mark> marks;  ///< the executed blocks of both part systems, in the order of execution
   /// One cycle of the machine; `start`: bit n starts part system n.
   void cycle(unsigned start = 0, bool feed = true) {
     if (feed) nc_feed(control(), 100);
@@ -173,7 +173,7 @@ TEST(SharedTables, AllThatIsShared) {  // M700 13.4, 13.5.5
   double last = 0;
   EXPECT_EQ(nc_parameter_get(bench.control(), 1, "1303", 0, &last), NC_OK);
   EXPECT_EQ(last, 110);
-  Pair pair;  // a name that the other part system has given
+  Pair pair;  // a name of a variable that the other part system has given
   pair.run(0, "SETVN501[DEPTH]\nM30");
   pair.run(1, "[#DEPTH]=4\nM30");
   pair.expect(501, 4);
@@ -202,7 +202,7 @@ TEST(SharedTables, OnePartSystemDoesNotWait) {
   EXPECT_EQ(item.u.sync.what, NC_SYNC_SHARED);
 }
 
-/// What stood there before the first write comes back when both have been taken back, whichever goes first.
+/// The value before the first write comes back when both writes have been taken back, in whichever order.
 TEST(SharedTables, BothGoBack) {
   for (const bool writer_first : {false, true}) {
     SCOPED_TRACE(writer_first);
@@ -224,7 +224,7 @@ TEST(SharedTables, BothGoBack) {
     EXPECT_EQ(pair.bench.tool_now(1), 9);
     for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(last_common(system), 600);
   }
-  Pair pair;  // what the host has written between them is not touched
+  Pair pair;  // a value that the host has written in between is not changed
   pair.run(0, "#500=1\nM30");
   ASSERT_EQ(nc_variable_set(pair.control(), 0, 500, 7, false), NC_OK);
   pair.run(1, "#500=2\nM30");
@@ -234,14 +234,14 @@ TEST(SharedTables, BothGoBack) {
   pair.expect(500, 7);
   ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);
   pair.run(0, "#500=3\nM30");
-  ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);  // for good
+  ASSERT_EQ(nc_reset(pair.control(), 0), NC_OK);  // it is taken back finally
   pair.finish(1);
   pair.expect(500, 2);
   ASSERT_EQ(nc_rewind(pair.control(), 1, 0), NC_OK);
   pair.expect(500, 3);
 }
 
-/// More than is remembered: refused, and nothing is changed.
+/// To go back farther than is remembered is refused, and nothing is changed.
 TEST(SharedTables, TooFarBack) {
   Pair pair;
   pair.run(0, "#500=1\nM30");
@@ -296,7 +296,7 @@ TEST(SharedTables, WhatIsOnlyReadAheadIsNotSeen) {
   EXPECT_EQ(pair.bench.tool_now(1), 1);
 }
 
-/// The first part system has read its write ahead when the second one's is executed.
+/// The first part system has read its own write ahead when the write of the second one is executed.
 TEST(SharedTables, ResetBehindAWriteOfTheOther) {
   for (const bool reset : {false, true}) {
     SCOPED_TRACE(reset);
@@ -318,7 +318,7 @@ TEST(SharedTables, ResetBehindAWriteOfTheOther) {
   }
 }
 
-/// The same in single block: the reset comes where its own first write has been executed, too.
+/// The same in single block: the reset comes when the first write of that part system has been executed, too.
 TEST(SharedTables, SingleBlockAndReset) {
   Pair pair;
   pair.bench.param("8101", "1");
@@ -400,7 +400,7 @@ TEST(SharedTables, TheHostWritesForAll) {
 
 // ---- two random programs ---------------------------------------------------------------------------------------------------
 
-/// A write to a shared place, or a read of one into a variable of its own.
+/// A write to a shared place, or a read of one into a local variable.
 struct Access {
   enum Kind { variable, tool, name, read, other } kind = other;
   uint32_t place = 0;
@@ -447,7 +447,7 @@ Program random_program(SharedDice& dice) {
   return program;
 }
 
-/// What has been executed, in order.
+/// The tables as they must be after the executed accesses.
 class Model {
  public:
   void execute(unsigned system, uint64_t serial, const Access& access) {
@@ -456,7 +456,7 @@ class Model {
   void take_back(unsigned system, uint64_t serial) {
     std::erase_if(done_, [&](const Done& done) { return done.system == system && done.serial > serial; });
   }
-  /// A program has ended, or has been given up: no way leads back.
+  /// A program has ended, or was given up: its writes cannot be taken back any more.
   void forget(unsigned system) {
     for (Done& done : done_)
       if (done.system == system) done.serial = 0;
@@ -484,13 +484,13 @@ void expect_model(Pair& pair, const Model& model) {
       ASSERT_EQ(std::isnan(value) ? 0 : value, model.value(Access::variable, number)) << "#" << number << " in part system " << system + 1;
     }
   }
-  // Both tables: the second one shows in what its program reads.
+  // Both part systems: what the second one sees is read by a program.
   for (unsigned n = 1; n <= 4; ++n) ASSERT_EQ(pair.bench.tool_now(n), model.value(Access::tool, n)) << "tool " << n;
   pair.run(1, "#110=#2001 #111=#2002 #112=#2003 #113=#2004\nM30");
   for (unsigned n = 1; n <= 4; ++n) ASSERT_EQ(pair.var(1, 109 + n), model.value(Access::tool, n)) << "tool " << n << " in part system 2";
 }
 
-/// Pulled by turns, with stops, resets, other programs and ways back.
+/// The two programs are pulled in turns, with stops, resets, other programs and rewinds.
 TEST(SharedTables, RandomProgramsOffline) {
   unsigned reads = 0, ways_back = 0;
   const uint64_t count = seeds(400, 80);
@@ -506,7 +506,7 @@ TEST(SharedTables, RandomProgramsOffline) {
     for (unsigned n = 0; n < 300; ++n) {
       const auto i = static_cast<unsigned>(dice.draw(0, 1));
       for (int items = dice.draw(1, 6); items > 0; --items) {
-        const Model before = model;  // a block is read behind its sync, when the next item is asked for
+        const Model before = model;  // a block behind a sync is read only when the next item is pulled
         if (!pair.pull(i, &item)) break;
         const Access access = program[i].at[item.source.line];
         if (item.kind != NC_ITEM_MARK) continue;
@@ -539,14 +539,14 @@ TEST(SharedTables, RandomProgramsOffline) {
       while (pair.pull(i, &item))
         if (item.kind == NC_ITEM_MARK) model.execute(i, item.serial, program[i].at[item.source.line]);
     }
-    pair.pull(0, &item);  // there is none: the other's last block counts
+    pair.pull(0, &item);  // there is no item left, so that the last block of the other counts
     ASSERT_NO_FATAL_FAILURE(expect_model(pair, model));
   }
   EXPECT_GT(reads, 5 * count / 2);
   EXPECT_GT(ways_back, 5 * count / 2);
 }
 
-/// On the machine, with holds, single block, resets, and a feeder that comes now and then only.
+/// On the machine, with holds, single block, resets, and a feeder that runs only now and then.
 TEST(SharedTables, RandomProgramsOnline) {
   unsigned writes = 0, resets = 0;
   const uint64_t count = seeds(150, 40);

@@ -14,7 +14,7 @@ std::function<void(nc_config&)> with_spindles(unsigned count) {
   };
 }
 
-/// Until the end, or until `done`; the line in execution is known to `each`.
+/// Runs to the end, for `most` cycles at most, and calls `each` in every cycle.
 template <class Each>
 bool run(Drive& drive, Each each, unsigned most = 20000) {
   for (unsigned n = 0; n < most && !drive.ended; ++n) {
@@ -52,7 +52,7 @@ TEST(Spindles, OneSpindleNeedsNoSelection) {
   }));
 }
 
-// 10.6.1, relation (3): the encoder that is selected, else that of the selected spindle.
+// 10.6.1, relation (3): the selected encoder counts, or if none is selected that of the selected spindle.
 TEST(Spindles, FeedPerRevolutionGoesByTheSelectedEncoder) {
   for (const unsigned encoder : {0u, 1u, 2u}) {
     Bench bench(NC_DIALECT_M700, with_spindles(2));
@@ -85,7 +85,7 @@ TEST(Spindles, AnEncoderThatIsNotThereTurnsNothing) {
   EXPECT_TRUE(waited);
 }
 
-// With no spindle selected the encoder is that of the one which was: it goes on turning.
+// When no spindle is selected any more, the encoder of the last one counts, since that spindle turns on.
 TEST(Spindles, TheEncoderStaysWhenTheSelectionGoes) {
   Bench bench(NC_DIALECT_M700, with_spindles(2));
   Drive drive(bench, "S600\nG95 G1 X20. F2.\nM30");
@@ -113,7 +113,7 @@ TEST(Spindles, AThreadKeepsItsSpindle) {  // 10.6.1, relation (3)
   EXPECT_EQ(drive.out.spindle_selected, 2) << "the selection acts behind the thread";
 }
 
-// The way round that M03 or M04 has said of the selected spindle counts, in the program's own words.
+// The direction counts that M03 or M04 of the program has commanded for the selected spindle.
 TEST(Spindles, AThreadWaitsForASpindleThatTurnsTheOtherWayRound) {
   for (const char* code : {"M3", "M4", "M4\nM5\nM3", "M3\nM05"}) {
     Bench bench(NC_DIALECT_M700, with_spindles(2));
@@ -133,7 +133,7 @@ TEST(Spindles, AThreadWaitsForASpindleThatTurnsTheOtherWayRound) {
   }
 }
 
-// What a reset has ended, and the program before, say nothing of this one.
+// A direction that was commanded before a reset, or in the program before, does not count.
 TEST(Spindles, TheWayRoundIsForgottenAtTheEndOfAProgram) {
   Bench bench(NC_DIALECT_M700, machine(256));
   Drive drive(bench, "IF[#500EQ1]GOTO9\n#500=1\nS600 M4\nM30\nN9 G33 Z-20. F2.\nM30");
@@ -162,7 +162,7 @@ TEST(Spindles, AMaskOfSpindlesThatThereAre) {
   EXPECT_STREQ(fault.field, "system[0].spindle_unsigned");
 }
 
-// 10.6.1, relation (5): in the tapping mode the selection is not to change. A move does not begin until it is taken back.
+// 10.6.1, relation (5): the selection must not change in the tapping mode. If it does, a move does not begin until the old selection is back.
 TEST(Spindles, TheTappingModeKeepsItsSpindle) {
   Bench bench(NC_DIALECT_M700, with_spindles(2));
   Drive drive(bench, "S600\nG63 G1 Z-5. F100\nG4 P8\nZ-10.\nG64\nG4 P20\nM30");

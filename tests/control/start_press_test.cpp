@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A press of cycle start that follows a cycle whose state takes one (nc_outputs::state is IDLE, STOPPED or HOLD) is never lost: the program
-// begins or goes on, or the cause in the status says what refuses it.
+// A press of cycle start after a cycle whose state allows one (nc_outputs::state is IDLE, STOPPED or HOLD) is never lost: the program begins or
+// goes on, or the cause in the status tells why it is refused.
 #include <gtest/gtest.h>
 
 #include "online_helpers.hpp"
@@ -52,8 +52,8 @@ class StartPress : public ::testing::TestWithParam<nc_motion_mode> {
   nc_outputs out_{};
 };
 
-/// A reset ends a jog. The last bit of the axis' speed goes in a cycle in which its position does not change any more, so that this cycle
-/// shows IDLE while the reset waits for the rest that has just come; how often depends on how speed and position round.
+/// A reset ends a jog. The speed of the axis may become 0 in a cycle in which its position does not change any more, so that this cycle shows
+/// IDLE while the reset still waits for the rest; how often that happens depends on the rounding of speed and position.
 TEST_P(StartPress, BehindAResetThatEndsAJog) {
   for (unsigned attempt = 0; attempt < 400; ++attempt) {
     in_.manual[0].kind = NC_MANUAL_JOG;
@@ -71,8 +71,8 @@ TEST_P(StartPress, BehindAResetThatEndsAJog) {
   }
 }
 
-/// Cycle start behind manual motion in a block stop waits for the feeder, and so does a reset behind it. Meanwhile the block stop is still
-/// shown; a start would go on with what the reset gives up, and the cause says that it is not taken.
+/// Cycle start after manual motion in a block stop waits for the feeder, and so does a reset after it. Meanwhile the block stop is still shown;
+/// a start would go on with the program that the reset gives up, so it is refused, and the cause says so.
 TEST_P(StartPress, IsRefusedWhileAResetWaitsForTheFeeder) {
   turn();
   press(&in_.cycle_start);
@@ -97,7 +97,7 @@ TEST_P(StartPress, IsRefusedWhileAResetWaitsForTheFeeder) {
   EXPECT_EQ(out_.command.v[0], from);
 }
 
-/// The same on the way to rest.
+/// The same while the axes brake.
 TEST_P(StartPress, IsRefusedWhileAResetBrakes) {
   turn();
   press(&in_.cycle_start);
@@ -115,13 +115,13 @@ TEST_P(StartPress, IsRefusedWhileAResetBrakes) {
   EXPECT_EQ(out_.command.v[0], at);
 }
 
-/// A press is taken back by a reset that comes behind it, and by an alarm.
+/// A reset or an alarm that follows a press takes it back.
 TEST_P(StartPress, IsTakenBack) {
   for (bool nc_inputs::*const button : {&nc_inputs::reset, &nc_inputs::alarm}) {
     turn();
     press(&in_.cycle_start);
     ASSERT_TRUE(comes_to(NC_STATE_STOPPED));
-    press(&in_.reset);  // the feeder has not taken notice when the next press comes: it waits
+    press(&in_.reset);  // the feeder has not seen the reset when the next press comes, so the press waits
     ASSERT_EQ(out_.state, NC_STATE_IDLE);
     press(&in_.cycle_start);
     press(&(in_.*button));
@@ -133,7 +133,7 @@ TEST_P(StartPress, IsTakenBack) {
   }
 }
 
-/// Feed hold that is on refuses a start, and the cause says so for as long as it is on.
+/// While feed hold is on a start is refused, and the cause says so.
 TEST_P(StartPress, IsRefusedByFeedHold) {
   turn();
   in_.feed_hold = true;
@@ -160,14 +160,14 @@ TEST_P(StartPress, IsRefusedByFeedHold) {
   EXPECT_EQ(out_.cause, NC_CAUSE_PROGRAM_STOP);
 }
 
-/// A start that waits for the feeder to take notice of the end or the reset before it: a hold of one cycle takes it back.
+/// A start waits until the feeder has seen the end or the reset before it: a feed hold of one cycle takes it back.
 TEST_P(StartPress, ThatWaitsIsTakenBackByFeedHold) {
   for (unsigned between = 0; between < 4; ++between) {
     press(&in_.cycle_start);
     for (unsigned n = 0; n < 10; ++n) turn();
     ASSERT_TRUE(out_.state == NC_STATE_RUNNING || out_.state == NC_STATE_STOPPED);
     press(&in_.reset);
-    for (unsigned n = 0; n < 300 && out_.state != NC_STATE_IDLE; ++n) cycle();  // the feeder does not get its turn
+    for (unsigned n = 0; n < 300 && out_.state != NC_STATE_IDLE; ++n) cycle();  // the feeder is not called
     press(&in_.cycle_start);
     for (unsigned n = 0; n < between; ++n) cycle();
     ASSERT_EQ(out_.state, NC_STATE_IDLE);

@@ -13,7 +13,7 @@
 
 namespace {
 
-/// The numbers of the enumeration, from the header: one that is added there is asked for here.
+/// The numbers of the enumeration, read from the header, so that one that is added there is tested here.
 std::vector<int> statuses_of_the_header() {
   std::ifstream file(nc::test::kSourceDir + "/libnc/include/nc/types.h");
   std::stringstream all;

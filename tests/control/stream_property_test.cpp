@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stream promises, on random programs: going back to a mark and reading again gives the same items with the same serials and
-// the same variables; windows, look-ahead, budgets, and other controls beside it change nothing.
+// What is promised of the stream, tested with random programs: after a rewind to a mark the same items come again with the same serials and
+// the same variables; windows, look-ahead, budgets, and other controls in the same process change nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void set_up(Bench& bench, const RandomProgram& program) {
   for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
 }
 
-/// Everything a program leaves behind.
+/// Everything that a program leaves, as text.
 std::string leavings(Bench& bench) {
   std::string all;
   uint32_t number = 0;
@@ -50,7 +50,7 @@ Path texts(const std::vector<Step>& steps) {
   return all;
 }
 
-/// First place where two streams differ, for a message that helps.
+/// Whether two streams are the same; if not, the message shows the first difference.
 testing::AssertionResult same(const Path& a, const Path& b) {
   for (size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     const std::string left = i < a.size() ? a[i] : "(nothing)", right = i < b.size() ? b[i] : "(nothing)";
@@ -111,7 +111,7 @@ TEST(Rewind, FromTheEndToAnyMark) {
       ASSERT_TRUE(same(rest, wanted)) << "from " << mark->item.serial;
       ASSERT_EQ(leavings(bench), expected.left) << "from " << mark->item.serial;
     }
-    // Serial 0 is the head of the program: nothing of it is left.
+    // Serial 0 is the head of the program: after a rewind to it the program has changed nothing.
     ASSERT_EQ(bench.rewind(0, nc_axes{}), NC_OK);
     EXPECT_EQ(leavings(bench), before);
     ASSERT_TRUE(same(texts(bench.finish().steps), expected.text));
@@ -184,7 +184,7 @@ TEST(Rewind, WhatTheHostChangesStays) {  // nc/run.h: changed offsets and variab
   bench.var(101, 33).work_offset(1, {0, 0, 7});
   ASSERT_EQ(bench.rewind(mark->item.serial, mark->machine), NC_OK);
   EXPECT_EQ(bench.var_now(100), 1);    // the program's own write is taken back
-  EXPECT_EQ(bench.var_now(101), 33);   // the host's is not
+  EXPECT_EQ(bench.var_now(101), 33);   // the write of the host is not
   EXPECT_EQ(bench.work_offset_now(1, 1), 0);
   EXPECT_EQ(bench.finish().path(), (Path{"rapid 33 5 0"}));
   EXPECT_EQ(bench.work_offset_now(1, 2), 7);
@@ -243,7 +243,7 @@ TEST(Stream, SizesAndBudgetsChangeNothing) {
   }
 }
 
-/// A text behind a callback that gives as little as it likes.
+/// A text behind a callback that gives fewer bytes than it is asked for, at random.
 struct StingyText {
   std::string text;
   std::mt19937 random{1};

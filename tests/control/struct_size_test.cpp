@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callers that were compiled with other headers: structs that end earlier than those of this library, and ones that go on behind them.
+// Callers that were compiled with other headers: their structs end earlier than those of this library, or have more members at the end.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// ---- what an older header could have had: the first members, and nothing behind them ------------------------------------------
+// ---- structs as an older header could have had them: only the first members -------------------------------------------------
 
 struct OldConfig {
   uint32_t struct_size;
@@ -72,7 +72,7 @@ struct OldItem {
 };
 static_assert(offsetof(OldItem, kind) == offsetof(nc_item, kind));
 
-/// What lies behind a struct of the caller: nobody may write there.
+/// The bytes behind a struct of the caller, which nobody may change.
 constexpr uint64_t kGuard = 0x5a5aa5a55a5aa5a5;
 
 template <class Old>
@@ -167,7 +167,7 @@ TEST(StructSize, AnOlderConfigurationHasTheDefaultsBehindItsEnd) {
 TEST(StructSize, BehindTheCallersEndNothingIsReadOrWritten) {
   nc_config config = small();
   config.struct_size = offsetof(nc_config, vendor_codes);
-  config.vendor_code_count = 77;  // what else lies there in an older program
+  config.vendor_code_count = 77;  // in an older program these are other data
   config.kinematics[0] = reinterpret_cast<const nc_kinematics*>(1);
   EXPECT_EQ(nc_config_check(&config, nullptr), NC_OK);
   Control c(config);
@@ -333,7 +333,7 @@ TEST(StructSize, RowsOfTables) {
 
 constexpr char kProgram[] = "G1 X1. F6000\nG4 X.01\nX2.\nM30\n";
 
-/// Set-points of a program in two part systems, by a caller with structs of its own.
+/// The set-points of a program in two part systems, for a caller with its own versions of the structs.
 template <class In, class Out>
 std::vector<double> set_points(std::vector<In> in, std::vector<Out> out) {
   Control c(small(2));
@@ -344,7 +344,7 @@ std::vector<double> set_points(std::vector<In> in, std::vector<Out> out) {
     nc_feed(c.control, 10);
     for (In& i : in) {
       as<nc_inputs>(&i)->cycle_start = cycle == 1;
-      as<nc_inputs>(&i)->fin = cycle % 4 < 2;  // every M code is complete soon
+      as<nc_inputs>(&i)->fin = cycle % 4 < 2;  // so that every M code is completed soon
     }
     EXPECT_EQ(nc_cycle(c.control, as<nc_inputs>(in.data()), as<nc_outputs>(out.data())), NC_OK);
     for (Out& o : out) all.push_back(as<nc_outputs>(&o)->command.v[0]);
@@ -367,7 +367,7 @@ TEST(StructSize, CyclesOfAnyCallerAreTheSame) {
   for (nc_inputs& i : in) nc_inputs_init(&i);
   const std::vector<double> now = set_points(in, std::vector<nc_outputs>(2));
   EXPECT_EQ(now.back(), 2);
-  // What an older caller cannot say is as nc_inputs_init() sets it: overrides of 100 %.
+  // Members that an older caller does not have are as nc_inputs_init() sets them: overrides of 100 %.
   EXPECT_EQ(set_points(two<OldInputs>(sizeof(OldInputs)), two<OldOutputs>(sizeof(OldOutputs))), now);
   EXPECT_EQ(set_points(in, two<OldOutputs>(sizeof(OldOutputs))), now);
   EXPECT_EQ(set_points(two<OldInputs>(sizeof(OldInputs)), std::vector<nc_outputs>(2)), now);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G and M codes of the machine's maker (nc_config::vendor_codes): what they call, when, with what; which tables are refused.
+// G and M codes of the machine's maker (nc_config::vendor_codes): what they call, when and with which data; which tables are refused.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -10,7 +10,7 @@
 namespace nc::test {
 namespace {
 
-/// What the function was called with, and what it is to answer.
+/// The calls of the function with their data, and the answer that it gives.
 struct Host {
   std::vector<std::string> calls;
   nc_status answer = NC_OK;
@@ -135,14 +135,14 @@ TEST(VendorCodes, AFunctionThatFailsStopsTheProgram) {
     std::strcpy(alarm->code, "V12");
     std::strcpy(alarm->message, "Door is open");
     std::strcpy(alarm->detail.s, "Close the door, then start again.");
-    alarm->source.line = 77;  // it is the library that knows
+    alarm->source.line = 77;  // the library writes the line itself
   };
   run = bench.run("G200\nM30");
   EXPECT_EQ(run.alarm, "V12");
   EXPECT_EQ(run.alarm_message, "Door is open");
   EXPECT_EQ(run.alarm_detail, "Close the door, then start again.");
   EXPECT_EQ(run.alarm_line, 1u);
-  host.answer = NC_OK;  // what it has written then means nothing
+  host.answer = NC_OK;  // an alarm that it has written does not count then
   EXPECT_EQ(bench.run("G200\nM30").alarm, "");
 }
 
@@ -152,7 +152,7 @@ TEST(VendorCodes, TextsWithoutEndEnd) {
   host.act = [](nc_control*, const nc_vendor_block&, nc_alarm* alarm) {
     std::memset(alarm->code, 'V', sizeof alarm->code);
     std::memset(alarm->message, 'm', sizeof alarm->message);
-    alarm->message[sizeof alarm->message - 2] = static_cast<char>(0xc3);  // u with dots, of which only the first byte has room
+    alarm->message[sizeof alarm->message - 2] = static_cast<char>(0xc3);  // the letter u-umlaut, of which only the first byte fits
     alarm->message[sizeof alarm->message - 1] = static_cast<char>(0xbc);
     std::memset(alarm->detail.s, 'd', sizeof alarm->detail.s);
   };
@@ -230,14 +230,14 @@ TEST(VendorCodes, OnTheMachineEachBlockCallsOnce) {
     nc_feed(bench.control(), 100);
     in.cycle_start = n == 2;
     in.fin = out.strobe != 0;
-    in.recalculate = n % 3 == 0;  // what was read ahead is read again and again
+    in.recalculate = n % 3 == 0;  // so that blocks are read again and again
     ASSERT_EQ(nc_cycle(bench.control(), &in, &out), NC_OK);
   }
   EXPECT_EQ(stood, (std::vector<double>{5, 8}));
   EXPECT_EQ(out.command.v[0], 9);
 }
 
-// The feeder has called the function, and before the scan has come to the end of the block everything from there on is read again.
+// The feeder has called the function, and before the scan has reached the end of that block the program is read again from there.
 TEST(VendorCodes, WhatIsReadAgainBeforeItsEndCallsOnce) {
   unsigned again = 0;
   for (unsigned hold = 2; hold < 40; ++hold) {

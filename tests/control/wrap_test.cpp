@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a control after years (docs/counters.md): ids of transforms, modal states, texts and shapes, marks, records and cells
-// begin anew, and nobody sees it.
+// A control after years of running (docs/counters.md): the ids of transforms, modal states, texts and shapes, and the counts of marks, records
+// and cells overflow and begin again, which must have no effect.
 #include <gtest/gtest.h>
 
 #include "control/control.hpp"
@@ -10,7 +10,7 @@
 namespace nc::test {
 namespace {
 
-constexpr uint32_t kBefore[] = {1, 2, 7, 40, 150};  ///< in front of the ends of 31 and of 32 bits
+constexpr uint32_t kBefore[] = {1, 2, 7, 40, 150};  ///< the counters begin so far before the end of 31 and of 32 bits
 
 std::vector<uint32_t> begins() {
   std::vector<uint32_t> all;
@@ -19,7 +19,7 @@ std::vector<uint32_t> begins() {
   return all;
 }
 
-/// With areas of G22, shapes and messages beside what random programs have.
+/// The text of a random program with areas of G22, shapes and messages added.
 std::string text_of(const RandomProgram& program) {
   return "G22 X5000. I4000. Y5000. J4000.\n#3006=1(LOOK)\nG12.1\nG1 X3. C20. F500\nG13.1\nG2.3 X10. I30. J30. R20. F100 Q100\nPOPEN\nDPRNT[X#5041[44]]\nPCLOS\n" + program.main;
 }

@@ -7,7 +7,7 @@
 namespace nc::test {
 namespace {
 
-/// Moves, dwells and places where single block may stop: "line 0 0 -5 F100", "dwell 0.5", "stop", "end" (of a block, with a stop).
+/// Moves, dwells and places at which single block may stop: "line 0 0 -5 F100", "dwell 0.5", "stop", "end" (a stop at the end of a block).
 Path steps(const Outcome& run) {
   Path all;
   size_t next_move = 0;
@@ -83,8 +83,8 @@ TEST(Cycle, BoreG85AndG89FeedBack) {
             (Path{"rapid 1 0 10", "stop", "rapid 1 0 2", "stop", "line 1 0 -8 F100", "dwell 0.25", "line 1 0 2 F100", "rapid 1 0 10", "end"}));
 }
 
-// The return of G98 is to the programmed level, which a tool length displaces like every other end point, also one that
-// was pending when the cycle was commanded. M700 12.2, 13.1.1.
+// G98 returns to the programmed level, which a tool length shifts like every other end point, also a length that was
+// pending when the cycle was commanded (M700 12.2, 13.1.1).
 TEST(Cycle, ToolLengthThatComesIntoForceDisplacesTheInitialLevelToo) {
   Bench bench;
   bench.tool(11, 100).tool(2, 3).at(0, 0, 50);
@@ -153,7 +153,7 @@ TEST(Cycle, GroupOneCancels) {  // M700 13.1.1 precaution 4
 
 TEST(Cycle, CancellingForgetsTheData) {
   const Outcome run = at_ten("G81 X5. Z-8. R2. F100\nG80\nG81 X6.\nM30");
-  EXPECT_EQ(run.path().size(), 5u);  // R and Z are gone: the second cycle has nothing to drill
+  EXPECT_EQ(run.path().size(), 5u);  // R and Z are forgotten, so that the second cycle does not drill
 }
 
 TEST(Cycle, PlaneChoosesTheDrillingAxis) {  // M700 13.1.1
@@ -206,7 +206,7 @@ TEST(Cycle, AnotherAxisMovesFirst) {  // M700 13.1.1 precaution 6, 13.1.2 exampl
                   "line 0 0 0 60 F50", "rapid 0 0 10 60"}));
 }
 
-/// Moves with the in-position widths that are waited for behind them, mm; -1 = by the parameters.
+/// The moves, with the in-position widths that are checked after them, mm; -1 = by the parameters.
 Path widths(const Outcome& run) {
   Path all;
   size_t next_move = 0;
@@ -226,13 +226,13 @@ TEST(Cycle, InPositionWidths) {  // M700 13.1.1, "programmable in-position width
             (Path{"rapid -50 0 0 ,0.2", "rapid -50 0 -50", "line -50 0 -100 F2000", "rapid -50 0 0 ,0.3", "rapid -60 0 0", "rapid -60 0 -50",
                   "line -60 0 -100 F2000", "rapid -60 0 0 ,0.3", "rapid -70 0 0 ,0.2", "rapid -70 0 -50", "line -70 0 -100 F2000",
                   "rapid -70 0 0 ,0.3"}));
-  // Where the parameters ask for a check, too, the other moves have theirs (0).
+  // If the parameters ask for a check, too, the other moves have that check (0).
   Bench bench;
   bench.param("1193", "1");
   EXPECT_EQ(widths(bench.run("G0 G81 X5. Z-8. R-2. F100 ,I0.2 ,J0.3\nG80\nM30")), (Path{"rapid 5 0 -8 ,0.2"}));  // precaution (4)
   EXPECT_EQ(widths(bench.at(0, 0, 0).run("G0\nG81 X5. Z-8. R-2. F100 ,I0.2 ,J0.3\nG80\nM30")),
             (Path{"rapid 5 0 0 ,0.2", "rapid 5 0 -2 ,0", "line 5 0 -8 F100", "rapid 5 0 0 ,0.3"}));
-  // Behind the return that ends the hole.
+  // The width counts after the return that ends the hole.
   EXPECT_EQ(widths(m700("G0\nG83 Z-8. R-2. Q4. F100 ,J0.3\nG80\nM30")),
             (Path{"rapid 0 0 -2", "line 0 0 -6 F100", "rapid 0 0 -2", "rapid 0 0 -6", "line 0 0 -8 F100", "rapid 0 0 0 ,0.3"}));
   EXPECT_EQ(widths(m700("G0\nG99 G85 Z-8. R-2. F100 ,J0.3\nG80\nM30")),
@@ -312,7 +312,7 @@ TEST(DgshapeCycle, DrillAndReturnLevels) {  // DGSHAPE G81, G98, G99
   EXPECT_EQ(dgshape_at_ten("M03\nG98G81X5000Z-8000R2000F60000\nG80\nM02").path(),
             (Path{"rapid 5 0 10", "rapid 5 0 2", "line 5 0 -8 F60", "rapid 5 0 10"}));
   EXPECT_EQ(dgshape_at_ten("M03\nG99G81X5000Z-8000R2000F60000\nG80\nM02").path().back(), "rapid 5 0 2");
-  // R omitted: the initial level. Z omitted: no drilling.
+  // Without R the R level is the initial level. Without Z there is no drilling.
   EXPECT_EQ(dgshape_at_ten("M03\nG81X5000Z-8000F60000\nM02").path(), (Path{"rapid 5 0 10", "line 5 0 -8 F60", "rapid 5 0 10"}));
   EXPECT_EQ(dgshape_at_ten("M03\nG81X5000R2000F60000\nM02").path(), (Path{"rapid 5 0 10"}));
 }

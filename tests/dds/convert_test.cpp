@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a subscriber reads of the enumerations of the control: each value has one of its own in the IDL, in order, and what a later control
-// says is "other".
+// How a subscriber sees the enumerations of the control: each value has its own one in the IDL, in the same order, and an unknown value of a later
+// control is "other".
 #include "dds/convert.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Shown {
   std::uint32_t core;
 };
 
-// Part system 1 of a control that says so.
+// Part system 1 of a control with this cause and this refusal.
 Shown shown(std::uint32_t cause, std::uint32_t refusal) {
   const auto machine = std::make_unique<share::MachineBlock>();
   const auto block = std::make_unique<share::StatusBlock>();
@@ -34,7 +34,7 @@ Shown shown(std::uint32_t cause, std::uint32_t refusal) {
   return {sample->status.stop_cause, sample->status.refusal_cause, nc::dds::core_status(*machine, *block, 0, "unit").stop_cause};
 }
 
-// The last one; the compiler knows whether the list below has all, convert.cpp being built with -Wswitch.
+// The last cause. That convert.cpp has all of them is checked by the compiler (-Wswitch).
 constexpr std::uint32_t kLastCause = NC_CAUSE_SPINDLE_REVERSED;
 
 TEST(DdsConvert, EveryStopCauseHasItsOwn) {
@@ -64,7 +64,7 @@ TEST(DdsConvert, EveryRefusalHasItsOwn) {
   EXPECT_EQ(shown(0, static_cast<std::uint32_t>(nc::rt::RefusalCause::kLast) + 1).refusal, nc_REFUSED_OTHER);
 }
 
-// The same in words, for who reads the text.
+// The same for the texts of the causes.
 TEST(DdsConvert, EveryStopCauseHasItsWords) {
   std::set<std::string> seen;
   for (std::uint32_t cause = 1; cause <= kLastCause; ++cause) {

@@ -115,7 +115,7 @@ def check(condition, text):
 
 
 def until(function, text, patience=PATIENCE):
-    """Calls until the answer is true; that answer."""
+    """Calls a function until its result is true; returns that result."""
     end = time.monotonic() + patience
     while True:
         if answer := function():
@@ -151,7 +151,7 @@ class Plant:
         return subprocess.run([os.path.join(build, "bin/ncmon"), "--domain", str(self.domain), *options], capture_output=True, text=True)
 
     def end(self):
-        """In order where that works: a control that is killed leaves its shared memory."""
+        """Ends the processes in order if possible: a control that is killed leaves its shared memory."""
         for child in self.all:
             if child.poll() is None:
                 child.send_signal(signal.SIGCONT)
@@ -194,7 +194,7 @@ class Watch:
         return self
 
     def fresh(self):
-        """A status that came after this call."""
+        """Waits for a status that comes after this call."""
         before = self.samples
         until(lambda: self.look().samples > before, "status comes")
         return self.status
@@ -202,7 +202,7 @@ class Watch:
 
 class Operator(nc_dds.Client):
     def ask(self, kind, patience=PATIENCE, **fields):
-        """Sends it and waits for the answer; for `done` of what was accepted."""
+        """Sends a command and waits for the answer; after `accepted` for the final one."""
         seq = self.send(kind, **fields)
         return self.answer(seq, patience)
 
@@ -262,7 +262,7 @@ def commands(plant, watch, operator):
 
 
 def burst(operator):
-    """A thousand commands as fast as they go out, and nobody looks at the answers meanwhile: each has its own in the end."""
+    """A thousand commands are sent as fast as possible, and nobody reads the answers meanwhile: in the end each has its own answer."""
     check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "has control")
     seqs = {operator.send(CommandKind.CMD_FEED_OVERRIDE, value=1.0) for _ in range(1000)}
     time.sleep(1.0)
@@ -315,7 +315,7 @@ def program(plant, watch, operator, gateway):
 
 
 def release(kind, name, drop=0, add=(), **others):
-    """The class of another release: without its last members, or with further ones; `others` replaces nested types."""
+    """The class as another release may have it: without its last members, or with further ones; `others` replaces nested types."""
     lines = inspect.getsource(kind).rstrip().split("\n")
     lines = lines[: len(lines) - drop] + ["    " + member for member in add]
     source = "\n".join(lines).replace(f"class {kind.__name__}(", f"class {name}(")
@@ -503,7 +503,7 @@ def forces(plant, watch, operator, participant):
 
 
 def two_controls(plant, participant, operator):
-    """Another control in the same domain: who listens to all of them (partition "*") mixes nothing up."""
+    """Another control is in the same domain: a reader of all of them (partition "*") can tell them apart."""
     other = plant.share + "b"
     control = plant.start("ncrtd", "--config", os.path.join(plant.folder, "other.toml"), "serve", "--share", other, "--commands")
     gateway = plant.start("ncdds", "--share", other, "--domain", str(plant.domain), "--commands")
@@ -594,7 +594,7 @@ def stranger(plant, watch, operator, gateway):
 
 
 def hang(watch, operator, control):
-    """A control that does not look for a while: what waited too long is not executed, what is too much is refused."""
+    """A control does not read its commands for a while: those that have waited too long are not executed, and too many are refused."""
     check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "has control")
 
     def stopped():

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subscriber of another make, eProsima Fast DDS, of the core topics nc_Status_v1 and nc_Alarm_v1: prints what it gets, one line a
-// sample, for fastdds_test.py. Built where Fast DDS is (Debian: libfastrtps-dev).
+// A subscriber with the DDS of another maker, eProsima Fast DDS, for the core topics nc_Status_v1 and nc_Alarm_v1: prints one line for each sample,
+// for fastdds_test.py. It is built if Fast DDS is installed (Debian: libfastrtps-dev).
 //
 //   fastdds_peer DOMAIN SECONDS
 //
-// The types are read by hand, field by field in the order of dds/nc_dds.idl: what the IDL says of a final type is all that a partner of
-// another make needs.
+// The types are decoded by hand, field by field in the order of dds/nc_dds.idl: for a final type the IDL is all that a partner with another DDS
+// needs.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -72,7 +72,7 @@ struct Alarm {
   static constexpr std::uint32_t kLargest = 1024;
 };
 
-// Both have two keys, an unsigned long and the name of the machine.
+// Both topics have two keys, an unsigned long and the name of the machine.
 template <class T>
 class CoreType final : public TopicDataType {
  public:
@@ -123,7 +123,7 @@ class CoreType final : public TopicDataType {
   static std::uint32_t number_of(const Alarm& alarm) { return alarm.slot; }
 };
 
-// This computer alone, without multicast, as ncdds is without a configuration of its own.
+// For this computer only, without multicast, like ncdds without its own configuration.
 DomainParticipantQos on_this_computer() {
   DomainParticipantQos qos;
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();

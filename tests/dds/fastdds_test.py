@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The core topics of ncdds (Cyclone DDS) as a subscriber of another make reads them: Fast DDS, in fastdds_peer.cpp.
+"""The core topics of ncdds (Cyclone DDS) as a subscriber with the DDS of another maker reads them: Fast DDS, in fastdds_peer.cpp.
 
 Exit status 77 = skipped: the programs are not built, or Fast DDS was not there (Debian: libfastrtps-dev).
 """
@@ -32,7 +32,7 @@ name = "Y"
 max_velocity = 200.0
 max_acceleration = 2000.0
 """
-# Y stands at 7.25, X goes to and fro between 1 and 3, and then comes an alarm of the program.
+# Y stands at 7.25, X goes back and forth between 1 and 3, and then the program raises an alarm.
 PART = "G90 G54 G17 G0 X1. Y7.25\n#1=0\nWHILE [#1 LT 60] DO1\nG1 X3. F6000.\nX1.\n#1=#1+1\nEND1\n#3000=41(COOLANT)\n"
 
 

@@ -75,7 +75,7 @@ def other_address():
 
 
 def reached(address, port):
-    """Whether a datagram finds somebody: else the kernel answers that the port is not there."""
+    """Whether a datagram reaches a socket; otherwise the kernel answers that the port does not exist."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as client:
         client.connect((address, port))
         client.settimeout(1)
@@ -129,7 +129,7 @@ def main():
             finally:
                 child.terminate()
                 child.wait()
-    # Who configures a network gets it.
+    # With a configured network the programs use it.
     with tempfile.NamedTemporaryFile("w", suffix=".xml") as file:
         file.write('<CycloneDDS><Domain id="any"><General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>'
                    "<AllowMulticast>false</AllowMulticast></General>"

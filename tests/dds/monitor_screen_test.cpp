@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a page is on the screen of ncmon, and the line of --latency.
+// Which part of a page is on the screen of ncmon, and the line that --latency prints.
 #include "dds/monitor_screen.hpp"
 
 #include <gtest/gtest.h>

@@ -25,7 +25,7 @@ refuses "which control?" "$bin/ncdds"
 for value in nan inf -1 86401 x; do refuses "--wait: must be at least 0 and at most 86400" "$bin/ncmon" "--wait=$value"; done
 for value in 0 -1 1000001 nan; do refuses "--latency: must be a whole number from 1 to 1000000, is $value" "$bin/ncmon" "--latency=$value"; done
 refuses "--control: must not be empty" "$bin/ncmon" --control ""
-# One word for the file of a machine in all programs; who gives it here is told the word for a name.
+# All programs use the same option for the file of a machine; if it is given here, the error names the option for a name.
 for option in --machine --config; do
   for value in mill3 etc/machine.toml ""; do refuses "$option: is the file of a machine, which ncmon does not read: the name of a control is --control NAME" "$bin/ncmon" --once "$option" "$value"; done
   "$bin/ncmon" --help | grep -q -e "$option" && { echo "FAILED: ncmon --help names $option"; failures=$((failures + 1)); }

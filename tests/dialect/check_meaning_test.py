@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/check-meaning finds: a planted sample of each kind, and nothing in what looks like one."""
+"""scripts/check-meaning finds a sample of each kind, and finds nothing in code that only looks like one."""
 import importlib.machinery
 import importlib.util
 import os
@@ -217,7 +217,7 @@ class Found(unittest.TestCase):
 
 
 class Listed(unittest.TestCase):
-    """A tree of its own: counts may fall and must be lowered then, never rise."""
+    """In a tree of the test: counts may fall, and must then be lowered, but never rise."""
 
     def run_in(self, source, known, *options):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formulas of high-accuracy control against values worked out by hand (M700 13.15 to 13.18). The machine of the examples:
-// #1206 = 10000 mm/min, #1207 = 100 ms, so dV = 100 mm/min per ms = 1666.67 mm/s^2.
+// The formulas of high-accuracy control, compared with values computed by hand (M700 13.15 to 13.18). The machine of the examples has
+// #1206 = 10000 mm/min and #1207 = 100 ms, so dV = 100 mm/min per ms = 1666.67 mm/s^2.
 #include "dialect/m700/accuracy.hpp"
 
 #include <gtest/gtest.h>
@@ -134,7 +134,7 @@ TEST(M700Accuracy, SplineAndAccelerationClamps) {  // 13.18 (3); 13.17.1 (2)
   EXPECT_TRUE(std::isinf(acceleration_clamp(machine(), 0, 1, 1)));
 }
 
-/// What moves carry of the parameters gives the same speeds where they meet as the parameters do themselves.
+/// The parts of the parameters that moves carry give the same speeds at joints as the parameters themselves.
 TEST(M700Accuracy, JointOfMoves) {
   AccuracyParameters p = machine();
   p.radius_percent = 20;
@@ -189,7 +189,7 @@ TEST(M700Accuracy, RadiusCompensationGrowsAndFalls) {  // #8107, #8108, #2069
   EXPECT_DOUBLE_EQ(radius_compensation_share(45, 360), 0.5);
   EXPECT_DOUBLE_EQ(radius_compensation_share(180, 360), 1);
   EXPECT_DOUBLE_EQ(radius_compensation_share(337.5, 360), 0.25);
-  EXPECT_DOUBLE_EQ(radius_compensation_share(60, 120), 60.0 / 90);  // an arc too short for the whole
+  EXPECT_DOUBLE_EQ(radius_compensation_share(60, 120), 60.0 / 90);  // an arc that is too short for the full compensation
   EXPECT_NEAR(radius_compensation(0.01, 0.5, 60), 0.0025, 1e-12);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables beside the manuals: the facts are copied here by hand from the lists of the manuals, and the
-// alarm list is compared with the catalogue where it lies beside the source tree.
+// Compares the tables with the manuals: the facts were copied here by hand from the lists of the manuals, and the alarm
+// list is compared with the catalogue if that lies beside the source tree.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ const Dialect& hx() {
 
 using Groups = std::map<unsigned, std::vector<int>>;  // group -> codes times 10
 
-// M700 3.7, row by row as the list prints them; G11.1, which it leaves out, is that of 13.11.
+// M700 3.7, row by row as in its list; G11.1, which is not in the list, is from 13.11.
 const Groups kM700List = {
     {0,
      {40,  50,  51,  70,  80,  90,  100, 110, 111, 120, 130, 270, 280, 290, 300, 301, 302, 303, 304, 305, 306, 310,
@@ -101,7 +101,7 @@ const Groups kDgshapeList = {
     {12, {540, 550, 560, 570, 580, 590}},
 };
 
-// RS-274/NGC 3.4, table 4, and the groups and the list of G codes of LinuxCNC; cycles have a group of their own here.
+// RS-274/NGC 3.4, table 4, and the groups and the list of G codes of LinuxCNC; here the cycles have their own group.
 const Groups kIsoList = {
     {0, {40, 50, 51, 52, 53, 70, 80, 100, 280, 281, 300, 301, 331, 382, 383, 384, 385, 411, 421, 432, 520, 530, 760, 920, 921, 922, 923}},
     {1, {0, 10, 20, 30, 330}},
@@ -160,7 +160,7 @@ TEST(DgshapeManual, GCodesAndGroupsAreThoseOf27) {
   expect_list(dgshape(), flat(kDgshapeList));
 }
 
-// What the alarm list says about a control without the function (appendix 1 and, where named, the section).
+// The alarms of a control without a function, from the alarm list (appendix 1 and, where named, the section).
 TEST(M700Manual, MissingFunctionsRaiseTheManualsAlarm) {
   const std::map<std::string, std::vector<int>> by_alarm = {
       {"P180", {720, 770, 780, 790}},
@@ -178,7 +178,7 @@ TEST(M700Manual, MissingFunctionsRaiseTheManualsAlarm) {
       EXPECT_EQ(row->missing, alarm) << g_text(code);
     }
   }
-  // And no others: a row that lost its alarm would run.
+  // No other row may have one of these alarms, and none may have lost it, since its code would then be executed.
   for (const FunctionRow& row : m700().functions) {
     if (row.missing == nullptr || row.function == Function::user_macro) continue;
     const auto listed = by_alarm.find(row.missing);
@@ -238,7 +238,7 @@ TEST(M700Manual, CodesOfOneFunctionAreBoundAlike) {
   };
   for (const auto& [code, function] : bound)
     EXPECT_EQ(find_function(m700(), code)->function, function) << g_text(code);
-  // The codes that the two families share mean the same.
+  // The codes that both families have mean the same.
   for (const FunctionRow& row : dgshape().functions) {
     const FunctionRow* other = find_function(m700(), row.code);
     ASSERT_NE(other, nullptr) << g_text(row.code);
@@ -290,7 +290,7 @@ TEST(M700Manual, AlarmListIsTheManuals) {
     ours.erase(code);
   }
   EXPECT_GE(rows, 180u);
-  // Beyond the manual: argued in m700/alarms.cpp.
+  // These are not in the manual; m700/alarms.cpp gives the reasons.
   std::set<std::string> rest;
   for (const auto& [code, message] : ours) rest.insert(code);
   EXPECT_EQ(rest, (std::set<std::string>{"M01-0007", "NC-INTERNAL", "NC-VENDOR", "P452"}));

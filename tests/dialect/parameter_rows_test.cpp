@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of parameters against the sources that ask for them.
+// Compares the tables of parameters with the sources that ask for parameters.
 #include "dialect/parameter_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ std::string read(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// Meanings that sources outside dialect/ ask for, by the name in the enumeration.
+/// The names of the parameters (in the enumeration) for which sources outside dialect/ ask.
 std::set<std::string> asked_for() {
   std::set<std::string> meanings;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(nc::test::kSourceDir) / "libnc/src")) {
@@ -50,7 +50,7 @@ std::vector<std::string> meanings() {
   return names;
 }
 
-// The control asks for parameters by what they mean; the families say which number or name that is.
+// The control asks for parameters by their meaning; the tables of the families give the number or name.
 TEST(ParameterTable, HasWhatIsAskedForAndNothingElse) {
   const std::set<std::string> asked = asked_for();
   const std::vector<std::string> names = meanings();
@@ -88,7 +88,7 @@ TEST(ParameterTable, HasSoundRows) {
   EXPECT_GT(rows, 120u);
 }
 
-// Of several parameters with one meaning each has its own number.
+// If several parameters have the same meaning, each has its own number.
 TEST(ParameterTable, GivesEachOfSeveralItsNumber) {
   const auto key = [](nc::ParameterOf parameter) {
     char text[nc::kParameterKeySize] = "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of a family that are functions, and the table of what data setting sets.
+// The rules of a family that are functions, and the table of the data that data setting (G10) can set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ TEST(Rules, SpeedIsTheValueOrACodeOfTheSeries) {
   for (const auto& row : kPrinted) EXPECT_NEAR(dgshape(row.code), row.speed, 1e-9 * row.speed) << row.code;
   for (uint32_t code = 0; code < 100; ++code)  // the series is 10^(n/20), its rounding at most 2 %
     EXPECT_NEAR(dgshape(code) / std::pow(10, code / 20.0), 1, 0.02) << code;
-  EXPECT_DOUBLE_EQ(dgshape(100), 100);  // from here on it is r/min itself
+  EXPECT_DOUBLE_EQ(dgshape(100), 100);  // from here on the code is the speed in r/min
   EXPECT_DOUBLE_EQ(dgshape(12345), 12345);
 }
 

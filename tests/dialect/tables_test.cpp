@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of every family hold together: sorted, unique, complete, and each alarm they name is in the
+// The tables of every family are consistent: sorted, unique and complete, and each alarm that they name is in the
 // family's alarm list.
 #include <gtest/gtest.h>
 
@@ -167,7 +167,7 @@ TEST_P(Tables, EveryAlarmNamedIsInTheList) {
   }
 }
 
-// What is in force of a mode is shown in its group: both must divide the codes alike.
+// The code of a mode in force is shown in its group, so modes and groups must divide the codes in the same way.
 TEST_P(Tables, AGroupIsAMode) {
   std::map<unsigned, Mode> mode_of_group;
   std::map<Mode, unsigned> group_of_mode;
@@ -215,7 +215,7 @@ TEST_P(Tables, CodesAreFoundAsTheyAreWrittenAndByWhatTheyMean) {
   EXPECT_EQ(index.find(index.linear_number()), &index.linear());
 }
 
-// The number tells G55 from G54, and G107 from G07.1 where the code in force is shown.
+// The number of a row distinguishes G55 from G54, and G107 from G07.1 where the code in force is shown.
 TEST_P(Tables, CodesOfOneFunctionCountFromZero) {
   std::map<Function, unsigned> rows;
   for (const FunctionRow& row : family().functions)

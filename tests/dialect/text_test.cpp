@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that is written for a person: code texts, the operator's sentence, and the public functions that
-// show the tables.
+// Texts for persons: code texts, the sentence for the operator, and the public functions that show the tables.
 #include "dialect/text.hpp"
 
 #include <gtest/gtest.h>
@@ -113,7 +112,7 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   // A number that is no code is shown as it was programmed, not rounded to one that is.
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 0.15}), "G0.15 is not a G code of this control.");
   EXPECT_EQ(detail({Condition::value_range, -1, 'M', true, 3.5}), "The value of M3.5 is outside its range.");
-  // The number of a code is not a value that a sentence could mean.
+  // The number of a code is not a value that the sentence may quote.
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'G', true, 2}),
             "Start and end of the arc are not on one circle about its centre.");
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'I', true, 0.25}),
@@ -314,7 +313,7 @@ TEST(PublicTables, VersionIsThreeNumbers) {
   EXPECT_EQ(std::count(version.begin(), version.end(), '.'), 2);
 }
 
-// What a sentence names, be it a code or a word, is the family's.
+// The codes and words that a sentence names are those of the family.
 TEST(AlarmDetail, NamesTheLettersAndCodesOfTheFamily) {
   Dialect other = dialect(NC_DIALECT_M700);
   other.addresses.bind(Role::feed, 'E');

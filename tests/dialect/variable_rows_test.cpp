@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of system variables: which place of what meaning a number is.
+// The tables of system variables: which meaning a number has, and which place within it.
 #include "dialect/variable_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(VariableRows, RangesAreSortedAndApartAndEveryMeaningHasOne) {
   EXPECT_EQ(seen.size(), kSystemVariables);
 }
 
-// The public table is that of the dialect.
+// The public table is the table of the dialect.
 TEST(VariableRows, ThePublicTableIsTheFamilys) {
   nc_system_variable row{};
   unsigned count = 0;
@@ -74,7 +74,7 @@ TEST(VariableRows, ThePublicTableIsTheFamilys) {
     EXPECT_TRUE(row.readable || row.writable) << row.first;
   }
   EXPECT_EQ(count, m700().rows.size);
-  // What a host asks for by its role: the words of the macro interface, and the word that a range of bits begins with.
+  // What a host can ask for by role: the words of the macro interface, and the word with which a range of bits begins.
   std::string interface;
   for (unsigned i = 0; nc_system_variable_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i)
     if (row.role != NC_VARIABLE_OTHER) interface += std::to_string(row.first) + ":" + std::to_string(row.role) + "." + std::to_string(row.word) + " ";

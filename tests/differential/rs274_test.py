@@ -239,7 +239,7 @@ class IsoMaker(Maker):
         return [zero[0], zero[1], zero[2] + self.length]
 
     def word(self, axis, target):
-        """The number as such, or by an expression or a parameter that has the same value to the last bit."""
+        """The number itself, or an expression or parameter that has the same value to the last bit."""
         value = target if self.absolute else round(target - self.at[axis], 4)
         kind = self.random.random()
         if kind < 0.7:
@@ -469,7 +469,7 @@ class Run:
         return path
 
     def real_programs(self):
-        """Those that lie beside the source tree, as far as rs274 takes them."""
+        """The programs that lie beside the source tree and that rs274 accepts."""
         folder = os.path.join(os.environ.get("NC_SHARED_DIR", ""), "programs")
         for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
             if not name.endswith((".nc", ".ngc")):

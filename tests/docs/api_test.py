@@ -29,7 +29,7 @@ def parameters_of(text):
 
 
 def faults_of(comment, returns, name, parameters):
-    """What the comment of one function leaves out."""
+    """The things that are missing in the comment of a function."""
     if not comment:
         return [f"{name}: has no comment"]
     faults = []
@@ -66,7 +66,7 @@ def main():
         total += count
         faults += [f"{header.name}: {fault}" for fault in found]
     good = "/** Any thread.\n * @param a x\n * @return y\n */\n"
-    # The check itself sees what it is for.
+    # The check itself finds what it must find.
     for comment, declaration in ((good, "NC_API int nc_f(int a, int b);"), (good, "NC_API int nc_f(int);"), ("", "NC_API int nc_f(int a);"),
                                  (good.replace("@return", ""), "NC_API int nc_f(int a);"), (good.replace("Any thread", ""), "NC_API int nc_f(int a);"),
                                  (good, "NC_API int nc_f(void);")):

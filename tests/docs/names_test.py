@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""A file that a comment or a document names is there: sources, headers and documents, with or without the end of their path."""
+"""Every file that a comment or a document names exists: sources, headers and documents, with or without their folders."""
 import os
 import pathlib
 import re

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What scripts/check-rooms finds in small trees: a cycle of two rooms, of three, of folders; a private header outside of its room."""
+"""What scripts/check-rooms finds in small trees: a cycle of two rooms, of three, of folders; a private header outside its room."""
 import os
 import pathlib
 import subprocess

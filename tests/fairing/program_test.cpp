@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fairing and the corner judgement as a program meets them (M700 13.17.1): parameters, other blocks, stops, going back, the machine.
+// Fairing and the corner judgement in programs (M700 13.17.1): parameters, other blocks, stops, rewinding, the machine.
 #include <gtest/gtest.h>
 
 #include "support/drive.hpp"
@@ -59,13 +59,13 @@ TEST(FairingProgram, ProgramsSwitchIt) {  // G10 L70: from the next block on
   Path second = kProgrammed;
   for (const char* move : {"line 30 0.12 0 F1000", "line 40 0.16 0 F1000"}) second.push_back(move);
   EXPECT_EQ(path_of("G5 P10000\n" + kStep + on + more + kEnd, [](Bench&) {}), second);
-  // What does not matter here ends nothing.
+  // Parameters that do not matter for fairing do not end it.
   const std::string other = "G1 X10. F1000.\nG10 L70\nP8004 D5\nG11\nY.08\nX20.\n", angle = "G1 X10. F1000.\nG10 L70\nP8020 D5\nG11\nY.08\nX20.\n";
   EXPECT_EQ(path_of("G5 P10000\n" + other + kEnd), kFaired);
   EXPECT_EQ(path_of("G5 P10000\n" + angle + kEnd), kProgrammed);
 }
 
-TEST(FairingProgram, WhatLiesBetween) {  // precaution (13), and whatever acts at its own place
+TEST(FairingProgram, WhatLiesBetween) {  // precaution (13), and all functions that act at a place
   for (const char* block : {"M8", "S500", "T5", "G0 Z1.", "G2 X12. R1.", "M0", "G53 G0 Z1.", "G92 X9.", "G55"}) {
     const std::string text = std::string("G5 P10000\nG1 X10. F1000.\n") + block + "\nG91 G1 Y.08\nX9.\nG90\n" + kEnd;
     const std::string without = std::string("G1 X10. F1000.\n") + block + "\nG91 G1 Y.08\nX9.\nG90\nM30";
@@ -76,7 +76,7 @@ TEST(FairingProgram, WhatLiesBetween) {  // precaution (13), and whatever acts a
     const std::string text = std::string("G5 P10000\nG1 X10. F1000.\n") + block + "\nY.08\n" + block + "\nX20.\n" + kEnd;
     EXPECT_EQ(path_of(text), kFaired) << block;
   }
-  // Radius compensation: the figure as it is programmed is what is compensated.
+  // Radius compensation is applied to the figure as it is programmed.
   const auto with_tool = [](Bench& bench) { faired(bench).tool(1, 1, NC_TOOL_RADIUS).param("8103", "1"); };
   const std::string contour = "G41 D1 G1 X10. Y5. F1000.\nX20.\nY5.08\nX30.\nG40 X40.\n";
   EXPECT_EQ(path_of("G5 P10000\n" + contour + kEnd, with_tool), path_of(contour + "M30", with_tool));
@@ -111,7 +111,7 @@ TEST(FairingProgram, AStrokeLimitStopsBeforeItsBlock) {
   const Outcome run = faired(bench).run("G5 P10000\nG1 X10. F1000.\nY.08\nX20.\nX5.\nM30");
   EXPECT_EQ(run.alarm_line, 4u);
   EXPECT_EQ(run.path(), (Path{"line 10 0.04 0 F1000"}));
-  // Codes of a block go out when its moves are known to be possible, held back or not.
+  // The codes of a block go out only when its moves are known to be possible, whether they are held back or not.
   const Outcome coded = bench.run("G5 P10000\nG1 X9. F1000.\nX8.\nM8 X20.\nX5.\nM30");
   EXPECT_EQ(coded.aux(), "");
   EXPECT_EQ(coded.alarm_line, 4u);
@@ -119,7 +119,7 @@ TEST(FairingProgram, AStrokeLimitStopsBeforeItsBlock) {
 
 // ---- random programs -------------------------------------------------------------------------------------------------------
 
-/// Fine segments with protrusions, and all that may lie between them. Numbers rounded to micrometres.
+/// Fine segments with protrusions, and everything that may be between them. Numbers are rounded to micrometres.
 std::string random_program(uint32_t seed, bool splines = true) {
   std::mt19937 random(seed);
   const auto real = [&random](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -195,7 +195,7 @@ struct Disturbance {
   uint32_t look_ahead = 64;
 };
 
-/// What the machine executes is what was pulled, with every block end in its place.
+/// Expects that the machine executes the items that are pulled, with every block end in its place.
 void compare(const Disturbance& disturb) {
   unsigned recalculated = 0;
   for (uint32_t seed = 0; seed < kPrograms; ++seed) {
@@ -239,7 +239,7 @@ void compare(const Disturbance& disturb) {
       ASSERT_EQ(event.serial, step.item.serial);
       ASSERT_EQ(event.kind, step.item.kind) << event.serial;
       ASSERT_EQ(event.source.line, step.item.source.line) << event.serial;
-      const double near = disturb.optimal ? 0.0101 : 1e-9;  // at a joint that it passes the tolerance holds
+      const double near = disturb.optimal ? 0.0101 : 1e-9;  // a joint that is passed may be missed by the tolerance
       for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(event.machine.v[axis], step.machine.v[axis], near) << event.serial;
     }
     for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(drive.out.command.v[axis], expected.steps.back().machine.v[axis], 1e-9);
@@ -272,7 +272,7 @@ TEST(FairingOnline, SingleBlockStopsAtTheJoint) {
   EXPECT_EQ(stops, (std::vector<std::string>{"1: 0 0", "2: 10 0.04", "3: 10 0.04", "4: 20 0.08", "5: 20 0.08"}));
 }
 
-/// Lines that are held back are not read so far ahead that the block at which the machine has stopped is forgotten.
+/// While lines are held back, the reader does not go so far ahead that the block at which the machine has stopped is forgotten.
 TEST(FairingOnline, ALongWayAheadOfAStop) {
   for (unsigned empty = 30; empty < 60; ++empty) {
     Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 64; });
@@ -296,7 +296,7 @@ TEST(FairingOnline, ALongWayAheadOfAStop) {
   }
 }
 
-/// Moved by hand while it stands at a joint: every line from there goes to its own end, and incremental ones keep their length.
+/// An axis is moved by hand while the machine stands at a joint: every line from there goes to its own end, and incremental ones keep their length.
 TEST(FairingOnline, MovedByHandAtTheJoint) {
   for (const unsigned stop_behind : {2u, 3u}) {
     Bench bench;
@@ -321,11 +321,11 @@ TEST(FairingOnline, MovedByHandAtTheJoint) {
     EXPECT_NEAR(drive.out.command.v[0], 40, 1e-9) << stop_behind;
     EXPECT_NEAR(drive.out.command.v[1], 0.1, 1e-9) << stop_behind;
     EXPECT_GT(drive.out.command.v[2], 0.03) << stop_behind;  // it has been moved
-    EXPECT_EQ(drive.ends().size(), stop_behind == 2 ? 5u : 4u);  // in front of it the line that was left out is a line again
+    EXPECT_EQ(drive.ends().size(), stop_behind == 2 ? 5u : 4u);  // stopped before it, the line that was left out is executed
   }
 }
 
-/// A reset where lines are held back: what was read ahead has not happened.
+/// A reset while lines are held back: blocks that were only read ahead have no effect.
 TEST(FairingOnline, AResetForgetsWhatIsHeld) {
   for (unsigned cycles = 5; cycles < 800; cycles += 53) {
     Bench bench;
@@ -346,7 +346,7 @@ TEST(FairingOnline, AResetForgetsWhatIsHeld) {
   }
 }
 
-/// A block that is skipped only the second time: what fairing had left out behind the mark is no longer there.
+/// A block that is skipped only at the second reading: the line that fairing had left out after the mark does not exist any more.
 TEST(FairingProgram, ASwitchOfBlockSkipBetweenTwoReadings) {
   Bench bench;
   const Outcome whole = faired(bench).run("G5 P10000\nG1 X10. F1000.\n/Y.08\nX20.\nY3.\n" + kEnd);
@@ -387,22 +387,22 @@ double slowest_around_ten(const std::function<void(Bench&)>& change, const std::
   return least;
 }
 
-/// A step of 20 degrees in a straight way. As two corners of 20 degrees: 0.1 / (2 sin 10) = 0.29 mm/s, and one cycle of acceleration is
+/// A step of 20 degrees in a straight path. As two corners of 20 degrees it allows 0.1 / (2 sin 10) = 0.29 mm/s, and one cycle of acceleration is
 /// 4 mm/s. Without the short line there is no corner, and the feed of 5 mm/s stays: the axes allow v (v dt / 0.05 mm + 1) sin 20 =
-/// 0.75 * 4 mm/s, 6 mm/s. (The chord over a corner within one cycle is 5 cos 10.)
+/// 0.75 * 4 mm/s, that is, v = 6 mm/s. (The chord over a corner within one cycle is 5 cos 10.)
 TEST(CornerJudgementOnline, AShortStepIsNoCorner) {
   const std::string text = "G5 P10000\nG1 X10. F300.\nX10.047 Y.017\nX30.\n" + kEnd;
   EXPECT_LT(slowest_around_ten([](Bench&) {}, text), 3);
   EXPECT_NEAR(slowest_around_ten([](Bench& b) { b.param("8036", "1").param("8037", "0.1"); }, text), 5, 0.08);
   EXPECT_LT(slowest_around_ten([](Bench& b) { b.param("8036", "1").param("8037", "0.01"); }, text), 3);  // the line is not shorter
   EXPECT_LT(slowest_around_ten([](Bench& b) { b.param("8036", "1"); }, text), 3);
-  // G10 L70 before the lines, and back behind them.
+  // G10 L70 switches it on before the lines, and off after them.
   const std::string on = "G10 L70\nP8037 D0.1\nP8036 D1\nG11\n", off = "G10 L70\nP8036 D0\nG11\n";
   EXPECT_NEAR(slowest_around_ten([](Bench&) {}, "G5 P10000\n" + on + "G1 X10. F300.\nX10.047 Y.017\nX30.\n" + off + kEnd), 5, 0.08);
   EXPECT_LT(slowest_around_ten([](Bench&) {}, "G5 P10000\n" + on + off + "G1 X10. F300.\nX10.047 Y.017\nX30.\n" + kEnd), 3);
 }
 
-/// Parameters that a program changes behind lines which are still held back are not those of the lines.
+/// Parameters that a program changes after lines which are still held back do not act on these lines.
 TEST(CornerJudgementOnline, ParametersBehindTheLinesAreNotTheirs) {
   const std::string lines = "G5 P10000\nG1 X10. F300.\nX10.047 Y.017\nX30.\n", faster = "G10 L70\nP1206 D600000\nG11\n";
   const auto held = [](Bench& bench) { faired(bench, "0.01"); };
@@ -418,7 +418,7 @@ TEST(FairingProgram, NoMacroInterruptInTheMode) {
   EXPECT_EQ(bench.run("G5 P10000\nG1 X10. F1000.\nM96 P1\nM30").alarm, "P33");
 }
 
-/// A sharp corner that hides in short lines is still passed within the limits of the axes.
+/// A sharp corner between short lines is still passed within the limits of the axes.
 TEST(CornerJudgementOnline, TheAxesKeepTheirLimits) {
   const std::string text = "G5 P10000\nG1 X10. F300.\nY.05\nX10.05\nX30.\n" + kEnd;
   EXPECT_LT(slowest_around_ten([](Bench& b) { b.param("8036", "1").param("8037", "0.1"); }, text), 4);  // a step of 3 mm/s, and half a cycle of acceleration

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fairing promises of any polyline: no point moves by more than the length, ends and marks are kept, and going on from any mark gives
-// the same again.
+// What fairing promises for any polyline: no point moves by more than the length, ends and marks are kept, and a continuation from any mark gives
+// the same items.
 #include <gtest/gtest.h>
 
 #include "stage_bench.hpp"
@@ -26,7 +26,7 @@ struct Random {
   unsigned whole(unsigned below) { return static_cast<unsigned>(engine() % below); }
 };
 
-/// Long and short lines, zigzags, spikes, ways back, curves; rounded to micrometres.
+/// Long and short lines, zigzags, spikes, reversals, curves; rounded to micrometres.
 std::vector<Point> random_path(Random& random) {
   std::vector<Point> points{{0, 0, 0}};
   double heading = 0;
@@ -44,7 +44,7 @@ std::vector<Point> random_path(Random& random) {
   return points;
 }
 
-/// With an item in between now and then that closes the row.
+/// The polyline as items, with another item now and then that ends a sequence of lines.
 std::vector<Item> random_items(Random& random, const std::vector<Point>& points) {
   std::vector<Item> items = polyline(points);
   for (size_t i = 2; i < items.size(); i += 2) {
@@ -70,7 +70,7 @@ TEST(FairingProperty, NoPointMovesByMoreThanTheLength) {
     const std::vector<Item> items = random_items(random, random_path(random));
     const FairingRule rule = random_rule(random);
     const Passed run = pass(items, rule);
-    // Everything but lines comes out as it went in, in its order; lines connect, and rows keep their ends.
+    // All items but lines come out as they went in, and in order; lines connect, and sequences of lines keep their ends.
     const auto moves = moves_of(run.items);
     AxisVec at = items[0].move.start;
     size_t in = 0;
@@ -91,7 +91,7 @@ TEST(FairingProperty, NoPointMovesByMoreThanTheLength) {
       ASSERT_EQ(item.kind, items[in].kind);
       if (item.kind == ItemKind::mark) {
         ASSERT_EQ(item.mark.seq, items[in].mark.seq);
-      } else {  // what stops finds the machine where it was programmed to be
+      } else {  // an item at which the machine stops has its programmed place
         size_t before = in;
         while (before > 0 && items[before].kind != ItemKind::move) --before;
         ASSERT_EQ(at, items[before].move.end);
@@ -99,7 +99,7 @@ TEST(FairingProperty, NoPointMovesByMoreThanTheLength) {
       ++in;
     }
     ASSERT_EQ(in, items.size());
-    // Both ways: points of the program from the new path, points of the new path from the program.
+    // In both directions: points of the program from the new path, and points of the new path from the program.
     const auto programmed = moves_of(items);
     left_out += static_cast<unsigned>(programmed.size() - moves.size());
     const auto distance_to_path = [](const AxisVec& p, const std::vector<const Move*>& path) {
@@ -119,7 +119,7 @@ TEST(FairingProperty, NoPointMovesByMoreThanTheLength) {
         ASSERT_LE(distance_to_path(p, programmed), rule.length_mm + 1e-9);
       }
   }
-  EXPECT_GT(left_out, kPaths * 2);  // the paths are worth it
+  EXPECT_GT(left_out, kPaths * 2);  // otherwise these paths would test little
   EXPECT_GT(furthest, 0.3);
 }
 
@@ -153,7 +153,7 @@ TEST(FairingProperty, GoingOnFromAnyMarkGivesTheSameAgain) {
   EXPECT_GT(inside, kPaths);
 }
 
-/// Protrusions that lie apart: what comes out has none, and going through again changes nothing.
+/// Separate protrusions: the result has none, and a second fairing changes nothing.
 TEST(FairingProperty, OnceIsEnough) {
   unsigned left_out = 0;
   for (uint32_t seed = 0; seed < kPaths; ++seed) {
@@ -176,7 +176,7 @@ TEST(FairingProperty, OnceIsEnough) {
   EXPECT_GT(left_out, kPaths);
 }
 
-/// Random polylines that turn by less than the angle go through to the last bit.
+/// Random polylines that turn by less than the angle are not changed in any bit.
 TEST(FairingProperty, WhatHasNoCornersStays) {
   for (uint32_t seed = 0; seed < kPaths; ++seed) {
     Random random(seed + 20000);

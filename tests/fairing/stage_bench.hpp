@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Items for the fairing stage as the interpreter makes them, and what comes out, as short texts.
+// Items for the fairing stage as the interpreter makes them, and its output as short texts.
 #pragma once
 
 #include <cmath>
@@ -84,11 +84,11 @@ struct Stage : FairingStage {
 
 struct Passed {
   std::vector<Item> items;
-  std::vector<FairingResume> resume;  ///< behind each of them
-  size_t most_ahead = 0;              ///< items that had gone in and not come out, at most
+  std::vector<FairingResume> resume;  ///< the state after each of them
+  size_t most_ahead = 0;              ///< largest number of items that were in the stage at a time
 };
 
-/// Through the stage as PartSystem does it: what is ready comes out before more goes in.
+/// Passes items through the stage as PartSystem does: items that are ready come out before more go in.
 inline Passed pass(FairingStage& stage, const std::vector<Item>& items, const FairingRule& rule, size_t first = 0) {
   Passed passed;
   Item out;
@@ -113,7 +113,7 @@ inline Passed pass(const std::vector<Item>& items, const FairingRule& rule) {
   return pass(stage, items, rule);
 }
 
-/// "10.025,0.05 | 1 2 20,0 | 3": ends of the lines, | and the marks behind each.
+/// Items as text, as "10.025,0.05 | 1 2 20,0 | 3": the ends of lines, and behind a | the marks after them.
 inline std::string text_of(const std::vector<Item>& items) {
   std::string all;
   for (const Item& item : items) {

@@ -11,7 +11,7 @@ std::string faired(const std::vector<Point>& points, double length = 0.1) { retu
 
 TEST(Fairing, AProtrudingLineIsLeftOutAndItsNeighboursMeetInItsMiddle) {
   EXPECT_EQ(faired({{0, 0}, {10, 0}, {10, 0.08}, {20, 0.08}}), "10,0.04 |1 |2 20,0.08 |3 end");
-  // The next line begins where the one before ends, feeds and programmed ends stay.
+  // The next line begins where the one before ends; feeds and programmed ends stay.
   const Passed run = pass(polyline({{0, 0}, {10, 0}, {10, 0.08}, {20, 0.08}}), fairing_rule(0.1));
   const auto moves = moves_of(run.items);
   ASSERT_EQ(moves.size(), 2u);
@@ -37,7 +37,7 @@ TEST(Fairing, AWayBackIsLeftOut) {
 }
 
 TEST(Fairing, AStaircaseBecomesASlope) {
-  // Steps of 0.02 mm, up and along in turn: every second one is left out, what stays leads from middle to middle.
+  // Steps of 0.02 mm, alternately up and along: every second one is left out, the others lead from middle to middle.
   std::vector<Point> points{{0, 0}, {10, 0}};
   for (unsigned i = 0; i < 40; ++i) {
     Point next = points.back();
@@ -152,7 +152,7 @@ TEST(Fairing, HoldsLittleAndGivesEverything) {
   const Passed run = pass(items, fairing_rule(0.1));
   EXPECT_EQ(run.items.size() - moves_of(run.items).size(), points.size());  // every mark, and the end
   EXPECT_LT(moves_of(run.items).size(), points.size() * 3 / 4);
-  // Blocks without a move between two lines: the stage waits for a line, and not for ever.
+  // Blocks without a move between two lines: the stage waits for a line, but not for ever.
   std::vector<Item> marks = polyline({{0, 0}, {10, 0}});
   for (unsigned i = 0; i < 1000; ++i) marks.insert(marks.end() - 1, mark_item(2 + i));
   EXPECT_LE(pass(marks, fairing_rule(0.1)).most_ahead, 24u);
@@ -184,15 +184,15 @@ std::vector<float> turns(const std::vector<Point>& points, const FairingRule& ru
 const float kRightAngle = static_cast<float>(std::sqrt(2.0));  // 2 sin(45 deg)
 
 TEST(CornerJudgement, ShortLinesAreLeftOut) {  // 13.17.1 (3)
-  // A right angle with a chamfer of two short lines: every joint in it counts as the right angle that it is.
+  // A right angle with a chamfer of two short lines: every joint in it counts as the right angle of the whole corner.
   const std::vector<float> chamfer = turns({{0, 0}, {10, 0}, {10.08, 0.03}, {10.11, 0.11}, {10.11, 10}, {20, 10}}, judging(0.1));
   ASSERT_EQ(chamfer.size(), 5u);
   EXPECT_EQ(chamfer[0], -1);
   EXPECT_FLOAT_EQ(chamfer[1], kRightAngle);
   EXPECT_FLOAT_EQ(chamfer[2], kRightAngle);
   EXPECT_FLOAT_EQ(chamfer[3], kRightAngle);
-  EXPECT_EQ(chamfer[4], -1);  // both its lines are long: the corner is what it is
-  // A step of a tenth of a millimetre in a straight way is no corner.
+  EXPECT_EQ(chamfer[4], -1);  // both its lines are long, so that the corner counts as it is
+  // A step of a tenth of a millimetre in a straight path is no corner.
   const std::vector<float> step = turns({{0, 0}, {10, 0}, {10, 0.09}, {20, 0.09}}, judging(0.1));
   EXPECT_FLOAT_EQ(step[1], 0);
   EXPECT_FLOAT_EQ(step[2], 0);
@@ -203,7 +203,7 @@ TEST(CornerJudgement, WithoutALongLineOnBothSidesNeighboursCount) {
   for (const float turn : begins) EXPECT_EQ(turn, -1);
   const std::vector<float> ends = turns({{0, 0}, {10, 0}, {10, 0.05}, {10.05, 0.05}}, judging(0.1));
   for (const float turn : ends) EXPECT_EQ(turn, -1);
-  // Of ten short lines the first cannot see the long one behind them.
+  // From the first of ten short lines the stage does not see the long line behind them.
   std::vector<Point> many{{0, 0}, {10, 0}};
   for (unsigned i = 0; i < 10; ++i) many.push_back({10, 0.05 * (i + 1)});
   many.push_back({20, 0.5});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters behind interpolation against the formulas of 13.15, how they end, and that nothing is lost in them however long they run.
+// The filters behind interpolation, compared with the formulas of 13.15; how they end, and that nothing is lost in them however long they run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCycle = 0.001;
 
-/// Filters of `axes` axes with memory of their own.
+/// Filters of `axes` axes with their memory.
 struct Filters {
   explicit Filters(unsigned axes = 1, uint32_t places = 4000) : rings(size_t{axes} * places) { filter.create(axes, kCycle, rings.data(), places); }
   std::vector<double> rings;
@@ -54,7 +54,7 @@ double over_cycle(const std::function<double(double)>& share, double end) {
   return sum / kParts;
 }
 
-/// A path that begins with its whole speed, and what the axis goes in each cycle.
+/// Expects how far the axis moves in each cycle of a path that begins with its full speed.
 void expect_rise(const FilterTimes& times, unsigned cycles, double tolerance, const std::function<double(double)>& share) {
   Filters f;
   ASSERT_TRUE(f.filter.use(times));
@@ -90,7 +90,7 @@ TEST(Filters, LagAtConstantSpeedIsThatOfTheManual) {
   EXPECT_NEAR(200 - x, m700::smoothing_lag_mm(6000, 80, 25), 1e-6);  // 0.1 mm in a cycle: 6000 mm/min
 }
 
-/// M700 7.7: Td = Ts, 2 Ts, and one behind the other; the axis is then where the path is, to the last bit.
+/// M700 7.7: Td = Ts, 2 Ts, or their sum for both filters in series; after that the axis is where the path is, to the last bit.
 TEST(Filters, EndsWithTheDecelerationCheckTime) {
   struct Case {
     FilterTimes times;
@@ -142,7 +142,7 @@ TEST(Filters, NothingIsLostInAMillionCycles) {
       x[0] += way(rng);
       f.filter.filter(x, false);
     }
-    // Whatever has gone through: at constant speed the lag is the one of the formula.
+    // Whatever the filter was given before: at constant speed the lag is that of the formula.
     double lag = 0;
     for (unsigned n = 0; n < 1000; ++n) {
       x[0] += 0.05;
@@ -164,7 +164,7 @@ TEST(Filters, WithoutConstantsThePlaceGoesThrough) {
   EXPECT_TRUE(f.filter.drained(x));
   EXPECT_TRUE(f.filter.settled(x));
   x[1] = 2;
-  EXPECT_FALSE(f.filter.settled(x));  // it has not been told yet
+  EXPECT_FALSE(f.filter.settled(x));  // the filter has not been given this place yet
 }
 
 TEST(Filters, TooLongAMeanIsRefused) {
@@ -190,7 +190,7 @@ TEST(Filters, AxesAreApart) {
   EXPECT_EQ(x[2], y[2]);
 }
 
-/// A place that counts from elsewhere moves nothing but itself.
+/// When the origin of the positions changes, the motion that is still in the filter stays.
 TEST(Filters, RelocationKeepsWhatIsOnItsWay) {
   Filters f;
   ASSERT_TRUE(f.filter.use(after(20, 0)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The affine maps of the axes: what they are together, their inverse, what is exact.
+// The affine maps of the axes: their products, their inverses, and which results are exact.
 #include "frame/affine.hpp"
 
 #include <gtest/gtest.h>
@@ -36,12 +36,12 @@ Affine any_map(Random& random, unsigned first, unsigned count, bool stretch = tr
   }
 }
 
-/// `size` is what the coordinates were like on the way.
+/// `size` is the largest size of coordinates in the calculation, which determines the rounding.
 void expect_same(const AxisVec& a, const AxisVec& b, double size, const char* what) {
   for (unsigned i = 0; i < kMaxAxes; ++i) EXPECT_NEAR(a[i], b[i], 1e-12 * size) << what << ", axis " << i;
 }
 
-// M98 I J makes its angle of two directions and adds it up: quarters exchange coordinates to the last bit (13.3.3).
+// M98 I J makes its angle from two directions and adds angles up: quarter turns must exchange coordinates to the last bit (13.3.3).
 TEST(AffineAngle, SumsOfQuartersInRadiansAreExact) {
   for (const double step : {std::atan2(1, 0) - std::atan2(0, 1), std::atan2(-7, 0) - std::atan2(0, 3), std::atan2(1, 1) - std::atan2(-1, 1)}) {
     double angle = 0;
@@ -54,7 +54,7 @@ TEST(AffineAngle, SumsOfQuartersInRadiansAreExact) {
       EXPECT_NEAR(turn.sin, std::sin(angle), 1e-12);
     }
   }
-  EXPECT_NE(Affine::Angle::radians(1e-12).sin, 0);  // what is commanded stays an angle, however small
+  EXPECT_NE(Affine::Angle::radians(1e-12).sin, 0);  // a commanded angle stays an angle, however small
 }
 
 TEST(Affine, TogetherTheyAreOneBehindTheOther) {
@@ -82,7 +82,7 @@ TEST(Affine, TheInverseLeadsBack) {
     const AxisVec p = any_point(random), there = map.apply(p);
     double size = 1000;
     for (unsigned i = 0; i < kMaxAxes; ++i) size = std::max({size, std::fabs(there[i]), std::fabs(map.offset()[i])});
-    size *= 625;  // four stretches by 5 and none back
+    size *= 625;  // four stretches by 5
     expect_same(map.inverse().apply(there), p, size, "inverse()");
     expect_same(map.apply_inverse(there), p, size, "apply_inverse()");
     Affine none = map;
@@ -96,7 +96,7 @@ TEST(Affine, ATranslationIsExactAndSaysSo) {
   for (int run = 0; run < 200; ++run) {
     const AxisVec by = any_point(random), p = any_point(random);
     Affine map = Affine::translation(by);
-    ASSERT_TRUE(map.then(Affine::stretch(2, 1, 7)));  // neither of these does anything
+    ASSERT_TRUE(map.then(Affine::stretch(2, 1, 7)));  // neither of these changes anything
     ASSERT_TRUE(map.then(Affine::rotation(0, 1, Affine::Angle::degrees(720), 3, 4)));
     EXPECT_TRUE(map.only_translates());
     EXPECT_TRUE(map == Affine::translation(by));

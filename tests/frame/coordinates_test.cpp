@@ -111,7 +111,7 @@ TEST(DataInput, WorkOffsets) {  // M700 12.7, 14.10 (6)
   EXPECT_EQ(bench.work_offset_now(1, 0), 10);
   EXPECT_EQ(bench.work_offset_now(1, 1), 20);
   EXPECT_EQ(bench.work_offset_now(6, 2), 5);
-  EXPECT_EQ(bench.work_offset_now(2, 0), 3);  // no L: judged as L2
+  EXPECT_EQ(bench.work_offset_now(2, 0), 3);  // without L it counts as L2
   EXPECT_EQ(bench.work_offset_now(196, 0), 7);
 }
 
@@ -177,7 +177,7 @@ TEST(DataInput, Dgshape) {  // DGSHAPE G10
   Bench bench(NC_DIALECT_DGSHAPE);
   bench.work_offset(2, {0, 9, 0});
   bench.run("%\nG91G10L2P2X5000\nG10L2P0Z1000\nG10P3R4000\nM02");
-  EXPECT_EQ(bench.work_offset_now(2, 0), 5);  // absolute in G91 too
+  EXPECT_EQ(bench.work_offset_now(2, 0), 5);  // absolute, also in G91
   EXPECT_EQ(bench.work_offset_now(2, 1), 9);
   EXPECT_EQ(bench.work_offset_now(0, 2), 1);
   EXPECT_EQ(bench.tool_now(3), 4);

@@ -19,7 +19,7 @@ Bench with_rotary(const char* type, const std::function<void(nc_axis_config&)>& 
   return bench;
 }
 
-/// What the counters of C show at the end of each block: workpiece, machine.
+/// The workpiece and the machine position of C at the end of each block.
 std::vector<std::pair<double, double>> counters(Bench& bench, const std::string& text) {
   std::vector<std::pair<double, double>> all;
   for (const Step& step : bench.run(text).steps) {
@@ -51,9 +51,9 @@ TEST(Rotary, PrintedExample) {
 
 TEST(Rotary, WayOfAbsoluteCommands) {
   Bench type0 = with_rotary("0"), type1 = with_rotary("1"), type2 = with_rotary("2");
-  // Without short cut: what is left of the difference, with its sign.
+  // Without the shortest way: the remainder of the difference, with its sign.
   EXPECT_EQ(turns(type0, "G0 C-270.\nC405.\nC10.\nC350.\nM30"), (std::vector<double>{-270, 315, -35, 340}));
-  // With it: never more than half a turn.
+  // With it: at most half a turn.
   EXPECT_EQ(turns(type1, "G0 C-270.\nC405.\nC350.\nC10.\nC190.\nC10.\nM30"), (std::vector<double>{90, -45, -55, 20, 180, 180}));
   EXPECT_EQ(turns(type2, "G0 C-270.\nC405.\nM30"), (std::vector<double>{-270, 675}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stroke check before travel (M700 15.7), stored stroke limits of an axis that is held (6.16).
+// Stroke check before travel (M700 15.7), and stored stroke limits of an axis that is held (6.16).
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any frames on the bus, from the first SYNC on, beside drives that answer nothing else. The control stays in its bounds: it never enables an axis whose drive
-// has not gone through its states, and never sends a target that the scan did not ask for.
+// Any frames on the bus, from the first SYNC on, and no other answers of drives. The control never enables an axis whose drive has not gone through
+// its states, and never sends a target that the scan did not command.
 #include <cmath>
 #include <deque>
 #include <memory>
@@ -54,7 +54,7 @@ BusMap bus_of_two() {
   return bus;
 }
 
-// The identifiers that mean something come most often.
+// A frame from the input, mostly with an identifier that has a meaning.
 CanFrame frame_from(Bytes* in, const CanFrame& asked) {
   static constexpr unsigned kKinds[] = {kTpdoId, kTpdoId + kPdoStep, kSdoAnswerId, kHeartbeatId, kEmergencyId, kSdoAnswerId, kTpdoId, kHeartbeatId};
   const std::uint8_t shape = in->byte();
@@ -64,7 +64,7 @@ CanFrame frame_from(Bytes* in, const CanFrame& asked) {
   if ((shape & 0xF0) == 0xE0) frame.event = static_cast<BusEvent>(in->byte() % 5);
   frame.length = (shape & 0xF0) == 0xD0 ? in->byte() % 9 : kMaxData;
   for (std::uint8_t& byte : frame.data) byte = in->byte();
-  if ((shape & 0x17) == 0x12) {  // an answer to what was asked, of a node that says yes
+  if ((shape & 0x17) == 0x12) {  // a positive answer to the request
     for (unsigned i = 1; i < kMaxData; ++i) frame.data[i] = asked.data[i];
     frame.data[0] = 0x60;
   }

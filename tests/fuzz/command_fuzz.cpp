@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: any bytes as commands from the network, with times between them, over the intake. Whatever
-// comes, the machine gets only what is in range, from the client that has control, and once.
+// Fuzz target: any bytes as commands from the network, with times between them, given to the intake. Whatever they are,
+// the machine gets only commands that are in range, from the client that has control, and each of them once.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,7 +23,7 @@ void must(bool condition) {
   if (!condition) std::abort();
 }
 
-// Bytes of the input, 0 behind its end.
+// The bytes of the input; 0 after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -37,7 +37,7 @@ class Bytes {
     at_ += count;
     return result;
   }
-  // Mostly small numbers, so that something gets through; sometimes anything.
+  // Mostly small numbers, so that many commands are accepted; sometimes any number.
   std::uint32_t number() {
     const std::uint8_t b = byte();
     return b < 0xf0 ? b & 0x0fu : value<std::uint32_t>();
@@ -50,7 +50,7 @@ class Bytes {
 
 struct FuzzMachine final : Machine {
   State now;
-  std::string client;     // whose command is being looked at
+  std::string client;     // client whose command is being handled
   std::string control;    // who had control before
   bool only_stop = false; // nothing but the end of a jog may come
   std::uint64_t executed = 0;
@@ -126,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   machine.now.program[0] = "part.nc";
   Intake intake(&machine);
   std::int64_t now_ns = 1'700'000'000'000'000'000;
-  std::set<std::pair<std::string, std::uint64_t>> done;  // executed, of clients that live
+  std::set<std::pair<std::string, std::uint64_t>> done;  // commands that were executed, of clients that are alive
   std::vector<Ack> acks;
   while (!in.empty()) {
     const std::uint8_t step = in.byte();

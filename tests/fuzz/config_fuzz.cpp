@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: any bytes as a machine configuration. It ends in a configuration that a control can be made
-// of, or in errors that name the file and, but for the whole file, a line.
+// Fuzz target: any bytes as a machine configuration. The result is a configuration from which a control can be made, or
+// errors that name the file and a line, except errors about the whole file.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

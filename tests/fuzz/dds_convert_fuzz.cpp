@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gateway's conversions without a network: any bytes as what the blocks of the segment hold, made a sample, and any bytes as a command of
-// the network, made a request. Texts end and are valid UTF-8, enumerators exist, sequences are as long as they say; a kind that only the
-// gateway may give does not come from outside.
+// The gateway's conversions without a network: any bytes as the contents of the segment's blocks become a sample, and any bytes as a command from
+// the network become a request. Texts end and are valid UTF-8, enumerators exist, sequences are as long as they say; a kind that only the
+// gateway may use is not accepted from outside.
 #include <memory>
 
 #include "dds/convert.hpp"
@@ -29,7 +29,7 @@ void require_enum(Enum value, Enum last, int line = __builtin_LINE()) {
   require(static_cast<std::uint32_t>(value) <= static_cast<std::uint32_t>(last), __FILE__, line);
 }
 
-/// Some bytes of `block`.
+/// Overwrites some bytes of `block`.
 template <class T>
 void damage(T* block, Bytes* in) {
   auto* bytes = reinterpret_cast<unsigned char*>(block);
@@ -42,7 +42,7 @@ void damage(T* block, Bytes* in) {
   }
 }
 
-/// Counts as the reader of the segment hands them on (share_fuzz.cpp requires that); the rest is what the input says.
+/// A machine block whose counts are as the reader of the segment gives them (share_fuzz.cpp tests that); everything else is from the input.
 std::unique_ptr<share::MachineBlock> machine_from(Bytes* in) {
   auto machine = std::make_unique<share::MachineBlock>();
   share::set_text(&machine->axis[0][0].name, "X");
@@ -163,7 +163,7 @@ void take_command(const share::MachineBlock& machine, Bytes* in) {
   damage(command.get(), in);
   require(has_hidden_text(*command) ==
           (hides(command->client) || hides(command->expected_program) || hides(command->axis) || hides(command->text)));
-  // What the middleware has read ends with a NUL, and has enumerators and truths that there are.
+  // The middleware gives only texts that end with a NUL, existing enumerators and valid truth values.
   command->client[sizeof command->client - 1] = command->axis[sizeof command->axis - 1] = '\0';
   command->expected_program[sizeof command->expected_program - 1] = command->text[sizeof command->text - 1] = '\0';
   const std::uint64_t writer = in->byte();
@@ -187,7 +187,7 @@ void answer(const share::MachineBlock&, Bytes* in) {
   require_enum(to.kind, nc_CMD_RELEASE_FORCE);
   require_enum(to.state, nc_ACK_FAILED);
   require_enum(to.reason, nc_REASON_CLIENT_IN_USE);
-  if (from.state > nc_ACK_FAILED) require(to.state == nc_ACK_REJECTED);  // nobody may believe that it was done
+  if (from.state > nc_ACK_FAILED) require(to.state == nc_ACK_REJECTED);  // an unknown state must not look as if it was done
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as the data sheet of a drive. It is refused with lines that are in it, or read; and then it can be compared with what an axis needs.
+// Any text as the data sheet of a drive. It is refused with errors that name lines of it, or it is read, and can be compared with what an axis
+// needs.
 #include "fuzz/input.hpp"
 #include "hal/canopen/eds.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a formula: it is refused with a condition, or it compiles and gives a finite number, vacant,
-// or a fault.
+// Any bytes as a formula: it is refused with a condition, or it compiles and results in a finite number, vacant, or a
+// fault.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

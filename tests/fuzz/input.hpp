@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzz targets share: the input taken apart, and requirements that name their line.
+// Shared by the fuzz targets: a reader of the input, and requirements that name their line.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline void require(bool holds, const char* file = __builtin_FILE(), int line = 
   std::abort();
 }
 
-/// Bytes of the input, 0 behind its end.
+/// The bytes of the input; 0 after its end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}

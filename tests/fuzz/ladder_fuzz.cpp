@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: any bytes as a ladder program. It ends in errors that name the file, or in a program whose
-// scans end, on both interpreters with the same result, and write no device that is not theirs.
+// Fuzz target: any bytes as a ladder program. The result is errors that name the file, or a program whose scans end,
+// with the same result on both interpreters, and write no device that they must not write.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

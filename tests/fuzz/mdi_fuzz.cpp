@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as MDI blocks, several times one behind the other on one control: what is too long is refused and changes nothing, the text is
-// copied, each program comes to its end or an alarm, and behind a reset the next one is taken.
+// Any bytes as MDI blocks, several times in succession on one control: a text that is too long is refused and changes nothing, the text is copied,
+// each program comes to its end or to an alarm, and after a reset the next one is accepted.
 #include <memory>
 
 #include "fuzz/small_control.hpp"
@@ -20,9 +20,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (unsigned round = 0; round < 4 && !in.empty(); ++round) {
     const std::uint8_t shape = in.byte();
     std::string text = in.text(1 + 4u * in.byte());
-    // Longer ones than an input likes to be.
+    // Texts of about the greatest length, which inputs rarely have.
     if ((shape & 3) == 3) text.append(kLongest - 2 + (shape >> 2 & 7u) - std::min(text.size(), kLongest - 2), ' ');
-    // Exactly as large as it is: a read behind it is seen; freed before it runs: it has been copied.
+    // The memory has exactly the size of the text, so that the sanitizer finds a read behind it; it is freed before the blocks run, which shows
+    // that they were copied.
     auto given = std::make_unique<char[]>(text.size());
     std::copy(text.begin(), text.end(), given.get());
     const nc_status loaded = nc_mdi_load(control.get(), 0, given.get(), text.size());

@@ -45,7 +45,7 @@ Asked asked_from(Bytes* in) {
   return asked;
 }
 
-/// Mostly an answer that begins as it should, so that what is behind gets its turn.
+/// Mostly an answer that begins correctly, so that its other parts are tested, too.
 std::vector<std::uint8_t> answer_from(Bytes* in, const Asked& asked) {
   const std::uint8_t shape = in->byte();
   const std::string rest = in->text(kMaxFrame);
@@ -78,7 +78,7 @@ std::vector<std::uint8_t> answer_from(Bytes* in, const Asked& asked) {
 void look_through(const PointMap& map, const std::uint16_t* cells) {
   std::uint32_t value = 0;
   if (!decode(map, cells, &value)) {
-    require(map.format == Format::kF32);  // the only one with values that are no number
+    require(map.format == Format::kF32);  // the only format with NaN
     return;
   }
   const std::int64_t number = point_is_signed(map) ? static_cast<std::int32_t>(value) : static_cast<std::int64_t>(value);

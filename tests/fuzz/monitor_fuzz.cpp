@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the texts and numbers that a monitor hears over the network. What it draws is valid UTF-8 without a character that steers a
-// terminal, in whole lines; what it prints as JSON is one line that can be read back.
+// Any bytes as the texts and numbers that a monitor gets from the network. It draws valid UTF-8 without control characters, in whole lines; what it
+// prints as JSON is one line that can be parsed.
 #include <nlohmann/json.hpp>
 
 #include "dds/monitor_view.hpp"
@@ -13,7 +13,7 @@ using namespace nc::dds;
 using nc::fuzz::Bytes;
 using nc::fuzz::require;
 
-/// Bounded as the IDL bounds it, without NUL; whole characters or not.
+/// A text of at most the length that the IDL allows, without NUL; it may end in the middle of a character.
 std::string text(Bytes* in, std::size_t bound) {
   const std::string bytes = in->text(std::min<std::size_t>(in->byte(), bound));
   return bytes.substr(0, bytes.find('\0'));
@@ -80,7 +80,7 @@ SignalView signal(Bytes* in) {
   return s;
 }
 
-/// ECMA-48: C0 (but for the end of a line), DEL and C1 are what a terminal obeys; a byte that is no UTF-8 is C1 to one of 8 bits.
+/// ECMA-48: a terminal obeys C0 (here without the end of a line), DEL and C1; a terminal of 8 bits takes a byte that is not UTF-8 for C1.
 void require_harmless(const std::string& drawn, bool lines) {
   for (std::size_t at = 0; at < drawn.size();) {
     const std::size_t length = nc::rt::utf8_length(std::string_view(drawn).substr(at));

@@ -19,7 +19,7 @@ struct Release {
   void operator()(void* memory) const { std::free(memory); }
 };
 
-/// Ends the run and says which line of this file did not hold, so that the log alone tells what was found.
+/// Ends the run and names the line of this file whose requirement does not hold, so that the log alone tells what was found.
 void require(bool holds, int line = __builtin_LINE()) {
   if (holds) return;
   std::fprintf(stderr, "ERROR: what program_fuzz.cpp requires in line %d does not hold\n", line);
@@ -116,7 +116,7 @@ nc_world world_for(const nc_axes& machine, const nc_item& sync, uint8_t seed) {
   return world;
 }
 
-/// Offline: items in order, finite, every sync answered; now and then back to the last mark.
+/// Offline: the items come in order, all numbers are finite, every sync is answered; now and then it rewinds to the last mark.
 void pull(nc_control* control, const Chosen& chosen) {
   uint64_t serial = 0, last_mark = 0;
   nc_axes machine{}, from{}, at_mark{};
@@ -185,7 +185,7 @@ void pull(nc_control* control, const Chosen& chosen) {
   }
 }
 
-/// Online: a machine that follows, completes everything, and is stopped and started again.
+/// Online: a machine that follows and completes everything, and is stopped and started again.
 void cycle(nc_control* control, const Chosen& chosen) {
   nc_inputs in{};
   nc_outputs out{};
@@ -222,7 +222,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const nc_config config = configuration(chosen);
   const size_t bytes = nc_memory_required(&config);
   require(bytes != 0);
-  // Kept from input to input: nc_create() takes any memory as it finds it.
+  // The same memory for all inputs: nc_create() must work with any contents.
   static const std::unique_ptr<void, Release> memory(std::aligned_alloc(64, size_t{1} << 22));
   require(memory != nullptr && bytes <= size_t{1} << 22);
   nc_control* control = nc_create(&config, memory.get(), bytes, nullptr);

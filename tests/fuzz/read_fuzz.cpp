@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program behind a read callback that gives short reads, fails, says that the text has changed, or has other bytes the next time. Short
-// reads change nothing; behind a failure nothing comes that the whole text would not have given, and it ends in an alarm.
+// A program behind a read callback that gives short reads, fails, reports that the text has changed, or gives other bytes the next time. Short
+// reads change nothing. After a failure there are no items that the whole text would not have given, and the run ends in an alarm.
 #include "fuzz/small_control.hpp"
 
 namespace {
@@ -16,7 +16,7 @@ struct Source {
   unsigned step = 1;     // bytes of a short read
   unsigned good = 0;     // reads before the trouble begins
   unsigned calls = 0;
-  bool failed = false;   // has said so
+  bool failed = false;   // the callback has reported a failure
 };
 
 long read_at(void* user, std::uint64_t offset, char* buffer, std::size_t size) {
@@ -58,7 +58,7 @@ Run run(Source* source) {
   return result;
 }
 
-/// Items of the block that could not be read, and the end, are not in the whole text's.
+/// The number of items at the beginning that are the same in both runs. The alarm and the end after a failed read are not in the other run.
 std::size_t same_from_start(const Run& a, const Run& b) {
   const std::size_t count = std::min(a.seen.size(), b.seen.size());
   const auto differs = std::mismatch(a.seen.begin(), a.seen.begin() + static_cast<long>(count), b.seen.begin());
@@ -80,7 +80,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(got.added == expected.added && got.selected == expected.selected && got.status == expected.status);
     require(got.seen == expected.seen);
   } else if (troubled.failed) {
-    // A block that stands in the window already may end the program before the text is asked again.
+    // A block that is in the window already may end the program before the text is read again.
     const bool refused = got.added != NC_OK || got.selected != NC_OK;
     require(refused || got.status == NC_ALARMED || got.seen == expected.seen);
     std::size_t moves = 0;

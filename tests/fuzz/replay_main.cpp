@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds every file of the given corpus folders to a fuzz target once, so that what fuzzing found stays found with any
-// compiler: the same LLVMFuzzerTestOneInput that libFuzzer drives, without libFuzzer.
+// Feeds every file of the given corpus folders to a fuzz target once, without libFuzzer, so that every compiler tests the
+// inputs that fuzzing has found. It calls the same LLVMFuzzerTestOneInput as libFuzzer.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

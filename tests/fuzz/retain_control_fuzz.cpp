@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the payload of retained variables and of retained tables. Refused they change nothing; taken, what the control then has is
-// finite, and written and read again it is the same.
+// Any bytes as the payload of retained variables and of retained tables. If they are refused they change nothing. If they are accepted the control
+// has only finite values, which are the same after they are written and read again.
 #include "fuzz/small_control.hpp"
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the files of retained data: the last one, the one being written, the one before. What is loaded is one of them, whole, behind
-// its check sum and the newest; a loss is said; loading changes nothing; and behind it a save is loaded again.
+// Any bytes as the files of retained data: the last one, the one that is being written, the one before. The newest complete file with a right check
+// sum is loaded; a loss is reported; loading changes nothing; and what is saved afterwards is loaded again.
 #include <unistd.h>
 
 #include <fstream>
@@ -17,7 +17,7 @@ using nc::rt::RetainStore;
 constexpr const char* kEndings[] = {"", ".new", ".old"};
 constexpr std::size_t kHeader = 32, kChecked = 16;  // magic, version, check | generation, length
 
-/// A folder of this process; removed with all in it that a store makes.
+/// A folder of this process, which is removed together with the files that a store makes.
 struct Folder {
   std::string path = "/tmp/retain_fuzz_XXXXXX";
   Folder() { require(mkdtemp(path.data()) != nullptr); }
@@ -42,7 +42,7 @@ void put(std::string* bytes, T value) {
   bytes->append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Whole, but for what the input damages.
+/// A complete file, with damages that the input chooses.
 std::string file_from(Bytes* in) {
   const std::uint8_t shape = in->byte();
   const std::uint64_t generation = (shape & 1) != 0 ? in->value<std::uint64_t>() : in->byte();
@@ -104,7 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (loaded == RetainStore::Loaded::kOlder || loaded == RetainStore::Loaded::kDamaged) require(!error.empty());
   std::string same = "untouched", second;
   require(again.load(&same, &second) == loaded && same == payload && second == error);
-  // On a disk each save takes its time: only some inputs go on.
+  // A save to a disk takes long, so only some inputs go on.
   if ((there & 0xF8) != 0xF8) return 0;
   require(store.save("the next one", &error));
   RetainStore next(folder.file());

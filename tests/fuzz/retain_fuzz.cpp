@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: any bytes as the payload of a file of retained devices. They are refused, or they are rows that
-// come out as the same bytes again.
+// Fuzz target: any bytes as the payload of a file of retained devices. They are refused, or they become rows that are
+// written as the same bytes again.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

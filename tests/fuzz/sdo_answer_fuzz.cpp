@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any frames as the answers of a node to a transfer. It comes to an end, its length is bounded, and what is wrong has a sentence.
+// Any frames as the answers of a node to a transfer. The transfer ends, its length is bounded, and every fault has a sentence.
 #include <vector>
 
 #include "fuzz/input.hpp"
@@ -48,6 +48,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require((sdo.state() == SdoClient::State::kFailed) == !sdo.error().empty());
   CanFrame rest;
   for (int i = 0; i < 3 && sdo.state() == SdoClient::State::kBusy; ++i) (void)sdo.request(now_ns += 20'000'000, &rest);
-  require(sdo.state() != SdoClient::State::kBusy);  // silence ends it
+  require(sdo.state() != SdoClient::State::kBusy);  // without an answer the transfer ends, too
   return 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as a setup file: a setup or one line that says what is wrong, never a crash. What parses goes on
-// into a control, which refuses what it does not have.
+// Any bytes as a setup file: the result is a setup, or one line that says what is wrong, never a crash. A setup is then
+// given to a control, which refuses what it does not have.
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
@@ -21,7 +21,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-// One line with the name of the file in front: what the command line prints.
+// The message is one line that begins with the name of the file, as the command line prints it.
 void require_message(const std::string& error) {
   require(error.rfind("s.json", 0) == 0);
   require(error.find('\n') == std::string::npos);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes written into the blocks, the description and the rings of a shared-memory segment, as a reader sees them behind the door. What
-// the reader hands on has counts in their range and texts that end; what it refuses has a sentence; a ring gives at most what it holds.
+// Any bytes in the blocks, the description and the rings of a shared-memory segment, as a reader sees them after the door. What the reader passes
+// on has counts in their range and texts that end; a refusal has a sentence; a ring gives no more than it holds.
 #include <unistd.h>
 
 #include <memory>
@@ -41,7 +41,7 @@ struct Shared {
   }
 };
 
-/// Some bytes of `block`, mostly near its beginning, where the counts are.
+/// Overwrites some bytes of `block`, mostly near its beginning, where the counts are.
 template <class T>
 void damage(T* block, Bytes* in) {
   auto* bytes = reinterpret_cast<unsigned char*>(block);
@@ -123,13 +123,13 @@ void read_points_and_signals(Shared* shared, Bytes* in) {
   else require(!error.empty());
 }
 
-/// The description, and what is in front of it: a reader that opens the door believes it or says why not.
+/// Damages the description and the identity before it: a reader that opens the door accepts them or says why not.
 void open_again(Shared* shared, Bytes* in) {
   Segment& segment = *shared->owner.get();
   const Identity identity = segment.identity;
   if (in->byte() % 4 == 0) damage(&segment.identity, in);
   damage(&segment.machine, in);
-  if (in->byte() % 8 != 0) segment.check = check_sum(segment);  // as one would who means it
+  if (in->byte() % 8 != 0) segment.check = check_sum(segment);  // so that the reader looks further than the check sum
   SegmentReader reader;
   std::string error;
   if (reader.open(shared->name, &error)) {
@@ -158,7 +158,7 @@ void empty_the_rings(Shared* shared, Bytes* in) {
   while (segment.commands.pop(request.get())) require(++count <= kCommandRing);
   for (count = 0; segment.acks.pop(&ack);) require(++count <= kAckRing);
   require(segment.commands.size() == 0 && segment.acks.size() == 0);
-  // Behind any nonsense the ring is a ring again.
+  // After any nonsense the ring must work again.
   request->sequence = in->byte();
   require(segment.commands.push(*request));
   const std::uint64_t sequence = request->sequence;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small control for fuzz targets, and its items pulled to the end of the program with what always has to hold.
+// A small control for fuzz targets, and a puller of its items that checks what must always be true.
 #pragma once
 
 #include <cmath>
@@ -57,7 +57,7 @@ class SmallControl {
   nc_control* control_ = nullptr;
 };
 
-/// A text in an array: it ends there, and is valid UTF-8.
+/// Requires that a text ends within its array, and is valid UTF-8.
 template <std::size_t kSize>
 void require_text(const char (&text)[kSize]) {
   const std::size_t length = strnlen(text, kSize);
@@ -69,7 +69,7 @@ inline void require_finite(const nc_axes& axes) {
   for (const double v : axes.v) require(std::isfinite(v));
 }
 
-/// What of an item two runs of one program can be compared by.
+/// The parts of an item by which two runs of one program are compared.
 struct Seen {
   std::uint8_t kind = 0;
   nc_axes machine{};
@@ -82,7 +82,7 @@ struct Seen {
 class Puller {
  public:
   Puller(nc_control* control, unsigned system) : control_(control), system_(system) {}
-  /// False when nothing came this time: at the end, or where the budget is used up or another part system is waited for.
+  /// False when no item came: at the end, when the budget is used up, or when another part system has to go on first.
   bool pull() {
     nc_item item;
     status_ = nc_pull(control_, system_, 16, &item);

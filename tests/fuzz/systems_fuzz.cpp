@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two programs (parted by a byte 0) in two part systems, pulled in an order that the input chooses: serials without a gap in each, finite,
-// an end or an alarm of each its own.
+// Two programs (separated by a byte 0) in two part systems, pulled in an order that the input chooses: each has serials without gaps, finite
+// numbers, and its own end or alarm.
 #include <array>
 
 #include "fuzz/small_control.hpp"

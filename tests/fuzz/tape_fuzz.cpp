@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any bytes as the rows of a punched tape, in each code and read by each unit: the program comes to its end or to an alarm, and the same way
-// when it is read again. A code or a unit that there is not is refused.
+// Any bytes as the rows of a punched tape, in each code and in each unit: the program comes to its end or to an alarm, and to the same one when it
+// is read again. A code or unit that does not exist is refused.
 #include "fuzz/small_control.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board with one chip of GPIO lines for tests: lines by name, a chip that can be pulled out, lines that others have.
+// A board with one chip of GPIO lines for tests: lines have names, the chip can be pulled out, and lines may belong to others.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,19 +14,19 @@
 
 namespace nc::test {
 
-// What the test and the thread of a bus share.
+// The state that the test and the thread of a bus share.
 struct FakeBoard {
   std::mutex mutex;
   std::condition_variable wake;
   bool present = true;
-  std::string trouble;                     // of reads and writes; empty = none
+  std::string trouble;                     // error of reads and writes; empty = none
   bool stuck = false;                      // reads do not return
-  std::map<std::string, std::string> owner;  // lines that others have
-  std::map<std::string, unsigned> level;   // by line: 1 = active
+  std::map<std::string, std::string> owner;  // owners of lines that others have
+  std::map<std::string, unsigned> level;   // of each line: 1 = active
   std::vector<hal::gpio::LineSetup> asked;
   std::string consumer;
   unsigned requests = 0, releases = 0, reads = 0, writes = 0;
-  std::map<std::string, unsigned> changes;  // of outputs
+  std::map<std::string, unsigned> changes;  // number of changes of each output
 };
 
 class FakeChip final : public hal::gpio::LineChip {

@@ -89,7 +89,7 @@ TEST_F(GpioBank, ALevelCountsWhenItHasStoodForTheTimeOfTheDebounce) {
   ASSERT_TRUE(open());
   poll();
   EXPECT_EQ(bank->shown(0), 1) << "the first level counts at once";
-  for (unsigned i = 0; i < 6; ++i) {  // bounces for longer than its time: every level is a new one
+  for (unsigned i = 0; i < 6; ++i) {  // bounces for longer than the debounce time: every poll finds another level
     board.level["stop"] = i % 2;
     poll(2);
     EXPECT_EQ(bank->shown(0), 1) << i;
@@ -120,7 +120,7 @@ TEST_F(GpioBank, AChipThatIsNotThereIsAskedForLessAndLessOften) {
   board.present = false;
   config.lines[0].loss_value = 1;
   config.lines[1].hold_on_loss = true;
-  wanted[1] = 1;  // what the point begins with
+  wanted[1] = 1;  // the initial value of the point
   ASSERT_TRUE(open()) << error;
   EXPECT_EQ(log, "board: there is no chip \"fake\"\n");
   EXPECT_FALSE(bank->good(0) || bank->good(1) || bank->good(2));

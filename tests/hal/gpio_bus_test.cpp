@@ -46,7 +46,7 @@ class GpioBusTest : public testing::Test {
     const std::lock_guard lock(board.mutex);
     return board.level[line];
   }
-  // Scans until it is so; false when it does not come about in a time that is far too long.
+  // Scans until `so` returns true; false if it does not within a minute, which is far too long.
   bool until(const std::function<bool()>& so) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     do {

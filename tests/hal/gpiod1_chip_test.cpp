@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is asked of libgpiod 1.6, over a stand-in for that library (gpiod_stand_in.hpp).
+// The calls of libgpiod 1.6, tested with a stand-in for that library (gpiod_stand_in.hpp).
 #include <gpiod.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using nc::test::stand_in;
 using nc::test::StandIn;
 using nc::test::StandInLine;
 
-// Chips "gpiochip0" and "gpiochip1", each with 100 lines L0 to L99 but for L50, which has no name.
+// Chips "gpiochip0" and "gpiochip1", each with 100 lines L0 to L99, of which L50 has no name.
 class Gpiod1Chip : public testing::Test {
  protected:
   Gpiod1Chip() {

@@ -47,7 +47,7 @@ int fails(int problem) {
   return -1;
 }
 
-// What the library asks of a bulk: 1 to 64 lines of one chip.
+// The library requires that a bulk has 1 to 64 lines of one chip.
 void expect_bulk(const gpiod_line_bulk* bulk) {
   ASSERT_GE(bulk->num_lines, 1u);
   ASSERT_LE(bulk->num_lines, static_cast<unsigned>(GPIOD_LINE_BULK_MAX_LINES));
@@ -71,7 +71,7 @@ int request(gpiod_line_bulk* bulk, const char* consumer, int flags, const int* l
   return 0;
 }
 
-// Values travel for the whole request: its lines, in its order.
+// Values are read and written for all lines of a request, in its order.
 int usable(const gpiod_line_bulk* bulk, bool output) {
   expect_bulk(bulk);
   if (bulk->lines[0]->chip->chip->gone) return fails(ENODEV);

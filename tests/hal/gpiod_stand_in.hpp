@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stand-in for libgpiod 1.6 in test_hal: the functions that hal/gpio/gpiod1_chip.cpp calls, as the header of that version describes them, over chips
-// that the test makes. The test program's own functions come before those of the library. It shows that the calls are those that the library asks for,
-// not what a kernel does.
+// A stand-in for libgpiod 1.6 in test_hal: the functions that hal/gpio/gpiod1_chip.cpp calls, as the header of that version describes them, for chips
+// that the test makes. The linker prefers functions of the test program to those of the library. The tests show that the library is called correctly,
+// but not what a kernel does.
 #pragma once
 
 #include <string>
@@ -30,12 +30,12 @@ struct StandIn {
   std::vector<StandInChip> chips;
   int open_error = 0;     // errno of every open
   int request_error = 0;  // errno of requests
-  unsigned requests_before = 0;  // so many come about before it
+  unsigned requests_before = 0;  // so many requests succeed before the error
   unsigned requests = 0, reads = 0, writes = 0;
   int open = 0;           // chips that are open
 };
 
-// The computer of the running test.
+// The simulated computer of the running test.
 StandIn& stand_in();
 
 }  // namespace nc::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The input script of the simulated machine: what it reads, what it refuses, when it acts.
+// The input script of the simulated machine: what is accepted, what is refused, and when it acts.
 #include "hal/sim/input_script.hpp"
 
 #include <gtest/gtest.h>

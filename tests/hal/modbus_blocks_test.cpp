@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Merging of Modbus points into requests, against what a naive list of cells says.
+// The merging of Modbus points into requests, compared with a simple list of cells.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -104,7 +104,7 @@ RC_GTEST_PROP(ModbusBlocks, CarryEveryPointOnceAndNoMoreThanAllowed, ()) {
       RC_ASSERT(block.write == write);
       RC_ASSERT(block.count >= 1u && block.count <= limit);
       RC_ASSERT(block.end() <= 65536u);
-      unsigned strangers = 0;  // in a row
+      unsigned strangers = 0;  // cells in succession that belong to no point
       for (unsigned a = block.first; a < block.end(); ++a) {
         strangers = wanted[write].contains({block.unit, block.table, a}) ? 0 : strangers + 1;
         RC_ASSERT(strangers <= (write ? 0 : gap));
@@ -122,7 +122,7 @@ RC_GTEST_PROP(ModbusBlocks, CarryEveryPointOnceAndNoMoreThanAllowed, ()) {
   }
 }
 
-// Not more requests than a walk over the sorted cells makes that cuts only where it must.
+// There are no more requests than if the sorted cells are divided only where it is necessary.
 RC_GTEST_PROP(ModbusBlocks, AreAsFewAsANaiveWalkMakes, ()) {
   std::vector<PointMap> points = any_points();
   for (PointMap& map : points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Modbus codec: word orders, signs, scaling, saturation, and that outputs come back as inputs.
+// The Modbus codec: word orders, signs, scaling, saturation, and that values which are written are read back the same.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of Modbus TCP byte by byte as the protocol prints them, and what is believed of an answer.
+// Requests of Modbus TCP byte by byte as in the protocol, and which answers are accepted.
 #include "hal/modbus/frame.hpp"
 
 #include <gtest/gtest.h>
@@ -86,7 +86,7 @@ TEST(ModbusFrame, ExceptionsAreThoseOfTheRequest) {
     EXPECT_EQ(judge(request, wrong), Verdict::kForeign);
 }
 
-// Also one that the protocol does not have, but a device may give.
+// This includes exceptions that the protocol does not have, but that a device may send.
 TEST(ModbusFrame, EveryExceptionHasWords) {
   const Frame request = read_request(block(Table::kHolding, 3, 0, 1), 7);
   std::set<std::string> words;
@@ -103,7 +103,7 @@ TEST(ModbusFrame, EveryExceptionHasWords) {
   EXPECT_EQ(words.count("exception 9"), 1u);
 }
 
-// Every single bit of a right answer but those of the values, and every other length.
+// An answer is rejected if a single bit of it, except those of the values, or its length is wrong.
 TEST(ModbusFrame, NothingElseIsBelieved) {
   const std::uint16_t cells[] = {0x1234, 0x5678, 1};
   struct Case {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated machine against its model: servo lag, following error, spindle, FIN handshake, solids,
-// points.
+// The simulated machine compared with its model: servo lag, following error, spindle, FIN handshake, solids, points.
 #include "hal/sim/sim_machine.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +52,7 @@ struct Bench {
   PointImage image{};
 };
 
-// Half of the speed fades away in coast_s * ln 2; a bus that is lost is a drive that is off.
+// A coasting axis loses half of its speed in coast_s * ln 2; when the bus is lost the drives are off.
 TEST(SimMachine, WithoutItsDriveAnAxisCoasts) {
   for (const bool bus : {false, true}) {
     SCOPED_TRACE(bus);
@@ -170,7 +169,7 @@ TEST(SimMachine, AStrobeThatFollowsAtOnceMakesFinDropAndTakesItsTime) {
   command.strobe = 1;
   command.serial = 5;
   bench.until_fin(100);
-  command.strobe = 2;  // S behind M, without a scan between
+  command.strobe = 2;  // S follows M without a scan in between
   command.serial = 7;
   bench.scan();
   bench.machine.read(&bench.feedback, &bench.image);
@@ -215,7 +214,7 @@ TEST(SimMachine, SpindleRampsAndFinWaitsForTheSpeed) {
   EXPECT_NEAR(bench.machine.spindle_rpm(0), 0, 1e-6);
 }
 
-// Each spindle ramps to its own speed; M03 and M05 are for those that the NC has selected.
+// Each spindle ramps to its own speed; M03 and M05 act on the spindles that the NC has selected.
 TEST(SimMachine, SpindlesTurnApart) {
   SimConfig config;
   config.spindle_count[0] = 2;
@@ -273,7 +272,7 @@ TEST(SimMachine, ASpindleIsAnAxisWithItsServo) {
   EXPECT_EQ(spindle.turns, std::floor(spindle.turns));
   const double mark = spindle.turns;
   EXPECT_EQ(bench.machine.actual(0).v[3], 0);
-  command.position.v[3] = 70;  // not before the NC says that this is for the axis
+  command.position.v[3] = 70;  // ignored until the NC says that the position is for the axis
   bench.scan();
   EXPECT_EQ(bench.machine.actual(0).v[3], 0);
   command.servo_ready = 1 << 3;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The public headers still give the binary interface that is kept in the tree, the library has its number, and the check that says so sees
-# what breaks a program and lets pass what does not.
+# The public headers still give the binary interface that is kept in the tree, the library has its number, and the check finds changes that break a
+# program, and accepts others.
 set -euo pipefail
 check=$NC_SOURCE_DIR/scripts/abi
 work=$(mktemp -d)
@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 status=0
 "$check" --check || exit $?
 
-# with LABEL FILE SED-EXPRESSION: headers in which one thing is different.
+# with LABEL FILE SED-EXPRESSION: makes headers with one difference.
 with() {
   rm -rf "$work/include"
   cp -r "$NC_SOURCE_DIR/libnc/include" "$work/include"

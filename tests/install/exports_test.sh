@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# libnc.so shows nothing but nc_*, shows every function that the headers declare NC_API, and needs no C++ run-time library.
+# libnc.so exports only nc_*, exports every function that the headers declare NC_API, and needs no C++ run-time library.
 set -euo pipefail
 if [ -n "${NC_SANITIZE:-}" ]; then
   echo "skipped: a sanitized library has the sanitizer's symbols too"

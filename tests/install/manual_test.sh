@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The manual pages say what the programs say: every option and command of --help stands in its page, no page has an option that the
-# program does not know, every key that the configuration reader knows stands in ncrtd.toml(5), and the version is this one.
+# The manual pages agree with the programs: every option and command of --help is in its page, no page has an option that the program does not
+# know, every key that the configuration reader knows is in ncrtd.toml(5), and the version is the present one.
 set -euo pipefail
 man=$NC_SOURCE_DIR/packaging/man
 version=$(sed -n 's/^project(libnc VERSION \([0-9.]*\).*/\1/p' "$NC_SOURCE_DIR/CMakeLists.txt")

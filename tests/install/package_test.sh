@@ -90,7 +90,7 @@ for script in postinst prerm postrm; do
   grep -q '@' "$work/ncrtd.control/$script" && fail "ncrtd: a placeholder is left in $script"
 done
 
-# A document that a package names is in it: its configurations and documents lead nowhere else.
+# Every document that a package names is in it, also those that its configurations and documents name.
 for package in libnc-dev nc-tools ncrtd; do dpkg-deb -x "$work/debs/${package}_$version-1_$arch.deb" "$work/$package.tree"; done
 documents=0
 while read -r name; do
@@ -104,7 +104,7 @@ for package in libnc-dev nc-tools ncrtd; do
   done < <(find "$work/$package.tree/usr/share/doc/$package" -name '*.md' -exec grep -hoE '\]\([a-z-]+\.md' {} + | sed 's/..//' | sort -u)
 done
 [ $documents -ge 10 ] || fail "only $documents documents are named"
-# The gateway hears this computer alone until somebody configures a network (docs/dds.md).
+# The gateway is reached only from this computer until somebody configures a network (docs/dds.md).
 unit=$work/ncrtd.tree/lib/systemd/system/ncdds.service
 for line in IPAddressDeny=any IPAddressAllow=localhost; do
   [ ! -f "$unit" ] || grep -qx "$line" "$unit" || fail "ncdds.service: no $line"

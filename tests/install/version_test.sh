@@ -16,7 +16,7 @@ says CHANGELOG.md "^## $exact - [0-9]{4}-[0-9]{2}-[0-9]{2}\$"
 says packaging/debian/changelog "^libnc \\($exact-[0-9]+\\)"
 says libnc/include/nc/control.h "@return \"$exact\", constant"
 for page in packaging/man/*.[1-8]; do says "$page" "^\\.TH .* \"libnc $exact\""; done
-# What comes next stands above the versions, and they fall from top to bottom.
+# The coming version stands above the others, which descend from top to bottom.
 headings=$(sed -n 's/^## //p' CHANGELOG.md)
 [ "$(head -n 1 <<<"$headings")" = Unreleased ] || { echo "the first heading of CHANGELOG.md is not Unreleased"; status=1; }
 numbers=$(tail -n +2 <<<"$headings" | cut -d' ' -f1)

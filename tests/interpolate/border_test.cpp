@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes in from outside is no number, or none that can be: set-points stay finite and within the limits, it is said, and the machine
-// goes on when the input is good again.
+// Inputs that are NaN, infinite or impossible: the set-points stay finite and within the limits, the input is reported, and the machine goes on
+// when it is good again.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -22,7 +22,7 @@ class Border : public ::testing::TestWithParam<bool> {
     config.soft_limited = 7;
     for (unsigned i = 0; i < 3; ++i) config.soft_min[i] = -500, config.soft_max[i] = 500;
   }
-  /// Cycles during which every set-point is finite and no axis faster than its limit.
+  /// Runs so many cycles, and expects that every set-point is finite and no axis faster than its limit.
   void turn(Machine& m, const Program& p, unsigned cycles) {
     for (unsigned n = 0; n < cycles; ++n) {
       const AxisVec before = m.command();
@@ -70,11 +70,11 @@ const Field kFields[] = {
     {"distance", [](nc_inputs& in, double v) { in.manual[0].distance = v; }, 0, false, NC_INPUT_MANUAL},
 };
 
-/// During a program, for one cycle and for long.
+/// A bad input during a program, for one cycle and for many.
 TEST_P(Border, DuringAProgram) {
   for (const Field& field : kFields) {
     for (const double bad : kBad) {
-      // Negative speeds, places and ways are good ones.
+      // Negative speeds, places and distances are allowed.
       const bool allowed = bad == -5 && field.says != NC_INPUT_FEED_OVERRIDE && field.says != NC_INPUT_RAPID_OVERRIDE;
       for (const unsigned cycles : {1u, 100u}) {
         SCOPED_TRACE(std::string(field.name) + " = " + std::to_string(bad) + " for " + std::to_string(cycles));
@@ -101,7 +101,7 @@ TEST_P(Border, DuringAProgram) {
   }
 }
 
-/// A step with next to no speed does not keep the machine in manual mode for ever.
+/// A step with almost no speed must not keep the machine in manual mode for ever.
 TEST_P(Border, AStepThatWouldNeverArrive) {
   for (const double slow : kTiny) {
     if (slow > 1e-6 || slow == 0) continue;
@@ -117,7 +117,7 @@ TEST_P(Border, AStepThatWouldNeverArrive) {
   }
 }
 
-/// A spindle that says infinity for one cycle while a feed per revolution is read ahead.
+/// The speed of a spindle is infinite for one cycle while a feed per revolution is read ahead.
 TEST_P(Border, AnInfiniteSpindleDoesNotMakeTheFeed) {
   Machine m(config);
   const Program p = lines(config, 0.5);
@@ -137,7 +137,7 @@ TEST_P(Border, AnInfiniteSpindleDoesNotMakeTheFeed) {
   EXPECT_NEAR(fastest, 5, 0.01);
 }
 
-/// An override that is all but nothing is nothing, and the program goes on with the next one.
+/// An override that is almost 0 counts as 0, and the program goes on with the next one.
 TEST_P(Border, OverridesThatAreAllButNothing) {
   for (const double tiny : kTiny) {
     for (const bool rapid : {false, true}) {
@@ -163,7 +163,7 @@ TEST_P(Border, OverridesThatAreAllButNothing) {
   }
 }
 
-/// A spindle whose encoder trembles stands, and the feed goes on with it.
+/// A spindle whose encoder trembles counts as standing, and the feed goes on when it turns again.
 TEST_P(Border, ASpindleThatAllButStands) {
   for (const double tiny : kTiny) {
     if (std::fabs(tiny) >= 1e-5) continue;
@@ -204,7 +204,7 @@ TEST_P(Border, TheLeastOverrideActs) {
   }
 }
 
-/// No way and no speed by hand that is none.
+/// Distances and speeds of motion by hand that are no numbers.
 TEST_P(Border, ByHand) {
   for (const uint8_t kind : {uint8_t{NC_MANUAL_JOG}, uint8_t{NC_MANUAL_STEP}, uint8_t{NC_MANUAL_HANDLE}, uint8_t{NC_MANUAL_REFERENCE}, uint8_t{77}}) {
     for (const double bad : kBad) {
@@ -231,7 +231,7 @@ TEST_P(Border, ByHand) {
   }
 }
 
-/// The command follows the axes while the drives are off, but to no place that is none.
+/// While the drives are off the command follows the axes, but not to a position that is no number.
 TEST_P(Border, FollowUp) {
   for (const double bad : kBad) {
     if (bad == -5) continue;

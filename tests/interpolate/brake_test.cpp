@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way to rest that the scan makes by itself: in every moment of it, not only in those that Brake looks at, the axes keep their limits,
-// also where the path begins to bend between two of them.
+// The stop that the scan makes by itself: at every moment, not only at those that Brake examines, the axes keep their limits, also where the path
+// begins to bend between two of these.
 #include "interpolate/brake.hpp"
 #include "support/seeds.hpp"
 
@@ -15,7 +15,7 @@ namespace nc {
 namespace {
 
 /// A plan at a constant speed: a line, then a bend whose curvature grows by `growth` per mm up to its middle and falls again, then a line.
-/// With `stop` it comes to rest at the end of the bend by a constant deceleration, which a cell that lands does from then on.
+/// With `stop` it comes to rest at the end of the bend by a constant deceleration, as in the last cell of a plan.
 struct BendPlan {
   double line = 10, half = 2, growth = 0.1;  // mm, mm, 1/mm^2
   double v = 100;                            // mm/s
@@ -47,7 +47,7 @@ struct BendPlan {
   }
 };
 
-/// It as Brake looks through it: cells of one length, and cells end where the curvature begins to change.
+/// The plan as Brake sees it: cells of one length, with additional ends where the curvature begins to change.
 struct Ahead {
   const BendPlan* plan;
   std::vector<double> edges;  ///< s
@@ -71,11 +71,11 @@ struct Ahead {
 };
 
 struct Worst {
-  double acceleration = 0, jerk = 0;  ///< of the limits
+  double acceleration = 0, jerk = 0;  ///< largest values, divided by their limits
   unsigned stops = 0;
 };
 
-/// Stops from many places in front of the bend and in it, measured every 100 us by differences.
+/// Stops from many places before the bend and in it, and measures every 100 us by differences.
 Worst measure(const BendPlan& plan, const optimal::Limits& limits) {
   constexpr double dt = 1e-4;
   Worst worst;
@@ -115,11 +115,11 @@ TEST(Brake, KeepsTheLimitsBetweenThePlacesItLooksAt) {
       limits.acceleration[i] = most * (i == 0 ? 1 : scale(0.3, 1));
       limits.jerk[i] = jerks * (i == 0 ? 1 : scale(0.3, 1));
     }
-    // Up to what only a plan that has become slower keeps.
+    // Up to bends for which the plan would already have to be slower.
     plan.half = scale(0.02, 3);
     plan.growth = scale(1, 30) * std::min({limits.acceleration[1] / (plan.v * plan.v * plan.half), limits.jerk[1] / (plan.v * plan.v * plan.v)});
     plan.growth = std::min(plan.growth, 1.2 / (plan.half * plan.half));
-    plan.line = 0.5 * plan.v * plan.v / most + plan.v * most / jerks;  // about the way of a stop
+    plan.line = 0.5 * plan.v * plan.v / most + plan.v * most / jerks;  // about the distance of a stop
     plan.cell = scale(0.05, 3);
     const Worst worst = measure(plan, limits);
     stops += worst.stops;
@@ -132,7 +132,7 @@ TEST(Brake, KeepsTheLimitsBetweenThePlacesItLooksAt) {
   EXPECT_GT(stops, (test::sanitized() ? 2 : 5) * plans);
 }
 
-/// Seconds until a stop that begins now is at rest; infinite where none is found. The limits are measured each `cycle` seconds.
+/// Seconds that a stop takes; infinite if none is found. The limits are measured every `cycle` seconds.
 double stops_after(const BendPlan& plan, const optimal::Limits& limits, double cycle, Worst* worst) {
   Brake brake;
   if (!brake.find(Ahead(plan, 0), limits, 1)) return INFINITY;
@@ -147,11 +147,11 @@ double stops_after(const BendPlan& plan, const optimal::Limits& limits, double c
   return INFINITY;
 }
 
-// A stop may be over within a part of what is a step where the axes are fast.
+// With slow axes a stop may take less time than one of the steps in which a stop of fast axes is computed.
 TEST(Brake, FindsAWayToRestHoweverSlowlyTheAxesGo) {
   for (const double cycle : {0.00025, 0.001}) {
     for (const double acceleration : {500.0, 2000.0, 20000.0}) {
-      for (const double rise : {0.05, 0.01, 0.0003}) {  // s, until the acceleration is reached
+      for (const double rise : {0.05, 0.01, 0.0003}) {  // s in which the acceleration is reached
         for (double v = 1e-12; v < 30; v *= 1.7) {
           BendPlan plan;
           plan.growth = 0;

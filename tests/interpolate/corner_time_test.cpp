@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is kept for a corner slows its neighbours: a path whose corners may be passed takes no longer than one that stops at each of them,
-// but for the little that running on is worth (trapezoid, docs/motion.md).
+// Acceleration that is reserved for a corner slows the lines beside it. Nevertheless a path whose corners may be passed must not take longer than
+// one that stops at each of them, except for the little that running on is worth (trapezoid, docs/motion.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ AxisVec at(double x, double y) {
   return p;
 }
 
-/// Cycles of a program that `make` fills, with an exact stop at the end of each move or without.
+/// The number of cycles of a program that `make` fills, with or without an exact stop at the end of each move.
 template <class Make>
 double cycles_of(bool stops, Make&& make) {
   const ExecutorConfig c = standard_config();

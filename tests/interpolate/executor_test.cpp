@@ -477,7 +477,7 @@ TEST(Executor, SkipWithoutSignalEndsAtItsEnd) {
   EXPECT_EQ(w.skip_machine.v[2], -20);
 }
 
-// M700 15.5 (9), (11): each signal its feed when it rises, of two the smaller, and a stop whatever else is on.
+// M700 15.5 (9), (11): a signal sets its feed at its rising edge, of two signals the smaller feed counts, and the stop signal always stops.
 TEST(Executor, SkipSignalsChangeTheFeed) {
   const ExecutorConfig c = standard_config();
   SkipSpeeds speeds;
@@ -563,7 +563,7 @@ TEST(Executor, ResetStopsOnThePathAndGivesEverythingUp) {
   EXPECT_EQ(m.epoch(), 1u);
   EXPECT_TRUE(m.still());
   EXPECT_TRUE(m.executor.drained());
-  // A record that the feeder had made before it knew is thrown away too.
+  // A record that the feeder had made before it knew of the reset is discarded, too.
   Program late(c, m.command());
   late.line(xyz(100), 50);
   late.mark();
@@ -608,7 +608,7 @@ TEST(Executor, AlarmInputStopsAndNeedsReset) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-/// A move that does not begin where the axes are is in no record as an alarm: the feeder learns which one it was, until reset.
+/// A move that does not begin where the axes are raises an alarm for which there is no record: until a reset the feeder can ask which move it was.
 TEST(Executor, AMoveThatCannotBeginIsAnAlarmOfTheScansOwn) {
   for (const bool optimal : {false, true}) {
     SCOPED_TRACE(optimal);
@@ -640,7 +640,7 @@ TEST(Executor, AMoveThatCannotBeginIsAnAlarmOfTheScansOwn) {
     m.cycle();
     EXPECT_EQ(m.out.state, NC_STATE_IDLE);
     EXPECT_FALSE(m.executor.faulted(&place));
-    m.in.alarm = true;  // that of the machine has its text elsewhere
+    m.in.alarm = true;  // an alarm of the machine is no fault of a move
     for (int i = 0; i < 3; ++i) m.cycle();
     EXPECT_EQ(m.out.state, NC_STATE_ALARM);
     EXPECT_FALSE(m.executor.faulted(&place));
@@ -821,7 +821,7 @@ TEST(Executor, TruncateAtABlockStopLeavesNothingAndNamesTheMarkExecutedLast) {
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_STOPPED; }));
   Serial last = 99;
   EXPECT_FALSE(m.executor.truncate(&last));
-  m.start();  // pressed while the feeder is at it: acts afterwards
+  m.start();  // pressed while the feeder gives records up: it acts afterwards
   EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
   ASSERT_TRUE(m.executor.truncate(&last));
   EXPECT_EQ(last, 2u);

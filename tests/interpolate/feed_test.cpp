@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds that are more than a number, run by the scan: the handle on F1 to F5, the zone before a corner, tapping mode, reversals, feed
-// per revolution, the skip of a dwell; threads that keep their place on the spindle.
+// Feeds that are not constant: the handle on F1 to F5, the zone before a corner, tapping mode, reversals, feed per revolution, the skip of a
+// dwell; and threads, which keep their place on the spindle.
 #include <gtest/gtest.h>
 
 #include "interpolate/test_machine.hpp"
@@ -15,7 +15,7 @@ AxisVec at(double x, double z = 0) {
   return a;
 }
 
-/// A spindle with an encoder, turned by whoever runs the machine.
+/// Turns the spindle, which has an encoder, on by one cycle.
 void turn(Machine& m) { m.in.spindle[0].turns += m.in.spindle[0].rev_per_s * m.config.cycle_s; }
 
 TEST(DigitFeed, TheHandleChangesItWithinItsLimits) {  // M700 7.3
@@ -31,7 +31,7 @@ TEST(DigitFeed, TheHandleChangesItWithinItsLimits) {  // M700 7.3
   p.end();
   Machine m(c);
   m.feed(p);
-  m.in.feed_pulses = 100;  // nothing moves yet: they count for nothing
+  m.in.feed_pulses = 100;  // nothing moves yet, so these pulses do not count
   m.cycle();
   m.in.feed_pulses = 0;
   m.start();
@@ -84,7 +84,7 @@ TEST(CornerOverride, SlowsDownBeforeTheEnd) {  // M700 7.10
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-// The corner is at the end of a block that is shorter than the zone.
+// The corner is at the end of a block that is shorter than the zone, which begins in an earlier block.
 TEST(CornerOverride, ReachesBackOverShortBlocks) {  // M700 7.10
   const ExecutorConfig c = standard_config();
   Program p(c);
@@ -134,7 +134,7 @@ TEST(TappingMode, OverrideAndFeedHoldDoNothing) {  // M700 7.11
   EXPECT_TRUE(m.out.tapping);
   EXPECT_NEAR(m.out.feed_mm_min / 60, 20, 1e-6);
   ASSERT_TRUE(m.until(p, [&] { return m.out.state != NC_STATE_RUNNING && m.still(); }));
-  EXPECT_EQ(m.out.state, NC_STATE_HOLD);  // it was pressed all the time and acts as the mode ends
+  EXPECT_EQ(m.out.state, NC_STATE_HOLD);  // feed hold was on all the time, and acts when the mode ends
   EXPECT_GE(m.out.command.v[0], 40);
   EXPECT_FALSE(m.out.tapping);
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
@@ -218,7 +218,7 @@ Program thread_program(const ExecutorConfig& c, float angle) {
   return p;
 }
 
-/// Where on the spindle the thread lies: turns minus depth over lead, within one turn, at half depth.
+/// The place of the thread on the spindle at half depth: turns less depth divided by lead, as a part of a turn.
 double phase_of_cut(double rev_per_s, double first_turns, float angle) {
   const ExecutorConfig c = standard_config();
   const Program p = thread_program(c, angle);
@@ -232,7 +232,7 @@ double phase_of_cut(double rev_per_s, double first_turns, float angle) {
     turn(m);
     m.cycle();
   }
-  turn(m);  // the command holds at the end of its cycle
+  turn(m);  // the command is the place at the end of its cycle
   const double phase = m.in.spindle[0].turns * (rev_per_s > 0 ? 1 : -1) + m.out.command.v[2] / 2;
   return phase - std::floor(phase);
 }
@@ -240,7 +240,7 @@ double phase_of_cut(double rev_per_s, double first_turns, float angle) {
 TEST(Thread, EveryPassLiesInTheSameGroove) {
   const double first = phase_of_cut(8, 0.123, 0);
   for (const double turns : {0.0, 0.5, 3.999, -7.3}) EXPECT_NEAR(phase_of_cut(8, turns, 0), first, 1e-6) << turns;
-  // A second start, a third of a turn behind.
+  // A second start, a third of a turn behind the first.
   const double second = phase_of_cut(8, 0.4, 120);
   EXPECT_NEAR(second - first - std::floor(second - first), 1.0 / 3, 1e-6);
   EXPECT_NEAR(phase_of_cut(-8, 0.7, 0), phase_of_cut(-8, 0.1, 0), 1e-6);
@@ -291,7 +291,7 @@ TEST(Thread, WaitsForItsAngleAndThenCannotBeHeld) {
   EXPECT_LT(m.out.command.v[2], 0);
 }
 
-/// S and M codes in front of a thread; what they say of the spindle is in the record, as the family's table means it.
+/// S and M codes before a thread; their records hold what they command the spindle to do, according to the table of the dialect.
 Program turned_thread(const ExecutorConfig& c, SpindleTurn turn) {
   Program p(c);
   p.action(NC_ACTION_M, 4);
@@ -333,7 +333,8 @@ TEST(Thread, WaitsForASpindleThatTurnsTheWrongWay) {
   }
 }
 
-// What has not been said may be either way: no M code, one that stops it, one for another spindle, a reset behind it, a speed without a sign.
+// The thread begins with either direction if none is commanded: without an M code, after one that stops the spindle or is for another one, after
+// a reset, or if the speed has no sign.
 TEST(Thread, BeginsEitherWayWhereNobodyHasSaidWhich) {
   for (const double rev_per_s : {8.0, -8.0}) {
     for (const SpindleTurn turn : {SpindleTurn::as_it_is, SpindleTurn::stop, SpindleTurn::stop_all}) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of the executor with filters behind interpolation, over random programs, constants, overrides, holds, single block and
-// resets: no axis exceeds its velocity or its acceleration, blocks that end with a deceleration check end at their places, and all comes
-// to rest where the program says.
+// What the executor promises with filters behind interpolation, tested with random programs, constants, overrides, holds, single block and
+// resets: no axis exceeds its velocity or its acceleration, blocks that end with a deceleration check reach their ends, and the axes come to rest
+// where the program says.
 #include <gtest/gtest.h>
 
 #include "dialect/m700/filters.hpp"
@@ -19,7 +19,7 @@ bool chance(std::mt19937_64& rng, double p) {
   return uniform(rng, 0, 1) < p;
 }
 
-/// Constants of a machine: each kind linear, exponential, both or none, S patterns, radius compensation.
+/// Random constants of a machine: for each kind of move linear, exponential, both or none; S patterns, radius compensation.
 FilterParameters random_constants(std::mt19937_64& rng, unsigned axes) {
   FilterParameters p;
   for (TimeConstants* constants : {&p.cut, &p.rapid, &p.skip}) {
@@ -39,7 +39,7 @@ FilterParameters random_constants(std::mt19937_64& rng, unsigned axes) {
   return p;
 }
 
-/// What commit does with each move; the mode changes here and there.
+/// Sets the filters of each move as commit does; the high-accuracy mode changes now and then.
 void set_filters(Program& p, const FilterParameters& constants, const ExecutorConfig& config, std::mt19937_64& rng) {
   bool high_accuracy = chance(rng, 0.3);
   for (Record& r : p.records) {
@@ -69,7 +69,7 @@ struct Disturbance {
   bool overrides = false, holds = false, single_block = false, dribble = false, resets = false;
 };
 
-/// The record behind a block with a deceleration check is executed when the axes stand at its end.
+/// Checks that the record behind a block with a deceleration check is executed only when the axes stand at the end of the block.
 class CheckedEnds {
  public:
   explicit CheckedEnds(const Program& p) : program_(p) {}
@@ -109,7 +109,7 @@ void disturb(Machine& m, std::mt19937_64& rng, const Disturbance& d, double& wan
   m.in.cycle_start = waits && chance(rng, 0.2) && !m.in.cycle_start;
 }
 
-/// Until the program has ended, or a reset has ended it. @return what went wrong
+/// Runs until the program has ended, or a reset has ended it. @return what went wrong, or an empty text
 std::string run(Machine& m, const Program& p, std::mt19937_64& rng, const Disturbance& d, bool* reset) {
   CheckedEnds ends(p);
   double wanted_override = 1;

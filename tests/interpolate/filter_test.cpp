@@ -40,7 +40,7 @@ FilterTimes before(unsigned first, unsigned second) {
   return times;
 }
 
-/// Every commanded place from the start until the program has ended.
+/// All commanded places from the start to the end of the program.
 std::vector<AxisVec> course(Machine& m, const Program& p) {
   std::vector<AxisVec> all;
   m.feed(p);
@@ -53,7 +53,7 @@ std::vector<AxisVec> course(Machine& m, const Program& p) {
   return all;
 }
 
-/// Seconds in which some axis moves.
+/// Seconds up to the last motion of an axis.
 double moving_s(const std::vector<AxisVec>& places) {
   size_t last = 0;
   for (size_t n = 1; n < places.size(); ++n)
@@ -113,7 +113,7 @@ TEST(Filtered, CornerIsRoundedAndAnExactStopIsNot) {  // 7.7 figures 1 and 2
   EXPECT_NEAR(fast, 2.1, 0.0021);
   EXPECT_NEAR(slow, 2.2, 0.0031);  // the next block begins Td later
   EXPECT_LT(nearest(exact, xyz(50, 0, 0)), 1e-6);
-  // Half the constant behind the corner each axis is F T / 8 from it.
+  // Half of the time constant after the corner each axis is F T / 8 from it.
   EXPECT_NEAR(nearest(rounded, xyz(50, 0, 0)), 50 * 0.1 / 8 * std::numbers::sqrt2, 0.03);
 }
 
@@ -129,7 +129,7 @@ TEST(Filtered, CircleComesOutAsMuchTooSmallAsTheManualSays) {  // 13.15 (2) with
       m.executor.set_position(xyz(radius, 0, 0));
       m.feed(p);
       m.start();
-      while (m.cycles < 3500) m.cycle();  // in the middle, where the rise is long over
+      while (m.cycles < 3500) m.cycle();  // in the middle, long after the acceleration
       const double shrunk = radius - std::hypot(m.out.command.v[0], m.out.command.v[1]);
       const double wanted = linear ? m700::radius_error_linear(feed * 60, radius, {ts, 0, 0}) : m700::radius_error_exponential(feed * 60, radius, {ts / 2, 0, 0});
       EXPECT_NEAR(shrunk / wanted, 1, 0.04) << ts << (linear ? " linear" : " exponential");
@@ -137,7 +137,7 @@ TEST(Filtered, CircleComesOutAsMuchTooSmallAsTheManualSays) {  // 13.15 (2) with
   }
 }
 
-/// Behind a deceleration check every record waits, not only a move: an M code of the next block goes out when the axes stand.
+/// After a deceleration check every record waits, not only a move: an M code of the next block goes out when the axes stand.
 TEST(Filtered, EverythingBehindACheckWaits) {
   const ExecutorConfig c = filtered_config();
   Program p(c);
@@ -160,7 +160,7 @@ TEST(Filtered, EverythingBehindACheckWaits) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-/// A code that is awaited finds the axes where its block is, behind a cut too; one that nobody waits for goes out on the way.
+/// A code for which the program waits goes out when the axes stand at its block, also after a cutting move; one without waiting goes out in motion.
 TEST(Filtered, CodesGoOutWhenTheAxesStandWhereThePathRestsForThem) {
   const ExecutorConfig c = filtered_config();
   for (const bool awaited : {true, false}) {
@@ -219,7 +219,7 @@ TEST(Filtered, HoldStopsThePathAndTheAxesDrain) {
   m.in.feed_hold = true;
   m.cycle();
   EXPECT_EQ(m.out.state, NC_STATE_HOLD);
-  EXPECT_GT(m.out.feed_mm_min, 2500);  // of the axes
+  EXPECT_GT(m.out.feed_mm_min, 2500);  // the feed of the axes, not of the path
   EXPECT_GT(m.out.distance_to_go.v[0], 0);
   unsigned still = 0;
   while (!m.still() && still < 500) m.cycle(), ++still;
@@ -271,7 +271,7 @@ TEST(Filtered, ManualMotionHasItsOwnAcceleration) {
   while (m.out.state == NC_STATE_MANUAL || n < 3);
   m.in.manual[0] = {};
   EXPECT_EQ(m.out.command.v[0], 30);
-  EXPECT_NEAR(n * kCycle, 2 * std::sqrt(10 / 5000.0), 0.003);  // a triangle
+  EXPECT_NEAR(n * kCycle, 2 * std::sqrt(10 / 5000.0), 0.003);  // the velocity is a triangle
   m.cycle();
   Program q(c, m.command());
   q.line(xyz(0, 0, 0), 50).filter = after(100);
@@ -298,7 +298,7 @@ TEST(Filtered, BlockStopIsWhereTheAxesStand) {
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_STOPPED; }));
   EXPECT_EQ(m.out.command.v[0], 20);
   EXPECT_TRUE(m.still());
-  EXPECT_NEAR(static_cast<double>(m.cycles) * kCycle, 0.5, 0.005);  // 0.4 and the constant
+  EXPECT_NEAR(static_cast<double>(m.cycles) * kCycle, 0.5, 0.005);  // 0.4 s and the time constant
 }
 
 TEST(Filtered, NothingIsGivenUpWhileTheAxesMove) {
@@ -342,13 +342,13 @@ TEST(Filtered, SkipPositionIsThatOfTheAxes) {  // 15.5 (12): #2102
   ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }));
   EXPECT_TRUE(w.skipped);
   EXPECT_EQ(w.skip_machine.v[2], z);
-  EXPECT_NEAR(w.machine.v[2], z - 40 * 0.05 / 2, 0.05);  // what was on its way
+  EXPECT_NEAR(w.machine.v[2], z - 40 * 0.05 / 2, 0.05);  // and what was still in the filters
   EXPECT_EQ(w.machine.v[2], m.out.command.v[2]);
   EXPECT_TRUE(m.still());
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-/// The signal counts as long as the axes move: in a hold, and behind the end of the path.
+/// The signal counts as long as the axes move: also in a hold, and after the end of the path.
 TEST(Filtered, SkipSignalWhileTheAxesDrain) {
   for (const bool held : {true, false}) {
     const ExecutorConfig c = filtered_config();
@@ -420,7 +420,7 @@ TEST(Filtered, HighAccuracyHasOneSlopeAndSmoothChanges) {  // 13.15 "pre-interpo
     return m.out.state == NC_STATE_IDLE;
   }));
   EXPECT_NEAR(most_a, 1000, 0.01);               // not the 5000 of the axes
-  EXPECT_LT(most_change, 1000 / 30.0 + 0.01);    // of the longer filter, in a cycle
+  EXPECT_LT(most_change, 1000 / 30.0 + 0.01);    // change in a cycle, with the longer filter
   EXPECT_NEAR(static_cast<double>(m.cycles) * kCycle, 1 + 0.1 + 0.05, 0.006);  // L/F + F/a + both filters
   EXPECT_EQ(m.out.command.v[0], 60);
 }
@@ -436,12 +436,12 @@ TEST(Filtered, CornersOfHighAccuracyDoNotWaitForTheFilters) {
   p.end();
   Machine m(c);
   const std::vector<AxisVec> places = course(m, p);
-  EXPECT_NEAR(moving_s(places), 4 * (0.1 + 100 / 5000.0) + 0.1, 0.006);  // one filter time, at the end
+  EXPECT_NEAR(moving_s(places), 4 * (0.1 + 100 / 5000.0) + 0.1, 0.006);  // the filter time counts once, at the end
 }
 
 // ---- circular error radius compensation ------------------------------------------------------------------------------------
 
-/// Largest radius over the circle and the offsets where the arc has turned by so much, degrees: outwards, mm.
+/// By how much the place at which the arc has turned by so many degrees lies outside the circle, mm.
 double outwards(const std::vector<AxisVec>& places, double radius, double turned_deg) {
   double best = 1e9, result = 0;
   for (const AxisVec& at : places) {
@@ -469,7 +469,7 @@ TEST(Rounding, FullCircle) {  // 13.15: the whole from 90 degrees on, nothing at
   EXPECT_NEAR(outwards(places, 10, 90), 0.04, 2e-4);
   EXPECT_NEAR(outwards(places, 10, 180), 0.02, 2e-4);
   EXPECT_NEAR(outwards(places, 10, 270), 0.04, 2e-4);
-  // At 45 degrees half of it, each axis by its cosine: 0.5 (0.02 / 2 + 0.04 / 2).
+  // At 45 degrees half of the compensation acts, and each axis has its squared cosine, 1/2: 0.5 (0.02 / 2 + 0.04 / 2).
   EXPECT_NEAR(outwards(places, 10, 45), 0.015, 2e-4);
   EXPECT_NEAR(outwards(places, 10, 135), 0.03, 2e-4);
   EXPECT_EQ(places.back()[0], 10);
@@ -484,8 +484,8 @@ TEST(Rounding, ShortArc) {  // 60 degrees: the smaller of both shares, a third o
   EXPECT_NEAR(outwards(places, 10, 60), 0, 2e-4);
 }
 
-/// Tangent lines and arcs of all sizes: where the compensation begins and ends the derivative of the path steps, and the path may be
-/// speeding up there.
+/// Tangent lines and arcs of all sizes: where the compensation begins and ends, the derivative of the path has a step, perhaps during an
+/// acceleration.
 TEST(Rounding, KeepsTheLimitsAtTangentJoints) {
   const auto log_uniform = [](std::mt19937_64& rng, double low, double high) {
     return std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(rng));
@@ -546,7 +546,7 @@ TEST(Rounding, StopInsideAnArcAndResetKeepThePlace) {
   EXPECT_EQ(m.out.state, NC_STATE_IDLE);
   EXPECT_EQ(m.command(), held);
   EXPECT_EQ(m.executor.commanded(), held);
-  // What comes next begins where the axes are.
+  // The next program begins where the axes are.
   Program q(c, held);
   q.line(xyz(0, 0, 0), 20);
   q.mark();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of the executor, over random programs: no axis ever exceeds its velocity or acceleration,
-// everything that is pushed is executed in order and ends where it says, and the machine is at rest at the
-// end, whatever the operator and the feeder do.
+// What the executor promises, tested with random programs: no axis ever exceeds its velocity or acceleration, every
+// record is executed in order and ends at its place, and the machine is at rest at the end, whatever the operator and
+// the feeder do.
 #include <gtest/gtest.h>
 
 #include "interpolate/random_program.hpp"
@@ -22,7 +22,7 @@ struct Disturbance {
   bool overrides = false, holds = false, single_block = false, dribble = false;
 };
 
-/// Runs one seed to its end and gives back what went wrong.
+/// Runs one seed to its end; returns what went wrong, or an empty text.
 std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = nullptr) {
   std::mt19937_64 rng(seed);
   ExecutorConfig config = standard_config(seed % 3 == 0 ? 4 : 3);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs of lines alone, as post-processors make them, and a simple law for them that is feasible: what the optimal mode is measured
-// by. It shares nothing with the planner.
+// Random programs of lines only, as post-processors make them, and a simple feasible law for them, with which the optimal mode is compared. It
+// shares no code with the planner.
 #pragma once
 
 #include "interpolate/random_program.hpp"
@@ -13,7 +13,7 @@ inline const char* name_of(LineShape s) {
   return kName[static_cast<unsigned>(s)];
 }
 
-/// Points of a polyline with the feed, mm/s, of the line that leads to each.
+/// The points of a polyline, and for each the feed in mm/s of the line that leads to it.
 struct LineProgram {
   std::vector<AxisVec> point{AxisVec{}};
   std::vector<double> feed{0};
@@ -52,7 +52,7 @@ using random_program_detail::log_uniform;
 using random_program_detail::pick;
 using random_program_detail::uniform;
 
-/// A line in parts of about `part`; 0 = in one.
+/// Adds a line in parts of about `part` mm; 0 = undivided.
 inline void in_parts(LineProgram& p, double x, double y, double part, double f) {
   const unsigned parts = part > 0 ? 1 + static_cast<unsigned>(std::hypot(x, y) / part) : 1;
   const double x0 = p.point.back()[0], y0 = p.point.back()[1], z = p.point.back()[2];
@@ -134,8 +134,8 @@ inline LineProgram line_program(LineShape shape, std::mt19937_64& rng) {
   return p;
 }
 
-/// Time of a law that keeps the limits: each corner is rounded by the parabola-like curve of a hat of q'' (half width h, cut turn h / 6) at
-/// constant speed, and what is left of each line is gone with seven phases of constant jerk between those speeds.
+/// The time of a law that keeps the limits: each corner is rounded at constant speed by a curve whose q'' is a triangle (half width h, so that
+/// it cuts the corner by turn h / 6), and the rest of each line has seven phases of constant jerk between these speeds.
 class SimpleLaw {
  public:
   SimpleLaw(double velocity, double acceleration, double jerk, double tolerance) : v_(velocity), a_(acceleration), j_(jerk), tolerance_(tolerance) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distance of a point from a program's path. Where a search does not find the nearest place the distance is too large, never too small.
+// The distance of a point from the path of a program. If the search misses the nearest place the result is too large, never too small.
 #pragma once
 
 #include "interpolate/test_machine.hpp"
@@ -21,7 +21,7 @@ class PathDistance {
     }
   }
 
-  /// From the moves near the record `serial`; less than `enough` need not be the least.
+  /// The distance from the moves near the record `serial`. A result below `enough` need not be the least one.
   double near(Serial serial, const AxisVec& p, double enough) const {
     const auto here = std::lower_bound(parts_.begin(), parts_.end(), serial, [](const Part& a, Serial s) { return a.serial < s; });
     const long at = here - parts_.begin(), count = static_cast<long>(parts_.size());
@@ -42,7 +42,7 @@ class PathDistance {
     Serial serial = 0;
     const Curve* curve = nullptr;
     AxisVec low, high;
-    std::vector<AxisVec> place;  ///< of a curve, at equal steps
+    std::vector<AxisVec> place;  ///< points of the curve at equal steps
   };
 
   double box2(const Part& part, const AxisVec& p) const {

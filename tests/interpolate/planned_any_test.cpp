@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random programs of lines at any machine: feeds of 1 to 30,000 mm/min, jerk of 1e3 to 1e9, acceleration of 50 to 20,000, cycles of 0.125 to
 // 4 ms, tolerances of 0 to 1 mm, 1 to 100,000 lines. They take no longer than a simple law that is made here, rest only where the geometry
-// asks for it, and keep the limits and the tolerance; so they do with an override that changes, and with a hold in any cycle.
+// requires it, and keep the limits and the tolerance, also with a changing override, and with a hold in any cycle.
 #include <gtest/gtest.h>
 
 #include "interpolate/line_program.hpp"
@@ -17,7 +17,7 @@ using line_program_detail::pick;
 using line_program_detail::uniform;
 
 constexpr double kLimit = 1.001, kSlower = 1.05;
-constexpr double kShownJerk = 8;   ///< accelerations by a cycle: more jerk is not planned with, because positions once a cycle cannot show it
+constexpr double kShownJerk = 8;   ///< times acceleration / cycle: the planner uses no more jerk, since positions once a cycle cannot show it
 constexpr double kReversal = 1.99, kCorner = 1e-9;  ///< |t2 - t1| of a corner that may be a rest: with a tolerance, and without
 constexpr uint64_t kMostCycles = 20000, kMostWithHolds = 250;
 
@@ -27,7 +27,7 @@ struct Trial {
   Program program{standard_config()};
   LineShape shape = LineShape::walk;
   double law_s = 0, spare_s = 0;
-  unsigned rests = 0;  ///< that the geometry allows
+  unsigned rests = 0;  ///< number of rests that the geometry allows
 };
 
 ExecutorConfig random_config(std::mt19937_64& rng) {
@@ -55,7 +55,7 @@ LineProgram many_lines(std::mt19937_64& rng, double feed) {
   return p;
 }
 
-/// As many of the lines as take `most_s`; one of them at least, or so much of it.
+/// The first lines of a program that together take `most_s`; if the first one alone takes longer, so much of it.
 LineProgram begin_of(const LineProgram& all, double most_s) {
   LineProgram p;
   double seconds = 0;
@@ -72,7 +72,7 @@ LineProgram begin_of(const LineProgram& all, double most_s) {
   return p;
 }
 
-/// What it takes to go round the corners between two feeds at the lower one, as far as the tolerance lets the rounding reach.
+/// The additional time for passing the corners between two feeds at the lower one, over the length that the tolerance allows for the rounding.
 double lower_feeds(const LineProgram& p, double tolerance) {
   double sum = 0;
   for (size_t k = 1; k + 1 < p.point.size(); ++k) {
@@ -122,7 +122,7 @@ struct Seen {
   std::string report;
 };
 
-/// From cycle start to the end. A hold begins in cycle `hold` and lasts until the axes stand.
+/// Runs from cycle start to the end. A hold begins in cycle `hold` and lasts until the axes stand.
 Seen run(const Trial& t, const PathDistance& path, Operator who, uint64_t hold = 0) {
   Seen seen;
   Machine m(t.config);
@@ -175,7 +175,7 @@ std::string about(const Trial& t, uint64_t seed) {
   return s.str();
 }
 
-/// NC_SEEDS=10000 runs so many, NC_FIRST=7 from the seventh on.
+/// The number of seeds: with NC_SEEDS=10000 so many. NC_FIRST=7 begins with seed 7.
 uint64_t seeds_of(uint64_t plain) {
   return seeds(plain, plain / 20 + 1);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds that change while a path of the optimal mode is gone: F1 to F5 with their handle, a skip move whose signals call for another feed,
-// overrides that change while nothing moves.
+// Feeds that change during a path of the optimal mode: F1 to F5 with their handle, a skip move whose signals set another feed, overrides that
+// change while nothing moves.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(PlannedFeed, TheHandleChangesF1WithinItsLimits) {  // M700 7.3
   Program p(c);
   digit_line(&p, at(100), 1, 20);
   digit_line(&p, at(200), 1, 20);
-  digit_line(&p, at(250), 2, 10);  // the handle has done nothing to F2
+  digit_line(&p, at(250), 2, 10);  // the handle has not changed F2
   p.end();
   Machine m(c);
   m.feed(p);
@@ -119,7 +119,7 @@ TEST(PlannedFeed, SkipSignalsChangeTheFeedOfTheirMove) {  // M700 15.5
     EXPECT_TRUE(m.until(p, [&] { return m.out.command.v[0] >= x; }, 20000));
     return m.out.feed_mm_min / 60;
   };
-  m.in.feed_override = 0.5;  // 15.2: at 100 %
+  m.in.feed_override = 0.5;  // 15.2: the skip move runs at 100 %
   EXPECT_NEAR(speed_at(30), 50, 1e-3 * 50);
   m.in.skip = 2;
   EXPECT_NEAR(speed_at(40), 20, 1e-3 * 20);
@@ -156,8 +156,8 @@ TEST(PlannedFeed, AnOverrideTurnedThroughALongDwellActsBehindIt) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-/// Where a stop takes less than a nanometre the law in phases had none at its end, so the plan was the one of the whole path, in cells of as
-/// many minutes as the override made it long, and an override that was raised waited for the end of one.
+/// A former fault: where a stop takes less than a nanometre, the law in phases had no stop at its end. So the plan was that of the whole path, in
+/// cells that a small override made minutes long, and a raised override acted only at the end of a cell.
 TEST(PlannedFeed, AnOverrideIsRaisedWhereTheFeedIsNearlyNothing) {
   for (const double slow : {1e-2, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9}) {
     const ExecutorConfig c = feed_config();

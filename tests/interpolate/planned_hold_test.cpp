@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How soon a feed hold brings the axes to rest in the optimal mode, compared with the stop on the straight line along the tangent of the path:
-// by code of its own, from the positions of the last cycles before the hold. bench/motion/holds does the same with whole programs.
+// How soon a feed hold brings the axes to rest in the optimal mode, compared with the stop on a straight line along the tangent of the path. That
+// stop is computed here, from the positions of the last cycles before the hold. bench/motion/holds does the same with whole programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace nc::test {
 namespace {
 
 constexpr double kFeed = 100, kAcceleration = 2000, kJerk = 50000;
-constexpr uint64_t kBefore = 3000;  ///< cycles of a program in which a hold may begin, and in which it must end
+constexpr uint64_t kBefore = 3000;  ///< a hold may begin in the first so many cycles of a program, and must end within so many
 
 ExecutorConfig config_of() {
   ExecutorConfig c = standard_config();
@@ -22,8 +22,8 @@ ExecutorConfig config_of() {
   return c;
 }
 
-/// The shortest time in which a speed and an acceleration come to 0: the acceleration goes with the full jerk to a peak, stays there where
-/// that is its limit, and goes to 0.
+/// The shortest time in which speed v and acceleration a come to 0: the acceleration goes with the full jerk to a peak, stays there for a while if
+/// the peak is its limit, `most`, and goes back to 0.
 double to_rest(double v, double a, double most, double jerk) {
   const double sign = v + a * std::fabs(a) / (2 * jerk) > 0 ? -1 : 1, from = sign * a, gain = -sign * v;
   double peak = std::sqrt(std::max(0.0, jerk * gain + 0.5 * from * from)), stays = 0;
@@ -34,7 +34,7 @@ double to_rest(double v, double a, double most, double jerk) {
   return (2 * peak - from) / jerk + stays;
 }
 
-/// ms of that on the line along the tangent, from the positions of three cycles; < 0 at rest.
+/// The time of this stop on a line along the tangent, in ms, from the positions of three cycles; negative if the axes rest.
 double ideal_ms(const AxisVec& before, const AxisVec& last, const AxisVec& now, double dt) {
   double v[3], a[3], speed = 0, along = 0, most = HUGE_VAL, jerk = HUGE_VAL;
   for (unsigned i = 0; i < 3; ++i) {
@@ -53,12 +53,12 @@ double ideal_ms(const AxisVec& before, const AxisVec& last, const AxisVec& now, 
   return 1e3 * to_rest(speed, along, most, jerk);
 }
 
-/// By how many ms the axes stand later than that. Not `moved`: the program has ended, or the axes rest there anyway.
+/// By how many ms the axes stand later than that. Without `moved` the program had ended, or the axes rested in any case.
 struct Late {
   bool moved = false, stood = false;
   double ms = 0;
 };
-/// The same for a hold in cycle `hold`.
+/// Runs a program with a hold in cycle `hold`, and measures it.
 Late late(const Program& program, uint64_t hold) {
   Machine m(config_of());
   m.feed(program);
@@ -88,7 +88,7 @@ Late late(const Program& program, uint64_t hold) {
 }
 
 struct Holds {
-  std::vector<double> ms;  ///< the least first
+  std::vector<double> ms;  ///< sorted, the least first
   double quantile(double share) const { return ms[std::min(ms.size() - 1, static_cast<size_t>(share * static_cast<double>(ms.size())))]; }
 };
 Holds holds_in(const char* name, const Program& program, uint64_t from, uint64_t every) {
@@ -118,14 +118,14 @@ void to(Program* p, double x, double y, double z, double feed) {
   p->mark();
 }
 
-/// Nothing bends here: the time that the plan needs to be changed is all that there is.
+/// Without a bend a hold is later only by the time that the change of the plan needs.
 TEST(PlannedHold, OnAStraightLineItIsTheStopOfTheAxes) {
   Program p(config_of());
   for (unsigned n = 1; n <= 100; ++n) to(&p, n, 0.5 * n, 0, kFeed);
   EXPECT_LE(holds_in("line", ended(p), 20, 37).ms.back(), 25);
 }
 
-/// At every place of these circles the bends take all that the axes may have.
+/// On these circles the curvature uses all of the axes' limits at every place.
 TEST(PlannedHold, OnCirclesThatUseAllLimitsAStopIsFoundSoon) {
   Program p(config_of());
   for (unsigned n = 1; n <= 600; ++n) {
@@ -163,14 +163,14 @@ TEST(PlannedHold, InAWildPolylineAStopIsFoundSoon) {
   EXPECT_LE(all.ms.back(), 35);
 }
 
-/// Two lines one behind the other that meet at `joint`, slow, in long cycles and without a tolerance.
+/// Two slow lines, one behind the other, that meet at `joint`.
 Program joined_at(const ExecutorConfig& config, double joint) {
   Program p(config);
   to(&p, joint, 0, 0, 2);
   to(&p, 1, 0, 0, 2);
   return ended(p);
 }
-/// X in the last cycles of a hold in that of this number; the feeder is silent from there on.
+/// The X positions of the last cycles of a hold that begins in cycle `hold`; from there on the feeder is not called.
 std::vector<double> held_silently(Machine* m, const Program& p, uint64_t hold) {
   m->feed(p);
   m->start();
@@ -188,8 +188,8 @@ std::vector<double> held_silently(Machine* m, const Program& p, uint64_t hold) {
   return x;
 }
 
-// The stop that the scan makes by itself may pass the end of a line in the cycle in which it ends: that line is executed then, the next one has begun,
-// and it is where the program goes on.
+// The stop that the scan makes by itself may pass the end of a line in its last cycle: then that line is executed, the next one has begun, and the
+// program goes on in the next one.
 TEST(PlannedHold, EndsInTheMoveInWhichTheAxesStand) {
   ExecutorConfig c = config_of();
   c.cycle_s = 0.004;

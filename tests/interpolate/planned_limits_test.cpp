@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of the optimal mode over random programs, measured on the positions of every cycle: velocity, acceleration and jerk of
-// every axis, the tolerance of the path, the ends that must be hit, every record once and in order, whatever operator and feeder do.
+// What the optimal mode promises, measured in random programs on the positions of every cycle, whatever operator and feeder do: velocity,
+// acceleration and jerk of every axis, the tolerance of the path, the ends that must be reached exactly, every record once and in order.
 #include <gtest/gtest.h>
 
 #include "interpolate/path_distance.hpp"
@@ -36,7 +36,7 @@ ExecutorConfig random_config(uint64_t seed) {
   return config;
 }
 
-/// Where the path must rest behind a record: the next one is a rapid, or something waits.
+/// Whether the path must rest at the end of a record: before and after a rapid, at an exact stop, or where something waits.
 bool exact(const Program& p, size_t k) {
   const Segment& s = p.records[k].segment;
   if (s.rapid || s.exact_stop) return true;
@@ -66,7 +66,7 @@ std::string check_ends(const Program& p, const std::vector<nc_event>& events, co
   return s.str();
 }
 
-/// Runs one seed to its end and gives back what went wrong.
+/// Runs one seed to its end; returns what went wrong, or an empty text.
 std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, LimitChecker* worst, double* farthest) {
   std::mt19937_64 rng(seed);
   const ExecutorConfig config = random_config(seed);
@@ -164,8 +164,8 @@ TEST(PlannedLimits, EverythingAtOnceKeepsThem) {
 TEST(PlannedLimits, HoldsWithoutAFeederKeepThem) {
   run_many(600000, {.overrides = true, .holds = true, .hangs = true});
 }
-/// Seeds that have found something: a stop without a feeder at the end of the plan, where records were still to be counted off; jerk 0.5 %
-/// over its limit in such a stop, in a cell of the plan that lies between two places which the scan looks at.
+/// Seeds that have found faults: a stop without a feeder at the end of the plan, where records still had to be counted; and a jerk of 0.5 % over its
+/// limit in such a stop, in a cell of the plan between two places which the scan examines.
 TEST(PlannedLimits, SeedsThatOnceFailedKeepThem) {
   for (const uint64_t seed : {600735u, 600275u, 600364u}) {
     LimitChecker worst{random_config(seed)};
@@ -173,7 +173,7 @@ TEST(PlannedLimits, SeedsThatOnceFailedKeepThem) {
     EXPECT_EQ(run_seed(seed, {.overrides = true, .holds = true, .hangs = true}, 3, &worst, &farthest), "") << "seed " << seed;
   }
 }
-/// A way of 2 um to the end of a block, on the last pieces of a corner: with cells of half the time it had more than a law may have.
+/// 2 um to the end of a block, on the last pieces of a corner: with cells of half the time there were more cells than a law may have.
 TEST(PlannedLimits, ASeedWithAWayToTheEndOfABlockThatIsVeryShort) {
   LimitChecker worst{random_config(301044)};
   double farthest = 0;

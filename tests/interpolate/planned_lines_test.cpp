@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs of lines in the optimal mode, measured on the positions of every cycle: no rest that neither the program nor its geometry
-// asks for, the limits, the tolerance, and a time that a simple law would take.
+// Random programs of lines in the optimal mode, measured on the positions of every cycle: they rest only where the program or its geometry
+// requires it, keep the limits and the tolerance, and take no longer than a simple law.
 #include <gtest/gtest.h>
 
 #include "interpolate/line_program.hpp"
@@ -11,8 +11,8 @@ namespace nc::test {
 namespace {
 
 constexpr double kLimit = 1.001;
-constexpr double kSlower = 1.05, kMoreSeconds = 0.01;  ///< than the simple law
-constexpr double kStill = 5e-6;    ///< mm in a cycle of 1 ms: nothing moves
+constexpr double kSlower = 1.05, kMoreSeconds = 0.01;  ///< allowed above the time of the simple law: a factor and s
+constexpr double kStill = 5e-6;    ///< mm: axes that move less in a cycle of 1 ms count as standing
 constexpr double kReversal = 1.99; ///< |t2 - t1| of a corner that may be a rest
 
 ExecutorConfig config_of(uint64_t seed) {
@@ -86,7 +86,7 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, uint64_t plan_e
   return seen;
 }
 
-/// NC_SEEDS=10000 runs so many, NC_FIRST=7 from the seventh on.
+/// NC_SEEDS=10000 runs so many seeds, NC_FIRST=7 begins with seed 7.
 TEST(PlannedLines, NothingStopsThemAndNothingIsBroken) {
   const uint64_t from = wish("NC_FIRST", 0), count = seeds(120, 6);
   Seen worst;
@@ -119,7 +119,7 @@ LineProgram hatch_of(unsigned rows, double part, LineProgram lines = {}) {
   return lines;
 }
 
-/// One row more than what is smoothed at once made a rest of every corner, and rests on the straight lines where those were cut.
+/// A former fault: one row more than is smoothed at once made a rest of every corner, and rests on the straight lines where they were divided.
 TEST(PlannedLines, AHatchTakesAsLongAsItsRows) {
   const ExecutorConfig config = config_of(0);
   const double few = run(hatch_of(60, 0), config, 5).seconds;
@@ -130,7 +130,7 @@ TEST(PlannedLines, AHatchTakesAsLongAsItsRows) {
   }
 }
 
-/// The path rested beside the end of a line, and the axes were given its end in the next cycle.
+/// A former fault: the path rested beside the end of a line, and the axes jumped to its end in the next cycle.
 TEST(PlannedLines, AContourInFrontOfAHatchHasNoJump) {
   LineProgram lines;
   for (unsigned n = 1; n <= 100; ++n) lines.to(10 * std::sin(0.0628318531 * n), 10 - 10 * std::cos(0.0628318531 * n), 0, 50);
@@ -141,7 +141,7 @@ TEST(PlannedLines, AContourInFrontOfAHatchHasNoJump) {
   }
 }
 
-/// The first lines behind a slow one went at a fifth of the speed of those behind them.
+/// A former fault: the first lines after a slow one had a fifth of the speed of the later ones.
 TEST(PlannedLines, ASlowFeedSlowsItsOwnLinesOnly) {
   const auto seconds = [](double slow) {
     LineProgram lines;
@@ -154,12 +154,12 @@ TEST(PlannedLines, ASlowFeedSlowsItsOwnLinesOnly) {
   EXPECT_LT(seconds(1.6), seconds(130) + 0.1);
 }
 
-/// Gentle corners that have just the room for their rounding: the knot in front of each was that of the corner before, up to a fifth farther away than
-/// the one behind it, so it was cut by more than the tolerance, all cells were halved, and it took 1.3 times as long.
+/// Gentle corners that have just the room for their rounding. A former fault: the knot before each corner was that of the preceding corner, up to a
+/// fifth farther away than the one after it. So the corner was cut by more than the tolerance, all cells were halved, and it took 1.3 times as long.
 TEST(PlannedLines, CornersWithJustTheirRoomAreGoneAsFastAsOthers) {
   const ExecutorConfig config = config_of(0);
   constexpr double kTurn = 0.428, kReach = 6 * 0.94 * 0.01 / kTurn;
-  for (const double share : {0.89, 0.915, 0.93, 0.945}) {  // of a line, that the roundings at its ends take
+  for (const double share : {0.89, 0.915, 0.93, 0.945}) {  // the part of a line that the roundings at its ends take
     LineProgram lines;
     const double length = 2 * kReach / share;
     for (unsigned n = 0; n < 100; ++n) lines.by((n % 2 == 0 ? 0.5 : -0.5) * kTurn * length, std::sqrt(1 - 0.25 * kTurn * kTurn) * length, 80);

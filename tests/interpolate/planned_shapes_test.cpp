@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The optimal mode on curves that are neither lines nor circles of the axes: spans of a NURBS, arcs in space, exponential curves, lines on
-// a developed cylinder. They run into each other, into lines and arcs at speed, within the tolerance, and every axis keeps its limits.
+// a developed cylinder. The axes pass from one to the next, and to lines and arcs, at speed and within the tolerance, and keep their limits.
 #include <gtest/gtest.h>
 
 #include "interpolate/path_distance.hpp"
@@ -23,7 +23,7 @@ ExecutorConfig config_of() {
   return c;
 }
 
-/// A program of curves; each may begin in the direction in which the last one ended.
+/// A program of curves; a curve may begin in the direction in which the last one ended.
 struct Curves {
   explicit Curves(const ExecutorConfig& setup) : config(setup), program(setup) {}
 
@@ -68,7 +68,7 @@ struct Curves {
     for (double& w : weight) w = uniform(rng, 0.7, 1.4);
     span(along, leg, weight, feed);
   }
-  /// Half of a circle and less in a plane that holds `along` and is turned about it.
+  /// At most half of a circle, in a plane that contains `along` and is turned about it.
   void space_arc(std::mt19937_64& rng, const AxisVec& along, double feed) {
     double d[3], n[3], e[3], length = 0, dot = 0, size = 0;
     for (unsigned i = 0; i < 3; ++i) length += along[i] * along[i];
@@ -113,7 +113,7 @@ struct Curves {
 
   ExecutorConfig config;
   Program program;
-  std::vector<std::unique_ptr<CurveShape>> shapes;  ///< they outlive the curves that name them
+  std::vector<std::unique_ptr<CurveShape>> shapes;  ///< must exist longer than the curves that refer to them
 };
 
 Curves random_curves(uint64_t seed) {
@@ -171,8 +171,8 @@ TEST(PlannedShapes, RandomCurvesKeepLimitsAndTolerance) {
 }
 
 /// Two spans with one tangent, and a line in front of and behind them that touches them.
-/// Near the pole of a polar plane the rotary axis turns by many degrees in a mm (M700 6.10). Cells go by the turn of the path and not by such numbers:
-/// ones that are too small end a window before it can become fast.
+/// Near the pole of a polar plane the rotary axis turns by many degrees per mm (M700 6.10). Nevertheless the size of a cell depends only on the turn
+/// of the path: with cells that are too small a window would end before the path can become fast.
 TEST(PlannedShapes, ALinePassesThePoleSoon) {
   for (const auto& [aside, most] : {std::pair{5.0, 1.0}, {0.3, 1.8}, {0.05, 2.3}, {0.01, 5.5}}) {
     const ExecutorConfig c = config_of();
@@ -261,9 +261,9 @@ TEST(PlannedShapes, AnExponentialCurveGoesFromFToQ) {
   EXPECT_LE(reached, 0.1);
 }
 
-/// The same by trapezoids: as slow as the tightest place asks for.
+/// The same in the trapezoid mode: as slow as the sharpest place requires.
 TEST(TrapezoidShapes, NearCuspsKeepTheLimits) {
-  const double weight[4] = {1, 1.37, 1, 1};  // not where equal steps would find it
+  const double weight[4] = {1, 1.37, 1, 1};  // so that the sharpest place is not where equal steps would find it
   for (const double gap : {0.3, 0.1, 0.05, 0.02})
     for (const double size : {0.1, 1.0, 10.0}) {
       SCOPED_TRACE(testing::Message() << gap << " " << size);
@@ -276,13 +276,13 @@ TEST(TrapezoidShapes, NearCuspsKeepTheLimits) {
       c.span({}, leg, weight, 100);
       c.program.end();
       Machine m(c.config);
-      m.run_to_end(c.program, 20000);  // or as far as it comes
+      m.run_to_end(c.program, 20000);  // it need not come to the end in these cycles
       EXPECT_GT(m.out.path_length, 0);
       EXPECT_TRUE(m.checker.ok()) << m.checker.report();
     }
 }
 
-/// What a spline through points that go back and forth has: a place where it all but stands, or a way that turns round on the spot.
+/// A spline through points that go back and forth has a place where its parameter nearly stands, or reverses on the spot.
 TEST(PlannedShapes, CuspsArePassedWithinTheLimits) {
   const double weight[4] = {1, 1, 1, 1};
   for (const double gap : {1.0, 0.1, 1e-2, 1e-3, 1e-5, 1e-8, 0.0})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skip moves of the optimal mode, and what comes behind them: wherever the signal ends one, the plan of what was left of it must not be
-// gone on with by the next move.
+// Skip moves of the optimal mode and the blocks after them: wherever the signal ends a skip move, the next move must not continue the plan of its
+// remaining part.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -30,11 +30,11 @@ AxisVec at(double x, double y, double z) {
   return p;
 }
 
-/// What the next block does; X stays.
+/// What the next block is; it does not move X.
 enum class Behind { line, rapid, arc, thread, function, skip };
 constexpr Behind kBehind[] = {Behind::line, Behind::rapid, Behind::arc, Behind::thread, Behind::function, Behind::skip};
 
-/// To X5, and with the skip signal 2 towards X15.
+/// To X5, then a skip move for signal 2 to X15.
 Program to_the_probe(const ExecutorConfig& c) {
   Program p(c);
   p.rapid(at(5, 0, 0));
@@ -47,7 +47,7 @@ Program to_the_probe(const ExecutorConfig& c) {
   return p;
 }
 
-/// From where the axes are to Z4.
+/// A block from where the axes are to Z4.
 Program to_the_end(const ExecutorConfig& c, Behind behind, const AxisVec& from) {
   Program p(c, from);
   const AxisVec end = at(from[0], 0, 4);
@@ -78,7 +78,7 @@ Program to_the_end(const ExecutorConfig& c, Behind behind, const AxisVec& from) 
   return p;
 }
 
-/// What the operator does in the cycle of the signal, too.
+/// What the operator does in the same cycle in which the signal comes.
 enum class Operator { nothing, holds, sets_single_block, turns_override_off, locks };
 constexpr Operator kOperator[] = {Operator::nothing, Operator::holds, Operator::sets_single_block, Operator::turns_override_off,
                                   Operator::locks};
@@ -90,7 +90,7 @@ class SkipRun {
     machine.in.spindle[0].turns_valid = true;
   }
 
-  /// One cycle; the feeder comes each `period` cycles.
+  /// One cycle; the feeder is called every `period` cycles.
   void cycle(const Program& p) {
     if (machine.cycles % period_ == 0) machine.feed(p);
     machine.in.spindle[0].turns += machine.in.spindle[0].rev_per_s * kCycle;
@@ -109,8 +109,8 @@ class SkipRun {
   }
   bool stopped() const { return machine.out.state == NC_STATE_STOPPED || machine.out.state == NC_STATE_HOLD; }
 
-  /// Until the sync behind the skip move. The signal comes in the `signal`-th cycle of the program, with `what`, which is taken back
-  /// 40 cycles later.
+  /// Runs to the sync after the skip move. The signal comes in the `signal`-th cycle of the program, together with `what`, which ends 40 cycles
+  /// later.
   bool probe(unsigned signal, Operator what, nc_world* world) {
     const Program p = to_the_probe(machine.config);
     machine.feed(p);
@@ -118,7 +118,7 @@ class SkipRun {
     for (unsigned n = 0; n < 2000; ++n) {
       if (n == signal) machine.in.skip = 2, act(what);
       if (n == signal + 40) act(Operator::nothing);
-      // A hold that was on with the start has let nothing begin.
+      // If a hold came in the cycle of the start, nothing has begun: start again.
       if (n > signal + 40 && (stopped() || machine.out.state == NC_STATE_IDLE)) press_start();
       cycle(p);
       if (machine.out.state == NC_STATE_ALARM) return false;
@@ -126,7 +126,7 @@ class SkipRun {
     }
     return false;
   }
-  /// The rest of the program, to its end.
+  /// Runs the rest of the program to its end.
   bool go_on(const Program& p, bool from_its_head = true) {
     if (from_its_head) machine.next = 0;
     for (unsigned n = 0; n < 2000; ++n) {
@@ -144,7 +144,7 @@ class SkipRun {
   unsigned period_;
 };
 
-/// The axes stand behind the skip move where the world says, and the next block moves Z alone, and to its place.
+/// After the skip move the axes must stand where the world says, and the next block must move only Z, to its end.
 void expect_next_block(unsigned signal, Operator what, Behind behind, unsigned period) {
   SCOPED_TRACE(testing::Message() << "signal in cycle " << signal << ", operator " << static_cast<int>(what) << ", behind "
                                   << static_cast<int>(behind) << ", feeder each " << period);
@@ -162,7 +162,7 @@ void expect_next_block(unsigned signal, Operator what, Behind behind, unsigned p
   ASSERT_TRUE(run.machine.checker.ok()) << run.machine.checker.report();
 }
 
-// M700 15.2: a signal that is on when the move begins is no movement, and the next block goes from there.
+// M700 15.2: if the signal is on when the skip move begins nothing moves, and the next block begins there.
 TEST(PlannedSkip, OnFromTheStartTheNextBlockGoesItsOwnWay) {
   for (const Behind behind : kBehind)
     for (const unsigned period : {1u, 7u}) {
@@ -176,7 +176,7 @@ TEST(PlannedSkip, OnFromTheStartTheNextBlockGoesItsOwnWay) {
     }
 }
 
-/// The signal in each cycle from before the skip move begins until it has ended, alone and with something that the operator does.
+/// The signal comes in each cycle from before the beginning of the skip move to its end, alone and together with an action of the operator.
 TEST(PlannedSkip, WhereverTheSignalComesTheNextBlockGoesItsOwnWay) {
   unsigned last = 0;  // cycle in which the skip move ends by itself
   {
@@ -198,7 +198,7 @@ TEST(PlannedSkip, WhereverTheSignalComesTheNextBlockGoesItsOwnWay) {
       }
 }
 
-/// The same with a reset in the cycle of the signal: the program that is started behind it begins where the axes are.
+/// The same with a reset in the cycle of the signal: a program that is started after it begins where the axes are.
 TEST(PlannedSkip, ResetInTheCycleOfTheSignalLeavesNothingOfThePlan) {
   for (unsigned signal = 1; signal < 300; signal += sanitized() ? 7 : 1)
     for (const unsigned period : {1u, 7u}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The optimal mode behind the executor: what the interpolator gives out keeps velocity, acceleration and jerk of every axis in every
-// cycle, whatever the operator and the feeder do, and goes where the program says.
+// The optimal mode in the executor: the set-points keep velocity, acceleration and jerk of every axis in every cycle, whatever the operator and
+// the feeder do, and go where the program says.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +44,8 @@ TEST(Planned, ASquareWithExactStopsHitsItsCorners) {
   EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.253, 0.01);
 }
 
-/// There is a law from rest however short the way is, so that the axes never wait for one: lines and arcs of 1e-12 to 1e-3 mm, each with a stop,
-/// alone and one behind the other.
+/// There is a law from rest for every length, however short, so that the axes never wait for one: lines and arcs of 1e-12 to 1e-3 mm, each with a
+/// stop, alone and one behind the other.
 TEST(Planned, NoWayIsTooShortForALaw) {
   const ExecutorConfig config = optimal_config();
   for (const bool arcs : {false, true}) {
@@ -77,8 +77,8 @@ TEST(Planned, NoWayIsTooShortForALaw) {
   }
 }
 
-/// An axis without a limit of jerk, which the configuration refuses, has no law. What lies before it is gone, the axes then wait with the cause and
-/// not in an alarm, and a reset makes an end of it.
+/// An axis without a jerk limit, which a configuration would not allow, has no law. The path before it is executed, then the axes wait and show the
+/// cause, without an alarm, and a reset ends that.
 TEST(Planned, WithoutALawTheAxesWaitAndSaySo) {
   ExecutorConfig config = optimal_config();
   config.limits[1].jerk = 0;
@@ -114,7 +114,7 @@ TEST(Planned, WithoutALawTheAxesWaitAndSaySo) {
   EXPECT_EQ(m.command()[1], 0);
 }
 
-/// Seconds from rest to rest along a line: the seven phases.
+/// Seconds from rest to rest along a line, in the seven phases of constant jerk.
 double seven_phases(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
   if (v * ramp(v) > length) {
@@ -157,7 +157,7 @@ TEST(Planned, ALineByItselfIsGoneInTheShortestTimeUnderAnyLimits) {
           }
 }
 
-/// The same where the axes share the line, one of them with lower limits, and for a rapid traverse.
+/// The same for a rapid traverse of several axes, one of which has lower limits.
 TEST(Planned, ARapidTraverseIsGoneInTheShortestTime) {
   ExecutorConfig config = optimal_config();
   config.limits[1] = {120, 80, 700, 20000, 0.01};
@@ -165,11 +165,11 @@ TEST(Planned, ARapidTraverseIsGoneInTheShortestTime) {
   p.rapid(at(90, 60, -30));
   p.end();
   Machine m(config);
-  // Y goes 60 of its 60 mm with the lowest limits of all by their share of the way.
+  // Y goes 60 mm; relative to its distance it has the lowest limits of all axes.
   EXPECT_NEAR(moving_seconds(m, p), seven_phases(60, 120, 700, 20000), 0.00101);
 }
 
-/// A hold on a line: a cell and the lead of the planner later it stops as soon as the limits allow.
+/// A hold on a line: after a cell and the lead of the planner it stops as soon as the limits allow.
 TEST(Planned, AHoldOnALineIsTheShortestStop) {
   const ExecutorConfig config = optimal_config();
   Program p(config);
@@ -180,7 +180,7 @@ TEST(Planned, AHoldOnALineIsTheShortestStop) {
     uint64_t cycle, most;
     double way;
   };
-  // At full speed 90 ms and 4.5 mm, and 16 ms more. While it becomes faster it does so for 40 ms more.
+  // At full speed the stop takes 90 ms and 4.5 mm, and begins 16 ms later. During an acceleration it takes 40 ms more.
   for (const auto& [hold, most, way] : {Hold{333, 106, 6.1}, {1000, 106, 6.1}, {60, 130, 8}}) {
     SCOPED_TRACE(hold);
     Machine m(config);
@@ -206,7 +206,7 @@ TEST(Planned, AHoldOnALineIsTheShortestStop) {
   }
 }
 
-/// Lines of 1 um with rounded ends round a circle, as fast as its radius lets be: laws that are not found at first do not end in rests.
+/// A circle in lines of 1 um is passed as fast as its radius allows: laws that are not found at the first attempt must not end in rests.
 TEST(Planned, ACircleInLinesOfOneMicrometreIsGoneAtItsLimit) {
   ExecutorConfig config = optimal_config();
   config.capacity = 65536;
@@ -221,7 +221,7 @@ TEST(Planned, ACircleInLinesOfOneMicrometreIsGoneAtItsLimit) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 1.03 * (kLines * 1e-3 / std::sqrt(10 * 2000.0) + 0.12));
 }
 
-/// Feeds that are reached within some um: the cells there go by the speed and not by the distance to the next guess.
+/// Feeds that are reached within a few um: the size of the cells there depends on the speed and not on the distance to the next guess.
 TEST(Planned, SlowFeedsAreKeptRoundArcsAndCorners) {
   struct {
     double feed, size, acceleration, jerk;
@@ -249,7 +249,7 @@ TEST(Planned, SlowFeedsAreKeptRoundArcsAndCorners) {
     }
 }
 
-/// Sharp corners close together on an axis at its velocity limit: inside of a cell the path may go along the axis more than at its ends.
+/// Sharp corners close together, with an axis at its velocity limit: inside a cell the path may be more parallel to the axis than at its ends.
 TEST(Planned, NoAxisIsFasterThanItsLimitBetweenCloseCorners) {
   const AxisVec corners[] = {at(-8.161, 0.881), at(-8.120, 0.964), at(-8.079, 0.960), at(-8.038, 1.043), at(-7.997, 1.002)};
   for (const double tolerance : {0.0686, 0.01}) {
@@ -266,7 +266,7 @@ TEST(Planned, NoAxisIsFasterThanItsLimitBetweenCloseCorners) {
   }
 }
 
-/// Of a stop some cycle gives out the place, whatever the cycle is.
+/// Whatever the cycle time, one of the set-points is exactly the place of a stop.
 TEST(Planned, ExactStopsAreGivenOut) {
   for (const double cycle : {0.0005, 0.001, 0.002, 0.004}) {
     ExecutorConfig config = optimal_config();
@@ -319,7 +319,7 @@ TEST(Planned, ALongLineOfShortOnesDoesNotStarve) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, 4.2);
 }
 
-/// More lines in the ring than there is room for pieces and knots: what cannot be smoothed at once waits and does not rest.
+/// More lines in the ring than there is room for pieces and knots: lines that cannot be smoothed at once have to wait, without a rest.
 TEST(Planned, ALargeRingOfLinesIsGoneAtFullFeed) {
   ExecutorConfig config = optimal_config();
   config.capacity = 16384;
@@ -334,7 +334,7 @@ TEST(Planned, ALargeRingOfLinesIsGoneAtFullFeed) {
   EXPECT_LE(static_cast<double>(m.cycles) * 0.001, length / 200 + 0.3);
 }
 
-/// Every record once and in its order.
+/// Checks that every record was executed once and in order.
 std::string check_order(const Program& p, const std::vector<nc_event>& events) {
   if (events.size() != p.records.size()) return std::to_string(events.size()) + " events";
   for (size_t i = 0; i < events.size(); ++i)
@@ -370,7 +370,7 @@ TEST(Planned, ArcsArePassedAtSpeedWhereALineTouchesThem) {
     const AxisVec now = m.command();
     const double speed = std::hypot(now[0] - last[0], now[1] - last[1]) / config.cycle_s;
     last = now;
-    if (m.cycles > 150 && now[1] < 11.9) slowest = std::min(slowest, speed);  // over the first line and the first arc
+    if (m.cycles > 150 && now[1] < 11.9) slowest = std::min(slowest, speed);  // only on the first line and the first arc
     return now[1] >= 11.99;
   }));
   EXPECT_GT(slowest, 50);
@@ -410,7 +410,7 @@ TEST(Planned, FeedHoldStopsSoonAndGoesOn) {
   EXPECT_EQ(m.command(), at(100, 100));
 }
 
-/// Hold in cycle `hold` of a program, without a feeder for the next 300 cycles. @return the cycles until the axes stand.
+/// A hold in cycle `hold` of a program, after which the feeder is not called for 300 cycles. @return the cycles until the axes stand.
 uint64_t hold_without_feeder(Machine& m, const Program& p, uint64_t hold) {
   m.feed(p);
   m.start();
@@ -459,7 +459,7 @@ TEST(Planned, ASilentFeederIsWaitedForAfterTheHold) {
   for (int n = 0; n < 5; ++n) m.cycle();
   m.start();
   for (int n = 0; n < 300; ++n) m.cycle();
-  EXPECT_EQ(m.command(), stands);  // nothing is followed but a plan that begins here
+  EXPECT_EQ(m.command(), stands);  // only a plan that begins here may be executed
   EXPECT_NE(m.out.state, NC_STATE_ALARM);
   ASSERT_TRUE(m.until(p, [&] { return m.out.state == NC_STATE_IDLE && m.executor.drained(); }, 40000));
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads in the optimal mode (M700 6.7.1): the place on the path goes by the angle of the spindle, from the start to the end of the cut, and
+// Threads in the optimal mode (M700 6.7.1): the place on the path follows the angle of the spindle from the start to the end of the cut, and
 // velocity, acceleration and jerk of every axis keep their limits while the spindle is uneven, stops or is interlocked.
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Segment& thread(Program* p, const AxisVec& end, double lead, float angle = 0) {
   return s;
 }
 
-/// The spindle turns on by a cycle.
+/// Turns the spindle on by one cycle.
 void turn(Machine& m, double rev_per_s) {
   nc_spindle_inputs& s = m.in.spindle[0];
   s.turns_valid = true;
@@ -49,7 +49,7 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// Where on the spindle the thread lies when Z has come to `depth`.
+/// The place of the thread on the spindle when Z has reached `depth`, as a part of a turn.
 double phase_at(double rev_per_s, double first_turns, float angle, double depth) {
   const ExecutorConfig c = thread_config();
   Program p(c);
@@ -130,7 +130,7 @@ TEST(PlannedThread, IsNotHeldNorChangedByTheOverride) {
   m.start();
   for (int i = 0; i < 50; ++i) turn(m, 0), m.feed(p), m.cycle();
   EXPECT_EQ(m.out.cause, NC_CAUSE_SPINDLE_STOPPED);
-  for (int i = 0; i < 300; ++i) turn(m, 4 * std::min(1.0, i * 0.005)), m.feed(p), m.cycle();  // it comes to speed meanwhile
+  for (int i = 0; i < 300; ++i) turn(m, 4 * std::min(1.0, i * 0.005)), m.feed(p), m.cycle();  // the spindle comes to speed meanwhile
   while (m.out.command.v[2] == 0) turn(m, 4), m.feed(p), m.cycle();
   double from = 0;
   for (int i = 0; i < 3000 && m.out.command.v[2] > -15; ++i) {
@@ -147,13 +147,13 @@ TEST(PlannedThread, IsNotHeldNorChangedByTheOverride) {
   EXPECT_LE(m.out.command.v[2], -15);
   m.in.feed_override = 1;
   for (int i = 0; i < 3000; ++i) turn(m, 4), m.feed(p), m.cycle();
-  EXPECT_EQ(m.out.state, NC_STATE_STOPPED);  // M700 6.7.1: behind the first block that is no thread
+  EXPECT_EQ(m.out.state, NC_STATE_STOPPED);  // M700 6.7.1: after the first block that is no thread
   EXPECT_EQ(m.out.cause, NC_CAUSE_FEED_HOLD);
   EXPECT_EQ(m.command(), place(5, -20));
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-// A spindle whose speed is measured and whose angle is not: it begins anywhere, and is cut to its end.
+// The speed of the spindle is measured, but not its angle: the thread begins anywhere, and is cut to its end.
 TEST(PlannedThread, FollowsASpeedWithoutAnAngle) {
   const ExecutorConfig c = thread_config();
   for (const double speed : {8.0, -8.0, 60.0}) {
@@ -247,7 +247,7 @@ TEST(PlannedThread, AnInterlockStopsItAtOnceAndWithinTheLimits) {
   }
 }
 
-// The stop takes a part of a cycle where the lead is fine and the axes are fast.
+// With a fine lead and fast axes a stop takes less than a cycle.
 TEST(PlannedThread, WhateverStopsItStopsAFineOneToo) {
   ExecutorConfig c = thread_config();
   for (const double jerk : {2e5, 6e7}) {
@@ -277,7 +277,7 @@ TEST(PlannedThread, WhateverStopsItStopsAFineOneToo) {
   }
 }
 
-/// Chains of threads with tapers and other leads, spindles that speed up, slow down and stop, resets in the middle.
+/// Chains of threads with tapers and different leads, spindles that speed up, slow down and stop, resets in between.
 TEST(PlannedThread, RandomThreadsKeepTheLimits) {
   for (unsigned seed = 1; seed <= seeds(60, 12); ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
@@ -318,8 +318,8 @@ TEST(PlannedThread, RandomThreadsKeepTheLimits) {
   }
 }
 
-/// Single block came in the last cells of the line before, where nothing can be changed any more; at rest no cell went by, so nothing was planned
-/// again for the speed to which the spindle had come, and the thread waited for its angle for ever.
+/// A former fault: single block came in the last cells of the line before, where nothing can be changed any more. At rest no cell was passed, so
+/// nothing was planned anew for the present speed of the spindle, and the thread waited for its angle for ever.
 TEST(PlannedThread, BeginsWhereSingleBlockCameInTheLastCellsOfTheLineBefore) {
   for (unsigned n = 0; n < 60; ++n) {
     const ExecutorConfig c = thread_config();
@@ -331,7 +331,7 @@ TEST(PlannedThread, BeginsWhereSingleBlockCameInTheLastCellsOfTheLineBefore) {
     Machine m(c);
     m.feed(p);
     m.start();
-    const double last = 0.0005 * n * n;  // mm of the line that are left when it comes
+    const double last = 0.0005 * n * n;  // mm of the line that are left when single block comes
     int rests = 0;
     for (int i = 0; i < 4000 && m.out.command.v[2] > -10; ++i) {
       rests += m.out.command.v[0] > 5 - 1e-9;
@@ -346,7 +346,7 @@ TEST(PlannedThread, BeginsWhereSingleBlockCameInTheLastCellsOfTheLineBefore) {
   }
 }
 
-/// sigma came to the end of its range by the slope of one cycle before, so that the last steps took twice what sigma'' may be.
+/// A former fault: sigma came to the end of its range with the slope of one cycle before, so that the last steps had twice the allowed sigma''.
 TEST(PlannedThread, TheSynchronizerKeepsItsReachAtTheEndsOfItsRange) {
   std::mt19937_64 rng(5);
   const auto log_uniform = [&](double low, double high) { return low * std::pow(high / low, std::uniform_real_distribution<double>()(rng)); };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The optimal mode over wide ranges of feed, acceleration, jerk and cycle: it never takes longer than a law that anybody can write down,
-// rests nowhere but where the program says, and keeps the limits, holds included. The law it is compared with is made here, by code of
-// its own: every block from rest to rest in seven phases.
+// The optimal mode over wide ranges of feed, acceleration, jerk and cycle: it never takes longer than a simple law, rests only where the program
+// says, and keeps the limits, also in holds. The simple law is computed here, independently of the library: every block from rest to rest in seven
+// phases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,9 +24,9 @@ unsigned pick(std::mt19937_64& rng, unsigned n) {
   return static_cast<unsigned>(rng() % n);
 }
 
-constexpr double kSharp = 0.5;  ///< rad, of corners where the feed changes, at least
+constexpr double kSharp = 0.5;  ///< rad: corners where the feed changes are at least so sharp
 
-/// Seconds from rest to rest.
+/// Seconds from rest to rest in the seven phases of constant jerk.
 double seven_phases(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) { return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j); };
   if (v * ramp(v) > length) {
@@ -44,13 +44,13 @@ struct Trial {
   ExecutorConfig config;
   Program program{standard_config()};
   double law_s = 0;     ///< of the independent law
-  unsigned stops = 0;   ///< that are programmed
+  unsigned stops = 0;   ///< number of programmed stops
   unsigned blocks = 0;
   std::string text;     ///< length, radius and feed of each block
 };
 
-/// The block from rest to rest. Of a line each axis has its share. On an arc of radius r |q'| <= 1, |q''| <= 1/r, |q'''| <= 1/r^2: half
-/// of the acceleration is for v^2/r; of the jerk a half is along the path, a quarter each for 3 v a/r and v^3/r^2.
+/// Adds the time of a block from rest to rest. On a line each axis has its share of the path. On an arc of radius r |q'| <= 1, |q''| <= 1/r and
+/// |q'''| <= 1/r^2: half of the acceleration is for v^2/r; half of the jerk is along the path, a quarter each for 3 v a/r and v^3/r^2.
 void add_to_law(Trial* t, const Segment& s, double radius) {
   double v = s.feed_mm_s, a = HUGE_VAL, j = HUGE_VAL;
   const double length = s.curve.length;
@@ -85,7 +85,7 @@ ExecutorConfig random_config(std::mt19937_64& rng) {
   return c;
 }
 
-/// A few blocks, each with a feed of its own or the one before, that take some tenths of a second.
+/// A few blocks, each with a new feed or that of the block before, which take some tenths of a second together.
 Trial random_trial(uint64_t seed) {
   std::mt19937_64 rng(seed);
   Trial t;
@@ -99,13 +99,13 @@ Trial random_trial(uint64_t seed) {
   double heading = uniform(rng, -3, 3), feed = log_uniform(rng, 1, 30000) / 60;
   for (unsigned n = 0; n < blocks; ++n) {
     if (!one_feed) feed = log_uniform(rng, 1, 30000) / 60;
-    // Not so short that the rounding of a corner, which goes at the lower feed, would make most of it.
+    // Not so short that the rounding of a corner, which has the lower feed, would be most of it.
     const double length = std::max(std::min(log_uniform(rng, 0.01, 40), feed * most_s), one_feed ? 0.01 : 40 * t.config.tolerance);
     AxisVec end = p.at();
     double radius = 0;
     Segment* s = nullptr;
     switch (shape == 3 ? pick(rng, 3) : shape) {
-      case 0:  // along one axis, to and fro
+      case 0:  // along one axis, back and forth
         end[pick(rng, 2)] += (pick(rng, 2) != 0 ? 1 : -1) * length;
         break;
       case 1: {  // in the plane
@@ -145,7 +145,7 @@ Trial random_trial(uint64_t seed) {
   return t;
 }
 
-/// The limits that the programs of slow lines below have.
+/// The limits for the programs with slow lines below.
 ExecutorConfig plain_config(double tolerance) {
   ExecutorConfig c = standard_config();
   c.optimal = true;
@@ -156,7 +156,7 @@ ExecutorConfig plain_config(double tolerance) {
   return c;
 }
 
-/// A line by `way` behind those of the trial, at `feed` in mm/min.
+/// Appends a line by `way` to the trial, with `feed` in mm/min.
 void add_line(Trial* t, const AxisVec& way, double feed) {
   AxisVec end = t->program.at();
   for (unsigned i = 0; i < t->config.axis_count; ++i) end[i] += way[i];
@@ -175,8 +175,8 @@ Trial plain_trial(double tolerance) {
   return t;
 }
 
-/// Long fast lines along the axes, and between them lines that are short beside the tolerance, or about as long as it, and up to a hundred
-/// thousand times as slow.
+/// Long fast lines along the axes, and between them lines that are shorter than the tolerance or about as long, and up to a hundred thousand times
+/// slower.
 Trial slow_lines(uint64_t seed) {
   std::mt19937_64 rng(seed);
   Trial t = plain_trial(log_uniform(rng, 0.001, 0.05));
@@ -202,7 +202,7 @@ struct Outcome {
   bool ended = false, alarm = false;
 };
 
-/// From cycle start to the end; with a hold that begins in cycle `hold` and lasts until the axes stand. `hangs`: so does the feeder.
+/// Runs from cycle start to the end, with a hold that begins in cycle `hold` and lasts until the axes stand. `hangs`: the feeder hangs meanwhile.
 Outcome run(const Trial& t, uint64_t hold, bool hangs = false) {
   Machine m(t.config);
   Outcome out;
@@ -245,7 +245,7 @@ std::string about(const Trial& t, const Outcome& o) {
   return s.str();
 }
 
-/// NC_SEEDS is the last seed, NC_FIRST_SEED the first one: a longer soak, or one seed.
+/// NC_FIRST_SEED and NC_SEEDS are the first and the last seed, for a longer test or a single seed.
 uint64_t first_seed() {
   return wish("NC_FIRST_SEED", 1);
 }
@@ -271,7 +271,7 @@ TEST(PlannedTime, NoProgramTakesLongerThanBlockByBlock) {
   std::printf("%llu programs: %.3f of the law at most, jerk %.5f\n", static_cast<unsigned long long>(seeds), slowest, jerk);
 }
 
-/// A line shorter than the tolerance has its own feed and gives it to no other line.
+/// A line that is shorter than the tolerance has its own feed, which no other line gets.
 TEST(PlannedTime, AShortSlowLineBetweenLongOnesHasItsFeedAlone) {
   struct Line {
     double way[3], feed;
@@ -300,7 +300,7 @@ TEST(PlannedTime, AShortSlowLineBetweenLongOnesHasItsFeedAlone) {
 }
 
 TEST(PlannedTime, NoProgramOfShortSlowLinesTakesLongerThanLineByLine) {
-  // One law in some thousands goes in phases for a while and not by the solver, which has found none there: a long soak meets such ones.
+  // One law in some thousands has phases for a part of the path, since the solver has found none there; a long test meets such laws.
   constexpr double kMost = 1.05, kMostInPhases = 1.15;
   constexpr uint64_t kOneInPhasesOf = 500;
   double slowest = 0;

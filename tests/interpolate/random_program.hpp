@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs for the property tests, and the check that a program was executed as it stands.
+// Random programs for the property tests, and the check that a program was executed as it is written.
 #pragma once
 
 #include "interpolate/test_machine.hpp"
@@ -17,7 +17,7 @@ inline double log_uniform(std::mt19937_64& rng, double low, double high) {
   return std::exp(uniform(rng, std::log(low), std::log(high)));
 }
 
-/// A run of short lines that turn a little each time, as a surface program has.
+/// A series of short lines, each turned a little from the one before, as in a surface program.
 inline void polyline(Program& p, std::mt19937_64& rng, double& heading) {
   const double step = log_uniform(rng, 0.001, 1.0), turn = uniform(rng, -1, 1) * log_uniform(rng, 0.001, 0.4);
   const double feed = log_uniform(rng, 1, 300), lift = uniform(rng, -0.5, 0.5);
@@ -47,7 +47,7 @@ inline void one_line(Program& p, std::mt19937_64& rng, unsigned axes, double& he
   s.exact_stop = pick(rng, 6) == 0;
 }
 
-/// An arc that leaves along the present heading (tangent), or in any direction.
+/// An arc that begins along the present heading (tangent), or in any direction.
 inline void one_arc(Program& p, std::mt19937_64& rng, unsigned axes, double& heading) {
   const double radius = log_uniform(rng, 0.05, 60);
   double sweep = uniform(rng, 0.05, 7) * (pick(rng, 2) ? 1 : -1);
@@ -92,7 +92,7 @@ inline void auxiliary(Program& p, std::mt19937_64& rng) {
 
 }  // namespace random_program_detail
 
-/// A program of everything: lines of all sizes, smooth and sharp corners, arcs, helices, spirals, rapids,
+/// A random program with everything: lines of all sizes, smooth and sharp corners, arcs, helices, spirals, rapids,
 /// stops and actions.
 inline Program random_program(const ExecutorConfig& config, std::mt19937_64& rng, unsigned blocks,
                               AxisVec start = {}) {
@@ -122,7 +122,7 @@ inline Program random_program(const ExecutorConfig& config, std::mt19937_64& rng
   return p;
 }
 
-/// Every record's serial was executed once, in order, and every move ended where it says.
+/// Checks that every record was executed once and in order, and that every move ended at its end.
 inline std::string check_events(const Program& p, const std::vector<nc_event>& events, unsigned axis_count) {
   std::ostringstream s;
   if (events.size() != p.records.size())

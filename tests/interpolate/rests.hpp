@@ -12,13 +12,13 @@ class Rests {
  public:
   explicit Rests(const AxisVec& start) : before_(start) {}
 
-  /// The command of each cycle.
+  /// To be called with the command of each cycle.
   void see(const AxisVec& now) {
     ++cycle_;
     if (now == before_) {
       ++still_;
     } else {
-      if (still_ > 1 && last_ > 0) ++count_;  // one still cycle is the turn of an axis
+      if (still_ > 1 && last_ > 0) ++count_;  // a single cycle without motion is the reversal of an axis
       still_ = 0;
       if (first_ == 0) first_ = cycle_;
       last_ = cycle_;
@@ -27,9 +27,9 @@ class Rests {
   }
   /// Cycles without motion up to now.
   uint64_t still() const { return still_; }
-  /// Rests between motion and motion.
+  /// Number of rests between two motions.
   unsigned count() const { return count_; }
-  /// From the first motion to the last.
+  /// Cycles from the first motion to the last.
   uint64_t cycles() const { return last_ - first_ + 1; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corners behind the mean of high-accuracy control in the trapezoid mode (M700 13.15): random programs of lines keep velocity and acceleration of every
-// axis in every cycle and stay within the tolerance, whatever overrides and holds do, and short lines are no stops.
+// Corners that the mean of high-accuracy control rounds in the trapezoid mode (M700 13.15): random programs of lines keep velocity and acceleration
+// of every axis in every cycle and stay within the tolerance, with any overrides and holds, and short lines are no stops.
 #include "motion/rounding.hpp"
 #include "support/seeds.hpp"
 
@@ -87,7 +87,7 @@ TEST(RoundedCorners, RandomLinesKeepTheLimitsAndTheTolerance) {
   }
 }
 
-// 1 um of noise in lines of 0.05 mm: as a step within one cycle each vertex is passed at some 20 mm/s.
+// 1 um of noise in lines of 0.05 mm: without rounding each vertex would be a step within one cycle, and be passed at about 20 mm/s.
 TEST(RoundedCorners, NoiseIsNoStop) {
   LineProgram lines;
   std::mt19937_64 rng(1);

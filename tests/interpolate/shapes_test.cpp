@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves that are neither lines nor circles, run by the scan: no axis exceeds its limits, the end is exact, a thread goes with its
-// spindle and is not held.
+// Curves that are neither lines nor circles, executed by the scan: no axis exceeds its limits, the end is exact, and a thread follows its spindle
+// and is not held.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -25,7 +25,7 @@ ExecutorConfig rotary_config() {
   return c;
 }
 
-/// Shapes outlive the curves that name them.
+/// Shapes must exist longer than the curves that refer to them.
 using Shapes = std::vector<std::unique_ptr<CurveShape>>;
 
 Curve shaped(Shapes& shapes, const ExecutorConfig& c, const MoveShape& what, const AxisVec& start, const AxisVec& end, const AxisVec& machine) {
@@ -142,7 +142,7 @@ TEST(ShapedMotion, ExponentialFeedGoesFromFToQ) {
     if (share > 0.49 && share < 0.51) middle = m.out.feed_mm_min / 60;
     return m.out.state == NC_STATE_IDLE;
   }));
-  EXPECT_NEAR(middle, 10, 0.3);  // M700 6.11: by the place of the linear axis
+  EXPECT_NEAR(middle, 10, 0.3);  // M700 6.11: the feed depends on the position of the linear axis
 }
 
 Program thread_program(const ExecutorConfig& c) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speeds that the spindles are wanted at (M700 10.3, 10.4, 10.6.1).
+// The commanded speeds of the spindles (M700 10.3, 10.4, 10.6.1).
 #include "interpolate/spindle.hpp"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ TEST_F(Speeds, TheClampIsOfTheSelectedSpindles) {
   speeds.select(1);
   EXPECT_EQ(now(0), 1000) << "kept";
   speeds.command(50);
-  speeds.clamp(0, 200, NC_CLAMP_Q | NC_CLAMP_ALWAYS);  // the S of this spindle stays
+  speeds.clamp(0, 200, NC_CLAMP_Q | NC_CLAMP_ALWAYS);  // the S command of this spindle stays
   EXPECT_EQ(now(0), 200);
   speeds.command(5000);
   EXPECT_EQ(now(0), 1000);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An executor with a program before it, driven cycle by cycle, and the checker that measures every axis of
-// every cycle by finite differences of the commanded positions: it knows nothing of the planner's own
-// numbers.
+// An executor that gets a program and is driven cycle by cycle, and a checker that measures every axis in every cycle by
+// finite differences of the commanded positions, without any number of the planner.
 #pragma once
 
 #include <cmath>
@@ -36,7 +35,7 @@ inline ExecutorConfig standard_config(unsigned axes = 3) {
   return c;
 }
 
-/// Records of a program, in machine coordinates, serials counted from 1.
+/// The records of a program, in machine coordinates; serials count from 1.
 class Program {
  public:
   Program(const ExecutorConfig& config, AxisVec start = {}) : config_(config), at_(start) {}
@@ -65,8 +64,8 @@ class Program {
     s.rapid = s.exact_stop = true;
     return s;
   }
-  /// Arc in the plane of axes h and v: starts tangent-angle by centre, sweeps, ends on a radius that differs
-  /// by `spiral`; the other axes go to `others`.
+  /// An arc in the plane of the axes h and v, from the present place, which is at `angle` as seen from the centre, by `sweep` to a radius that is
+  /// larger by `spiral`; the other axes go to `others`.
   Segment& arc(uint8_t h, uint8_t v, double radius, double angle, double sweep, double feed_mm_s,
                double spiral = 0, const AxisVec* others = nullptr) {
     Circle k;
@@ -126,7 +125,7 @@ class Program {
   uint32_t line_ = 1;
 };
 
-/// Finite differences of the commanded positions against the limits.
+/// Compares finite differences of the commanded positions with the limits.
 class LimitChecker {
  public:
   explicit LimitChecker(const ExecutorConfig& config) : config_(config) {}
@@ -171,7 +170,7 @@ class LimitChecker {
       << " x limit in cycle " << worst_cycle << " on axis " << worst_axis;
     return s.str();
   }
-  double worst_velocity = 0, worst_acceleration = 0, worst_jerk = 0;  ///< jerk: of axes that have a limit of it
+  double worst_velocity = 0, worst_acceleration = 0, worst_jerk = 0;  ///< divided by their limits; jerk only of axes that have a limit
   uint64_t worst_cycle = 0;
   unsigned worst_axis = 0;
 
@@ -186,7 +185,7 @@ struct FreeAligned {
   void operator()(void* p) const { std::free(p); }
 };
 
-/// An executor in memory of its own, with a simple FIN responder.
+/// An executor with its memory, and a simple answer by FIN.
 class Machine {
  public:
   explicit Machine(const ExecutorConfig& setup) : config(setup), checker(setup) {

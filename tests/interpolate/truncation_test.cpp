@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The protocol by which committed records are given up, step by step: one thread plays both sides.
+// The protocol by which committed records are given up, step by step, with one thread for both sides.
 #include "interpolate/truncation.hpp"
 
 #include <gtest/gtest.h>
@@ -31,8 +31,8 @@ TEST(TruncationProtocol, WhatIsClaimedIsTheFeedersUntilReleased) {
   EXPECT_FALSE(t.holds());
 }
 
-// The feeder claims, gives up and releases while a cycle of the scan is under way that saw the agreement at its beginning. The plan that this
-// cycle took is older than what was given up, so a reset may not get the ring back within the cycle.
+// The feeder claims, gives records up and releases during a cycle of the scan that saw the agreement at its beginning. The plan of this cycle is
+// older than that, so a reset must not get the ring back within the cycle.
 TEST(TruncationProtocol, WhatIsReleasedWithinACycleIsNotTakenBackInIt) {
   Truncation t;
   t.ask();

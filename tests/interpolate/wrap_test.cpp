@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every counter between feeder and scan begins anew after 2^31 or 2^32 (docs/counters.md): a machine that is there says the same positions
-// as one that has just been switched on.
+// Every counter between feeder and scan begins again after 2^31 or 2^32 (docs/counters.md): a machine whose counters are there gives the same
+// positions as one that has just been switched on.
 #include <gtest/gtest.h>
 
 #include "support/seeds.hpp"
@@ -15,7 +15,7 @@ struct Said {
   bool ended = true;
 };
 
-/// Lines that are passed at speed, corners, rests, an arc, stops of single block; as many records as go around the ring thrice.
+/// Lines that are passed at speed, corners, rests, an arc, stops of single block; as many records as fill the ring three times.
 Program winding(const ExecutorConfig& c) {
   Program p(c);
   AxisVec at{};
@@ -39,7 +39,7 @@ size_t place_behind(const Program& p, Serial last) {
   return n + 1;
 }
 
-/// Runs it, then with holds, single block and truncations, then with overrides that never rest and a reset.
+/// Runs the program, then once more with holds, single block and truncations, then with an always changing override and a reset.
 Said drive(const ExecutorConfig& c, uint32_t first) {
   Machine m(c);
   m.executor.count_from(first);
@@ -69,7 +69,7 @@ Said drive(const ExecutorConfig& c, uint32_t first) {
       m.in.cycle_start = run == 1 && n % 50 == 0;
       m.in.reset = run == 2 && n == 700;
       if (run == 2) m.in.feed_override = n % 60 < 30 ? 0.7 : 1.2;  // a new plan, and new cells, again and again
-      if (run == 1 && n % 900 == 50) {  // asked for in one turn, answered in another
+      if (run == 1 && n % 900 == 50) {  // the truncation is asked for in one turn, and answered in another
         Serial last = 0;
         (void)m.executor.truncate(&last);
         cycle();

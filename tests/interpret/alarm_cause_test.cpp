@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an alarm says beside its code: who called the program that alarms, which variable was vacant, which option is off, and what a code
-// of another control is called here.
+// What an alarm tells beside its code: which blocks called the program, which variable was vacant, which option is off, and what a code of another
+// control is called here.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace nc::test {
 namespace {
 
-/// "2 > O9001:3 > O9002:1": the blocks that led to the alarm.
+/// The blocks that led to the alarm, as "2 > O9001:3 > O9002:1".
 std::string calls(Bench& bench) {
   nc_source all[NC_MAX_CALLS];
   const unsigned count = nc_alarm_calls_get(bench.control(), 0, all, NC_MAX_CALLS);
@@ -50,7 +50,7 @@ TEST(AlarmCalls, OfTheMainProgram) {
   EXPECT_EQ(calls(bench), "2");
 }
 
-/// A block that calls or returns and alarms itself is the last one.
+/// If a block that calls or returns raises the alarm itself, it is the last one in the list.
 TEST(AlarmCalls, OfABlockThatCannotCall) {
   Bench bench;
   bench.add("O9001", "M98 P7777\nM99\n");
@@ -74,7 +74,7 @@ TEST(AlarmCalls, OfModalCallsCodesAndCycles) {
   EXPECT_EQ(calls(bench), "1 > O9001:2");
 }
 
-/// What a stage behind the interpreter finds, when more has been read already: limits on the finished path, compensation.
+/// Alarms of a stage behind the interpreter (limits on the finished path, compensation), which come when more has been read already.
 TEST(AlarmCalls, OfAlarmsThatTheFinishedPathShows) {
   const auto limited = [](nc_config& c) {
     c.system[0].axis[0].soft_limited = true;
@@ -158,7 +158,7 @@ TEST(AlarmCause, TheVacantVariable) {
   }
 }
 
-/// A variable that is vacant beside the point is not blamed.
+/// A vacant variable that has nothing to do with the alarm is not named.
 TEST(AlarmCause, NotAVariableThatHasNothingToDoWithIt) {
   for (const char* program : {"IF [#5 EQ #0] GOTO 10\nM30", "G123 X#5\nM30", "#5=#6\nG1 X1.\nM30", "G1 X#5 Y1.\nM30", "#6=1\nG1 X1. F#6\nG95 X5.\nM30",
                               "F#650\nF100\nG1 X1.\nG95 X5.\nM30", "G0 X1. Y#7 U5.\nM30"}) {
@@ -180,7 +180,7 @@ TEST(AlarmCause, TheOptionThatIsOff) {
   EXPECT_TRUE(says(detail("#16001=1\nM30"), "type II (#1037 = 2)"));
   EXPECT_TRUE(says(detail("#7021=1\nM30", Bench(NC_DIALECT_M700, [](nc_config& c) { c.work_offsets = 0; })), "The option work_offsets is 0."));
   EXPECT_TRUE(says(detail("IF [1 EQ 1] THEN #1=2\nM30"), "macro_extensions, which is off."));
-  // What no option gives, or what an option gives already.
+  // No option is named for what no option can provide, or what an option provides already.
   for (const char* program : {"#5004=1\nM30", "#1=#4129\nM30", "#1=#999999\nM30", "IF [1 EQ] GOTO 5\nM30", "SETVN 520[ABC]\nM30"})
     EXPECT_FALSE(says(detail(program), "option")) << program << ": " << detail(program);
   EXPECT_FALSE(says(detail("IF [1 EQ 1] THEN\nGOTO 77\nM30", std::move(Bench().param("macro_extensions", "1"))), "option"));
@@ -191,7 +191,7 @@ TEST(AlarmCause, CodesOfOtherControls) {
                               "o103 repeat [5]\nM30", " O 104 ENDIF\nM30", "o105 return\nM30", "o106 do\nM30", "o[#1] call\nM30"}) {
     EXPECT_TRUE(says(detail(program), "O-words of LinuxCNC")) << program << ": " << detail(program);
   }
-  // Behind blocks of the program an O begins another one; and it may stand behind other words.
+  // After blocks of the program an O begins another program; it may also stand behind other words.
   for (const char* word : {"sub", "ENDSUB", "call", "call [1] [2]", "return", "return [#1]", "if [#1 EQ 0]", "elseif [#1 EQ 0]", "else", "endif",
                            "while [#1 LT 3]", "endwhile", "do", "break", "continue", "repeat [5]", "endrepeat"})
     for (const char* before : {"o100 ", "O1", "o<name> ", "O <my sub> ", "N10 o100 ", "N10 O<x> ", "G0 X1. o100 ", "X1 O<abc> ", "(o) o100 ", "/ o100 ", "/2 O<a> ", "o#1 "}) {
@@ -212,7 +212,7 @@ TEST(AlarmCause, CodesOfOtherControls) {
   EXPECT_FALSE(says(detail("X5 &\nM30"), "LinuxCNC"));
 }
 
-/// Never cut in the middle of a sentence.
+/// The text is never cut in the middle of a sentence.
 TEST(AlarmCause, IsAWholeSentence) {
   for (const char* program : {"IF [1 EQ 1] THEN #1=2\nM30", "o100 sub\nM30", "G91.1\nM30", "G1 X10. F#650\nM30", "G2 X10. I#4 F100\nM30",
                               "G10 L2 P[#123456+1] X1.\nM30", "#2=LN[#1]\nM30"}) {

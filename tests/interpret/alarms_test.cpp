@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bad programs: the alarm of the manual, on the right line, the machine at rest where the block before ended.
+// Wrong programs: each raises the alarm of the manual in the right line, and the machine rests where the block before ended.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -27,7 +27,7 @@ TEST_P(M700Alarm, OnItsLineAndNothingMoved) {
   });
   bench.add("O9", "G67\nM99\n");
   bench.param("2106", "5", 'C').tool(1, 2);
-  // The first block moves, so that "at rest at the end of the block before" is a place of its own.
+  // The first block moves, so that the end of the block before differs from the start of the program.
   const Outcome run = bench.run("G0 X7.\nG1 F100\n" + std::string(row.program) + "\nX99.\nM30");
   EXPECT_EQ(run.alarm, row.code);
   EXPECT_EQ(run.alarm_line, row.line + 2);
@@ -40,7 +40,7 @@ TEST_P(M700Alarm, OnItsLineAndNothingMoved) {
   for (const nc_item& item : run.of(NC_ITEM_MOVE)) EXPECT_LT(item.source.line, run.alarm_line);
   const std::vector<nc_move> moves = run.moves();
   EXPECT_EQ(run.end_work.v[0], moves.back().work.v[0]);
-  // A second look says the same, and the next program runs.
+  // The alarm can be read again, and the next program runs.
   Step step;
   EXPECT_EQ(bench.pull(&step), NC_ALARMED);
   EXPECT_TRUE(bench.run("M30").ended_ok);

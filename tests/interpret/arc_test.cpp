@@ -105,7 +105,7 @@ TEST(Helix, TurnsAreExtra) {  // M700 6.6: total turn = 2 pi P + theta
   EXPECT_EQ(move.turns, 2u);
   EXPECT_NEAR(move.sweep_deg, 90 + 720, 1e-9);
   EXPECT_EQ(m700("G3 X-10. Y10. I-10. P0 F100\nM30").moves()[0].turns, 0u);
-  // theta of a closed one is 0: the printed sine of 6.16 has two periods with P2
+  // theta of a closed arc is 0: the sine of 6.16 in the manual has two periods with P2
   EXPECT_EQ(m700("G2 X0 Y0 Z40. J-10. P2 F100\nM30").moves()[0].sweep_deg, -720);
   EXPECT_EQ(m700("G3 J-10. Z40. P1 F100\nM30").moves()[0].sweep_deg, 360);
   EXPECT_EQ(m700("G3 J-10. Z40. P0 F100\nM30").moves()[0].sweep_deg, 360);  // 6.4
@@ -162,7 +162,7 @@ TEST(Arc, OfALinearAndARotaryAxisInInch) {  // M700 3.2 note 5
   EXPECT_EQ(moves[1].kind, NC_MOVE_LINE);
   EXPECT_NEAR(moves[1].machine.v[3], 15, 1e-9);
   EXPECT_NEAR(moves[1].feed_mm_min, 100, 1e-9);  // note 6
-  EXPECT_NEAR(moves[2].radius, 12.7, 1e-9);  // half a turn back in X, C where it stood
+  EXPECT_NEAR(moves[2].radius, 12.7, 1e-9);  // half a turn back in X; C stays
   EXPECT_NEAR(moves[2].machine.v[3], 15, 1e-9);
   EXPECT_NEAR(moves[2].length, 12.7 * std::numbers::pi, 1e-6);
 }

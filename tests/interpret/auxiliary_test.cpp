@@ -9,7 +9,7 @@
 namespace nc::test {
 namespace {
 
-/// What goes out and what is waited for, in order: "S1000 M3 fin line stop".
+/// The functions that go out, the waits and the moves, in order: "S1000 M3 fin line stop".
 std::string order(const Outcome& run) {
   std::string all;
   for (const Step& step : run.steps) {
@@ -84,7 +84,7 @@ TEST(Auxiliary, OrderByParameter) {  // M700 9.1: "after or simultaneously with 
 
 // ---- constant surface speed and clamp (M700 10.3, 10.4) -----------------------------------------------------------------------------
 
-/// "G92 S1000 Q200!1": S and Q as far as they are commanded, and how they clamp; "free" = no clamp any more.
+/// A clamp as text, as "G92 S1000 Q200!1": S and Q if they are commanded, and how they act; "free" = there is no clamp any more.
 std::string clamp_text(const nc_action& a) {
   const auto how = static_cast<unsigned>(a.value);
   std::string text = (how & (NC_CLAMP_S | NC_CLAMP_Q)) == 0 ? "free" : "clamp";
@@ -93,7 +93,7 @@ std::string clamp_text(const nc_action& a) {
   return (how & 3) == 0 ? text : text + "!" + std::to_string(how & 3);
 }
 
-/// Speeds as the machine is told: "G96 X 200, S500".
+/// The speed commands that the machine gets, as "G96 X 200, S500".
 std::string speeds(const Outcome& run) {
   std::string all;
   for (const Step& step : run.steps) {
@@ -152,7 +152,7 @@ TEST(SpindleClamp, BesideACoordinateSystem) {
   EXPECT_EQ(m700("G0 X10.\nG92 X0 Q100\nX1.\nM30").path(), (Path{"rapid 10 0 0", "rapid 11 0 0"}));
 }
 
-/// On the machine the speed follows the axis.
+/// On the machine the spindle speed follows the position of the axis.
 TEST(SurfaceSpeed, OnTheMachine) {
   Bench bench(NC_DIALECT_M700, [](nc_config& c) {
     c.cycle_s = 0.004;

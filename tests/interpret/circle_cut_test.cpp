@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Circle cutting G12 and G13 (M700 13.10): the figure, its offset, its alarms, and what it meets.
+// Circle cutting G12 and G13 (M700 13.10): the figure, its offset, its alarms, and its combination with other functions.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curves and modes of M700 chapter 6 beyond lines, arcs and helices: what the words mean, and what excludes what.
+// The curves and modes of M700 chapter 6 beyond lines, arcs and helices: what their words mean, and which exclude each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace nc::test {
 namespace {
 
-/// A run with all axes at 0 before it.
+/// Runs the text with all axes at 0 before it.
 Outcome from_zero(Bench& bench, const std::string& text) { return bench.at(0, 0, 0).run(text); }
 
 Bench rotary_bench() {
@@ -95,7 +95,7 @@ TEST(Thread, NoLeadIsMissingWhereNothingIsCut) {
 
 TEST(PolarCommand, RadiusAndAngle) {  // M700 6.12
   EXPECT_EQ(m700("G16 G0 X100. Y30.\nG91 Y60.\nM30").path().back(), "rapid 0 100 0");
-  const nc_move pole = m700("G0 X30. Y40.\nG16 G91 X25. Y90.\nM30").moves().back();  // from where it stands; 90 more than its angle
+  const nc_move pole = m700("G0 X30. Y40.\nG16 G91 X25. Y90.\nM30").moves().back();  // from the present place, with an angle 90 degrees larger
   EXPECT_NEAR(pole.work.v[0], 30 - 20, 1e-9);
   EXPECT_NEAR(pole.work.v[1], 40 + 15, 1e-9);
   const nc_move arc = m700("G16 G0 X20. Y0\nG3 X20. Y90. R20. F100\nM30").moves().back();
@@ -200,7 +200,7 @@ TEST(Polar, ItsHypotheticalAxisIsALength) {
   Bench bench = rotary_bench();
   bench.param("1517", "1").param("2106", "5", 'C').param("8213", "0", 'C');
   const auto from_start = [&bench](const std::string& text) { return bench.at(30, 0, 0, 0).run(text); };
-  // F is inch/min on the plane also where the hypothetical axis alone goes (6.10 (5)); alone a rotary axis has a unit of 10 deg (3.2 note 6).
+  // F is inch/min in the plane even if only the hypothetical axis moves (6.10 (5)); outside the mode a rotary axis has a unit of 10 deg (3.2 note 6).
   Outcome run = from_start("G20\nG12.1\nG1 C0.25 F10\n#101=#5004\nC-0.25\n#102=#5004\nG13.1\nG1 C5.\nM30");
   EXPECT_EQ(run.alarm, "");  // nor is 0.25 a position that #2106 knows
   EXPECT_EQ(run.moves()[0].feed_mm_min, 254);
@@ -375,7 +375,7 @@ TEST(Hypothetical, TheAxisStaysAndComesBackToItself) {  // M700 6.16
   EXPECT_EQ(m[0].machine.v[1], 0);
   EXPECT_EQ(m[0].machine.v[0], 10);
   EXPECT_EQ(m[1].machine.v[1], 0);
-  EXPECT_NEAR(m[1].length, 15, 1e-12);  // it takes part as if it moved
+  EXPECT_NEAR(m[1].length, 15, 1e-12);  // the held axis counts as if it moved
   EXPECT_EQ(m[2].machine.v[1], 3);
 }
 

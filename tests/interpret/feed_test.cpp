@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feed functions (M700 7) and dwell (8.1): what F means, what a block must have, which codes exclude each other.
+// Feed functions (M700 7) and dwell (8.1): what F means, which words a block must have, which codes exclude each other.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -125,7 +125,7 @@ TEST(SubProgram, Missing) {
   const Outcome run = m700("G0 X1.\nG0 X2. M98 P77\nM30");
   EXPECT_EQ(run.alarm, "P232");
   EXPECT_EQ(run.alarm_line, 2u);
-  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));  // nothing of the block that alarms has moved
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));  // the block with the alarm has not moved
   EXPECT_EQ(run.end_work.v[0], 1);
 }
 
@@ -241,7 +241,7 @@ TEST(Goto, LooksBehindFirstThenFromTheHead) {  // M700 13.5.7: of equal numbers 
 TEST(Goto, BySkippedBlocksAndExpressions) {
   EXPECT_TRUE(m700("#1=7\nGOTO[#1+3]\n#100=1\n/N10 M30").ended_ok);
   EXPECT_EQ(m700("GOTO 8\nM30").alarm, "P231");
-  const Outcome run = m700("#100=1 GOTO2 #101=5\n#102=1\nN2 M30");  // what stands behind a jump is not reached
+  const Outcome run = m700("#100=1 GOTO2 #101=5\n#102=1\nN2 M30");  // blocks behind a jump are not reached
   EXPECT_EQ(run.vars, (std::map<uint32_t, double>{{100, 1}}));
 }
 
@@ -323,7 +323,7 @@ TEST(Loop, AReturnLeavesTheLoopsOfItsProgram) {
 
 // ---- G65 ----------------------------------------------------------------------------------------------------------------------------
 
-/// All locals of the called macro as #101..#133.
+/// Calls a macro with these words, which copies all its local variables to #101 to #133.
 Outcome arguments(const std::string& words) {
   Bench bench;
   std::string copy;
@@ -494,7 +494,7 @@ TEST(ExternalProgram, FirstLineIsNotRunUnlessItIsAnONumber) {  // M700 13.3.2
 TEST(ExternalProgram, Rules) {
   Bench bench;
   bench.add("O5", "#100=#100+1\nM99\n");
-  EXPECT_EQ(bench.run("#100=0\nM198 P5 L3\nM198 P5 L0\nM30").var(100), 3);  // what is no file of the server is looked for in memory
+  EXPECT_EQ(bench.run("#100=0\nM198 P5 L3\nM198 P5 L0\nM30").var(100), 3);  // a program that the server does not have is looked for in memory
   bench.add("198:O6", "O6\nM198 P5\nM99\n");
   EXPECT_EQ(bench.run("M198 P6\nM30").alarm, "P230");  // once per nest
   EXPECT_EQ(bench.run("M198 P5 H1\nM30").alarm, "P33");
@@ -603,7 +603,7 @@ TEST(Calls, NumbersHaveNoSignAndEightDigits) {  // M700 3.5, App.1 P35
   EXPECT_EQ(m700("M98 P99999999\nM30").alarm, "P232");
 }
 
-// M700 9.1: where the first movement of the next start has coordinate words only, the mode at the end of the program holds.
+// M700 9.1: if the first movement after the next start has only coordinate words, the mode at the end of the program still counts.
 TEST(AfterTheEnd, MovementGoesOnInTheModeOfTheEnd) {
   Bench bench;
   EXPECT_EQ(bench.run("G91 G0 X10.\nM30").path(), Path{"rapid 10 0 0"});

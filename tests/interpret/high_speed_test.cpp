@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// High-accuracy control and the modes for fine segments: codes, states, what may be commanded in them (M700 13.15 to 13.17).
+// High-accuracy control and the modes for fine segments: their codes and states, and what may be commanded in them (M700 13.15 to 13.17).
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -7,7 +7,7 @@
 namespace nc::test {
 namespace {
 
-/// Alarm of `text`, run from zero with #1267 bit 0 on.
+/// The alarm of `text`, which is run from zero with #1267 bit 0 on.
 std::string alarm_of(const std::string& text, const char* parameter = nullptr, const char* value = "1") {
   Bench bench;
   bench.param("1267/bit0", "1").tool(1, 2);

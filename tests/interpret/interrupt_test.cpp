@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Macro interrupt (M700 13.12): offline at chosen items. On the machine: tests/control/online_test.cpp.
+// Macro interrupt (M700 13.12), offline and at chosen items. tests/control/online_test.cpp tests it on the machine.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -7,7 +7,7 @@
 namespace nc::test {
 namespace {
 
-/// Pulls a program; the interrupt signal rises with the first item of main program line `line` that `wanted` says yes to.
+/// Pulls a program; the interrupt signal comes with the first item of line `line` of the main program for which `wanted` is true.
 Outcome interrupted(Bench& bench, const std::string& text, unsigned line, const std::function<bool(const nc_item&)>& wanted, bool release = true) {
   bench.start(text);
   Outcome run;
@@ -47,7 +47,7 @@ TEST(MacroInterrupt, TypeOneWithAMoveLosesTheBlock) {
   bench.add("O1000", "G0 Z7.\nM99\n");
   const Outcome run = interrupted(bench, kMain, 3, is_move);
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 1 0 7", "rapid 1 5 7", "rapid 1 5 1"}));
-  EXPECT_EQ(run.aux(), "M8 M30");  // that had gone out before
+  EXPECT_EQ(run.aux(), "M8 M30");  // M8 had gone out before
 }
 
 TEST(MacroInterrupt, TypeOneWithoutAMoveGoesOnInTheBlock) {
@@ -140,11 +140,11 @@ TEST(MacroInterrupt, TheRotationByParameterIsWhatItHasMadeIt) {  // M700 13.21: 
   bench.add("O1000", "G10 K90.\nM99\n");
   const char* const text = "M96 P1000\nG0 X1.\nX2.\nX3. Y0\nM30";
   EXPECT_EQ(interrupted(bench, text, 2, is_mark).path(), (Path{"rapid 1 0 0", "rapid 0 2 0", "rapid 0 3 0"}));
-  bench.add("O1000", "G10 K0\nM99\n");  // it was 90 still
+  bench.add("O1000", "G10 K0\nM99\n");  // the angle was still 90
   EXPECT_EQ(interrupted(bench.at(0, 0, 0), text, 2, is_mark).path(), (Path{"rapid 0 1 0", "rapid 2 0 0", "rapid 3 0 0"}));
 }
 
-TEST(MacroInterrupt, AnotherSignalCountsAtOnce) {  // it has gone off in between
+TEST(MacroInterrupt, AnotherSignalCountsAtOnce) {  // the signal has been off in between
   Bench bench;
   bench.param("1112", "1");
   bench.add("O1000", "#100=#100+1\nM99\n");
@@ -203,7 +203,7 @@ TEST(MacroInterrupt, OtherCodesByParameter) {  // #1109 #1110 #1111
   EXPECT_EQ(run.aux(), "M96 M30");
 }
 
-/// A second interrupt between the return and the block that goes on: what that has done stays done.
+/// A second interrupt comes between the return and the rest of the interrupted block: what that block has done is not done again.
 TEST(MacroInterrupt, AgainBeforeTheBlockGoesOn) {
   Bench bench;
   bench.add("O1000", "#100=#100+1\nM99\n");
@@ -229,8 +229,8 @@ TEST(MacroInterrupt, AgainBeforeTheBlockGoesOn) {
   EXPECT_EQ(run.aux(), "M8 M30");
 }
 
-/// An interrupt program that neither moves nor gives out codes changes nothing, wherever it comes in: what has happened of a block is
-/// not done twice, and nothing of it is lost.
+/// An interrupt program that neither moves nor gives out codes changes nothing, wherever it comes: no part of a block is executed twice, and none is
+/// lost.
 TEST(MacroInterrupt, WithoutMovesNothingChangesAtAnyItem) {
   const std::string text =
       "M96 P1000\nG0 X1. Y2.\nT3 M6\nG1 X5. F300 M8 S500\nG91 G2 X2. I1.\nG90 G4 P100\nG98 G83 X9. Y1. Z-3. Q1. R1. F100\nX11. L2\nG80 G0\n"

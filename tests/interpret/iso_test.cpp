@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The iso family: what RS-274/NGC and LinuxCNC mean otherwise than the families with a manual do, one test for each rule.
+// The iso family: where RS-274/NGC and LinuxCNC differ from the families with a manual, one test for each rule.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 Outcome iso(const std::string& text) { return Bench(NC_DIALECT_ISO).run(text); }
 std::string alarm_of(const std::string& text) { return iso(text).alarm; }
-/// What an expression is: by the place that an axis goes to.
+/// The value of an expression, found from the place to which an axis goes.
 double value_of(const std::string& expression) {
   const Outcome run = iso("G0 X" + expression);
   EXPECT_EQ(run.alarm, "") << expression;
@@ -50,7 +50,7 @@ TEST(Iso, OWordsSayThatTheyAreNotThere) {
     EXPECT_NE(run.alarm_detail.find("sub programs"), std::string::npos) << run.alarm_detail;
     EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"})) << text;
   }
-  // Statements of other families are no words of this one.
+  // Statements of other families are not allowed in this one.
   for (const char* text : {"IF [1 EQ 1] GOTO 5", "WHILE [1] DO1", "GOTO 5", "POPEN"}) EXPECT_NE(alarm_of(text), "") << text;
 }
 
@@ -187,7 +187,7 @@ TEST(IsoArc, CentresCountFromTheStartOrFromTheZero) {  // LinuxCNC G90.1, G91.1
   EXPECT_EQ(iso("G0 X10 Y10\nG3 X20 Y20 I0 J10 F100").path(), same);
   EXPECT_EQ(iso("G90.1\nG0 X10 Y10\nG3 X20 Y20 I10 J20 F100").path(), same);
   EXPECT_EQ(iso("G90.1\nG91.1 G0 X10 Y10\nG3 X20 Y20 J10 F100").path(), same);
-  EXPECT_EQ(alarm_of("G90.1\nG0 X10 Y10\nG3 X20 Y20 I10 F100"), "NC-WORDS");  // both have to be there
+  EXPECT_EQ(alarm_of("G90.1\nG0 X10 Y10\nG3 X20 Y20 I10 F100"), "NC-WORDS");  // both I and J must be given
 }
 
 TEST(IsoArc, ToleranceGrowsWithTheRadius) {  // LinuxCNC G2: 0.005 mm, a thousandth of the radius, never more than 0.5 mm
@@ -234,10 +234,10 @@ TEST(IsoLength, ShiftsTheReadingAndMovesNothing) {  // RS-274/NGC 3.5.11
   EXPECT_EQ(bench.run("G43 H1\nG0 X1\nG0 Z5\nG49\nG91 Z1\nG90 Z2").path(),
             (Path{"rapid 1 0 0", "rapid 1 0 15", "rapid 1 0 16", "rapid 1 0 2"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2\nG91 G0 Z1").path(), (Path{"rapid 0 0 1"}));
-  // Without H that of the tool.
+  // Without H the number of the tool counts.
   EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nG43\nG0 Z1\nG43 H1\nG0 Z1\nG43 H0\nG0 Z1").path(),
             (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 1"}));
-  // G53 goes without it, and it stays.
+  // G53 moves without the length, which stays in force.
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H1\nG53 G0 Z3\nG91 G0 Z1\nG90 Z0").path(), (Path{"rapid 0 0 3", "rapid 0 0 4", "rapid 0 0 10"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H999").alarm, "NC-OFFSET-DATA");
 }

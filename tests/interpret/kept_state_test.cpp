@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the interpreter's state outlives an interrupt program (M700 13.12), a call (13.3.1), the way from one block of MDI to the next (5.1), an end
-// and a reset (3.7, 9.1): every mode that a program can set is in force as it says. The groups behind that: lifetimes_test.cpp.
+// Which parts of the interpreter's state survive an interrupt program (M700 13.12), a call (13.3.1), the change from one MDI block to the next (5.1),
+// an end and a reset (3.7, 9.1), tested with every mode that a program can set. lifetimes_test.cpp tests the groups of the state.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Result {
 
 std::string called;  ///< O2000
 
-/// Runs the text; where `interrupt` is given that program runs behind the block of line 2, without a move of its own.
+/// Runs the text; if `interrupt` is given, that interrupt program runs after the block of line 2. It must have no move.
 Result run(const std::string& text, const char* interrupt, bool type_2) {
   const std::unique_ptr<Bench> bench = machine();
   bench->param("1113", type_2 ? "1" : "0");
@@ -143,7 +143,7 @@ TEST(KeptStateOfTheSpindle, SurfaceSpeedIsAnnouncedAgain) {
   EXPECT_EQ(surface, 100);
 }
 
-/// Blocks of MDI one after the other give the path of a program that has them all.
+/// MDI blocks that are entered one after the other give the same path as a program with all of them.
 TEST_P(KeptState, BlocksOfMdiGoOnFromEachOther) {
   const std::string text = GetParam().text;
   if (std::string(GetParam().what) == "parameter input" ||
@@ -167,9 +167,9 @@ TEST_P(KeptState, BlocksOfMdiGoOnFromEachOther) {
   EXPECT_EQ(alarm, whole.alarm);
 }
 
-/// M700 13.3.1, 13.5.1: the modes of a program that is called are those of the one that calls it, there and back.
+/// M700 13.3.1, 13.5.1: a called program has the modes of its caller, and its changes stay after the return.
 TEST_P(KeptState, ACalledProgramChangesTheModesOfItsCaller) {
-  if (std::string(GetParam().what) == "parameter input") return;  // what stands between G10 L70 and G11 is no call
+  if (std::string(GetParam().what) == "parameter input") return;  // there is no call between G10 L70 and G11
   const std::string text = GetParam().text;
   const size_t end = text.find('\n', text.find("(HERE)"));
   const auto with = [&](const std::string& between) { return run(text.substr(0, end) + "\n" + between + text.substr(end), nullptr, false); };
@@ -184,7 +184,7 @@ TEST_P(KeptState, ACalledProgramChangesTheModesOfItsCaller) {
   }
 }
 
-/// What a program finds that moves in every way that needs a mode.
+/// The run of a program whose moves show the modes that it finds.
 Outcome found_by_the_next(Bench& bench) {
   Outcome next = bench.run("G0 X1. Y2. Z3.\nG1 X5. F100\nG2 X7. Y4. R10.\nG1 X8.\nG0 Z1.\nX2.\nM30");
   next.axis_count = 4;
@@ -203,7 +203,7 @@ void expect_same_start(Outcome& next, Outcome& first) {
   EXPECT_EQ(a.tool, b.tool);
 }
 
-/// M700 3.7, 9.1: behind M30, and behind a reset in the middle, a program begins as behind power on.
+/// M700 3.7, 9.1: after M30, and after a reset in the middle, a program begins as after power on.
 TEST_P(KeptState, AnEndAndAResetLeaveTheModesOfPowerOn) {
   const std::string text = GetParam().text;
   const std::string part = text.substr(0, text.find('\n', text.find("(HERE)"))) + "\n";

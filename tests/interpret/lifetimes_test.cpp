@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups of the interpreter's state (interpret/state.hpp) and of its records (interpret/program_records.hpp), and what each event makes of them
-// (interpret/lifetimes.hpp): every member is in exactly
-// one group, and goes the way of that group but for the exceptions that are named here. What that means for programs: kept_state_test.cpp.
+// The groups of the interpreter's state (interpret/state.hpp) and of its records (interpret/program_records.hpp), and what each event does to them
+// (interpret/lifetimes.hpp): every member is in exactly one group and is treated like that group, with the exceptions that are named here.
+// kept_state_test.cpp shows what that means for programs.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -27,7 +27,7 @@ struct Anything {
   template <class T>
   operator T() const;
 };
-// State and StateValues are aggregates: an initializer behind those of the bases would be that of a member of their own.
+// State and StateValues are aggregates: one more initializer than there are bases is possible only if they have a member of their own.
 template <class T, class... Base>
 concept HasOnly = requires { T{Base{}...}; }
 &&!requires { T{Base{}..., Anything{}}; };
@@ -41,7 +41,7 @@ using AllGroups = Groups<BlockLife, MachinePosition, AppliedLength, ModalLife, M
                          Derived>;
 static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack));
 
-// This is what a member outside of the groups would be.
+// An example of a member outside the groups.
 struct OneMore : StateValues, CallStack {
   bool one_more = false;
 };
@@ -140,7 +140,7 @@ TEST(StateGroups, NoTwoHaveAMemberInCommon) {
 
 enum Column : unsigned { kCall, kInterrupt, kMdi, kEnd, kReset, kPowerOff, kColumns };
 
-/// Rows of the table in the comment of state.hpp, by group: what is written there is what the tests below expect.
+/// The rows of the table in the comment of state.hpp, by group; the tests below expect what is written there.
 const std::map<std::string, std::vector<std::string>>& table() {
   static const auto rows = [] {
     std::map<std::string, std::vector<std::string>> all;
@@ -178,7 +178,7 @@ TEST(StateGroups, EachHasItsRowInTheTable) {
 
 // ---- what an event makes of a group -------------------------------------------------------------------------------------
 
-// Patterns for every byte: a byte 1 is a value of a bool and of every enumeration, and so is 0.
+// Patterns for every byte. Both 0 and 1 are valid values of a bool and of every enumeration.
 constexpr int kPatterns[] = {0, 1};
 
 std::unique_ptr<State> filled(int pattern) {
@@ -199,7 +199,7 @@ bool all_are(const State& state, const Bytes& field, int pattern) {
 
 bool same(const State& a, const State& b, const Bytes& field) { return std::memcmp(bytes_of(a, field), bytes_of(b, field), field.size) == 0; }
 
-/// `event` gets a state all bytes of which are of a pattern. Kept members still are; the others do not depend on it.
+/// `event` gets a state in which all bytes have a pattern. Afterwards kept members must still have it; the others must not depend on it.
 void expect_kept(const std::function<void(State&)>& event, const std::set<std::string>& kept, const std::set<std::string>& exceptions) {
   std::unique_ptr<State> after[2];
   for (const int pattern : kPatterns) {
@@ -244,7 +244,7 @@ void begin(State& state) { begin_program(state, initial_values(), false); }
 void begin_mdi(State& state) { begin_program(state, initial_values(), true); }
 
 TEST(StateGroups, TheNextStartKeepsThePositionAndWhatNoProgramEnds) {  // M700 9.1, 3.7
-  // What an end leaves is noted anew by a program that has read something (below).
+  // What an end leaves is noted again by a program that has read something (see below).
   expect_kept(begin, groups_with(kEnd, "yes"), {"left_by_end"});
   State state;
   state.modal.tool = 9;
@@ -284,7 +284,7 @@ TEST(StateGroups, AnEndLeavesItsMotionToTheStartsBehindItUntilAReset) {  // M700
   begin_program(state, initial, false);
   EXPECT_TRUE(state.modal.is(Function::linear));
   EXPECT_EQ(state.modal.feed, 250);
-  begin_program(state, initial, false);  // selected once more before anything of it has been read
+  begin_program(state, initial, false);  // selected once more before a block of it has been read
   EXPECT_TRUE(state.modal.is(Function::linear));
   State reset = state;
   end_by_operator(reset);
@@ -294,7 +294,7 @@ TEST(StateGroups, AnEndLeavesItsMotionToTheStartsBehindItUntilAReset) {  // M700
   end_by_operator(ended);  // the reset comes right behind the end
   begin_program(ended, initial, false);
   EXPECT_TRUE(ended.modal.is(Function::rapid));
-  state.seq = 1;  // this one is left before its end
+  state.seq = 1;  // this program is left before its end
   begin_program(state, initial, false);
   EXPECT_TRUE(state.modal.is(Function::rapid));
 }
@@ -339,7 +339,8 @@ TEST(StateGroups, AnInterruptProgramBeginsWithWhatIsInForce) {  // M700 13.12
   expect_kept([&](State& state) { begin_interrupt_program(state, place); }, all, {"repeat", "interrupt_moved", "parameter_input"});
 }
 
-// `modal` holds the M code that has been given out, and `moves_since_comp_off` and `spline_way` take note of a move of the interrupt program: below.
+// Exceptions, tested below: `modal` holds the M code that was given out; `moves_since_comp_off` and `spline_way` change with a move of the interrupt
+// program.
 const std::set<std::string> kReturnExceptions = {"modal", "moves_since_comp_off", "spline_way"};
 
 TEST(StateGroups, AnInterruptGivesTheModesBackAndLeavesTheRest) {  // M700 13.12

@@ -81,7 +81,7 @@ TEST(ModalMacro, ComesBeforeTheProgramThatTheBlockCalls) {  // 13.5.1: behind th
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 5 0 0", "rapid 6 0 0", "rapid 9 0 0"}));
   EXPECT_EQ(run.var(100), 4);
   EXPECT_EQ((std::array{run.var(111), run.var(112), run.var(113), run.var(114)}), (std::array{1., 5., 6., 9.}));
-  // The block ends once, behind the return; the rest of its words is evaluated behind the macro.
+  // The block ends once, after the return; its other words are evaluated after the macro.
   run = bench.at(0, 0, 0).run("#100=0 #120=0\nG90 G66 P10\nG0 X1. M98 P#120 L2\nG67\nM30");
   EXPECT_EQ(run.var(100), 5);
   unsigned ends = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs of M700 13.5.10, run and checked against the geometry they are meant to make. Where print has lost a character it is
-// mended and said.
+// The programs of M700 13.5.10 are run and compared with the geometry that they are meant to make. Misprints are corrected, which is noted there.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -75,7 +74,7 @@ TEST(ManualMacros, BoltHoleCircleInIncrements) {  // #4003 says G91: differences
   }
 }
 
-// Example 3. Its second call prints no Y; the first is the one that is run.
+// Example 3. In the manual its second call has no Y, so only the first one is run.
 TEST(ManualMacros, Grid) {
   Bench bench;
   bench.add("O9930",

@@ -110,7 +110,7 @@ TEST(Skip, TheSignalEndsTheMove) {
   bench.work_offset(1, {1, 2, 0});
   bench.skip_at = [](const nc_item&) { return 0.25; };
   const Outcome run = bench.run("G31 X41. Z-20. F100\n#100=#5061 #101=#5063\nG91 G1 Z1. F50\nM30");
-  EXPECT_EQ(run.path(), (Path{"skip 42 0 -20 F100", "line 10.5 0 -4 F50"}));  // goes on from where it ended
+  EXPECT_EQ(run.path(), (Path{"skip 42 0 -20 F100", "line 10.5 0 -4 F50"}));  // the next block goes on from where it ended
   EXPECT_DOUBLE_EQ(run.var(100), 9.5);  // workpiece coordinates
   EXPECT_DOUBLE_EQ(run.var(101), -5);
 }
@@ -231,11 +231,11 @@ TEST(StrokeLimit, StopsBeforeTheMove) {
   EXPECT_EQ(run.path(), (Path{"rapid 40 0 0"}));
   EXPECT_EQ(run.end_work.v[0], 40);  // the machine stands where the last block ended
   EXPECT_EQ(run.var(100), 1);
-  // The bulge of an arc counts, not only its end.
+  // The whole arc counts, not only its end.
   run = bench.at(45, 0, 0).run("G3 X45. Y20. J10. F9\nM30");
   EXPECT_EQ(run.alarm, "M01-0007");
   EXPECT_EQ(bench.at(45, 0, 0).run("G2 X45. Y20. J10. F9\nM30").alarm, "");
-  // On the limit is inside; from outside one may come back.
+  // A place on the limit is inside; from outside an axis may come back.
   EXPECT_EQ(bench.at(0, 0, 0).run("G0 X50.\nM30").alarm, "");
   EXPECT_EQ(bench.at(60, 0, 0).run("G0 X55.\nM30").alarm, "");
   EXPECT_EQ(bench.at(60, 0, 0).run("G0 X61.\nM30").alarm, "M01-0007");

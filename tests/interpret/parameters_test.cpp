@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The store of parameters: what a key names, numbers and texts, and what a write gives to be taken back.
+// The store of parameters: what a key names, numbers and texts, and what a write returns so that it can be taken back.
 #include "interpret/parameters.hpp"
 
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ TEST_F(ParametersTest, AWriteGivesWhatIsToBePutBack) {
   EXPECT_EQ(get(50000), -1);
 }
 
-/// Texts have places of their own: those that a parameter has stay, and a machine with more of them than that is refused.
+/// Each text has its own place: a text of another parameter never takes it, and a write is refused when there is no place left.
 TEST_F(ParametersTest, NoTextTakesThePlaceOfAnothersParameter) {
   constexpr unsigned kPlaces = 128;
   for (unsigned i = 0; i < kPlaces; ++i) ASSERT_EQ(set(std::to_string(kFree + i), "text" + std::to_string(i)), NC_OK);

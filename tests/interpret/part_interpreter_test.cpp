@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What control sees of an interpreter: its items by the queue, the way back, an end by a stage behind, the rehearsal of a cycle. No control,
-// stage or commit stands behind it here.
+// The interface of an interpreter that control uses: its items in the queue, rewinding, an end by a later stage, the rehearsal of a cycle. Here
+// there is no control, stage or commit behind it.
 #include "interpret/part_interpreter.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ class Interpreted {
     in.select(program, false);
     in.reset(false);
   }
-  /// Takes items to the end of the next block. Their kinds, a letter each.
+  /// Takes the items up to the end of the next block; returns their kinds, one letter each.
   std::string block() {
     std::string kinds;
     Item* front = nullptr;
@@ -160,7 +160,7 @@ TEST(PartInterpreter, ARehearsalOfACycleLeavesNothingBehind) {
   for (size_t i = 0; i < run.moves.size(); ++i) EXPECT_EQ(run.moves[i], plain.moves[i]);
 }
 
-// What the host sets is seen by the program, and no way back takes it away.
+// The program sees what the host sets, and a rewind does not take that back.
 TEST(PartInterpreter, TheHostsTables) {
   Interpreted run("G90 G0 X#100\nX#101\nM30\n");
   const HostTables tables = run.in.tables();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short way for plain lines (interpret/plain_line.cpp) against the long one. G90 or G91, whichever is in
-// force, in front of the words changes nothing, and sends the block the long way.
+// Compares the short way for plain lines (interpret/plain_line.cpp) with the long one. The G90 or G91 that is in force,
+// written before the words, changes nothing, but makes the block go the long way.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -133,7 +133,7 @@ Outcome run(nc_dialect dialect, uint32_t seed, const std::string& text) {
   return bench.run(text);
 }
 
-/// How many moves came out of both ways alike.
+/// Compares both ways; returns the number of moves.
 size_t compare(nc_dialect dialect, uint32_t seed) {
   const TwoWays program = Maker(seed, dialect).make(80);
   const Outcome shortly = run(dialect, seed, program.shortly),

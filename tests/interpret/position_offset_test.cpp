@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tool position offset G45 to G48 (M700 12.6): ways, zeros, arcs, alarms, and what it meets.
+// Tool position offset G45 to G48 (M700 12.6): distances, zeros, arcs, alarms, and its combination with other functions.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Positions that a program reads are whole units (M700 2.1), whatever was added up to get there: what a shop compares them with is a
-// decimal number.
+// Positions that a program reads are whole units (M700 2.1), whatever was added up to get there, because programs compare them with decimal
+// numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -76,7 +76,7 @@ TEST(PositionRead, FinerUnits) {  // M700 2.1, #1003
   }
 }
 
-/// Two places that are one unit apart are different, as far as positions reach.
+/// Two places that are one unit apart are different, over the whole range of positions.
 TEST(PositionRead, NeighboursStayDifferent) {
   for (const char* unit : {"B", "C", "D", "E"}) {
     const int digits = 3 + (unit[0] - 'B');
@@ -98,7 +98,7 @@ TEST(PositionRead, TheShopsBlock) {
   EXPECT_EQ(bench.run("G90 G54\nG01 Z0.2 F100\n#500=1\nIF[#5003GT0.2]GOTO9\n#500=2\nN9 M30").var(500), 2);
 }
 
-/// Readings to the last bit: the double next to the decimal number.
+/// A reading is, to the last bit, the double that is nearest to the decimal number.
 TEST(PositionRead, IsADecimalNumber) {
   Bench bench(NC_DIALECT_M700, [](nc_config& config) {
     config.system[0].axis_count = 4;
@@ -115,7 +115,7 @@ TEST(PositionRead, IsADecimalNumber) {
   for (uint32_t i = 0; i < sizeof expected / sizeof expected[0]; ++i) EXPECT_EQ(run.var(100 + i), expected[i]) << i;
 }
 
-/// A skip comes anywhere; a position that is half a unit is rounded away from zero, whichever offset it was added to.
+/// A skip may come anywhere. A position in the middle of a unit is rounded away from zero, whatever offset was added.
 TEST(PositionRead, IsRoundedHalfAwayFromZero) {
   for (const double offset : kOffsets) {
     Bench bench;
@@ -146,7 +146,7 @@ TEST(PositionRead, ATurnEndsAtZero) {  // M700 14.13: 0 <= angle < 360
   }
 }
 
-/// Rotated and scaled figures: the workpiece coordinates of the end point (M700 13.5.5), as a long double has them.
+/// Rotated and scaled figures: the workpiece coordinates of the end point (M700 13.5.5), compared with those in long double.
 TEST(PositionRead, RotatedAndScaledFrames) {
   constexpr long double kDegree = 3.14159265358979323846264338327950288L / 180;
   for (const double offset : kOffsets) {
@@ -172,7 +172,7 @@ TEST(PositionRead, RotatedAndScaledFrames) {
   }
 }
 
-/// The centre of a rotation is where the program stood, its angle what was added up.
+/// The centre of a rotation is the place at which the program stood, its angle the sum of increments.
 TEST(PositionRead, CentreOfARotation) {
   Bench bench;
   bench.work_offset(1, {-1149.974, 33.3, 0});
@@ -183,7 +183,7 @@ TEST(PositionRead, CentreOfARotation) {
   EXPECT_EQ(run.var(102), 30);
 }
 
-/// What a program calculates and keeps is not rounded; only the comparison does not see its last digits.
+/// Values that a program calculates and stores are not rounded; only comparisons ignore their last digits.
 TEST(PositionRead, StoredValuesKeepTheirDigits) {
   const Outcome run = Bench().run("#100=1/3\n#500=0.1+0.2\n#101=1\nIF [#500 EQ 0.3] GOTO 1\n#101=2\nN1 IF [#100*3 NE 1] GOTO 2\n#101=#101+10\nN2 M30");
   EXPECT_EQ(run.var(100), 1.0 / 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// M700 appendix 2: which G codes may share a block, and what becomes of each. One test for each column of the table, over its rows.
+// M700 appendix 2: which G codes may be in one block, and what becomes of each. There is one test for each column of the table, over its rows.
 #include <gtest/gtest.h>
 
 #include "modal/precedence.hpp"

@@ -54,8 +54,8 @@ TEST(FigureRotation, NotOnOneCircle) {  // (4): the first move of a pass goes to
             (Path{"rapid 10 0 0", "line 20 0 0 F100", "line 0 20 0 F100", "line -20 0 0 F100"}));
 }
 
-/// Ends of the moves of the sub program in the passes of a figure about X0 Y0 that begins at X20 Y0; each pass is a quarter turn on.
-/// Every pass must be the first one turned.
+/// The moves of the sub program in all passes of a figure about X0 Y0 that begins at X20 Y0. Each pass must be the first one, turned by a quarter
+/// turn for each pass since.
 std::vector<nc_move> quarter_turns(Bench& bench, const char* sub, unsigned passes = 3) {
   bench.add("O1", std::string(sub) + "\nM99\n");
   const Outcome run = bench.at(20, 0, 0).run("G90 F100\nM98 P1 L" + std::to_string(passes) + " I-20.\nM30");
@@ -122,13 +122,13 @@ TEST(FigureRotation, WhatTheCallerScalesAndMirrorsIsCentreAndRadius) {  // 13.19
             (Path{"line 48 6 0 F100", "line 0 40 0 F100", "line -6 48 0 F100", "line -40 0 0 F100"}));
   EXPECT_EQ(bench.at(-20, 0, 0).run("G51.1 X0\nF100\nM98 P1 L2 I-20.\nM30").path(),
             (Path{"line -24 3 0 F100", "line 0 20 0 F100", "line 3 24 0 F100", "line 20 0 0 F100"}));
-  // The caller's mirror behind the turn, the shape's scaling in front of it.
+  // The caller's mirror acts after the turn, the scaling of the shape before it.
   bench.add("O1", "G51 X20. Y0 P0.5\nG1 X24. Y3.\nG50\nX0 Y20.\nM99\n");
   EXPECT_EQ(bench.at(-20, 0, 0).run("G51.1 X0\nF100\nM98 P1 L2 I-20.\nM30").path(),
             (Path{"line -22 1.5 0 F100", "line 0 20 0 F100", "line 1.5 22 0 F100", "line 20 0 0 F100"}));
 }
 
-TEST(FigureRotation, AHoleIsAsDeepAsALineGoes) {  // mirrored in the shape, scaled behind it, about different centres
+TEST(FigureRotation, AHoleIsAsDeepAsALineGoes) {  // mirrored in the shape and then scaled, about different centres
   Bench bench;
   bench.add("O1", "G51.1 Z3.\nG1 Z-4. F100\nZ9.\nG99 G81 X5. Y5. Z-4. R-1.\nG80\nG50.1\nM99\n");
   EXPECT_EQ(bench.at(10, 0, 0).run("G90 G51 X0 Y0 Z0 P2.\nM98 P1 I-5.\nG50\nM30").path(),
@@ -351,8 +351,8 @@ TEST(SwitchMirror, CompensatesOnTheOtherSide) {
 
 // ---- all of them ----------------------------------------------------------------------------------------------------------------
 
-/// A program with any of scaling, rotation, mirror by program and by switch, and rotation by parameter, and its end points by the
-/// formulas of the manual one behind the other.
+/// A program with any of scaling, rotation, mirror by program and by switch, and rotation by parameter; and its end points by the formulas of the
+/// manual, applied one after the other.
 class Maps {
  public:
   explicit Maps(uint32_t seed) : random_(seed) {
@@ -390,7 +390,7 @@ class Maps {
     std::snprintf(text, sizeof text, "%.3f", value);
     return text;
   }
-  /// Machine coordinates of a programmed point.
+  /// The machine coordinates of a programmed point.
   std::array<double, 3> machine(std::array<double, 3> p) const {
     for (unsigned i = 0; scales && i < 3; ++i) p[i] = scale_[i] + factor * (p[i] - scale_[i]);
     turn(p, angle_, rotate_[0], rotate_[1]);
@@ -454,7 +454,7 @@ TEST(EveryMap, CompensatesOnTheSideThatTheMirrorsLeave) {
     bench.tool(1, 1);
     const Outcome run = bench.run(maps.head() + "G0 X0 Y0 Z0\nG1 G41 D1 X10. F100\nX40.\nY30.\nG40 X0\nM30");
     ASSERT_EQ(run.alarm, "") << maps.head();
-    // Left of X40. as it is programmed lies its Y+, wherever the maps lead that: a radius of the tool away from the corner, which is an inner one.
+    // The left side of the programmed X40. is its Y+, wherever the maps lead that. The end is a tool radius away from the corner, an inner one.
     const std::vector<nc_move> moves = run.moves();
     ASSERT_GE(moves.size(), 4u) << maps.head();
     const double r = 1 / maps.factor;  // the radius is not scaled

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scaling G51 (M700 13.19) and coordinate rotation G68 (13.20), by themselves and with what they meet.
+// Scaling G51 (M700 13.19) and coordinate rotation G68 (13.20), alone and together with other functions.
 #include <gtest/gtest.h>
 
 #include <cmath>

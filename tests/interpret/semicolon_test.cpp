@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ';' ends a block and stands last in its line (M700 3.2): what follows it there is never executed by accident. And numbers have no exponent:
-// what looks like one is an alarm, not another number.
+// ';' ends a block and is the last character of its line (M700 3.2): text behind it must never be executed by accident. And numbers have no
+// exponent: a text that looks like one is an alarm, not another number.
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 Outcome with_comments(const std::string& text) { return Bench().param("semicolon_comments", "1").run(text); }
 
-/// Blocks of MDI, pulled to their end.
+/// Pulls MDI blocks to their end.
 Outcome mdi(Bench& bench, const std::string& text) {
   EXPECT_EQ(nc_mdi_load(bench.control(), 0, text.data(), text.size()), NC_OK);
   return bench.finish();

@@ -20,7 +20,7 @@ Bench spline_bench() {
 
 const std::string kOn = "G5 P10000\nG5.1 Q2 X0 Y0 Z0\nG1 F1000\n", kOff = "G5.1 Q0\nG5 P0\nM30";
 
-/// Kinds of the moves: s a spline, l a line.
+/// The kinds of the moves, one letter each: s = spline, l = line.
 std::string kinds(Bench& bench, const std::string& text) {
   const Outcome run = bench.at(0, 0, 0).run(kOn + text + kOff);
   EXPECT_EQ(run.alarm, "") << text;
@@ -113,7 +113,7 @@ TEST(Spline, ChordErrorIsRevisedOrCancels) {  // 13.18 (2)
 
 using Point = std::array<double, 3>;
 
-/// The path of `text` as many points a move; [move][sample].
+/// The path of `text` as so many points for each move: [move][sample].
 std::vector<std::vector<Point>> sampled(Bench& bench, const std::string& text, unsigned samples) {
   bench.at(0, 0, 0).start(text);
   std::vector<std::vector<Point>> all;
@@ -166,7 +166,7 @@ TEST(Spline, TangentAndCurvatureGoOnAtThePoints) {
       const Point before[3] = {path[i - 1][kSamples - 2], path[i - 1][kSamples - 1], path[i - 1][kSamples]};
       const Point behind[3] = {path[i][0], path[i][1], path[i][2]};
       EXPECT_LT(norm(minus(before[2], behind[0])), 1e-12);
-      // One-sided differences by the length, good to the first order in the step.
+      // One-sided differences by the length, with an error of the first order in the step.
       const double ha = norm(minus(before[2], before[1])), hb = norm(minus(behind[1], behind[0]));
       Point ta, tb, ka, kb;
       for (unsigned axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,7 @@ namespace {
 
 std::string text(uint32_t number) { return "#" + std::to_string(number); }
 
-/// Alarm of reading and of writing a variable.
+/// The alarm when a variable is read, and when it is written.
 std::string read_alarm(uint32_t number) { return m700("#100=" + text(number) + "\nM30").alarm; }
 std::string write_alarm(uint32_t number, const char* value = "1") { return m700(text(number) + "=" + value + "\nM30").alarm; }
 
@@ -125,7 +125,7 @@ TEST(MacroInterface, OutputsBeginAsTheMachineHasThem) {
   EXPECT_EQ(run.var(102), 0b0100);
 }
 
-// What a block that was read ahead has written is taken back with it, though other bits of the word have been set meanwhile.
+// A write of a block that was read ahead is taken back with the block, even if other bits of the word have been set meanwhile.
 TEST(MacroInterface, OnlyTheBitsOfTheMaskAreTheMachines) {
   for (const uint32_t before : {0u, 0b1000u, 0b1001u}) {
     Bench bench;
@@ -204,7 +204,7 @@ TEST(SystemVariables, AnAmountInForceCountsFromTheNextBlockOn) {  // 12.1: a len
   bench.tool(1, 10).tool(2, 2);
   EXPECT_EQ(bench.run("G0 G43 H1 Z0\n#10001=20\nX1.\nZ0\n#2001=#2001+1\nZ0\nG10 L10 P1 R30.\nG44 Z0\n#10001=5\nZ0\n#10002=99\nZ1.\nG49 Z0\n#10001=1\nZ0\nM30").path(),
             (Path{"rapid 0 0 10", "rapid 1 0 10", "rapid 1 0 20", "rapid 1 0 21", "rapid 1 0 -30", "rapid 1 0 -5", "rapid 1 0 -4", "rapid 1 0 0"}));
-  // A radius as if D were given again (12.4.5).
+  // A changed radius acts as if D were given again (12.4.5).
   const Outcome with_d = bench.tool(1, 10).tool(2, 2).at(0, 0, 0).run("G90 G1 G41 D2 X10. F100\nX20.\n#10002=4\nX30. D2\nX40.\nG40 Y20.\nM30");
   const Outcome without = bench.tool(2, 2).at(0, 0, 0).run("G90 G1 G41 D2 X10. F100\nX20.\n#10002=4\nX30.\nX40.\nG40 Y20.\nM30");
   EXPECT_EQ(with_d.alarm, "");
@@ -217,7 +217,7 @@ TEST(SystemVariables, Alarm3000) {  // M700 10.3
   const Outcome run = m700("G0 X1.\n#3000=70(CALL#PROGRAMMER#TEL#530)\nG0 X2.\nM30");
   EXPECT_EQ(run.alarm, "P277");
   EXPECT_EQ(run.alarm_line, 2u);
-  EXPECT_EQ(run.alarm_detail, "CALL#PROGRAMMER#TEL#530 70");  // as the manual prints it
+  EXPECT_EQ(run.alarm_detail, "CALL#PROGRAMMER#TEL#530 70");  // as in the manual
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0"}));
   EXPECT_EQ(m700("#3000=10000(X)\nM30").alarm, "P35");
   EXPECT_EQ(m700("#3000=0(X)\nM30").alarm, "P35");
@@ -267,7 +267,7 @@ TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
 }
 
 TEST(SystemVariables, TheTableSaysWhatIsTrue) {
-  // Ranges do not overlap and stand in order; what the table calls readable, writable and synchronising is so.
+  // The ranges are in order and do not overlap; variables are readable, writable and synchronising as the table says.
   nc_system_variable row{};
   uint32_t last = 0;
   unsigned index = 0;
@@ -301,7 +301,7 @@ TEST(SystemVariables, ParametersByNumber) {  // 10.16
   EXPECT_EQ(run.var(100), 12.5);
   EXPECT_EQ(run.var(101), 'C');  // text as its code
   EXPECT_EQ(run.var(102), 0);
-  // What the configuration says; the manual's example reads the number of axes.
+  // Values from the configuration; the example of the manual reads the number of axes.
   const Outcome machine = bench.run("#100000=1002\n#100=#100010\n#100000=1013 #100002=3\n#101=#100010\n#100000=1017\n#102=#100010\nM30");
   EXPECT_EQ(machine.var(100), 3);
   EXPECT_EQ(machine.var(101), 'Z');
@@ -372,7 +372,7 @@ TEST(SystemVariables, MirrorState3007) { EXPECT_EQ(m700("#100=#3007\nM30").var(1
 
 TEST(SystemVariables, RunTimes) {  // M700 10.4
   EXPECT_TRUE(m700("#3001=0\nWHILE[#3001 LE 100]DO1\nEND1\nM30").ended_ok);  // the printed waiting loop
-  // Two clocks in one block are one look at the clock.
+  // Two readings of the clock in one block give the same time.
   const Outcome both = m700("#100=#3001-#3001\nIF[#3001 GT #3002]GOTO2\nN2 M30");
   EXPECT_EQ(both.alarm, "");
   EXPECT_EQ(both.var(100), 0);
@@ -434,7 +434,7 @@ TEST(CommonVariables, FurtherRangesOfTheMachine) {
   EXPECT_EQ(run.var(999999), 4);
   EXPECT_EQ(run.path(), Path({"line 2 0 0 F100"}));
   for (const char* none : {"#399=1\nM30", "#41=1\nM30", "#989999=1\nM30"}) EXPECT_EQ(bench.run(none).alarm, "P241") << none;
-  // A rewind gives back what they were.
+  // A rewind restores their old values.
   bench.start("#450=1\nG1 X1. F100\n#450=2\nG1 X2.\nM30");
   Step step;
   uint64_t serial = 0;
@@ -593,7 +593,7 @@ TEST(SystemVariables, TheMachineIsWhereItReallyIs) {
 }
 
 TEST(SystemVariables, EveryNumberIsReadableOrAnAlarm) {
-  // No number reads as garbage: what is not in the tables is P241, what cannot be read is P243.
+  // No number gives a meaningless value: one that is not in the tables is P241, one that cannot be read is P243.
   Bench bench;
   for (uint32_t n = 1; n < 20000; n += 7) {
     const Outcome run = bench.run("#500=" + text(n) + "\nM30");

@@ -11,7 +11,7 @@
 namespace nc::test {
 namespace {
 
-/// The text as a punch writes it in ISO code: hole 8 makes the number of holes even.
+/// The text in ISO code as a punch writes it: hole 8 makes the number of holes even.
 std::string iso(const std::string& text) {
   std::string rows;
   for (const char c : text) {
@@ -21,7 +21,7 @@ std::string iso(const std::string& text) {
   return rows;
 }
 
-/// In EIA code, for the characters that the tests use.
+/// The text in EIA code, for the characters that the tests use.
 std::string eia(const std::string& text) {
   static const std::map<char, int> kRows = {{'0', 0x20}, {'1', 0x01}, {'2', 0x02}, {'3', 0x13},  {'4', 0x04},
                                             {'5', 0x15}, {'9', 0x19}, {'F', 0x76}, {'G', 0x67},  {'M', 0x54},
@@ -59,7 +59,7 @@ TEST(Tape, RowsOfBothCodes) {
   const Outcome run = run_tape(bench, rows, NC_TAPE_EIA);
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.path(), (Path{"rapid 10 -20 0", "line 10 -20 -5 F500"}));
-  // Leader and deleted rows are nothing, CR LF is the end of a block as LF is.
+  // Leader and deleted rows are ignored; CR LF ends a block, as LF does.
   const std::string blanks(40, '\0');
   bench.at(0, 0, 0);
   const Outcome leader =

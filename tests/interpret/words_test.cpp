@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the words of a block are worth: units, decimal points, distance modes, ranges (M700 2, 3, 5; DGSHAPE 1-5).
+// The values of the words of a block: units, decimal points, distance modes, ranges (M700 2, 3, 5; DGSHAPE 1-5).
 #include <gtest/gtest.h>
 
 #include "support/pull.hpp"
@@ -269,7 +269,7 @@ TEST(DgshapeWords, NumbersOfThingsHaveNoPoint) {  // DGSHAPE 2: "with no decimal
                             "M03\nG81Z-1.K2.F100."})
     EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
   EXPECT_EQ(dgshape("G18G2X10.Z0K0.I5.F100.\nM02").alarm, "");  // K of an arc is a length
-  // With digits behind it a point is the same mistake.
+  // A point with digits behind it is the same mistake.
   for (const char* block : {"S1.5", "M3.5", "M06T1.5", "G43H1.5", "N1.5G0X0", "O1.5", "N1.G0X0"})
     EXPECT_EQ(dgshape(std::string(block) + "\nM02").alarm, "NC-FORMAT") << block;
   EXPECT_EQ(dgshape("S123456789\nM02").alarm, "NC-RANGE");

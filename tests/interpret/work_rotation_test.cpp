@@ -182,7 +182,7 @@ TEST(WorkRotation, ParametersOfTheFamily) {
   // "Validated with the cycle start"; increments count from where the axes stand.
   EXPECT_EQ(bench.at(10, 0, 0).run("G0 X20.\nM30").path(), (Path{"rapid 10 10 0"}));
   EXPECT_EQ(bench.at(10, 0, 0).run("G91 G0 X5.\nM30").path(), (Path{"rapid 10 5 0"}));
-  // What G10 sets stays behind the end of the program.
+  // What G10 sets stays after the end of the program.
   EXPECT_EQ(bench.at(0, 0, 0).run("G10 I0 J2.\nM30").alarm, "");
   double value = 0;
   for (const auto& [key, expected] : {std::pair{"8625", 0.0}, {"8626", 2.0}, {"8627", 90.0}}) {
@@ -194,7 +194,7 @@ TEST(WorkRotation, ParametersOfTheFamily) {
     EXPECT_EQ(nc_parameter_get(bench.control(), 0, key, 0, &value), NC_OK);
     EXPECT_EQ(value, expected) << key;
   }
-  // By 13.11, too, at once; a vector that comes in as data calculates nothing (precaution (3)).
+  // Parameters that are set by 13.11 act at once, too; a vector that is entered as data causes no calculation (precaution (3)).
   EXPECT_EQ(Bench().run("G0 X10.\nG10 L70\nP8627 D90.\nG11\nG91 X5.\nM30").path(), (Path{"rapid 10 0 0", "rapid 0 15 0"}));
   EXPECT_EQ(Bench().run("G10 L70\nP8625 D1.\nP8626 D1.\nG11\nG0 X10.\nM30").path(), (Path{"rapid 10 0 0"}));
   EXPECT_EQ(nc_parameter_set(bench.control(), 0, "8627", 0, "361"), NC_E_ARGUMENT);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/ladder.md lists the instructions of the code, no more and no less, with the words of the code. When
-// this fails, the expected table is in the message: it goes between the markers of the file.
+// docs/ladder.md lists exactly the instructions of the code, with the texts of the code. When this test fails its message
+// has the expected table, which is to be copied between the markers of the file.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -65,14 +65,14 @@ TEST(LadderDocument, ItsExamplesCompile) {
     const std::string example = text.substr(at, text.find("```", at) - at);
     Program program;
     std::vector<Error> errors;
-    if (examples == 0) continue;  // of the shipped machine: below
+    if (examples == 0) continue;  // the example for the shipped machine is tested below
     EXPECT_TRUE(compile(example, "ladder.md", test_table(), {}, &program, &errors))
         << all_text(errors) << example;
   }
   EXPECT_GE(examples, 3u);
 }
 
-// The first one is for the machine that is shipped: whoever copies it finds its devices.
+// The first example is for the shipped machine, which has its devices.
 TEST(LadderDocument, TheFirstExampleIsOfTheShippedMachine) {
   nc::rt::Config config;
   for (const nc::rt::ConfigError& error : nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config))
@@ -94,7 +94,7 @@ TEST(LadderInstructions, EachNameOnceAndEachCompiles) {
   for (const InstructionInfo& info : instruction_table()) {
     EXPECT_TRUE(names.insert(info.name).second) << info.name;
     EXPECT_STRNE(info.summary, "") << info.name;
-    // What the engine knows it says about operands when there are too many of them, and nothing else.
+    // For an existing instruction the engine complains only about its operands when there are too many of them.
     for (const char* p : {"", "P"}) {
       const std::vector<Error> errors = errors_of("LD X0\n" + std::string(info.name) + p + " a b c d e\n");
       const std::string text = all_text(errors);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small machine for the tests: some inputs and outputs, a program, scans. Every scan runs on all three
-// interpreters, which have to agree in every bit and word: the one that holds devices holds one that never changes.
+// A small machine for the tests: some inputs and outputs, a program, scans. Every scan runs on all three interpreters,
+// which have to agree in every bit and word. The one for forced devices forces a device that never changes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ class Rig {
     if (d.type == DeviceType::kBit) return image.bit[d.index];
     return d.type == DeviceType::kWord16 ? image.word[d.index] : image.word32(d.index);
   }
-  // D0 and D1 as one.
+  // Two words as one of 32 bits, as D0 and D1.
   void set32(std::string_view name, std::int32_t value) { image.set_word32(device(name).index, value); }
   std::int32_t get32(std::string_view name) const { return image.word32(device(name).index); }
 
@@ -103,7 +103,7 @@ class Rig {
   DeviceImage portable_, held_;
 };
 
-// What compile() says of a program that has errors.
+// The errors that compile() reports for a program.
 inline std::vector<Error> errors_of(std::string_view text, const CompileOptions& options = {}) {
   Program program;
   std::vector<Error> errors;

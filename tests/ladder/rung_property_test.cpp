@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random rungs against an oracle that reads the same text line by line with nothing but a list of results: LD
-// appends, ANB and ORB join the last two, MPS keeps, and every contact asks a map of names. It knows of no
+// Random rungs are compared with an oracle that reads the same text line by line and needs only a list of results: LD
+// appends one, ANB and ORB join the last two, MPS keeps one, and every contact looks into a map of names. It has no
 // cells, no compiled code and no image.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 struct Oracle {
   std::map<std::string, bool> device;
-  std::map<unsigned, std::optional<bool>> memory;  // of the edge in a line
+  std::map<unsigned, std::optional<bool>> memory;  // the last level at the edge in each line
 
   bool edge(unsigned line, bool now, bool rising) {
     const std::optional<bool> before = memory[line];
@@ -26,8 +26,8 @@ struct Oracle {
   void scan(const std::string& text) {
     std::vector<bool> results{false};
     std::vector<bool> kept;
-    std::vector<bool> masters;  // MC: counts for a whole result, not within its blocks
-    unsigned blocks = 0;        // begun since the last output
+    std::vector<bool> masters;  // conditions of MC, which act on a whole result, not within its blocks
+    unsigned blocks = 0;        // number of blocks that were begun since the last output
     bool used = true;           // the line before was an output
     std::istringstream lines(text);
     std::string line;
@@ -98,7 +98,7 @@ struct Oracle {
   }
 };
 
-// Writes rungs out of a row of choices; only such as the language allows.
+// Writes rungs from a series of choices, and only those that the language allows.
 class Writer {
  public:
   explicit Writer(const std::vector<std::uint16_t>& choices) : choices_(choices) {}
@@ -133,13 +133,13 @@ class Writer {
     line(std::string(names[pick(count)]) + " " + contact());
   }
 
-  // A result out of contacts and blocks.
+  // Writes a result made of contacts and blocks.
   void logic(unsigned depth) {
     static const char* const kLoads[] = {"LD", "LDI", "LD", "LDI", "LDP", "LDF"};
     one(kLoads, 6);
     more(depth, true);
   }
-  // What may follow a result; `parallel` where a parallel contact or block may.
+  // Writes what may follow a result; `parallel`: that may be a parallel contact or block.
   void more(unsigned depth, bool parallel) {
     static const char* const kSeries[] = {"AND", "ANI", "ANDP", "ANDF"};
     static const char* const kParallel[] = {"OR", "ORI", "ORP", "ORF"};
@@ -226,7 +226,7 @@ RC_GTEST_PROP(LadderRungs, DoWhatTheirTextSays, (const std::vector<std::uint16_t
   }
 }
 
-// Long programs: the row of cells is cut and numbered anew at labels and loops.
+// In long programs the series of cells is divided, and numbered again, at labels and loops.
 RC_GTEST_PROP(LadderRungs, DoTheSameBetweenLabels, (const std::vector<std::uint16_t>& choices)) {
   const std::string rungs = Writer(choices).program();
   Rig plain(rungs);

@@ -13,7 +13,7 @@ constexpr std::int32_t kMin16 = -32768, kMax16 = 32767;
 constexpr std::int32_t kMin32 = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax32 = std::numeric_limits<std::int32_t>::max();
 
-// One scan of one instruction with D0 and D2 (32-bit: the pairs) set; the rig afterwards.
+// Runs one instruction for one scan with these values in D0 and D2 (`wide`: in the pairs); returns the rig.
 Rig after(const std::string& instruction, std::int32_t d0 = 0, std::int32_t d2 = 0, bool wide = false) {
   Rig rig("LD SM400\n" + instruction);
   if (wide) {

@@ -29,11 +29,11 @@ class Wrong(Exception):
 
 
 class Delicate(Exception):
-    """The last bit of a double would decide: no case."""
+    """The result would depend on the last bit of a double, so that it is no test case."""
 
 
 class Number:
-    """A rational number. `exact`: a double holds it and everything that it was made of."""
+    """A rational number. `exact`: a double holds it exactly, and everything from which it was computed."""
 
     def __init__(self, value, exact=False):
         self.value = Fraction(value)
@@ -87,7 +87,7 @@ def arc_sine(x):
 
 
 def to_integer(x, rule):
-    """FIX, FUP and ROUND: nothing near the border between two results, unless it is exactly there."""
+    """FIX, FUP and ROUND: values near the border between two results are no test case, unless they are exactly there."""
     border = Fraction(1, 2) if rule == "ROUND" else Fraction(0)
     distance = abs((abs(x.value) + border) - round(abs(x.value) + border))
     if distance < Fraction(1, 10 ** 6) and not x.exact:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random expression trees: what is compiled from their text and run must be what walking the tree gives.
+// Random expression trees: the compiled text of a tree must have the same value as a walk over the tree.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace nc::test {
 namespace {
 
-/// A tree; its text has just the brackets that priorities and left-to-right order need.
+/// A tree. Its text has only the brackets that priorities and left-to-right order need.
 struct Node {
   enum Kind {
     number,
@@ -103,8 +103,8 @@ std::string text(const Node& n) {
   return "";
 }
 
-/// A value, and how far off a calculation in doubles may be. `refused`: the evaluator must report a fault.
-/// `delicate`: rounding decides.
+/// A value, and the possible error of its calculation in doubles. `refused`: the evaluator must report a fault.
+/// `delicate`: the result depends on rounding, so it is not compared.
 struct Walked {
   double v = 0, error = 0;
   bool refused = false, delicate = false;
@@ -119,7 +119,7 @@ Walked delicate() {
   return {0, 0, false, true};
 }
 
-/// Steps at whole numbers: x counts as whole within 1e-9 of its size (but no more than 1e-4).
+/// A function with steps at whole numbers: x counts as whole within 1e-9 of its size (but no more than 1e-4).
 Walked step(const Walked& a, double x, double (*otherwise)(double)) {
   const double noise = std::min(1e-9 * std::max(1.0, std::fabs(a.v)), 1e-4);
   const double distance = std::fabs(x - std::round(x));
@@ -231,7 +231,7 @@ RC_GTEST_PROP(ExpressionProperty, RunsLikeItsTree, ()) {
   RC_ASSERT(checked > 0);
 }
 
-/// What a comparison of #1 with #2 says.
+/// The result of a comparison of #1 = x with #2 = y.
 bool holds(const char* comparison, double x, double y) {
   double values[2] = {x, y};
   const VariableReader reader{values,
@@ -271,12 +271,12 @@ RC_GTEST_PROP(ComparisonProperty, AreConsistent, ()) {
     RC_ASSERT(holds("GE", x, y) == !lt);
     RC_ASSERT(holds("LE", x, y) == !gt);
     RC_ASSERT(holds("NE", x, y) == !eq);
-    // The same seen from the other side, and of the negative numbers.
+    // The same with the sides exchanged, and with the negative numbers.
     RC_ASSERT(holds("EQ", y, x) == eq);
     RC_ASSERT(holds("GT", y, x) == lt);
     RC_ASSERT(holds("LT", -y, -x) == lt);
     RC_ASSERT(holds("EQ", x, x));
-    // Never against the order of the numbers, and what lies between two equal numbers is equal to both.
+    // A comparison never contradicts the order of the numbers, and a number between two equal ones is equal to both.
     RC_ASSERT(!(lt && x >= y));
     RC_ASSERT(!(gt && x <= y));
     const double between = x + (y - x) / 2;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that the manual prints: M700 13.4, 13.5.4, 13.5.6, 13.5.7; and exactness where a user expects
-// it.
+// The numbers of the manual (M700 13.4, 13.5.4, 13.5.6, 13.5.7), and exact results where a user expects them.
 #include "macro/expression.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@
 namespace nc::test {
 namespace {
 
-/// Variables of a test: what is not in the map is vacant.
+/// The variables of a test; those that are not in the map are vacant.
 struct Memory {
   std::map<uint32_t, double> values;
   static Eval read(void* self, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
@@ -294,7 +293,7 @@ TEST(Expression, Conditions) {
   }
   EXPECT_EQ(run("2+3EQ5", zero, true).value.number, 1);
   EXPECT_EQ(run("[1+1]*2 GT 3", zero, true).value.number, 1);
-  EXPECT_EQ(run("1 EQ 1", zero, false).used, 2u);  // not asked for: the formula ends there
+  EXPECT_EQ(run("1 EQ 1", zero, false).used, 2u);  // a comparison is not allowed here, so that the formula ends before it
   EXPECT_EQ(run("[1 EQ 1]", zero, false).fault.condition, Condition::calculation);
   // All words of a condition, as the lexer compiles them.
   const auto b = lex("IF[#1LT[#2+1]]GOTO[#3*10]");
@@ -368,7 +367,7 @@ TEST(Expression, ComparisonsDoNotSeeTheLastDigits) {
   EXPECT_FALSE(holds("[#1 GT 0.3]"));
   EXPECT_TRUE(holds("[#1 LE 0.3]"));
   EXPECT_TRUE(holds("[#2 EQ 0.2]"));
-  EXPECT_TRUE(holds("[#7 EQ 0]"));  // nothing is left but noise
+  EXPECT_TRUE(holds("[#7 EQ 0]"));  // only rounding errors are left
   EXPECT_TRUE(holds("[#7 GE 0]"));
   EXPECT_FALSE(holds("[#7 LT 0]"));
   // The finest units at the ends of their ranges are numbers of their own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records whose changes are journalled: by block, from outside, rewound, looked back at.
+// Records whose changes are journalled: changes by blocks and from outside, rewinding, and views of earlier states.
 #include "macro/journalled.hpp"
 
 #include <gtest/gtest.h>
@@ -63,14 +63,14 @@ class Program {
   Journal journal_;
 };
 
-// The only ways to write are those that journal.
+// Only functions that journal can write.
 template <class R>
 concept CanBeWritten = requires(R records) { records->offset = 1; }
 || requires(R records) { (*records).offset = 1; }
 ||
     requires(R records) { records.exchange(0, JournalValue{}); };
 static_assert(!CanBeWritten<Journalled<Records, Program>&>);
-static_assert(CanBeWritten<Records*>);  // the same question where there is a way
+static_assert(CanBeWritten<Records*>);  // shows that the concept is true where writing is possible
 
 TEST(Journalled, BeginsWithTheDefaultsOfItsRecords) {
   Program program;
@@ -172,7 +172,7 @@ TEST(Journalled, ChangesCountsWhateverMakesADifference) {
   EXPECT_TRUE(has_changed());
 }
 
-/// Any sequence of writes, writes from outside and rewinds against copies of everything: one for each block.
+/// Any sequence of writes, writes from outside and rewinds is compared with complete copies, one for each block.
 TEST(Journalled, EqualsACopyOfEverything) {
   std::mt19937 random(15);
   Program program(1 << 12);

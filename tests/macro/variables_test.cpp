@@ -62,7 +62,7 @@ TEST_F(VariablesTest, LevelsAreIndependent) {  // M700 13.5.5
   variables.enter(1, arguments, 2);
   EXPECT_EQ(get(1, 1).number, 60);
   EXPECT_EQ(get(19, 1).number, 100);
-  EXPECT_TRUE(get(7, 1).vacant);  // what was not given is vacant, not what a call before left
+  EXPECT_TRUE(get(7, 1).vacant);  // an argument that was not given is vacant, and not that of an earlier call
   EXPECT_EQ(get(7, 0).number, 0);
   variables.clear_locals(3);
   for (unsigned level = 0; level < kLocalLevels; ++level) EXPECT_TRUE(get(7, level).vacant);
@@ -141,7 +141,7 @@ TEST_F(SmallJournal, ForgetsTheOldestFirst) {
   EXPECT_EQ(get(100).number, 12);
 }
 
-/// Any sequence of writes and rewinds against copies of everything.
+/// Any sequence of writes and rewinds is compared with complete copies.
 TEST_F(VariablesTest, RewindEqualsACopy) {
   std::mt19937 random(6);
   const uint32_t numbers[] = {1, 2, 33, 100, 199, 500, 999};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jog, step, handle and reference return through the executor: limits, soft limits, and when they may act.
+// Jog, step, handle and reference return in the executor: limits, soft limits, and when they may act.
 #include <gtest/gtest.h>
 
 #include "interpolate/test_machine.hpp"
@@ -92,8 +92,7 @@ TEST(Manual, AxisOutsideItsLimitsMayOnlyComeBack) {
   EXPECT_LT(m.out.command.v[1], 119);
 }
 
-/// Motion by hand shows in the state, be it as short as a detent of a handle that an axis goes within one cycle: whoever watches the state
-/// must not see an axis move in IDLE.
+/// The state shows every motion by hand, even one detent of a handle that an axis goes within one cycle: an axis must never move in IDLE.
 TEST(Manual, EveryCycleInWhichAnAxisMovesByHandSaysSo) {
   for (const uint8_t kind : {uint8_t{NC_MANUAL_JOG}, uint8_t{NC_MANUAL_STEP}, uint8_t{NC_MANUAL_HANDLE}, uint8_t{NC_MANUAL_REFERENCE}}) {
     for (const double distance : {0.0005, 0.001, 0.02, 0.7}) {
@@ -157,7 +156,7 @@ TEST(Manual, HandleTurnedTooFastIsLimitedAndStopsSoon) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-/// What a wheel asks for at once is gone in full as long as the axis is done with it soon; what is dropped is said, in the cycle in which it is.
+/// The distance of a handwheel is moved completely if the axis can do it soon; a part that is dropped is reported in that cycle.
 TEST(Manual, AHandleLosesNothingWithoutAWord) {
   for (const double distance : {0.001, 9.375, 50.0, 110.0, 110.1, 4000.0}) {
     for (const double sign : {1.0, -1.0}) {
@@ -208,7 +207,7 @@ TEST(Manual, AHandleSaysWhatASoftLimitAHoldAndAJogTakeFromIt) {
   EXPECT_NE(m.out.handle_dropped, 0u);
 }
 
-/// What keeps manual motion from beginning, and stops it.
+/// A reason that refuses manual motion, and stops it.
 struct Refusal {
   const char* name;
   void (*set)(Machine& m, bool on);
@@ -225,7 +224,7 @@ const Refusal kRefusals[] = {
        m.in.reset = false;
      }}};
 
-/// A button that was pressed in a hold, or whose axis was stopped by one, does nothing when the hold ends: it has to be let go first.
+/// A button that was pressed in a hold, or whose axis was stopped by one, does nothing when the hold ends: it must be released first.
 TEST(Manual, NothingBeginsByItselfWhenWhatRefusedOrStoppedItEnds) {
   for (const Refusal& refusal : kRefusals) {
     for (const uint8_t kind : {uint8_t{NC_MANUAL_JOG}, uint8_t{NC_MANUAL_STEP}, uint8_t{NC_MANUAL_HANDLE}, uint8_t{NC_MANUAL_REFERENCE}}) {
@@ -251,7 +250,7 @@ TEST(Manual, NothingBeginsByItselfWhenWhatRefusedOrStoppedItEnds) {
         refusal.set(m, false);
         run(m, 200);
         EXPECT_EQ(m.out.command.v[1], there);
-        // Nor behind a detent of the wheel, which is no release of the button.
+        // A detent of the wheel is no release of the button, either.
         m.in.manual[1] = {NC_MANUAL_HANDLE, 0, 0};
         m.cycle();
         m.in.manual[1] = level;
@@ -270,7 +269,7 @@ TEST(Manual, NothingBeginsByItselfWhenWhatRefusedOrStoppedItEnds) {
   }
 }
 
-/// A jog that turns round is the same press for who has been refused: the button is still on.
+/// A refused jog that changes its direction is still the same press, since the button is still on.
 TEST(Manual, ARefusedJogThatTurnsRoundWaitsAsWell) {
   Machine m(manual_config());
   m.in.feed_hold = true;
@@ -287,7 +286,7 @@ TEST(Manual, ARefusedJogThatTurnsRoundWaitsAsWell) {
   EXPECT_LT(m.out.command.v[0], -1);
 }
 
-/// The other axes do not care.
+/// A refusal of one axis does not affect the others.
 TEST(Manual, ARefusalIsOfItsAxis) {
   Machine m(manual_config());
   m.in.interlock = true;
@@ -366,8 +365,8 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   run(m, 50);
   EXPECT_EQ(m.out.state, NC_STATE_STOPPED);
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
-  // The machine has left the path: going on from here would be a jump. The start waits until what follows has
-  // been read again, and no axis is moved by hand meanwhile.
+  // The machine has left the path, so that the rest of the plan would begin with a jump. The start waits until the following
+  // blocks have been read again, and no axis is moved by hand meanwhile.
   EXPECT_FALSE(m.executor.reread_asked());
   m.start();
   m.in.manual[0] = jog(50);
@@ -393,7 +392,7 @@ TEST(Manual, DoesNothingWhileAProgramRunsAndActsInABlockStop) {
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
-// Inside of a block the rest of its way begins where the axes stand: no hand moves them from there.
+// In the middle of a block the rest of its path begins where the axes stand, so they cannot be moved by hand.
 TEST(Manual, InTheMiddleOfABlockNothingMoves) {
   const ExecutorConfig c = manual_config();
   Program p(c);
@@ -476,7 +475,7 @@ TEST(ManualTurning, TheLimitsHoldInTheTurnInWhichTheAxisStands) {
   run(m, 4000);
   EXPECT_EQ(m.out.command.v[0], 720);
   EXPECT_EQ(m.out.turning, 1u);
-  Machine linear(turning_config());  // an axis of type 3 has them once
+  Machine linear(turning_config());  // a rotary axis of type 3 has its limits only once
   linear.executor.set_position(first(720 + 300));
   linear.in.manual[0] = jog(200);
   run(linear, 1000);
@@ -510,8 +509,8 @@ TEST(ManualTurning, TheShorterWayToTheReferencePosition) {
   }
 }
 
-/// A jog that is pressed again and again while a block stop comes, or a program ends: the path comes to rest somewhere within a cycle, and what
-/// is left of that cycle is rest, too. An axis that braked in it and set off by hand would use its acceleration twice.
+/// A jog is pressed again and again while a block stop comes, or a program ends. The path comes to rest within a cycle, and the axes rest in the
+/// remainder of that cycle: an axis that brakes and begins to move by hand in the same cycle would use its acceleration twice.
 TEST(Manual, AJogBeginsACycleBehindTheStopAtTheEarliest) {
   for (const bool optimal : {false, true}) {
     for (const bool stops : {false, true}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Answers that are wrong: no value of theirs may ever be shown, and afterwards the link is as good as before.
+// Wrong answers: none of their values may ever be shown, and afterwards the link must work as before.
 #include <random>
 #include <set>
 
@@ -11,7 +11,7 @@ using namespace nc::test;
 
 constexpr std::uint16_t kRight = 5, kPoison = 666, kOnLoss = 99;
 
-// Puts the poison where the value is: the last two bytes of the answer to function 3 for one register.
+// Replaces the value of an answer by the poison: the last two bytes of the answer to function 3 for one register.
 Answer poisoned(Answer right) {
   right.bytes[right.bytes.size() - 2] = kPoison >> 8;
   right.bytes.back() = kPoison & 0xFF;
@@ -148,7 +148,7 @@ const Wrong kWrong[] = {
        a.bytes.assign(5000, 0xFF);
        return a;
      }},
-    // The late answer is there when the next question goes out: libmodbus alone would stay one behind.
+    // The late answer is there when the next request is sent: libmodbus alone would from then on be one answer behind.
     {"late",
      [](Answer a) {
        a = poisoned(a);
@@ -197,7 +197,7 @@ TEST_P(ModbusFault, ShowsNoWrongValueAndHeals) {
 INSTANTIATE_TEST_SUITE_P(All, ModbusFault, testing::ValuesIn(kWrong),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 
-// An answer that comes twice: the second is not the answer to the next question.
+// An answer comes twice: the second one must not be taken for the answer to the next request.
 TEST(ModbusFault, AnAnswerNobodyAskedForClosesTheConnection) {
   LoopbackServer server;
   server.with([](auto& units) { units[1].holding = {{0, kRight}}; });
@@ -219,7 +219,7 @@ TEST(ModbusFault, AnAnswerNobodyAskedForClosesTheConnection) {
       << rig.link->statistics().last_error;
 }
 
-// Random bytes, and right answers with random damage in front of the value or cut anywhere.
+// Random bytes, and right answers with random damage before the value, or cut off anywhere.
 TEST(ModbusFault, TwoThousandRandomAnswers) {
   constexpr unsigned kAnswers = 2000;
   // The server's threads use these until it is destroyed, so they outlive it.
@@ -253,7 +253,7 @@ TEST(ModbusFault, TwoThousandRandomAnswers) {
     } else {
       right.bytes.resize(pick(static_cast<unsigned>(right.bytes.size())));
     }
-    right.close = right.bytes.size() < 9 || pick(4) != 0;  // a short one would cost a time-out each
+    right.close = right.bytes.size() < 9 || pick(4) != 0;  // without that each short answer would take a time-out
     return right;
   });
   rig.start(server.port());

@@ -54,8 +54,8 @@ modbus = { link = "io", table = "coil", address = 2, on_stop = 1 }
 [ladder]
 program = "own.il"
 """
-# The clamp holds itself until it is opened; lamp and vent are on while it is closed.
-# The same outputs, worked by a program: it copies what it reads of the clamp to the lamp, and opens the clamp.
+# The clamp stays closed by itself until it is opened; lamp and vent are on while it is closed.
+# The same outputs, driven by a program: it copies the state of the clamp that it reads to the lamp, and opens the clamp.
 MACRO = MACHINE.replace('[ladder]\nprogram = "own.il"\n', '[macro_interface]\n"#1100" = "clamp"\n"#1101" = "lamp"\n')
 BLOCKS = "#1101=#1100 ; G4 X0.3 ; #1100=0 ; G4 X0.3"
 LADDER = "LD close\nOR clamp\nANI open\nOUT clamp\nLD clamp\nOUT lamp\nLD SM400\nRST vent\nLD nc.m_strobe\nOUT plc.fin2\nEND\n"

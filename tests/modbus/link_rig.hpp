@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A link and its partner for tests: points by name, the scan's side pumped by hand.
+// A link and its partner for tests, whose scans the test makes itself.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class LinkRig {
 
   void short_timeouts(unsigned ms = 300) { config.response_timeout_ms = config.byte_timeout_ms = ms; }
 
-  // Index of the point.
+  // Adds a point; returns its index.
   unsigned add(Table table, unsigned address, Format format = Format::kBit, bool output = false,
                unsigned unit = 1) {
     PointMap map;
@@ -75,7 +75,7 @@ class LinkRig {
     link->read(&image);
     link->write(image);
   }
-  // Scans until it is so; false when it does not come about in a time that is far too long.
+  // Scans until `so` returns true; false if it does not within `seconds`, which is far too long.
   bool until(const std::function<bool()>& so, unsigned seconds = 30) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
     do {

@@ -60,7 +60,7 @@ TEST(ModbusLink, EveryTableBothWaysTwoUnits) {
   EXPECT_GE(statistics.round_trip_max_us, statistics.round_trip_us);
 }
 
-// Four inputs, one for each reaction, all holding 5 while the link is there.
+// Four inputs, one for each reaction to a loss, which are all 5 while the link works.
 struct LossRig : LinkRig {
   LossRig() {
     off = add(Table::kHolding, 0, Format::kU16);
@@ -173,7 +173,7 @@ TEST(ModbusLink, AnExceptionIsNamedAndLeavesTheConnection) {
   EXPECT_EQ(server.connections(), 1u);
 }
 
-// A gateway whose unit 2 is dead and says nothing.
+// A gateway whose unit 2 does not answer.
 TEST(ModbusLink, ADeadUnitTakesNoOtherWithIt) {
   LoopbackServer server;
   server.with([](auto& units) { units[1].holding = units[2].holding = units[3].holding = {{0, 5}}; });
@@ -197,8 +197,7 @@ TEST(ModbusLink, ADeadUnitTakesNoOtherWithIt) {
   EXPECT_TRUE(rig.until([&] { return rig.good(second) && rig.value(second) == 5; }));
 }
 
-// One byte now and then keeps every time-out of the protocol library from coming; the scan sees that the
-// thread is stuck.
+// With one byte now and then no time-out of the protocol library comes, but the scan sees that the thread is stuck.
 TEST(ModbusLink, AnAnswerThatDripsIsNotBelieved) {
   LoopbackServer server;
   LossRig::fill(&server);
@@ -233,7 +232,7 @@ TEST(ModbusLink, StopWritesTheSafeValues) {
   EXPECT_TRUE(rig.until([&] { return rig.there(); }));
 }
 
-// Three coils in a row and two registers: what each is when its control ends, and what the next control begins with.
+// Three adjacent coils and two registers: what becomes of each when its control ends, and with which value the next control begins.
 class HoldRig : public LinkRig {
  public:
   HoldRig() {
@@ -254,7 +253,7 @@ class HoldRig : public LinkRig {
       units[1].holding = {{20, raw_pressure}};
     });
   }
-  // Writes to the coil of the clamp that would open it, counted by the partner.
+  // The partner counts the writes to the coil of the clamp that would open it.
   static void count_openings(LoopbackServer* server, std::atomic<unsigned>* openings) {
     server->set_fault([openings](const Bytes& request, Answer right) {
       const unsigned function = request[7], first = request[8] * 256u + request[9];
@@ -282,7 +281,7 @@ TEST(ModbusLink, AtTheEndAnOutputHoldsOrHasItsValue) {
   EXPECT_EQ(server.holding(1, 20), 70) << "hold";
 }
 
-// Behind a crash as behind an orderly end: nothing is written to it before the control knows what it has.
+// After a crash as after an orderly end: nothing is written to the output before the control has read it.
 TEST(ModbusLink, AnOutputThatHoldsIsTakenOverAsItIsFound) {
   LoopbackServer server;
   HoldRig::fill(&server, 1, 70);
@@ -298,11 +297,11 @@ TEST(ModbusLink, AnOutputThatHoldsIsTakenOverAsItIsFound) {
   EXPECT_EQ(openings, 0u);
   EXPECT_EQ(server.coil(1, 10), 1);
   EXPECT_EQ(server.holding(1, 20), 70);
-  rig.image.value[rig.clamp] = 0;  // and from then on it is the control's
+  rig.image.value[rig.clamp] = 0;  // from then on the control decides
   EXPECT_TRUE(rig.until([&] { return server.coil(1, 10) == 0; }));
 }
 
-// The partner comes up later than the control, which has meanwhile been asked to open.
+// The partner starts later than the control, which has meanwhile commanded the clamp to open.
 TEST(ModbusLink, WhatTheControlWantsGoesBeforeWhatIsFound) {
   LoopbackServer server;
   HoldRig::fill(&server, 1, 70);
@@ -335,7 +334,7 @@ TEST(ModbusLink, OutputsThatCannotBeReadBackBeginAsOthersAndThatIsSaid) {
   EXPECT_EQ(server.holding(1, 20), 70);
 }
 
-// A partner with this exception instead of the first `times` answers to "read coils".
+// The partner gives this exception instead of the first `times` answers to "read coils".
 void refuse_reading_coils(LoopbackServer* server, std::uint8_t exception, unsigned times, std::atomic<unsigned>* openings) {
   server->set_fault([=, left = times](const Bytes& request, Answer right) mutable {
     if (request[7] == 5 && request[9] == 10 && request[10] == 0) ++*openings;
@@ -350,7 +349,7 @@ void refuse_reading_coils(LoopbackServer* server, std::uint8_t exception, unsign
   });
 }
 
-// A station that has just got power is busy, or its gateway does not reach it yet: that passes, and says nothing of the clamp.
+// A station that has just been switched on is busy, or its gateway does not reach it yet: that passes, and says nothing about the clamp.
 TEST(ModbusLink, AnExceptionThatPassesDoesNotOpenWhatHolds) {
   for (const std::uint8_t exception : {3, 4, 5, 6, 7, 8, 10, 11}) {
     LoopbackServer server;
@@ -390,7 +389,7 @@ TEST(ModbusLink, StopEndsWithAPartnerThatIsSilent) {
   rig.start(server.port());
   ASSERT_TRUE(rig.until([&] { return rig.there(); }));
   server.set_fault([](const Bytes&, Answer right) {
-    right.drip_ms = 250;  // for ever, nearly
+    right.drip_ms = 250;  // so slow that it takes nearly for ever
     return right;
   });
   const auto requests = server.functions().size();
@@ -426,7 +425,7 @@ TEST(ModbusLink, WritesOnChangeAndToRefresh) {
 
 TEST(ModbusLink, AHostThatDoesNotExistIsAnErrorAndNoCrash) {
   LossRig rig;
-  rig.config.host = "no..host";  // no name: the resolver asks nobody
+  rig.config.host = "no..host";  // no valid name, so that the resolver asks no server
   rig.start(1);
   EXPECT_TRUE(rig.until([&] { return rig.link->statistics().errors > 0; }));
   EXPECT_NE(rig.link->statistics().last_error.find("no..host"), std::string::npos);

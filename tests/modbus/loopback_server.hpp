@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Modbus TCP server for tests, on 127.0.0.1 and a free port, written from the protocol and not with
-// libmodbus: an ordinary device, whose answers a test may replace by anything else.
+// A Modbus TCP server for tests, on 127.0.0.1 and a free port, written from the protocol without libmodbus. It is an
+// ordinary device, whose answers a test may replace by anything else.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace nc::test {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// What goes back for one request.
+// The answer to one request.
 struct Answer {
   Bytes bytes;
   unsigned delay_ms = 0;
@@ -29,7 +29,7 @@ struct Answer {
 // The tables of one unit.
 struct Unit {
   std::map<unsigned, std::uint16_t> coil, discrete, input,
-      holding;  // an address that is not there is refused
+      holding;  // an address that is not in the map is refused
 };
 
 class LoopbackServer {
@@ -40,7 +40,7 @@ class LoopbackServer {
   ~LoopbackServer();
 
   std::uint16_t port() const { return port_; }
-  // From the next request on; none = the right answers.
+  // Acts from the next request on; an empty function = right answers.
   void set_fault(Fault fault);
   // Access to the device; no request is served meanwhile.
   void with(const std::function<void(std::map<unsigned, Unit>&)>& use);

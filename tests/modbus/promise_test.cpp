@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scan's side of a link promises NC_RT: no allocation, no lock, no system call, whatever the partner
-// does. malloc and pthread_mutex_lock are counted, and the kernel refuses system calls (syscall user
-// dispatch), while the flag of the scan is up.
+// The scan's side of a link promises NC_RT: no allocation, no lock, no system call, whatever the partner does. While the
+// flag of the scan is set, malloc and pthread_mutex_lock are counted, and the kernel refuses system calls (syscall user
+// dispatch).
 #include "modbus/link_rig.hpp"
 #include "runtime/rt_scope.hpp"
 #include "runtime/sanitizer.hpp"
@@ -63,7 +63,7 @@ namespace {
 
 using namespace nc::test;
 
-// Counted and refused; the flag goes down, because the return from this handler is a system call as well.
+// The call is counted and refused. The flag is cleared, because the return from this handler is a system call, too.
 void on_refused_call(int, siginfo_t*, void* context) {
   nc::rt::t_in_scan = 0;
   g_system_calls.fetch_add(1, std::memory_order_relaxed);

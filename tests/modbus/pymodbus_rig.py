@@ -28,7 +28,7 @@ def skip(why):
 
 
 def environment():
-    """The interpreter of a virtual environment that holds the pinned pymodbus; made when it is not there."""
+    """The Python of a virtual environment with the pinned pymodbus, which is made if it does not exist."""
     with open(BUILD / "modbus-venv.lock", "w") as lock:  # of all tests that want it
         fcntl.flock(lock, fcntl.LOCK_EX)
         return made_environment(BUILD / "modbus-venv")

@@ -31,7 +31,7 @@ poll_ms = 5
 response_timeout_ms = 5000
 """
 
-# The drive keeps its last value in the image when it is silent: nothing may feed by that.
+# When the drive is silent its last value stays in the image: no axis may feed with that speed.
 POINTS = [
     ("speed", "word", "input", 'link = "drive", table = "holding", address = 0, signed = true, on_loss = "hold"'),
     ("wanted", "word", "output", 'link = "drive", table = "holding", address = 1'),

@@ -47,7 +47,7 @@ double joint_speed(const Segment& a, const Segment& b) {
   return std::sqrt(joint_between(a, shape_of(a, limits), b, shape_of(b, limits), limits).speed2);
 }
 
-/// A way that turns by 20 degrees behind one along X: the axes alone let it pass at speed.
+/// A line at 20 degrees to X, for after one along X: as far as the axes are concerned this corner can be passed at speed.
 Segment turned() { return line(50 * std::cos(M_PI / 9), 50 * std::sin(M_PI / 9)); }
 const double kTurn = 2 * std::sin(M_PI / 18);
 
@@ -79,7 +79,7 @@ TEST(M700Limits, AJudgedCornerCountsInsteadOfTheRealOne) {  // 13.17.1 (3)
     b.accuracy.judged_turn = turn;
     EXPECT_EQ(joint_speed(a, b), free_speed);
   }
-  // However it is judged, what the axes can do is the limit.
+  // However a corner is judged, the axes limit its speed.
   Segment back = line(0, 50);
   const double limit = joint_speed(a, back);
   back.accuracy = b.accuracy;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least-squares control points by themselves: lines and cubics are given back, what is rough is averaged.
+// The least-squares control points alone: lines and cubics are reproduced, and noise is averaged.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ double uniform(std::mt19937_64& rng, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(rng);
 }
 
-/// A polyline through given places of a curve, with u as the parameter of both.
+/// A polyline through points of a curve, with u as the parameter of both.
 struct Line {
   std::vector<AxisVec> vertex;
   std::vector<double> length, u;
@@ -68,8 +68,8 @@ TEST(Fit, AStraightLineIsGivenBack) {
   }
 }
 
-/// With (u - a) (u - b) (u - c) the polar form at x, y, z is the mean of (x - a) (y - b) (z - c) over the six
-/// orders of a, b, c.
+/// The polar form of (u - a) (u - b) (u - c) at x, y, z is the mean of (x - a) (y - b) (z - c) over the six orders of
+/// a, b, c.
 TEST(Fit, ACubicHasItsPolarForm) {
   std::mt19937_64 rng(2);
   for (unsigned n = 0; n < 200; ++n) {
@@ -89,12 +89,12 @@ TEST(Fit, ACubicHasItsPolarForm) {
     for (unsigned i = 0; i < 3; ++i)
       for (unsigned j = 0; j < 3; ++j)
         if (i != j) polar += (x - root[i]) * (y - root[j]) * (z - root[3 - i - j]) / 6;
-    const double chord = std::pow(knot[4] / kParts, 2) * (knot[4] + 3);  // by which the lines leave the cubic
+    const double chord = std::pow(knot[4] / kParts, 2) * (knot[4] + 3);  // distance of the lines from the cubic
     EXPECT_NEAR(line.control(knot)[0], polar, 4 * chord + 1e-12) << n;
   }
 }
 
-/// The control points of ten short lines in a cell have a third of the noise of the vertices.
+/// With ten short lines in a cell the control points have a third of the noise of the vertices.
 TEST(Fit, NoiseIsAveraged) {
   std::mt19937_64 rng(3);
   std::normal_distribution<double> noise(0, 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where curves meet that are too short for a transition and do not go on in one another, the path rests between them: a step of the curvature
-// at speed would be a jerk without a limit.
+// Where curves meet with a step of the curvature and are too short for a transition, the path rests between them: at speed such a step would be an
+// unlimited jerk.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 
 using optimal::Piece;
 
-/// The pieces of a line, an arc of this radius and length that it runs into as a tangent, and a line behind it.
+/// The pieces of a line, of a tangential arc of this radius and length after it, and of another line.
 std::vector<Piece> pieces(double radius, double length, std::vector<Curve>* curves) {
   Program p(standard_config(3));
   p.line(AxisVec{{10, 0, 0}}, 50);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// There is a known law from every place of what is followed: the time of any other one is compared with it.
+// From every place of the law that is being followed a law is known; the times of other laws are compared with it.
 #include "motion/optimal/known_law.hpp"
 #include "at_once.hpp"
 
@@ -26,7 +26,7 @@ using optimal::PhaseLaw;
 using optimal::Piece;
 using optimal::Windows;
 
-/// A random polyline, rounded within 10 um.
+/// The pieces of a random polyline, rounded within 10 um.
 std::vector<Piece> random_path(std::mt19937_64& rng) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); };
   const auto log_uniform = [&](double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); };
@@ -42,7 +42,7 @@ std::vector<Piece> random_path(std::mt19937_64& rng) {
   return smoothed(line);
 }
 
-/// Laws of the solver to the middle of a path; more of the path comes, and each place of them is a start.
+/// The solver finds laws to the middle of a path; then more of the path comes, and each place of these laws is a possible start.
 TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
   const auto windows = std::make_unique<Windows>();
   const auto phases = std::make_unique<PhaseLaw>();
@@ -97,7 +97,7 @@ TEST(KnownLaw, IsThereFromEveryPlaceOfWhatIsFollowed) {
     }
   }
   EXPECT_GT(starts, seeds(500, 100));
-  EXPECT_GT(left, 0u);    // some leave it on the way
+  EXPECT_GT(left, 0u);    // some laws leave it before its end
   EXPECT_GT(rested, 0u);  // and some only at its rest
 }
 

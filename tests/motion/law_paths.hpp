@@ -11,7 +11,7 @@
 
 namespace nc::test {
 
-/// The same of three axes, with 250 mm/s.
+/// The same limits for three axes, with a velocity of 250 mm/s.
 inline optimal::Limits limits_of(double acceleration, double jerk) {
   optimal::Limits l;
   for (unsigned i = 0; i < 3; ++i) {
@@ -22,7 +22,7 @@ inline optimal::Limits limits_of(double acceleration, double jerk) {
   return l;
 }
 
-/// End of a line with the feed of that line; the first one is where the path begins, and its feed says nothing.
+/// The end of a line, and the feed of that line. The first one is the beginning of the path, whose feed is ignored.
 struct Vertex {
   double x, y, feed;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trapezoid is followed exactly: its course does not depend on how time is cut into cycles.
+// The trapezoid is followed exactly: the motion does not depend on how time is divided into cycles.
 #include "motion/law.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace nc {
 namespace {
 
-/// Near rest a place is known to 1e-14 mm or so, and a speed therefore to sqrt(2 a 1e-14 mm).
+/// Near rest a place is known to about 1e-14 mm, and a speed therefore to sqrt(2 a 1e-14 mm).
 constexpr double kRounding = 2e-5;  ///< mm/s
 
 double uniform(std::mt19937_64& rng, double low, double high) {

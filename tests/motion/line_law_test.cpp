@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The law of a straight line: it ends at rest where it shall, keeps its limits, and no law is shorter.
+// The law of a straight line: it ends at rest at the right place, keeps its limits, and no law is shorter.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using optimal::LineState;
 
 constexpr double kNoEnd = 1e9;  ///< s
 
-/// Speed of the ramp to it and its time, from constant speed to constant speed.
+/// The time of a change of speed, from one constant speed to another.
 double ramp(double change, const LineLimits& l) {
   const double most = l.acceleration * l.acceleration / l.jerk;
   return change >= most ? change / l.acceleration + l.acceleration / l.jerk : 2 * std::sqrt(change / l.jerk);
@@ -32,7 +32,7 @@ double seven_phases(double length, LineLimits l) {
   return 2 * ramp(v, l) + (length - v * ramp(v, l)) / v;
 }
 
-/// State `t` seconds after the start.
+/// The state `t` seconds after the start.
 LineState at(const LineLaw& law, double t) {
   LineState q = law.start();
   for (unsigned k = 0; k < law.count(); ++k) {
@@ -43,7 +43,7 @@ LineState at(const LineLaw& law, double t) {
   return q;
 }
 
-/// Keeps the limits (the speed only where it began below) and ends at rest.
+/// Checks that a law keeps the limits (that of the speed only if it began below it) and ends at rest.
 void check(const LineLaw& law, const LineLimits& l, double most_speed) {
   LineState q = law.start();
   for (unsigned k = 0; k < law.count(); ++k) {
@@ -78,7 +78,7 @@ TEST(LineLaw, FromRestToRestItHasTheSevenPhases) {
         }
 }
 
-/// What is left of the shortest way is the shortest way from there (else the whole were not), wherever it is planned again.
+/// The rest of the shortest law is the shortest law from there (else the whole would not be the shortest), wherever it is planned again.
 TEST(LineLaw, TheRestOfTheShortestWayIsTheShortestFromThere) {
   std::mt19937_64 rng(7);
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(rng); };
@@ -95,7 +95,7 @@ TEST(LineLaw, TheRestOfTheShortestWayIsTheShortestFromThere) {
   }
 }
 
-/// From any state that limits allow to any end that is far enough, under any speed limit.
+/// From any state within the limits to any end that is far enough, with any speed limit.
 TEST(LineLaw, AnyStateComesToRestWhereItShall) {
   std::mt19937_64 rng(8);
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(rng); };
@@ -110,7 +110,7 @@ TEST(LineLaw, AnyStateComesToRestWhereItShall) {
     const double level = v + a * std::fabs(a) / (2 * l.jerk);
     EXPECT_FALSE(law.reach(stop.distance() - 1e-3, v, a, l, kNoEnd));
     if (!law.reach(length, v, a, l, kNoEnd)) {
-      EXPECT_LT(l.speed, level);  // so near that the lower speed cannot be had in front of the end
+      EXPECT_LT(l.speed, level);  // so near that the lower speed cannot be reached before the end
       ++late;
       continue;
     }

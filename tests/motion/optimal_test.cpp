@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The `optimal` room: smoothing stays within its tolerance, laws keep every axis' limits, measured on
-// positions at 1 ms and not on the solver's own numbers, and take little more time than the known optimum.
+// The room `optimal`: smoothing stays within its tolerance; laws keep the limits of every axis, measured on positions
+// every 1 ms and not on the solver's own numbers, and take little more time than the known optimum.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -168,7 +168,7 @@ Motion run(const std::vector<Piece>& pieces, const Limits& limits, double feed) 
   return m;
 }
 
-/// Time from rest to rest with constant jerk, acceleration and speed limits: the seven phases.
+/// The time from rest to rest with limits of jerk, acceleration and speed: the seven phases.
 double seven_phases(double length, double v, double a, double j) {
   const auto ramp = [&](double speed) {
     return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j);
@@ -190,7 +190,7 @@ Piece straight(double length, double feed) {
   return p;
 }
 
-/// Lines shorter than the tolerance and slow between long fast ones: the path with the feed of a line is no longer than that line.
+/// Slow lines that are shorter than the tolerance, between long fast ones: the path that has the feed of a line is no longer than that line.
 TEST(Smooth, NoLineGivesItsFeedToMorePathThanItIsLong) {
   for (unsigned seed = 1; seed <= 400; ++seed) {
     std::mt19937_64 rng(seed);
@@ -263,7 +263,7 @@ TEST(OptimalLaw, AFullCircleKeepsTheLimits) {
   }
 }
 
-/// One micrometre of noise on a surface in short lines is averaged: it is gone as fast as without.
+/// One micrometre of noise on a surface in short lines is averaged, so that it takes no longer than without noise.
 TEST(OptimalLaw, NoiseOfAMicrometreCostsNothing) {
   constexpr double kFeed = 8000.0 / 60;
   for (const double step : {0.02, 0.05, 0.2}) {
@@ -294,7 +294,7 @@ TEST(OptimalLaw, NoiseOfAMicrometreCostsNothing) {
   }
 }
 
-/// Where the path can be gone at the feed the law is known and not solved for: with and without that it takes the same time.
+/// Cells in which the feed can be kept are not solved for, since their law is known: the time is the same with and without that.
 TEST(OptimalLaw, CellsThatStayAtTheFeedChangeNothing) {
   for (const double radius : {8.0, 40.0}) {
     Path path;
@@ -321,7 +321,7 @@ TEST(OptimalLaw, CellsThatStayAtTheFeedChangeNothing) {
   }
 }
 
-/// Level cells that are too near to a rest are seen: beside them less speed would make the whole faster, or there is no law at all.
+/// Level cells that are too near to a rest are detected: beside them a lower speed would make the whole faster, or there is no law at all.
 TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   const Limits limits = standard_limits();
   const Piece line = straight(100, 100);
@@ -340,7 +340,7 @@ TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   EXPECT_FALSE(law->ok);
 }
 
-/// The next law begins where the speed has begun to rise, if that is near, else where it does not fall, else where it was asked to.
+/// The next law begins where the speed has begun to rise, if that is near, else where it does not fall, else at the place that was asked for.
 TEST(OptimalLaw, TheNextLawBeginsWhereTheSpeedRises) {
   const auto from = [](std::vector<int> slopes, unsigned k) {
     return optimal::better_start(k, [&](unsigned n) { return static_cast<double>(slopes[n]); });
@@ -352,7 +352,7 @@ TEST(OptimalLaw, TheNextLawBeginsWhereTheSpeedRises) {
   EXPECT_EQ(from({0, 1}, 1), 1u);
 }
 
-/// Rows are left away for an axis that goes along a little, and not when its limits are as little.
+/// The rows for an axis that moves only a little are omitted, but not if its limits are low, too.
 TEST(OptimalLaw, AnAxisThatGoesAlongALittleKeepsItsLimits) {
   for (const double share : {1.0, 0.1, 0.03, 0.01, 0.001}) {
     Limits limits = standard_limits();
@@ -408,7 +408,7 @@ TEST(OptimalSmooth, APathMayTurnRound) {
   EXPECT_LE(m.seconds, 2 * seven_phases(10, 100, 2000, 50000));
 }
 
-/// A line, dense or coarse, smooth or with corners, even or not.
+/// A polyline: dense or coarse, smooth or with corners, with even or uneven lines.
 Path random_path(std::mt19937_64& rng) {
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(rng); };
   Path path;
@@ -453,8 +453,8 @@ TEST(OptimalProperty, RandomPolylinesKeepToleranceAndLimits) {
   }
 }
 
-/// Where the jerk limit is high for the acceleration, that of an axis has its peak somewhere between two of the places at which the law is
-/// looked at: acceleration 1.0012 in a session of the operator, 1.0023 at the peak.
+/// If the jerk limit is high compared with the acceleration, the acceleration of an axis has its peak between two of the places at which the law is
+/// checked. A former fault: 1.0012 of the limit in a test of the operator, 1.0023 at the peak.
 TEST(OptimalProperty, NoPeakBetweenTheLooksIsAboveALimit) {
   const auto windows = std::make_unique<Windows>();
   double worst_acceleration = 0, worst_jerk = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random lines become pieces: whatever the corners are, the pieces go on in one another with position, first and second derivative, stay
-// within the tolerance, and rest where the lines turn back and nowhere else.
+// Random lines become pieces. Whatever the corners are, position, first and second derivative are continuous from piece to piece, the pieces stay
+// within the tolerance, and rest only where the lines reverse.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -25,11 +25,11 @@ constexpr double kPeriod = 0.005;
 struct Found {
   std::string wrong;
   unsigned pieces = 0, rests = 0;
-  double off = 0;  ///< of the tolerance
-  double missed = 0;  ///< mm, at the end
+  double off = 0;  ///< largest distance from the lines, as a part of the tolerance
+  double missed = 0;  ///< distance from the end, mm
 };
 
-/// The builder with a ring of records that is filled as the pieces are gone through.
+/// The builder with a ring of records, which is filled while the pieces are passed.
 class Bench {
  public:
   Bench(const LineProgram& lines, double tolerance, uint32_t capacity, double feed_mm_rev) : lines_(lines), tolerance_(tolerance) {
@@ -65,7 +65,7 @@ class Bench {
       while (head != all_.size() && head - tail < ring_.size()) ring_[head % ring_.size()] = all_[head], ++head;
       const bool more = at_once([&](optimal::Work& work) { return builder_.take(work, head); });
       look();
-      // The axes go through what there is and the records that they pass are free.
+      // The axes pass all pieces that there are, and the records that they pass become free.
       while (tail != builder_.taken() && passed_[tail % passed_.size()] <= gone_) ++tail;
       still = more || seen_ != before_ ? 0 : still + 1;
       before_ = seen_;
@@ -74,7 +74,7 @@ class Bench {
       }
     }
     if (found_.wrong.empty() && !(std::fabs(gone_ - u_.back()) <= 1e-6)) found_.wrong = "ends at " + std::to_string(gone_) + " of " + std::to_string(u_.back());
-    // The axes are set to the very end: what is missing there is a jump of a cycle, and of that cycle's jerk.
+    // The axes are set to the exact end, so that a difference there would be a jump in one cycle, with its jerk.
     const AxisVec end = evaluate(last_, last_.length, 3).position;
     for (unsigned i = 0; i < 3 && found_.wrong.empty(); ++i) {
       const double missed = std::fabs(end[i] - lines_.point.back()[i]);
@@ -85,7 +85,7 @@ class Bench {
   }
 
  private:
-  /// Looks at new pieces, and frees those in front of the last one.
+  /// Checks new pieces, and frees those before the last one.
   void look() {
     for (; seen_ != builder_.head() && found_.wrong.empty(); ++seen_) {
       const Piece& p = store_.piece_at(seen_);
@@ -109,7 +109,7 @@ class Bench {
       if (std::fabs(a.d2[i] - b.d2[i]) > 1e-6 * (1 + std::fabs(a.d2[i])) + 1e-11 / (shorter * shorter)) found_.wrong = "a step of the curvature";
     }
   }
-  /// By the place of the same u, which is not nearer than the nearest one.
+  /// Measures the distance from the place with the same u, which is never less than that from the nearest place.
   void near(const Piece& p) {
     constexpr int kPlaces = 24;
     for (int n = 1; n <= kPlaces; ++n) {
@@ -157,7 +157,7 @@ std::string wrong_in(const LineProgram& lines, double tolerance, uint32_t capaci
   return found->wrong;
 }
 
-/// The knots beside the reversal are so near to one another that rounding turns the line behind it by 1e-12.
+/// The knots beside the reversal are so near to one another that rounding turns the line after it by 1e-12.
 TEST(PathBuilder, ALongLineBehindAReversalEndsWhereItShould) {
   std::mt19937_64 rng(1);
   for (unsigned n = 0; n < 200; ++n) {
@@ -171,7 +171,7 @@ TEST(PathBuilder, ALongLineBehindAReversalEndsWhereItShould) {
   }
 }
 
-/// NC_SEEDS=100000 runs so many, NC_FIRST=7 from the seventh on.
+/// NC_SEEDS=100000 runs so many seeds, NC_FIRST=7 begins with seed 7.
 TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
   const uint64_t from = wish("NC_FIRST", 0), count = seeds(1000, 18);
   const unsigned shapes = static_cast<unsigned>(LineShape::count);
@@ -195,7 +195,7 @@ TEST(PathBuilder, PiecesOfRandomLinesGoOnInOneAnother) {
               static_cast<unsigned long long>(wrong), off);
 }
 
-/// Lines of a curve with the noise of what made them, of any amount beside the tolerance.
+/// Lines along a curve, with noise of any size compared with the tolerance.
 LineProgram noisy_program(std::mt19937_64& rng) {
   using namespace random_program_detail;
   using std::numbers::pi;
@@ -232,7 +232,7 @@ TEST(PathBuilder, PiecesOfNoisyLinesGoOnInOneAnother) {
   }
 }
 
-/// Lines that follow a circle within the tolerance are gone as that circle: nothing of them is left in the curvature.
+/// Lines that follow a circle within the tolerance become that circle: the curvature shows nothing of the lines.
 TEST(PathBuilder, LinesOfACircleBendAsTheCircleDoes) {
   constexpr double kRadius = 20;
   for (const double step : {0.05, 0.5, 1.0, 1.4}) {  // at 1.4 mm they are 12 um away from it in the middle
@@ -255,7 +255,7 @@ TEST(PathBuilder, LinesOfACircleBendAsTheCircleDoes) {
   }
 }
 
-/// A feed per revolution says nothing about the way in a second; knots are as far apart as those of a feed of that size by the minute.
+/// A feed per revolution does not tell the distance in a second; its knots are as far apart as those of a feed of the same number per minute.
 TEST(PathBuilder, AFeedPerRevolutionMakesNoMoreKnots) {
   LineProgram lines;
   for (unsigned n = 1; n <= 300; ++n) lines.to(0.5 * n, 4 * std::sin(0.12 * n), 0, 60);
@@ -265,7 +265,7 @@ TEST(PathBuilder, AFeedPerRevolutionMakesNoMoreKnots) {
   EXPECT_LT(by_turns.pieces, 1.1 * by_minute.pieces);
 }
 
-/// Sharp corners alone: the places where a hatch can be cut are the straight lines between them, however many rows wait.
+/// With only sharp corners a hatch can be divided on the straight lines between them, however many rows wait.
 TEST(PathBuilder, AHatchOfAnyNumberOfRowsRestsNowhere) {
   for (const unsigned rows : {67u, 68u, 69u, 70u, 100u, 137u, 300u, 2000u}) {
     for (const double part : {0.0, 1.0}) {
@@ -281,7 +281,8 @@ TEST(PathBuilder, AHatchOfAnyNumberOfRowsRestsNowhere) {
   }
 }
 
-/// The place where a straight line is cut is seven spacings before its end, each of four of its equal parts: at a vertex, but for rounding.
+/// A straight line is divided seven spacings before its end. Here a spacing is four of its equal parts, so that this place is a vertex except for
+/// rounding.
 TEST(PathBuilder, AStraightLineInEqualPartsIsCutBesideItsVertices) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     std::mt19937_64 rng(seed);
@@ -297,7 +298,7 @@ TEST(PathBuilder, AStraightLineInEqualPartsIsCutBesideItsVertices) {
   }
 }
 
-/// Knots lie as far apart as the feed of the lines about them asks for: a slow line far away makes none.
+/// The distance of knots depends on the feeds of the lines near them: a slow line far away makes no more knots.
 TEST(PathBuilder, ASlowLineDoesNotSpoilWhatLiesFarAway) {
   const auto pieces_with = [](double slow) {
     LineProgram lines;
@@ -310,7 +311,7 @@ TEST(PathBuilder, ASlowLineDoesNotSpoilWhatLiesFarAway) {
   EXPECT_LT(pieces_with(1), pieces_with(130) + 12);
 }
 
-/// Without a tolerance the lines are what they are: collinear ones are one line, at every corner is a rest.
+/// Without a tolerance the lines are not changed: collinear ones are one line, and every corner is a rest.
 TEST(PathBuilder, WithoutAToleranceOnlyCornersAreRests) {
   LineProgram lines;
   for (unsigned n = 0; n < 20; ++n) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The law in phases: there always is one from rest, it keeps the limits of every axis, and the law of cells is never slower.
+// The law in phases: there is always one from rest, it keeps the limits of every axis, and the law of cells is never slower.
 #include "motion/optimal/phase_law.hpp"
 #include "at_once.hpp"
 
@@ -111,7 +111,7 @@ TEST(PhaseLaw, FromRestThereAlwaysIsOneAndItKeepsTheLimits) {
   }
 }
 
-/// A law may begin at nearly every place at constant speed of another one, and keeps the feed of what comes.
+/// A law may begin at nearly every place of another one where that has constant speed, and keeps the feed of the following path.
 TEST(PhaseLaw, FromPlacesAtConstantSpeedItKeepsTheLimits) {
   const auto law = std::make_unique<PhaseLaw>(), next = std::make_unique<PhaseLaw>();
   unsigned asked = 0, found = 0;
@@ -141,7 +141,7 @@ TEST(PhaseLaw, FromPlacesAtConstantSpeedItKeepsTheLimits) {
   EXPECT_GT(found, 0.95 * asked) << found << " of " << asked;
 }
 
-/// Whatever the solver is given: 3,000 mm/min beside 30 mm/min made it creep for hours.
+/// For any path. A former fault: 3,000 mm/min beside 30 mm/min made the law creep for hours.
 TEST(PhaseLaw, TheLawOfCellsIsNeverSlower) {
   const auto law = std::make_unique<PhaseLaw>();
   const auto windows = std::make_unique<Windows>();

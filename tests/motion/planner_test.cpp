@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits of segments and joints against the geometry itself, and the plan: feasible, at rest at its end,
-// never lower because more has been committed. And the checker that the other tests trust: a broken plan must
-// make it fail.
+// The limits of segments and joints compared with the geometry; and the plan, which is feasible, rests at its end, and is
+// never slower because more has been committed. And the checker that the other tests trust: a wrong plan must make it
+// fail.
 #include <gtest/gtest.h>
 
 #include "interpolate/interpolator.hpp"
@@ -336,7 +336,7 @@ TEST(Checker, SeesAPerturbedPath) {
   const ExecutorConfig c = standard_config();
   Rig rig(c, c);
   Program p = corner(c, 0);
-  // The second line goes 2 degrees off, behind the planner's back: its entry was planned as straight.
+  // The second line is turned by 2 degrees without the planner's knowledge, which has planned its beginning as straight.
   rig.push(p);
   Curve& curve = rig.ring[2].segment.curve;
   curve.delta[1] = 20 * std::tan(to_rad(2));

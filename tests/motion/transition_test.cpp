@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where arcs meet lines and other arcs: the path stays within the tolerance of what is programmed, its direction and curvature go on
-// without a step, and what asks for an exact end gets it.
+// Where arcs meet lines and other arcs: the path stays within the tolerance of the programmed one, its direction and curvature have no steps, and
+// moves that need an exact end have it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ using optimal::Piece;
 constexpr unsigned kAxes = 4;
 constexpr double kTolerance = 0.01;
 
-/// Records, and what becomes of them.
+/// Records, and the pieces that are made from them.
 class Path {
  public:
   Path() : records(kRecords) {
@@ -83,7 +83,7 @@ class Path {
     for (const Piece& p : pieces) n += p.rest_behind ? 1u : 0u;
     return n;
   }
-  /// The programmed place at u, which counts the lengths of the records.
+  /// The programmed place at u, the length along all records.
   AxisVec programmed(double u) const {
     uint32_t k = 0;
     for (; k + 1 < count && (records[k].kind != ItemKind::move || passed[k] < u); ++k) {
@@ -106,7 +106,7 @@ class Path {
     }
     return worst;
   }
-  /// Largest step between pieces that are passed at speed: of position, direction, and curvature over the largest one beside it.
+  /// The largest step between pieces that are passed at speed: of position, of direction, or of curvature divided by the largest one beside it.
   double step(unsigned derivative) const {
     double worst = 0;
     for (size_t k = 0; k + 1 < pieces.size(); ++k) {
@@ -155,7 +155,7 @@ TEST(Transition, ALineIntoAnArcAndOutAgainRestsOnlyAtTheEnd) {
   EXPECT_EQ(path.rests(), 1u);
   EXPECT_EQ(path.transitions(), 2u);
   expect_smooth(path, "tangent");
-  EXPECT_GE(path.deviation(), 0.8 * kTolerance);  // as long as the tolerance lets it be
+  EXPECT_GE(path.deviation(), 0.8 * kTolerance);  // as long as the tolerance allows
   EXPECT_NEAR(path.distance(path.passed[2], evaluate(path.pieces.back(), path.pieces.back().length, kAxes).position), 0, 1e-12);
 }
 
@@ -207,7 +207,7 @@ TEST(Transition, AnExactStopIsHit) {
   EXPECT_LE(path.deviation(), 1e-9);
 }
 
-/// Lines of all lengths in runs, arcs, helices, spirals, with a tangent and without, some with a stop.
+/// Series of lines of all lengths, arcs, helices, spirals, tangential or not, some with a stop.
 Path random_path(std::mt19937_64& rng) {
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(rng); };
   const auto log_uniform = [&](double a, double b) { return std::exp(uniform(std::log(a), std::log(b))); };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interference check on joints with several vectors: which are erased, and when it is an alarm
-// (M700 12.4.8).
+// The interference check at joints with several vectors: which of them are erased, and when it is an alarm (M700 12.4.8).
 #include "offset/interference.hpp"
 
 #include <gtest/gtest.h>
@@ -82,7 +81,7 @@ TEST(Interference, RemainingPathThatRunsBackwardsIsAnAlarm) {
 }
 
 TEST(Interference, WideAngleBetweenTheVectorsIsAnAlarm) {
-  // (2)(b): the walls close towards the opening.
+  // (2)(b): the walls converge towards the opening.
   Chain chain;
   chain.push_back(line_section({-40, -20}, 10));
   chain.push_back(line_section({10, 0}, 10));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a stream of items as the interpreter would, block by block, and reads what the offset stage makes of
-// it.
+// Writes a stream of items block by block, as the interpreter does, and reads what the offset stage makes of it.
 #pragma once
 
 #include <cmath>
@@ -15,7 +14,7 @@ struct Point {
   double h = 0, v = 0;
 };
 
-/// Points are on the plane (h, v) of `comp.axis`; `off` is the axis that is not in it. One call = one block =
+/// Points are in the plane (h, v) of `comp.axis`; `off` is the axis that is not in it. Each call adds one block, that is,
 /// its items and a mark.
 class PathBuilder {
  public:
@@ -28,7 +27,7 @@ class PathBuilder {
   }
 
   Compensation comp;                 ///< modal part, copied to every move
-  nc_move_kind kind = NC_MOVE_LINE;  ///< of the next lines
+  nc_move_kind kind = NC_MOVE_LINE;  ///< kind of the next lines
   double feed = 500;
   std::vector<Item> items;
 
@@ -61,7 +60,7 @@ class PathBuilder {
     item.move.end[off_axis()] += d;
     return add(item);
   }
-  /// Arc by end point (absolute) and centre from the start; `off` goes along.
+  /// An arc by its end point (absolute) and its centre relative to the start; the axis `off` moves along.
   PathBuilder& arc(bool ccw, double h, double v, double i, double j, double off = 0) {
     Item item = move_item();
     Move& m = item.move;
@@ -118,7 +117,7 @@ class PathBuilder {
   }
   const AxisVec& start() const { return start_; }
   const AxisVec& position() const { return at_; }
-  /// The next block's coordinates are counted from another zero (G92, G54-G59).
+  /// The coordinates of the next block count from another zero (G92, G54-G59).
   void shift_zero(double h, double v) {
     at_[h_axis()] += h;
     at_[v_axis()] += v;
@@ -190,7 +189,7 @@ inline std::vector<Move> moves_of(const std::vector<Item>& items) {
   return moves;
 }
 
-/// Position of the tool centre at the end of block `line`: the last move's end before that block's mark.
+/// The position of the tool centre at the end of block `line`, which is the end of the last move before that block's mark.
 inline AxisVec at_block(const std::vector<Item>& out, const AxisVec& start, uint32_t line) {
   AxisVec p = start;
   for (const Item& item : out) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold for every contour: distance to the programmed path, conservation and order of items, a pace
-// of the caller that does not matter, resuming at any mark, and no input that breaks the stage.
+// What must be true for every contour: the distance to the programmed path is right, all items come out in order, the pace
+// of the caller does not matter, the stage can be resumed at any mark, and no input breaks it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,8 +29,8 @@ struct Contour {
   double offset;  ///< signed, to the left
 };
 
-/// Lines of 20 to 60 mm and arcs of 15 to 40 mm radius; corners turn by at most `max_turn`; a start and a
-/// cancel block around.
+/// Lines of 20 to 60 mm and arcs with radii of 15 to 40 mm, between a start and a cancel block; corners turn by at most
+/// `max_turn`.
 Contour random_contour(Random& random, double max_turn, bool arcs, int blocks) {
   Contour c{PathBuilder(-50, -30), 0};
   const double r = between(random, 0.5, 4);
@@ -59,7 +59,7 @@ Contour random_contour(Random& random, double max_turn, bool arcs, int blocks) {
   return c;
 }
 
-/// Distance to the left of the programmed line or arc, prolonged beyond its ends.
+/// The distance to the left of the programmed line or arc, which is extended beyond its ends.
 double distance_left(const Move& programmed, double h, double v) {
   if (programmed.circular) {
     const double d = std::hypot(h - programmed.circle.center[0], v - programmed.circle.center[1]);
@@ -94,7 +94,7 @@ TEST(OffsetProperty, DistanceAtGentleCorners) {
       EXPECT_NEAR(m.circle.radius_start, m.circle.radius_end, 1e-9);
       EXPECT_EQ(m.circle.center[0], programmed.circle.center[0]);
       EXPECT_EQ(m.circle.sweep > 0, programmed.circle.sweep > 0);
-      const double angle = m.circle.angle_start + m.circle.sweep;  // the circle leads where the move ends
+      const double angle = m.circle.angle_start + m.circle.sweep;  // the circle and the end of the move must agree
       EXPECT_NEAR(m.circle.center[0] + m.circle.radius_end * std::cos(angle), m.end[0], 1e-9);
       EXPECT_NEAR(m.circle.center[1] + m.circle.radius_end * std::sin(angle), m.end[1], 1e-9);
       EXPECT_LT(std::abs(m.circle.sweep - programmed.circle.sweep), 1.2);
@@ -102,8 +102,7 @@ TEST(OffsetProperty, DistanceAtGentleCorners) {
   }
 }
 
-/// A stream with everything in it: commands, other items between the moves, sharp corners, changes of side
-/// and amount.
+/// A stream with everything: commands, other items between the moves, sharp corners, changes of side and amount.
 PathBuilder random_program(Random& random, bool tame) {
   PathBuilder path(between(random, -50, 50), between(random, -50, 50));
   const bool check = pick(random, 3) == 0, avoid = pick(random, 2) == 0;
@@ -202,7 +201,7 @@ TEST(OffsetProperty, OrderAndConservation) {
         at = item.move.end;
       }
       if (item.kind == ItemKind::move && item.move.connecting) continue;
-      // Every other item is one of those that went in, in their order; only moves may be missing.
+      // All other items must be those that went in, in the same order; only moves may be missing.
       while (next < path.items.size() && path.items[next].kind == ItemKind::move &&
              (item.kind != ItemKind::move || path.items[next].source.line != item.source.line)) {
         ++next;
@@ -302,7 +301,7 @@ TEST(OffsetProperty, NothingToResumeOnceCompensationIsOver) {
   PathBuilder path(-20, 0);
   path.side(1, 5);
   path.line(0, 0).line(50, 0).cancel().line(80, 20);
-  path.items.pop_back();  // the caller leads the mark of the cancel block round the idle stage
+  path.items.pop_back();  // the caller does not give the mark of the cancel block to the idle stage
   OffsetStage stage;
   run_stage(stage, path.items);
   EXPECT_TRUE(stage.idle());
@@ -353,7 +352,7 @@ TEST(OffsetProperty, AnInhibitingItemIsNeverHeldBack) {
   }
 }
 
-/// Numbers as no program would send them.
+/// A number that no program would send.
 double wild(Random& random) {
   switch (pick(random, 12)) {
     case 0:
@@ -431,7 +430,7 @@ TEST(OffsetProperty, RandomItemsNeverBreakTheStage) {
     Item out;
     unsigned rest = 0;
     while (stage.pop(out)) ++rest;
-    EXPECT_LE(rest, 32u * 5u);  // what was held, each move with its displacement and three connecting moves
+    EXPECT_LE(rest, 32u * 5u);  // the moves that were held, each with its displacement and three connecting moves
     EXPECT_TRUE(stage.can_push());
     EXPECT_GT(popped + rest, 20u);
   }

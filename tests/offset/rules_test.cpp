@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rule by rule, with the numbers of the manuals' examples: M700 12.4, DGSHAPE G39-G42 and 1-6.
+// The rules of radius compensation one by one, with the numbers of the manuals' examples: M700 12.4, DGSHAPE G39-G42 and 1-6.
 #include <gtest/gtest.h>
 
 #include "alarm/condition.hpp"
@@ -176,7 +176,7 @@ TEST(OffsetArcs, OuterObtuseWithArcIsTheIntersection) {
 }
 
 TEST(OffsetArcs, NoIntersectionOnTheInsideIsAnAlarmBeforeTheBlock) {
-  // M700 12.4.1 (4): two arcs that meet in a notch so that their offsets part.
+  // M700 12.4.1 (4): two arcs meet in a notch, so that their offsets do not intersect.
   PathBuilder path(60, 40);
   path.side(1, 12);  // the centres are 80 apart, the offset circles have the radius 38
   path.line(40, 50).line(0, 50).arc(true, -40, -30, 0, -50).arc(true, -80, 50, -40, 30).line(-120, 50).end();

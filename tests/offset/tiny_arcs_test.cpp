@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radius compensation of arcs as CAM systems round them: no larger than the last digits, ending beside their circle, beginning or ending in
-// their centre. The tool's path is in one piece, stays beside the programmed one, and no axis leaves its place faster than it can.
+// Radius compensation of arcs that a CAM system has rounded: no larger than the last digits, ending beside their circle, beginning or ending in
+// their centre. The path of the tool has no gap, stays beside the programmed one, and no axis moves faster than it can.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ Path path_of(Bench& bench, const std::string& text) {
   return path;
 }
 
-/// The largest step of an axis in one cycle, in parts of what its velocity allows.
+/// The largest step of an axis in one cycle, divided by the step that its velocity allows.
 double worst_step(const std::string& text, double radius, double tolerance, bool optimal, std::string* alarm, bool* ended) {
   Bench bench(NC_DIALECT_M700, [&](nc_config& c) {
     c.cycle_s = 0.001;
@@ -110,7 +110,7 @@ TEST(TinyArcs, AnArcFromItsCentreIsTheLineToItsEnd) {
   const Outcome run = bench.run("G91 G3 X0.004 Y0.0007 I0 J0 F100\nG2 X0.03 I0.03\nG2 X-0.02 Z-1. I-0.02\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.path(), (std::vector<std::string>{"line 0.004 0.0007 0 F100", "line 0.034 0.0007 0 F100", "line 0.014 0.0007 -1 F100"}));
-  EXPECT_EQ(Bench().param("1084", "0.01").run("G91 G3 X0.02 I0 J0 F100\nM30").alarm, "P70");  // farther than the tolerance it is none
+  EXPECT_EQ(Bench().param("1084", "0.01").run("G91 G3 X0.02 I0 J0 F100\nM30").alarm, "P70");  // farther away than the tolerance it is no arc
 }
 
 TEST(TinyArcs, NothingButWhatIsProgrammedIsCut) {
@@ -142,14 +142,14 @@ TEST(TinyArcs, NothingButWhatIsProgrammedIsCut) {
   EXPECT_GE(whole, 5u);
 }
 
-/// To the last digit, as a CAM system prints.
+/// A word with three decimals, as a CAM system prints it.
 std::string word(char letter, double value) {
   const double rounded = std::nearbyint(value * 1000) / 1000;
   return letter + brief(rounded) + (rounded == std::floor(rounded) ? "." : "") + ' ';
 }
 
-/// A contour of lines and arcs, nearly all of them tiny, tangential or in any direction. It turns away from the tool
-/// but for some blocks, so that most of it can be gone round. `side` is what is written, `left` where the tool is meant to be.
+/// A contour of lines and arcs, nearly all of them tiny, tangential or in any direction. Except for some blocks it turns
+/// away from the tool, so that most contours are possible. `side` is the code that is written, `left` tells on which side the tool is.
 std::string random_contour(std::mt19937_64& random, const char* side, bool left, double tolerance) {
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
   const auto pick = [&](int n) { return std::uniform_int_distribution<>(0, n - 1)(random); };
@@ -169,8 +169,8 @@ std::string random_contour(std::mt19937_64& random, const char* side, bool left,
     double sweep = pick(5) == 0 ? 6.2831853 : between(0.05, 6.2), end_r = r + (pick(2) == 0 ? between(-tolerance, tolerance) : 0);
     if (pick(6) == 0) end_r = 0;
     if (end_r < 0 || std::fabs(end_r - r) > tolerance - 0.002) end_r = r;
-    // The words are of thousandths of a millimetre; what they leave of the radii is what a program means. Where they leave no movement the
-    // check of interference sees fewer blocks than it has to (M700 12.4.8).
+    // The words are rounded to thousandths of a millimetre, so the radii differ as in real programs. Where no movement is left the check of
+    // interference sees fewer blocks than it should (M700 12.4.8).
     const double from = heading - s * 1.5707963;  // the radius vector at the start
     const std::string to = word('X', -r * std::cos(from) + end_r * std::cos(from + s * sweep)) +
                            word('Y', -r * std::sin(from) + end_r * std::sin(from + s * sweep));
@@ -206,7 +206,7 @@ TEST(TinyArcs, RandomContoursStayBesideTheProgrammedPath) {
     }
     ASSERT_LT(compensated.gap, 1e-9) << "seed " << seed << " radius " << radius << "\n" << text;
     ASSERT_LT(programmed.gap, 1e-9) << "seed " << seed << "\n" << text;
-    // The corner of two lines lies up to sqrt(2) of the radius away, where the avoidance of interference joins two up to ten times.
+    // The corner of two lines is up to sqrt(2) radii away; up to ten radii if the avoidance of interference joins two lines.
     const double reach = *avoid == '1' ? 10 : 1.4143;
     double worst = 0;
     for (const Point& p : compensated.points) worst = std::max(worst, from_path(p, programmed.points));

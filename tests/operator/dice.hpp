@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a random session takes its decisions from: first the bytes that a fuzzer gives, so that it can change one decision at a time,
-// and behind them a generator seeded by those bytes, so that a short input is a whole session, too.
+// The source of the decisions of a random session: first the bytes that a fuzzer gives, so that it can change one decision at a time, and
+// then a generator that is seeded by those bytes, so that a short input is a whole session, too.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ class Dice {
   unsigned draw(unsigned sides) { return sides < 2 ? 0 : static_cast<unsigned>(next() % sides); }
   bool chance(double p) { return unit() < p; }
   double uniform(double low, double high) { return low + (high - low) * unit(); }
-  /// Evenly over the orders of magnitude; both ends are positive.
+  /// Evenly distributed over the orders of magnitude; both ends are positive.
   double scale(double low, double high) { return low * std::pow(high / low, unit()); }
   template <typename T, size_t n>
   const T& one_of(const T (&list)[n]) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random sessions by seed. More on request: NC_SEEDS=100000 NC_FIRST_SEED=1; shorter ones, and so more programs in the time, by NC_PASSAGES,
-// NC_CYCLES and NC_PATIENCE (Session::Size). NC_SHOW=1 prints the program of a seed that does not hold, NC_LOG=1 every cycle.
+// Random sessions by seed. NC_SEEDS=100000 NC_FIRST_SEED=1 runs more of them; NC_PASSAGES, NC_CYCLES and NC_PATIENCE (Session::Size) make them
+// shorter, for more programs in the same time. NC_SHOW=1 prints the program of a seed that fails, NC_LOG=1 every cycle.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -12,7 +12,7 @@
 namespace nc::test {
 namespace {
 
-/// In every fourth session counters pass the end of their 31 or 32 bits in front of their first or some later item.
+/// Where the counters begin: in every fourth session they pass the end of their 31 or 32 bits at the first or a later item.
 uint32_t count_from(uint64_t seed) {
   if (seed % 4 != 0) return 0;
   return (seed % 8 == 0 ? 0u : 0x80000000u) - static_cast<uint32_t>(1 + seed / 8 % 200);
@@ -49,7 +49,7 @@ TEST(Operator, DoesAnything) {
       "velocity %.4f, acceleration %.4f, jerk %.4f of the limits; %llu wrong\n",
       Count{count}, Count{wild}, Count{programs.all()}, Count{programs.selected}, Count{programs.restarted}, Count{programs.mdi},
       Count{programs.interrupts}, Count{blocks}, velocity, acceleration, jerk, Count{wrong});
-  EXPECT_GT(blocks, count);           // the programs come somewhere
+  EXPECT_GT(blocks, count);           // the programs execute blocks
   EXPECT_GT(programs.all(), count);  // and several of them in each session
 }
 

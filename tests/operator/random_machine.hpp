@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A random machine: axes, limits over the range of what is built, cycle, mode of motion, sizes, parameters; and one in memory.
+// A random machine: axes, limits over the range of real machines, cycle, mode of motion, sizes, parameters; and a control with its memory.
 #pragma once
 
 #include <cstdlib>
@@ -52,7 +52,7 @@ inline nc_config random_machine(Dice& dice) {
   return config;
 }
 
-/// A control in memory of its own.
+/// A control with its memory.
 class Control {
  public:
   explicit Control(const nc_config& config) {
@@ -70,8 +70,8 @@ class Control {
   nc_control* handle_ = nullptr;
 };
 
-/// Parameters and tables that change what programs mean and how the machine moves, the same in both controls, of which
-/// the second one may be missing.
+/// Sets parameters and tables that change what programs mean and how the machine moves, the same in both controls; the
+/// second one may be missing.
 inline void random_settings(Dice& dice, nc_control* machine, nc_control* traced) {
   const std::initializer_list<nc_control*> both = {machine, traced};
   const auto set = [&](const char* key, const char* text) {

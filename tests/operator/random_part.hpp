@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs of every function that the m700 and dgshape families have. A program is a row of short passages drawn from a table; each
-// passage is correct by itself more often than not, so that programs come far, and now and then a word or a letter is spoilt.
+// Random programs with every function that the m700 and dgshape families have. A program is a series of short passages from a table. Most
+// passages are correct by themselves, so that programs come far; now and then a word or a letter is spoilt.
 // In a passage {x} stands for a number, by the table of `value()`.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace nc::test {
 
-/// Passages of the m700 family. What a passage switches on it mostly switches off again: what it leaves on lives on in the next one.
+/// Passages of the m700 family. Most passages switch off again what they have switched on; what they leave on acts in the next ones.
 inline constexpr const char* kPassages[] = {
     "G0 X{x} Y{x}\n",
     "G1 X{x} Y{x} F{f}\n",
@@ -118,7 +118,7 @@ inline constexpr const char* kPassages[] = {
     "G10 L50\nN8204 P1 R{n}\nG11\n",
 };
 
-/// What stands behind the main program and is called from it.
+/// The sub programs behind the main program, which are called from it.
 inline constexpr uint32_t kInterruptProgram = 9005;
 inline constexpr const char* kSubPrograms =
     "O9001\nG91 G1 X1.5 Y-0.75 F3000\nG2 X2. R4.\nG0 X-3.5 Y0.75\nG90\nM99\n"
@@ -176,7 +176,7 @@ class PartMaker {
       case 's': return whole(60, 6000);
       case 'v': return "#" + whole(100, 110);
       case 'l': return std::to_string(1000 + label);
-      default: std::abort();  // a passage names a value that does not exist
+      default: std::abort();  // a passage has a name of a value that does not exist
     }
   }
   static std::string fixed(double value) {
@@ -186,7 +186,7 @@ class PartMaker {
   }
   std::string whole(unsigned low, unsigned high) { return std::to_string(low + dice_.draw(high - low + 1)); }
 
-  /// One character becomes another one, goes, or comes.
+  /// Changes, removes or inserts some characters.
   void spoil(std::string& text) {
     static constexpr char kAny[] = "GMXYZIJKRFNOTSDHPQL0123456789.-+*/#[]()=, \n;%EeA";
     for (unsigned n = 1 + dice_.draw(4); n > 0; --n) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A session at a machine: a random machine, random programs, and an operator who does anything at any time, in two characters. The quiet one
-// uses override, hold, interlock, single block, and has a feeder that comes late; what the machine then executes is what the trace
-// says. The wild one also resets, starts again, gives MDI, moves by hand, changes tables, asks for recalculation, sends interrupts and skip
-// signals, and calls what is refused. At the end everything is let go: the machine must come to an end, and go through a part again.
+// A session at a machine: a random machine, random programs, and one of two operators, who does anything at any time. The quiet one uses override,
+// hold, interlock and single block, and has a late feeder; the machine must then execute the same as the trace. The wild one also resets, starts
+// again, enters MDI, moves by hand, changes tables, requests recalculation, sends interrupts and skip signals, and calls functions that are
+// refused. At the end every switch is released: the machine must come to an end, and execute a part once more.
 #pragma once
 
 #include <algorithm>
@@ -26,17 +26,17 @@ namespace nc::test {
 class Session {
  public:
   struct Size {
-    unsigned passages = 6;        ///< of the program, at most
-    unsigned cycles = 4000;       ///< with the operator at work
-    unsigned patience = 400000;   ///< cycles for which a program that nobody disturbs is waited for
-    uint32_t count_from = 0;      ///< where what is counted for years begins (docs/counters.md)
+    unsigned passages = 6;        ///< most passages of a program
+    unsigned cycles = 4000;       ///< cycles in which the operator works
+    unsigned patience = 400000;   ///< cycles in which an undisturbed program must end
+    uint32_t count_from = 0;      ///< start of the counters that run for years (docs/counters.md)
   };
 
   Session(Dice& dice, Size size) : dice_(dice), size_(size), config_(random_machine(dice)), machine_(config_), watch_(config_), wild_(dice.chance(0.6)) {
     if (!wild_) traced_.emplace(config_);
   }
 
-  /// Runs it; "" or what did not hold.
+  /// Runs the session; returns "" or what was wrong.
   std::string run() {
     if (machine_ == nullptr) return "no control for this configuration";
     if (size_.count_from != 0) {
@@ -123,13 +123,13 @@ class Session {
       manual.distance = any_number(manual.kind == NC_MANUAL_HANDLE ? dice_.uniform(-0.05, 0.05) : dice_.uniform(-3, 3));
     }
   }
-  /// `usual`, now and then something that is no number or out of all ranges.
+  /// Returns `usual`, but now and then NaN, infinity, or a number out of all ranges.
   double any_number(double usual) {
     static constexpr double kOdd[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e300, 5e-324, -1e9};
     return dice_.chance(0.05) ? dice_.one_of(kOdd) : usual;
   }
 
-  /// Calls of the feeder thread at any time; each may be refused, none may hurt.
+  /// Calls of the feeder's thread at any time; each may be refused, none may do harm.
   void call() {
     const unsigned axis = dice_.draw(config_.system[0].axis_count);
     switch (dice_.draw(14)) {
@@ -222,11 +222,11 @@ class Session {
     in_.spindle[0] = spindle;
     in_.clock_ms = clock;
   }
-  /// How until() has ended. Slow is not a fault: a program may ask for F1.
+  /// How until() has ended. Slow is not a fault: a program may have F1.
   enum class Ended : uint8_t { there, slow, stuck };
 
-  /// Feeds and cycles until the state is one of these (bits). A program that runs gets on: in any ten seconds it executes something, or goes
-  /// a twentieth of a millimetre, or a tenth of what its feed asks for: a program may ask for 0.06 mm/min.
+  /// Feeds and cycles until the state is one of these (bits). A running program must get on: in every ten seconds it executes something, or moves
+  /// by 0.05 mm, or by a tenth of the distance of its feed, since a program may have 0.06 mm/min.
   Ended until(unsigned states, unsigned patience) {
     const unsigned ten_seconds = static_cast<unsigned>(10 / config_.cycle_s);
     constexpr double kFar = 0.05;  // mm
@@ -249,7 +249,7 @@ class Session {
         blocks = out_.blocks;
         since = n;
       } else if (out_.cause == NC_CAUSE_DWELL) {
-        since = n;  // G4 takes as long as it says
+        since = n;  // a dwell may take longer
       } else if (n - since > ten_seconds) {
         return Ended::stuck;
       }
@@ -260,10 +260,10 @@ class Session {
     return ": state " + std::to_string(out_.state) + " cause " + std::to_string(out_.cause) + " line " + std::to_string(out_.source.line);
   }
 
-  /// Nobody disturbs any more: what runs comes to its end, a reset to rest, and a part is gone through to where it ends.
+  /// Without any disturbance the running program comes to its end, a reset leads to rest, and a part is executed to its end.
   void let_go() {
     release();
-    cycle();  // a reset that was held is let go
+    cycle();  // a reset button that was held is released
     constexpr unsigned kIdle = 1u << NC_STATE_IDLE, kAlarm = 1u << NC_STATE_ALARM;
     in_.cycle_start = out_.state == NC_STATE_HOLD || out_.state == NC_STATE_STOPPED;
     if (dice_.chance(0.5) && until(kIdle | kAlarm, size_.patience) == Ended::stuck) {
@@ -283,7 +283,7 @@ class Session {
   }
 
   void again() {
-    tally_.close();  // what follows is always the same part
+    tally_.close();  // the following part is always the same and does not count
     static constexpr char kPart[] = "G90 G53 G0 X5. Y5.\nG91 G1 X1. F600\nY1.\nG90 G53 G0 X7.\nM30\n";
     unsigned file = 0;
     nc_status status = NC_E_STATE;
@@ -310,7 +310,7 @@ class Session {
       say("the part behind the reset ends at X " + std::to_string(out_.command.v[0]) + " instead of 7");
     }
   }
-  /// What the machine has executed is, item by item, what the trace of the program says.
+  /// Compares the items that the machine has executed with those of the trace.
   void compare() {
     unsigned file = 0;
     nc_program_add_text(*traced_, "O1", text_.data(), text_.size(), &file);
@@ -327,7 +327,7 @@ class Session {
                    ", traced: serial " + std::to_string(item.serial) + " kind " + std::to_string(item.kind) + " line " + std::to_string(item.source.line));
       if (item.kind == NC_ITEM_MOVE) {
         machine = item.u.move.machine;
-        // The optimal mode passes ends at speed, within its tolerance, in the first cycle behind them.
+        // The optimal mode passes ends at speed within its tolerance; the event comes in the first cycle after that.
         const bool passed = config_.motion_mode == NC_MOTION_OPTIMAL && !item.u.move.exact_stop;
         for (unsigned i = 0; i < config_.system[0].axis_count; ++i)
           if (std::fabs(event.machine.v[i] - machine.v[i]) > (passed ? config_.path_tolerance + config_.system[0].axis[i].max_velocity * config_.cycle_s : 1e-6))
@@ -346,10 +346,10 @@ class Session {
 
   Dice& dice_;
   Size size_;
-  double haste_ = std::clamp(Size{}.cycles / std::max(1.0, static_cast<double>(size_.cycles)), 1.0, 4.0);  ///< in a shorter session more is done
+  double haste_ = std::clamp(Size{}.cycles / std::max(1.0, static_cast<double>(size_.cycles)), 1.0, 4.0);  ///< in a shorter session the operator does more
   nc_config config_;
-  Control machine_;                ///< the one that moves ...
-  std::optional<Control> traced_;  ///< ... and for the quiet operator one that only says what the program means
+  Control machine_;                ///< the control that moves
+  std::optional<Control> traced_;  ///< for the quiet operator another control, which only traces the program
   Watch watch_;
   Tally tally_;
   bool wild_, lag_ = false;
@@ -362,7 +362,7 @@ class Session {
   nc_spindle_inputs spindle_{};
   uint8_t last_strobe_ = 0;
   uint64_t blocks_ = 0, last_blocks_ = 0;
-  std::vector<nc_event> executed_;  ///< of the first run of a quiet session
+  std::vector<nc_event> executed_;  ///< events of the first run of a quiet session
   bool collects_ = !wild_;
   bool log_ = std::getenv("NC_LOG") != nullptr;
   std::string what_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many programs a session has executed, by how they came to it. A program counts when something of it has been executed.
+// How many programs a session has executed, by the way in which they were started. A program counts when an item of it has been executed.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace nc::test {
 
 struct Programs {
-  uint64_t selected = 0;    ///< for the first time since they were selected
-  uint64_t restarted = 0;   ///< once more without being selected again
+  uint64_t selected = 0;    ///< programs that were executed for the first time since they were selected
+  uint64_t restarted = 0;   ///< programs that were executed once more without a new selection
   uint64_t mdi = 0;
   uint64_t interrupts = 0;  ///< interrupt programs (M700 13.12)
 
@@ -29,12 +29,12 @@ class Tally {
  public:
   void selected() { next_ = &Programs::selected; }
   void mdi() { next_ = &Programs::mdi; }
-  /// What runs from now on is not counted.
+  /// Programs from now on are not counted.
   void close() { open_ = false; }
 
   void cycle(const nc_outputs& out) {
     const bool rests = out.state == NC_STATE_IDLE || out.state == NC_STATE_MANUAL;
-    // The time since cycle start begins anew with each, also where a program begins and ends within a cycle.
+    // The time since cycle start begins again with each program, also with one that begins and ends within a cycle.
     if ((rested_ && !rests) || out.run_s < run_s_) begins_ = true;
     rested_ = rests;
     run_s_ = out.run_s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What must hold in every cycle of any machine, whatever the program and the operator do, measured on what comes out of the control:
-// numbers, limits of the axes by finite differences, stored stroke limits, the state, rest where the state says rest, serials.
+// What must be true in every cycle of any machine, whatever the program and the operator do, measured on the outputs of the control: finite
+// numbers, limits of the axes by finite differences, stored stroke limits, the state, rest in the states of rest, serials.
 #pragma once
 
 #include <algorithm>
@@ -17,10 +17,10 @@ class Watch {
  public:
   explicit Watch(const nc_config& config) : config_(config) {}
 
-  /// The axes have been put elsewhere by the host: the next difference is none.
+  /// The host has changed the position of the axes: the next difference does not count.
   void forget() { samples_ = 0; }
 
-  /// Looks at the outputs of one cycle; what() says what does not hold.
+  /// Checks the outputs of one cycle; what() tells what is wrong.
   void cycle(const nc_inputs& in, const nc_outputs& out) {
     ++cycles_;
     const bool hand_now = out.state == NC_STATE_MANUAL || std::any_of(in.manual, in.manual + NC_MAX_AXES, [](const nc_manual& m) { return m.kind != NC_MANUAL_NONE; });
@@ -43,14 +43,14 @@ class Watch {
       last_[i] = x;
     }
     ++samples_;
-    // Axes that are moved by hand have no limit of jerk, and come to rest by hand in whatever state follows.
+    // Axes that are moved by hand have no jerk limit, and come to rest in this way in whatever state follows.
     hand_ = hand_now || (hand_ > 0 && moved) ? 4 : hand_ > 0 ? hand_ - 1 : 0;
-    // In these states the axes stand, whatever is wished by hand: motion by hand is a state of its own. The cycle in which the state comes may
-    // still carry the end of the move, and a block may be so short that it begins and ends in one.
+    // In these states the axes stand, whatever buttons are pressed, since motion by hand has its own state. But in the first cycle of the state the
+    // move may still end, and a block may be so short that it begins and ends in one cycle.
     const bool rests = out.state == NC_STATE_IDLE || out.state == NC_STATE_STOPPED;
     const bool stood = out.state == state_ || state_ == NC_STATE_MANUAL;
     if (rests && stood && out.serial == item_ && moved) fail("moves at rest in state", out.state, 0, 0);
-    // An alarm finds the axes on their way, and they may turn round on it; when they have come to rest they stay there.
+    // An alarm may come while the axes move, and they may reverse while they stop; when they have come to rest they stay there.
     alarm_cycles_ = out.state == NC_STATE_ALARM && moved ? alarm_cycles_ + 1 : 0;
     if (alarm_cycles_ > 20 / config_.cycle_s) fail("moves 20 s in an alarm", 0, 0, 0);
     alarm_rest_ = out.state != NC_STATE_ALARM ? 0 : moved ? alarm_rest_ : alarm_rest_ + 1;
@@ -59,7 +59,7 @@ class Watch {
     item_ = out.serial;
   }
 
-  /// Serials of what has been executed: one after the other, until the program begins again or is read again.
+  /// The serials of the executed items come one after the other, until the program begins again or is read again.
   void event(const nc_event& e, bool may_jump) {
     if (serial_ != 0 && e.serial != serial_ + 1 && e.serial != 1 && !may_jump) fail("serial", static_cast<double>(e.serial), 0, static_cast<double>(serial_));
     serial_ = e.serial;
@@ -77,7 +77,7 @@ class Watch {
       const double rapid = axis.rapid > 0 ? axis.rapid : axis.max_velocity;
       const double top = hand_ > 0 || rapid_ > 0 ? std::max(rapid, axis.max_velocity) : axis.max_velocity;
       const double v = (x - last_[i]) / dt;
-      // What a number of this size cannot tell apart is no velocity, and less an acceleration or a jerk.
+      // A difference within the rounding of a number of this size is no velocity, and still less an acceleration or a jerk.
       const double noise = 4e-16 * (1 + std::fabs(x)) / dt;
       judge("velocity", std::fabs(v) - noise, top, i, worst_velocity);
       if (samples_ >= 2) {
@@ -101,12 +101,12 @@ class Watch {
     what_ = text.str();
   }
 
-  static constexpr unsigned kAlarmRest = 10;  ///< cycles: longer than the filters hold back what has been reached
+  static constexpr unsigned kAlarmRest = 10;  ///< cycles: longer than the filters delay a rest
 
   nc_config config_;
   double last_[NC_MAX_AXES] = {}, v_[NC_MAX_AXES] = {}, a_[NC_MAX_AXES] = {};
   uint64_t samples_ = 0, cycles_ = 0, serial_ = 0, item_ = 0;
-  unsigned hand_ = 0, rapid_ = 0;  ///< cycles for which what was manual or rapid still shows in differences
+  unsigned hand_ = 0, rapid_ = 0;  ///< cycles in which manual or rapid motion still acts on the differences
   uint8_t state_ = 0;
   double alarm_cycles_ = 0;
   unsigned alarm_rest_ = 0;  ///< cycles in which the axes stood in the alarm

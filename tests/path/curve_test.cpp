@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves: end points exact, derivatives against finite differences, length against quadrature, bounds against
-// sampling.
+// Curves: their end points are exact; derivatives are compared with finite differences, the length with quadrature, the
+// bounds with samples.
 #include "path/curve.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ Curve random_line(std::mt19937_64& rng) {
   return make_line(a, b, kAxes, kRotary);
 }
 
-/// spiral: relative difference of the radii.
+/// `spiral` is the relative difference of the radii.
 Curve random_arc(std::mt19937_64& rng, double spiral, bool lead) {
   const uint8_t h = static_cast<uint8_t>(rng() % 3), v = static_cast<uint8_t>((h + 1) % 3);
   Circle k;
@@ -105,7 +105,7 @@ TEST(Curve, ParameterIsTheLengthOfTheLinearAxes) {
     const Curve c = random_curve(rng);
     bool linear = false;
     for (unsigned i = 0; i < 3; ++i)
-      linear = linear || c.delta[i] != 0 || c.circular;  // else the rotary ones make it
+      linear = linear || c.delta[i] != 0 || c.circular;  // else the rotary axes determine the length
     const double s = c.length * uniform(rng, 0, 1);
     const CurvePoint p = curve_evaluate(c, s, kAxes);
     double norm = 0;
@@ -119,7 +119,7 @@ TEST(Curve, LengthMatchesChordsRefined) {
   for (int n = 0; n < 300; ++n) {
     const Curve c = random_curve(rng);
     if (!c.circular) continue;
-    // Chords over u, not over s, so that the test does not use what it tests; their sum converges with 1/n^2,
+    // Chords at steps of u, not of s, so that the test does not use what it tests. Their sum converges with 1/n^2, and is
     // extrapolated once.
     const auto chords = [&](int count) {
       double sum = 0, last[3] = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves that all but have a cusp: the parameter at a length is exact there, too, and no point of them costs much more than any other.
+// Curves that nearly have a cusp: the parameter at a length is exact there, too, and no point of them costs much more than any other.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr unsigned kAxes = 5;
 
-/// A cubic whose derivative is `gap` / 10 of its mean at its slowest place; 0: a cusp. Everything moved by `shift` of the control points' weights.
+/// A cubic whose derivative at its slowest place is `gap` / 10 of the mean; with 0 it has a cusp. `weight` is that of its second control point.
 void make_cusp(double gap, double weight, CurveShape* shape, Curve* curve) {
   MoveShape what;
   what.kind = ShapeKind::rational;
@@ -43,7 +43,7 @@ TEST(Cusp, NoPointTakesMoreThanSomePartsOfTheLength) {
     }
 }
 
-/// The length between two parameters, finely: midpoints of small steps, graded towards the slow place by the parameter's cube.
+/// The length between two parameters, as the sum of 20,000 chords at equal steps of the parameter.
 double length_of(const CurveShape& shape, double from, double to) {
   constexpr int kParts = 20000;
   double sum = 0;
@@ -75,7 +75,7 @@ TEST(Cusp, TheParameterIsTheLengthsEverywhere) {
   }
 }
 
-/// The third difference of a position over steps of 1 um hears every error of the parameter.
+/// The third difference of positions at steps of 1 um shows every error of the parameter.
 TEST(Cusp, NothingStepsFromOneIntervalToTheNext) {
   for (const double gap : kGaps) {
     SCOPED_TRACE(gap);

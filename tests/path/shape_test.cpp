@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes: end points, tangents, length against quadrature, derivatives and curvature against finite differences, bounds against
-// sampling; maps against their definition.
+// Shapes: end points and tangents; the length is compared with quadrature, derivatives and curvature with finite differences, bounds with
+// samples, and maps with their definition.
 #include "path/shape.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ void random_span(std::mt19937_64& rng, Made* made) {
   make(what, start, end, nullptr, 0, 1, start, AxisVec{}, made);
 }
 
-/// One block of a spline: a quintic that keeps going forward.
+/// One block of a spline: a quintic that always goes forward.
 void random_spline(std::mt19937_64& rng, Made* made) {
   MoveShape what;
   what.kind = ShapeKind::spline;
@@ -112,7 +112,7 @@ void random_spline(std::mt19937_64& rng, Made* made) {
   make(what, start, end, nullptr, 0, 1, start, AxisVec{}, made);
 }
 
-/// A line or an arc of a plane that is not the axes' own.
+/// A line or an arc in a plane that is not one of the axes.
 void random_mapped(std::mt19937_64& rng, AxisMap::Kind kind, Made* made) {
   MoveShape what;
   what.map.kind = kind;
@@ -198,7 +198,7 @@ TEST(Shape, DerivativesAreThoseOfFiniteDifferences) {
     const CurvePoint p = curve_evaluate(m.curve, s, kAxes), q = curve_evaluate(m.curve, s + e, kAxes), r = curve_evaluate(m.curve, s - e, kAxes);
     EXPECT_EQ(p.position, curve_position(m.curve, s, kAxes));
     for (unsigned i = 0; i < kAxes; ++i) {
-      // Central differences err by e^2/6 of the third derivative of what they look at.
+      // The error of central differences is e^2/6 of the third derivative.
       const double rough = 1e-6 * (1 + std::fabs(p.d1[i])) + e * e * std::fabs(q.d3[i]) + e * e * std::fabs(r.d3[i]);
       EXPECT_NEAR((q.position[i] - r.position[i]) / (2 * e), p.d1[i], rough) << "kind " << n % kKinds;
       const double change = std::fabs(q.d3[i] - r.d3[i]);
@@ -240,7 +240,7 @@ TEST(Shape, LengthIsThatOfManyChords) {
       double d = 0;
       for (unsigned i = 0; i < kAxes; ++i)
         if (linear >> i & 1) d += (p[i] - before[i]) * (p[i] - before[i]);
-      // Every step of length is one: the table does not run ahead or behind.
+      // Every step of length must be exactly that: the table is neither ahead nor behind.
       EXPECT_NEAR(std::sqrt(d), m.curve.length / kChords, 1e-4 * m.curve.length / kChords) << "kind " << n % kKinds;
       sum += std::sqrt(d);
       before = p;
@@ -308,7 +308,7 @@ TEST(Shape, AHeldAxisStaysAndTheOthersGoAsIfItMoved) {
   circle.sweep = -4 * kPi;
   AxisVec start, end, machine;
   end[2] = 40;
-  machine[1] = 7;  // wherever it stands
+  machine[1] = 7;  // any position
   Made m;
   make(what, start, end, &circle, 0, 1, machine, AxisVec{}, &m);
   for (int k = 0; k <= 40; ++k) {

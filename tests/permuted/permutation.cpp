@@ -9,8 +9,8 @@
 namespace nc::permuted {
 namespace {
 
-// n -> (factor n + shift) mod size: one to one, since factor and size have no common divisor, and without a number that stays, since
-// (factor - 1) n = -shift mod size has no solution: size and factor - 1 have a common divisor that shift has not.
+// n -> (factor n + shift) mod size. It is one to one, since factor and size have no common divisor. No number stays the same, since
+// (factor - 1) n = -shift mod size has no solution: size and factor - 1 have a common divisor that shift does not have.
 struct Affine {
   unsigned first, size, factor, shift;
   constexpr bool holds(unsigned n) const { return n >= first && n < first + size; }
@@ -74,7 +74,7 @@ RangeOrder::RangeOrder(std::vector<Range> ranges, uint32_t first, uint32_t last)
     next = all.back().last + 1;
   }
   if (next <= last) all.push_back({next, last});
-  // In the order of a step that meets each of them once.
+  // In steps of a size that meets each of them once.
   const size_t count = all.size();
   size_t step = count * 2 / 5 + 1;
   while (std::gcd(step, count) != 1) ++step;
@@ -154,7 +154,7 @@ PermutedDialect::PermutedDialect(const Dialect& family, const Permutation& permu
   for (VariableRow row : family.variables->rows) {
     const uint32_t size = row.last - row.first;
     row.first = permutation.variable(row.first);
-    if (is_by_group(row.what)) row.first -= permutation.group(1) - 1;  // its first number is no longer that of the first group
+    if (is_by_group(row.what)) row.first -= permutation.group(1) - 1;  // its first number does not belong to the first group any more
     row.last = row.first + size;
     variable_rows_.push_back(row);
   }
@@ -191,5 +191,5 @@ void choose(const Dialect& family) { chosen = &family; }
 
 }  // namespace nc::permuted
 
-// In place of libnc's own (dialect/registry.cpp): the library of this program reads the tables that a test chooses.
+// It replaces the function of libnc (dialect/registry.cpp), so that the library of this program reads the tables that a test chooses.
 const nc::Dialect& nc::dialect(nc_dialect) { return *nc::permuted::chosen; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the numbers of a family are moved: G codes, modal groups, parameters and system variables, each kind among itself.
+// How the numbers of a family are permuted: G codes, modal groups, parameters and system variables, each kind separately.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace nc::permuted {
 
-/// Whole ranges of numbers laid out anew in another order: what is in a range keeps its place there, so that numbers that a program
-/// computes from its first one stay right.
+/// Puts whole ranges of numbers into another order. A number keeps its place within its range, so that numbers which a program computes from the
+/// first one of a range stay right.
 class RangeOrder {
  public:
   struct Range {
     uint32_t first, last;
   };
-  /// The ranges may overlap: those that do move together. What lies between them within [first, last] are ranges, too.
+  /// Ranges that overlap move together. The gaps between them within [first, last] are ranges, too.
   RangeOrder(std::vector<Range> ranges, uint32_t first, uint32_t last);
   uint32_t moved(uint32_t number) const { return find(number, &Piece::from, &Piece::to); }
   uint32_t back(uint32_t number) const { return find(number, &Piece::to, &Piece::from); }
@@ -34,14 +34,14 @@ class Permutation {
  public:
   explicit Permutation(const Dialect& family);
 
-  /// Times 10, as in FunctionRow. G54.1 goes with G54: its decimal stays. G00 to G99 stay among themselves and so do G100 to G255, since
-  /// programs may be bound to the one by the leave of a parameter, to the other always (Dialect::own_codes, macro_codes).
+  /// Codes are times 10, as in FunctionRow. G54.1 moves with G54 and keeps its decimal. G00 to G99 and G100 to G255 are permuted separately: programs
+  /// may always be bound to the latter, to the former only if a parameter allows it (Dialect::own_codes, macro_codes).
   int code(int code) const;
   int code_back(int code) const;
   unsigned group(unsigned group) const;
   uint32_t parameter(uint32_t number) const { return parameters_.moved(number); }
   uint32_t variable(uint32_t number) const;
-  /// Letters of words. Those of axes stay (the machine names them), and so do those of codes, numbers of blocks, F, S and T.
+  /// Letters of words. Those of axes stay (the machine names them), and so do those of codes and of block numbers, F, S and T.
   static char letter(char letter);
 
  private:
@@ -49,7 +49,7 @@ class Permutation {
   std::vector<RangeOrder::Range> by_group_;  ///< ranges with a place for each group
 };
 
-/// The tables of a family with every number moved; all else is the family's.
+/// The tables of a family with every number permuted; everything else is that of the family.
 class PermutedDialect {
  public:
   PermutedDialect(const Dialect& family, const Permutation& permutation);
@@ -72,7 +72,7 @@ class PermutedDialect {
   std::vector<VariableRow> variable_rows_;
 };
 
-/// What dialect() of this program gives for any family: the library reads these tables. m700's own until something else is chosen.
+/// Chooses the tables that dialect() of this program returns for any family, and that the library therefore reads; at first those of m700.
 void choose(const Dialect& family);
 
 }  // namespace nc::permuted

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proof that the numbers of a family stand in its tables and nowhere else: a family that is m700 with
-// every G code, modal group, parameter number and range of system variables moved runs every program,
-// rewritten in the same way, to the same trace.
+// Proves that the numbers of a family are in its tables and nowhere else: a family that is m700 with every G code, modal
+// group, parameter number and range of system variables permuted gives the same trace for every program that is rewritten
+// in the same way.
 //
-// Letters of words are moved among themselves but those of axes, codes, block numbers, E (an exponent for the lexer), F, S and T.
+// Letters of words are permuted, too, except those of axes, codes, block numbers, E (an exponent for the lexer), F, S and T.
 //
-// Not moved are M codes, the L of data input, O numbers, locals and common variables, and parameters that
-// have a name. What the setup format itself names as m700 does (work_offsets) stays as it is.
+// M codes, the L of data input, O numbers, local and common variables, and parameters with a name are not permuted. Names
+// of the setup format that are those of m700 (work_offsets) stay as they are.
 //
-// A trace is the same when its lines are, but for the modal codes of its end, which are moved back and whose
-// order is that of the groups, and the codes, variables and parameters that the sentence of an alarm names:
-// they have to be those that were moved.
+// A trace is the same when its lines are the same, with two exceptions: the modal codes of its end are permuted back and
+// have the order of the groups; and the codes, variables and parameters in the sentence of an alarm must be the permuted
+// ones.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -87,8 +87,8 @@ void add_parts(std::vector<Program>* programs) {
   }
 }
 
-// Two bytes of choices, of which the lowest bit of the first is the family, and the text. The codes that call
-// a program are those of the fuzz program.
+// The corpus of the fuzz program: two bytes of choices (the lowest bit of the first is the family), then the text. The
+// codes that call a program are those of the fuzz program.
 void add_corpus(std::vector<Program>* programs) {
   const Json params = {{"7001", 50}, {"7003", 8}, {"7201", 120}, {"7202", 3}, {"7203", 7}, {"7401", 1},
                        {"7402", "D"}, {"7403", 0}, {"7404", 7}, {"7405", 130}, {"2106", {{"A", 5}}}};
@@ -109,7 +109,7 @@ std::vector<Program> all_programs() {
   return programs;
 }
 
-/// Runs programs in a folder of its own.
+/// Traces programs in its own folder.
 class Tracer {
  public:
   Tracer() {
@@ -131,8 +131,8 @@ class Tracer {
     std::vector<std::string> lines;
     std::string refused;  ///< why it did not run
   };
-  /// A file that has just been written is left alone for a moment before it is read (runtime/programs/program_text.hpp), which would be most of the
-  /// time of these tests: so all are written first.
+  /// A file must be unchanged for a moment before it is read (runtime/programs/program_text.hpp), which would be most of the time of these tests. So
+  /// all files are written first.
   void write(const Program& program) {
     file_of(program.text);
     file_of(program.setup.dump());
@@ -159,7 +159,7 @@ class Tracer {
   }
 
  private:
-  /// The file with this text, which is written when it is asked for first.
+  /// The file with this text, which is written at the first call.
   std::string file_of(const std::string& text) {
     const auto [found, fresh] = files_.try_emplace(text, (folder_ / ("file" + std::to_string(files_.size()))).string());
     if (fresh) std::ofstream(found->second, std::ios::binary) << text;
@@ -208,9 +208,9 @@ class Compare {
     return back;
   }
 
-  // A number behind '#' or of data to read is a variable or a parameter; P is a parameter's where parameters are set.
+  // A number behind '#' or in data that is read is a variable or a parameter; P is a parameter where parameters are set.
   bool same_sentence(const std::string& want, const std::string& got) const {
-    // A letter of a word stands for whatever letter it has become.
+    // Letters of words are permuted, too, so all of them count as the same.
     static const std::regex kLetter(R"(\b[PQRLDHIJK](?=[-+0-9.,:;) ]|$))");
     return same_numbers(std::regex_replace(want, kLetter, "P"), std::regex_replace(got, kLetter, "P"));
   }
@@ -281,7 +281,7 @@ TEST(Permuted, ProgramsGiveTheTraceOfTheFamilyWhoseNumbersWereMoved) {
     }
     EXPECT_EQ(difference, "") << program.id << "\n" << permuted_program(program, permutation).text.substr(0, 600);
     same += difference.empty();
-    // The text as it was means something else to the permuted family: else the comparison would show nothing.
+    // The original text must mean something else to the permuted family, or the comparison would show nothing.
     not_rewritten += !compare.difference(want, tracer.trace(permuted.dialect(), program)).empty();
   }
   for (const std::string& id : missing) ADD_FAILURE() << id << " is excluded and is no program here";
@@ -292,7 +292,7 @@ TEST(Permuted, ProgramsGiveTheTraceOfTheFamilyWhoseNumbersWereMoved) {
   EXPECT_GT(not_rewritten * 10, same * 9);
 }
 
-// Programs that compute numbers of parameters and system variables, set parameters, read what is in force and call programs by codes.
+// Programs that compute numbers of parameters and system variables, set parameters, read modal data and call programs by codes.
 TEST(Permuted, ProgramsThatComputeNumbersRunToTheirEnd) {
   const Permutation permutation(m700::kDialect);
   const PermutedDialect permuted(m700::kDialect, permutation);
@@ -313,7 +313,7 @@ TEST(Permuted, ProgramsThatComputeNumbersRunToTheirEnd) {
   EXPECT_GE(programs, 4u);
 }
 
-// Programs use only some of the codes and numbers; here each row of the tables is named once.
+// Programs use only some of the codes and numbers; these use each row of the tables once.
 std::vector<Program> probes_of_codes(const Dialect& family) {
   std::vector<Program> probes;
   for (const FunctionRow& row : family.functions) {

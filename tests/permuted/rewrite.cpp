@@ -46,7 +46,7 @@ class Rewriter {
       if (at_ + i >= text_.size() || upper(text_[at_ + i]) != name[i]) return false;
     return true;
   }
-  // A letter with a value behind it that is no part of a name.
+  // Whether a letter with a value behind it begins here, and is not part of a name.
   bool begins_word() const {
     if (at_ > 0 && std::isalpha(static_cast<unsigned char>(text_[at_ - 1])) != 0) return false;
     size_t next = at_ + 1;
@@ -144,12 +144,12 @@ class Rewriter {
     if (name.size() < 8 && permutation_.variable(number) != number) out_ += std::to_string(permutation_.variable(number));
     else out_ += name;
   }
-  // #[10000+#1] is computed from the number in front of a range's first.
+  // A number like that in #[10000+#1] is one less than the first of a range.
   uint32_t moved_base(uint32_t number) const {
     const bool in_front = find_variable(*family_.variables, number) == nullptr && find_variable(*family_.variables, number + 1) != nullptr;
     return in_front ? permutation_.variable(number + 1) - 1 : permutation_.variable(number);
   }
-  // A number that is no part of a word that is moved.
+  // A number that does not belong to a word which is rewritten.
   void number() {
     const std::string whole = digits();
     const size_t behind = at_ + whole.size();
@@ -170,11 +170,11 @@ class Rewriter {
   const Permutation& permutation_;
   std::string out_;
   size_t at_ = 0;
-  std::string brackets_;             // those that are open: '#' of a variable's number, '[' any other
-  bool of_variable_ = false;         // the bracket that comes is of a variable's number
-  bool selects_parameter_ = false;   // of "#100000=" the value comes
-  bool g10_ = false;                 // in this block
-  int l_ = -1;                       // of this block
+  std::string brackets_;             // the open brackets: '#' around a variable's number, '[' any other
+  bool of_variable_ = false;         // the next bracket is around a variable's number
+  bool selects_parameter_ = false;   // the value of "#100000=" comes next
+  bool g10_ = false;                 // G10 is in this block
+  int l_ = -1;                       // L of this block, -1 = none
   bool parameter_input_ = false;
 };
 

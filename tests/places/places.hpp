@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folders that the tests read and start programs from. They are names of one source file and no options of the compiler, so that
-// the objects of all other tests are the same in every checkout and a compiler cache can share them.
+// The folders from which tests read files and start programs. They are variables of one source file and not options of the compiler, so that
+// the objects of all other tests are the same in every checkout, and a compiler cache can share them.
 #pragma once
 
 #include <string>
@@ -9,6 +9,6 @@ namespace nc::test {
 
 extern const std::string kSourceDir;  // the root of the checkout
 extern const std::string kBinaryDir;  // the build tree; programs are in bin/
-extern const std::string kSharedDir;  // the shared cases and programs; absent for most users: skip then
+extern const std::string kSharedDir;  // the shared cases and programs; most users do not have them, then skip the test
 
 }  // namespace nc::test

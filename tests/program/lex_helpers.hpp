@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of program/ and macro/ have in common: word formats like those of the two dialects, a text
-// as a block, a store.
+// Shared by the tests of program/ and macro/: word formats like those of the two dialects, a text as a block, a store.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -51,7 +50,7 @@ inline LexRules with_semicolon(Semicolon semicolon) {
 inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules = m700_rules(),
                                   LexResult* result = nullptr) {
   auto block = std::make_unique<Block>();
-  // A copy of exactly this size: a sanitizer sees a byte read beyond it.
+  // A copy of exactly this size, so that a sanitizer finds a read beyond it.
   const std::vector<char> exact(text.begin(), text.end());
   const LexResult r = lex_block(exact.data(), exact.size(), rules, rules.semicolon, nullptr, *block);
   if (result != nullptr) *result = r;
@@ -67,7 +66,7 @@ inline std::string text_of(const Block& block, unsigned at, unsigned length) {
   return std::string(block.text.begin() + at, length);
 }
 
-/// Everything that lexing produced, as text: two equal strings are two equal blocks.
+/// Everything that lexing produced, as text: two blocks are equal if their texts are.
 inline std::string dump(const Block& b) {
   std::string s;
   const auto add = [&s](const char* name, long long v) {
@@ -142,7 +141,7 @@ class Texts {
       const std::string& t = *static_cast<std::string*>(user);
       if (offset >= t.size()) return 0;
       size_t n = std::min(size, t.size() - static_cast<size_t>(offset));
-      if (n > 7) n -= n % 3;  // a host may give less than asked for
+      if (n > 7) n -= n % 3;  // a host may give fewer bytes than it is asked for
       std::memcpy(buffer, t.data() + offset, n);
       return static_cast<long>(n);
     };
@@ -151,7 +150,7 @@ class Texts {
     return file;
   }
 
-  /// Every block of a text, as dumped, from `at` to the end.
+  /// All blocks of a text as dump() writes them.
   std::vector<std::string> all(unsigned file) {
     std::vector<std::string> blocks;
     uint64_t at = 0;

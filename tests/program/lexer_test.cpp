@@ -129,7 +129,7 @@ TEST(Lexer, Percent) {
   EXPECT_FALSE(b->has_fault);
   EXPECT_TRUE(b->empty);
   EXPECT_EQ(r.used, 22u);
-  // Behind words it begins a block of its own.
+  // After words it begins a new block.
   const auto end = lex("M30%\n", m700_rules(), &r);
   EXPECT_FALSE(end->percent);
   EXPECT_EQ(r.used, 3u);
@@ -149,7 +149,7 @@ TEST(Lexer, OptionalSkip) {  // M700 3.4
   EXPECT_EQ(fault_of("/3G1", dgshape_rules()), Condition::format_error);
   EXPECT_EQ(fault_of("N20 /G1 X2."), Condition::format_error);
   EXPECT_EQ(fault_of("G1 /X2.", dgshape_rules()), Condition::format_error);
-  // Elsewhere it divides: the printed N20 G1 X25./Y25. is an error.
+  // In other places '/' divides: N20 G1 X25./Y25. of the manual is an error.
   EXPECT_EQ(fault_of("N20 G1 X25./Y25."), Condition::calculation);
 }
 
@@ -166,7 +166,7 @@ TEST(Lexer, NumbersAtTheHeadHaveTheLettersOfTheFamily) {
   EXPECT_FALSE(words->has_o || words->has_n || words->has_fault);
   EXPECT_EQ(words->words.size(), 3u);
   EXPECT_EQ(fault_of("Q#1", rules), Condition::variable_use);
-  rules.program_letter = rules.sequence_letter = 0;  // no such numbers at all
+  rules.program_letter = rules.sequence_letter = 0;  // there are no such numbers
   EXPECT_EQ(lex("O5 N7 G3\n", rules)->words.size(), 3u);
   EXPECT_TRUE(lex("\n", rules)->empty);
 }
@@ -188,7 +188,7 @@ TEST(Lexer, ProgramAndSequenceNumbers) {  // M700 3.5
   EXPECT_EQ(lex("N000001234")->n, 1234u);
   EXPECT_EQ(fault_of("N#1"), Condition::variable_use);  // M700 13.4 (3): not in O, N
   EXPECT_EQ(fault_of("O[1]"), Condition::variable_use);
-  // Not at the head: words.
+  // Not at the head of a block they are words.
   const auto later = lex("G65 P9100 A1 N5 O6\n");
   EXPECT_FALSE(later->has_n);
   ASSERT_EQ(later->words.size(), 5u);
@@ -211,7 +211,7 @@ TEST(Lexer, RangesOfWords) {
   EXPECT_EQ(fault_of("X99999999999999999999999999999999"), Condition::value_range);
 }
 
-/// M700 3.1: blank tape and rows that were punched out, wherever they stand.
+/// M700 3.1: blank tape and rows that were punched out are ignored in any place.
 TEST(Lexer, NulAndDeleteAreIgnored) {
   const std::string plain = "/2N10 G1 X-12.5 Y#1 ,R[#2+1.] F100\n", other = "IF[#100EQ5]GOTO20\n", third = "#3000=12(STOP)\n";
   for (const std::string& text : {plain, other, third}) {
@@ -238,7 +238,7 @@ TEST(Lexer, NulAndDeleteAreIgnored) {
   }
 }
 
-/// A message that is cut is cut between two characters.
+/// A message that is too long is cut between two characters.
 TEST(Lexer, LongMessagesAreCutBetweenCharacters) {
   for (size_t before = 120; before < 128; ++before) {
     const std::string text = "#3000=1(" + std::string(before, 'A') + "\u00d8\u5de5\U0001f527\u00d8\u00d8\u00d8)\n";

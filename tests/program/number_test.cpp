@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimal numbers against strtod of the C library, bit for bit.
+// Decimal numbers are compared with strtod of the C library, bit for bit.
 #include "program/number.hpp"
 
 #include <gtest/gtest.h>

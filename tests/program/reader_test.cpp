@@ -91,7 +91,7 @@ TEST(BlockReader, TheCutOfATooLongBlockIsNotTakenForAnotherFault) {
 }
 
 TEST(BlockReader, WhatStandsBehindASemicolonIsSeenThroughEveryWindow) {
-  // The words of the first block alone are as long as the first of these windows: in no window is the text behind them passed over.
+  // The words of the first block alone are as long as the smallest of these windows: in no window may the text behind them be lost.
   const std::string text = "G1X1Y10G01X25F50; " + std::string(600, ' ') + "Y2\nM30\n";
   for (unsigned window = 16; window < 40; ++window) {
     Texts t(window, 32, with_semicolon(Semicolon::ends_line));
@@ -127,7 +127,7 @@ TEST_P(ReaderOfRandomTexts, AreTheSameThroughEveryWindow) {
     for (unsigned i = 0, n = random() % 300; i < n; ++i) text += alphabet[random() % (sizeof alphabet - 1)];
     Texts m(65536, 32, rules), t(320 + random() % 50, 32, rules), narrow(24 + random() % 30, 32, rules);
     ASSERT_EQ(t.all(t.add_callback("a", text)), m.all(m.add_memory("a", text))) << text;
-    // A narrow window may find blocks too long, but it finds the same blocks.
+    // For a narrow window blocks may be too long, but they are the same blocks.
     const unsigned a = narrow.add_callback("a", text), b = m.add_memory("b", text);
     uint64_t at = 0;
     for (uint32_t line = 1;;) {
@@ -145,7 +145,7 @@ TEST_P(ReaderOfRandomTexts, AreTheSameThroughEveryWindow) {
 }
 
 TEST_P(ReaderOfRandomTexts, HaveTheSameHeadsForASearch) {
-  // Where the search sees the head of a block, reading does: nothing behind a ';' that ends the line is gone to.
+  // The search finds the head of a block only where reading finds it: nothing behind a ';' that ends the line.
   std::mt19937 random(5);
   const char alphabet[] = "N1X2;;( )\n\n/ ";
   for (int round = 0; round < 2000; ++round) {
@@ -166,7 +166,7 @@ TEST_P(ReaderOfRandomTexts, HaveTheSameHeadsForASearch) {
         if (b->end_of_text || (b->percent && at != 0)) break;
         read = b->has_n && b->n == n;
         if (read) break;
-        if (b->has_fault || b->percent) {  // a head that cannot be read, or a start mark: another matter
+        if (b->has_fault || b->percent) {  // a head that cannot be read, or a start mark, does not count here
           read = found;
           offset = at;
           break;
@@ -192,8 +192,7 @@ TEST(BlockReader, CachedBlocksAreTheSame) {
 }
 
 TEST(BlockReader, CacheIsUsed) {
-  // The host's text changes behind the reader's back: what is cached shows the old text, which is how we
-  // know.
+  // The text of the host changes without the reader's knowledge, so that the old text shows what comes from the cache.
   Texts t(64, 64);
   const std::string old_text = "X1\nX2\nX3\n";
   const unsigned file = t.add_memory("a", old_text);
@@ -274,8 +273,8 @@ TEST(BlockReader, ReadFailures) {
   EXPECT_EQ(t.reader.read(99, 0, 1), nullptr);
 }
 
-/// A search that could not see the text finds nothing and says so: neither what stands elsewhere under the same number nor a program of
-/// the host takes its place.
+/// A search that could not read the text finds nothing and reports that. It takes neither the same number elsewhere nor a program of the host
+/// instead.
 TEST(BlockReader, SearchesInATextThatHasChanged) {
   struct Host {
     std::string text;

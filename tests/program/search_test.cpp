@@ -65,13 +65,13 @@ TEST_P(Search, SequenceNumbers) {
     EXPECT_TRUE(r.found) << row.n;
     EXPECT_EQ(r.offset, at(row.where)) << row.n;
     EXPECT_EQ(r.line, row.line) << row.n;
-    // What is found there is a block with that number.
+    // At the place that was found there is a block with that number.
     const Block* b = t.reader.read(file, r.offset, r.line);
     ASSERT_NE(b, nullptr);
     EXPECT_TRUE(b->has_n);
     EXPECT_EQ(b->n, row.n);
   }
-  // Not at the head of a block; in a comment; of another program.
+  // These numbers are not at the head of a block, in a comment, or in another program.
   for (uint32_t n : {20u, 70u, 5u, 0u, 1u}) EXPECT_FALSE(search(t, file, n, 0, 1).found) << n;
 }
 
@@ -81,7 +81,7 @@ TEST_P(Search, TheNextOneBelowWins) {  // M700 13.5.7 (Note 1)
   EXPECT_TRUE(below.found);
   EXPECT_EQ(below.offset, at("N10 X7"));
   EXPECT_FALSE(search(t, file, 10, at("X8;"), 8, 0, false).found);
-  // From the head to the block that asks.
+  // The search goes from the head to the block that asks.
   const Result above = search(t, file, 10, 0, 1, at("X8;"));
   EXPECT_EQ(above.offset, at("N10 G1"));
   EXPECT_FALSE(search(t, file, 80, 0, 1, at("X8;")).found);
@@ -90,7 +90,7 @@ TEST_P(Search, TheNextOneBelowWins) {  // M700 13.5.7 (Note 1)
 }
 
 TEST(SearchMemory, AJumpIsLookedForOnce) {
-  // The text changes behind the reader's back; only what is remembered does not show it.
+  // The text changes without the reader's knowledge; only remembered results do not show that.
   Texts t;
   const unsigned file = t.add_memory("a", "G1 X1\nN10 X2\nN11 X3\n");
   EXPECT_EQ(search(t, file, 10, 0, 1).offset, 6u);
@@ -208,7 +208,7 @@ TEST_P(Search, LoopEnds) {  // M700 13.5.7
   line = 5;
   EXPECT_EQ(end_of("WHILE[#3 EQ 1]DO2", 3, &line), static_cast<long>(text.find("\nEND1\n")) + 1);
   line = 9;
-  EXPECT_EQ(end_of("DO5", 4, &line), -1);  // they overlap
+  EXPECT_EQ(end_of("DO5", 4, &line), -1);  // the loops overlap
   line = 10;
   EXPECT_EQ(end_of("END4", 5, &line), -1);
   line = 12;
@@ -230,7 +230,7 @@ TEST_P(Search, LoopsTooDeep) {
   EXPECT_EQ(offset, text.size());
 }
 
-/// The scanner sees the same blocks and numbers as the lexer.
+/// The scanner finds the same blocks and numbers as the lexer.
 TEST_P(Search, AgreesWithTheLexer) {
   std::mt19937 random(5);
   const char alphabet[] = "NNNOGX0123456789 \n\n;%/()#\r,.";
@@ -246,7 +246,7 @@ TEST_P(Search, AgreesWithTheLexer) {
       const Block* b = t.reader.read(file, at, line);
       if (b->end_of_text || b->percent || b->has_o) break;
       if (b->has_fault && (b->fault.letter == 'O' || b->fault.letter == 'N' || b->fault.letter == '/')) {
-        wanted = 0;  // a head with a fault: what it is, is not worth telling
+        wanted = 0;  // a head with a fault is not compared further
         break;
       }
       if (b->has_n && b->n == wanted) {

@@ -83,7 +83,7 @@ TEST(ProgramStore, AsksTheHost) {
       [](void* user, nc_control*, const char* name) {
         Host& h = *static_cast<Host*>(user);
         h.asked += std::string(name) + " ";
-        if (std::string(name) == "O7") return true;  // says so, but adds nothing
+        if (std::string(name) == "O7") return true;  // claims that it has added the program, but has not
         if (std::string(name) != "O5" && std::string(name) != "TOOL.NC") return false;
         h.texts->add_memory(std::string("host/") + name, "G1\nM99\n");
         return true;

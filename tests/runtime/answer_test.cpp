@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has an answer finds in the snapshot what the command has done: answers go out behind the snapshot of their scan, and the feeder
-// looks at the newest snapshot in front of each of its own commands.
+// Whoever has the answer to a command finds its effect in the snapshot: answers are sent after the snapshot of their scan, and the feeder
+// looks at the newest snapshot before each of its own commands.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -21,7 +21,7 @@ using nc::rt::CommandKind;
 using nc::rt::Mode;
 using nc::rt::Snapshot;
 
-// Asked in the middle of the making of a snapshot, which readers do not have yet.
+// It is called while a snapshot is being made, which readers do not have yet.
 class LookingLadder final : public nc::rt::LadderHook {
  public:
   void list_forces(nc::rt::ForceList* list) const noexcept override {
@@ -31,14 +31,14 @@ class LookingLadder final : public nc::rt::LadderHook {
   std::function<void()> on_publish;
 };
 
-// Asked in the middle of a step of the feeder, behind its look at the snapshot and in front of its commands.
+// It is called in the middle of a step of the feeder, after its look at the snapshot and before its commands.
 class FedNc final : public nc::test::FakeNc {
  public:
   nc_status feed(std::uint32_t budget) override {
     if (on_feed) std::exchange(on_feed, nullptr)();
     return FakeNc::feed(budget);
   }
-  void shown(unsigned system, nc_axes* machine, nc_axes* work) override {  // behind the commands
+  void shown(unsigned system, nc_axes* machine, nc_axes* work) override {  // called after the commands
     if (on_shown) std::exchange(on_shown, nullptr)();
     FakeNc::shown(system, machine, work);
   }
@@ -141,7 +141,7 @@ TEST_F(AnswerTest, ACommandForTheFeederFindsWhatTheScanHasAnsweredDuringItsStep)
   EXPECT_EQ(nc.mdi, "G0 X1.\n");
 }
 
-// And the other way round: the scan starts what the feeder says is loaded.
+// The opposite direction: the scan can start what the feeder has reported as loaded.
 TEST_F(AnswerTest, WhatTheFeederHasAnsweredCanBeStarted) {
   for (const CommandKind kind : {CommandKind::kSelectProgram, CommandKind::kLoadMdi}) {
     const Mode mode = kind == CommandKind::kLoadMdi ? Mode::kMdi : Mode::kAuto;
@@ -174,7 +174,7 @@ TEST_F(AnswerTest, WhatTheFeederHasAnsweredCanBeStarted) {
   }
 }
 
-// A program that takes long to be found: who does not wait for it any more must not find it selected later.
+// A program takes long to be found, and its client does not wait any longer: the program must not be selected afterwards.
 TEST_F(AnswerTest, ACommandThatWasGivenUpDoesNothing) {
   bool given_up = false;
   feeder.set_program_loader([&](const std::string&, unsigned* file, std::string*) {

@@ -26,7 +26,7 @@ struct BadProgram {
   const char* text;
   const char* alarm;
   std::uint32_t line;
-  double x;  // where X rests
+  double x;  // position at which X rests, mm
 };
 std::ostream& operator<<(std::ostream& out, const BadProgram& p) {
   return out << p.name;
@@ -79,7 +79,7 @@ class Drive {
   }
   unsigned add(const char* name, const std::string& source) {
     unsigned file = 0;
-    const std::string& text = texts_.emplace_back(source);  // the control reads it where it stands
+    const std::string& text = texts_.emplace_back(source);  // the control reads the text here and copies nothing
     EXPECT_EQ(nc_program_add_text(runtime->control(), name, text.data(), text.size(), &file), NC_OK);
     return file;
   }
@@ -238,7 +238,7 @@ TEST(Reset, MacroOutputsSurviveIt) {
   EXPECT_EQ(value, 14711) << "read back";
 }
 
-// An alarm of the machine whose cause is gone: one reset, with the real NC behind it, and the next start
+// An alarm of the machine whose cause is gone: one reset is enough with the real NC, too, and the next start
 // works.
 TEST(Reset, OneIsEnoughAfterAnAlarmOfTheMachine) {
   for (const bool drive_fault : {true, false}) {
@@ -250,7 +250,7 @@ TEST(Reset, OneIsEnoughAfterAnAlarmOfTheMachine) {
     drive.start(file);
     drive.steps(100);
     if (drive_fault)
-      drive.machine().fail_drive(0, 1, true);  // Y stands: it has nowhere to catch up to
+      drive.machine().fail_drive(0, 1, true);  // Y stands, so that it has no distance to catch up
     else
       drive.machine().block_axis(0, 0, true);
     drive.steps(300);
@@ -269,7 +269,7 @@ TEST(Reset, OneIsEnoughAfterAnAlarmOfTheMachine) {
   }
 }
 
-// M700 13.5.5 and the plan: an output changes when the machine gets there, not when the text is read.
+// M700 13.5.5: an output changes when the machine reaches its block, not when the text is read.
 TEST(MacroOutput, IsWrittenWhenTheMachineGetsThere) {
   const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
   Drive drive(config);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion by hand begins with a press, and what refuses or stops it is said: buttons, wheels, clients, in every reason to refuse.
+// Motion by hand begins with a press, and the reason that refuses or stops it is reported: buttons, handwheels and clients with every reason.
 #include "ladder_machine.hpp"
 #include "runtime/refusal.hpp"
 
@@ -135,7 +135,7 @@ TEST_F(Hindrances, ARepeatedJogIsAnsweredWithTheReasonAndWaitsToBeLetGo) {
       repeat(10, Answer::kLetGoFirst);
       EXPECT_EQ(x(), there);
       if (moves) {
-        steps(nc::rt::kJogDeadManScans + 1);  // nothing for a while
+        steps(nc::rt::kJogDeadManScans + 1);  // the client repeats its jog no longer
       } else {
         ASSERT_EQ(ask(CommandKind::kJog, 0), Answer::kDone);
       }
@@ -201,7 +201,7 @@ TEST_F(Hindrances, AWheelThatIsTurnedInVainSaysSoOnce) {
   EXPECT_EQ(refusal().count, 3u);
 }
 
-// The pot of the jog feed at 0 refuses nothing.
+// A potentiometer that sets the jog feed to 0 is no reason to refuse.
 TEST_F(Hindrances, AJogFeedOfZeroIsWaitedFor) {
   use("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV word_in plc.jog_feed\nEND\n");
   build();

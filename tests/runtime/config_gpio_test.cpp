@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Configuration of GPIO: what is read, and that each mistake is named with its line and key.
+// The configuration of GPIO: what is read from it, and that each mistake is reported with its line and key.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ TEST_F(GpioConfig, EverythingThatCanBeSaidIsRead) {
   EXPECT_EQ(pump.stop_value, 0);
 }
 
-// What is indented at the head of the document is a configuration.
+// The indented text at the beginning of the document is a configuration.
 TEST_F(GpioConfig, TheExampleOfTheDocumentIsOne) {
   std::ifstream document(nc::test::kSourceDir + "/docs/gpio.md");
   std::string example;
@@ -103,7 +103,7 @@ TEST_F(GpioConfig, PointsThatAreRefusedTakeNoLine) {
 
 struct Mistake {
   const char* name;
-  std::string added;  // behind the configuration that is right
+  std::string added;  // appended to a correct configuration
   const char* key;
   const char* message;
   unsigned line;      // of the added text, from 1

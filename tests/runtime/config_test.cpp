@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration: what it reads, and that every error names file, line and key.
+// The configuration: what is read from it, and that every error names file, line and key.
 #include "runtime/config.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using nc::rt::Config;
 using nc::rt::ConfigError;
 
-// The base, one line changed or added, and what must be said about it.
+// The base configuration with one line changed or added, and the error that must be reported.
 struct Case {
   const char* name;
   const char* from;  // text of the base that is replaced; nullptr = `to` is appended
@@ -25,7 +25,7 @@ struct Case {
   const char* message;  // a part of it
 };
 
-// gtest prints this, not the bytes of the pointers.
+// So that gtest prints the name instead of the bytes of the pointers.
 std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.name;
 }
@@ -35,8 +35,8 @@ unsigned line_of(const std::string& text, std::size_t offset) {
                  std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(offset), '\n'));
 }
 
-// Where an error about the text at `place` may point: at the text itself, or, for what is missing there, at
-// the head of its table; what is wrong with all axes together is said at the first.
+// The first line at which an error about the text at `place` may be reported: that of the text itself; for a missing key
+// that of the head of its table; for a mistake of all axes together that of the first axis.
 unsigned first_line(const std::string& text, std::size_t place, const Case& c) {
   if (std::string(c.key) == "axis") return line_of(text, text.find("[[axis]]"));
   if (std::string(c.message) == "is missing") place = text.rfind("\n[", place) + 1;
@@ -84,7 +84,7 @@ TEST_P(ConfigErrors, NameFileLineAndKey) {
 #define NC_BIT(direction, modbus) NC_LINK NC_POINT("p", "bit", direction, modbus)
 #define NC_WORD(direction, modbus) NC_LINK NC_POINT("p", "word", direction, modbus)
 
-// A point that is refused leaves no place behind on its link: whoever has the same address collides with nobody.
+// A point that is refused occupies no address on its link: another point with the same address collides with nothing.
 TEST(ModbusConfig, PointsThatAreRefusedTakeNoAddress) {
   const std::string same = "link = \"io\", table = \"coil\", address = 7";
   const auto point = [&](const std::string& name) {
@@ -194,7 +194,7 @@ const Case kCases[] = {
     {"solid_axis", nullptr, "\n[[sim.solid]]\nW = [1, 2]\n", "sim.solid[1].W", "unknown key"},
     {"solid_empty", nullptr, "\n[[sim.solid]]\n", "sim.solid[1]", "at least one axis"},
     {"script", "m_time_s = 0.004", "script = [\n\"when line 1: out0 = 1\"]", "sim.script", "is an output"},
-    // [[modbus]] and the modbus table of a point; the base has 5 points, "<link>.ok" is not one of the file's.
+    // [[modbus]] and the modbus table of a point; the base has 5 points, "<link>.ok" is not in the file.
     {"modbus_name_missing", nullptr, "\n[[modbus]]\nhost = \"h\"\n", "modbus[1].name", "is missing"},
     {"modbus_host_missing", nullptr, "\n[[modbus]]\nname = \"io\"\n", "modbus[1].host", "is missing"},
     {"modbus_host_and_device", nullptr, "\n[[modbus]]\nname = \"io\"\nhost = \"h\"\ndevice = \"/dev/ttyS1\"\n", "modbus[1].host", "either a host or a device"},
@@ -506,7 +506,7 @@ X = [1.0, 2.0]
 }
 
 TEST(Config, EveryInterfaceNumberHasItsPlace) {
-  // M700 13.5.5: the bit of each number, laid out again from the manual's table.
+  // M700 13.5.5: the bit of each number, computed here once more from the manual's table.
   for (unsigned number = 1000; number < 1400; ++number) {
     int word = -1, bit = -1;
     bool output = false;
@@ -554,7 +554,7 @@ TEST(Config, ADialectWithoutVariablesHasNoMacroInterface) {
   EXPECT_EQ(errors[0].message, "is not possible: this dialect has no macro interface");
 }
 
-// What the file asks of the computer is looked at where it is used, not where it is read.
+// Whether the computer has what the file asks for is checked on the computer that uses it, not when the file is read.
 TEST(Config, ProcessorAndFolderMustBeThere) {
   Config config;
   const std::string text = nc::test::base_toml() + "[scheduling]\ncpu = 999\n";
@@ -576,7 +576,7 @@ TEST(Config, ProcessorAndFolderMustBeThere) {
   config.programs = ".";
   config.scheduling.cpu = 0;
   EXPECT_TRUE(nc::rt::check_host(config).empty());
-  config.file = "m.toml";  // in the folder from which it is called
+  config.file = "m.toml";  // in the current folder
   EXPECT_TRUE(nc::rt::check_host(config).empty());
 }
 
@@ -670,7 +670,7 @@ TEST(Config, TheOptimalModeNeedsTheJerkOfEveryAxis) {
   EXPECT_NE(errors.front().text().find("motion.mode"), std::string::npos) << errors.front().text();
 }
 
-// A machine that names no law moves by the time-optimal one where every axis has what that needs, and who checks it hears why.
+// A machine whose configuration names no law moves by the time-optimal one if every axis has the limits for it, and a check tells why it does.
 TEST(Config, AMachineThatNamesNoLawIsOptimalWhereEveryAxisHasAllLimits) {
   const auto text_of = [](const Config& config) { return nc::rt::motion_text(config.nc, config.motion_given); };
   const Config all = nc::test::parse_or_fail(nc::test::base_toml());

@@ -54,7 +54,7 @@ TEST(StateText, SaysWhyNothingMoves) {
   out.m = 6;
   out.t = 12;
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M06 T12");
-  out.strobe = 0;  // FIN1 is on and has to fall
+  out.strobe = 0;  // FIN1 is still on and has to go off
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN of M T to go off");
   out.fin_wait = 0;
   EXPECT_EQ(nc::rt::state_text(out), "waits for FIN to go off");

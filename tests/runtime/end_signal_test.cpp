@@ -8,7 +8,7 @@ namespace {
 
 using nc::rt::end_signal;
 
-// Puts back what the test program had.
+// Restores the signal handlers that the test program had.
 class EndSignal : public testing::Test {
  protected:
   void TearDown() override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that can be wrong with a FIN: alarm R15 says what, and names what it holds up.
+// Everything that can be wrong with a FIN: alarm R15 says what it is, and names the function that waits.
 #include "ladder_machine.hpp"
 #include "runtime/console.hpp"
 
@@ -70,7 +70,7 @@ TEST_F(FinFaults, OnBeforeTheStrobe) {
   expect_alarm("R15 FIN1 was on before the strobe: M waits until it has been off (line 2)");
 }
 
-// FIN2 completes M8 as it rises, and is still on when the strobe of T5 should rise.
+// FIN2 completes M8 at its rising edge, and is still on when the strobe of T5 should come.
 TEST_F(FinFaults, Fin2StaysOnForTheNextOne) {
   wire();
   start("M8\nT5\nM30\n");
@@ -79,7 +79,7 @@ TEST_F(FinFaults, Fin2StaysOnForTheNextOne) {
   expect_alarm("R15 FIN2 was on before the strobe: T waits until it has been off (line 2)");
 }
 
-// A strobe that rises on the fly finds a FIN that is on: stale until it has been off.
+// A strobe that comes during a motion finds FIN on: this FIN is stale, and does not count until it has been off.
 TEST_F(FinFaults, StaleInMotion) {
   wire();
   build();
@@ -90,7 +90,7 @@ TEST_F(FinFaults, StaleInMotion) {
                std::string(out().strobe != 0 ? "50" : "") + " waits until it has been off (line 1)");
 }
 
-// It counts again as soon as it has been off.
+// A stale FIN counts again as soon as it has been off.
 TEST_F(FinFaults, AStaleOneCountsWhenItHasBeenOff) {
   wire();
   build();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forced devices of the ladder: what they hold against, what is refused, and when they end.
+// Forced devices of the ladder: what they prevail over, what is refused, and when they end.
 #include "ladder_machine.hpp"
 
 namespace {
@@ -42,7 +42,7 @@ TEST_F(Force, AnOutputIsHeldAgainstTheProgramAndTheNc) {
   ASSERT_EQ(force("out0", 1), Answer::kDone);
   steps(2);
   EXPECT_EQ(output("out0"), 1u);
-  start("#1100=1\n#1100=0\nG4 X0.02\nM30\n");  // the program of the machine says 0, the NC says 0
+  start("#1100=1\n#1100=0\nG4 X0.02\nM30\n");  // both the ladder program and the NC set it to 0
   for (int n = 0; n < 200; ++n) {
     runtime->step();
     ASSERT_EQ(output("out0"), 1u) << "in every single scan";
@@ -101,7 +101,7 @@ TEST_F(Force, NoInstructionOverrulesItWithinTheScan) {
       {"LD SM400\nMOV K0 K4M0\n", "K4M0"}, {"LD SM412\nFF M1\n", "FF"}, {"LD SM401\nMC N0 M1\nMCR N0\n", "MC"},
       {"FOR K2\nLD SM401\nOUT M1\nNEXT\n", "in a loop"}, {"LD SM400\nMPS\nANI SM400\nOUT M1\nMPP\nANI SM400\nOUT M1\n", "branches"}};
   std::string ladder = "LD SM400\nRST M200\n";
-  for (const auto& [text, name] : kBits) ladder += std::string(text) + "LDI M1\nSET M200\n";  // M200: a contact has read something else
+  for (const auto& [text, name] : kBits) ladder += std::string(text) + "LDI M1\nSET M200\n";  // M200 is set if a contact reads another value than the forced one
   const char* const kWords[] = {"MOV K5 D1", "INC D1", "RST D1", "FMOV K3 D0 K4", "BMOV D100 D0 K4", "DMOV K-1 D0", "* K3 K3 D0", "+ K1 D1", "ZRST D0 D9", "XCH D50 D1",
                                 "BSET D1 K0", "ROL D1 K1"};
   for (const char* text : kWords) ladder += "LD SM400\n" + std::string(text) + "\nLD<> D1 K77\nSET M200\n";
@@ -112,7 +112,7 @@ TEST_F(Force, NoInstructionOverrulesItWithinTheScan) {
   ASSERT_EQ(force("D1", 77), Answer::kDone);
   ASSERT_EQ(force("T3", 1), Answer::kDone);
   steps(2);
-  for (int n = 0; n < 2500; ++n) {  // and over an edge of SM412
+  for (int n = 0; n < 2500; ++n) {  // long enough for an edge of SM412
     steps(1);
     ASSERT_EQ(device("M200"), 0) << n;
     ASSERT_EQ(device("D1"), 77);

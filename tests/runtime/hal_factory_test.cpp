@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each kind of machine and of point bus is a row: it is read by its name and made from the least that its section may say.
+// Each kind of machine and of point bus is a row of a table: it is found by its name, and made from the shortest section that is allowed.
 #include "runtime/hal_factory.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ using nc::rt::PointBusConfig;
 using nc::rt::PointBusKind;
 using nc::rt::TableReader;
 
-// The least that a configuration with one bus of each kind says. A new row needs its own here.
+// The shortest configuration of one bus of each kind. A new row of the table needs its own here.
 const std::map<std::string_view, std::string> kLeastBus = {
     {"modbus",
      "[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\n"
@@ -33,7 +33,7 @@ const std::map<std::string_view, std::string> kLeastBus = {
      "[[point]]\nname = \"valve\"\ndirection = \"output\"\ngpio = { bank = \"board\", line = \"VALVE\" }\n"},
 };
 
-// What a machine needs beside its name.
+// The shortest configuration of each kind of machine, without its name.
 const std::map<std::string_view, std::string> kLeastMachine = {
     {"sim", ""},
     {"canopen",
@@ -131,7 +131,7 @@ constexpr PointBusKind kBuses[] = {
     {.name = "lines", .needs = "liblines", .read = nullptr, .read_point = nullptr, .check = nullptr, .resources = nullptr, .make = nullptr, .on_virtual_time = ""},
 };
 
-// What `read` says of one table.
+// The errors that `read` reports about one table.
 template <class Read>
 std::string said(const std::string& toml, Read read) {
   ErrorList errors("machine.toml");

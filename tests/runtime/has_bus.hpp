@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which kinds of bus this build has: tests of one that needs a library are skipped without it.
+// Whether this build has a kind of bus: if the library for it was missing, its tests are skipped.
 #pragma once
 
 #include <gtest/gtest.h>

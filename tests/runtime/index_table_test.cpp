@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Index tables on a machine (M700 9.3): the clamp of the simulated one, the signals between NC and ladder, and what alarm R15 says.
+// Index tables on a machine (M700 9.3): the simulated clamp, the signals between NC and ladder, and the text of alarm R15.
 #include "ladder_machine.hpp"
 #include "runtime/console.hpp"
 
@@ -25,7 +25,7 @@ clamp_s = 0.2
 
 class IndexTables : public nc::test::OwnLadder {
  protected:
-  // A ladder program of the test, or none; `more` is TOML.
+  // With this ladder program, or with none; `more` is TOML that is appended to the configuration.
   void wire(const std::string& ladder, const std::string& more = {}) {
     if (!ladder.empty()) use(ladder);
     config = nc::test::parse_or_fail(nc::test::base_toml() + kTable + more +
@@ -44,7 +44,7 @@ class IndexTables : public nc::test::OwnLadder {
   }
 };
 
-// in0 answers, with FIN at once.
+// FIN answers at once; in0 is the answer "unclamped".
 const char* const kLadder = "LD nc.m_strobe\nOUT plc.fin1\nLD nc.unclamp.B\nOUT out0\nLD in0\nOUT plc.unclamped.B\nEND\n";
 
 TEST_F(IndexTables, TheSimulatedClampTakesItsTimes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What comes between a program and its end: manual motion in a block stop, and drives that were off. The
-// machine goes on from where it really is, every axis within its limits in every scan.
+// Interruptions of a program: manual motion in a block stop, and drives that were off. The machine must continue from
+// where it really is, with every axis within its limits in every scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using nc::rt::Command;
 using nc::rt::CommandKind;
 using nc::rt::Mode;
 
-// The watched machine, and what a drive has to catch up when it comes on.
+// The watched machine; it also measures the distance that an axis has to catch up when its drive comes on.
 class DriveWatch final : public nc::hal::Hal {
  public:
   DriveWatch(const nc::rt::Config& config, nc::test::Recording* recording)
@@ -50,7 +50,7 @@ class DriveWatch final : public nc::hal::Hal {
   nc::test::WatchedMachine machine;
   bool enabled = true, watch_limits = true;
   unsigned enables = 0;
-  double catch_up = 0;  // largest, mm
+  double catch_up = 0;  // the largest such distance, mm
 
  private:
   unsigned axes_;
@@ -67,14 +67,14 @@ class InterventionTest : public testing::Test {
     std::string error;
     ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   }
-  // Stops on the path itself are looked at to 1e-9: the law that rounds no corner.
+  // These tests look at stops on the path to 1e-9 mm, so they use the law that rounds no corner.
   void build() { build(nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"trapezoid\"\n")); }
   void TearDown() override {
     runtime.reset();
     for (const std::string& violation : recording.violations) ADD_FAILURE() << violation;
   }
   void start(const std::string& source) {
-    const std::string& text = texts.emplace_back(source);  // the control reads it where it stands
+    const std::string& text = texts.emplace_back(source);  // the control reads the text here and copies nothing
     unsigned file = 0;
     ASSERT_EQ(nc_program_add_text(runtime->control(), "a.nc", text.data(), text.size(), &file), NC_OK);
     ASSERT_EQ(runtime->select_program(file), Answer::kDone);
@@ -93,7 +93,7 @@ class InterventionTest : public testing::Test {
     for (unsigned i = 0; i < limit && out().state != state; ++i) runtime->step();
     return out().state == state;
   }
-  // Cycle start, then the next stop, which must be in this line.
+  // Presses cycle start and waits for the next stop, which must be in this line.
   bool next_stop_in(std::uint32_t line) {
     const std::uint64_t serial = out().serial;
     press();
@@ -111,7 +111,7 @@ class InterventionTest : public testing::Test {
     }
     return runtime->info().system[0].runs == runs + 1;
   }
-  // A jog of one axis until it stands again.
+  // Jogs one axis, and waits until it stands again.
   void jog(unsigned axis, double velocity, unsigned scans) {
     Command command;
     command.kind = CommandKind::kJog;
@@ -126,9 +126,9 @@ class InterventionTest : public testing::Test {
     steps(400);
     ASSERT_TRUE(out().distance_zero);
   }
-  // The whole intervention of an operator in a block stop.
+  // All that an operator does to jog an axis in a block stop.
   void jog_in_stop(unsigned axis, double velocity, unsigned scans = 150) {
-    steps(2);  // in the scan of the stop the axes have moved
+    steps(2);  // in the scan of the stop itself the axes have still moved
     ASSERT_EQ(set_mode(Mode::kManual), Answer::kDone);
     jog(axis, velocity, scans);
     ASSERT_EQ(set_mode(Mode::kAuto), Answer::kDone);
@@ -342,7 +342,7 @@ TEST_F(InterventionTest, BetweenTheStepsOfACycleManualIsRefused) {
   EXPECT_TRUE(to_end()) << alarms();
 }
 
-// M700 13.3.1: a call with other words stops, once: with or without a motion of its own, jogged away or not.
+// M700 13.3.1: a block that calls and has other words stops once, whether it has a motion or not, and whether an axis is jogged there or not.
 TEST_F(InterventionTest, ACallBlockStopsOnce) {
   for (const bool moves : {false, true}) {
     for (const bool jogged : {false, true}) {
@@ -420,7 +420,7 @@ TEST(Intervention, InThreads) {
   for (unsigned press = 0; press < 40 && runtime->info().system[0].runs == 0; ++press) {
     const nc_outputs before = runtime->snapshot().system[0].nc;
     ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
-    // The start acts when the feeder has read again behind what was moved by hand; then through RUNNING to the next stop.
+    // After motion by hand the start acts only when the feeder has read the rest again; then wait through RUNNING for the next stop.
     wait([&](const nc_outputs& out) { return out.state != before.state || out.serial != before.serial || out.blocks != before.blocks; });
     wait([](const nc_outputs& out) { return out.state != NC_STATE_RUNNING && out.distance_zero; });
     if (runtime->snapshot().system[0].nc.state != NC_STATE_STOPPED) break;
@@ -456,8 +456,8 @@ class DrivesOffTest : public InterventionTest, public testing::WithParamInterfac
   AlarmId cause() const { return bus() ? AlarmId::kHalLost : AlarmId::kDriveFault; }
 };
 
-// In the middle of a move: the command brakes on its path, the axes coast somewhere else. After the reset
-// nothing jumps, and the next program runs from where the axes are.
+// The drives go off in the middle of a move: the command brakes on its path, but the axes coast to another place. After
+// the reset nothing jumps, and the next program starts from where the axes are.
 TEST_P(DrivesOffTest, TheCommandFollowsTheAxesBeforeTheDrivesComeOnAgain) {
   nc::rt::Config wanted = nc::test::parse_or_fail(nc::test::base_toml());
   for (unsigned a = 0; a < 3; ++a) wanted.sim.axis[0][a].following_error_limit = 2.0;
@@ -514,7 +514,7 @@ TEST_P(DrivesOffTest, ResetWaitsUntilTheAxesStand) {
   EXPECT_EQ(runtime->snapshot().alarms.count, 0u) << alarms();
 }
 
-// Pushed beyond a soft limit while the drive is off: no alarm for where it is, and it may come back.
+// An axis that is pushed beyond a soft limit while its drive is off is no alarm, and may come back.
 TEST_P(DrivesOffTest, CoastingBeyondASoftLimitIsNoAlarm) {
   nc::rt::Config wanted = nc::test::parse_or_fail(nc::test::base_toml());
   wanted.sim.axis[0][0].coast_s = 0.5;
@@ -536,7 +536,7 @@ TEST_P(DrivesOffTest, CoastingBeyondASoftLimitIsNoAlarm) {
   start("G90 G0 X490.\nM30\n");
   EXPECT_TRUE(to_end()) << alarms();
   expect_at(490, 0, 0);
-  recording.violations.clear();  // the start outside of the soft limits is what this is about
+  recording.violations.clear();  // this test starts outside the soft limits on purpose
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, DrivesOffTest, testing::Bool(),

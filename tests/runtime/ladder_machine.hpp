@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped machine with its ladder program, and a small one with a program of the test's own, on virtual time.
+// The shipped machine with its ladder program, and a small machine with a ladder program of the test, on virtual time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ class LadderMachine : public testing::Test {
     const bool output = config.points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kOutput;
     return output ? machine->outputs().value[index] : machine->input(static_cast<unsigned>(index));
   }
-  // Steps until `done`; scans taken, or -1 after two minutes of the machine.
+  // Steps until `done` returns true; returns the number of scans, or -1 after `most` of them (two minutes of the machine).
   template <class Done>
   int until(Done done, int most = 120000) {
     for (int n = 0; n < most; ++n) {
@@ -90,7 +90,7 @@ class OwnLadder : public LadderMachine {
   void TearDown() override {
     if (!path_.empty()) std::remove(path_.c_str());
   }
-  // An input point of the machine.
+  // Sets an input point of the machine.
   void in(const char* name, std::uint32_t value) {
     machine->set_input(static_cast<unsigned>(config.points.find(name)), value);
   }

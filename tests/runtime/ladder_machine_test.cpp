@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped machine with its shipped ladder program: the handshake of M, S, T and B, the spindle and the tool
-// changer with their times, and everything that can go wrong in it.
+// changer with their times, and everything that can go wrong with them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -72,7 +72,7 @@ TEST_F(LadderMachine, ACompletionThatDoesNotComeIsAnAlarmThatNamesIt) {
   EXPECT_EQ(point("tool_in_spindle"), 1u);
 }
 
-// The late answer of an interrupted tool change completes nothing of the next program.
+// The late answer of an interrupted tool change must not complete a function of the next program.
 TEST_F(LadderMachine, ResetInTheMiddleOfAToolChangeLeavesTheHandshakeClean) {
   start("T2 M6\nG4 X1.\nM30\n");
   ASSERT_GT(until([&] { return point("atc_change") == 1; }), 0);
@@ -111,7 +111,7 @@ TEST_F(LadderMachine, HoldDuringTheWaitDoesNotLoseTheCompletion) {
 
 // ---- a ladder program of the test's own ----
 
-// docs/ladder.md says what it does.
+// The first example runs as docs/ladder.md says.
 TEST_F(OwnLadder, TheFirstExampleOfTheDocumentRuns) {
   std::ifstream file(nc::test::kSourceDir + "/docs/ladder.md");
   std::ostringstream text;

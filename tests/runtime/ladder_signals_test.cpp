@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the ladder can ask of the NC beside the handshake, and what it sees of it: each signal in a program of the
-// machine, on the machine.
+// What the ladder can ask of the NC beside the handshake, and what it sees of the NC: each signal in a ladder program on
+// the machine.
 #include <algorithm>
 
 #include "ladder_machine.hpp"
@@ -63,7 +63,7 @@ TEST_F(LadderSignals, OptionalBlockSkips) {
   start("#109=1\n/9 #109=2\nM30\n");
   ASSERT_GE(until_end(), 0);
   EXPECT_EQ(variable(109), 1);
-  // Those of the operator count beside them.
+  // The operator's switches count as well.
   ASSERT_EQ(runtime->execute(CommandKind::kSwitches, 0, 1u << 3), Answer::kDone);
   start("#103=1 #101=1\n/3 #103=2\n/#101=2\nM30\n");
   ASSERT_GE(until_end(), 0);
@@ -71,7 +71,7 @@ TEST_F(LadderSignals, OptionalBlockSkips) {
   EXPECT_EQ(variable(101), 1);
 }
 
-// M700 13.6: by signal, about where the axis stands at the start.
+// M700 13.6: mirror image by signal, about the place at which the axis stands at the start.
 TEST_F(LadderSignals, MirrorImage) {
   run("LD in0\nOUT plc.mirror.X\n");
   in("in0", 1);
@@ -98,7 +98,7 @@ TEST_F(LadderSignals, RapidOverride) {
   EXPECT_NEAR(top, 0.25 * 200 * 60, 1);
 }
 
-// A potentiometer whose zero is a little off must not be full speed at its end.
+// A potentiometer whose zero is slightly negative must not mean full speed at that end.
 TEST_F(LadderSignals, AnOverrideBelowZeroIsNoneAndMinusOneIsTheOperators) {
   run("LD SM400\nMOV D0 plc.feed_override\nMOV D0 plc.rapid_override\nLD in0\nMOV K-1 D0\nLDI in0\nMOV K-2 D0\n");
   steps(3);
@@ -150,7 +150,7 @@ TEST_F(LadderSignals, JogButtons) {
   in("in1", 0);
   steps(300);
   EXPECT_EQ(out().velocity.v[0], 0);
-  // Faster than the axis can is as fast as it can; and a soft limit holds.
+  // A jog feed above the maximum is limited to it, and the soft limit stops the axis.
   in("word_in", 2000000000);
   in("in0", 1);
   double top = 0;
@@ -163,8 +163,8 @@ TEST_F(LadderSignals, JogButtons) {
   EXPECT_EQ(alarm(), "");
 }
 
-// A service manager ends the control while a button is stuck: the axis comes to rest at once and stays there, and neither the
-// reset nor a start button brings anything back.
+// A service manager ends the control while a button is stuck: the axis comes to rest at once and stays there, and neither a
+// reset nor a start button moves it again.
 TEST_F(LadderSignals, AControlThatEndsMovesNothingWhateverTheLadderAsksFor) {
   run("LD in0\nOUT plc.jog_p.X\nOUT plc.reference.Y\nLD SM400\nDMOV K6000 plc.jog_feed\nLD in1\nOUT plc.cycle_start\n");
   manual();
@@ -220,7 +220,7 @@ TEST_F(LadderSignals, AStartThatIsRefusedSaysWhy) {
   EXPECT_EQ(refusal().why, nc::rt::Answer::kNotInThisMode);
   EXPECT_EQ(refusal().count, 2u);
   EXPECT_EQ(nc::rt::refusal_text(config, 0, refusal()), "cycle start refused: not in this mode");
-  // What has happened since is not refused any more.
+  // Now the reason to refuse is gone.
   ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kMdi)), Answer::kDone);
   ASSERT_EQ(runtime->load_mdi("G4 X0.5\n"), Answer::kDone);
   press();
@@ -266,7 +266,7 @@ TEST_F(LadderSignals, WhileResetIsHeldNothingStarts) {
   EXPECT_GT(x(), stood);
 }
 
-// Both in one scan: the reset is the one that counts.
+// A start and a reset come in one scan: the reset counts.
 TEST_F(LadderSignals, AStartInTheScanOfAResetDoesNotMove) {
   run("LD in0\nOUT plc.reset\nLDI in0\nOUT plc.cycle_start\n");
   load("G0 X100.\nM30\n");
@@ -386,7 +386,7 @@ TEST_F(LadderSignals, AJogInInterlockOrHoldOrBesideAProgramSaysWhy) {
   EXPECT_EQ(text(), "jog X refused: not in this mode") << "it was the program that moved";
 }
 
-// Nothing begins by itself when they end.
+// Nothing begins by itself when the interlock ends.
 TEST_F(LadderSignals, AReferenceReturnInInterlockIsRefusedAndOneOnItsWaySaysThatItStands) {
   run("LD in0\nOUT plc.reference.X\nLDI in1\nOUT plc.interlock_n\n");
   const auto text = [this] { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); };
@@ -426,7 +426,7 @@ TEST_F(LadderSignals, AReferenceReturnInInterlockIsRefusedAndOneOnItsWaySaysThat
   ASSERT_GT(until([&] { return x() == 0; }, 20000), 0);
 }
 
-// Each reason once, however long the button is held.
+// Each reason is reported once, however long the button is held.
 TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
   run("LD in0\nOUT plc.jog_p.X\nLD SM400\nDMOV word_in plc.jog_feed\nLD in1\nOUT plc.alarm.2\n");
   const auto refusal = [this] { return runtime->snapshot().system[0].refusal; };
@@ -455,7 +455,7 @@ TEST_F(LadderSignals, AJogThatDoesNotBeginOrEndsByItselfSaysWhy) {
   EXPECT_EQ(text(), "jog X refused: the axis stands at its soft limit");
   EXPECT_EQ(refusal().count, 4u);
   hold(0, 5);
-  // A client's jog the other way, and an alarm in its middle; then one that is not repeated.
+  // A client's jog in the other direction, with an alarm in its middle; then a jog that is not repeated.
   nc::rt::Command jog;
   jog.kind = CommandKind::kJog;
   jog.value = -20;
@@ -504,7 +504,7 @@ TEST_F(LadderSignals, HandleAndReference) {
   EXPECT_EQ(device("M1"), 1);
 }
 
-// M700 4.2: what stands in the look-ahead was read with the old switch.
+// M700 4.2: blocks in the look-ahead were read with the old state of the switch.
 TEST_F(LadderSignals, RecalculationReadsAgain) {
   run("LD in0\nOUT plc.block_skip.1\nLD in1\nOUT plc.recalculate\n");
   ASSERT_EQ(runtime->execute(CommandKind::kSingleBlock, 0, 1), Answer::kDone);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes a machine, and that one lock at a time has it.
+// The resources of which a machine consists, and that only one lock at a time has them.
 #include "runtime/machine_lock.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class Folder : public testing::Test {
     folder_ = name;
   }
   void TearDown() override { fs::remove_all(folder_); }
-  // A configuration of its own, with a Modbus link to a unit where a host is named.
+  // Writes a configuration; if a host is named it has a Modbus link to that unit.
   std::string write(const std::string& name, const std::string& host = "", unsigned unit = 1, const char* direction = "output") {
     std::string text = nc::test::base_toml();
     if (!host.empty())
@@ -51,7 +51,7 @@ class Folder : public testing::Test {
   fs::path folder_;
 };
 
-// Inputs, too: the kernel gives a line to one owner.
+// This is true for inputs, too: the kernel gives a line to one owner only.
 TEST_F(Folder, EachLineOfAChipBelongsToOneControl) {
   if (!nc::test::has_bus("gpio")) GTEST_SKIP() << "built without libgpiod";
   const auto with_line = [&](const std::string& name, const std::string& chip, const std::string& line) {
@@ -85,7 +85,7 @@ TEST_F(Folder, OneFileIsOneMachineUnderEveryName) {
   EXPECT_TRUE(can_run_beside(load(path), load(other), &error)) << error;
 }
 
-// An editor that writes a new file under the old name does not make a second machine of it.
+// A new file under the old name, as an editor may write it, is still the same machine.
 TEST_F(Folder, AFileThatWasReplacedIsTheSameMachine) {
   const std::string path = write("a.toml");
   const Config before = load(path);
@@ -116,13 +116,13 @@ TEST_F(Folder, OneFileOfRetainedDataIsOneMachine) {
   std::string error;
   EXPECT_FALSE(can_run_beside(one, other, &error));
   EXPECT_NE(error.find("retained data"), std::string::npos) << error;
-  // On virtual time they are left alone.
+  // A control on virtual time does not use the devices, so it does not lock them.
   MachineLock first, second;
   EXPECT_TRUE(first.take(machine_resources(one, true), &error)) << error;
   EXPECT_TRUE(second.take(machine_resources(other, false), &error)) << error;
 }
 
-// Whoever is refused gives back what he had already taken.
+// A lock that is refused gives back the resources that it had already taken.
 TEST_F(Folder, AllOrNothing) {
   const std::vector<MachineResource> common = {{"test " + folder_.string() + " 2", "two"}};
   std::vector<MachineResource> more = {{"test " + folder_.string() + " 1", "one"}, common[0]};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The macro interface image: bits and words are one, outputs are written only when the NC gives them.
+// The image of the macro interface: bits and words are one memory, and outputs are written only when the NC changes them.
 #include "runtime/macro_interface.hpp"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(MacroInterface, PartSystemsShareOneImage) {
 
 TEST(MacroInterface, OutputsBeginWithTheirPointsAndWithWhatTheBusFinds) {
   PointImage points;
-  points.value[101] = 1;  // `initial` of the point
+  points.value[101] = 1;  // the `initial` value of the point
   nc::rt::MacroInterface macro(map_all(), points);
   EXPECT_EQ(macro.output()[0], 2u);
   std::uint32_t found[NC_WORDS];
@@ -91,7 +91,7 @@ TEST(MacroInterface, OutputsBeginWithTheirPointsAndWithWhatTheBusFinds) {
   EXPECT_FALSE(macro.take_over(points, found)) << "once";
   EXPECT_EQ(macro.output()[0], 3u);
   EXPECT_EQ(macro.output()[3], 0xABCD0000u);
-  points.value[102] = 1;  // the ladder's, in the middle of the scan
+  points.value[102] = 1;  // written by the ladder, in the middle of the scan
   macro.leave(points);
   EXPECT_FALSE(macro.take_over(points, found));
   const std::uint32_t off[NC_WORDS] = {}, written[NC_WORDS] = {1, 0, 0, 0};
@@ -100,7 +100,7 @@ TEST(MacroInterface, OutputsBeginWithTheirPointsAndWithWhatTheBusFinds) {
   EXPECT_EQ(points.value[101], 1u);
 }
 
-// A machine whose output `out0` (#1100) is found closed, as a bus finds it that reads it back.
+// A machine whose output `out0` (#1100) is on at the start, as a bus finds it that reads outputs back.
 class ClosedMachine final : public nc::hal::Hal {
  public:
   explicit ClosedMachine(const nc::rt::Config& config)
@@ -171,7 +171,7 @@ TEST_F(FoundOutput, AProgramReadsItAndOpensIt) {
   EXPECT_EQ(variable(101), 0) << "what the program has left, not what was found once";
 }
 
-// What lies ready has read ahead before the partner answered.
+// A program that was selected before has been read ahead before the partner answered.
 TEST_F(FoundOutput, WhatIsSelectedBeforeReadsItAllTheSame) {
   build(100);
   unsigned file = 0;

@@ -10,7 +10,7 @@ trap 'rm -rf "$work"' EXIT
 failures=0
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-# expect STATUS COMMAND...: runs it, keeps its output in $work/out and $work/err.
+# expect STATUS COMMAND...: runs the command, whose output is then in $work/out and $work/err.
 expect() {
   local wanted=$1; shift
   "$@" >"$work/out" 2>"$work/err"
@@ -19,14 +19,14 @@ expect() {
 }
 said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
 
-# A machine is run by one process at a time: this test has its own.
+# Only one process at a time may run a machine, so this test has its own.
 mkdir "$work/own"
 cp -r "$source/etc" "$source/examples" "$work/own"
 machine=$work/own/etc/machine.toml
 expect 0 "$ncrtd" --config "$machine" check
 said out "no errors"
 said out "motion: optimal, as it is configured; look_ahead 4096"
-# The file before the command or behind it, under either name.
+# The option for the file may stand before or after the command, and has two names.
 expect 0 "$ncrtd" check --config "$machine"
 expect 0 "$ncrtd" check --machine "$machine"
 expect 0 "$ncrtd" --machine "$machine" check
@@ -35,20 +35,20 @@ expect 0 "$ncrtd" run --fast --no-progress "$source/examples/parts/flange.nc" --
 expect 0 "$ncrtd" --version
 said out "ncrtd $(sed -n 's/^project(libnc VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" check
-# Warnings of the ladder program are told, and are no errors.
+# Warnings of the ladder program are printed, and are no errors.
 { sed '/^END$/d' "$source/etc/mill.il"; printf 'LD M0\nOUT plc.fin1\nEND\n'; } >"$work/mill.il"
 sed "s#^programs = .*#programs = \"$work\"#" "$machine" >"$work/twice.toml"
 expect 0 "$ncrtd" --config "$work/twice.toml" check
 said err "OUT plc.fin1: the same coil as in line"
 rm "$work/mill.il"
 
-# So is a parameter that nothing asks for.
+# The same is true for a parameter for which nothing asks.
 cp "$source"/etc/mill.il "$work/mill.il"
 sed "s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"8011\" = 1#" "$machine" >"$work/unused.toml"
 expect 0 "$ncrtd" --config "$work/unused.toml" check
 said err "nothing in the control asks for this parameter"
 [ "$(grep -c "nothing in the control" "$work/err")" = 1 ] || fail "parameters that the control asks for are warned of"
-# And a time constant that makes an axis slower than it could be.
+# And for a time constant that makes an axis slower than it could be.
 sed "s#^mode = .*#mode = \"trapezoid\"#; s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"2007\" = 60#" "$machine" >"$work/slow.toml"
 expect 0 "$ncrtd" --config "$work/slow.toml" check
 said err "parameters: X: #2007 #2008 let cuts go at 9000 mm/min, the axis could go at 30000"
@@ -108,7 +108,7 @@ printf 'M198 P79\nPOPEN\n#1=0\nWHILE [#1 LT 200] DO1\nG0 X-[#1/100]\nDPRNT[N#1[3
 expect 0 "$ncrtd" --config "$work/print.toml" run --fast --no-progress "$work/main.nc"
 { echo %; for n in $(seq 0 199); do echo "N$n*V7"; done; echo %; } >"$work/expected"
 cmp "$work/expected" "$work/printed" || fail "what was printed is not what the program prints"
-# Everything that was printed is there when the program ends at once behind it, by M30 or by an alarm, and a full disk is said.
+# All printed lines are in the file even if the program ends directly after them, by M30 or by an alarm; a full disk is reported.
 for ending in M30 '#3000=1(STOP)'; do
   rm -f "$work/printed"
   printf 'POPEN\n#1=0\nWHILE [#1 LT 300] DO1\nDPRNT[X#1[53]]\n#1=#1+1\nEND1\nPCLOS\n%s\n' "$ending" >"$work/main.nc"
@@ -121,7 +121,7 @@ printf 'POPEN\nDPRNT[X1]\nPCLOS\nM30\n' >"$work/main.nc"
 expect 1 "$ncrtd" --config "$work/full.toml" run --fast --no-progress "$work/main.nc"
 said err "No space left"
 
-# Mistakes of the ladder program are told beside those of the configuration, and beside what the computer does not have.
+# Mistakes of the ladder program are reported together with those of the configuration, and with what the computer does not have.
 printf 'LD M9999\nOUT M1\nEND\n' >"$work/wrong.il"
 sed -e "s#^programs = .*#programs = \"$work/nowhere\"#" -e 's#^program = .*#program = "wrong.il"#' "$machine" >"$work/both.toml"
 expect 1 "$ncrtd" --config "$work/both.toml" check
@@ -238,7 +238,7 @@ expect 1 "$ncrtd" --config "$machine" run --fast --plot "$work/none/x" "$work/sh
 said err "none/x.svg: cannot be written"
 [ -s "$work/out" ] && fail "it ran before it looked at the plot"
 
-# What is no program, and what looks different but is one.
+# Files that are no programs, and files that look different but are programs.
 mkdir "$work/folder"
 mkfifo "$work/fifo"
 expect 1 "$ncrtd" --config "$machine" run --fast "$work/folder"
@@ -253,7 +253,7 @@ said err "fifo: cannot be read: is no file"
 expect 1 timeout 10 "$ncrtd" --config /dev/zero check
 said err "/dev/zero: cannot be read: is no file"
 
-# What the configuration asks of the computer.
+# Requirements of the configuration that the computer does not fulfil.
 sed -e "s#^programs = .*#programs = \"$work/nowhere\"#" -e 's#^cpu = .*#cpu = 999#' "$machine" >"$work/host.toml"
 for command in check "run --fast $work/bom.nc"; do
   # shellcheck disable=SC2086
@@ -319,7 +319,7 @@ printf 'garbage' >"$work/il/count.retain.old"
 keep 2  # who stands at the machine must know before anything moves
 said err "R19 Retained data lost: devices of the ladder are lost and begin with 0"
 [ -e "$work/il/count.retain.damaged" ] || fail "the damaged file is gone"
-# On virtual time it is not looked at, damaged or not, and that is said; without such a file there is nothing to say.
+# On virtual time the file is not read, damaged or not, and a message says so; without such a file there is no message.
 printf 'garbage' >"$work/il/count.retain"
 expect 0 "$ncrtd" --config "$work/il/machine.toml" run --fast --no-progress "$work/short.nc"
 said err "note: virtual time: retained data is neither read nor written ($work/il/count.retain): devices begin with 0"
@@ -331,7 +331,7 @@ sed -i 's#^retain = .*#retain = "/proc/nowhere/x"#' "$work/il/machine.toml"
 keep 1
 said err "ladder.retain: there is no folder \"/proc/nowhere\""
 
-# A program that is overwritten while it runs: wholly the old one, or an alarm where it is too large to be copied.
+# A program is overwritten while it runs: the old one is executed completely, or there is an alarm if it is too large to be copied.
 part() { for _ in $(seq 200); do printf 'G91 G1 X-%s F600 (%1000s)\n' "$1" ""; done; echo M30; }
 cp "$source"/etc/mill.il "$work/mill.il"
 for mb in 16 0; do

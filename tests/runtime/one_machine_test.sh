@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Two processes never drive one machine: the second says who has it and ends with 3, before it touches anything.
+# Two processes never drive one machine: the second one names the process that has it, and ends with status 3 before it touches anything.
 set -u
 ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
 [ -x "$ncrtd" ] || { echo "ncrtd is not built: skipped"; exit 77; }
@@ -39,7 +39,7 @@ direction = "output"
 modbus = { link = "io", table = "coil", address = 0 }
 EOF
 }
-# serve NAME: in the background, up when it returns; its process is in $pid.
+# serve NAME: starts ncrtd in the background and waits until it is up; its process is in $pid.
 serve() {
   "$ncrtd" --config "$work/$1.toml" serve >"$work/$1.out" 2>&1 &
   pid=$!
@@ -81,7 +81,7 @@ refused "$first" "Modbus unit 1 of localhost port 1" "$ncrtd" --config "$work/b.
 allowed "$ncrtd" --config "$work/a.toml" check                                                    # looks, and drives nothing
 machine c 2
 allowed "$ncrtd" --config "$work/c.toml" mdi --no-progress "G0 X1."                               # another unit
-# Whatever ends a process, its machine is free then.
+# However a process ends, its machine is free afterwards.
 kill -KILL "$first"
 wait "$first" 2>/dev/null
 serve b

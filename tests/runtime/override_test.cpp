@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One override is in force, that one is shown with whose it is, and a command that would not act is refused.
+// One override is in force; it is shown together with its source, and a command that would have no effect is refused.
 #include <gtest/gtest.h>
 
 #include "hal/sim/sim_machine.hpp"
@@ -66,16 +66,16 @@ TEST_F(Overrides, ASwitchOfTheMachineWinsAndIsShown) {
   EXPECT_EQ(runtime->explain(Answer::kMachineSwitch), "the override switch of the machine is in force");
   steps(300);
   expect(0.5, OverrideSource::kMachine, 600);
-  machine->set_input(point, 60000);  // more than the machine has
+  machine->set_input(point, 60000);  // more than the machine allows
   steps(300);
   expect(config.nc.max_feed_override, OverrideSource::kMachine, 1200 * config.nc.max_feed_override);
-  machine->set_input(point, ~0u);  // -1: it gives none
+  machine->set_input(point, ~0u);  // -1: the machine gives no override
   steps(300);
   expect(1, OverrideSource::kOperator, 1200);
   EXPECT_EQ(runtime->execute(CommandKind::kFeedOverride, 0.25), Answer::kDone);
   steps(300);
   expect(0.25, OverrideSource::kOperator, 300);
-  // The rapid override is another one.
+  // The rapid override is independent of it.
   EXPECT_EQ(runtime->execute(CommandKind::kRapidOverride, 0.25), Answer::kDone);
   steps(2);
   EXPECT_DOUBLE_EQ(runtime->snapshot().system[0].rapid_override, 0.25);

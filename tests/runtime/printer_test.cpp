@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program prints and cannot be written is told to everybody who looks at the control (P460, M700 appendix 1).
+// A printed line that cannot be written is reported to everybody who watches the control (P460, M700 appendix 1).
 #include <gtest/gtest.h>
 
 #include "hal/sim/sim_machine.hpp"

@@ -8,10 +8,10 @@
 namespace nc::test {
 namespace {
 
-constexpr double kBox = 90.0;  // mm around zero, where cutting goes on
+constexpr double kBox = 90.0;  // mm around zero, within which the programs cut
 constexpr double kPi = 3.14159265358979323846;
 
-// "12.345"; every number has its point, so that no decimal point rule changes it.
+// As "12.345": every number has a decimal point, so that no rule for numbers without one changes it.
 std::string number(double value) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.3f", value);
@@ -123,7 +123,7 @@ void ProgramGenerator::lines() {
   }
 }
 
-// Round and back to where it began, with chamfers and roundings at the corners.
+// A closed contour with chamfers and roundings at its corners.
 void ProgramGenerator::corners() {
   line("G17 G91 G1 X9. ,C" + number(draw(0.5, 3.0)) + feed());
   if (draw(2u) != 0) line("#501=#501+1");
@@ -133,7 +133,7 @@ void ProgramGenerator::corners() {
   line("G90");
 }
 
-// Arcs given by their centre: the end lies on the circle to the last digit that a program has.
+// Arcs that are given by their centre; the end lies on the circle to the last digit of the program.
 void ProgramGenerator::arcs() {
   static const char* const kPlanes[] = {"G17", "G18", "G19"};
   const unsigned plane = draw(3u);
@@ -146,7 +146,7 @@ void ProgramGenerator::arcs() {
     const double ci = std::round(radius * std::cos(angle) * 1000) / 1000,
                  cj = std::round(radius * std::sin(angle) * 1000) / 1000;
     std::string text = draw(2u) ? "G2" : "G3";
-    if (draw(4u) != 0) {  // to the point opposite: exact; otherwise the whole circle
+    if (draw(4u) != 0) {  // a half circle, whose end is exact; otherwise a whole circle
       *first[plane] += 2 * ci;
       *second[plane] += 2 * cj;
       text += std::string(" ") + kFirst[plane] + number(*first[plane]) + " " + kSecond[plane] +
@@ -235,7 +235,7 @@ void ProgramGenerator::polygon_macro() {
   line("G0 X" + number(x_) + " Y" + number(y_) + " Z" + number(z_));
 }
 
-// Loops while an input is off; the M code of the n-th turn switches it on.
+// A loop that runs while an input is off; the script switches the input on at the M code of the last turn.
 void ProgramGenerator::input_loop() {
   const unsigned turns = 1 + draw(4u);
   m50_ += turns;
@@ -249,7 +249,7 @@ void ProgramGenerator::input_loop() {
   input_off();
 }
 
-// The same in the middle of a macro.
+// The same inside a macro.
 void ProgramGenerator::input_macro() {
   m50_ += 2 + draw(3u);
   program_.script.push_back("when M 50 #" + std::to_string(m50_) + ": in0 = 1");
@@ -258,7 +258,7 @@ void ProgramGenerator::input_macro() {
   input_off();
 }
 
-// The input is off again for the next loop, at a line that is a move of its own.
+// Switches the input off for the next loop, at a line that is a move.
 void ProgramGenerator::input_off() {
   const double y = y_ > 0 ? y_ - 5 : y_ + 5;
   program_.script.push_back("when line " + std::to_string(lines_ + 1) + ": in0 = 0");
@@ -266,7 +266,7 @@ void ProgramGenerator::input_off() {
   line("G1 Y" + number(y_));
 }
 
-// A word that changes while a line is executed is read behind it.
+// An input word changes while a line is executed, and is read after it.
 void ProgramGenerator::input_at_line() {
   const unsigned value = draw(1u << 20);
   program_.script.push_back("when line " + std::to_string(lines_ + 1) +
@@ -286,7 +286,7 @@ void ProgramGenerator::outputs() {
   line("#510=#510+#1133");
 }
 
-// Touch the solid at X150, keep where, and come back.
+// Touches the solid at X150, keeps the place in a variable, and goes back.
 void ProgramGenerator::probe() {
   line("G0 X130. Y" + number(y_));
   line("G31 X170. F" + std::to_string(300 + draw(3000u)) + ".");

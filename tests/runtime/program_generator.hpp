@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random m700 programs for the test of the walls: lines, arcs, helices, cycles, macros, subprograms, loops
-// over inputs that change under them, skips against a solid, M S T, dwells, offsets, tool radius
-// compensation. Every program is valid, stays inside the soft limits of test_config.hpp and is a function of
-// its seed alone.
+// Random m700 programs for walls_test.cpp: lines, arcs, helices, cycles, macros, subprograms, loops over inputs that
+// change meanwhile, skips against a solid, M S T, dwells, offsets, tool radius compensation. Every program is valid,
+// stays inside the soft limits of test_config.hpp and depends only on its seed.
 #pragma once
 
 #include <cstdint>
@@ -62,9 +61,9 @@ class ProgramGenerator {
 
   std::mt19937 random_;
   GeneratedProgram program_;
-  unsigned lines_ = 0;            // lines so far
+  unsigned lines_ = 0;            // number of lines so far
   double x_ = 0, y_ = 0, z_ = 0;  // programmed position, G54, no length offset
-  unsigned m50_ = 0;              // strobes of M50 so far: the script counts them
+  unsigned m50_ = 0;              // number of strobes of M50 so far, by which the script names them
   unsigned next_label_ = 1000;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program's text against whoever writes into its file: it is wholly what it was, or it says that it is not; and its encodings.
+// The text of a program while somebody writes into its file: it stays wholly what it was, or an error says that it did not. And its encodings.
 #include "runtime/programs/program_text.hpp"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ class ProgramTextTest : public testing::TestWithParam<std::uint64_t> {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  // A program of which every line says which one it is.
+  // A program in which every line names its version.
   static std::string version(unsigned number, std::size_t bytes) {
     std::string text;
     while (text.size() < bytes) text += "G1 X1.000 Y2.000 (VERSION " + std::to_string(number % 10) + ")\n";
@@ -143,7 +143,7 @@ TEST_P(ProgramTextTest, AFileThatIsBeingWrittenIsNotTaken) {
   EXPECT_NE(open(), nullptr) << error_;
 }
 
-// Runs `action` as another user, without capabilities; false when it said so, or there is no other user.
+// Runs `action` as another user, without capabilities; returns its result, or false if it could not become another user.
 bool as_another_user(const std::function<bool()>& action) {
   constexpr uid_t kOther = 65534;
   const pid_t child = fork();
@@ -155,7 +155,8 @@ bool as_another_user(const std::function<bool()>& action) {
   return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// The system tells only the owner of a file, and who has CAP_LEASE, that it is open for writing: for others it must have been left alone for longer.
+// Only the owner of a file, and a process with CAP_LEASE, can find out that it is open for writing. For others it must have been unchanged for
+// some time.
 TEST_P(ProgramTextTest, AWriterOfAnotherUserMayPause) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
   ASSERT_EQ(chmod(folder_.c_str(), 0755), 0);
@@ -177,7 +178,7 @@ TEST_P(ProgramTextTest, AWriterOfAnotherUserMayPause) {
   EXPECT_TRUE(opens(std::chrono::seconds(30))) << "left alone for long enough";
 }
 
-// Somebody rewrites the file at any moment, in the ways in which files are rewritten; every reader sees one version, whole, or an error.
+// Somebody rewrites the file at any moment, in all the ways in which files are rewritten; every reader sees one complete version, or an error.
 TEST_P(ProgramTextTest, PropertyNeverAMixture) {
   constexpr std::size_t kBytes = 200000;
   write(version(0, kBytes));
@@ -249,14 +250,14 @@ TEST_P(ProgramTextTest, ShiftJis) {
 }
 
 TEST_P(ProgramTextTest, UndecodableBytes) {
-  write("(\x81" "1 \xFF)\nX1\n");  // a lead byte and no second one; no character
+  write("(\x81" "1 \xFF)\nX1\n");  // a lead byte without a second byte, and a byte that is no character
   EXPECT_EQ(all_of(open(Encoding::kShiftJis).get()), "(\ufffd" "1 \ufffd)\nX1\n");
   write("(\xC4 \xE2\x82)\nX1\n");
   const std::string seen = all_of(open().get());
   EXPECT_EQ(valid_utf8(seen), "(\ufffd \ufffd\ufffd)\nX1\n");
 }
 
-// Characters that lie across the parts in which a large file is read.
+// Characters whose bytes lie in two of the parts in which a large file is read.
 TEST_P(ProgramTextTest, ConvertedAcrossParts) {
   for (const Encoding encoding : {Encoding::kLatin1, Encoding::kShiftJis}) {
     for (std::size_t before = 65530; before < 65540; ++before) {
@@ -321,7 +322,7 @@ TEST(Decoder, PieceByPieceIsTheSameAsWhole) {
   }
 }
 
-// Every character of two bytes stands in a comment without ending it: what follows the comment is read.
+// No character of two bytes ends a comment in which it stands, and what follows the comment is read.
 TEST(Decoder, NoCharacterOfShiftJisEndsAComment) {
   Decoder decoder(Encoding::kShiftJis);
   unsigned characters = 0;

@@ -14,7 +14,7 @@ namespace {
 using nc::rt::Answer;
 using nc::rt::CommandKind;
 
-// libnc, whose feeder gets its turn only when it is let.
+// libnc with a feeder that runs only when the test allows it.
 class LateNc final : public nc::rt::NcPort {
  public:
   explicit LateNc(const nc::rt::Config& config) {
@@ -68,7 +68,7 @@ TEST(Reset, EndsWhateverTheFeederHasSeenOfTheStart) {
     for (unsigned n = 0; n < scans; ++n) runtime->step();
     ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
     for (unsigned n = 0; n < scans % 5; ++n) runtime->step();
-    nc.late = scans % 2 == 0;  // the reset does not even need nc_feed()
+    nc.late = scans % 2 == 0;  // the reset does not need nc_feed()
     for (unsigned n = 0; n < 10; ++n) runtime->step();
     ASSERT_FALSE(runtime->snapshot().resetting);
     nc.late = false;

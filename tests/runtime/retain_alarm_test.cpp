@@ -133,7 +133,7 @@ TEST_F(RetainedControl, VariablesAndTheirNamesComeBack) {
   EXPECT_TRUE(std::isnan(variable(501))) << "vacant again is vacant";
 }
 
-// Without waiting for the end: what was set stands in the file after one period of the keeper.
+// A variable is in the file one period of the keeper after it was set, while the control still runs.
 TEST_F(RetainedControl, AreWrittenWhileItRuns) {
   configure();
   up();
@@ -193,7 +193,7 @@ TEST_F(RetainedControl, WhatIsLostIsAnAlarmUntilReset) {
   EXPECT_TRUE(std::filesystem::exists(file("vars.damaged")));
 }
 
-// A control that is ended, or killed, before anybody has acknowledged the loss tells it again; nothing is written over.
+// If the control is ended, or killed, before anybody has acknowledged the loss, it reports it again; the damaged file is not overwritten.
 TEST_F(RetainedControl, ALossIsToldAtEveryStartUntilSomebodyHasSeenIt) {
   configure();
   put("vars", "garbage");
@@ -259,7 +259,7 @@ TEST_F(RetainedControl, OneGenerationBackIsSaid) {
       << alarms();
 }
 
-// A disk that is full, as far as the file is concerned: what is written beside it cannot be made.
+// The same as a full disk for the file: the new file beside it cannot be created.
 TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   configure();
   up();
@@ -302,7 +302,7 @@ TEST_F(RetainedControl, WhatCannotBeWrittenIsAnAlarmThatLetsTheProgramEnd) {
   EXPECT_EQ(variable(500), 1) << "written as soon as it went";
 }
 
-// What a shop expects of its control in the morning: the offsets that programs have set, and parameters.
+// After a restart the offsets that programs have set are there again, and the parameters.
 TEST_F(RetainedControl, OffsetsAndParametersComeBack) {
   configure("[work_offsets]\nG54 = { X = -10.0, Y = -20.0 }\n[tool_offsets]\n1 = 120.0\n2 = 90.0\n[parameters]\n\"8075\" = 0.25\n");
   up();
@@ -325,7 +325,7 @@ TEST_F(RetainedControl, OffsetsAndParametersComeBack) {
   EXPECT_EQ(variable(500), -11.5 + 121.0625);
 }
 
-// What was measured anew and written into the configuration counts, and what was not keeps what the programs have set.
+// An offset that was changed in the configuration has its new value; the others keep what the programs have set.
 TEST_F(RetainedControl, WhatIsChangedInTheConfigurationCountsFromThere) {
   configure("[work_offsets]\nG54 = { X = -10.0, Y = -20.0 }\n[tool_offsets]\n1 = 120.0\n2 = 90.0\n");
   up();
@@ -338,12 +338,12 @@ TEST_F(RetainedControl, WhatIsChangedInTheConfigurationCountsFromThere) {
   EXPECT_EQ(tool(1), 121);
   EXPECT_EQ(tool(2), 93);
   runtime->stop();
-  up();  // and stays so
+  up();  // and it stays so at the next start
   EXPECT_EQ(work(1, 0), -10.5);
   EXPECT_EQ(work(1, 1), -21);
 }
 
-// A power cut in the middle: what was only read ahead has not happened.
+// A power cut in the middle of a program: blocks that were only read ahead have had no effect.
 TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
   configure("[tool_offsets]\n1 = 120.0\n");
   up();
@@ -372,7 +372,7 @@ TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
   EXPECT_EQ(tool(1), 121);
 }
 
-// M700 13.4: #100 to #199 are each part system's own, unless #1303 says otherwise.
+// M700 13.4: each part system has its own #100 to #199, unless parameter #1303 says otherwise.
 TEST(RetainedVariables, EachPartSystemHasItsOwn) {
   nc_config config;
   nc_config_init(&config);

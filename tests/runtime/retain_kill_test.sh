@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A control that counts in #500 and in a D of its ladder is killed (SIGKILL) at random moments: what the next one finds is
-# whole, and not older than what the one before had found.
+# A control that counts in #500 and in a D of its ladder is killed (SIGKILL) at random moments: the data that the next one
+# finds are complete, and not older than those that the one before had found.
 set -u
 ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
 source=${NC_SOURCE_DIR:?}
@@ -53,8 +53,8 @@ for ((round = 0; round < rounds; ++round)); do
   [ "${devices:-0}" -ne 0 ] && seen=$((seen + 1))
   last=$found
 done
-# What was only read ahead has not happened: of a program that counts every 50 ms in #500 and in a tool offset, a kill leaves what has been
-# executed, and not the hundreds of blocks beyond.
+# Blocks that were only read ahead have no effect: of a program that counts every 50 ms in #500 and in a tool offset, a kill leaves what has been
+# executed, and nothing of the hundreds of blocks after that.
 printf 'POPEN\nDPRNT[A#500[80]B#10005[80]]\nPCLOS\nN1 #500=#500+1\nG10 L10 P5 R#500\nG4 X0.05\nGOTO 1\n' >"$work/slow.nc"
 rm -f "$work/variables"* "$work/offsets"*
 counted=$last last=0 went_on=0

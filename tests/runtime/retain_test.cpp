@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Retained devices: the file that survives a power cut at any moment, damage of it, and what of it comes back.
+// Retained devices: their file survives a power cut at any moment; what happens when it is damaged, and what comes back from it.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -39,7 +39,7 @@ class Retain : public testing::Test {
   static void put(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
   }
-  // What a control that starts now finds.
+  // What a control would find that started now.
   Loaded found(std::string* payload) {
     RetainStore store(path_);
     payload->clear();
@@ -73,7 +73,7 @@ TEST_F(Retain, WhatWasSavedComesBack) {
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }
 
-// Each moment of a save() at which the power can go: one of the two generations is there.
+// Whenever the power fails during a save(), one of the two generations is there.
 TEST_F(Retain, APowerCutAtAnyMomentLeavesOneGeneration) {
   save("one");
   save("two");
@@ -96,13 +96,13 @@ TEST_F(Retain, APowerCutAtAnyMomentLeavesOneGeneration) {
   EXPECT_EQ(found(&payload), Loaded::kOlder) << "no power cut leaves this: somebody has taken the last one away";
   EXPECT_NE(error_.find("m.retain is missing"), std::string::npos) << error_;
   EXPECT_EQ(payload, "two");
-  save("four");  // and it goes on from there
+  save("four");  // saving continues from there
   EXPECT_EQ(found(&payload), Loaded::kWhole);
   EXPECT_EQ(payload, "four");
 }
 
-// A process that writes without end is killed at random moments: what it leaves is whole, and never older than what was
-// found before.
+// A process that writes without end is killed at random moments: the file that it leaves is complete, and never older than
+// the one that was found before.
 TEST_F(Retain, AKillAtARandomMomentLeavesAWholeGeneration) {
   std::mt19937 chance(7);
   std::uint64_t newest = 0;

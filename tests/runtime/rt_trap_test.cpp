@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// NC_RT is a promise: no allocation, no lock, no system call in the body of a scan. This test program
-// replaces malloc and friends and pthread_mutex_lock, and lets the kernel refuse system calls (syscall user
-// dispatch), all under the flag that the scan sets while it is in its body; then it runs whole programs.
+// NC_RT promises that the body of a scan does not allocate, lock or call the system. This test program replaces malloc,
+// its relatives and pthread_mutex_lock, and lets the kernel refuse system calls (syscall user dispatch) while the flag
+// is set that the scan sets in its body; then it runs whole programs.
 #include <gtest/gtest.h>
 
 #include "runtime/rt_scope.hpp"
@@ -93,8 +93,8 @@ int pthread_mutex_lock(pthread_mutex_t* mutex) {
 
 namespace {
 
-// The kernel sends SIGSYS instead of doing the call. It is counted and refused; the flag goes down, because
-// the return from this handler is a system call as well.
+// The kernel sends SIGSYS instead of making the call, which is counted and refused. The flag is cleared, because the
+// return from this handler is a system call, too.
 void on_refused_call(int, siginfo_t* info, void* context) {
   nc::rt::t_in_scan = 0;
   g_last_call = info->si_syscall;
@@ -106,7 +106,7 @@ void on_refused_call(int, siginfo_t* info, void* context) {
 #endif
 }
 
-// For the calling thread. False where the kernel has no such thing.
+// Lets the kernel refuse the system calls of the calling thread; false if the kernel cannot.
 bool refuse_system_calls() {
   struct sigaction action {};
   action.sa_sigaction = on_refused_call;
@@ -132,7 +132,7 @@ TEST(RtTrap, TheTrapsWork) {
     delete new int(3);
     const std::lock_guard lock(mutex);
   }
-  EXPECT_GE(g_allocations.load(), 2u);  // the compiler may leave out new and delete, not the volatile pair
+  EXPECT_GE(g_allocations.load(), 2u);  // the compiler may remove new and delete, but not the volatile pair
   EXPECT_EQ(g_locks.load(), 1u);
   if (!refuse_system_calls()) GTEST_SKIP() << "no syscall user dispatch in this kernel";
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signals without a ladder between them and the machine, the values of the table for monitors, and what the
-// runtime does with a link that is lost.
+// Signals that are connected to the machine without a ladder, the values of the table for monitors, and what the runtime
+// does when a link is lost.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 using namespace nc::rt;
 
-// A link whose partner is there or not, as the test says.
+// A link whose partner is present or not, as the test sets it.
 struct FakeLink final : nc::hal::PointBus {
   bool start(const nc::hal::PointImage&, std::string*) override { return true; }
   void read(nc::hal::PointImage* image) noexcept override { image->value[ok_point] = ok; }
@@ -140,7 +140,7 @@ TEST_F(Board, AWiredOutputIsNotTheLaddersToWrite) {
   EXPECT_NE(errors[0].text().find("read-only"), std::string::npos) << errors[0].text();
 }
 
-// R17 goes by reset when the cause has gone; as long as it is there it comes back.
+// A reset clears R17 when its cause is gone; otherwise R17 comes back.
 TEST_F(Board, AStoppedLadderBeginsAgainByReset) {
   build("", "LD SM402\nMOV K7 D0\nLD nc.m_strobe\nOUT plc.fin2\nP1\nLD in0\nCJ P1\nLD SM400\nOUT out0\nEND\n");
   steps(10);
@@ -199,7 +199,7 @@ TEST_F(Board, ALinkThatNeverComesIsAnAlarmAfterAWhile) {
   EXPECT_EQ(runtime->snapshot().alarms.count, 1u);
 }
 
-// What monitors show has room for the largest machine and for every text of the table.
+// The memory for monitors has room for the largest machine and for every text of the table.
 TEST(SignalRows, FitIntoTheSegment) {
   nc_config nc;
   nc_config_init(&nc);

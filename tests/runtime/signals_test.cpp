@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of signals: complete rows, names that differ, and docs/signals.md made of it.
+// The table of signals: its rows are complete, its names differ, and docs/signals.md was made from it.
 #include "runtime/signals/signal_table.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Signals, NamesOfAMachineDiffer) {
     EXPECT_EQ(names.count(name), 1u) << name;
 }
 
-// The safe values are what the NC does without a ladder: none of them holds, starts or changes anything.
+// With the safe values the NC does the same as without a ladder: none of them holds, starts or changes anything.
 TEST(Signals, SafeValuesAskForNothing) {
   const Config config = nc::test::parse_or_fail(nc::test::base_toml());
   nc_inputs in[NC_MAX_SYSTEMS] = {};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speed of a spindle is what is bound to it: the simulation, a point, or nothing, and then what needs it waits and says why.
+// The speed of a spindle comes from what is bound to it: the simulation, a point, or nothing. Without it a function that needs it waits and
+// says why.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +100,8 @@ TEST_F(SpindleFeedback, APointGivesTheSpeed) {
   EXPECT_NEAR(now().shown_spindle().rev_per_s * 60, -1000, 1e-6);
 }
 
-// A thread of the wrong hand is not begun; where the speed says nothing of the way round, or nothing has been said of it, nobody can know.
+// A thread is not begun while the spindle turns the wrong way. It is begun where that cannot be known, because the speed has no sign, or
+// because neither M03 nor M04 has commanded a direction.
 TEST_F(SpindleFeedback, AThreadWaitsForASpindleThatTurnsTheWrongWay) {
   struct Case {
     const char* code;
@@ -140,14 +142,14 @@ TEST(SpindleFeedbackConfig, Mistakes) {
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"word_in\"\nsigned = 1\n").find("signed"), std::string::npos);
   EXPECT_NE(error_of("[[spindle]]\nfeedback = \"none\"\n[[spindle]]\nfeedback = \"none\"\n").find("is there already"), std::string::npos);
   EXPECT_EQ(error_of("[[spindle]]\nfeedback = \"word_in\"\n"), "");
-  // A misspelt point is one mistake: the keys beside it are known.
+  // A misspelt point is one mistake only: the keys beside it are not reported as unknown.
   nc::rt::Config config;
   const char* const beside = "rpm_per_count = 2.0\nsigned = true\n";
   for (const char* point : {"word_im", "in0"})
     EXPECT_EQ(nc::rt::parse_config(nc::test::base_toml() + "[[spindle]]\nfeedback = \"" + point + "\"\n" + beside, "t.toml", &config).size(), 1u) << point;
 }
 
-// A register of 16 bits without a sign makes 64536 of -1000.
+// A register of 16 bits that is read without a sign turns -1000 into 64536.
 TEST_F(SpindleFeedback, APointWithoutASignIsAWarningOnItsLine) {
   const auto read_with = [](const std::string& map, const std::string& more) {
     return nc::test::parse_or_fail(nc::test::base_toml() + kLink +
@@ -155,7 +157,7 @@ TEST_F(SpindleFeedback, APointWithoutASignIsAWarningOnItsLine) {
                                    "\"input\", address = 2" + map + " }\n[[spindle]]\nfeedback = \"speed\"\n" + more);
   };
   const auto warnings = [&](const std::string& map, const std::string& more = "") { return nc::rt::spindle_warnings(read_with(map, more)); };
-  // What threads may ask of it.
+  // What threading needs to know.
   EXPECT_EQ(read_with("", "").nc.system[0].spindle_unsigned, 1u);
   EXPECT_EQ(read_with("", "signed = true\n").nc.system[0].spindle_unsigned, 0u);
   EXPECT_EQ(read_with(", signed = true", "").nc.system[0].spindle_unsigned, 0u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two spindles, the first of them a C axis too, on the simulated machine with a ladder program that selects them (M700 10.5, 10.6).
+// Two spindles, of which the first is a C axis, too, on the simulated machine with a ladder program that selects them (M700 10.5, 10.6).
 #include <gtest/gtest.h>
 
 #include <set>
@@ -221,7 +221,7 @@ TEST_F(LadderSpindles, SwitchingTheServoOffDropsTheRestOfTheCommand) {  // M700 
   EXPECT_EQ(out().command.v[3], 0) << "oriented, and not moved any more";
 }
 
-// Without a ladder program nobody selects: M03 and S are for the first spindle.
+// Without a ladder program no spindle is selected: M03 and S are for the first one.
 TEST_F(LadderSpindles, WithoutALadderTheFirstIsSelected) {
   std::string text = machine_toml();
   for (const char* table : {"[sim.spindle]\nforward = \"fwd1\"\nspeed = \"rpm1\"\n", "[sim.spindle2]\nforward = \"fwd2\"\nspeed = \"rpm2\"\n"})

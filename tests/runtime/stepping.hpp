@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A runtime on virtual time, step by step, and what its variables hold.
+// Helpers for a runtime that is stepped on virtual time, and the values of its variables.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ inline void steps_of(rt::Runtime& runtime, int n) {
   while (n-- > 0) runtime.step();
 }
 
-// `if_vacant` when the variable has no value; `system` counts from 0.
+// The value of a variable, or `if_vacant` when it has none; `system` counts from 0.
 inline double variable_of(rt::Runtime& runtime, std::uint32_t number, double if_vacant, unsigned system = 0) {
   double value = 0;
   bool vacant = true;

@@ -10,7 +10,7 @@
 
 namespace nc::test {
 
-// Three axes with limits, some points, everything that a test changes at the end.
+// Three axes with limits, and some points; what tests change is at the end.
 inline std::string base_toml() {
   return R"([machine]
 name = "test"

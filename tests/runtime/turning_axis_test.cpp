@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rotary axis that counts on over its turns (M700 14.13) on a machine: its limits hold in every turn, for the last check of the runtime,
-// too, and reference return does not wind it back.
+// A rotary axis whose position counts on over several turns (M700 14.13), on a machine: its limits hold in every turn, also in the last check
+// of the runtime, and a reference return does not turn it back through all turns.
 #include "ladder_machine.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two part systems under one panel: each has its program, its override, its stops and its bad inputs, and none of them acts in the other.
+// Two part systems under one panel: each has its own program, override, stops and bad inputs, and none of them acts in the other.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +29,7 @@ std::string two_systems() {
   return text;
 }
 
-// What the machine measures of the second part system is what the test says.
+// A machine that reports for the second part system what the test tells it to.
 class LyingMachine final : public nc::hal::Hal {
  public:
   LyingMachine(const nc::hal::SimConfig& config, const nc::hal::PointTable& points) : machine_(config, points) {}
@@ -44,7 +44,7 @@ class LyingMachine final : public nc::hal::Hal {
   void stop() noexcept override { machine_.stop(); }
   void set_input(unsigned point, std::uint32_t value) { machine_.set_input(point, value); }
   void (*lie)(nc::hal::SystemFeedback*) = nullptr;
-  int found = -1;  // this output is found on, once
+  int found = -1;  // output that is reported as on, once; -1: none
 
  private:
   nc::hal::SimMachine machine_;
@@ -81,7 +81,7 @@ class TwoSystems : public testing::Test {
   void steps(unsigned count) {
     for (unsigned n = 0; n < count; ++n) runtime->step();
   }
-  // To the end of what runs.
+  // Steps to the end of what runs.
   void finish() {
     for (unsigned n = 0; n < 20000 && (n < 5 || runtime->snapshot().program_active()); ++n) runtime->step();
     ASSERT_FALSE(runtime->snapshot().program_active());
@@ -113,7 +113,7 @@ TEST_F(TwoSystems, APartSystemWithoutAProgramStaysIdle) {
   EXPECT_EQ(x(0), 0);
 }
 
-// The part program of one lies ready while the other has blocks of MDI: a start in MDI is for these alone.
+// One part system has a part program ready while the other has MDI blocks: a start in MDI starts only these.
 TEST_F(TwoSystems, AStartInMdiStartsNoPartProgram) {
   build();
   ASSERT_EQ(select(0, "G1 X50. F6000\nM30\n"), Answer::kDone);
@@ -131,7 +131,7 @@ TEST_F(TwoSystems, AStartInMdiStartsNoPartProgram) {
   EXPECT_NEAR(x(1), 3, 1e-9);
 }
 
-// A start goes on with what is interrupted; what has ended meanwhile does not begin again.
+// A start continues the program that is interrupted; one that has ended meanwhile does not begin again.
 TEST_F(TwoSystems, AProgramThatHasEndedDoesNotBeginAgainBesideAnother) {
   build();
   ASSERT_EQ(select(0, "G91 G1 X1. F6000\nM30\n"), Answer::kDone);
@@ -164,7 +164,7 @@ TEST_F(TwoSystems, AStartAndAResetBeforeTheFeederHasSeenEither) {
   }
 }
 
-// Manual absolute: the axis that was moved goes to its programmed place all the same, and the other part system knows nothing of it.
+// Manual absolute: the axis that was moved still goes to its programmed place, and the other part system is not affected.
 TEST_F(TwoSystems, MotionByHandInABlockStopIsOfOnePartSystem) {
   build();
   ASSERT_EQ(select(0, "G1 X10. F6000\nM0\nG91 X5.\nG90 X20.\nM30\n"), Answer::kDone);
@@ -187,7 +187,7 @@ TEST_F(TwoSystems, MotionByHandInABlockStopIsOfOnePartSystem) {
   EXPECT_NEAR(x(1), 20, 1e-9);
 }
 
-// R21 names the part system; nothing that is no number reaches a set-point of either.
+// R21 names the part system, and no NaN reaches a set-point of either part system.
 TEST_F(TwoSystems, AnInputThatIsNoNumberIsAnAlarmOfItsPartSystem) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   void (*const lies[])(nc::hal::SystemFeedback*) = {[](nc::hal::SystemFeedback* f) { f->actual.v[0] = kNan; },
@@ -216,7 +216,8 @@ TEST_F(TwoSystems, AnInputThatIsNoNumberIsAnAlarmOfItsPartSystem) {
   }
 }
 
-// A switch of the machine for one of them: each shows the override that is in force in it and whose it is, and the operator's acts in the other.
+// The machine has an override switch for one of them: each shows the override that is in force in it, with its source, and the operator's
+// override acts in the other.
 TEST_F(TwoSystems, EachShowsItsOwnOverride) {
   build("[signals]\n\"plc2.feed_override\" = \"word_in\"\n");
   machine->set_input(static_cast<unsigned>(config.points.find("word_in")), 2500);
@@ -234,7 +235,7 @@ TEST_F(TwoSystems, EachShowsItsOwnOverride) {
   EXPECT_EQ(now(1).rapid_override_source, OverrideSource::kOperator);
 }
 
-// A command acts on the part system that it names, and on no other; its answer is about that one.
+// A command acts only on the part system that it names, and its answer is about that one.
 TEST_F(TwoSystems, ACycleStartIsOfThePartSystemThatItNames) {
   build();
   ASSERT_EQ(select(0, "G1 X5. F6000\nM30\n"), Answer::kDone);
@@ -283,7 +284,7 @@ TEST_F(TwoSystems, StartsOfBothInOneScan) {
   EXPECT_TRUE(seen.start[1]);
 }
 
-// A feed hold that comes with the start is done: nothing of its part system begins, and the other one does.
+// A feed hold that comes in the same scan as the start wins: its part system does not begin, but the other one does.
 TEST_F(TwoSystems, AFeedHoldInTheScanOfAStartWins) {
   build();
   struct Seen final : nc::test::FakeNc {
@@ -325,13 +326,13 @@ TEST_F(TwoSystems, AFeedHoldInTheScanOfAStartWins) {
   EXPECT_EQ(seen.starts[1], 1u);
 }
 
-// The button of the panel and an operator's feed hold in one scan: whoever has hold of the machine keeps it.
+// The start button of the panel and an operator's feed hold come in one scan: the feed hold wins.
 TEST_F(TwoSystems, AFeedHoldInTheScanOfThePanelsStartWins) {
   build("[signals]\n\"plc.cycle_start\" = \"in0\"\n");
   ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
   ASSERT_EQ(select(1, "G1 X50. F1200\nM30\n"), Answer::kDone);
   const unsigned button = static_cast<unsigned>(config.points.find("in0"));
-  for (unsigned scans = 0; scans < 4; ++scans) {  // one of them is that in which the button's start is taken
+  for (unsigned scans = 0; scans < 4; ++scans) {  // in one of these scans the start of the button is taken
     machine->set_input(button, 1);
     steps(5);
     machine->set_input(button, 0);
@@ -395,7 +396,7 @@ TEST_F(TwoSystems, AFeedHoldStopsThePartSystemThatItNames) {
   EXPECT_NEAR(x(1), -50, 1e-9);
 }
 
-// One goes on, the other stays where its own operator has stopped it.
+// One part system goes on, the other stays where its own single block has stopped it.
 TEST_F(TwoSystems, ASingleBlockIsOfThePartSystemThatItNames) {
   build();
   const char* const kTwoBlocks = "G1 X1. F6000\nG1 X2.\nM1\nG1 X3.\nM30\n";
@@ -439,7 +440,7 @@ TEST_F(TwoSystems, AnOverrideIsOfThePartSystemThatItNames) {
   EXPECT_DOUBLE_EQ(now(1).rapid_override, 0.25);
 }
 
-// There is one mode and one reset (plc.mode_*, plc.reset): which part system is named makes no difference.
+// There is only one mode and one reset (plc.mode_*, plc.reset), whichever part system a command names.
 TEST_F(TwoSystems, ModeAndResetAreOfTheWholeControl) {
   build();
   ASSERT_EQ(select(0, "G1 X50. F1200\nM30\n"), Answer::kDone);
@@ -453,7 +454,7 @@ TEST_F(TwoSystems, ModeAndResetAreOfTheWholeControl) {
   EXPECT_EQ(runtime->snapshot().mode, Mode::kMdi);
 }
 
-// Each has its own count of runs: a block that is done before anybody looks has run all the same.
+// Each has its own count of runs, which counts also a block that ends before anybody looks.
 TEST_F(TwoSystems, RunsAreCountedForEach) {
   build();
   ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
@@ -465,7 +466,7 @@ TEST_F(TwoSystems, RunsAreCountedForEach) {
   EXPECT_EQ(runtime->info().system[1].runs, 1u);
 }
 
-// Outputs that the machine has by itself make everything that lies ready be read again: each part system reads its own blocks.
+// When outputs are found on in the machine, everything that is ready is read again: each part system must read its own blocks.
 TEST_F(TwoSystems, EachHasItsOwnBlocksOfMdi) {
   build();
   ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
@@ -482,7 +483,7 @@ TEST_F(TwoSystems, EachHasItsOwnBlocksOfMdi) {
   EXPECT_EQ(nc::test::variable_of(*runtime, 102, -1, 1), 1);
 }
 
-// The same with a part program in one of them, which MDI does not touch, and after the other's blocks have been executed.
+// The same while one has a part program, which MDI does not change, and after the MDI blocks of the other have been executed.
 TEST_F(TwoSystems, BlocksOfMdiThatHaveRunDoNotComeBack) {
   build();
   ASSERT_EQ(select(0, "G1 X9. F6000\nM30\n"), Answer::kDone);
@@ -509,7 +510,7 @@ TEST_F(TwoSystems, BlocksOfMdiThatHaveRunDoNotComeBack) {
   EXPECT_NEAR(x(1), -4, 1e-9);
 }
 
-// What is told of a run, and of an alarm, is told of the part system in which it is.
+// Reports about a run or an alarm name the part system in which it is.
 TEST_F(TwoSystems, LinesEndsAndAlarmsAreThoseOfEach) {
   build();
   ASSERT_EQ(select(0, "G1 X1. F6000\nG1 X2.\nG1 X3.\nM30\n"), Answer::kDone);
@@ -546,8 +547,8 @@ TEST_F(TwoSystems, LinesEndsAndAlarmsAreThoseOfEach) {
     EXPECT_EQ(runtime->alarm_text(alarms.alarm[n]).substr(0, 3), alarms.alarm[n].system == 0 ? "P71" : "P28") << runtime->alarm_text(alarms.alarm[n]);
 }
 
-// Commands for either and for both in any order, at any moment. What is said to one never starts, holds or stops the other; the first has only
-// programs on the side of + and the second on that of -, so that blocks of the other would show; and what comes last is done exactly.
+// Random commands to one part system or both, at random moments. A command to one never starts, holds or stops the other. The programs of the
+// first move only in +, those of the second only in -, so that a block of the other would show; and the last command is executed exactly.
 TEST_F(TwoSystems, CommandsInAnyOrderActWhereTheyAreMeant) {
   unsigned began = 0;
   for (unsigned seed = 1; seed <= nc::test::seeds(30, 4); ++seed) {

@@ -13,8 +13,8 @@
 namespace nc::test {
 namespace {
 
-constexpr double kSlack = 1.001;         // of velocity and acceleration
-constexpr double kPositionSlack = 1e-9;  // of soft limits
+constexpr double kSlack = 1.001;         // velocity and acceleration may exceed their limits by this factor
+constexpr double kPositionSlack = 1e-9;  // a position may be this far outside its soft limit, mm
 constexpr std::size_t kReported = 5;
 
 class Recorder final : public rt::EventSink {
@@ -32,7 +32,7 @@ class Recorder final : public rt::EventSink {
   const WatchedMachine* machine_;
 };
 
-// The operator's hands: now and then an override, a hold, a switch; whatever stops the program is continued.
+// The operator: now and then he changes an override or a switch, or presses feed hold; whatever stops the program, he starts it again.
 class Hands {
  public:
   Hands(rt::Runtime* runtime, const Operator& op, Recording* recording)
@@ -138,8 +138,8 @@ void WatchedMachine::take(const nc_axes& position) noexcept {
   for (double& velocity : velocity_before_) velocity = 0;
 }
 
-// Velocity and acceleration are differences of what is commanded, so they are averages over a cycle: they
-// cannot exceed the limits where the motion keeps them.
+// Velocity and acceleration are differences of the commanded positions, that is, averages over a cycle: they cannot
+// exceed the limits if the motion keeps them.
 void WatchedMachine::check(unsigned a, double position) {
   const nc_axis_config& axis = config_.nc.system[0].axis[a];
   const double t = config_.nc.cycle_s;
@@ -192,13 +192,13 @@ Recording run_online(const rt::Config& config, const std::string& text, const Op
   EXPECT_EQ(runtime->execute(rt::CommandKind::kCycleStart), rt::Answer::kDone);
   Hands hands(runtime.get(), op, &recording);
   const bool busy_hands = op.overrides || op.holds || op.single_block || op.threads;
-  const unsigned passes = busy_hands ? 1 : 32;  // between two looks: looking costs more than a scan
+  const unsigned passes = busy_hands ? 1 : 32;  // scans between two snapshots, since a snapshot costs more than a scan
   for (rt::Snapshot now; runtime->info().system[0].runs == 0 && !now.alarmed() && now.scan < op.max_scans;) {
     hands.act();
     for (unsigned i = 0; i < passes; ++i) pass();
     now = runtime->snapshot();
   }
-  // To rest, and everything that the last scans executed.
+  // Wait until the axes rest, and record everything that the last scans executed.
   for (unsigned i = 0; i < 2000 && (i < 20 || !runtime->snapshot().system[0].nc.distance_zero); ++i) pass();
   runtime->stop();
   note_end(*runtime, &recording);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls, machine side: one program through the whole runtime on the simulated machine, every
-// scan checked against the limits of the axes, every executed item recorded.
+// The machine side of walls_test.cpp: runs one program through the whole runtime on the simulated machine, checks every
+// scan against the limits of the axes, and records every executed item.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Executed {
   nc_axes machine{};
 };
 
-// What the machine knew when a sync was answered: the offline run gets the same.
+// The state of the machine when a sync was answered; the offline run gets the same answer.
 struct SkipRecord {
   nc_axes machine{};       // where the axes came to rest
   nc_axes skip_machine{};  // measured position when the signal was seen
@@ -31,13 +31,13 @@ struct SkipRecord {
 struct Recording {
   std::vector<Executed> items;
   std::map<std::uint64_t, SkipRecord> syncs;          // by serial
-  std::vector<std::string> violations;                // of limits; at most some
-  double velocity_ratio = 0, acceleration_ratio = 0;  // largest value by its limit, of all axes
+  std::vector<std::string> violations;                // of limits; only the first few
+  double velocity_ratio = 0, acceleration_ratio = 0;  // largest value divided by its limit, of all axes
   std::uint64_t scans = 0, holds = 0, block_stops = 0, override_changes = 0, dropped = 0;
   std::uint32_t interface_output[NC_WORDS] = {};
   std::map<std::uint32_t, double> variables;  // common variables at the end
   bool ended = false, ended_ok = false;
-  std::string alarm;  // code of the program alarm, or of the runtime's
+  std::string alarm;  // code of the alarm of the program or of the runtime
   std::uint32_t alarm_line = 0;
 };
 
@@ -60,7 +60,7 @@ class WatchedMachine final : public hal::Hal {
   void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override;
   void write(const hal::Command& command, const hal::PointImage& image) noexcept override;
   void stop() noexcept override { sim.stop(); }
-  // The axes stand here: the command was not the drives' until now.
+  // The axes stand at `position`: until now the drives did not follow the command.
   void take(const nc_axes& position) noexcept;
 
   hal::SimMachine sim;

@@ -26,7 +26,7 @@ double distance(const nc_axes& a, const nc_axes& b) {
   return most;
 }
 
-// The machine of the offline run: the world as the script of inputs and the recording of skips have it.
+// The machine of the offline run: its inputs come from the script, its skips from the recording.
 class World {
  public:
   World(const rt::Config& config, const Recording& machine)
@@ -123,8 +123,8 @@ Listing pull_offline(const rt::Config& config, const std::string& text, const Op
 
 namespace {
 
-// A skip move that the signal ended: on the line, inside the solid at most by what braking and servo lag
-// take.
+// A skip move that the signal ended: its end is on the line, and inside the solid by no more than the way of braking and
+// of the servo lag.
 void expect_on_line(const Executed& done, const Pulled& move) {
   double length2 = 0, along = 0;
   for (unsigned i = 0; i < NC_MAX_AXES; ++i) {
@@ -151,7 +151,7 @@ void expect_same(const Recording& online, const Listing& offline, const rt::Conf
   EXPECT_EQ(online.alarm_line, offline.alarm_line);
   ASSERT_EQ(online.items.size(), offline.items.size())
       << "last online line " << (online.items.empty() ? 0 : online.items.back().line);
-  // Lines that are passed at speed are cut within the tolerance.
+  // In the optimal mode corners are rounded within the tolerance.
   const double same_point = config.nc.motion_mode == NC_MOTION_OPTIMAL ? config.nc.path_tolerance + kSamePoint : kSamePoint;
   for (std::size_t i = 0; i < online.items.size(); ++i) {
     const Executed& done = online.items[i];
@@ -168,7 +168,7 @@ void expect_same(const Recording& online, const Listing& offline, const rt::Conf
   if (offline.alarm.empty()) {
     EXPECT_EQ(online.variables, offline.variables);
     EXPECT_TRUE(online.ended_ok);
-    // The image on the machine is what the interpreter holds, for the words that are mapped or not alike.
+    // The image on the machine is that of the interpreter, both for words that are mapped and for those that are not.
     for (unsigned w = 0; w < NC_WORDS; ++w)
       EXPECT_EQ(online.interface_output[w], offline.interface_output[w]) << w;
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls, offline side: the same program pulled item by item from an identical control, and
-// the comparison.
+// The offline side of walls_test.cpp: pulls the same program item by item from an identical control, and compares.
 #pragma once
 
 #include <string>
@@ -15,8 +14,8 @@ struct Pulled {
   std::uint8_t kind = 0;
   std::uint32_t line = 0;
   nc_axes machine{};       // where the axes are when it has been executed
-  bool skip = false;       // a skip move: where it ended is the machine's to say
-  nc_axes start{}, end{};  // of a skip move as programmed
+  bool skip = false;       // a skip move, whose end depends on the machine
+  nc_axes start{}, end{};  // programmed start and end of a skip move
 };
 
 struct Listing {
@@ -29,12 +28,12 @@ struct Listing {
   unsigned skips = 0, syncs = 0;
 };
 
-// Inputs change at the same lines and M codes as on the machine (the same script); a skip ends where the
-// machine says.
+// Inputs change at the same lines and M codes as on the machine, by the same script; a skip ends where it did on the
+// machine.
 Listing pull_offline(const rt::Config& config, const std::string& text, const Operator& op,
                      const Recording& machine);
 
-// Same items, same serials, same end points within 1e-9, same variables and outputs, no limit broken.
+// Expects the same items, serials, variables and outputs, the same end points within 1e-9 mm, and no limit broken.
 void expect_same(const Recording& online, const Listing& offline, const rt::Config& config);
 
 }  // namespace nc::test

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The test of the walls. ncsim's trace and the machine are two sinks of one stream of items, so what the
-// runtime executes on the simulated machine is, serial by serial and end point by end point, what an offline
-// control says: under random override, hold and resume, single block, inputs that change in the middle of a
-// macro, and skips; and in every scan every axis keeps its velocity, its acceleration and its soft limits.
+// The trace of ncsim and the machine get the same stream of items. So what the runtime executes on the simulated machine
+// must be the same, serial by serial and end point by end point, as what an offline control gives, with random overrides,
+// hold and resume, single block, inputs that change in the middle of a macro, and skips. And in every scan every axis
+// keeps its velocity, its acceleration and its soft limits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ void compare(const nc::rt::Config& config, const std::string& text, const Operat
   const Recording online = nc::test::run_online(config, text, op);
   const Listing offline = nc::test::pull_offline(config, text, op, online);
   EXPECT_GT(offline.items.size(), 3u);
-  EXPECT_EQ(offline.alarm, "") << "line " << offline.alarm_line;  // every program here is a good one
+  EXPECT_EQ(offline.alarm, "") << "line " << offline.alarm_line;  // every program here is valid
   nc::test::expect_same(online, offline, config);
   totals->velocity = std::max(totals->velocity, online.velocity_ratio);
   totals->acceleration = std::max(totals->acceleration, online.acceleration_ratio);
@@ -106,7 +106,7 @@ TEST(Walls, RandomProgramsExecuteAsTheyTrace) {
   EXPECT_GT(totals.syncs, count / 20);
 }
 
-/// Time constants, S patterns and radius compensation; by seed some axes or kinds of moves have none.
+/// Adds time constants, S patterns and radius compensation; depending on the seed some axes or kinds of moves have none.
 void add_time_constants(std::uint32_t seed, nc::rt::Config* config) {
   const auto set = [config](const char* key, char axis, unsigned value) {
     nc::rt::ParameterSetting parameter;
@@ -161,7 +161,7 @@ TEST(Walls, RandomProgramsWithTimeConstantsExecuteAsTheyTrace) {
 
 TEST(Walls, RandomProgramsExecuteAsTheyTraceInTheOptimalMode) {
   Totals totals;
-  // From 3 on, because its operator holds and changes the override: even the one program under a sanitizer meets both.
+  // It begins with seed 3, whose operator holds and changes the override, so that even the single program under a sanitizer meets both.
   const std::uint32_t first = 3;
   const unsigned count = programs(8);
   for (std::uint32_t seed = first; seed < first + count; ++seed) {
@@ -209,8 +209,8 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   EXPECT_EQ(parts, 4u);
 }
 
-// Real programs of other people, where they are there: executed as they trace, to their end or to the alarm
-// that their dialect has for what it does not know.
+// Real programs of other people, if they are present: they are executed as their trace says, to their end or to the
+// alarm of their dialect for what it does not know.
 TEST(Walls, SharedProgramsExecuteAsTheyTrace) {
   const std::filesystem::path folder = std::filesystem::path(nc::test::kSharedDir) / "programs";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not there";
@@ -252,8 +252,8 @@ tool_change_s = 0.1
   EXPECT_GT(programs, 0u);
 }
 
-// The same in real time, with the scan and the feeder in their own threads: what is executed does not depend
-// on when.
+// The same in real time, with the scan and the feeder in their own threads: the timing must not change what is
+// executed.
 TEST(Walls, ThreadsExecuteWhatTheTraceSays) {
   for (const std::uint32_t seed : {3u, 11u}) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The counters of the workpiece while no program runs: machine position less the work offset and the tool length in force, from the first
-// scan on, be a program selected or not.
+// The workpiece position while no program runs: the machine position less the work offset and the tool length in force, from the first
+// scan on, whether a program is selected or not.
 #include <gtest/gtest.h>
 
 #include "hal/sim/sim_machine.hpp"

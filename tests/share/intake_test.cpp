@@ -88,7 +88,7 @@ class IntakeRules : public testing::Test {
   std::vector<Ack> acks_;
 };
 
-// "Other" is for a control of a later release: what this one says has a number of its own, in the answer as in the status.
+// "Other" is for a control of a later release: every reason of this one has its own number, in the answer as in the status.
 TEST_F(IntakeRules, EveryReasonOfTheRuntimeIsNamedInTheAnswer) {
   take_control();
   std::uint64_t sequence = 1;
@@ -151,8 +151,8 @@ TEST_F(IntakeRules, ControlEndsWithItsLease) {
   expect_rejected(give(RequestKind::kCycleStart, 3), AckReason::kNoControl);
 }
 
-// The time of day is set back by an hour, and forward again: neither keeps a silent client in control nor ends the lease of one
-// that is there.
+// The time of day is set back by an hour, and forward again: that must neither keep a silent client in control nor end the lease of an
+// active one.
 TEST_F(IntakeRules, ALeaseDoesNotFollowTheTimeOfDay) {
   Request r = request(RequestKind::kTakeControl, 1);
   r.lease_ms = 500;
@@ -268,7 +268,7 @@ TEST_F(IntakeRules, ExpectedStateIsHeldAgainstTheMachine) {
   EXPECT_EQ(give(r).state, state(AckState::kAccepted));
 }
 
-// Files may have names of 255 bytes. Status shows as much of one as it has room for, between characters, and that is what a client expects.
+// Files may have names of 255 bytes. The status shows as many whole characters as it has room for, and a client may expect that name.
 TEST_F(IntakeRules, ALongNameIsExpectedAsStatusShowsIt) {
   take_control();
   std::string name;
@@ -352,7 +352,7 @@ TEST_F(IntakeRules, ClientsAreBounded) {
   EXPECT_EQ(give(RequestKind::kFeedHold, 1, "one-more").state, state(AckState::kAccepted)) << "the silent are forgotten";
 }
 
-// 0 of the IDL, which buttons of a panel mean: all of them. What goes to one of them only must name it.
+// Part system 0 of the IDL means all of them, as the buttons of a panel do. A command for only one of them must name it.
 TEST_F(IntakeRules, ACommandNamesAPartSystemOrAllOfThem) {
   machine_.now.system_count = 2;
   machine_.now.axis_count = {3, 3};
@@ -376,7 +376,7 @@ TEST_F(IntakeRules, ACommandNamesAPartSystemOrAllOfThem) {
   for (const RequestKind kind : {RequestKind::kJog, RequestKind::kMdi, RequestKind::kSelectProgram}) expect_rejected(ask(kind, kEverySystem), AckReason::kMalformed);
 }
 
-// What is of the whole control says so to whoever has named a part of it.
+// A command for the whole control says so if a client names one part system.
 TEST_F(IntakeRules, ModeAndResetSayThatTheyAreOfAll) {
   machine_.now.system_count = 2;
   take_control();
@@ -397,7 +397,7 @@ TEST_F(IntakeRules, ModeAndResetSayThatTheyAreOfAll) {
   EXPECT_EQ(text_of(give(all).text), "") << "that is what was asked for";
 }
 
-// The answer to a start, a hold or a reset is about those that were named.
+// The answer to a start, a hold or a reset is about the part systems that were named.
 TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
   machine_.now.system_count = 2;
   take_control();
@@ -413,7 +413,7 @@ TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
     acks_.clear();
     intake_.tick(now_, &acks_);
     const bool reached = !acks_.empty() && acks_[0].state == state(AckState::kDone);
-    now_ += Intake::kReachNs + kMs;  // what has not come is given up
+    now_ += Intake::kReachNs + kMs;  // a state that was not reached in time is given up
     intake_.tick(now_, &acks_);
     (void)give(RequestKind::kTakeControl, ++sequence);
     return reached;
@@ -430,7 +430,7 @@ TEST_F(IntakeRules, TheStateIsThatOfThePartSystemsThatAreNamed) {
   EXPECT_TRUE(outcome(RequestKind::kReset, 1, NC_STATE_IDLE, NC_STATE_IDLE, 0));
 }
 
-// Whoever opens a door at the answer to his hold finds the axes at rest: RUN_HOLD begins while they are still on their way there.
+// Somebody who opens a door when his hold is answered must find the axes at rest: RUN_HOLD begins while they still brake.
 TEST_F(IntakeRules, AHoldIsDoneWhenTheAxesOfItsPartSystemStand) {
   machine_.now.system_count = 2;
   machine_.now.run_state = {NC_STATE_RUNNING, NC_STATE_RUNNING};
@@ -446,7 +446,7 @@ TEST_F(IntakeRules, AHoldIsDoneWhenTheAxesOfItsPartSystemStand) {
   EXPECT_EQ(acks_[0].state, state(AckState::kDone));
 }
 
-// What a client expects of all of them must be so in each.
+// A state that a client expects of all part systems must be that of each of them.
 TEST_F(IntakeRules, AnExpectationOfAllPartSystems) {
   machine_.now.system_count = 2;
   machine_.now.run_state = {NC_STATE_IDLE, NC_STATE_HOLD};

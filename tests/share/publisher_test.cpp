@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a runtime on virtual time to what a reader of the segment sees; alarms and their history; block texts.
+// What a reader of the segment sees of a runtime on virtual time; alarms and their history; block texts.
 #include "runtime/share/publisher.hpp"
 
 #include <gtest/gtest.h>
@@ -124,7 +124,7 @@ TEST_F(SharePublisher, ShowsTheMachine) {
   EXPECT_EQ(text_of(machine.point[1].name), "pallet");
 }
 
-// M700 14.13: the counters of a rotating axis stay within one turn while the axis counts on.
+// M700 14.13: the displayed position of a rotary axis stays within one turn while the axis counts on.
 TEST_F(SharePublisher, ShowsARotatingAxisWithinOneTurn) {
   select("G90 G0 C350.\nG91 C100.\nM30\n");
   ASSERT_EQ(runtime_->execute(CommandKind::kCycleStart), Answer::kDone);
@@ -163,7 +163,7 @@ TEST_F(SharePublisher, ShowsTheBlockInExecution) {
   EXPECT_EQ(look().system[0].last_run_ok, 1u);
 }
 
-// What is done of the program: of the run that there is, not of the one before, nor of another program.
+// The progress of a program is that of the present run, not of the run before or of another program.
 TEST_F(SharePublisher, ShowsHowFarTheProgramIs) {
   const char* const kFourLines = "G91 G1 X10. F6000\nG1 X10.\nG1 X10.\nM30\n";
   select(kFourLines);
@@ -331,7 +331,7 @@ TEST_F(ShareTwoSystems, EachShowsItsOwnBlocksOfMdi) {
   EXPECT_EQ(text_of(look().system[1].block), "N4 G1 X-5. F600.");
 }
 
-// Both are in alarm, and each alarm says what is wrong in its part system; so does the history, with the messages.
+// Both part systems are in alarm, and each alarm tells what is wrong in its own one; so does the history, with the messages.
 TEST_F(ShareTwoSystems, AlarmsAndMessagesAreOfTheirPartSystem) {
   select("#3006=1(FIRST)\nM30\n");
   select("#3006=2(SECOND)\nG1 X[1/0] F600.\nM30\n", 1);
@@ -366,7 +366,7 @@ TEST_F(ShareTwoSystems, AlarmsAndMessagesAreOfTheirPartSystem) {
   }
 }
 
-// A picture is made every 10 ms; none of what was said meanwhile is lost.
+// The status is published every 10 ms; no message in between is lost.
 TEST_F(ShareTwoSystems, MessagesBetweenTwoPicturesAreAllInTheHistory) {
   select("#3006=1(ONE)\n#3006=2(TWO)\nM30\n");
   select("#3006=1(OTHER)\nM30\n", 1);
@@ -384,10 +384,10 @@ TEST_F(ShareTwoSystems, MessagesBetweenTwoPicturesAreAllInTheHistory) {
   EXPECT_EQ(said, "ONE OTHER TWO ");
 }
 
-// A service over a runtime on virtual time: the intake thread takes what stands in the ring.
+// A service for a runtime on virtual time; its intake thread takes the commands from the ring.
 class ShareService : public SharePublisher {
  protected:
-  // Starts it and puts a feed hold in, which nobody needs control for. The answer, if one comes.
+  // Starts the service and sends a feed hold, for which a client needs no control; returns whether an answer comes.
   bool answered(bool commands, Ack* ack) {
     const std::string name = name_ + "-s";
     Service service(runtime_.get(), &programs_, tap_.get(), {name, commands, false, true});
@@ -468,7 +468,7 @@ TEST(ShareAlarmLog, KeepsTheLast256) {
   }
 }
 
-// Two links, or two files, that are lost in one scan.
+// Two links, or two files, are lost in one scan.
 TEST(ShareAlarmLog, TwoOfAKindInOneScanAreTwo) {
   struct Plain final : AlarmLog::Describer {
     bool describe(const ActiveAlarm&, Entry*) override { return true; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared-memory segment: who may make it, and what a reader refuses.
+// The shared-memory segment: who may create it, and what a reader refuses.
 #include "runtime/share/segment.hpp"
 
 #include <fcntl.h>
@@ -50,7 +50,7 @@ class Share : public testing::Test {
     set_alive(owner->get());
     return true;
   }
-  // Memory of these bytes in the segment's place.
+  // Puts a memory with these bytes in the place of the segment.
   void put(const void* data, std::size_t size) {
     take_away();
     std::string error;
@@ -65,7 +65,7 @@ class Share : public testing::Test {
     if (foreign_ >= 0) close(foreign_);
     foreign_ = -1;
   }
-  // What a reader says of the segment.
+  // The reason why a reader refuses the segment; "" if it accepts it.
   std::string refusal() {
     SegmentReader reader;
     std::string error;
@@ -160,8 +160,8 @@ TEST_F(Share, SegmentOfADeadProcessIsReplaced) {
   EXPECT_NE(reader.get()->identity.created_ns, old.get()->identity.created_ns) << "the old one keeps its memory";
 }
 
-// Whoever has the descriptor can do what he likes with the values, but he cannot take the memory away: the next
-// access of the control would be a bus error.
+// A process with the descriptor can change all values, but it must not be able to shorten the memory: the next access of
+// the control would be a bus error.
 TEST_F(Share, NobodyCanMakeTheMemoryShorter) {
   SegmentOwner owner;
   ASSERT_TRUE(create(&owner)) << error_;
@@ -178,7 +178,7 @@ TEST_F(Share, NobodyCanMakeTheMemoryShorter) {
   ASSERT_EQ(fstat(memory, &status), 0);
   EXPECT_EQ(status.st_size, static_cast<off_t>(sizeof(Segment)));
   EXPECT_EQ(status.st_mode & 0777, 0600u);
-  // A hole is no end: what was in it is zero, and whoever reads or writes there goes on.
+  // A hole is no end of the memory: its bytes become zero, and reads and writes there still work.
   EXPECT_EQ(fallocate(memory, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, 0, sizeof(Segment)), 0);
   close(memory);
   EXPECT_NE(refusal(), "");
@@ -222,7 +222,7 @@ TEST_F(Share, AControlThatHangsIsNotWaitedForForEver) {
   close(ready[1]);
 }
 
-// What a process of this user and group says of the segment.
+// The reason why a process of this user and group refuses the segment.
 std::string refusal_of(uid_t user, gid_t group, const std::string& name) {
   int answer[2];
   if (pipe(answer) != 0) return "no pipe";
@@ -260,7 +260,7 @@ TEST_F(Share, OtherUsersAreKeptOut) {
   EXPECT_NE(refusal_of(kOther, kGroup, name_).find("is not for this user"), std::string::npos) << "of another group";
 }
 
-// A stranger who takes a name first is not believed to be the control.
+// A stranger who takes the name first is not taken for the control.
 TEST_F(Share, AStrangerIsNotBelieved) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
   constexpr uid_t kStranger = 65531, kOther = 65533;
@@ -289,7 +289,7 @@ TEST_F(Share, AStrangerIsNotBelieved) {
   close(ready[1]);
 }
 
-// Readers that come and go, and who says nothing, do not keep the next one out.
+// Readers that come and go, and those that connect and say nothing, do not keep the next one out.
 TEST_F(Share, TheDoorStaysOpen) {
   SegmentOwner owner;
   ASSERT_TRUE(create(&owner)) << error_;
@@ -332,7 +332,7 @@ TEST_F(Share, OtherLayoutsAreRefused) {
   EXPECT_NE(refusal().find("not complete"), std::string::npos) << refusal();
   segment.life = static_cast<std::uint32_t>(Life::kAlive);
   EXPECT_EQ(refusal(), "");
-  // A check sum that fits does not make sense of nonsense.
+  // Nonsense is refused even if its check sum is right.
   segment.machine.axis_count[0] = 200;
   segment.check = check_sum(segment);
   EXPECT_NE(refusal().find("makes no sense"), std::string::npos) << refusal();
@@ -389,7 +389,7 @@ TEST_F(Share, ValuesThatMakeNoSenseAreRefused) {
   EXPECT_TRUE(refused(bad));
   HistoryBlock history{};
   std::uint64_t sequence = 0;
-  history.last_sequence = 300;  // but the places hold nothing
+  history.last_sequence = 300;  // but there are no entries
   owner.get()->history.store(history);
   EXPECT_FALSE(reader.history(&history, &sequence, &error_));
   PointsBlock points{};
@@ -411,7 +411,7 @@ TEST_F(Share, WriterThatDiedInTheMiddleIsSeen) {
   EXPECT_NE(error_.find("in the middle"), std::string::npos) << error_;
   StatusBlock next{};
   next.system_count = 1;
-  owner.get()->status.store(next);  // the next writer makes it whole
+  owner.get()->status.store(next);  // the next write makes it complete again
   EXPECT_TRUE(reader.status(&got, &error_)) << error_;
 }
 

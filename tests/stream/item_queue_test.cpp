@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue between the interpreter and the part system: items leave it in the order in which they came in, however often it has gone round.
+// The queue between the interpreter and the part system: items leave it in the order in which they came, however often its ring has wrapped.
 #include "stream/item_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ TEST(ItemQueue, GivesUpThoseBehindANumber) {
   EXPECT_EQ(queue.items.front(), nullptr);
 }
 
-// A deque is what it has to behave like.
+// It must behave like a deque.
 TEST(ItemQueue, KeepsTheOrderOverManyTurns) {
   Queue queue;
   std::deque<uint32_t> expected;

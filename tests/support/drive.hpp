@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives a control on the bench as a machine does: the feeder, the inputs, one scan, its events, cycle after cycle.
+// Drives a control on the bench as a machine does: in each cycle the feeder, the inputs, one scan, and its events.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace nc::test {
 
 class Drive {
  public:
-  /// Selects `text`; cycle_start is up to the test, or to run().
+  /// Selects `text`. The test presses cycle start itself, for example with press_start().
   Drive(Bench& bench, const std::string& text) : control_(bench.control()) {
     bench.start(text);
     in.feed_override = in.rapid_override = 1;
@@ -22,12 +22,12 @@ class Drive {
   nc_outputs out{};              ///< of the last one
   unsigned cycle = 0;            ///< cycles done
   unsigned fin_cycles = 1;       ///< FIN answers a strobe after so many cycles
-  std::vector<nc_event> events;  ///< all of them
-  size_t fresh = 0;              ///< events of the last cycle begin here
+  std::vector<nc_event> events;  ///< all events since the beginning
+  size_t fresh = 0;              ///< index in `events` of the first event of the last cycle
   uint64_t dropped = 0;          ///< events that were lost
   bool ended = false;            ///< the end has been executed
 
-  /// One cycle. `feed` = budget of the feeder, 0 = it does not get its turn.
+  /// One cycle. `feed` is the budget of the feeder in blocks; with 0 it is not called.
   void step(unsigned feed = 100) {
     if (feed != 0) nc_feed(control_, feed);
     waited_ = out.strobe != 0 ? waited_ + 1 : 0;
@@ -41,7 +41,7 @@ class Drive {
       ended = ended || event.kind == NC_ITEM_END;
     }
   }
-  /// Pressed in cycle 2, as by a finger.
+  /// To be called before each step: presses cycle start for one cycle, number 2 counted from 0, as a finger would.
   void press_start() { in.cycle_start = cycle == 2; }
   /// End points of the moves that have been executed.
   std::vector<nc_axes> ends() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A control on the bench: runs program texts through the public C API and keeps what came out. Moves are written down as short
-// texts, so that a test reads like a list of what the machine does.
+// A control on the bench: runs program texts through the public C API and keeps the items that came out. Moves are written as
+// short texts, so that a test reads like a list of what the machine does.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@
 
 namespace nc::test {
 
-/// Number as a person writes it: 12.5, 0, -3; rounded to 1e-6.
+/// A number as a person writes it (12.5, 0, -3), rounded to 1e-6.
 inline std::string brief(double value) {
   double rounded = std::nearbyint(value * 1e6) / 1e6;
   if (rounded == 0) rounded = 0;  // no -0
@@ -27,12 +27,12 @@ inline std::string brief(double value) {
   return text;
 }
 
-/// One item with everything that its ids lead to.
+/// One item together with the data that its ids refer to.
 struct Step {
   nc_item item{};
-  nc_modal modal{};     ///< marks and the end
-  nc_axes machine{};    ///< where the machine is behind it
-  std::string text;     ///< messages
+  nc_modal modal{};     ///< only of marks and the end
+  nc_axes machine{};    ///< machine position after the item
+  std::string text;     ///< only of messages
 };
 
 class Bench;
@@ -40,7 +40,7 @@ class Bench;
 /// What a program did.
 struct Outcome {
   std::vector<Step> steps;
-  nc_status status = NC_OK;      ///< NC_ENDED, NC_ALARMED, or NC_BUDGET: stopped by the test
+  nc_status status = NC_OK;      ///< NC_ENDED, NC_ALARMED, or NC_BUDGET: stopped at the test's limit of items
   std::string alarm;             ///< code, "" = none
   std::string alarm_message, alarm_detail;
   unsigned alarm_line = 0;
@@ -63,9 +63,9 @@ struct Outcome {
   }
   /// "rapid 10 0 0", "line 1 2 3 F100", "cw 1 2 3 c0,0 F100", "skip 0 0 -1 F50": end points in machine coordinates.
   std::vector<std::string> path() const { return describe_moves(false); }
-  /// The same in workpiece coordinates.
+  /// As path(), in workpiece coordinates.
   std::vector<std::string> work() const { return describe_moves(true); }
-  /// "S1000 M3 T5 M30": everything that goes out with a strobe.
+  /// All functions that are given to the machine with a strobe, in order: "S1000 M3 T5 M30".
   std::string aux() const {
     std::string all;
     for (const Step& step : steps) {
@@ -81,7 +81,7 @@ struct Outcome {
       if (step.item.kind == NC_ITEM_GATE && step.item.u.gate.kind == NC_GATE_DWELL_SECONDS) found.push_back(step.item.u.gate.value);
     return found;
   }
-  /// Lines of the blocks that have ended, in order.
+  /// Line numbers of the blocks that have ended, in order.
   std::vector<unsigned> lines() const {
     std::vector<unsigned> found;
     for (const Step& step : steps)
@@ -123,7 +123,7 @@ struct Outcome {
 
 using Path = std::vector<std::string>;
 
-/// Every field of an item that means something, to the last bit: two streams are the same when these texts are.
+/// Every meaningful field of an item to the last bit, as text: two streams are the same when their texts are.
 inline std::string exactly(const Step& step) {
   const nc_item& item = step.item;
   char text[64];
@@ -192,7 +192,7 @@ class Bench {
   const nc_config& config() const { return config_; }
 
   Bench& param(const char* key, const char* value, char axis = 0) { return check(nc_parameter_set(control_, 0, key, axis, value)); }
-  /// index: 0 external, 1..6 G54..G59, 100 + n G54.1 Pn.
+  /// Sets a work offset. index: 0 = external, 1 to 6 = G54 to G59, 100 + n = G54.1 Pn.
   Bench& work_offset(unsigned index, std::vector<double> values) {
     for (unsigned i = 0; i < values.size(); ++i) check(nc_work_offset_set(control_, 0, index, i, values[i]));
     return *this;
@@ -207,7 +207,7 @@ class Bench {
     machine_ = axes;
     return check(nc_position_set(control_, 0, &axes));
   }
-  /// Enters a sub program (the text is kept here).
+  /// Adds a sub program to the control. The bench keeps the text, which the control does not copy.
   unsigned add(const std::string& name, std::string text) {
     unsigned file = 0;
     std::string& kept = texts_[name];
@@ -216,7 +216,7 @@ class Bench {
     return file;
   }
 
-  /// Goes back to a mark (or the head of the program, serial 0) where the machine stood at `machine`.
+  /// Rewinds to a mark (serial 0 = the head of the program), at which the machine stood at `machine`.
   nc_status rewind(uint64_t serial, const nc_axes& machine) {
     const nc_status status = nc_rewind(control_, 0, serial);
     if (status == NC_OK) machine_ = machine;
@@ -240,10 +240,10 @@ class Bench {
     return value;
   }
 
-  // What the machine answers.
+  // What the machine answers to a sync.
   uint32_t input[NC_WORDS] = {};
   int64_t clock_ms = 0;
-  /// Part of a skip move that is done when the signal comes; none = no signal.
+  /// The part (0 to 1) of a skip move that is done when the skip signal comes; without a value no signal comes.
   std::function<std::optional<double>(const nc_item& move)> skip_at;
   /// Called before a sync is answered.
   std::function<void(const nc_item& sync)> on_sync;
@@ -310,7 +310,7 @@ class Bench {
     return *this;
   }
 
-  /// The answer depends on the stream and the bench only, never on when it is given.
+  /// The answer depends only on the stream of items and on the bench, never on the time at which it is given.
   void answer(const nc_item& sync) {
     if (on_sync) on_sync(sync);
     nc_world world{};
@@ -340,7 +340,7 @@ class Bench {
   nc_axes machine_{};
 };
 
-/// Axes by name, "XYZC"; a lower case letter is a rotary axis "XYZc".
+/// The axes of part system 1 by their letters, as "XYZ"; a lower case letter is a rotary axis: "XYZc".
 inline std::function<void(nc_config&)> axes(const char* names) {
   return [names](nc_config& config) {
     nc_system_config& system = config.system[0];
@@ -355,7 +355,7 @@ inline std::function<void(nc_config&)> axes(const char* names) {
 
 /// One run of one text on a fresh M700 control.
 inline Outcome m700(const std::string& text) { return Bench().run(text); }
-/// One run of one text on a fresh DGSHAPE control; the start mark is put before it.
+/// One run of one text on a fresh DGSHAPE control; the start mark "%" is put before it.
 inline Outcome dgshape(const std::string& text) { return Bench(NC_DIALECT_DGSHAPE).run("%\n" + text); }
 
 }  // namespace nc::test

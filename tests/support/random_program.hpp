@@ -16,7 +16,7 @@ struct RandomProgram {
 
 class ProgramMaker {
  public:
-  /// Without `reads_world` nothing depends on inputs, clocks and skip signals. With `corners` there are chamfers and roundings.
+  /// Without `reads_world` the programs do not depend on inputs, clocks and skip signals. With `corners` they have chamfers and roundings.
   explicit ProgramMaker(uint32_t seed, bool reads_world = true, bool corners = true) : random_(seed), reads_world_(reads_world), corners_(corners) {}
 
   RandomProgram make() {
@@ -102,7 +102,7 @@ class ProgramMaker {
     text_ += "G80\n";
   }
 
-  /// A contour that a radius of up to 2 mm can go round.
+  /// A contour with radius compensation that is possible with radii of up to 2 mm.
   void contour() {
     text_ += std::string("G90 G0 X0 Y0\nG1 ") + (number(0, 1) ? "G41" : "G42") + " D" + std::to_string(number(1, 9)) + " X20. Y" + std::to_string(number(-2, 2)) + ".\n";
     text_ += "X60.\n";
@@ -110,11 +110,11 @@ class ProgramMaker {
     text_ += "Y50.\n";
     if (number(0, 2) == 0) text_ += "G10 L2 P3 X1.\n";
     text_ += "G3 X40. Y70. I-20.\nG1 X10.\n";
-    if (number(0, 2) == 0 && reads_world_) text_ += "#100=#1000\n";  // inhibits the read ahead in the middle of a contour
+    if (number(0, 2) == 0 && reads_world_) text_ += "#100=#1000\n";  // stops the reading ahead in the middle of a contour
     text_ += "Y30.\nX0 Y25.\nG40 X-20. Y-20.\n";
   }
 
-  /// Lines with chamfers and roundings between them (M700 13.7), once with compensation.
+  /// Lines with chamfers and roundings between them (M700 13.7); one time in three with radius compensation.
   void corners() {
     const bool compensated = number(0, 2) == 0;
     if (compensated) text_ += "G0 X0 Y0\nG91 G1 G41 D" + std::to_string(number(1, 9)) + " X20.\n";

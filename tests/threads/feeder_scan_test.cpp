@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeder and scan on two threads, as fast as both can, with everything that crosses between them in use:
-// records, plans, events, syncs, truncation, resets. Under the thread sanitizer this proves that nothing else
-// crosses.
+// Feeder and scan on two threads, as fast as both can, and with everything that they exchange: records, plans, events,
+// syncs, truncation, resets. Under the thread sanitizer this shows that they share nothing else.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -13,7 +12,7 @@
 namespace nc::test {
 namespace {
 
-/// The scan thread's side: an operator who plays with the switches. Everything shared with the test is
+/// The side of the scan's thread: an operator who uses the switches at random. Everything that is shared with the test is
 /// atomic.
 struct Operator {
   std::atomic<bool> stop{false}, calm{false};
@@ -75,7 +74,7 @@ TEST(Threads, EverythingPushedIsExecutedInOrder) {
   scan.join();
   poll();
   EXPECT_LE(op.worst.load(), 1.001);
-  // The host may have been too slow: what was dropped was counted, and what came is in order.
+  // The host may have been too slow: dropped events were counted, and the others are in order.
   EXPECT_EQ(events.size() + dropped, p.records.size());
   for (size_t i = 1; i < events.size(); ++i) EXPECT_GT(events[i].serial, events[i - 1].serial);
 }
@@ -100,12 +99,12 @@ TEST(Threads, ResetsAndTruncationLeaveTheMachineUsable) {
   for (uint64_t round = 0; round < 20000000 && (op.resets.load() < 60 || cuts < 12); ++round) {
     m.executor.run_taken(m.executor.run());
     const uint32_t now = m.epoch();
-    if (now != epoch) {  // begin again from where the machine stands
+    if (now != epoch) {  // begin again at the place of the machine
       epoch = now;
       at = m.executor.commanded();
       waiting = false;
     }
-    if (waiting && m.executor.drained()) {  // where the kept block ended is where the next one begins
+    if (waiting && m.executor.drained()) {  // the next block begins where the kept one has ended
       at = m.executor.commanded();
       waiting = false;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncsim called as a person does, in a folder of its own.
+// Calls ncsim from a shell, as a person does, in a folder of the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ struct Outcome {
 
 class CommandTest : public OwnFolder {
  protected:
-  // `line` is everything behind "ncsim ", for the shell; standard output may be redirected in it.
+  // `line` is the rest of the command line behind "ncsim ", for the shell; it may redirect standard output.
   Outcome ncsim(const std::string& line) {
     const std::string command =
         "cd " + folder_ + " && { " + nc::test::kBinaryDir + "/bin/ncsim " + line + " ; } > out.txt 2> err.txt";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a run of ncsim goes on and ends: loops, M99, interrupts, skip moves and events, the same in every subcommand.
+// How a run of ncsim goes on and ends with loops, M99, interrupts, skip moves and events, which is the same in every subcommand.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -21,7 +21,7 @@ TEST_F(CommandTest, AnEndlessLoopEndsWithAMessage) {
   }
 }
 
-// M700 13.12, #1112 = 1: a block goes through between two runs of the interrupt program, which moves nothing.
+// M700 13.12, #1112 = 1: between two runs of the interrupt program, which moves nothing, one block is executed.
 TEST_F(CommandTest, AnInterruptSignalThatStaysOnEndsWithTheProgram) {
   file("s.json", R"({"params": {"1112": 1}, "subprograms": {"1000": "O1000\n#100=#100+1\nM99\n%"},
                      "events": [{"when": {"line": 3}, "signals": {"macro_interrupt": 1}}]})");
@@ -31,13 +31,13 @@ TEST_F(CommandTest, AnInterruptSignalThatStaysOnEndsWithTheProgram) {
   ASSERT_FALSE(run.events().empty());
   EXPECT_EQ(run.events().back()["vars"]["100"], 4);
   EXPECT_EQ(run.events().back()["work"]["X"], 4);
-  file("p.nc", "#100=0\nM96 P1000\nN1 GOTO 1\nM30\n");  // its comings and goings are nothing that the machine does
+  file("p.nc", "#100=0\nM96 P1000\nN1 GOTO 1\nM30\n");  // calls and returns of the interrupt program do not count as actions of the machine
   const Outcome loop = ncsim("check --setup s.json --max-silent-blocks 10000 p.nc");
   EXPECT_EQ(loop.code, 3);
   EXPECT_NE(loop.err.find("endless loop"), std::string::npos) << loop.err;
 }
 
-// M700 15.2: the signal is on at the start. The next block begins where the axes are, and nothing of the skipped way is made up for.
+// M700 15.2: the signal is on at the start. The next block begins where the axes are, and the skipped distance is not made up for.
 TEST_F(CommandTest, ASkipMoveThatDoesNotMoveLeavesNothingBehindInAnyMode) {
   file("s.json", R"({"axes":["X","Y","Z"],"events":[{"when":{"line":2},"signals":{"skip":1}}]})");
   for (const char* behind : {"G1 Z4. F1000\n", "G0 Z4.\n", "#100=#5061\nG1 Z4. F1000\n", "M3 S500\nG1 Z4. F1000\n", "G31 Y20. F500\nG1 Z4. F1000\n"}) {
@@ -104,7 +104,7 @@ TEST_F(CommandTest, ALoopThatMovesAndChangesNothingIsGivenUp) {
   }
 }
 
-// Where something changes, the loop may come to its end; what may change it is not only a variable.
+// A loop in which something changes may come to its end; that need not be a variable.
 TEST_F(CommandTest, ALoopThatComesToItsEndIsNotCut) {
   for (const char* loop :
        {"#1=0\nWHILE[#1LT3000]DO1\nG1 X1. F60000\nX0\n#1=#1+1\nEND1\nM30\n",                // a local variable
@@ -136,7 +136,7 @@ TEST_F(CommandTest, ALoopThatComesToItsEndIsNotCut) {
   EXPECT_EQ(ncsim("check p.nc").code, 3);
 }
 
-// It comes back to a state that it has had: in every pass, in every second or third one, or from some pass on.
+// A loop that comes back to a state that it has had before: in every pass, in every second or third one, or from some pass on.
 TEST_F(CommandTest, ALoopThatGoesRoundIsGivenUp) {
   struct {
     const char* program;
@@ -193,7 +193,7 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
   EXPECT_EQ(run.out.find("one pass"), std::string::npos) << run.out;
 }
 
-// Trace, time and motion, too; but where the passes differ the program may end itself.
+// This is so for trace, time and motion, too; but a program whose passes differ may end by itself.
 TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
   file("p.nc", "G91 G1 X10. F6000\n#500=#500+1\n/M99\nM30\n");
   file("s.json", R"({"optional_skip": []})");
@@ -205,7 +205,7 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
   run = ncsim("time p.nc");
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("of one pass (M99 begins it again)"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("path length  10."), std::string::npos) << run.out;  // and what the cycle has of the next pass
+  EXPECT_NE(run.out.find("path length  10."), std::string::npos) << run.out;  // and in the last cycle a little of the next pass
   file("p.nc", "#500=#500+1\nIF[#500GT4]GOTO9\nG91 G1 X10. F6000\nM99\nN9 M30\n");
   run = ncsim("trace p.nc");
   EXPECT_EQ(run.events().back()["work"]["X"], 40);
@@ -214,7 +214,7 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
   EXPECT_NE(run.out.find("path length  40.000 mm"), std::string::npos) << run.out;
 }
 
-// An event at a line that calls comes before the first block of the program called, in every subcommand.
+// An event at a line that calls a program comes before the first block of that program, in every subcommand.
 TEST_F(CommandTest, EventsOfLinesAreTheSameInEverySubcommand) {
   file("p.nc", "G90 G0 X0 Y0\nM98 P1\nG0 X3.\n#101=#1000\nG1 X[4.+#101] F1000\nM98 P1\nM30\n"
        "O1\nIF[#1000EQ1]GOTO20\nG1 Y-1. F1000\nM99\nN20 G1 Y1. F1000\nM99\n");
@@ -226,7 +226,7 @@ TEST_F(CommandTest, EventsOfLinesAreTheSameInEverySubcommand) {
     const std::string first = line == 2 ? "0,1 3,1 5,1 " : line == 3 || line == 4 ? "0,-1 3,-1 5,-1 5,1 " : line < 7 ? "0,-1 3,-1 4,-1 4,1 " : "0,-1 3,-1 4,-1 ";
     EXPECT_EQ(expected, first) << line;
     ASSERT_EQ(ncsim("motion --setup s.json p.nc -o m.csv").code, 0);
-    // Where the axes were highest on the way, and where they end.
+    // The highest Y on the way, and the place where the axes end.
     std::ifstream rows(folder_ + "/m.csv");
     double top = 0, x = 0, y = 0;
     std::string row;

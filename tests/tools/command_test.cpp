@@ -224,7 +224,7 @@ TEST_F(CommandTest, OptionalStopIsAnEventOnlyWithItsSwitch) {
   EXPECT_EQ(codes(ncsim("trace --setup s.json p.nc")), (std::vector<double>{0, 1, 30}));
 }
 
-// A part is measured offline: a bore whose centre is off, by a macro with four touches.
+// A part is measured offline: a macro with four touches measures a bore that is not in its nominal place.
 TEST_F(CommandTest, AProbeMeasuresABore) {
   file("p.nc", "G90 G54 G0\nG43 H1 Z-5.\nX0 Y0\nG65 P9010\n#104=[#101+#102]/2\n#105=#102-#101+6\nM30\n");
   file("O9010.nc", "G31 X-40. F200\n#101=#5061\nG0 X0\nG31 X40. F200\n#102=#5061\nG0 X0\nG31 Y-1. F200\nM99\n");
@@ -244,7 +244,7 @@ TEST_F(CommandTest, AProbeMeasuresABore) {
   EXPECT_EQ(run.events().back()["vars"]["105"].get<double>(), 40);
   EXPECT_EQ(run.err, "");
   // On the virtual machine the same solid ends the moves, within a cycle of their feed.
-  const Outcome time = ncsim("time --motion trapezoid --setup s.json p.nc");  // the way beyond a touch is that of its braking
+  const Outcome time = ncsim("time --motion trapezoid --setup s.json p.nc");  // the path beyond a touch is that of the braking
   EXPECT_EQ(time.code, 0) << time.err;
   EXPECT_NEAR(std::stod(time.out.substr(time.out.find("path length") + 12)), 717.11, 0.1);
 }
@@ -310,8 +310,8 @@ TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
   EXPECT_EQ(notes("G90 G1 X10000 F100\nM30\n", R"({"params": {"1078": 1}})"), "");
   EXPECT_NE(notes("G90 G1 X10 F100\nG1 X50 Y20\nM30\n"), "") << "a part of 0.05 mm";
   EXPECT_EQ(notes("G90 G1 X1. F100 (X10)\nX0 Y-0\nG65 P9 X10\nM30\nO9\nM99\n"), "") << "an argument";
-  // One has no plural; what is behind a comma is a length (M700 13.7), and so are the data of G10 that are lengths (12.7, 14.10), not a
-  // parameter or a percentage.
+  // A single word has a note without plural. A value behind a comma is a length (M700 13.7), and so are some data of G10 (12.7, 14.10), but not
+  // a parameter or a percentage.
   const std::string one = " without a decimal point is read";
   EXPECT_NE(notes("G90 G1 X1. F100\nX20\nM30\n").find(":2: X20" + one), std::string::npos);
   EXPECT_NE(notes("G90 G1 X9. F100,R2\nY9.\nM30\n").find(":1: ,R2" + one), std::string::npos);
@@ -348,7 +348,7 @@ TEST_F(CommandTest, TimeSaysThatASpindleIsMissing) {
   EXPECT_EQ(ncsim("time p.nc").code, 0);
 }
 
-TEST_F(CommandTest, TheOptimalModeRefusesALineOfHeldAxes) {  // M700 6.16: it moves nothing, and takes its time in the other mode
+TEST_F(CommandTest, TheOptimalModeRefusesALineOfHeldAxes) {  // M700 6.16: it moves nothing, but takes its time in the other mode
   file("p.nc", "G7 Y0\nG1 Y10. F600\nM30\n");
   const Outcome run = ncsim("time --limits 250,2000,50000 --tolerance 0.01 p.nc");
   EXPECT_EQ(run.code, 2);
@@ -374,7 +374,7 @@ TEST_F(CommandTest, TheLawOfMotionIsTheOptimalOneWhereEveryAxisHasAJerk) {
   EXPECT_EQ(ncsim("check --machine m.toml p.nc").err, "note: motion: optimal: every axis has limits of velocity, acceleration and jerk\n");
   EXPECT_EQ(ncsim("check --machine t.toml p.nc").err, "note: motion: trapezoid, as it is configured\n");
   EXPECT_EQ(time("--machine t.toml --motion optimal"), time("--machine m.toml"));
-  EXPECT_EQ(time("--machine m.toml --limits 250,2000,0"), time("--machine t.toml"));  // the limits that came out choose
+  EXPECT_EQ(time("--machine m.toml --limits 250,2000,0"), time("--machine t.toml"));  // the resulting limits choose the mode
 }
 
 TEST_F(CommandTest, AProgramThatOnlyRunsOnIsNoEndlessLoop) {
@@ -483,7 +483,7 @@ TEST_F(CommandTest, WhatCannotBeWrittenIsAnErrorOfEveryCommand) {
   }
 }
 
-// Found before the program is read: this one would be an error of its own.
+// It is found before the program is read, which would be another error, as it does not exist.
 TEST_F(CommandTest, AnUnwritablePlotIsFoundBeforeTheRun) {
   for (const char* base : {"none/x", "/dev/null/x"}) {
     const Outcome run = ncsim(std::string("plot -o ") + base + " no-such-program.nc");
@@ -552,7 +552,8 @@ TEST_F(CommandTest, APlotSaysToolFeedAndZByItsColour) {
   EXPECT_EQ(z.count("stroke:rgb(5%,30%,75%)"), 0u);
 }
 
-// Where a part is clamped and how long the tools are moves nothing in a drawing of the part, and much in one of the machine.
+// The clamping position of a part and the lengths of the tools change nothing in a drawing in workpiece coordinates, but much in one in machine
+// coordinates.
 TEST_F(CommandTest, APlotShowsThePartWhereverItIsClamped) {
   const std::string cuts = "G54 G0 X0 Y0\nG43 H1 Z5.\nG1 Z-5. F500\nX30.\nG2 X40. Y10. R10.\nG0 Z5.\nG43 H2 Z4.\nG1 Z-5.\nY20.\nM30\n";
   file("near.nc", "G10 L2 P1 X0 Y0 Z0\nG10 L10 P1 R0\nG10 L10 P2 R0\n" + cuts);
@@ -574,7 +575,7 @@ TEST_F(CommandTest, APlotShowsThePartWhereverItIsClamped) {
   EXPECT_FALSE(drawing("near", "machine") == drawing("far", "machine"));
 }
 
-// A row of a motion: t and the axes.
+// A row of a recorded motion: the time, then the position of each axis.
 using Row = std::vector<double>;
 
 std::vector<Row> csv_rows(const std::string& text, std::string* head) {
@@ -718,7 +719,7 @@ TEST_F(CommandTest, AMachineConfigurationHasItsStrokeLimitsInTheTraceToo) {
   EXPECT_EQ(trace.events()[0]["machine"]["Y"], -10);
   for (const Json& event : trace.events()) EXPECT_NE(event["t"], "m");
   EXPECT_EQ(ncsim("plot --machine m.toml p.nc").code, 2);
-  EXPECT_EQ(ncsim("plot --limits 1,1,1 p.nc").code, 1);  // of --profile
+  EXPECT_EQ(ncsim("plot --limits 1,1,1 p.nc").code, 1);  // an option of --profile
   EXPECT_EQ(ncsim("check --machine none.toml p.nc").code, 1);
   EXPECT_EQ(ncsim("trace --dialect dgshape --machine m.toml p.nc").err,
             "ncsim: --dialect dgshape: m.toml is a machine of another dialect\n");
@@ -742,7 +743,8 @@ TEST_F(CommandTest, CheckNotesWhatLimitsTheMachineAndWhatHasNoEffect) {
   EXPECT_NEAR(std::stod(time.out.substr(13)), 0.7, 0.01) << time.out;
 }
 
-// The runtime's own machine, with its servos: the same cycles. What its M30 takes, the ladder program's answer, is taken off.
+// The runtime's simulated machine with its servos needs the same cycles. The time for M30, that is, for the answer of the ladder program, is
+// subtracted.
 TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   file("end.nc", "M30\n");
   file("p.nc", "G17 G21 G90 G94 G64\nG53 G0 X-250. Y-150. Z-20.\nG91\nG1 X20. F3000.\nG61\nY20.\nG64\nG2 X10. Y10. I10. J0.\n"
@@ -760,7 +762,7 @@ TEST_F(CommandTest, TimeIsWhatTheRuntimeNeeds) {
   EXPECT_NEAR(runtime("p.nc") - runtime("end.nc"), seconds, 0.001 + 1e-9);
 }
 
-// Index tables (M700 9.3): the clamps take the times of the machine, there and on the runtime's; a trace knows nothing of them.
+// Index tables (M700 9.3): the clamps take the times that the machine file gives, in ncsim as in the runtime; a trace has no clamps.
 TEST_F(CommandTest, TimeCountsTheClampsOfAnIndexTable) {
   const auto machine = [](const std::string& table) {
     return "[machine]\nname = \"t\"\n[[axis]]\nname = \"X\"\nmax_velocity = 100.0\nmax_acceleration = 1000.0\n"

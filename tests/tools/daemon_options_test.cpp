@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the options of ncrtd ask for that does not go together, and another dialect than the configured one.
+// Options of ncrtd that contradict each other, and the option for another dialect than the configured one.
 #include "tools/lib/daemon_options.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ TEST(DaemonOptions, CommandsNeedSharedMemory) {
   options.command = Command::kRun;
   options.commands = true;
   EXPECT_NE(conflict_of(options, config).find("needs shared memory"), std::string::npos);
-  options.command = Command::kServe;  // has it anyway
+  options.command = Command::kServe;  // has shared memory in any case
   EXPECT_EQ(conflict_of(options, config), "");
   options.command = Command::kMdi;
   config.share.enabled = true;

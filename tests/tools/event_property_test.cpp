@@ -24,7 +24,8 @@ class Maker {
  public:
   explicit Maker(uint32_t seed) : random_(seed) {}
 
-  // Sub programs stand in the file of the main program. Each read is a digit of #500 in base 3, each probed place is added to #501.
+  // Sub programs are in the file of the main program. Each value that is read becomes a digit of #500 in base 3; each probed place goes into
+  // #501.
   std::string program() {
     lines_ = {"G90 G21 G94 F3000", "#500=0", "#501=0", "G0 X0 Y0"};
     const int main = number(6, 14);
@@ -161,7 +162,7 @@ class EventProperty : public OwnFolder {
     });
     effect.ran = result.how == MachineResult::How::kEnded;
     effect.error = result.error + result.alarm.code;
-    nc_feed(session.control(), 100);  // the feeder takes notice of the end, and of a reset
+    nc_feed(session.control(), 100);  // so that the feeder sees the end, or a reset
     effect.variables = variables_of(session.control());
     effect.unused = result.unused;
     return effect;
@@ -186,11 +187,11 @@ TEST_F(EventProperty, TraceAndMotionFireTheSameEventsWithTheSameEffects) {
       ASSERT_EQ(trace.unused, motion.unused) << what;
       for (const auto& [number, value] : trace.variables) {
         ASSERT_TRUE(motion.variables.count(number)) << number << "\n" << what;
-        // A touch is seen in the cycle in which it comes: 10 mm/s, 1 ms, and #501 doubles it with each.
+        // A touch is seen in the cycle in which it comes: at 10 mm/s and 1 ms that is 0.01 mm, which #501 doubles with each touch.
         ASSERT_NEAR(motion.variables.at(number), value, number == 501 ? 1.0 : 1e-9) << number << "\n" << what;
       }
       for (int axis = 0; axis < 2; ++axis) ASSERT_NEAR(motion.end.v[axis], trace.end.v[axis], 1e-6) << what;
-      ASSERT_NEAR(motion.end.v[2], trace.end.v[2], 0.3) << what;  // a reset behind a touch: the axes have braked
+      ASSERT_NEAR(motion.end.v[2], trace.end.v[2], 0.3) << what;  // after a touch the axes have braked before a reset
     }
     fired += trace.unused.empty() ? 1 : 0;
     probed += trace.variables.count(501) && trace.variables.at(501) != 0 ? 1 : 0;
@@ -199,7 +200,7 @@ TEST_F(EventProperty, TraceAndMotionFireTheSameEventsWithTheSameEffects) {
   EXPECT_GE(probed, count / 8);
 }
 
-// What the random programs came from: the line of an M99, and of the main program two blocks without time before a sync.
+// The two cases for which the random programs were written: an event at the line of an M99, and two blocks without time before a sync.
 TEST_F(EventProperty, OfALineThatReturnsAndOfBlocksWithoutTime) {
   const std::string program = "G91 G1 X1. F3000\nM98 P1\n#100=#1000\nM98 P1\n#110=1\n#111=1\n#101=#1001\nGOTO 20\nN10 M98 P1\nM30\nN20 #112=1\nGOTO 10\nO1\nG1 X1.\n#102=#1002\nM99\n";
   for (const char* when : {R"("line": 16, "program": 1)", R"("line": 5)", R"("line": 6)", R"("line": 2)", R"("line": 9)"}) {
@@ -209,7 +210,7 @@ TEST_F(EventProperty, OfALineThatReturnsAndOfBlocksWithoutTime) {
     EXPECT_TRUE(trace.unused.empty()) << when;
     EXPECT_TRUE(motion.unused.empty()) << when;
     EXPECT_EQ(trace.variables, motion.variables) << when;
-    EXPECT_EQ(motion.variables.at(102), 1) << when;  // each of them comes before the last call
+    EXPECT_EQ(motion.variables.at(102), 1) << when;  // each of these events comes before the last call
   }
   write(program, R"({"events": [{"when": {"line": 9}, "inputs": {"1002": 1}}, {"when": {"line": 10}, "inputs": {"1002": 0}}]})");
   EXPECT_EQ(pulled().variables.at(102), 1) << "line 9 is the one that calls, though a jump has come to it";
@@ -227,7 +228,7 @@ TEST_F(EventProperty, AMacroInterruptComesInBoth) {
   EXPECT_NEAR(motion.end.v[0], trace.end.v[0], 1e-6);
 }
 
-// The item with which a reset comes is not executed, nor is anything behind it read.
+// The item at which a reset comes is not executed, and nothing behind it is read.
 TEST_F(EventProperty, AResetLeavesTheAxesAtTheEndOfTheBlockBefore) {
   write("G91\nG1 X5. F3000\nX5.\n#100=1\nX5.\nM30\n", R"({"events": [{"when": {"line": 3}, "signals": {"reset": 1}}]})");
   for (const bool optimal : {false, true}) {
@@ -239,7 +240,7 @@ TEST_F(EventProperty, AResetLeavesTheAxesAtTheEndOfTheBlockBefore) {
   EXPECT_NEAR(pulled().end.v[0], 5, 1e-9);
 }
 
-// docs/trace.md: the place is that of the hit, to the way of a cycle.
+// docs/trace.md: the move ends at the place of the hit, within the distance of one cycle.
 TEST_F(EventProperty, AHitEndsTheMoveWhereItIs) {
   write("G31 Z-10. F600\n#100=#5063\nG0 Z0\nG31 Z-10. F600\n#101=#5063\nG0 Z0\nG31 Z-10. F600\n#102=#5063\nM30\n",
         R"({"hits": [{"at": {"Z": -3.0205}}, null, {"at": {"Z": -10}}]})");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A list of items instead of a control, and a file that output can be read back from.
+// A list of items instead of a control, and a file from which output can be read back.
 #pragma once
 
 #include <cstdio>
@@ -24,7 +24,7 @@ class FakeItems final : public ItemSource {
   std::string text_value;
   nc_alarm alarm_value = {};
   bool has_alarm = false, was_reset = false;
-  uint32_t calling_line = 0;  // that sub programs belong to
+  uint32_t calling_line = 0;  // line of the main program that has called the sub programs
 
   nc_item& add(nc_item_kind kind, uint32_t line, uint8_t depth = 0) {
     nc_item item = {};

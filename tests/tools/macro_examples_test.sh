@@ -23,7 +23,7 @@ for part in bolt-circle tool-length; do
 done
 grep -q '^print: H1\*L-180\.000$' "$work/run" || { echo "what tool-length.nc prints is not shown"; cat "$work/run"; exit 1; }
 
-# Nothing to touch: the macro's own alarm.
+# Without anything to touch the macro raises its own alarm.
 code=0
 "$ncsim" check "$parts/tool-length.nc" >"$work/alarm" || code=$?
 [ "$code" = 2 ] && grep -q 'P277.*NO CONTACT' "$work/alarm" || { cat "$work/alarm"; exit 1; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What MDI blocks call is what stands in the file when they are given; a part program keeps what it was selected with.
+// MDI blocks call a program as its file is when they are entered; a part program keeps the files as they were when it was selected.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -77,7 +77,7 @@ TEST_F(MdiPrograms, CallWhatStandsInTheFileNow) {
   EXPECT_NEAR(run(), 14, 1e-9) << "the part program is there again";
 }
 
-// A restart without a selection runs what was selected, and says which file is another one now: a message, no alarm.
+// A restart without a new selection runs the program as it was selected, and a message, no alarm, names the files that have changed.
 TEST_F(MdiPrograms, ARestartSaysWhichFileHasChanged) {
   write("m.nc", "G90\nM98 P77\nM30\n");
   write("O77", "G1 X8. F6000\nM99\n");

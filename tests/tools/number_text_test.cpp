@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How numbers are printed: the rule of number_text.hpp, and that nothing printable is lost.
+// How numbers are printed: by the rule of number_text.hpp, and without a loss of digits.
 #include "tools/lib/number_text.hpp"
 
 #include <gtest/gtest.h>

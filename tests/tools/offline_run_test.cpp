@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Items to events: the order and the selection that docs/trace.md promises, on prepared items.
+// From items to events: the order and the selection that docs/trace.md promises, on prepared items.
 #include "tools/lib/offline_run.hpp"
 
 #include <gtest/gtest.h>
@@ -183,7 +183,7 @@ TEST(OfflineRun, StopsWhenTheSinkHasEnough) {
   EXPECT_EQ(run.result.how, RunResult::How::kStopped);
 }
 
-/** Never anything but a spent budget, as an endless GOTO. */
+/** Only ever spends its budget, as an endless GOTO does. */
 class Endless final : public ItemSource {
  public:
   nc_status pull(uint32_t, nc_item*) override { return NC_BUDGET; }
@@ -205,7 +205,7 @@ TEST(OfflineRun, AnEndlessLoopIsAnError) {
   EXPECT_NE(result.error.find("endless loop"), std::string::npos);
 }
 
-/** Marks without end, as a loop that only calculates; every `clock_every` blocks it reads the clock. */
+/** Gives marks without end, as a loop that only calculates; every `clock_every` blocks it reads the clock. */
 class Calculating final : public ItemSource {
  public:
   explicit Calculating(int clock_every, int end_at) : clock_every_(clock_every), end_at_(end_at) {}

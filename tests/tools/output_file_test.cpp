@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output that is buffered, complete, and honest about failure.
+// Output is buffered and complete, and a failure is reported.
 #include "tools/lib/output_file.hpp"
 
 #include <fcntl.h>

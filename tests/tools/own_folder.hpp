@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A test with a folder of its own, which goes with it.
+// A test with its own folder, which is deleted at the end.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ nc_text text(const char* line) {
   return t;
 }
 
-// Each line has its own outcome: what cannot be written is said as often as it happens.
+// Each line has its own result: a failure is reported for every line that cannot be written.
 TEST(PrintFile, SaysOfEachLineWhetherItIsThere) {
   PrintFile file;
   std::string error;

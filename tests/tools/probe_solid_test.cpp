@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solids that a probe touches: distances, and where a way goes in, against what geometry says.
+// Solids that a probe touches: their distances, and the place at which a path enters them, compared with geometry.
 #include "tools/lib/probe_solid.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ ProbeSolid solid(ProbeShape shape, double ball = 0.0) {
   return s;
 }
 
-/// Length of the way until the ball goes in; infinity: it does not.
+/// The length of the path up to the place where the ball enters the solid; infinity if it does not.
 double touch(const ProbeSolid& s, Point3 from, Point3 to) {
   const double none[8] = {};
   const double part = s.first_entry({from, to, none, none});
@@ -97,7 +97,7 @@ TEST(ProbeSolid, TheCentreOfTheBallIsBesideTheControlledPoint) {
   EXPECT_NEAR(touch(s, {5, 5, 40}, {5, 5, 0}), 30, 1e-9);
 }
 
-/// A block on a table that has turned: what the ball touches is where the rotation has brought it.
+/// A block on a table that has turned: the ball touches it where the rotation has brought it.
 TEST(ProbeSolid, TurnsWithItsTable) {
   ProbeSolid s = solid(box({0, -5, -5}, {40, 5, 5}), 1);
   s.turns = {ProbeTurn{3, 2, {0, 0, 0}}};
@@ -129,7 +129,7 @@ TEST(ProbeSolid, TheTableTurnsIntoTheProbe) {
   EXPECT_EQ(s.first_entry({probe, probe, from, from}), kEndless);
 }
 
-/// Whatever the way: outside of the solid up to the place of the touch, and the clearance is 0 there.
+/// Any path is outside the solid up to the place of the touch, where the clearance is 0.
 RC_GTEST_PROP(ProbeSolidProperty, TheWayIsFreeUpToTheTouch, ()) {
   const auto number = [] { return *rc::gen::inRange(-60000, 60000) * 0.001; };
   ProbeSolid s = solid(box({-20, -15, -10}, {20, 15, 10}), *rc::gen::inRange(0, 4000) * 0.001);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(ProbeSolidProperty, TheWayIsFreeUpToTheTouch, ()) {
   const bool found = part <= 1;
   for (int i = 0; i <= 400; ++i) {
     const double t = (found ? part : 1.0) * i / 400;
-    if (clearance(0) >= 0) RC_ASSERT(clearance(t) > -2e-4);  // a chord of a millionth of the way may be cut off
+    if (clearance(0) >= 0) RC_ASSERT(clearance(t) > -2e-4);  // a chord of a millionth of the path may be missed
   }
   if (found && part > 0) RC_ASSERT(std::fabs(clearance(part)) < 1e-8);
   if (found && part == 0) RC_ASSERT(clearance(0) < 1e-8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curves of a profile are the finite differences of the positions, however many cycles there are.
+// The curves of a profile are finite differences of the positions, for any number of cycles.
 #include "tools/lib/profile_plot.hpp"
 
 #include <gtest/gtest.h>

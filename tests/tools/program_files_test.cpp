@@ -95,7 +95,7 @@ class ProgramsTest : public FolderTest {
     EXPECT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);
     return file;
   }
-  // To the end. "" or the code of the alarm; where the moves go along X in *x.
+  // Runs to the end; returns the code of the alarm, or "". *x gets the X positions of the moves.
   static std::string run(test::Bench& bench, std::string* x, const std::function<void(unsigned)>& before_item = {}) {
     nc_item item{};
     nc_status status = NC_OK;
@@ -115,7 +115,7 @@ TEST_F(ProgramsTest, TenThousandSelectionsOfAThousandFiles) {
     rt::ProgramText::Options options;
     options.copy_bytes = copy_bytes;
     ProgramFiles files(folder_, options);
-    test::Bench bench;  // 32 places
+    test::Bench bench;  // its program store has 32 places
     files.attach(bench.control());
     const unsigned before = descriptors();
     std::mt19937 random(5);
@@ -131,7 +131,7 @@ TEST_F(ProgramsTest, TenThousandSelectionsOfAThousandFiles) {
   }
 }
 
-// More sub programs in one run than there are places: those whose last call is longest ago make room.
+// More sub programs in one run than there are places: those whose last call is longest ago are removed.
 TEST_F(ProgramsTest, ARunThatCallsMoreProgramsThanTheStoreHolds) {
   std::string main, expected;
   for (int i = 1; i <= 500; ++i) {
@@ -162,7 +162,7 @@ TEST_F(ProgramsTest, SubProgramsAreThoseOfTheSelection) {
               if (item == 3) write("O5", "G0 X8.\nG0 X9.\nM99\n");
             }), "");
   EXPECT_EQ(x, "1 2 1 2 ");
-  ASSERT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);  // its rewinding by M30 is no selection
+  ASSERT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);  // M30 rewinds the program, but does not select it anew
   x.clear();
   EXPECT_EQ(run(bench, &x), "");
   EXPECT_EQ(x, "1 2 1 2 ");
@@ -213,8 +213,8 @@ TEST_F(ProgramsTest, NamesOf255Bytes) {
   EXPECT_EQ(x, "4 ");
 }
 
-// The program jumps about in its text while somebody rewrites the file, at any item and in any way: what is executed is the old program,
-// to its end or to an alarm.
+// The program jumps in its text while somebody rewrites the file, at any item and in any way: the old program is executed, to its end or to an
+// alarm.
 TEST_F(ProgramsTest, PropertyWhatRunsIsTheOldProgram) {
   const auto text_of = [](int x) {
     std::string text = "G91\n#1=0\nWHILE[#1LT3]DO1\n";

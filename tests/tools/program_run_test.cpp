@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of ncrtd on virtual time: its exit status, and what is said of it.
+// A run of ncrtd on virtual time: its exit status, and what it prints.
 #include "tools/lib/program_run.hpp"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ class Run : public testing::Test {
     std::signal(SIGHUP, SIG_DFL);
     std::signal(SIGPIPE, SIG_DFL);
   }
-  // Runs a program to its end; what was printed is in `out` and `err`.
+  // Runs a program to its end; its output is then in `out` and `err`.
   int run(const char* text) {
     unsigned file = 0;
     std::string error;

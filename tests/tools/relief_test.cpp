@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dense passes become a surface, single lines do not; what was cut away or lies above is not part of it. And what a drawing shows of a path.
+// Dense passes become a surface, single lines do not; passes that were cut away later, or that lie above, do not belong to it. And which parts
+// of a path a drawing shows.
 #include "tools/lib/relief.hpp"
 
 #include <gtest/gtest.h>
@@ -15,9 +16,9 @@ namespace nc::tools {
 namespace {
 
 using Height = std::function<double(double x, double y)>;
-constexpr double kSize = 100;  // mm, of the square that is milled
+constexpr double kSize = 100;  // side of the milled square, mm
 
-// Passes along X, `step` apart, forwards and back.
+// Passes along X, `step` mm apart.
 void raster(Relief* relief, double step, const Height& z, float value) {
   for (double y = 0; y <= kSize; y += step)
     for (double x = 0; x < kSize; x += 0.5) relief->add({x, y, z(x, y)}, {x + 0.5, y, z(x + 0.5, y)}, value);
@@ -71,7 +72,7 @@ TEST(Relief, ABundleOfContoursIsNoSurface) {
 
 TEST(Relief, RoughingLeavesNothingWhereFinishingHasCutDeeper) {
   Relief relief(0, 0, kSize, kSize);
-  raster(&relief, 3.17, [](double, double) { return 5.0; }, 1.0F);  // 3.17: between the passes of finishing
+  raster(&relief, 3.17, [](double, double) { return 5.0; }, 1.0F);  // 3.17, so that they lie between the passes of finishing
   raster(&relief, 0.4, [](double, double) { return -5.0; }, 2.0F);
   relief.finish();
   ASSERT_TRUE(relief.any());

@@ -19,7 +19,7 @@ nc_config xyz_config() {
   return config;
 }
 
-// Work zero at X 100.
+// A sample of a position; the workpiece origin is at machine X 100.
 rt::PositionSample at(double x, double y, bool rapid = false) {
   rt::PositionSample sample;
   sample.rapid = rapid;
@@ -47,7 +47,7 @@ TEST(RunPlot, WaitingIsNoFeed) {
   run.moved(at(0, 0));
   run.moved(at(0, 0));
   run.moved(at(5, 0, true));
-  run.moved(at(5.1, 0, false));  // its last step: the next block has begun in the same scan
+  run.moved(at(5.1, 0, false));  // last step of the rapid: the next block has begun in the same scan
   run.moved(at(5.1, 0, false));  // the spindle comes to speed
   run.moved(at(9, 0, true));
   run.finish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncrtd as a service: what the service manager hears, what feeds its watchdog, and how it ends.
+// ncrtd as a service: what it reports to the service manager, when it feeds the watchdog, and how it ends.
 #include "tools/lib/serve.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 using nc::rt::Answer;
 using nc::rt::CommandKind;
 
-// A service manager's end of the socket.
+// The end of the socket that a service manager has.
 class Manager {
  public:
   explicit Manager(bool abstract = false) {
@@ -48,7 +48,7 @@ class Manager {
   Manager(const Manager&) = delete;
   Manager& operator=(const Manager&) = delete;
 
-  // Everything that has come, in order.
+  // All messages that have come, in order.
   std::vector<std::string> heard() {
     char text[512];
     for (;;) {
@@ -132,7 +132,7 @@ direction = "output"
 "#1100" = "lamp"
 )";
 
-// A served machine. What an operator does happens in the looks, as in ncrtd.
+// A served machine. The test does what an operator does in options.look, as ncrtd does.
 class ServeTest : public testing::Test {
  protected:
   ServeTest() {
@@ -183,7 +183,7 @@ TEST_F(ServeTest, ReadyIsSaidOnceAndTheEndIsAnnounced) {
   EXPECT_EQ(looks, 3u);
   EXPECT_EQ(manager.count("READY=1"), 1u);
   EXPECT_EQ(manager.count("STOPPING=1"), 1u);
-  EXPECT_EQ(manager.count("WATCHDOG=1"), 0u);  // nobody asked for it
+  EXPECT_EQ(manager.count("WATCHDOG=1"), 0u);  // the service manager did not ask for it
   EXPECT_NE(printed().find("end: at rest"), std::string::npos);
 }
 
@@ -215,7 +215,7 @@ TEST_F(ServeTest, TheSignalStopsAMotionOnItsPathAndTheOutputsAreSafe) {
   EXPECT_NE(printed().find("end: feed hold\nend: at rest"), std::string::npos) << printed();
 }
 
-// In manual mode there is no feed hold: a reference move, or a jog that the ladder holds, ends all the same.
+// In manual mode there is no feed hold, but a reference move, or a jog that the ladder holds, must end, too.
 TEST_F(ServeTest, TheSignalStopsAMotionByHand) {
   ASSERT_NE(runtime, nullptr);
   ASSERT_TRUE(runtime->start(&error)) << error;
@@ -242,7 +242,7 @@ TEST_F(ServeTest, TheSignalStopsAMotionByHand) {
   runtime->stop();
 }
 
-// A handwheel is turned by thousands of detents a shift: a journal has other things to say.
+// A handwheel turns by thousands of detents in a shift, which must not fill the journal.
 TEST_F(ServeTest, DetentsOfAHandwheelAreNoEvents) {
   ASSERT_NE(runtime, nullptr);
   ASSERT_TRUE(runtime->start(&error)) << error;
@@ -282,8 +282,8 @@ TEST_F(ServeTest, AnAlarmIsToldOnceAndDoesNotEndTheService) {
   EXPECT_EQ(text.find("alarm: ", text.find("alarm: P62") + 1), std::string::npos) << text;
 }
 
-// The watchdog hears of the scan, not of the loop around it: with a runtime whose scan does not go on, it is
-// not fed although the loop runs.
+// The watchdog is fed by the scan, not by the loop around it: if the scan of a runtime stops, the watchdog is not fed
+// although the loop runs on.
 TEST_F(ServeTest, TheWatchdogIsFedByTheScan) {
   ASSERT_NE(runtime, nullptr);
   setenv("WATCHDOG_USEC", "30000", 1);
@@ -308,11 +308,11 @@ TEST_F(ServeTest, TheWatchdogIsFedByTheScan) {
   ASSERT_TRUE(stepped->start_stepping(&ignored));
   std::size_t while_standing = 0;
   options.leave = [&] { while_standing = manager.count("WATCHDOG=1"); };
-  // Nobody steps it in the looks, and so it does not come to rest at the end either.
+  // options.look does not step the runtime, so it does not come to rest at the end either.
   options.rest_ns = 20'000'000;
   EXPECT_FALSE(nc::tools::serve(stepped.get(), options));
   EXPECT_NE(printed().find("not at rest in time"), std::string::npos);
-  EXPECT_LE(while_standing, fed + 1);  // at most for the scan that there was
+  EXPECT_LE(while_standing, fed + 1);  // at most once more, for a scan that was done before
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setup files: what is accepted, and that every mistake is named with its key and its line.
+// Setup files: what is accepted, and that every mistake is reported with its key and its line.
 #include "tools/lib/setup.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(Setup, EveryPartIsRead) {
   EXPECT_TRUE(s.tool_offsets[0].plain);
   EXPECT_EQ(s.tool_offsets[1].column[NC_TOOL_RADIUS_WEAR], 0.25);
   EXPECT_TRUE(s.variables[1].vacant);
-  EXPECT_EQ(s.inputs.bits[0], 6u);  // the bit named beside its word wins
+  EXPECT_EQ(s.inputs.bits[0], 6u);  // a bit that is named beside its word wins
   EXPECT_EQ(s.inputs.bits[1], 8u);
   EXPECT_EQ(s.inputs.bits[3], 0x80000000u);
   EXPECT_EQ(s.skip[0].signal, 2u);
@@ -192,7 +192,7 @@ TEST(Setup, MistakesAreNamedWithKeyAndLine) {
   }
 }
 
-// The option that is written behind says what is there already.
+// The options for common variables: further ranges of them, the number of sets, and negative_count.
 TEST(Setup, VariableRanges) {
   const tools::Setup s = good(R"({"options": {"variable_ranges": [{"first": 400, "last": 499}, {"first": 700, "last": 799, "kept": false}],
                                   "variable_sets": 300, "negative_count": true}})");
@@ -247,7 +247,7 @@ TEST(MachineLimits, ReplaceTheDefaultsOfTheAxesNamed) {
   EXPECT_EQ(error, "m.json:1: axes.X.jerk: must be from 0.001 to 1e+09, is 0");
 }
 
-// A rate near 0 is a run without end, a cycle of 0 one without progress.
+// A rate near 0 would make a run endless, and a cycle of 0 would make no progress.
 TEST(MachineLimits, EveryValueHasARangeAndIsNamed) {
   nc_config config;
   nc_config_init(&config);

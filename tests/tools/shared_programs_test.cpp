@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real programs of other controls through `ncsim trace`: they end, or stop with the right alarm on the right
+// Real programs of other controls in `ncsim trace`: they come to their end, or stop with the right alarm in the right
 // line.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -52,7 +52,7 @@ class SharedPrograms : public OwnFolder {
     return result;
   }
 
-  // First line of a program that holds `what`.
+  // Number of the first line of a program that contains `what`.
   unsigned line_of(const std::string& name, const std::string& what) {
     std::ifstream lines(programs_ + "/" + name);
     unsigned number = 0;

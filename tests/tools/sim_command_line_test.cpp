@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of a command line of ncsim become one command with everything that was said to it.
+// The words of a command line of ncsim become one command with all its options.
 #include "tools/lib/sim_command_line.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ SimCommand parsed(std::vector<const char*> words) {
   return command;
 }
 
-// Exit status and what is said on standard error.
+// The exit status, and the text on standard error.
 std::pair<int, std::string> refused(std::vector<const char*> words) {
   words.insert(words.begin(), "ncsim");
   SimCommand command;

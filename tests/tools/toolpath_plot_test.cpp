@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawings: valid files with both colours on them, in the right places, whatever the path is.
+// Drawings: for any path the files are valid, with both colours in the right places.
 #include "tools/lib/toolpath_plot.hpp"
 
 #include <cairo/cairo.h>
@@ -186,7 +186,7 @@ TEST_F(PlotTest, StartEndAndAlarmStandWhereTheyAre) {
 }
 
 TEST_F(PlotTest, ArrowsPointTheWayTheToolGoes) {
-  // How the height of the feed's pixels changes from a column to the next: an arrow to the right begins at once and tapers.
+  // Looks at how the height of the feed's pixels changes from one column to the next: an arrow to the right begins steeply and tapers.
   const auto steepest_rise_is_left = [this](double from, double to) {
     ToolpathPlot plot;
     plot.set_view(PlotView::kXY);
@@ -292,7 +292,7 @@ TEST_F(PlotTest, VerticesStayBounded) {
   EXPECT_LE(rapids.size(), 2'000'001u);
 }
 
-// A program that has alarmed before it moved: start and alarm in the middle of a frame of 10 mm.
+// A program with an alarm before it has moved: the marks of start and alarm are in the middle of a frame of 10 mm.
 TEST_F(PlotTest, APathWithoutAMoveHasAFrameAndItsMarks) {
   ToolpathPlot plot;
   plot.set_view(PlotView::kXY);
@@ -309,11 +309,11 @@ TEST_F(PlotTest, APathWithoutAMoveHasAFrameAndItsMarks) {
   const Pixels alarm = pixels(path("p.png"), [](int r, int g, int b) { return r > 170 && g < 60 && b > 100; });
   EXPECT_GT(start.count, 10);
   EXPECT_GT(alarm.count, 20);
-  EXPECT_NEAR((alarm.left + alarm.right) / 2, 715, 6);  // of the room that is left for the drawing
+  EXPECT_NEAR((alarm.left + alarm.right) / 2, 715, 6);  // middle of the room that is left for the drawing
   EXPECT_NEAR((start.left + start.right) / 2, 715, 6);
 }
 
-// Two starts that are cut off at the same place of the frame differ below the head in nothing but the words at their mark.
+// If two far starts are cut off at the same place of the frame, the drawings below their heads differ only in the words at the mark.
 TEST_F(PlotTest, AStartNotFarFromThePartIsInTheFrameAndAFarOneIsNamed) {
   std::map<double, int> dark;
   for (const double z : {80.0, 500.0, 50000.0}) {

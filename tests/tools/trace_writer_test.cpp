@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden lines of a trace: a change here is a change of the public contract (docs/trace.md).
+// Expected lines of a trace, literally: whoever changes them changes the documented format (docs/trace.md).
 #include "tools/lib/trace_writer.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The offline machine: where skip moves end, how the clock goes, when events fire.
+// The offline machine: where skip moves end, how the clock runs, when events come.
 #include "tools/lib/virtual_world.hpp"
 
 #include <gtest/gtest.h>
@@ -173,7 +173,7 @@ TEST(Events, ALineThatCallsBeginsWithItsSubProgram) {
   items.mark(1, {}, 1);
   world.on_item(items.items[0], 2);
   EXPECT_EQ(world.input(0), 0u);
-  world.on_item(items.items[1], 4);  // it is line 4 that has called
+  world.on_item(items.items[1], 4);  // line 4 of the main program has called it
   EXPECT_EQ(world.input(0), 1u);
 }
 
@@ -226,7 +226,7 @@ TEST(Hits, BelongToASignal) {
 }
 
 TEST(Skip, SolidsOfTheWorkpieceAndABall) {
-  // In workpiece coordinates, 10 beside those of the machine (skip_move); a box with holes; a ball.
+  // A box with holes, a ball, in workpiece coordinates, which differ by 10 from those of the machine (see skip_move).
   const tools::Setup setup = setup_of(R"({"skip": [{"coordinates": "work", "ball": {"radius": 3}, "box": {"X": [50, 90], "Y": [0, 60], "Z": [-30, 8]},
       "holes": [{"cylinder": {"axis": "Z", "center": {"X": 70, "Y": 30}, "radius": 15}}]}]})");
   VirtualWorld world(setup, xyz());

@@ -12,7 +12,7 @@
 namespace nc::tools {
 namespace {
 
-// A text of the program or the alarm table on one line of a terminal: no control characters.
+// A text of a program or of the alarm table in a form that is safe on one line of a terminal: without control characters.
 std::string printable(const char* text) {
   std::string out = text;
   for (char& c : out)
@@ -45,7 +45,7 @@ std::string alarm_line(const Session& session, const nc_alarm& alarm) {
     line += "\n  " + session.file_name(calls[i]) + ":" + std::to_string(calls[i].line) + ": calls ";
     line += called.program ? "O" + std::to_string(called.program) : session.file_name(called);
   }
-  return rt::valid_utf8(line);  // a file's name may be anything
+  return rt::valid_utf8(line);  // the name of a file may have any bytes
 }
 
 void note_unused(const std::vector<std::string>& sentences, std::FILE* err) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subcommands of ncsim print alike: errors, alarms, numbers of summaries.
+// Texts that several subcommands of ncsim print: errors, alarms, numbers in summaries.
 #pragma once
 
 #include <cstdio>
@@ -11,20 +11,20 @@
 
 namespace nc::tools {
 
-/** "ncsim: WHAT" on `err`. @return the exit code of an error. */
+/** Prints "ncsim: WHAT" on `err`. @return the exit code of an error. */
 int complain(std::FILE* err, const std::string& what);
 
-/** "12.3456" with a fixed number of decimals: for summaries, where columns matter more than exactness. */
+/** A number with a fixed number of decimals, such as "12.3456": for summaries, where columns matter more than exactness. */
 std::string decimals(double value, int count);
 
-/** FILE:LINE: CODE MESSAGE - DETAIL, on one line of a terminal; under it a line for each block that called the program of the alarm,
+/** An alarm as FILE:LINE: CODE MESSAGE - DETAIL on one line, followed by a line for each block that called the program of the alarm,
  * outermost first. */
 std::string alarm_line(const Session& session, const nc_alarm& alarm);
 
-/** A note on `err` for each sentence about what the setup gives and the run had no use for. */
+/** Prints on `err` a note for each sentence about something in the setup that the run did not use. */
 void note_unused(const std::vector<std::string>& sentences, std::FILE* err);
 
-/** `code` when everything printed has gone out, else the exit code of an error, said on `err`. */
+/** @return `code` when everything printed has been written; otherwise the exit code of an error, which is reported on `err`. */
 int close_output(std::FILE* out, std::FILE* err, int code);
 
 }  // namespace nc::tools

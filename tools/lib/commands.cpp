@@ -44,12 +44,12 @@ int exit_code(RunResult::How how) {
   }
 }
 
-/** The trace: every event becomes a line. */
+/** Writes the trace: every event becomes a line. */
 class TraceSink final : public RunSink {
  public:
   TraceSink(OutputFile* out, const nc_system_config& system, ItemSource* items)
       : out_(*out), writer_(out, system), items_(items) {}
-  // Rotary axes count on over their turns in the items; a trace shows them like the counters. // M700 14.13
+  // In the items the positions of rotary axes go on counting over several turns; a trace shows them as the counters do. // M700 14.13
   void move(const nc_source& s, const nc_move& m) override {
     nc_move shown = m;
     items_->shown(&shown.machine, &shown.work);
@@ -86,7 +86,7 @@ class TraceSink final : public RunSink {
   ItemSource* items_;
 };
 
-/** Hands everything on, and what goes to an external port into a file. */
+/** Passes everything on to the next sink, and writes the output for an external port into a file. */
 class PrintSink final : public RunSink {
  public:
   PrintSink(RunSink* next, PrintFile* file) : next_(*next), file_(*file) {}
@@ -114,7 +114,7 @@ class PrintSink final : public RunSink {
   PrintFile& file_;
 };
 
-/** The drawing: moves only. */
+/** Collects the moves for the drawing. */
 class PlotSink final : public RunSink {
  public:
   PlotSink(ToolpathPlot* plot, const nc_system_config& system, ItemSource* items)
@@ -123,7 +123,7 @@ class PlotSink final : public RunSink {
     nc_axes zero = {};
     if (plot_.coordinates() == PlotCoordinates::kWork) items_.move_zero(&zero);
     if (!move.curved) return plot_.add_move(move, system_, zero);
-    // In short pieces: what no line and no circle is.
+    // A curve that is neither a line nor a circle is drawn in short pieces.
     constexpr double kPieceMm = 0.2, kMost = 4000;
     const auto pieces = static_cast<unsigned>(std::ceil(std::min(kMost, std::max(32.0, move.length / kPieceMm))));
     nc_move piece = move;
@@ -134,7 +134,7 @@ class PlotSink final : public RunSink {
       piece.machine_start = piece.machine;
     }
   }
-  // T selects, M06 changes: behind the first M06 a T alone is the tool that is fetched for later. Without any, T is the change.
+  // T selects a tool and M06 changes it: after the first M06 a T alone only prepares the next tool. In a program without M06 the T changes the tool.
   void aux(const nc_source&, char code, double value) override {
     constexpr double kToolChange = 6;
     if (code == 'T') selected_ = value;
@@ -142,7 +142,7 @@ class PlotSink final : public RunSink {
     changer_ = changer_ || changes;
     if (changes || (code == 'T' && !changer_)) plot_.set_tool(selected_);
   }
-  // Of a program without a move: where it stands.
+  // For a program without moves the drawing shows the position of the tool.
   void end(const nc_source&, bool, const nc_axes& work, const nc_axes& machine, uint32_t) override {
     if (plot_.size() != 0) return;
     const nc_axes& at = plot_.coordinates() == PlotCoordinates::kWork ? work : machine;
@@ -174,8 +174,8 @@ RunResult run_session(Session* session, RunSink* sink, ItemSource* items, const 
   return result;
 }
 
-/** The run with what it prints in `path` ("" = nowhere). @return false when the file cannot be written:
- * *error says why. */
+/** Runs the program and writes what it prints into `path` ("" = nowhere). @return false with *error when the file cannot be
+ * written. */
 bool run_printing(Session* session, RunSink* sink, ItemSource* items, const RunLimits& limits,
                   bool one_pass, const std::string& path, RunResult* result, std::string* error, std::FILE* err) {
   PrintFile file;
@@ -199,7 +199,7 @@ bool open_session(Session* session, const SessionOptions& options, std::string* 
   return limited && session->start(options, error);
 }
 
-// A table as tab-separated lines or as Markdown, whose cells need their bars escaped.
+// Writes a table as tab-separated lines, or as Markdown, in which bars in the cells are escaped.
 class Table {
  public:
   Table(std::FILE* out, bool markdown) : out_(out), markdown_(markdown) {}
@@ -241,7 +241,7 @@ int trace_command(const SessionOptions& options, const RunLimits& limits, int ou
 
 namespace {
 
-/** Parameters that are set and do nothing: a note for each, on standard error. */
+/** Prints a note on standard error for each parameter that is set but has no effect. */
 void note_parameters(const Session& session, nc_dialect dialect, std::FILE* err) {
   constexpr const char* kNote = "nothing in the control asks for this parameter: it is kept for programs that read it";
   for (const SetupParameter& p : session.setup().parameters)

@@ -51,7 +51,7 @@ void report_bus(const std::string& line) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-// A machine of its configuration from bringing up to taking down. What a runtime calls or is made from is declared before it, and outlives it.
+// The machine of a configuration from its start to its end. Members that the runtime uses are declared before it, so that they outlive it.
 class Daemon {
  public:
   Daemon(const DaemonOptions& options, rt::Config* config)
@@ -60,7 +60,7 @@ class Daemon {
         files_(config->programs_folder(), config->program_text),
         path_(config->nc, plot_views().at(options.view), plot_coordinates().at(options.coordinates), plot_colors().at(options.color)) {}
 
-  // Also on the ways out of a start that has failed half way: no thread looks at what goes now.
+  // Also after a start that has failed half way: the threads are ended before the members that they use are destroyed.
   ~Daemon() {
     if (sharing_ != nullptr) sharing_->stop();
     if (runtime_ != nullptr) runtime_->stop();
@@ -94,7 +94,7 @@ class Daemon {
   rt::VirtualClock virtual_clock_;
   rt::MadeMachine machine_;
   ProgramFiles files_;
-  unsigned file_ = 0;  // of the program
+  unsigned file_ = 0;  // index of the program in the store
   PrintFile print_;
   PrintLines printed_;
   RunPlot path_;
@@ -147,7 +147,7 @@ int Daemon::load_program() {
   return sharing_->prepare(runtime_.get(), &files_, config_.programs_folder(), &error) ? 0 : failed(error);
 }
 
-// M700 13.5.8: what programs print goes into the file that the configuration names, else to whoever looks at the run.
+// M700 13.5.8: what programs print goes into the file that the configuration names, or else to the terminal.
 int Daemon::open_printer() {
   std::string error;
   if (config_.print.empty()) {
@@ -165,7 +165,7 @@ int Daemon::open_printer() {
 
 int Daemon::start() {
   std::string error;
-  rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP, SIGQUIT});  // HUP: a terminal that goes away
+  rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP, SIGQUIT});  // SIGHUP comes when the terminal is closed
   if (!(options_.fast ? runtime_->start_stepping(&error) : runtime_->start(&error))) return failed(error);
   for (const std::string& warning : runtime_->warnings()) warn(warning);
   if (const std::string kept = options_.fast ? rt::not_read_text(config_) : ""; !kept.empty())
@@ -176,7 +176,7 @@ int Daemon::start() {
 int Daemon::serve_to_signal() {
   ServeOptions service;
   service.signal = rt::end_signal_place();
-  service.leave = [this] { sharing_->stop(); };  // and with it the commands
+  service.leave = [this] { sharing_->stop(); };  // ends the commands as well
   const bool rest = serve(runtime_.get(), service);
   runtime_->stop();
   return rest ? 0 : kDaemonAlarm;
@@ -220,7 +220,7 @@ int Daemon::write_plot(const std::string& alarm_code) {
 
 int operate(const DaemonOptions& options, rt::Config* config) {
   std::string error;
-  rt::MachineLock lock;  // first, so that it is given back last: behind the safe values of the outputs
+  rt::MachineLock lock;  // declared first, so that it is released last, after the outputs have their safe values
   if (!lock.take_machine(*config, options.fast, &error)) {
     std::fprintf(stderr, "ncrtd: %s\n", error.c_str());
     return kDaemonInUse;
@@ -233,7 +233,7 @@ int operate(const DaemonOptions& options, rt::Config* config) {
   return Daemon(options, config).run();
 }
 
-// Mistakes of the ladder program, although the configuration has mistakes too: all of them in one go.
+// Checks the ladder program even when the configuration has errors, so that all errors are reported at once.
 void check_ladder(const rt::Config& config, bool whole, std::vector<ConfigError>* errors) {
   if (config.ladder.program.empty()) return;
   const std::size_t before = errors->size();
@@ -244,7 +244,7 @@ void check_ladder(const rt::Config& config, bool whole, std::vector<ConfigError>
     errors->push_back({config.ladder_file(), 0, "", "its errors may follow from those of the configuration, which says what devices there are"});
 }
 
-// What only the control finds: a runtime is made and not started.
+// Finds the errors that only the control finds: a runtime is made but not started.
 int check(const DaemonOptions& options, const rt::Config& config) {
   const std::unique_ptr<hal::Hal> machine = rt::make_axes(config);
   rt::VirtualClock clock;
@@ -264,7 +264,7 @@ int daemon_command(const DaemonOptions& given) {
   const bool only_check = options.command == DaemonOptions::Command::kCheck;
   rt::Config config, partial;
   std::vector<ConfigError> errors = rt::load_config(options.config, &config, &partial);
-  const bool whole = errors.empty();  // as a text; what it asks of the computer is another matter
+  const bool whole = errors.empty();  // the text has no errors; check_host() then checks what it requires of the computer
   if (whole) errors = rt::check_host(config);
   if (!errors.empty() && only_check) check_ladder(whole ? config : partial, whole, &errors);
   if (!errors.empty()) return config_failed(errors);

@@ -17,7 +17,7 @@ std::string conflict_of(const DaemonOptions& options, const rt::Config& config) 
 }
 
 bool change_dialect(const std::string& name, rt::Config* config) {
-  const std::uint8_t dialect = static_cast<std::uint8_t>(*dialect_from_name(name));  // the option takes no other word
+  const std::uint8_t dialect = static_cast<std::uint8_t>(*dialect_from_name(name));  // the command line accepts only known dialects
   if (config->nc.dialect == dialect) return false;
   config->nc.dialect = config->sim.dialect = dialect;
   if (config->parameters.empty()) return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the command line of ncrtd says, and what it ends with.
+// The options of ncrtd and its exit statuses.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +10,32 @@
 
 namespace nc::tools {
 
-/** Exit statuses of ncrtd; one that a signal has ended has 128 + its number (runtime/end_signal.hpp). */
+/** Exit statuses of ncrtd. When a signal has ended it, the status is 128 + the number of the signal (runtime/end_signal.hpp). */
 inline constexpr int kDaemonUsage = 1, kDaemonAlarm = 2, kDaemonInUse = 3;
 
 struct DaemonOptions {
   enum class Command : std::uint8_t { kCheck, kRun, kMdi, kServe };
   Command command = Command::kCheck;
-  std::string config;                                              ///< file of the machine
-  std::string program;                                             ///< of kRun
-  std::string mdi;                                                 ///< blocks of kMdi
-  std::string dialect;                                             ///< instead of the configured one; "" = that one
-  std::string plot;                                                ///< BASE of the drawing; "" = none
-  std::string view = "iso", coordinates = "work", color = "kind";  ///< of the drawing (plot_options.hpp)
-  std::string share;                                               ///< name of the shared memory; "" = as configured
+  std::string config;                                              ///< file of the machine's configuration
+  std::string program;                                             ///< program, for kRun
+  std::string mdi;                                                 ///< blocks, for kMdi
+  std::string dialect;                                             ///< replaces the configured dialect; "" = the configured one
+  std::string plot;                                                ///< name of the drawing without its ending; "" = no drawing
+  std::string view = "iso", coordinates = "work", color = "kind";  ///< how the path is drawn (plot_options.hpp)
+  std::string share;                                               ///< name of the shared memory; "" = the configured one
   bool fast = false;                                               ///< virtual time
   bool no_progress = false, quiet = false;
-  bool commands = false;                              ///< taken from the shared memory; also by the configuration
+  bool commands = false;                              ///< commands are taken from the shared memory; the configuration may say so, too
   std::int64_t since_ns = rt::RealClock().now_ns();   ///< start of the process, for the start-up time
 };
 
-/** What the options ask for that does not go together, with each other or with the configuration: a sentence; "" = nothing. */
+/** A sentence when options contradict each other or the configuration; "" = they do not. */
 std::string conflict_of(const DaemonOptions& options, const rt::Config& config);
 
 /**
- * Another dialect than the configured one. Parameters are numbers of one manual: with another dialect they would mean something else, or nothing,
- * and are left out.
- * @return true when there were some.
+ * Sets another dialect than the configured one. The configured parameters are removed, because their numbers belong to one manual and would have
+ * another meaning, or none, in another dialect.
+ * @return true when there were parameters.
  */
 bool change_dialect(const std::string& name, rt::Config* config);
 

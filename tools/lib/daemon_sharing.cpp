@@ -26,7 +26,7 @@ bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std
   runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file, std::string* why) {
     const std::string path = folder + "/" + name;
     if (files_->add(runtime->control(), path, file, why) != NC_OK) {
-      // The folder is the control's affair; the client has given a name in it.
+      // The folder is removed from the text, because the client has given only a name in it.
       if (why->rfind(folder + "/", 0) == 0) why->erase(0, folder.size() + 1);
       return false;
     }
@@ -46,7 +46,7 @@ void DaemonSharing::stop() {
 }
 
 void DaemonSharing::executed(unsigned, const nc_event& event) {
-  // A place may have got another program since: of that it says the number of texts entered.
+  // An entry of the store may have got another program since the last time; entered() counts that.
   if (event.source.file == last_file_ && files_->entered() == last_entered_) return;
   last_file_ = event.source.file;
   last_entered_ = files_->entered();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared memory of ncrtd, where it is asked for, and what it shows of the programs.
+// The shared memory of ncrtd, if it is wanted, and the programs that it shows.
 #pragma once
 
 #include <memory>
@@ -17,20 +17,20 @@ class DaemonSharing final : public rt::EventSink {
  public:
   DaemonSharing(const DaemonOptions& options, const rt::Config& config, hal::Hal* machine);
 
-  /** The machine as the runtime is to see it: through the tap of the shared memory where there is one. */
+  /** The machine that the runtime gets: the tap of the shared memory if there is one, otherwise the machine itself. */
   hal::Hal* hal(hal::Hal* machine) { return wanted_ ? &tap_ : machine; }
-  /** Before the start of the runtime. Without having been asked for it, failure is a warning. */
+  /** To be called before the start of the runtime. When the shared memory was not asked for, a failure is only a warning. */
   bool prepare(rt::Runtime* runtime, ProgramFiles* files, const std::string& folder, std::string* error);
-  /** Behind it. */
+  /** To be called after the start of the runtime. */
   bool start(std::string* error) { return service_ == nullptr || service_->start(error); }
   void stop();
   rt::share::ProgramTable& programs() { return programs_; }
 
-  /** Thread of the feeder, to which the files belong: a sub program gets its name when its first block is done. */
+  /** Called in the feeder thread, to which the files belong: a sub program gets its name when its first block has been executed. */
   void executed(unsigned system, const nc_event& event) override;
 
  private:
-  const bool asked_, wanted_;  // a service shows itself where it can
+  const bool asked_, wanted_;  // asked for by option or configuration; a service wants it even without
   rt::share::PointTap tap_;
   rt::share::ServiceOptions share_;
   rt::share::ProgramTable programs_;

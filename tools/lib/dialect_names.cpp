@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dialects as people write them; see dialect_names.hpp.
+// Names of dialects in options and messages; see dialect_names.hpp.
 #include "tools/lib/dialect_names.hpp"
 
 namespace nc::tools {

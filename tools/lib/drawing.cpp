@@ -11,15 +11,15 @@
 
 #if defined(__SANITIZE_ADDRESS__)
 #define NC_ADDRESS_SANITIZER 1
-#elif defined(__has_feature)  // how clang says it
+#elif defined(__has_feature)  // clang
 #if __has_feature(address_sanitizer)
 #define NC_ADDRESS_SANITIZER 1
 #endif
 #endif
 #if defined(NC_ADDRESS_SANITIZER)
-// fontconfig, which cairo asks for the font, keeps some blocks for the life of the process.
+// fontconfig, which cairo uses to find the font, never frees some of its blocks.
 extern "C" const char*
-__lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the sanitizer's name
+__lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier): the name that the sanitizer looks for
   return "leak:libfontconfig";
 }
 #endif
@@ -46,7 +46,7 @@ double nice_step(double span, double count) {
   return 10.0 * power;
 }
 
-// Counted, because adding a step to a large number may not change it.
+// The ticks are counted, because adding a small step to a large number may not change it, which would be an endless loop.
 std::vector<double> ticks_between(double low, double high, double step) {
   constexpr int kMost = 100;
   std::vector<double> ticks;

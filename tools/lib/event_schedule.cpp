@@ -33,7 +33,7 @@ std::vector<const SetupEvent*> EventSchedule::take(const nc_item& item, uint32_t
   return begun;
 }
 
-// All events of a setup lie in one vector, so their addresses are in its order.
+// All events of a setup are in one vector, so the order of their addresses is that of the setup.
 void EventSchedule::put_back(const SetupEvent* event) {
   waiting_.insert(std::lower_bound(waiting_.begin(), waiting_.end(), event), event);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// With which item of the stream an event of the setup begins: the one place that decides it, for runs that pull the items and for
-// executors that are told them ahead.
+// Decides with which item of the stream an event of the setup begins, for runs that pull the items and for
+// executors that are told of the items ahead of time.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class EventSchedule {
    */
   std::vector<const SetupEvent*> take(const nc_item& item, uint32_t main_line);
 
-  /** The item of this event was not executed and will be given again. */
+  /** Puts back an event whose item was not executed and will come again. */
   void put_back(const SetupEvent* event);
 
  private:

@@ -40,7 +40,7 @@ bool Foresight::commit(const nc_item& item, uint32_t main_line) {
   return !put_off;
 }
 
-// From this item on what was committed is read again, or was put off and is asked for again.
+// Undoes what was committed from this item on: it is read again, or it was put off and now comes again.
 void Foresight::go_back(uint64_t serial) {
   for (; !ahead_.empty() && ahead_.back().serial >= serial; ahead_.pop_back())
     for (const SetupEvent* event : ahead_.back().events)
@@ -63,7 +63,7 @@ bool Foresight::fire(uint64_t begun) {
   return over_;
 }
 
-// Of the first one that has not been executed; 0: none is committed.
+// Serial of the first listener that has not been executed; 0 = no such listener is committed.
 uint64_t Foresight::next_listener() const {
   for (const Entry& entry : ahead_)
     if (entry.listens && entry.serial > executed_) return entry.serial;
@@ -84,7 +84,8 @@ OutsideSignals Foresight::signals(const nc_axes& command, const nc_axes& work) {
   return found;
 }
 
-// The cycle that would pass the place is the one to end the move, so that a touch at the very end of its way is none that is missed.
+// True when the place of the touch would be passed in the next cycle: that is the cycle in which the move ends, so that a touch at the very end of the move
+// is not missed.
 bool Foresight::touches(const nc_axes& command) {
   constexpr double kTouch = 1e-9;
   double along = 0.0, square = 0.0;

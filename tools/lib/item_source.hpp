@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an offline sink gets its items and the texts that belong to them: a control, or a list in a test.
+// The source of the items of an offline run and of the texts that belong to them: a control, or a list in a test.
 #pragma once
 
 #include "nc/nc.h"
@@ -10,7 +10,7 @@ namespace nc::tools {
 /** The part system that the offline tools run. */
 inline constexpr unsigned kPartSystem = 0;
 
-/** The calls of libnc that offline sinks make; same meaning as the functions of the same name in nc/run.h and
+/** The calls of libnc that an offline run makes. They have the same meaning as the functions of the same name in nc/run.h and
  * nc/control.h. */
 class ItemSource {
  public:
@@ -18,19 +18,19 @@ class ItemSource {
   virtual nc_status pull(uint32_t budget, nc_item* item) = 0;
   virtual nc_status answer(const nc_world& world) = 0;
   virtual nc_status reset() = 0;
-  /** Gives up what was read beyond this mark; 0 = all of the program. */
+  /** Drops what was read beyond this mark; 0 = drops everything. */
   virtual nc_status rewind(uint64_t /*serial*/) { return NC_OK; }
-  /** Level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
+  /** Sets the level of the macro interrupt signal. @return true when the item pulled last must not be executed. */
   virtual bool interrupt(bool /*on*/) { return false; }
-  /** A point of the move pulled last; false when the source knows none. */
+  /** A point of the move pulled last; false when the source has none. */
   virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
-  /** Workpiece zero of the move pulled last, tool length in it (nc_move_zero); false when the source knows none. */
+  /** Workpiece zero of the move pulled last, including the tool length (nc_move_zero); false when the source has none. */
   virtual bool move_zero(nc_axes* /*zero*/) { return false; }
-  /** Positions as the counters show them (nc_position_shown). */
+  /** Changes positions to what the counters show (nc_position_shown). */
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line_get); 0 = not known. */
   virtual uint32_t main_line(const nc_source& source) { return source.depth == 0 ? source.line : 0; }
-  /** A number for all that the program can go by (loop_watch.hpp). */
+  /** A hash of everything that can influence the program (loop_watch.hpp). */
   virtual uint64_t program_state() { return 0; }
   virtual bool alarm(nc_alarm* alarm) = 0;
   virtual bool text(uint32_t id, nc_text* text) = 0;
@@ -80,7 +80,7 @@ class ControlSource final : public ItemSource {
   }
   bool text(uint32_t id, nc_text* text) override {
     if (nc_text_get(control_, kPartSystem, id, text) != NC_OK) return false;
-    if (text->size == 0) rt::make_valid(text->s, sizeof text->s);  // a line of BPRNT is bytes
+    if (text->size == 0) rt::make_valid(text->s, sizeof text->s);  // size != 0: bytes of BPRNT, which stay as they are
     return true;
   }
   unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks of a JsonNode against a format: each either gives the value or throws where and why. Used by setup
+// Checks of a JsonNode against a format: each either returns the value or throws an error with its line and reason. Used for setup
 // and machine files.
 #pragma once
 
@@ -14,10 +14,10 @@ namespace nc::tools::json {
 
 using Type = JsonNode::Type;
 
-/** A message as one line of at most 300 bytes, whatever stood in the file. */
+/** A message as one line of at most 300 bytes, whatever the file contains. */
 std::string one_line(std::string text);
 
-/** What is wrong and on which line; travels to the function that knows the file's name. */
+/** An error and its line; caught by the function that knows the name of the file. */
 struct JsonError {
   uint32_t line;
   std::string text;
@@ -84,7 +84,7 @@ inline std::string one_of(const JsonNode& node, const std::string& path,
   fail(node, path, "must be one of " + list);
 }
 
-/** The whole of a small text file; one of more than 64 MiB is none. */
+/** Reads a whole text file; one of more than 64 MiB is an error. */
 bool read_text_file(const std::string& path, std::string* content, std::string* error);
 
 }  // namespace nc::tools::json

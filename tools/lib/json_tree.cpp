@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text to a tree with line numbers; see json_tree.hpp. The parsing is nlohmann-json's SAX parser, which
-// reads through an iterator here that counts the line ends it passes: a callback stands on the line of the
-// token just read.
+// Parses JSON text into a tree with line numbers; see json_tree.hpp. The SAX parser of nlohmann-json
+// reads through an iterator that counts the line ends it passes, so in a callback the count is the line of the
+// token that was just read.
 #include "tools/lib/json_tree.hpp"
 
 #include <cmath>
@@ -37,7 +37,7 @@ namespace {
 
 constexpr size_t kMaxLevels = 32;
 
-// Input iterator over bytes that counts lines in a place shared by all its copies.
+// Input iterator over bytes that counts lines in a variable shared by all its copies.
 class LineCounting {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -108,8 +108,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
       return fail((value ? key_ + ": " : "") + "the number " +
                   (quote == std::string::npos ? "" : what.substr(quote) + " ") + "is too large");
     }
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": keep what comes
-    // behind the place.
+    // From "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ..." only the part after the
+    // place is kept.
     std::string text = why.what();
     const size_t colon = text.find(": ");
     if (colon != std::string::npos) text = text.substr(colon + 2);
@@ -148,7 +148,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     if (open_.size() >= kMaxLevels) return fail("nested too deep");
     JsonNode node;
     node.type = type;
-    open_.push_back(put(std::move(node)));  // stays put: nothing is added to its parent while it is open
+    open_.push_back(put(std::move(node)));  // the pointer stays valid, because nothing is added to the parent while this node is open
     return true;
   }
   bool shut() {

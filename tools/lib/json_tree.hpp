@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A JSON text as a small tree that knows on which line each value stands, for error messages that say where.
+// A JSON text as a small tree with the line of each value, for error messages.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,26 @@ struct JsonNode {
 
   Type type = Type::kNull;
   bool boolean = false;
-  bool integer = false;  // the number was written without point and exponent and fits
+  bool integer = false;  // the number was written without point and exponent, and fits into 64 bits
   double number = 0.0;
   std::string text;
-  std::vector<JsonNode> items;      // of an array
-  std::vector<JsonMember> members;  // of an object, in the order of the text
+  std::vector<JsonNode> items;      // elements of an array
+  std::vector<JsonMember> members;  // members of an object, in the order of the text
   uint32_t line = 0;
 
-  /** "an object", "a number", ... */
+  /** The type in words: "an object", "a number", ... */
   const char* type_name() const;
 };
 
-/** One key of an object with its value. A vector takes a type that is not complete yet; a std::pair of it, it
- * does not. */
+/** One key of an object with its value. A struct and not a std::pair, because a vector may have an incomplete element type, but a
+ * std::pair may not. */
 struct JsonMember {
   std::string first;
   JsonNode second;
 };
 
 /**
- * Parse `text`. Numbers that do not fit a double, keys given twice or with control characters, more than 32
+ * Parses `text`. Numbers that do not fit into a double, keys given twice or with control characters, more than 32
  * levels and everything that is not JSON are errors. @return false with "line N: why" in *error.
  */
 bool parse_json(const std::string& text, JsonNode* root, std::string* error);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// See loop_watch.hpp. A loop is a jump back, known by its two lines. Its passes are in a row until the program jumps back to a line before its
-// head, which begins it anew (the inner loop of two), or comes to a line behind all that it has reached before: a program that runs on ends.
+// See loop_watch.hpp. A loop is a jump back, identified by its two lines. Its passes are counted until the program jumps back to a line before the
+// head of the loop, which begins the loop anew (this is the inner one of two loops), or reaches a line beyond all lines that it has reached before,
+// because a program that goes forward comes to its end.
 //
-// A state that comes again is followed by what followed it before, for ever, unless something from outside is asked. So the state behind pass 99 is
-// kept and compared with the next two, which finds a loop that has settled or alternates. Later on it may settle or go round in more passes: the state behind pass 199 is compared with
-// the next 4, that behind pass 399 with the next 8, and so on. So few looks leave the longest loop as fast as it is, and the inner loop of two, whose passes are counted
-// anew again and again.
+// When a state of the program occurs again, everything that followed it the first time follows again, for ever, unless the program reads something from
+// outside. So the state after pass 99 is kept and compared with the next two, which finds a loop whose state no longer changes or alternates. The loop may
+// come to that only later, or repeat only after more passes: so the state after pass 199 is compared with the next 4, that after pass 399 with the next 8,
+// and so on. The state is needed so rarely that even the longest loop does not become slower, nor an inner loop, whose passes are counted anew again and
+// again.
 #include "tools/lib/loop_watch.hpp"
 
 #include <algorithm>
@@ -14,12 +16,12 @@
 namespace nc::tools {
 namespace {
 
-constexpr uint64_t kLongestPeriod = 16;  // passes in which a loop may come back to a state and be found
+constexpr uint64_t kLongestPeriod = 16;  // a loop is found when it repeats a state within at most this number of passes
 
 }  // namespace
 
 bool LoopWatch::block(const nc_source& source, const Look& look) {
-  levels_.resize(size_t{source.depth} + 1);  // calls below have returned
+  levels_.resize(size_t{source.depth} + 1);  // removes the levels of calls that have returned
   Level& level = levels_.back();
   if (level.program != source.program || level.file != source.file) {
     level = {};

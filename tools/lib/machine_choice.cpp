@@ -12,10 +12,10 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kSlowest = 1e-3, kFastest = 1e9;  // as in machine_limits.cpp
+constexpr double kSlowest = 1e-3, kFastest = 1e9;  // the same range as in machine_limits.cpp
 constexpr double kMicro = 1e-6;
 
-// One number at *at, which moves behind it.
+// Reads one number at *at and moves *at past it.
 bool take_number(const char** at, double* value) {
   if (**at == ' ' || **at == '\0') return false;
   char* end = nullptr;
@@ -25,7 +25,7 @@ bool take_number(const char** at, double* value) {
   return true;
 }
 
-// The law of motion: what the command line says, else the machine, else what the limits allow.
+// Chooses the law of motion: the one of the command line, or else of the machine, or else the one that the limits allow.
 bool set_motion(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error) {
   const bool by_machine = machine != nullptr && machine->motion_given;
   if (options.tolerance) config->path_tolerance = *options.tolerance;
@@ -69,8 +69,8 @@ std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* e
     for (const rt::ConfigError& e : errors) *error += (error->empty() ? "" : "\n") + e.text();
     return nullptr;
   }
-  config->nc.system_count = 1;  // the one that a program of the command line runs in
-  // No PLC selects spindles here or makes one an axis: there is one spindle, and a C axis is always an axis.
+  config->nc.system_count = 1;  // a program of the command line runs in the first one
+  // There is no PLC here that selects spindles or switches one to an axis, so there is one spindle, and a C axis is always an axis.
   config->nc.system[0].spindle_count = 1;
   for (nc_axis_config& axis : config->nc.system[0].axis) axis.spindle = 0;
   std::erase_if(config->work_offsets, [](const rt::WorkOffsetSetting& w) { return w.system != 0; });

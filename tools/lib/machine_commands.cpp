@@ -31,7 +31,7 @@ int exit_code(MachineResult::How how) {
   return how == MachineResult::How::kAlarmed ? kExitAlarm : how == MachineResult::How::kEndless ? kExitEndless : kExitEnded;
 }
 
-// Says how far the machine is after an hour of its time, after two, four and so on: who waits sees where, and that it may not end at all.
+// Prints how far the machine is after one hour of its time, after two, four and so on: a user who waits sees the place, and that the program may not end.
 class LongRun {
  public:
   LongRun(double cycle_s, std::FILE* err) : cycle_s_(cycle_s), err_(err) {}
@@ -59,7 +59,7 @@ MachineResult run(Session* session, const RunLimits& limits, std::FILE* err, con
   return run_machine(session->control(), session->config(), session->setup(), session->decides(), limits.seconds, limits.loops, observe, &servo);
 }
 
-// Milliseconds, and as many digits more as the cycle needs.
+// The number of decimals for times in seconds: three, and more if the cycle needs them.
 int time_decimals(double cycle_s) {
   int count = 3;
   for (double rest = cycle_s * 1e3; count < 9 && std::fabs(rest - std::round(rest)) > 1e-7; rest *= 10)
@@ -72,7 +72,7 @@ std::string short_name(const std::string& program) {
   return program == "-" ? "standard input" : rt::valid_utf8(program.substr(slash == std::string::npos ? 0 : slash + 1));
 }
 
-// A file for rows; closed at the end.
+// The descriptor of the file for rows, which is closed by the destructor.
 class Descriptor {
  public:
   explicit Descriptor(int given) : value_(given) {}

@@ -13,7 +13,7 @@ namespace {
 
 using namespace json;
 
-// Rates below make a run that never ends, rates above steps that no double holds beside a position.
+// With smaller rates a run would never end; with larger ones a step would be too large for a double to hold a position beside it.
 constexpr double kSlowest = 1e-3, kFastest = 1e9;  // mm, deg per second, second squared, cubed
 constexpr double kMinWidth = 1e-6, kMaxLength = 1e6;
 constexpr double kShortestCycle_s = 1e-5, kLongestCycle_s = 0.1;
@@ -106,7 +106,7 @@ bool parse_machine_limits(const std::string& text, const std::string& name, nc_c
 
 bool load_machine_limits(const std::string& path, nc_config* config, std::string* error) {
   std::string text;
-  if (path.ends_with(".toml")) {  // ncrtd and ncdds take --config for --machine
+  if (path.ends_with(".toml")) {  // a likely mistake: in ncrtd and ncdds --config is the same as --machine
     *error = path + ": limits are JSON (docs/trace.md); the configuration of a machine is --machine " + path;
     return false;
   }

@@ -9,14 +9,14 @@
 namespace nc::tools {
 
 /**
- * Velocity 250 mm/s (rapids too), acceleration 2000 mm/s^2, jerk 50000 mm/s^3, in-position width 0.02 mm for
- * every axis of the first part system; degrees for rotary axes.
+ * Sets for every axis of the first part system velocity 250 mm/s (also for rapids), acceleration 2000 mm/s^2, jerk 50000 mm/s^3 and
+ * in-position width 0.02 mm; for rotary axes the same numbers in degrees.
  */
 void default_machine_limits(nc_config* config);
 
 /**
  * {"cycle_s": 0.001, "axes": {"X": {"velocity": 250, "rapid": 300, "acceleration": 2000, "jerk": 50000,
- * "in_position": 0.02, "stroke": [-10, 500]}}}: what is named replaces the default; an axis that the setup
+ * "in_position": 0.02, "stroke": [-10, 500]}}}: values in the file replace the defaults; an axis that the setup
  * does not have is an error.
  */
 bool load_machine_limits(const std::string& path, nc_config* config, std::string* error);

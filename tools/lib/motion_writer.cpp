@@ -17,7 +17,7 @@ constexpr size_t kPositionText = 360;  // any double with 12 decimals and a comm
 char* put_position(char* at, double value) {
   *at++ = ',';
   const auto end = std::to_chars(at, at + kPositionText - 1, value, std::chars_format::fixed, kDecimals).ptr;
-  // What rounds to zero has no sign: the same position is the same text.
+  // A number that is rounded to zero is written without a sign, so that the same position always gives the same text.
   bool zero = *at == '-';
   for (const char* c = at + 1; zero && c < end; ++c) zero = *c == '0' || *c == '.';
   if (!zero) return end;

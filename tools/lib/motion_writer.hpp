@@ -12,8 +12,8 @@ namespace nc::tools {
 enum class MotionFormat { kCsv, kF64 };
 
 /**
- * Which cycles count: those in which the program's time goes on (nc_outputs::run_s) or an axis moves. The
- * cycles in which a block stop waits for cycle start do not.
+ * Decides which cycles count: those in which the time of the program goes on (nc_outputs::run_s) or an axis moves. The
+ * cycles in which a block stop waits for cycle start do not count.
  */
 class MotionCycles {
  public:
@@ -27,14 +27,14 @@ class MotionCycles {
   double last_run_s_ = 0.0;
 };
 
-/** Writes rows; errors are kept by the OutputFile. */
+/** Writes rows; the OutputFile keeps errors. */
 class MotionWriter {
  public:
   MotionWriter(OutputFile* out, const nc_config& config, MotionFormat format);
 
-  /** The head, and the row of t = 0: where the axes stand before the first cycle. */
+  /** Writes the head and the row for t = 0: the position before the first cycle. */
   void begin(const nc_axes& start);
-  /** What one cycle gave out: a row when it counts. */
+  /** Writes a row for one cycle, if it counts. */
   void cycle(const nc_outputs& out);
 
   uint64_t rows() const { return rows_; }

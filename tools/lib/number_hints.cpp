@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that probably mean something else; see number_hints.hpp.
+// Finds numbers that probably mean something else; see number_hints.hpp.
 #include "tools/lib/number_hints.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 struct PlainWord {
   char letter;
   bool comma;
-  std::string number;  // sign, digits, point; "" = not a plain number
+  std::string number;  // sign, digits and point; "" = not a plain number
   bool point() const { return number.find('.') != std::string::npos; }
   std::string text() const { return (comma ? "," : "") + std::string(1, letter) + number; }
   double value() const { return std::strtod(number.c_str(), nullptr); }
@@ -35,7 +35,7 @@ std::vector<PlainWord> words_of(const std::string& line) {
     if (c == '=') return {};
     if (c == ';') break;
     if (c >= 'A' && c <= 'Z') {
-      if (!words.empty() && words.back().number.empty()) return {};  // a keyword
+      if (!words.empty() && words.back().number.empty()) return {};  // two letters in a row are a keyword of a macro statement
       words.push_back({c, comma, ""});
     } else if (c != ',' && !words.empty()) {
       words.back().number += c;
@@ -48,10 +48,10 @@ std::vector<PlainWord> words_of(const std::string& line) {
   return words;
 }
 
-/// "1 more number", "2 more numbers"
+/// A text such as "1 more number" or "2 more numbers".
 std::string more(uint64_t count, const char* noun) { return std::to_string(count) + " more " + noun + (count == 1 ? "" : "s"); }
 
-/// The key of a parameter of this dialect that is 0 or not set; "" = it is set, or the dialect has none.
+/// The key of the parameter with this role if it is 0 or not set; "" = it is set, or the dialect has no such parameter.
 std::string switched_off(const Session& session, nc_parameter_role role) {
   char key[24];
   double value = 0;
@@ -92,7 +92,7 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
     if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};
     for (size_t i = 0; i < words.size(); ++i) {
       const PlainWord& word = words[i];
-      if (word.value() == 0) continue;  // the same in every unit
+      if (word.value() == 0) continue;  // 0 is the same in every unit
       if (kinds[i] == NC_NUMBER_LENGTH) hints.count_length(word.text(), word.point(), std::fabs(word.value()), line);
       if (kinds[i] != NC_NUMBER_DWELL || !word.point() || hints.dwells++ != 0) continue;
       hints.first_dwell = line;

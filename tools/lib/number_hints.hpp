@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of a program that probably mean something else than what the control reads.
+// Numbers in a program that probably mean something else than what the control reads.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@
 
 namespace nc::tools {
 
-/** From the text of a program, whether a block is executed or not. */
+/** What the text of a program shows, whether its blocks are executed or not. */
 struct NumberHints {
-  uint64_t with_point = 0, without_point = 0;  // dimension words; zeros are the same in every unit
-  uint32_t first_without = 0;                  // line
-  std::string first_word;                      // "X10"
+  uint64_t with_point = 0, without_point = 0;  // number of dimension words; zeros are not counted, because they are the same in every unit
+  uint32_t first_without = 0;                  // line of the first word without a point
+  std::string first_word;                      // that word: "X10"
   double largest_without = 0;
   std::string largest_word;
-  uint64_t dwells = 0;  // times of a dwell with a point
+  uint64_t dwells = 0;  // number of dwells whose time has a point
   uint32_t first_dwell = 0;
   std::string dwell_word;  // "P1.00000"
 
   void count_length(const std::string& word, bool point, double value, uint32_t line);
 
   /**
-   * What stands without a point was hardly meant in thousandths: others have a point, or all of it together is less than a millimetre. A
-   * program that is written in thousandths throughout is what it says: of that the numbers are only told.
+   * True when the numbers without a point were probably not meant in thousandths: other numbers have a point, or all of them are less than a millimetre. A
+   * program whose numbers are all in thousandths is probably meant so; for it there is only a note.
    */
   bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
 };
@@ -33,7 +33,7 @@ struct NumberHints {
 /** @param axes letters of the axes */
 NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes);
 
-/** The hints that hold with the parameters of this control, on `err`. */
+/** Prints on `err` the hints that apply with the parameters of this control. */
 void note_numbers(const Session& session, std::FILE* err);
 
 }  // namespace nc::tools

@@ -28,8 +28,8 @@ size_t integer_text(uint64_t value, char* out) {
 
 size_t number_text(double value, char* out) {
   if (!(std::fabs(value) < kFixedLimit)) return value_text(value, out);
-  // One multiplication and one rounding: the result depends on the value alone. The product's own rounding
-  // moves a tie of the tenth decimal at most, never a printed digit of a value with nine decimals.
+  // With one multiplication and one rounding the result depends on the value alone. The rounding of the product
+  // can only change how a tie in the tenth decimal is rounded; it never changes a digit of a value with nine decimals.
   const int64_t scaled = std::llround(value * kScale);
   char* p = out;
   if (scaled < 0) *p++ = '-';
@@ -53,15 +53,15 @@ size_t number_text(double value, char* out) {
 
 size_t value_text(double value, char* out) {
   if (!std::isfinite(value)) {
-    std::memcpy(out, "null", 4);  // NOLINT(bugprone-not-null-terminated-result): lengths, not NULs
+    std::memcpy(out, "null", 4);  // NOLINT(bugprone-not-null-terminated-result): the length is returned, there is no NUL
     return 4;
   }
   if (value == 0.0) {
     *out = '0';
     return 1;
   }
-  // Rounded to 15 digits first, then the shortest text of what that is: to_chars with a precision alone would
-  // keep noise.
+  // The value is rounded to 15 digits first, and then the shortest text of the result is taken: to_chars with a precision alone would
+  // keep rounding errors.
   char digits[kNumberText];
   const auto rounded =
       std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 14);

@@ -8,8 +8,8 @@
 namespace nc::tools {
 namespace {
 
-constexpr uint32_t kBudget = 4096;  // blocks per pull
-constexpr uint32_t kMacroInterrupt = 96;  // index of the action that M96, M97 and the interrupt program give out
+constexpr uint32_t kBudget = 4096;  // blocks that one pull may read
+constexpr uint32_t kMacroInterrupt = 96;  // index of the action of M96, M97 and the interrupt program
 
 class OfflineRun {
  public:
@@ -21,7 +21,7 @@ class OfflineRun {
     passes_differ();
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
-      // Lines without a block pass in silence, and may be many; every loop of a program has blocks, and so
+      // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
       // marks.
       constexpr uint64_t kLinesForABlock = 1000;
       empty_lines_ = status == NC_BUDGET ? empty_lines_ + kBudget : 0;
@@ -49,9 +49,9 @@ class OfflineRun {
   }
 
  private:
-  // What the world sees, or lets time pass, ends a silence, and so does a block of the main program behind
-  // all that were executed before: a program that only runs on comes to its end. Blocks that calculate and
-  // jump do not.
+  // Counts blocks that only calculate and jump. The count begins anew with every item that the machine notices or that lets time pass, and with a block of
+  // the main program beyond all that were executed before, because a program that goes forward comes to its
+  // end.
   void count_silence(const nc_item& item) {
     if (item.kind == NC_ITEM_MARK) {
       ++silent_;
@@ -84,7 +84,7 @@ class OfflineRun {
                    "(--max-silent-blocks)");
   }
 
-  // What has been done so far stands: the sink closes as at an end.
+  // Ends the run. What has been done so far is kept: the sink is closed as at the end of a program.
   RunResult give_up(std::string why) {
     result_.how = RunResult::How::kEndless;
     result_.error = std::move(why);
@@ -173,7 +173,7 @@ class OfflineRun {
 
   void gate(const nc_item& item) {
     const nc_gate& gate = item.u.gate;
-    // Whether M01 exists at all is decided here, by its switch: it comes as a gate without an action. //
+    // The switch of the optional stop decides whether M01 appears in the trace: the stream has only a gate for it, and no action.
     // M700 9.1
     if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', items_.optional_stop_code());
     if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
@@ -207,7 +207,7 @@ class OfflineRun {
     sink_.end(item.source, item.u.end.ok, item.u.end.work, world_.machine(), item.u.end.modal);
   }
 
-  // `ok` says that no alarm stopped the program, which is so here. The block that has just begun has been read, and is not executed.
+  // The end has `ok` set, because no alarm has stopped the program. The block that has just begun was read but is not executed.
   RunResult reset() {
     if (items_.rewind(last_mark_) != NC_OK) return fail("the control cannot go back to the end of the block before the reset");
     items_.reset();
@@ -232,16 +232,16 @@ class OfflineRun {
   RunSink& sink_;
   const bool one_pass_;
   const RunProgress& progress_;
-  uint64_t passed_ = 0, next_told_;  // blocks
+  uint64_t passed_ = 0, next_told_;  // number of blocks so far; number at which progress is told next
   Passes passes_;
   LoopWatch loops_;
   RunResult result_;
   nc_source last_ = {};
   nc_axes work_ = {};
-  uint64_t silent_ = 0;         // blocks since something happened
-  uint64_t empty_lines_ = 0;    // since the last item
-  uint32_t furthest_line_ = 0;  // of the main program that a block was executed on
-  uint64_t last_mark_ = 0;      // serial
+  uint64_t silent_ = 0;         // number of blocks since something happened
+  uint64_t empty_lines_ = 0;    // number of lines without a block since the last item
+  uint32_t furthest_line_ = 0;  // last line of the main program on which a block was executed
+  uint64_t last_mark_ = 0;      // serial number of the last mark
   uint32_t modal_ = 0;
   bool ended_ = false, interrupt_ = false;
 };
@@ -254,7 +254,7 @@ bool has_decision(const std::string& text) {
     const char c = text[i];
     if (c == '(') comment = true;
     if (c == ')' || c == '\n') comment = false;
-    const auto is = [&](const char* word, size_t length) {  // the lexer takes small letters, too
+    const auto is = [&](const char* word, size_t length) {  // small letters count, too, as in the lexer
       for (size_t k = 0; k < length; ++k)
         if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
       return true;

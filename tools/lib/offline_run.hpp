@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One program from its first item to its last, offline: pulls the items, lets the virtual world execute them
-// and tells a sink.
+// Runs one program offline from its first item to its last: pulls the items, lets the virtual world execute them
+// and reports them to a sink.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace nc::tools {
 
-/** What an offline run tells; every function does nothing unless overridden. */
+/** What an offline run reports; every function does nothing unless it is overridden. */
 class RunSink {
  public:
   virtual ~RunSink() = default;
   virtual void move(const nc_source&, const nc_move&) {}
-  /** A skip move as it was done; `skipped`: its signal ended it. */
+  /** A skip move as it was executed; `skipped`: its signal ended it. */
   virtual void skip_move(const nc_source& source, const nc_move& done, bool /*skipped*/) { move(source, done); }
   virtual void block(const nc_source&, const nc_axes& /*work*/, const nc_axes& /*machine*/) {}
   virtual void aux(const nc_source&, char /*code*/, double /*value*/) {}
@@ -31,7 +31,7 @@ class RunSink {
   virtual void alarm(const nc_alarm&) {}
   virtual void end(const nc_source&, bool /*ok*/, const nc_axes& /*work*/, const nc_axes& /*machine*/,
                    uint32_t /*modal*/) {}
-  /** True when nothing more is wanted (the output cannot be written). */
+  /** True when the run is to stop, because the output cannot be written. */
   virtual bool stop() const { return false; }
 };
 
@@ -39,25 +39,25 @@ class RunSink {
 struct RunResult {
   enum class How { kEnded, kAlarmed, kReset, kStopped, kEndless, kFailed };
   How how = How::kFailed;
-  nc_alarm alarm = {};  // kAlarmed
-  std::string error;    // kFailed; kEndless: the loop that was given up
+  nc_alarm alarm = {};  // for kAlarmed
+  std::string error;    // for kFailed; for kEndless the loop that was given up
   uint64_t blocks = 0, moves = 0;
-  bool one_pass = false;  // kEnded, because M99 would begin the main program again
+  bool one_pass = false;  // with kEnded: the run ended where M99 would begin the main program again
   double length = 0.0;    // mm
-  double seconds = 0.0;   // of the trace's clock
+  double seconds = 0.0;   // on the clock of the trace
 };
 
-/** The text of a main program has an IF or a WHILE outside of comments. */
+/** True when the text of a main program has an IF or a WHILE outside of comments. */
 bool has_decision(const std::string& text);
 
 /**
- * Whether a main program that M99 begins again may come to an end by itself: it decides something, and the
- * common variables are not what they were at its head. One that only turns round would run for ever.
+ * Whether a main program that M99 begins again may come to an end by itself: it has a decision (IF or WHILE), and the
+ * common variables have changed since its head was passed last. Otherwise it would run for ever.
  */
 class Passes {
  public:
   explicit Passes(bool decides) : decides_(decides) {}
-  /** To be asked at the head of the first pass, and of each to come. `next` as nc_variable_next(). */
+  /** To be called at the head of the first pass and of each further one. `next` is like nc_variable_next(). */
   template <typename Next>
   bool differ(const Next& next) {
     std::vector<std::pair<uint32_t, double>> now;
@@ -75,8 +75,8 @@ class Passes {
 };
 
 /**
- * Who waits for a long run hears where it is: `tell` with the block that has ended, after the first so many blocks, then after twice as many,
- * and so on. A loop that moves never ends, and no count of blocks tells it from a program that is long.
+ * Reports the progress of a long run: `tell` is called with the block that has ended after `first` blocks, then after twice as many,
+ * and so on. A loop with moves never ends, and no number of blocks distinguishes it from a long program, so the user has to judge.
  */
 struct RunProgress {
   uint64_t first = 10'000'000;
@@ -84,9 +84,9 @@ struct RunProgress {
 };
 
 /**
- * Run to the end. A stretch of `max_silent_blocks` blocks that only calculate and jump (GOTO in a circle) is
- * given up, and so are passes beyond `loops`; 0 = no limit. Reading the clock is no silence: time passes, so a waiting loop ends. Where M99
- * would begin the main program again the run ends, with `one_pass` always, else unless the passes differ.
+ * Runs the program to its end. The run is given up after `max_silent_blocks` blocks in a row that only calculate and jump, and after more passes of a
+ * loop than `loops` allows; 0 = no limit. Blocks that read the clock are not counted: time passes, so a waiting loop ends. Where M99
+ * would begin the main program again, the run ends; without `one_pass` it goes on there if the passes differ (Passes).
  * @param decides has_decision() of the main program
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a value of a command-line option may be. CLI11 takes more than a person means: -1 as a very large number, 010 as eight,
-// nan inside every range, an empty text as if the option were not there. These checks refuse it in a sentence.
+// Checks of the values of command-line options. CLI11 accepts values that are probably mistakes: -1 as a very large number, 010 as eight,
+// nan inside every range, an empty text as if the option were not there. These checks refuse them with a sentence.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,12 +12,12 @@
 
 namespace nc::tools {
 
-/// A text with something in it.
+/// A text that is not empty.
 inline CLI::Validator given() {
   return CLI::Validator([](std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); }, "");
 }
 
-/// A whole number, written in decimal digits. For transform(): leading zeros, which CLI11 would read as octal, are taken away.
+/// A whole number in decimal digits. To be used with transform(): leading zeros, which CLI11 would read as octal, are removed.
 inline CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
   return CLI::Validator(
       [least, most](std::string& text) {
@@ -25,7 +25,7 @@ inline CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
             "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most) + ", is " + (text.empty() ? "empty" : text);
         if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) return wrong;
         text.erase(0, std::min(text.find_first_not_of('0'), text.size() - 1));
-        constexpr std::size_t kSafeDigits = 19;  // no overflow
+        constexpr std::size_t kSafeDigits = 19;  // fits into 64 bits
         if (text.size() > kSafeDigits) return wrong;
         const std::uint64_t value = std::stoull(text);
         return value >= least && value <= most ? std::string() : wrong;
@@ -33,7 +33,7 @@ inline CLI::Validator whole(std::uint64_t least, std::uint64_t most) {
       "");
 }
 
-/// Seconds, above 0 or from 0 on.
+/// A time in seconds, above 0, or from 0 on if `zero_allowed`.
 inline CLI::Validator seconds(bool zero_allowed, const char* most_text) {
   const double most = std::strtod(most_text, nullptr);
   return CLI::Validator(
@@ -46,7 +46,7 @@ inline CLI::Validator seconds(bool zero_allowed, const char* most_text) {
       "SECONDS");
 }
 
-/// One of some words, in any case. For transform(): the word comes out as it stands in the list.
+/// One of some words, in upper or lower case. To be used with transform(): the word becomes that of the list.
 inline CLI::Validator one_of(std::vector<std::string> words) {
   std::string list;
   for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;

@@ -16,7 +16,7 @@ bool ends_well(const SessionOptions& options, const RunLimits& limits) {
   VirtualWorld world(session.setup(), session.config().system[0]);
   RunSink nothing;
   const RunResult result = run_offline(&items, &world, &nothing, session.decides(), limits.silent_blocks, true, {}, limits.loops);
-  // Reading without an alarm what does nothing says nothing.
+  // A program without moves does not show that it is of this family, even when it has no alarm.
   return result.how == RunResult::How::kEnded && result.moves > 0;
 }
 
@@ -25,7 +25,7 @@ bool ends_well(const SessionOptions& options, const RunLimits& limits) {
 std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits) {
   std::vector<std::string> found;
   if (options.program == "-" || !options.setup.empty() || !options.machine.empty() || !options.tape.empty()) return found;
-  for (const std::string& name : dialect_names()) {  // in its own family it has had an alarm, and has it again
+  for (const std::string& name : dialect_names()) {  // its own family is tried as well: the alarm comes again there
     SessionOptions other = options;
     other.dialect = name;
     other.dialect_given = true;

@@ -20,7 +20,7 @@ void OutputFile::spill() {
     else if (errno != EINTR)
       error_ = errno;
   }
-  used_ = 0;  // after an error nothing more is kept: the caller stops at the next look at failed()
+  used_ = 0;  // after an error the contents are dropped; the caller stops when it looks at failed()
 }
 
 bool OutputFile::flush() {

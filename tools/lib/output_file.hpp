@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffered output to a descriptor: whole lines in, few write() calls, errors kept until someone asks.
+// Buffered output to a descriptor: it takes whole lines, makes few write() calls, and keeps an error until it is asked for.
 #pragma once
 
 #include <cstddef>
@@ -8,23 +8,23 @@
 
 namespace nc::tools {
 
-/** Does not own the descriptor. The destructor does not write: call flush() and look at its answer. */
+/** Does not own the descriptor. The destructor does not write: call flush() and check its result. */
 class OutputFile {
  public:
   explicit OutputFile(int descriptor);
 
-  /** Room for `size` <= kLargest bytes; follow with advance(). */
+  /** Returns room for `size` <= kLargest bytes; advance() must follow. */
   char* reserve(size_t size) {
     if (size > kCapacity - used_) spill();
     return buffer_.get() + used_;
   }
   void advance(size_t size) { used_ += size; }
 
-  /** Write everything out. @return false when this or an earlier write failed. */
+  /** Writes everything. @return false when this or an earlier write failed. */
   bool flush();
 
   bool failed() const { return error_ != 0; }
-  /** Why writing failed, as the system says it ("Broken pipe", "No space left on device"). */
+  /** Why writing failed, in the words of the system ("Broken pipe", "No space left on device"). */
   std::string error_text() const;
 
   static constexpr size_t kLargest = 64 * 1024;

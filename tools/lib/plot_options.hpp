@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of the programs that draw a tool path: how it is looked at and what its colours say.
+// The options of the programs that draw a tool path: the view, the coordinates and the meaning of the colours.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -27,7 +27,7 @@ inline const std::map<std::string, PlotColor>& plot_colors() {
   return names;
 }
 
-/** --view, --coordinates and --color; `each` says what they go together with. */
+/** Adds --view, --coordinates and --color; `each` is called with each of them to say which other options they need. */
 inline void add_plot_options(CLI::App* command, std::string* view, std::string* coordinates, std::string* color,
                              const std::function<void(CLI::Option*)>& each) {
   each(command->add_option("--view", *view, "iso, xy, xz or yz")->capture_default_str()->transform(one_of({"iso", "xy", "xz", "yz"})));

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a ToolpathPlot with cairo: projection, axes with ticks in mm, the path, a legend and a scale bar.
 //
-// Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt
-// 2 and
-// (-1, 1, 2)/sqrt 6, so the three axes are shortened alike (by sqrt(2/3)) and one scale bar holds along each
+// Isometric projection from (+X, -Y, +Z): the unit vectors to the right and up on the page are (1, 1, 0)/sqrt 2 and
+// (-1, 1, 2)/sqrt 6. So the three axes are shortened by the same factor, sqrt(2/3), and one scale bar is right for all
 // of them.
 #include <cairo.h>
 
@@ -23,44 +22,44 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kWidth = 1400, kHeight = 1000;  // px; points in the SVG
+constexpr double kWidth = 1400, kHeight = 1000;  // px in the PNG, points in the SVG
 constexpr double kLeft = 90, kRight = 60, kTop = 90, kBottom = 110;
-constexpr double kMinPixels = 0.3;  // vertices nearer than this to the last one drawn are left out
-constexpr int kStrokeChunk = 500;   // cairo's time for one stroke grows faster than its length
+constexpr double kMinPixels = 0.3;  // vertices nearer than this to the last one that was drawn are skipped
+constexpr int kStrokeChunk = 500;   // vertices in one stroke, because the time of cairo for a stroke grows faster than its length
 constexpr double kIsoShortening = 0.81649658092772603;  // sqrt(2/3)
 
 constexpr Color kRapid{0.85, 0.20, 0.10}, kFeed{0.05, 0.30, 0.75}, kStart{0.10, 0.55, 0.20}, kEnd{0.15, 0.15, 0.15},
     kAlarm{0.80, 0.00, 0.55};
-constexpr Color kSurface{0.42, 0.58, 0.86};  // of the kind feed, light enough that shades are seen
-// Towards the light, by PlotView: from the left of who looks, in XY from above on the page.
+constexpr Color kSurface{0.42, 0.58, 0.86};  // surface of feed moves when the colour shows the kind; light enough that shades are seen
+// Direction towards the light for each PlotView: it comes from the left of the viewer, in XY also from above on the page.
 constexpr double kLight[][3] = {{-0.75, 0.0, 0.65}, {-0.55, 0.45, 0.70}, {-0.55, -0.45, 0.70}, {0.45, -0.55, 0.70}};
 constexpr unsigned kShades = 16;
-// From low to high; neither end is as light as the page nor red as the rapids.
+// Colours from low to high values; neither end is as light as the page or as red as the rapids.
 constexpr Color kRamp[] = {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.90, 0.80, 0.10}};
 constexpr Color kTools[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65},
                             {0.00, 0.60, 0.70}, {0.45, 0.30, 0.15}, {0.85, 0.35, 0.60}, {0.40, 0.40, 0.40}};
-// As much of a sentence as fits beside the legend.
+// The part of a sentence that fits beside the legend.
 std::string first_line(const std::string& text) {
   constexpr size_t kMost = 150;
   std::string line = text.substr(0, text.find('\n'));
   if (line.size() <= kMost) return line;
   size_t end = kMost;
-  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;  // a character of UTF-8 stays whole
+  while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;  // does not cut inside a character of UTF-8
   return line.substr(0, end) + "...";
 }
 
 constexpr double kMark = 4.5;            // px: half of a mark's width
 constexpr double kArrow = 7.0;           // px
-constexpr double kArrowDistance = 120;   // px of path from one arrow to the next ...
-constexpr double kMostArrows = 60;       // ... or more: so many are read as directions, more hide the path
+constexpr double kArrowDistance = 120;   // shortest path from one arrow to the next, px
+constexpr double kMostArrows = 60;       // most arrows in a drawing, because more of them would hide the path
 
 struct Page {
-  double u, v;  // to the right and up, mm
+  double u, v;  // to the right and up; mm, or px after px() and py()
 };
 
 }  // namespace
 
-/** One drawing on one cairo context. */
+/** Paints one drawing on one cairo context. */
 class PlotPainter {
  public:
   PlotPainter(const ToolpathPlot& plot, cairo_t* context)
@@ -100,7 +99,7 @@ class PlotPainter {
   double px(const Page& p) const { return kLeft + offset_x_ + (p.u - low_.u) * scale_; }
   double py(const Page& p) const { return kHeight - kBottom - offset_y_ - (p.v - low_.v) * scale_; }
 
-  // One scale for both directions, the path in the middle.
+  // Chooses the scale, which is the same in both directions, and puts the path in the middle.
   void fit() {
     for (int i = 0; i < 3; ++i) {
       lo_[i] = box_.low[i];
@@ -123,7 +122,7 @@ class PlotPainter {
     offset_y_ = (room_y - (high_.v - low_.v) * scale_) / 2;
   }
 
-  // Plane views: a frame, ticks with a light grid, the axes' names.
+  // Views of a plane: draws a frame, ticks with a light grid, and the names of the axes.
   void frame() {
     const bool yz = plot_.view_ == PlotView::kYZ, xy = plot_.view_ == PlotView::kXY;
     const double x0 = px(low_), x1 = px(high_), y0 = py(low_), y1 = py(high_);
@@ -148,7 +147,7 @@ class PlotPainter {
     put_text(c_, x0 - 9, y1 - 10, std::string(xy ? "Y" : "Z") + " [mm]", 15, 0.5);
   }
 
-  // Isometric view: the box around the path; ticks along its three front edges.
+  // Isometric view: draws the box around the path, and ticks along its three front edges.
   void box() {
     cairo_set_line_width(c_, 0.8);
     for (int edge = 0; edge < 12; ++edge) {
@@ -168,7 +167,7 @@ class PlotPainter {
     ticks(2, step, lo_[0], lo_[1], -12, 4, 1.0, "Z");
   }
 
-  // One axis of the box; `first` and `second` fix the two others in the order X, Y, Z.
+  // Draws the ticks of one axis of the box; `first` and `second` are the coordinates of the two other axes, in the order X, Y, Z.
   void ticks(int axis, double step, double first, double second, double dx, double dy, double align,
              const char* name) {
     const auto at = [&](double t) {
@@ -194,7 +193,7 @@ class PlotPainter {
     cairo_stroke(c_);
   }
 
-  // Lowest and highest value of the feed pieces, and for tools all that there are.
+  // Finds the lowest and highest value of the feed pieces, and for the colour by tool all tools.
   void read_values() {
     bool any = false;
     for (size_t i = 1; i < plot_.vertices_.size(); ++i) {
@@ -207,7 +206,7 @@ class PlotPainter {
     }
   }
 
-  // Values of a range share kShades colours: pieces of one colour are one line of the drawing.
+  // The index of the colour for a value. Values are grouped into kShades colours, so that pieces of one colour can be drawn together.
   unsigned shade(float value) const {
     if (plot_.color_ == PlotColor::kKind) return 0;
     if (plot_.color_ == PlotColor::kTool)
@@ -227,7 +226,7 @@ class PlotPainter {
     return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
   }
 
-  // What the colours mean, at the right edge below the head.
+  // Draws the meaning of the colours at the right edge below the head.
   void color_legend() {
     const double x = kWidth - kRight - 130;
     double y = kTop + 20;
@@ -258,7 +257,7 @@ class PlotPainter {
     put_text(c_, x + 50, y + 10 + kShades * kBar, tick_text(std::round(double{low_value_} * 1e3) / 1e3), 14);
   }
 
-  // What dense passes leave, lit from the left. (From below on the page a hollow would be seen as a hill.)
+  // Draws the surface that dense passes leave, lit from the left. (If the light came from below on the page, a hollow would look like a hill.)
   void surface() {
     if (!relief_.any()) return;
     ReliefView view;
@@ -273,7 +272,7 @@ class PlotPainter {
     paint_relief(c_, relief_, view);
   }
 
-  // How far towards who looks.
+  // The coordinate of a place towards the viewer.
   double depth(const Relief::Place& p) const {
     switch (plot_.view_) {
       case PlotView::kXY:
@@ -288,7 +287,7 @@ class PlotPainter {
     return p.x - p.y + p.z;
   }
 
-  // All pieces of one kind; rapids first and dashed, feed over them.
+  // Draws all pieces of one kind. Rapids are dashed and drawn first, feed moves over them.
   void path(Ink ink) {
     const bool rapid = ink == Ink::kRapid;
     const double dash[] = {6.0, 4.0};
@@ -334,13 +333,13 @@ class PlotPainter {
     cairo_set_dash(c_, nullptr, 0, 0);
   }
 
-  // A vertex of what is drawn, px.
+  // The place of a vertex on the page, px.
   Page on_page(size_t i) const {
     const Page p = project(ink_[i].x, ink_[i].y, ink_[i].z);
     return {px(p), py(p)};
   }
 
-  // Arrows along the path at like distances, the first in the middle of the first one.
+  // Draws arrows along the path at equal distances; the first one comes after half a distance.
   void directions() {
     double total = 0;
     for (size_t i = 1; i < ink_.size(); ++i)
@@ -361,9 +360,9 @@ class PlotPainter {
     }
   }
 
-  // Its point is `tip`; `way` is a unit vector. Both on the page.
+  // Draws an arrow whose point is `tip`; `way` is a unit vector. Both are on the page.
   void arrow(const Color& color, const Page& tip, const Page& way) {
-    constexpr double kSlim = 0.45;  // half of its width to its length
+    constexpr double kSlim = 0.45;  // half of its width divided by its length
     use(c_, color);
     cairo_move_to(c_, tip.u, tip.v);
     cairo_line_to(c_, tip.u - kArrow * (way.u + kSlim * way.v), tip.v - kArrow * (way.v - kSlim * way.u));
@@ -372,8 +371,8 @@ class PlotPainter {
     cairo_fill(c_);
   }
 
-  // Where the path begins, and where it ends: at the end of the program, or in an alarm. What lies outside of the frame is marked at it, with
-  // its place.
+  // Marks the place where the path begins and where it ends, at the end of the program or in an alarm. When a place is outside of the frame, the mark is at the
+  // frame and has the coordinates of the place.
   void marks() {
     if (plot_.vertices_.empty()) return;
     const PlotVertex &first_vertex = plot_.vertices_.front(), &last_vertex = plot_.vertices_.back();
@@ -388,7 +387,7 @@ class PlotPainter {
       mark_text(last, -2 * kMark, (alarmed ? "alarm " + plot_.alarm_ : std::string("end")) + (end_place.empty() ? "" : " at" + end_place));
   }
 
-  // Where the path comes into the frame, or leaves it, for a mark outside.
+  // The place of a mark on the page. For a place outside of the frame it is where the path enters the frame first or leaves it last.
   Page mark_place(const PlotVertex& vertex, bool inside, bool first) const {
     for (size_t k = 1; !inside && k < ink_.size(); ++k) {
       const size_t i = first ? k : ink_.size() - k;
@@ -399,7 +398,7 @@ class PlotPainter {
     return {px(p), py(p)};
   }
 
-  // " X0 Y0 Z400, outside"; empty for a place in the frame.
+  // A text such as " X0 Y0 Z400, outside"; empty for a place in the frame.
   std::string place_outside(const PlotVertex& v) const {
     const PlotVertex in = into_box(v, box_);
     if (in.x == v.x && in.y == v.y && in.z == v.z) return "";
@@ -409,7 +408,7 @@ class PlotPainter {
     return text + ", outside";
   }
 
-  // Beside a mark, on the side where there is room; `down` px below it.
+  // Writes a text beside a mark, on the side where there is room, `down` px below it.
   void mark_text(const Page& at, double down, const std::string& text) {
     use(c_, kInk);
     const bool left = at.u > kWidth / 2;
@@ -422,7 +421,7 @@ class PlotPainter {
     cairo_fill(c_);
   }
 
-  // Hollow and larger than that of the start, so that both are seen where a path comes back.
+  // The mark of the end is hollow and larger than that of the start, so that both are visible when the path ends where it began.
   void end_mark(const Page& at) {
     use(c_, kEnd);
     cairo_set_line_width(c_, 1.6);
@@ -436,7 +435,7 @@ class PlotPainter {
     line(kAlarm, at.u - 2 * kMark, at.v + 2 * kMark, at.u + 2 * kMark, at.v - 2 * kMark);
   }
 
-  // Empty where all of the path is in the drawing.
+  // The sentence about the part of the path outside of the frame; empty when the whole path is inside.
   std::string outside() const {
     if (!goes_outside(plot_, box_)) return "";
     std::string text = "; rapids are cut off at the frame: the path goes from";

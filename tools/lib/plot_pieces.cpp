@@ -9,11 +9,11 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kMargin = 0.25;  // of the longest side: so much of the rapids is shown around the feed moves
+constexpr double kMargin = 0.25;  // margin around the feed moves in which rapids are shown, as a fraction of the longest side
 
 std::array<double, 3> place(const PlotVertex& v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-/// The part [*from, *to] of the way from a to b (0 to 1) that lies in the box. @return false when none does. (Liang and Barsky)
+/// Finds the part [*from, *to] of the way from a to b (0 to 1) that lies in the box (algorithm of Liang and Barsky). @return false when none does.
 bool clip(const PlotBox& box, const std::array<double, 3>& a, const std::array<double, 3>& b, double* from, double* to) {
   *from = 0.0;
   *to = 1.0;
@@ -40,14 +40,14 @@ class Inker {
     cut(a, b, from, to, Ink::kRapid);
   }
 
-  // In parts that lie over the surface and parts that do not.
+  // Draws a feed piece only where it does not lie over the shaded surface.
   void feed(const PlotVertex& a, const PlotVertex& b) {
     double from = 0, to = 1;
     if (!inside(a) || !inside(b)) return clip(box_, place(a), place(b), &from, &to) ? cut(a, b, from, to, Ink::kFeed) : put(a, b, 1.0, Ink::kNone);
     if (!relief_.any()) return put(a, b, 1.0, Ink::kFeed);
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (length < relief_.cell_mm() && relief_.is_hole(b.x, b.y, std::min(a.z, b.z))) return put(a, b, 1.0, Ink::kFeed);
-    const auto steps = static_cast<unsigned>(std::max(1.0, std::ceil(length / relief_.cell_mm())));  // both ends are inside of the picture
+    const auto steps = static_cast<unsigned>(std::max(1.0, std::ceil(length / relief_.cell_mm())));  // the number is bounded, because both ends are inside of the frame
     bool shaded = relief_.covers(a.x, a.y);
     for (unsigned k = 1; k <= steps; ++k) {
       const double t = static_cast<double>(k) / steps;
@@ -72,7 +72,7 @@ class Inker {
   }
   void put(const PlotVertex& a, const PlotVertex& b, double t, Ink ink) {
     const auto mix = [t](float x, float y) { return static_cast<float>(x + t * (double{y} - x)); };
-    if (ink == Ink::kNone && !out_.empty() && out_.back().ink == Ink::kNone) out_.pop_back();  // the pen stays up
+    if (ink == Ink::kNone && !out_.empty() && out_.back().ink == Ink::kNone) out_.pop_back();  // several pieces in a row that are not drawn become one
     out_.push_back({mix(a.x, b.x), mix(a.y, b.y), mix(a.z, b.z), b.value, ink});
   }
   const PlotBox& box_;
@@ -98,7 +98,7 @@ struct Extent {
   double longest() const { return std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]}); }
 };
 
-/// All feed moves, but for runs of them that are shorter than `least`.
+/// The extent of all feed moves, except for runs of feed moves that are not longer than `least`.
 Extent feed_extent(const std::vector<PlotVertex>& all, double least) {
   Extent extent;
   double length = 0;
@@ -121,7 +121,7 @@ PlotBox plot_box(const ToolpathPlot& plot) {
   Extent whole;
   for (const PlotVertex& v : plot.vertices()) whole.widen(v);
   if (!whole.any) whole.widen({});
-  if (whole.longest() == 0.0) {  // a program that has not moved
+  if (whole.longest() == 0.0) {  // the program has no moves
     constexpr double kAround = 5.0;  // mm
     for (size_t i = 0; i < 3; ++i) {
       whole.box.low[i] -= kAround;
@@ -129,7 +129,7 @@ PlotBox plot_box(const ToolpathPlot& plot) {
     }
     return whole.box;
   }
-  // In a path that was driven, the scan in which a rapid begins may be a tick of feed far away.
+  // In an executed path the scan in which a rapid begins may count as a tiny piece of feed far away from the part. Such short runs are ignored.
   constexpr double kLeastRun = 1e-3;
   Extent feed = feed_extent(plot.vertices(), kLeastRun * whole.longest());
   if (!feed.any) feed = feed_extent(plot.vertices(), 0.0);
@@ -139,7 +139,7 @@ PlotBox plot_box(const ToolpathPlot& plot) {
     feed.box.low[i] = std::max(whole.box.low[i], feed.box.low[i] - margin);
     feed.box.high[i] = std::min(whole.box.high[i], feed.box.high[i] + margin);
   }
-  // The place where it all begins is shown where that costs little: the part keeps two thirds of its size.
+  // The start of the path is included in the frame if the drawing becomes at most 1.5 times as large, so that the part keeps two thirds of its size.
   constexpr double kLargest = 1.5;
   Extent with_start = feed;
   with_start.widen(plot.vertices().front());

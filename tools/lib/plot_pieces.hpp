@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a tool path a drawing shows: its frame, and the path without what lies outside of that or is part of a shaded surface.
+// The part of a tool path that a drawing shows: its frame, and the path without the pieces outside of the frame and those in a shaded surface.
 #pragma once
 
 #include <vector>
@@ -13,22 +13,22 @@ struct PlotBox {
   double low[3], high[3];  // mm
 };
 
-/** The frame: all feed moves, and of the rapids what lies near to them. A way to the reference point or to the tool changer would otherwise
- * make the part small. Without feed moves, all that there is. */
+/** The frame: it contains all feed moves and the parts of the rapids near them. If it contained all rapids, a move to the reference point or to the tool
+ * changer would make the part small. Without feed moves it contains everything. */
 PlotBox plot_box(const ToolpathPlot& plot);
 
-/** Whether some of the path lies outside of `box`. */
+/** True when a part of the path lies outside of `box`. */
 bool goes_outside(const ToolpathPlot& plot, const PlotBox& box);
 
 /** The place in `box` that is nearest to this vertex. */
 PlotVertex into_box(const PlotVertex& vertex, const PlotBox& box);
 
-/** The surface that the feed moves make; its any() is false where they make none. */
+/** The surface that the feed moves make; any() is false when they make none. */
 Relief plot_relief(const ToolpathPlot& plot, const PlotBox& box);
 
 enum class Ink { kNone, kRapid, kFeed };
 
-/** A piece of the drawing ends here; it has begun at the vertex before. */
+/** The end of a piece of the drawing, which begins at the previous vertex. */
 struct InkVertex {
   float x, y, z, value;
   Ink ink;

@@ -26,13 +26,13 @@ bool PrintFile::write(const nc_text& text) {
 }
 
 void PrintLines::write(const nc_text& text) {
-  constexpr std::size_t kMost = 1000;  // a program that prints in a loop while nobody takes the lines
+  constexpr std::size_t kMost = 1000;  // limit for a program that prints in a loop while the lines are not taken
   std::string line;
   const std::size_t size = text.size != 0 ? text.size : std::char_traits<char>::length(text.s);
   for (std::size_t i = 0; i < size; ++i) {
     const auto byte = static_cast<unsigned char>(text.s[i]);
     if (byte >= 0x20 && byte != 0x7F) line += text.s[i];
-    else if (text.size != 0) line += '.';  // a value of BPRNT
+    else if (text.size != 0) line += '.';  // a byte of BPRNT that cannot be printed
   }
   if (line == "%") return;
   const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// External output of programs (POPEN, DPRNT, PCLOS; M700 13.5.8) in a file: what a printer or a punch at the port would get.
+// Writes the external output of programs (POPEN, DPRNT, PCLOS; M700 13.5.8) into a file: what a printer or a punch at the port would get.
 #pragma once
 
 #include <cstdio>
@@ -18,13 +18,13 @@ class PrintFile {
   bool open(const std::string& path, std::string* error);
   bool is_open() const { return file_ != nullptr; }
   /**
-   * One output: a line of its own, without the codes that switch a punch on and off; bytes of BPRNT as they are. It is in the file when
-   * this returns true.
+   * Writes one output as a line, without the codes that switch a punch on and off; bytes of BPRNT are written unchanged. When this returns true, the
+   * output is in the file.
    */
   bool write(const nc_text& text);
   /** @return false when something could not be written. */
   bool good() const { return error_.empty(); }
-  /** The first reason. */
+  /** Why writing failed the first time. */
   const std::string& error() const { return error_; }
 
  private:
@@ -35,11 +35,11 @@ class PrintFile {
   std::string error_;
 };
 
-/** The same where no file is named: lines for a screen, without those that only switch the punch. Safe between two threads. */
+/** The same when no file is named: lines for a screen, without those that only switch the punch. May be used by two threads at once. */
 class PrintLines {
  public:
   void write(const nc_text& text);
-  /** What has come since the last time; of more than 1,000 lines the first ones, and how many are not shown. */
+  /** The lines since the last call. When there are more than 1,000, the first ones, and how many are not shown. */
   std::vector<std::string> take();
 
  private:

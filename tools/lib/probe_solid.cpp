@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // See probe_solid.hpp.
 //
-// The way in. Let f(s) be the clearance at the part s of the way. Going on by ds changes it by at most rate * ds, where rate is the length
-// of the straight way and, for each rotary axis, the arc of the point that it turns furthest; so no surface lies nearer than f / rate, and
-// one may go on by that much at once. Near a surface these steps would become endless: a least step takes over, a millionth of the
-// way, which cannot pass over more than a chord of that length. Once f is negative, halving finds where it became so.
+// How the first entry is found. Let f(s) be the clearance at the part s of the way. A step ds changes f by at most rate * ds, where rate is the length
+// of the straight way plus, for each rotary axis, the length of the arc of the point that it turns furthest. So there is no surface within a step of
+// f / rate, and such a step is safe. Near a surface these steps would become shorter and shorter; therefore the shortest step is a millionth of the
+// way. It can only pass over a part of the solid whose chord is shorter than that. Once f is negative, bisection finds where it became negative.
 #include "tools/lib/probe_solid.hpp"
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kTouch = 1e-9;       // mm: rounding, not inside
-constexpr double kLeastStep = 1e-6;   // of the way
+constexpr double kTouch = 1e-9;       // mm: a smaller depth counts as rounding and not as inside
+constexpr double kLeastStep = 1e-6;   // shortest step, as a part of the way
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 double length(const Point3& v) { return std::hypot(v[0], v[1], v[2]); }
 
 Point3 difference(const Point3& a, const Point3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-// Distance from what several surfaces at right angles enclose: outside of more than one it is to their common edge.
+// The distance from a body that is enclosed by surfaces at right angles. A point outside of more than one surface is nearest to their common edge.
 double inside_of_all(const double* out, int count) {
   double most = -std::numeric_limits<double>::infinity(), squares = 0.0;
   for (int i = 0; i < count; ++i) {
@@ -31,7 +31,7 @@ double inside_of_all(const double* out, int count) {
   return most > 0.0 ? std::sqrt(squares) : most;
 }
 
-// Exact at multiples of 90 degrees, where tables mostly stand.
+// Sine and cosine that are exact at multiples of 90 degrees, the usual angles of tables.
 void sine_cosine(double degrees, double* sine, double* cosine) {
   const double turns = std::floor(degrees / 90.0 + 0.5), rest = (degrees - turns * 90.0) * kDegree;
   const double s = std::sin(rest), c = std::cos(rest);
@@ -43,7 +43,7 @@ void sine_cosine(double degrees, double* sine, double* cosine) {
   }
 }
 
-// About an axis parallel to a machine axis, positive by the right-hand rule.
+// Turns a point about an axis that is parallel to a machine axis; positive by the right-hand rule.
 Point3 turned(const Point3& p, const ProbeTurn& turn, double degrees) {
   const auto u = static_cast<size_t>((turn.about + 1) % 3), v = static_cast<size_t>((turn.about + 2) % 3);
   double sine = 0.0, cosine = 1.0;
@@ -82,7 +82,7 @@ double ProbeShape::distance(const Point3& p) const {
 double ProbeSolid::clearance(const Point3& p, const double* angles) const {
   Point3 at = p;
   for (size_t i = 0; i < 3; ++i) at[i] += ball_center[i];
-  // The table has turned by minus the command; back in the solid's own place the ball has turned by the command.
+  // The table has turned by minus the command. Seen from the solid, the ball has turned by the command.
   for (const ProbeTurn& turn : turns) at = turned(at, turn, angles[turn.axis_index]);
   double d = shape.distance(at);
   for (const ProbeShape& hole : holes) d = std::max(d, -hole.distance(at));
@@ -93,7 +93,7 @@ double ProbeSolid::first_entry(const Way& way) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const Point3 along = difference(way.to, way.from);
   double rate = length(along);
-  double reach = 0.0;  // from the axes that have been looked at to the next one
+  double reach = 0.0;  // sum of the distances from each axis to the next one, so far
   for (size_t i = 0; i < turns.size(); ++i) {
     const ProbeTurn& turn = turns[i];
     if (i > 0) reach += length(difference(turn.center, turns[i - 1].center));
@@ -115,7 +115,7 @@ double ProbeSolid::first_entry(const Way& way) const {
     return clearance(p, angles.data());
   };
   if (!(rate > 0.0)) return at(0.0) < -kTouch ? 0.0 : kNever;
-  if (at(0.0) < -kTouch) return 0.0;  // it is in already
+  if (at(0.0) < -kTouch) return 0.0;  // the ball is inside already
   const double beyond = 1.0 + 2.0 * kTouch / rate;
   double before = 0.0;
   for (double s = 0.0; before < beyond;) {

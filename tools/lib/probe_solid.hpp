@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solids that a probe touches: a box, cylinder, sphere or half-space with holes in it, seen by a ball, on a table that turns
+// Solids that a probe touches with its ball: a box, cylinder, sphere or half-space with holes in it, on a table that may turn
 // (docs/trace.md, "Probing").
 //
-// Everything goes by the signed distance from the centre of the ball to the surface: positive outside, and nowhere longer than the way to
-// the nearest point of the solid, so that one may always go on by it. The distance is that way, but beside the rims of holes, where it
-// may be shorter: there the ball touches as if the rim had been cut off along both surfaces.
+// All results come from the signed distance between the centre of the ball and the surface. It is positive outside, and never greater than the true
+// distance to the nearest point of the solid, so that the ball can always move on by it. It is the true distance except near the rims of holes, where it
+// may be smaller: there the ball touches as if the rim had been cut off along both surfaces.
 #pragma once
 
 #include <array>
@@ -19,33 +19,33 @@ using Point3 = std::array<double, 3>;
 struct ProbeShape {
   enum class Kind { kBox, kCylinder, kSphere, kHalfSpace };
   Kind kind = Kind::kBox;
-  Point3 low{}, high{};       // box; a cylinder along its axis; +-infinity = endless
-  Point3 center{};            // cylinder (two of them), sphere; a point of the surface of a half-space
+  Point3 low{}, high{};       // limits of a box, and of a cylinder along its axis; +-infinity = unlimited
+  Point3 center{};            // centre of a sphere or of a cylinder (without its axis); for a half-space a point of its surface
   Point3 normal{0, 0, 1};     // half-space: unit vector out of the solid
   double radius = 0.0;        // cylinder, sphere
-  int axis = 2;               // cylinder: 0 X, 1 Y, 2 Z
+  int axis = 2;               // axis of a cylinder: 0 X, 1 Y, 2 Z
 
   /** Signed distance of a point from the surface, mm. */
   double distance(const Point3& p) const;
 };
 
-/** A rotary axis that carries the solid. As ISO 841 has it, a positive command turns the table negatively about its axis. */
+/** A rotary axis that carries the solid. According to ISO 841, a positive command turns the table in the negative direction about its axis. */
 struct ProbeTurn {
-  unsigned axis_index = 0;  // of the part system
-  int about = 2;            // 0 X, 1 Y, 2 Z
-  Point3 center{};          // a point of the axis, machine coordinates, where the ones further out stand at 0
+  unsigned axis_index = 0;  // index of the axis in the part system
+  int about = 2;            // it turns about 0 X, 1 Y, 2 Z
+  Point3 center{};          // a point of its axis in machine coordinates, when all other rotary axes are at 0
 };
 
-/** One solid with all that belongs to it. */
+/** One solid with its holes, the rotary axes that carry it, and the ball that touches it. */
 struct ProbeSolid {
   ProbeShape shape;
-  std::vector<ProbeShape> holes;   // taken out of it
-  std::vector<ProbeTurn> turns;    // from the machine base outwards
-  Point3 ball_center{};            // from the controlled point
+  std::vector<ProbeShape> holes;   // shapes that are removed from it
+  std::vector<ProbeTurn> turns;    // rotary axes that carry it, from the machine base outwards
+  Point3 ball_center{};            // centre of the ball, relative to the controlled point
   double ball_radius = 0.0;
-  bool work = false;               // in the workpiece coordinates of the move, not of the machine
+  bool work = false;               // the solid is given in the workpiece coordinates of the move, not in machine coordinates
 
-  /** Distance of the ball from the surface where the controlled point is at `p` and the rotary axes at `angles` (by index, degrees). */
+  /** Distance of the ball from the surface when the controlled point is at `p` and the rotary axes at `angles` (by index, degrees). */
   double clearance(const Point3& p, const double* angles) const;
 
   /** A straight way of the controlled point and its rotary axes. */
@@ -54,8 +54,8 @@ struct ProbeSolid {
     const double *angles_from = nullptr, *angles_to = nullptr;
   };
   /**
-   * Smallest part of the way, 0 to 1, at which the ball goes into the solid; infinity when it does not. On the surface it is outside: a way
-   * that leaves the surface or slides along it is none that goes in; one that would go in where it ends does.
+   * The smallest part of the way, 0 to 1, at which the ball enters the solid; infinity when it does not. A ball on the surface is outside: a way
+   * that leaves the surface or slides along it does not enter, but a way that would enter just beyond its end does.
    */
   double first_entry(const Way& way) const;
 };

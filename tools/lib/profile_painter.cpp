@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a ProfilePlot with cairo: one panel for each curve over a common time, limits as dashed lines.
+// Draws a ProfilePlot with cairo: one panel for each curve over a common time axis, with limits as dashed lines.
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +9,10 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kWidth = 1400, kPanel = 150, kGap = 34;  // px; points in the SVG
+constexpr double kWidth = 1400, kPanel = 150, kGap = 34;  // px in the PNG, points in the SVG
 constexpr double kLeft = 110, kRight = 60, kTop = 90, kBottom = 70;
 constexpr Color kCurve{0.05, 0.30, 0.75}, kLimit{0.85, 0.20, 0.10};
-constexpr double kLimitTolerance = 1.001;  // as the limits are checked everywhere
+constexpr double kLimitTolerance = 1.001;  // the tolerance with which limits are checked everywhere
 
 double height_of(size_t panels) {
   return kTop + kBottom + static_cast<double>(panels) * (kPanel + kGap);
@@ -20,7 +20,7 @@ double height_of(size_t panels) {
 
 }  // namespace
 
-/** One drawing on one cairo context. */
+/** Paints one drawing on one cairo context. */
 class ProfilePainter {
  public:
   ProfilePainter(const ProfilePlot& plot, cairo_t* context)
@@ -81,14 +81,14 @@ class ProfilePainter {
     cairo_set_dash(c_, nullptr, 0, 0);
   }
 
-  // Through the lowest and the highest value of each piece of time.
+  // Draws a curve through the lowest and the highest value of each piece of time.
   template <typename Y>
   void values(const ProfilePlot::Curve& curve, const Y& py) {
     if (curve.range.empty()) return;
     use(c_, kCurve);
     cairo_set_line_width(c_, 1.1);
     cairo_set_line_join(c_, CAIRO_LINE_JOIN_ROUND);
-    constexpr size_t kStrokeChunk = 500;  // cairo's time for one stroke grows faster than its length
+    constexpr size_t kStrokeChunk = 500;  // short strokes, because the time of cairo for a stroke grows faster than its length
     const double per_piece = static_cast<double>(plot_.per_bucket_) * plot_.cycle_s_;
     double last = 0.0;
     cairo_move_to(c_, px(0), py(0));

@@ -9,7 +9,7 @@ namespace nc::tools {
 
 ProfilePlot::ProfilePlot(const nc_config& config)
     : system_(config.system[0]), cycle_s_(config.cycle_s), rows_(system_.axis_count) {
-  // The trapezoid has no law for the jerk: what an axis may have of it stands in the configuration, and nobody keeps it.
+  // The trapezoid does not limit the jerk, even when the configuration has a limit. So the limit is drawn only for the time-optimal mode.
   const bool keeps_jerk = config.motion_mode == NC_MOTION_OPTIMAL;
   for (unsigned i = 0; i < system_.axis_count; ++i) linear_ = linear_ || !system_.axis[i].rotary;
   curves_.push_back({"path speed", linear_ ? "mm/s" : "deg/s", 0.0, {}});

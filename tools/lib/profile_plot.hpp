@@ -2,9 +2,9 @@
 // Path speed, and acceleration and jerk of every axis over time, from the positions of the cycles; as SVG and
 // as PNG.
 //
-// All are finite differences of the commanded positions, so they are what a drive gets. Time is kept in at
-// most kBuckets pieces with the lowest and the highest value of each: a peak of one cycle is drawn however
-// long the program runs.
+// All curves are finite differences of the commanded positions, which the drives get. The time is divided into at
+// most kBuckets pieces, and of each the lowest and the highest value are kept. So a peak of one cycle is drawn even when
+// the program runs for a long time.
 #pragma once
 
 #include <cstddef>
@@ -22,22 +22,22 @@ class ProfilePlot {
   explicit ProfilePlot(const nc_config& config);
   void set_title(std::string title) { title_ = std::move(title); }
 
-  /** Where the axes stand before the first cycle. */
+  /** Sets the position before the first cycle. */
   void begin(const nc_axes& start);
-  /** What one cycle gave out. */
+  /** Takes the outputs of one cycle. */
   void cycle(const nc_outputs& out);
-  /** The axes stand where they are from now on: what the last stop asks of them is seen too. */
+  /** Ends the curves with the axes at rest, so that acceleration and jerk of the last stop are included. */
   void end();
 
   uint64_t cycles() const { return cycles_; }
-  /** Largest value of a curve so far: 0 = path speed, 1 + 2 i = acceleration of axis i (either sign), 2 + 2 i
-   * = its jerk. */
+  /** Largest absolute value of a curve so far: 0 = path speed, 1 + 2 i = acceleration of axis i, 2 + 2 i = its
+   * jerk. */
   double peak(size_t curve) const;
 
-  /** The limit that the mode keeps of this curve; 0 = it keeps none. */
+  /** The limit of this curve that the mode of motion keeps; 0 = none. */
   double limit(size_t curve) const { return curves_[curve].limit; }
 
-  /** Write the drawing. @return false with *error when the file cannot be written. */
+  /** Writes the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
   bool write_png(const std::string& path, std::string* error) const;
 
@@ -61,7 +61,7 @@ class ProfilePlot {
   double cycle_s_;
   MotionCycles rows_;
   nc_axes last_ = {}, velocity_ = {}, acceleration_ = {};
-  bool linear_ = false;  // there are linear axes: the path speed is theirs
+  bool linear_ = false;  // there are linear axes; then the path speed is the speed of these
   std::vector<Curve> curves_;
   uint64_t cycles_ = 0, per_bucket_ = 1;
   std::string title_ = "Motion";

@@ -26,9 +26,10 @@ struct ProgramFiles::Entry {
 
 namespace {
 
-// With a sub program that is being written: the machine may be moving, and comes to rest when nothing is read for longer than it has room.
+// How long a sub program that is being written is waited for. It is short, because the machine may be moving: when nothing is read ahead for too long, the
+// machine comes to rest.
 constexpr std::chrono::milliseconds kPatienceInMotion{300};
-constexpr char kExternal[] = "198:";  // before the names of programs that M198 calls
+constexpr char kExternal[] = "198:";  // prefix of the names of programs that M198 calls
 
 char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -39,8 +40,8 @@ bool equal_any_case(const std::string& a, const std::string& b) {
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
-// Number of a name `O<digits>` or `O<digits>.<ending>` in any case. At most 9 digits: no O number has more
-// than 8.
+// The number in a name `O<digits>` or `O<digits>.<ending>`, in upper or lower case. At most 9 digits are read, because O numbers have at most
+// 8.
 std::optional<unsigned long> program_number(const std::string& name) {
   if (name.size() < 2 || lower(name[0]) != 'o') return std::nullopt;
   size_t end = 1;
@@ -58,7 +59,7 @@ std::string base_name(const std::string& path) {
   return slash == std::string::npos || slash + 1 == path.size() ? path : path.substr(slash + 1);
 }
 
-// Non-blocking: a FIFO must give an error, not hang here.
+// Opens without blocking: a FIFO must give an error and must not block here.
 int open_file(const std::string& path) {
   return open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
 }
@@ -91,7 +92,7 @@ std::vector<std::string> list_folder(const std::string& path) {
   DIR* folder = path.empty() ? nullptr : opendir(path.c_str());
   if (!folder) return listing;
   while (const dirent* entry =
-             readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): the stream is this function's own
+             readdir(folder)) {  // NOLINT(concurrency-mt-unsafe): only this function uses the stream
     if (entry->d_name[0] != '.') listing.emplace_back(entry->d_name);
   }
   closedir(folder);
@@ -144,7 +145,7 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
     status = nc_program_add(control, name.c_str(), &ProgramFiles::read_at, made.get(), made->text->size(), &made->index);
   } while (status == NC_E_MEMORY && make_room(control));
   if (status != NC_OK) {
-    // A protected program that is there already, and is the file asked for.
+    // The program is protected and already in the store, from the same unchanged file: that one is used.
     for (const auto& there : entries_) {
       if (status != NC_E_STATE || there->path != shown || !there->text->is_file(info)) continue;
       if (file) *file = there->index;
@@ -153,7 +154,7 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
     if (error) *error = shown + ": " + reason(status);
     return status;
   }
-  forget(made->index);  // what it has replaced
+  forget(made->index);  // the program that it has replaced
   if (file) *file = made->index;
   entries_.push_back(std::move(made));
   ++entered_;
@@ -177,7 +178,7 @@ void ProgramFiles::give_up_unused(nc_control* control) {
   });
 }
 
-// One place, of the entry whose last use is longest ago among those that nothing refers to.
+// Removes one program: of those to which nothing refers the one whose last use is longest ago.
 bool ProgramFiles::make_room(nc_control* control) {
   const Entry* oldest = nullptr;
   uint64_t used = 0;
@@ -235,7 +236,7 @@ std::string ProgramFiles::find_called(const std::string& name) const {
   const size_t external = sizeof kExternal - 1;
   if (name.compare(0, external, kExternal) == 0)
     return external_.empty() ? find(name.substr(external)) : ProgramFiles(external_).find(name.substr(external));
-  // M700 13.3.1, M98 ,D1 to ,D4: a folder of its own for each device, in that of the programs.
+  // M700 13.3.1, M98 ,D1 to ,D4: each device has a folder of its own inside the folder of programs.
   const bool device = name.size() > 3 && name[0] == 'D' && name[1] >= '1' && name[1] <= '4' && name[2] == ':';
   return device ? ProgramFiles(folder_ + "/device" + name[1]).find(name.substr(3)) : find(name);
 }
@@ -247,7 +248,7 @@ bool ProgramFiles::on_missing(void* user, nc_control* control, const char* name)
   if (descriptor < 0) return false;
   rt::ProgramText::Options options = self->options_;
   options.patience = std::min(options.patience, kPatienceInMotion);
-  // Entered under the name that was asked for, whatever the file's spelling.
+  // The program is entered under the name that was asked for, even if the name of the file is spelled differently.
   std::string error;
   const nc_status status = self->enter(control, descriptor, path, name, options, nullptr, &error);
   if (status != NC_OK && self->report_) self->report_(error);

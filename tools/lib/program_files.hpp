@@ -2,10 +2,10 @@
 // Program files on disk for a control: main programs by path, sub programs found in a folder when they are
 // called.
 //
-// A program runs as it was when it was selected, a sub program as it was when it was called first after that
-// (runtime/programs/program_text.hpp): what is written into the files meanwhile does nothing until the next
-// selection, which takes everything anew; new MDI blocks are one (look_again()). What nothing refers to any more is given up then, or when the
-// program store is full of programs that were called, the one first whose last call is longest ago.
+// A program runs as it was when it was selected, a sub program as it was when it was first called after that
+// (runtime/programs/program_text.hpp). What is written into the files meanwhile has no effect until the next
+// selection, which takes all texts anew; loading MDI blocks counts as a selection (look_again()). Programs to which nothing refers any more are removed then.
+// They are also removed when the program store is full, beginning with the one whose last call is longest ago.
 #pragma once
 
 #include <functional>
@@ -18,56 +18,56 @@
 
 namespace nc::tools {
 
-/** Owns the texts of one control; must outlive the control's last read. The thread of the feeder. */
+/** Owns the texts of one control; must outlive the last read of the control. To be used in the feeder thread. */
 class ProgramFiles {
  public:
   using Text = std::shared_ptr<rt::ProgramText>;
 
-  /** @param folder where sub programs are looked for; "" = nowhere. */
+  /** @param folder folder in which sub programs are looked for; "" = none. */
   explicit ProgramFiles(std::string folder, const rt::ProgramText::Options& options = {});
   /** Folder of the programs of M198 (the data server); "" = the same as that of sub programs. */
   void set_external(std::string folder) { external_ = std::move(folder); }
-  /** Somebody who will select a program again asks for its place to be kept, although the control does not
-   * refer to it. */
+  /** Sets a function that says which programs must be kept although the control does not refer to them, because they will be
+   * selected again. */
   void set_remembered(std::function<bool(unsigned file)> remembered) { remembered_ = std::move(remembered); }
-  /** Takes what cannot be returned: why a sub program that is there could not be had. */
+  /** Sets a function that is told why an existing sub program could not be read; there is no caller to whom that could be returned. */
   void set_report(std::function<void(const std::string&)> report) { report_ = std::move(report); }
   ~ProgramFiles();
   ProgramFiles(const ProgramFiles&) = delete;
   ProgramFiles& operator=(const ProgramFiles&) = delete;
 
-  /** Enter the file at `path` into the program store under its name without folder, to be selected: before the
-   * next one is added. Gives up what nothing refers to. On failure `error` says why. */
+  /** Enters the file at `path` into the program store under its name without folder. It must be selected before the
+   * next one is added. Removes programs to which nothing refers. On failure `error` says why. */
   nc_status add(nc_control* control, const std::string& path, unsigned* file, std::string* error, bool tape = false);
 
-  /** Enter an open descriptor of a seekable file under `name` in the same way; takes the descriptor over, also on
+  /** Enters an open descriptor of a seekable file under `name` in the same way; takes over the descriptor, even on
    * failure. */
   nc_status add_descriptor(nc_control* control, int descriptor, const std::string& name, unsigned* file,
                            std::string* error, bool tape = false);
 
-  /** Give up what nothing refers to: a sub program that is called next comes from its file as it is then. While nothing runs. */
+  /** Removes programs to which nothing refers, so that a sub program that is called next is read from its file again. To be called while no program runs. */
   void look_again(nc_control* control) { give_up_unused(control); }
 
-  /** Names of files that are not what is in the store any more, selected or called: "part.nc, O77"; "" = none. */
+  /** Names of files that have changed since they were entered, both selected and called ones: "part.nc, O77"; "" = none. */
   std::string changed() const;
 
-  /** Look into the folder whenever `control` misses a sub program. */
+  /** From now on looks into the folder whenever `control` misses a sub program. */
   void attach(nc_control* control);
 
   /** Path of the file that has this index in the program store; "" when it did not come from here. */
   std::string path_of(unsigned file) const;
   /** How many texts have been entered so far. */
   uint64_t entered() const { return entered_; }
-  /** Its text; null when it did not come from here. */
+  /** Text of the file that has this index in the program store; null when it did not come from here. */
   Text text_of(unsigned file) const;
 
   /**
-   * File in the folder for "O1000" (the number decides: `o1000.NC`, `O01000` count, with or without an
-   * ending) or for the name between < > (its own spelling first, then any case). "" when there is none. The folder
-   * is looked at anew each time: a control runs for months, and programs come and go.
+   * The file in the folder for "O1000" (only the number counts, so `o1000.NC` and `O01000` match, too, with or without an
+   * ending) or for the name between < > (first with the same spelling, then in any case). "" when there is none. The folder
+   * is read each time, because a control runs for months, and programs come and go.
    */
   std::string find(const std::string& name) const;
-  /** The same for a program in another place: "198:O5", "D1:<name>", as nc_program_missing names it. */
+  /** The same for a program in another folder, as nc_program_missing names it: "198:O5", "D1:<name>". */
   std::string find_called(const std::string& name) const;
 
  private:

@@ -19,11 +19,11 @@ using rt::end_signal;
 using rt::FeederInfo;
 using rt::Snapshot;
 
-constexpr auto kPeriod = std::chrono::milliseconds(50);  // of the display
+constexpr auto kPeriod = std::chrono::milliseconds(50);  // period of the display
 constexpr std::chrono::milliseconds kDrivesPatience{10000};
-constexpr unsigned kStepsPerLook = 500;                  // virtual time: scans between two looks
+constexpr unsigned kStepsPerLook = 500;                  // on virtual time: number of scans between two updates of the display
 
-// An alarm or a warning that the operator has to see first.
+// True when an alarm or a warning is active, which is shown instead of the refusal.
 bool by_alarm(Answer answer) {
   return answer == Answer::kAlarmActive || answer == Answer::kWarningActive;
 }
@@ -112,11 +112,11 @@ bool ProgramRun::ended(int* status) {
   return true;
 }
 
-// Nobody stands at this machine: a stop is continued at once. Someone who gives commands continues it himself.
+// Continues a program stop at once, because there is no operator. When clients may give commands, it is left to them.
 void ProgramRun::continue_stop(const Snapshot& now) {
   if (now.system[0].nc.state != NC_STATE_STOPPED || options_.commands) return;
   const Answer again = runtime_.execute(CommandKind::kCycleStart);
-  if (again != refused_ || again == Answer::kDone)  // not again and again that it is not
+  if (again != refused_ || again == Answer::kDone)  // the same refusal is shown only once
     note("stop in line " + std::to_string(now.system[0].nc.source.line) + " (" + rt::state_text(now.system[0].nc) + "): " +
          (again == Answer::kDone ? "continued" : std::string("waits: ") + runtime_.explain(again)));
   refused_ = again;
@@ -124,7 +124,7 @@ void ProgramRun::continue_stop(const Snapshot& now) {
 
 // ---- time ----
 
-// One look's worth of time.
+// Waits for the time between two looks.
 void ProgramRun::wait() {
   if (!options_.fast) {
     usleep(static_cast<useconds_t>(std::chrono::microseconds(kPeriod).count()));  // a signal ends it early
@@ -146,14 +146,14 @@ void ProgramRun::show_message(const FeederInfo& info) {
   messages_ = info.messages;
 }
 
-// M700 13.3.1: M99 of a main program, also of MDI, begins it again. That has no end of its own, which is said once.
+// M700 13.3.1: M99 of a main program, also of MDI, begins it again. Such a run has no end of its own, which is shown once.
 void ProgramRun::show_again(const FeederInfo& info) {
   if (info.system[0].begun_again == 0 || said_again_) return;
   said_again_ = true;
   note("M99 in line " + std::to_string(info.system[0].again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
 }
 
-// M700 13.5.8: what programs print, where the configuration names no file for it.
+// M700 13.5.8: shows what programs print when the configuration names no file for it.
 void ProgramRun::show_printed() {
   for (const std::string& line : printed_.take()) note("print: " + line);
 }
@@ -191,11 +191,11 @@ int ProgramRun::stop_by_alarm() {
     lost |= now.alarms.alarm[i].id == rt::AlarmId::kRetainedLost;
   }
   show_summary(now.system[0].nc);
-  if (lost) runtime_.execute(CommandKind::kReset);  // whoever started it has read it now; nobody else could acknowledge it
+  if (lost) runtime_.execute(CommandKind::kReset);  // the user has read the message now, and there is nobody else who could acknowledge it
   return kDaemonAlarm;
 }
 
-// Idle for a while though the run has not come to its end: somebody else (the ladder, a client) has reset it.
+// True when the control has been idle for a while although the run has not come to its end: the ladder or a client has reset it.
 bool ProgramRun::given_up(const Snapshot& now) {
   constexpr unsigned kLooks = 20;
   if (now.system[0].nc.state != NC_STATE_IDLE) last_line_ = now.system[0].nc.source.line;

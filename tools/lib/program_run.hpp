@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run of a program or of MDI, from cycle start to its end, an alarm, a reset or a signal, with what is shown of it meanwhile.
+// One run of a program or of MDI, from cycle start to its end, an alarm, a reset or a signal, and its display.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace nc::tools {
 
 class ProgramRun {
  public:
-  /** All of them outlive the run; what to run is selected already. */
+  /** All of them must outlive the run, and the program must be selected already. */
   ProgramRun(rt::Runtime* runtime, const DaemonOptions& options, rt::Progress* progress, PrintLines* printed);
 
-  /** What `selected` was answered with, then the run. @return the exit status of ncrtd. */
+  /** Runs to the end. `selected`: the answer to the selection of the program. @return the exit status of ncrtd. */
   int to_end(rt::Answer selected);
 
-  /** Of the alarm that has stopped the run; empty when none has. */
+  /** Code of the alarm that has stopped the run; empty = none has. */
   const std::string& alarm_code() const { return alarm_code_; }
 
  private:
@@ -49,10 +49,10 @@ class ProgramRun {
   std::uint64_t messages_ = 0;
   bool said_again_ = false;
   unsigned idle_looks_ = 0;
-  rt::Answer refused_ = rt::Answer::kDone;  // the last continuation of a stop
+  rt::Answer refused_ = rt::Answer::kDone;  // answer to the last attempt to continue a stop
   std::string alarm_code_;
   std::uint32_t last_line_ = 0;
-  const unsigned looks_;  // for the machine to come to rest; a look may be one scan
+  const unsigned looks_;  // number of looks within which the machine must come to rest; a look may be one scan
 };
 
 }  // namespace nc::tools

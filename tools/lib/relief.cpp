@@ -10,7 +10,7 @@
 namespace nc::tools {
 namespace {
 
-constexpr unsigned kBorder = 2 * Relief::kGap;  // cells around the rectangle: growing and shrinking need no edges
+constexpr unsigned kBorder = 2 * Relief::kGap;  // cells around the rectangle, so that growing and shrinking need not handle its edges
 constexpr int kDirections[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
 
 }  // namespace
@@ -29,7 +29,7 @@ Relief::Relief(double low_x, double low_y, double high_x, double high_y)
 
 void Relief::add(const Place& from, const Place& to, float value) {
   ++pieces_;
-  // Half a cell at a time leaves none out along the way. What takes more steps is longer than the rectangle is wide.
+  // Steps of half a cell miss no cell along the way. A piece that would need more than kMostSteps is longer than the rectangle.
   constexpr double kMostSteps = 4.0 * kAcross;
   const auto steps = static_cast<unsigned>(std::min(kMostSteps, std::ceil(2.0 * std::hypot(to.x - from.x, to.y - from.y) / cell_mm_)));
   for (unsigned k = 0; k <= steps; ++k) {
@@ -46,11 +46,11 @@ void Relief::add(const Place& from, const Place& to, float value) {
   }
 }
 
-// The mask and all cells that are at most `by` columns and rows away from it: along the rows, then along the columns.
+// The mask enlarged by all cells that are at most `by` columns and rows away from it: first along the rows, then along the columns.
 Relief::Mask Relief::grown(const Mask& mask, unsigned by) const {
   Mask along(mask.size(), 0), out(mask.size(), 0);
   const auto sweep = [by](const Mask& in, Mask* to, size_t start, size_t step, unsigned count) {
-    unsigned reach = 0;  // cells that the last one seen still covers, forwards and then backwards
+    unsigned reach = 0;  // number of cells that the last set cell still covers, first forwards and then backwards
     for (unsigned i = 0; i < count; ++i) {
       reach = in[start + i * step] ? by + 1 : reach - (reach > 0);
       if (reach > 0) (*to)[start + i * step] = 1;
@@ -74,8 +74,8 @@ Relief::Mask Relief::shrunk(const Mask& mask, unsigned by) const {
   return out;
 }
 
-// Between the passes of finishing, passes of roughing are left in the map although their material is gone; and feed moves that lead from
-// one place to another above the surface.
+// True for a cell of a path that is not part of the surface. Between the passes of finishing the map still has passes of roughing, although their
+// material has been cut off, and feed moves that lead above the surface from one place to another.
 bool Relief::stands_above_its_sides(unsigned column, unsigned row) const {
   const size_t cell = at(column, row);
   unsigned lower = 0;
@@ -87,20 +87,20 @@ bool Relief::stands_above_its_sides(unsigned column, unsigned row) const {
         const long c = long{column} + sign * way[0], r = long{row} + sign * way[1];
         if (c < 0 || r < 0 || c >= long{columns_} || r >= long{rows_}) break;
         const size_t other = at(static_cast<unsigned>(c), static_cast<unsigned>(r));
-        // Steeper than 1 to 1 down from here on this side; a slope of the part goes up on the other one.
+        // On this side it goes down from here more steeply than 45 degrees. On a slope of the part it would go up on the other side.
         if (piece_[other] == 0 || height_[cell] - height_[other] <= static_cast<float>((k + 1) * cell_mm_)) continue;
         is_lower[side] = true;
         is_later[side] = piece_[other] > piece_[cell];
       }
-    if (is_later[0] && is_later[1]) return true;  // both sides were cut down after this
+    if (is_later[0] && is_later[1]) return true;  // the cells on both sides are lower and were cut later
     lower += is_lower[0] && is_lower[1];
   }
   return lower >= 3 && stands_alone(column, row);
 }
 
-// A line above all that is around it: a rib or a crest is wider.
+// True when the cell belongs to a line with few cells of the same height around it. A rib or a crest of the part is wider.
 bool Relief::stands_alone(unsigned column, unsigned row) const {
-  constexpr unsigned kAlike = 10;  // percent of the cells around
+  constexpr unsigned kAlike = 10;  // percent of the cells around it that may have the same height
   constexpr long kAround = kGap;
   const size_t cell = at(column, row);
   unsigned alike = 0;
@@ -124,7 +124,8 @@ void Relief::drop_what_was_cut_off() {
     if (drop[i]) piece_[i] = 0;
 }
 
-// Heights between the passes: first that of the nearest pass, then relaxed until they are straight from pass to pass (the passes stay).
+// Sets the heights between the passes: first to that of the nearest pass, then they are relaxed until the surface is straight from pass to pass. The heights of
+// the passes do not change.
 void Relief::fill() {
   std::vector<unsigned> steps(piece_.size(), UINT32_MAX);
   std::vector<size_t> front, next;
@@ -161,8 +162,8 @@ void Relief::fill() {
     }
 }
 
-// A pass lies somewhere in its cell: across a slope that makes steps of up to a cell's height, which light from the side would show as
-// stripes. The mean over 3 x 3 cells of the surface, twice, takes them out; an edge stays within two cells.
+// A pass may lie anywhere in its cell. On a slope that makes steps of up to the height of a cell, which light from the side would show as
+// stripes. Taking the mean over 3 x 3 cells of the surface twice removes them, and widens an edge by at most two cells.
 void Relief::smooth() {
   for (int round = 0; round < 2; ++round) {
     const std::vector<float> before = height_;
@@ -186,7 +187,7 @@ void Relief::finish() {
   Mask touched(piece_.size());
   for (size_t i = 0; i < piece_.size(); ++i) touched[i] = piece_[i] != 0;
   const Mask closed = shrunk(grown(touched, kGap / 2), kGap / 2);
-  // What is left of it when narrow bands are taken out, with the corners that this has cost.
+  // Shrinking removes narrow bands; growing again restores the rest, with its corners.
   const Mask wide = shrunk(closed, kNarrowest / 2);
   surface_ = grown(wide, kNarrowest / 2 + kGap);
   for (size_t i = 0; i < surface_.size(); ++i) surface_[i] = surface_[i] && closed[i];
@@ -204,7 +205,7 @@ bool Relief::covers(double x, double y) const {
 }
 
 bool Relief::is_hole(double x, double y, double z) const {
-  constexpr int kAside = 4;  // cells: farther than the smoothing has drawn the hole into the surface
+  constexpr int kAside = 4;  // cells; at this distance the smoothing has not blurred the hole
   const double column = (x - low_x_) / cell_mm_, row = (y - low_y_) / cell_mm_;
   for (const auto& way : {std::pair{-kAside, 0}, std::pair{kAside, 0}, std::pair{0, -kAside}, std::pair{0, kAside}}) {
     const double c = column + way.first, r = row + way.second;
@@ -220,7 +221,7 @@ Relief::Place Relief::place(unsigned column, unsigned row) const {
 }
 
 void Relief::slope(unsigned column, unsigned row, double* dz_dx, double* dz_dy) const {
-  // Between the neighbours that are of the surface; the cell itself where one is not.
+  // The slope between the two neighbours; a neighbour that is not part of the surface is replaced by the cell itself.
   const auto between = [&](size_t low, size_t here, size_t high) {
     const size_t from = surface_[low] ? low : here, to = surface_[high] ? high : here;
     const int cells = (from != here) + (to != here);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cells of a relief as triangles with a depth buffer: what is nearer hides what is behind it.
+// Draws the cells of a relief as triangles with a depth buffer, so that nearer cells hide those behind them.
 #include "tools/lib/relief_painter.hpp"
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 namespace nc::tools {
 namespace {
 
-constexpr int kFine = 2;           // pixels of the picture along one of the page: edges come out smooth
-constexpr double kShadow = 0.30;   // of the colour is left where no light falls
-constexpr double kWrap = 0.30;     // as from a window, not from a lamp: light comes around an edge by so much
-constexpr double kLightest = 0.50; // how near to white the light makes it where it falls straight on
+constexpr int kFine = 2;           // number of pixels of the picture along one pixel of the page, which makes edges smooth
+constexpr double kShadow = 0.30;   // part of the colour that is left where no light falls
+constexpr double kWrap = 0.30;     // how far light comes around an edge, as from a window and not from a lamp
+constexpr double kLightest = 0.50; // how near to white the colour becomes where the light falls vertically
 
-/// Of the colour of a surface where light falls on it at `cosine` to its normal.
+/// The colour of a surface where light falls on it at an angle with this cosine to its normal.
 std::uint32_t lit(const Color& color, double cosine) {
   const double light = std::max(0.0, (cosine + kWrap) / (1.0 + kWrap));
-  // Up to 3/4 of the light the colour comes out of the dark, above it goes towards white.
+  // Up to 3/4 of the light the colour goes from dark to full, above that from full towards white.
   constexpr double kFull = 0.75;
   const double shade = kShadow + (1.0 - kShadow) * std::min(1.0, light / kFull);
   const double white = std::max(0.0, light - kFull) / (1.0 - kFull) * kLightest;
@@ -51,7 +51,7 @@ class Picture {
         // Barycentric coordinates of the pixel's centre.
         const double u = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
         const double v = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
-        constexpr double kEdge = 1e-6;  // both neighbours have a centre on the edge: no gap
+        constexpr double kEdge = 1e-6;  // a pixel whose centre is on an edge belongs to both triangles, so that there is no gap
         if (u < -kEdge || v < -kEdge || u + v > 1.0 + kEdge) continue;
         const float depth = static_cast<float>(a.depth + u * (b.depth - a.depth) + v * (c.depth - a.depth));
         const size_t i = size_t(iy) * size_t(width_) + size_t(ix);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a Relief shaded by light from one side. Private: needs cairo.
+// Draws a Relief shaded by light from one side. Private header: needs cairo.
 #pragma once
 
 #include <cairo.h>
@@ -14,12 +14,12 @@ namespace nc::tools {
 struct ReliefView {
   struct Point {
     double x, y;   // px on the page
-    double depth;  // the larger, the nearer to who looks
+    double depth;  // the larger, the nearer to the viewer
   };
   std::function<Point(const Relief::Place&)> project;
   std::function<Color(float value)> color;
-  double light[3];  // towards it; any length
-  double width, height;  // px of the page
+  double light[3];  // direction towards the light; a vector of any length
+  double width, height;  // size of the page in px
 };
 
 void paint_relief(cairo_t* c, const Relief& relief, const ReliefView& view);

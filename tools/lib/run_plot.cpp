@@ -34,7 +34,7 @@ RunPlot::Point RunPlot::point_of(const rt::PositionSample& sample) const {
 
 void RunPlot::moved(const rt::PositionSample& sample) {
   if (sample.system != 0) return;
-  // Which workpiece coordinates those of the start are is known with the first move.
+  // The workpiece coordinates of the start are known only with the first move, so the first sample only sets the start.
   if (count_++ == 0) {
     start_ = command_ = sample.command;
     return;
@@ -52,7 +52,7 @@ void RunPlot::moved(const rt::PositionSample& sample) {
   for (const int axis : index_)
     if (axis >= 0) driven = std::hypot(driven, sample.command.v[axis] - command_.v[axis]);
   command_ = sample.command;
-  // A tool length or another work zero comes into force: the tip has another place, and nothing has gone there.
+  // When a tool length or another work zero comes into force, the coordinates of the tip jump without a motion. That is drawn like a rapid.
   constexpr double kJumpMm = 1.0;
   if (step > kJumpMm + 2.0 * driven) {
     end_piece(true);
@@ -61,7 +61,7 @@ void RunPlot::moved(const rt::PositionSample& sample) {
     vertex_is_last_ = true;
     return;
   }
-  if (driven == 0.0) return;  // it waits: what it waits in is neither rapid nor feed
+  if (driven == 0.0) return;  // while the axes wait, the sample is neither rapid nor feed
   point.speed_mm_min = step / cycle_s_ * 60.0;
   point.tool = tool_now();
   const bool begins = vertex_is_last_ || !goes_on(point);
@@ -76,7 +76,7 @@ void RunPlot::finish() {
   if (count_ > 1) end_piece(false);
 }
 
-// Whether `next` lies in the direction in which the path left the last vertex, and is of the same colour as `last_`.
+// True when `next` lies in the direction in which the path has left the last vertex, and has the same colour as `last_`.
 bool RunPlot::goes_on(const Point& next) const {
   if (next.rapid != last_.rapid || next.tool != last_.tool) return false;
   constexpr double kSpeedStep = 0.1;
@@ -93,7 +93,7 @@ bool RunPlot::goes_on(const Point& next) const {
   return dot > kCos2Deg * std::sqrt(a * b);
 }
 
-// The tool of the last block that is finished. Behind the first M06 a T alone is the tool that is fetched for later.
+// The tool of the last finished block. After the first M06 a T alone only prepares the next tool.
 double RunPlot::tool_now() {
   nc_modal modal;
   if (color_ != PlotColor::kTool || !modal_ || !modal_(&modal)) return 0;
@@ -103,7 +103,8 @@ double RunPlot::tool_now() {
   return tool_;
 }
 
-// In the scan in which a rapid begins or ends, the kind may be that of the block beside it.
+// Ends a piece at last_. A piece of a single sample before a rapid is drawn as rapid: in the scan in which a rapid begins or ends, the sample may have the kind
+// of the neighbouring block.
 void RunPlot::end_piece(bool before_rapid) {
   if (vertex_is_last_) return;
   if (samples_ == 1 && before_rapid) last_.rapid = true;

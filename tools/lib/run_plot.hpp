@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The executed path of a run for its drawing: from one sample per scan to vertices.
+// The executed path of a run for its drawing: makes vertices from one sample per scan.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace nc::tools {
 
-/** A vertex where the direction changes by more than two degrees, where the speed changes by a tenth when the colour tells it, and where
- * the tool or the kind of move changes. */
+/** Makes a vertex where the direction changes by more than two degrees, where the tool or the kind of move changes, and, when the colour shows the
+ * feed, where the speed changes by more than a tenth. */
 class RunPlot final : public rt::PathSink {
  public:
   RunPlot(const nc_config& config, PlotView view, PlotCoordinates coordinates, PlotColor color);
 
-  /** Where the modal state comes from, for the colour by tool. */
+  /** Sets the function that gives the modal state, for the colour by tool. */
   void set_modal(std::function<bool(nc_modal*)> modal) { modal_ = std::move(modal); }
 
   void moved(const rt::PositionSample& sample) override;
 
-  /** The run is over; then `plot` is complete. */
+  /** To be called when the run is over; then `plot` is complete. */
   void finish();
 
   ToolpathPlot plot;
@@ -39,17 +39,17 @@ class RunPlot final : public rt::PathSink {
   void end_piece(bool before_rapid);
   void emit(const Point& point);
 
-  int index_[3] = {-1, -1, -1};  // of X, Y, Z
+  int index_[3] = {-1, -1, -1};  // indices of the axes X, Y, Z
   double cycle_s_;
   PlotColor color_;
   std::function<bool(nc_modal*)> modal_;
   bool changer_ = false;
   double tool_ = 0;
-  nc_axes start_{}, command_{};  // of the first sample, of the one before
-  unsigned samples_ = 0;         // of the piece that ends in last_
+  nc_axes start_{}, command_{};  // position of the first sample and of the previous one
+  unsigned samples_ = 0;         // number of samples in the piece that ends in last_
   Point last_, vertex_;
-  bool vertex_is_last_ = false;  // nothing has moved since the start
-  double piece_speed_ = 0;  // mm/min, of the first sample behind the last vertex
+  bool vertex_is_last_ = false;  // nothing has moved since the last vertex
+  double piece_speed_ = 0;  // mm/min, speed of the first sample after the last vertex
   std::uint64_t count_ = 0;
 };
 

@@ -49,9 +49,9 @@ class Service {
     tell_refusals(now);
   }
 
-  // Starts; a jog button says why on a monitor.
+  // Reports refused cycle starts. The reason why a jog is refused is shown only on monitors.
   void tell_refusals(const Snapshot& now) {
-    std::string said;  // what holds for all part systems is one line
+    std::string said;  // a reason that is the same for all part systems is printed once
     for (unsigned s = 0; s < now.system_count; ++s) {
       const nc::rt::Refusal& refusal = now.system[s].refusal;
       const std::string why = "cycle start " + nc::rt::asker_text(runtime_.config(), refusal.by) + " refused: " + runtime_.explain(refusal.why);
@@ -60,7 +60,7 @@ class Service {
     }
   }
 
-  // The watchdog is fed at a third of its interval, and only when the scan has gone on since.
+  // Feeds the watchdog at a third of its interval, but only when there was a scan since the last time.
   void beat(const Snapshot& now) {
     const std::int64_t interval_ns = notify_.watchdog_ns(), time_ns = clock_.now_ns();
     if (interval_ns == 0 || time_ns - fed_ns_ < interval_ns / 3 || now.scan == fed_scan_) return;
@@ -68,7 +68,7 @@ class Service {
     fed_scan_ = now.scan;
   }
 
-  // Motion by hand begins and ends with each detent of a handwheel: it is seen on a monitor and is no event of a journal.
+  // Reports changes of state. Manual motion is not reported, because it begins and ends with each detent of a handwheel; monitors show it.
   void tell_state(const Snapshot& now) {
     for (unsigned s = 0; s < now.system_count; ++s) {
       const unsigned state = now.system[s].nc.state;
@@ -81,7 +81,7 @@ class Service {
     }
   }
 
-  // An alarm is told one look after it came: what the feeder knows about it is there then.
+  // Reports an alarm one look after it has come, because by then the feeder has its details.
   void tell_alarms(const Snapshot& now) {
     std::vector<nc::rt::ActiveAlarm> active(now.alarms.alarm, now.alarms.alarm + now.alarms.count);
     for (const nc::rt::ActiveAlarm& alarm : active) {
@@ -102,7 +102,7 @@ class Service {
     return false;
   }
 
-  // Feed hold, rest, reset: a path is left on the path, not by drives that lose their enable.
+  // Ends with feed hold, waiting for rest, and reset, so that the axes stop on their path and not because the drives lose their enable signal.
   bool end() {
     say("end: feed hold");
     notify_.send("STOPPING=1\nSTATUS=coming to rest");
@@ -121,7 +121,7 @@ class Service {
   template <class Condition>
   bool wait_for(Condition condition) {
     const std::int64_t give_up = clock_.now_ns() + options_.rest_ns;
-    // The snapshot after the command's: what it changed is in there.
+    // The condition is looked at from the second snapshot on, which certainly contains the effect of the command.
     const std::uint64_t first = runtime_.snapshot().scan + 2;
     for (;;) {
       const Snapshot now = runtime_.snapshot();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ncrtd as a service: the machine is up and waits for commands until it is told to end. The service manager
-// hears when the machine is ready, and its watchdog is fed by the heartbeat of the scan, not by this loop: a
-// scan that stands still ends the process, however well everything else works.
+// ncrtd as a service: the machine runs and waits for commands until it is told to end. The service manager
+// is told when the machine is ready. Its watchdog is fed only when the scan goes on, not by this loop alone: when the
+// scan stands still, the process is ended, even if everything else works.
 #pragma once
 
 #include <csignal>
@@ -14,16 +14,16 @@
 namespace nc::tools {
 
 struct ServeOptions {
-  const volatile std::sig_atomic_t* signal = nullptr;  // not 0: end; set by the handler of SIGTERM and SIGINT
-  // Called every look (5 ms), in the thread of serve().
+  const volatile std::sig_atomic_t* signal = nullptr;  // the service ends when this is not 0; set by the handler of signals
+  // Called at each look (every 5 ms), in the thread of serve().
   std::function<void()> look;
   // Called once before the machine is brought to rest: no command may come after it.
   std::function<void()> leave;
-  std::int64_t rest_ns = 20'000'000'000;  // for the axes to come to rest, and again for the reset
-  std::FILE* out = stdout;                // what happens, one line each, for the journal
+  std::int64_t rest_ns = 20'000'000'000;  // time in which the axes must come to rest, and again for the reset
+  std::FILE* out = stdout;                // gets one line for each event, for the journal
 };
 
-// From a started runtime to the signal, and on until every axis stands: feed hold, rest, reset. The caller
+// Serves a started runtime until the signal, and then until every axis stands: feed hold, rest, reset. After that the caller
 // stops the runtime, which makes the outputs safe. False when the axes did not come to rest in time.
 bool serve(nc::rt::Runtime* runtime, const ServeOptions& options);
 

@@ -13,7 +13,7 @@
 namespace nc::tools {
 namespace {
 
-// A number of the environment; 0 when it is absent or no number.
+// A number from the environment; 0 when the variable is absent or is no number.
 std::int64_t number_of(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr || *text < '0' || *text > '9') return 0;
@@ -29,7 +29,7 @@ ServiceNotify::ServiceNotify() {
   if (path == nullptr || (path[0] != '/' && path[0] != '@')) return;
   if (std::strlen(path) >= sizeof(sockaddr_un::sun_path)) return;
   address_ = path;
-  if (address_[0] == '@') address_[0] = '\0';  // an abstract socket
+  if (address_[0] == '@') address_[0] = '\0';  // '@' stands for the NUL of an abstract socket
   socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   const std::int64_t pid = number_of("WATCHDOG_PID"), interval_us = number_of("WATCHDOG_USEC");
   constexpr std::int64_t kLongestUs = std::int64_t{1} << 50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Building a control for a command line; see session.hpp.
+// Builds a control for a command line; see session.hpp.
 #include "tools/lib/session.hpp"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ bool write_all(int descriptor, const char* bytes, size_t size) {
   return true;
 }
 
-// What comes through standard input, in a file in memory; negative on failure.
+// Copies standard input into a file in memory and returns its descriptor; negative on failure.
 int spool_standard_input(std::string* error) {
   const int file = memfd_create("stdin", MFD_CLOEXEC);
   const auto failed = [&](const std::string& why) {
@@ -68,7 +68,7 @@ std::string whole_text(rt::ProgramText* text) {
   return content;
 }
 
-// What a machine is where a setup says nothing.
+// The values of a machine in the form of a setup, as defaults for what the setup does not name.
 Setup setup_of(const rt::Config& machine) {
   Setup setup;
   const nc_system_config& system = machine.nc.system[0];
@@ -163,7 +163,7 @@ bool Session::start(const SessionOptions& options, std::string* error) {
   return true;
 }
 
-// Before the setup, which may change what the machine says.
+// To be called before the setup is applied, which may change values of the machine.
 bool Session::apply_machine(std::string* error) {
   if (!machine_) return true;
   const std::vector<rt::ConfigError> errors = rt::apply_config(*machine_, control_);
@@ -194,7 +194,7 @@ bool Session::declare_tape(const SessionOptions& options, std::string* error) {
   return status == NC_OK;
 }
 
-// A file redirected to standard input is read like any other; a pipe is taken in whole, into a file that has no name.
+// A file that is redirected to standard input is read like any other one; a pipe is copied into a file without a name first.
 bool Session::add_standard_input(bool tape, std::string* error) {
   main_name_ = "<stdin>";
   struct stat info = {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A control with a setup and a program, ready to run: what every subcommand of ncsim begins with.
+// A control with a setup and a program, ready to run. Every subcommand of ncsim that runs a program begins with one.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,18 @@
 
 namespace nc::tools {
 
-/** What the command line says. */
+/** The options of the command line. */
 struct SessionOptions {
   std::string program;  // "-" = standard input
   std::string setup;    // "" = all defaults
   std::string dialect = default_dialect();
-  bool semicolon_comments = false;  // what stands behind ';' is a comment
-  bool dialect_given = false;  // on the command line; else a machine's own goes before
+  bool semicolon_comments = false;  // text after ';' is a comment
+  bool dialect_given = false;  // the command line names the dialect; otherwise that of a machine is used, if there is one
   std::string print;        // file for what programs print (DPRNT); "" = none
   std::string tape;         // text, iso or eia: the program is a tape; "" = a text
   rt::Encoding encoding = rt::Encoding::kUtf8;
-  bool encoding_given = false;  // on the command line; else a machine's own
-  std::string external;     // folder of the programs of M198; "" = that of sub programs
+  bool encoding_given = false;  // the command line names the encoding; otherwise that of a machine is used, if there is one
+  std::string external;     // folder of the programs that M198 calls; "" = that of sub programs
   std::string machine;      // configuration of the machine that the program is for (TOML); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
 };
@@ -40,26 +40,26 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /**
-   * Read the setup and prepare a configuration, which the caller may still change.
-   * @param machine null, or a machine whose axes, sizes, parameters, offsets and start position hold where the setup says nothing.
+   * Reads the setup and prepares a configuration, which the caller may still change.
+   * @param machine null, or a machine whose axes, sizes, parameters, offsets and start position are used for what the setup does not name.
    */
   bool configure(const SessionOptions& options, std::string* error, std::unique_ptr<rt::Config> machine = nullptr);
-  /** Create the control, carry the setup in, select the program. */
+  /** Creates the control, applies the setup to it, and selects the program. */
   bool start(const SessionOptions& options, std::string* error);
 
   nc_config& config() { return config_; }
   const nc_config& config() const { return config_; }
-  /** What configure() was given. */
+  /** The machine that configure() was given. */
   const rt::Config* machine() const { return machine_.get(); }
   const Setup& setup() const { return setup_; }
   nc_control* control() const { return control_; }
-  /** Text of the main program; "" for one that is not copied. */
+  /** Text of the main program; "" for one that is too large to be copied. */
   std::string main_text() const;
   nc_dialect dialect() const { return dialect_; }
   unsigned main_file() const { return main_file_; }
-  /** The main program has an IF or a WHILE; false for one that is not copied. */
+  /** True when the main program has an IF or a WHILE; false for one that is too large to be copied. */
   bool decides() const;
-  /** "FILE" of a source, as a person would name it. */
+  /** The file of a source in the form for messages. */
   std::string file_name(const nc_source& source) const;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reading a setup file; see setup.hpp. Every key that is not in the format and every value of a wrong type is
-// an error that names the key's path and its line. Inside this file an error travels as an exception to
-// parse_setup().
+// Reads a setup file; see setup.hpp. Every key that is not in the format and every value of a wrong type is
+// an error that names the path of the key and its line. Inside this file errors are exceptions, which parse_setup()
+// catches.
 #include "tools/lib/setup.hpp"
 
 #include <cmath>
@@ -13,9 +13,9 @@
 namespace nc::tools {
 namespace {
 
-using namespace json;  // NOLINT(google-build-using-namespace): the checks are this file's vocabulary
+using namespace json;  // NOLINT(google-build-using-namespace): this file uses the checks everywhere
 
-// Digits only, as a number; 0 ... limit.
+// The number from 0 to `limit` that a text of digits is; nothing for any other text.
 std::optional<uint32_t> digits(const std::string& key, uint32_t limit) {
   if (key.empty() || key.size() > 9) return std::nullopt;
   uint32_t value = 0;
@@ -37,7 +37,7 @@ class SetupReader {
     check_keys(root, "",
                {"axes", "params", "kinematics", "start", "work_offsets", "offsets", "vars", "inputs", "skip", "hits",
                 "switches", "subprograms", "events", "options", "clock"});
-    // Axes first: all that follows may name them.
+    // The axes come first, because all other keys may name them.
     if (const JsonNode* node = member(root, "axes")) axes(*node);
     for (const auto& [key, node] : root.members) {
       if (key == "params") parameters(node);
@@ -181,7 +181,7 @@ class SetupReader {
     for (const SetupAxisValue& v : axis_values(node, "start")) s_.start.v[v.axis] = v.value;
   }
 
-  // EXT, G54 ... G59, G54.1Pn -> index of nc_work_offset_set.
+  // Converts EXT, G54 ... G59 and G54.1Pn to the index of nc_work_offset_set().
   static std::optional<unsigned> work_offset_index(const std::string& key) {
     if (key == "EXT") return 0u;
     if (key.size() == 3 && key.compare(0, 2, "G5") == 0 && key[2] >= '4' && key[2] <= '9')
@@ -204,7 +204,7 @@ class SetupReader {
     }
   }
 
-  // Behind the options, which say how many there are.
+  // To be called after the options were read, which say how many sets there are.
   void check_work_offsets() {
     const uint32_t sets = s_.option_work_offsets;
     for (const SetupWorkOffset& offset : s_.work_offsets)
@@ -249,10 +249,10 @@ class SetupReader {
     }
   }
 
-  // One number of the macro interface inputs.
+  // A variable number of the macro interface inputs, decoded.
   struct InputNumber {
     uint32_t word;
-    std::optional<uint32_t> bit;  // none: it is the word
+    std::optional<uint32_t> bit;  // nothing: the number is that of the whole word
   };
   std::optional<InputNumber> input_number(uint32_t number) const {
     constexpr uint32_t kBits = 32;
@@ -265,7 +265,7 @@ class SetupReader {
     }
     return std::nullopt;
   }
-  // Those that there are: "1000 to 1035 and 1200 to 1295".
+  // The numbers that exist, as text: "1000 to 1035 and 1200 to 1295".
   std::string input_numbers() const {
     std::string text;
     uint32_t last = 0;
@@ -292,7 +292,7 @@ class SetupReader {
         continue;
       }
       const uint32_t bits = whole(value, key_path, 0, std::numeric_limits<uint32_t>::max());
-      // Bits named beside the word win, wherever they stand.
+      // A bit that is given as well as its word wins, in whatever order they stand.
       change.bits[at->word] |= bits & ~change.mask[at->word];
       change.mask[at->word] = std::numeric_limits<uint32_t>::max();
       for (const auto& [other, bit] : node.members) {
@@ -345,7 +345,7 @@ class SetupReader {
     }
   }
 
-  // More than a plain box of machine coordinates.
+  // True for an item that is more than a plain box in machine coordinates.
   static bool is_probed(const JsonNode& item) {
     for (const auto& [key, value] : item.members)
       if (key != "signal" && key != "box") return true;
@@ -378,7 +378,7 @@ class SetupReader {
     return solid;
   }
 
-  // The one shape among the keys of an object.
+  // Reads the shape, of which an object must have exactly one.
   ProbeShape shape_of(const JsonNode& item, const std::string& path) {
     const JsonNode *found = nullptr, *node = nullptr;
     std::string name;
@@ -442,7 +442,7 @@ class SetupReader {
     if (!(shape->low[a] < shape->high[a])) fail(node, path, "low must be less than high");
   }
 
-  // X, Y or Z, of which a shape knows nothing but that.
+  // The index of X, Y or Z; a shape has no other coordinates.
   size_t linear(const JsonNode& node, const std::string& path, const std::string& letter) {
     if (letter.size() != 1 || letter[0] < 'X' || letter[0] > 'Z') fail(node, path, "no such key: a shape has X, Y and Z");
     axis(node, path, letter);
@@ -503,7 +503,7 @@ class SetupReader {
     }
   }
 
-  // A line of the main program or, with the O number, of another one.
+  // Reads a line of the main program or, with its O number, of another program.
   void place_of(const JsonNode& when, const std::string& path, std::optional<uint32_t>* line, std::optional<uint32_t>* program) {
     const JsonNode *line_node = member(when, "line"), *program_node = member(when, "program");
     if (program_node && !line_node) fail(when, path, "the key line is missing beside program");
@@ -605,7 +605,7 @@ class SetupReader {
     if (const JsonNode* ranges = member(node, "variable_ranges")) variable_ranges(*ranges, path + ".variable_ranges");
   }
 
-  // Behind the options that say which common variables there are.
+  // To be called after the options that say which common variables exist.
   void variable_ranges(const JsonNode& node, const std::string& path) {
     list(node, path);
     if (node.items.size() > NC_VARIABLE_RANGES)
@@ -621,7 +621,7 @@ class SetupReader {
       check_keys(object(item, at), at, {"first", "last", "kept"});
       const JsonNode *first = member(item, "first"), *last = member(item, "last");
       if (!first || !last) fail(item, at, std::string("the key ") + (first ? "last" : "first") + " is missing");
-      if (const JsonNode* kept = member(item, "kept")) boolean(*kept, at + ".kept");  // power stays on in a trace
+      if (const JsonNode* kept = member(item, "kept")) boolean(*kept, at + ".kept");  // has no effect, because there is no power cut in a trace
       config.variable_ranges[i] = {whole(*first, at + ".first", 34, 999'999), whole(*last, at + ".last", 34, 999'999)};
       uint32_t taken = 0;
       if (nc_variable_range_check(&config, i, &taken) != NC_OK)
@@ -640,8 +640,8 @@ class SetupReader {
   Setup& s_;
 };
 
-// Days since 1970-01-01 in the Gregorian calendar: years of 400 repeat after 146,097 days; a year counted
-// from March puts the leap day last.
+// Days since 1970-01-01 in the Gregorian calendar. The calendar repeats after 400 years, which are 146,097 days. Years are counted
+// from March, so that the leap day is the last day of a year.
 int64_t days_from_date(int64_t year, unsigned month, unsigned day) {
   year -= month <= 2;
   const int64_t era = year / 400;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Carrying a setup into a control; see setup.hpp. What a dialect has or has not is libnc's answer, given here
-// as an error at the place of the setup that asked for it.
+// Applies a setup to a control; see setup.hpp. libnc says what a dialect does not have, and that becomes
+// an error here with the place in the setup.
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/json_check.hpp"
 #include "tools/lib/setup.hpp"
@@ -31,12 +31,12 @@ bool apply_parameters(const Setup& setup, nc_control* control, std::string* erro
 
 bool apply_option(const Setup& setup, nc_control* control, bool on, const SetupPlace& place, const char* key,
                   std::string* error) {
-  if (!on && place.line == 0) return true;  // nothing is said: as the machine has it
+  if (!on && place.line == 0) return true;  // the setup does not name the option, so that of the machine stays
   if (nc_parameter_set(control, kPartSystem, key, 0, on ? "1" : "0") == NC_OK || !on) return true;
   return refuse(setup, place, "this control does not have the option", error);
 }
 
-// Memory type II has columns of its own for length and radius, type I one value for both. // M700 12.1
+// Memory type II has separate columns for length and radius, type I has one value for both. // M700 12.1
 bool apply_tool_offsets(const Setup& setup, nc_control* control, std::string* error) {
   bool columns = false;
   for (const SetupToolOffset& entry : setup.tool_offsets) columns = columns || !entry.plain;
@@ -69,7 +69,7 @@ bool apply_tables(const Setup& setup, nc_control* control, std::string* error) {
       if (nc_work_offset_set(control, kPartSystem, table.index, v.axis, v.value) != NC_OK)
         return refuse(setup, v.place, "the control has no such work offset", error);
   for (const SetupVariable& v : setup.variables) {
-    if (v.number >= 1 && v.number <= 33 && !v.vacant)  // M700 13.5.5
+    if (v.number >= 1 && v.number <= 33 && !v.vacant)  // M700 13.5.5: local variables
       return refuse(setup, v.place, "is a local variable: a program begins with vacant ones", error);
     if (nc_variable_set(control, kPartSystem, v.number, v.value, v.vacant) != NC_OK)
       return refuse(setup, v.place, "the control has no such variable, or it cannot be written", error);

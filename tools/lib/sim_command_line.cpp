@@ -97,7 +97,7 @@ void add_machine(CLI::App* command, SimCommand* sim) {
 
 // ---- the subcommands ----
 
-/// A subcommand, and what of it is known only when everything has been read.
+/// A subcommand of the parser, and what it means.
 struct Chosen {
   CLI::App* app;
   What what;
@@ -131,7 +131,7 @@ CLI::App* add_motion(CLI::App* app, SimCommand* sim) {
   return motion;
 }
 
-/// How a path is drawn, as words.
+/// The words of the options that say how a path is drawn.
 struct PlotWords {
   std::string view = "iso", coordinates = "work", color = "kind";
   bool profile = false;
@@ -183,14 +183,14 @@ int parse_failed(CLI::App& app, const CLI::ParseError& error, int argc, const ch
     std::fprintf(stderr, "ncsim: the output cannot be written\n");
     return kExitError;
   }
-  // The parser's own words for a subcommand that does not exist are that one is missing.
+  // For an unknown subcommand the parser would say that a subcommand is missing.
   const bool unknown = app.get_subcommands().empty() && argc > 1 && argv[1][0] != '-';
   if (unknown) std::fprintf(stderr, "ncsim: there is no subcommand '%s' (ncsim --help)\n", argv[1]);
   else std::fprintf(stderr, "ncsim: %s (ncsim --help)\n", error.what());
   return kExitError;
 }
 
-/// What depends on the subcommand that it turned out to be.
+/// Sets what depends on the subcommand and on several options together.
 void settle(const PlotWords& words, SimCommand* sim) {
   if (sim->what == What::kPlot && words.profile) sim->what = What::kProfile;
   if (sim->what == What::kVariables && !sim->session.program.empty()) sim->what = What::kVariableUse;

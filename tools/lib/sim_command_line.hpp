@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of ncsim: which subcommand, and everything that was said to it.
+// The command line of ncsim: the subcommand and all its options.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ struct SimCommand {
   What what = What::kTrace;
   SessionOptions session;
   RunLimits limits;
-  MachineOptions machine;                   ///< kTime, kMotion, kProfile
-  MotionFormat format = MotionFormat::kCsv; ///< kMotion
-  std::string output;                       ///< kMotion: "" = standard output; kPlot, kProfile: name without ending
+  MachineOptions machine;                   ///< for kTime, kMotion, kProfile
+  MotionFormat format = MotionFormat::kCsv; ///< for kMotion
+  std::string output;                       ///< for kMotion a file, "" = standard output; for kPlot, kProfile the name without its ending
   PlotOptions plot;
-  bool markdown = false;                    ///< of a table
+  bool markdown = false;                    ///< a table is printed as Markdown
 };
 
 /**
- * Reads the words of a command line.
- * @return the exit status when there is nothing more to do: after --help and --version, which go to standard output, and after a mistake, which
- * goes to standard error. Nothing else: *command says what to do.
+ * Reads a command line.
+ * @return the exit status when there is nothing more to do: after --help and --version, which print on standard output, and after a mistake, which
+ * is reported on standard error. Nothing otherwise; then *command says what to do.
  */
 std::optional<int> parse_sim_command(int argc, const char* const* argv, SimCommand* command);
 
-/** Calls the subcommand. @return its exit status. */
+/** Runs the subcommand. @return its exit status. */
 int run_sim_command(const SimCommand& command, std::FILE* out, std::FILE* err);
 
 }  // namespace nc::tools

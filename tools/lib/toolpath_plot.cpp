@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The path of a drawing: from moves to vertices, bounded in number. The drawing itself is in
+// The path of a drawing: makes a bounded number of vertices from moves. The drawing itself is in
 // plot_painter.cpp.
 #include "tools/lib/toolpath_plot.hpp"
 
@@ -9,8 +9,8 @@
 namespace nc::tools {
 namespace {
 
-constexpr size_t kMaxVertices = 2'000'000;  // 40 MB; a drawing of 2000 x 1500 px shows far fewer
-constexpr double kStepDeg = 3.0;            // an arc of radius r is then at most 0.00034 r off its chord
+constexpr size_t kMaxVertices = 2'000'000;  // 40 MB; a drawing shows far fewer
+constexpr double kStepDeg = 3.0;            // with this step an arc of radius r differs from its chord by at most 0.00034 r
 constexpr double kFarthest = 1e9;           // mm
 constexpr unsigned kMaxTurnsDrawn = 2000;
 
@@ -35,13 +35,13 @@ bool is_circular(const nc_move& move) {
 }  // namespace
 
 void ToolpathPlot::add_point(bool rapid, double x, double y, double z) {
-  // No drawing shows places farther than 1000 km from zero; this also keeps what is not a number out.
+  // Places farther than 1000 km from zero are not drawn; this also excludes values that are not numbers.
   if (!(std::fabs(x) < kFarthest && std::fabs(y) < kFarthest && std::fabs(z) < kFarthest)) return;
   if (!vertices_.empty()) {
     PlotVertex& last = vertices_.back();
     const double step = std::hypot(x - last.x, y - last.y, z - last.z);
-    // The last vertex is replaced only inside a run of feed pieces, so that corners to rapids stay where they
-    // are.
+    // The last vertex is replaced only inside a run of feed pieces, so that the corners between feed and rapid do not
+    // move.
     const size_t n = vertices_.size();
     if (!rapid && step < min_step_ && n >= 2 && !last.rapid && !vertices_[n - 2].rapid) vertices_.pop_back();
   }
@@ -59,7 +59,7 @@ void ToolpathPlot::push(bool rapid, double x, double y, double z) {
   vertices_.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(value), rapid});
 }
 
-// Doubles the smallest step kept until half of the room is free again.
+// Doubles the shortest step that is kept until half of the room is free again.
 void ToolpathPlot::thin() {
   const double extent = std::hypot(high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]);
   min_step_ = std::max(min_step_ * 2.0, extent / 100'000.0);
@@ -73,7 +73,7 @@ void ToolpathPlot::thin() {
     }
     const bool rapids_only = kept == vertices_.size() && min_step_ > extent;
     vertices_.resize(kept);
-    if (rapids_only) {  // nothing but rapids and edges: keep every second
+    if (rapids_only) {  // only rapids and corners are left: every second vertex is kept
       for (size_t i = 0; i < kept / 2; ++i) vertices_[i] = vertices_[2 * i];
       vertices_.resize(kept / 2);
     }

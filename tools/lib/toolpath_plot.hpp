@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawing of a tool path: rapid and feed told apart, axes with ticks in mm, a scale bar; as SVG and as PNG.
+// Drawing of a tool path with different lines for rapid and feed, axes with ticks in mm and a scale bar; as SVG and as PNG.
 //
-// The path is that of the tool's tip in workpiece coordinates, so that the drawing shows the part: radius
-// compensation is in it, work offset and tool length are not. Machine coordinates, where all of these are in
-// it, are the other choice. Drawn are the linear axes X, Y, Z. Arcs and helices are
-// drawn from their geometry in steps of at most 3 degrees. Vertices are thinned when there are more than a
-// drawing can show, so the memory is bounded whatever the program's length.
+// The path is that of the tip of the tool in workpiece coordinates, so that the drawing shows the part: it contains radius
+// compensation, but not work offset and tool length. The other choice is machine coordinates, which contain
+// all of these. Only the linear axes X, Y, Z are drawn. Arcs and helices are
+// drawn from their geometry in steps of at most 3 degrees. When there are more vertices than a
+// drawing can show, their number is reduced, so the memory is bounded for programs of any length.
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@
 
 namespace nc::tools {
 
-/** From where the path is looked at. Isometric: from +X -Y +Z, Z up. */
+/** The view of the path. The isometric view is from +X -Y +Z, with Z up. */
 enum class PlotView { kIsometric, kXY, kXZ, kYZ };
 
-/** Whose coordinates are drawn; whoever adds the points gives them in these. */
+/** The coordinates that are drawn; points must be added in these coordinates. */
 enum class PlotCoordinates { kWork, kMachine };
 
-/** What the colour of a feed piece says. */
+/** What the colour of a feed piece shows. */
 enum class PlotColor { kKind, kTool, kFeed, kZ };
 
 /** A vertex of the path, mm. */
 struct PlotVertex {
   float x, y, z;
-  float value;  // of the piece that ends here: what its colour says
-  bool rapid;   // of the same piece
+  float value;  // value that the colour shows, of the piece that ends here
+  bool rapid;   // the piece that ends here is a rapid
 };
 
 /** Collects a tool path and draws it. */
@@ -44,27 +44,27 @@ class ToolpathPlot {
   PlotCoordinates coordinates() const { return coordinates_; }
 
   void set_color(PlotColor color) { color_ = color; }
-  /** The tool that cuts from here on. */
+  /** Sets the tool for the pieces that follow. */
   void set_tool(double number) { tool_ = number; }
 
-  /** The feed of the pieces from here on, for those that add_point() adds. */
+  /** Sets the feed for the pieces that add_point() adds from here on. */
   void set_feed(double mm_min) { feed_mm_min_ = mm_min; }
 
-  /** The path is one that was driven: feeds are speeds. */
+  /** Says that the path was executed, so that its feeds are speeds. */
   void set_executed(bool executed) { executed_ = executed; }
 
-  /** The path ends in an alarm of this code. */
+  /** Says that the path ends in an alarm with this code. */
   void set_alarm(std::string code) { alarm_ = std::move(code); }
-  /** Why the path ends where it does, for the head: the alarm in words, for one. */
+  /** Sets a sentence for the head that tells why the path ends where it does, such as the alarm in words. */
   void set_sentence(std::string text) { sentence_ = std::move(text); }
 
-  /** A move of the item stream, drawn from `zero`: all zeros give machine coordinates (see nc_move_zero). */
+  /** Adds a move of the item stream. `zero` is the workpiece zero of nc_move_zero(); all zeros give machine coordinates. */
   void add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero = {});
 
-  /** A straight piece from the point before to this one, mm; the first point only sets the start. */
+  /** Adds a straight piece from the previous point to this one, mm; the first point only sets the start. */
   void add_point(bool rapid, double x, double y, double z);
 
-  /** Vertices that are kept. */
+  /** The number of vertices that are kept. */
   size_t size() const { return vertices_.size(); }
 
   /** A vertex that is kept, mm. */
@@ -72,7 +72,7 @@ class ToolpathPlot {
 
   const std::vector<PlotVertex>& vertices() const { return vertices_; }
 
-  /** Write the drawing. @return false with *error when the file cannot be written. */
+  /** Writes the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
   bool write_png(const std::string& path, std::string* error) const;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trace lines; see trace_writer.hpp. A line is built in place in the output buffer: the longest has 8 axes
-// twice, two centres and two texts of NC_MAX_TEXT bytes (each byte at most \u00XX), far below
-// OutputFile::kLargest. Only the variables of the end line can be more, so that line is sent on in pieces.
+// Writes the lines of a trace; see trace_writer.hpp. A line is built directly in the output buffer. The longest one has 8 axes
+// twice, two centres and two texts of NC_MAX_TEXT bytes (each byte takes at most \u00XX), which is far below
+// OutputFile::kLargest. Only the variables in the end line can need more, so that line is written in pieces.
 #include "tools/lib/trace_writer.hpp"
 
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kLine = 8192;
 static_assert(kLine <= OutputFile::kLargest);
 
-// nc_move_kind -> the name in a trace.
+// The name of each nc_move_kind in a trace.
 constexpr std::string_view kMoveKinds[] = {"rapid", "line", "arc", "helix", "skip", "thread",
                                              "tap",   "spiral", "exponential", "nurbs", "spline"};
 constexpr std::string_view kPlanes[] = {"XY", "ZX", "YZ"};
@@ -126,7 +126,7 @@ void TraceWriter::put_circular(const nc_move& move) {
     put(kPlanes[move.plane]);
     put("\"");
   }
-  if (move.center_axes == 2) put(move.ccw ? ",\"dir\":\"ccw\"" : ",\"dir\":\"cw\"");  // in space there is no sense of rotation
+  if (move.center_axes == 2) put(move.ccw ? ",\"dir\":\"ccw\"" : ",\"dir\":\"cw\"");  // an arc in space has no sense of rotation
   put_pair(",\"center\":{", move, move.center);
   put_pair(",\"machine_center\":{", move, move.machine_center);
   put(",\"turns\":");
@@ -141,7 +141,7 @@ void TraceWriter::move(const nc_source& source, const nc_move& move, const bool*
   put(move.kind < std::size(kMoveKinds) ? kMoveKinds[move.kind] : std::string_view("unknown"));
   put_axes("\",\"work\":{", move.work);
   put_axes(",\"machine\":{", move.machine);
-  // G95: feed is null and feed_rev set; rapid: null and nothing.
+  // With G95 `feed` is null and `feed_rev` has the value; for a rapid `feed` is null and there is no `feed_rev`.
   if (move.kind == NC_MOVE_RAPID) {
     put(",\"feed\":null");
   } else if (move.feed_mm_rev > 0.0) {
@@ -200,7 +200,7 @@ void TraceWriter::message(const nc_source& source, uint32_t port, const nc_text&
   put(",\"text\":");
   if (text.size == 0) {
     put_string({text.s, strnlen(text.s, sizeof text.s)});
-  } else {  // bytes of BPRNT: each is the character of its number
+  } else {  // bytes of BPRNT: each becomes the character with its number
     std::string characters;
     for (uint32_t i = 0; i < text.size; ++i) {
       const auto byte = static_cast<unsigned char>(text.s[i]);

@@ -12,19 +12,19 @@
 
 namespace nc::tools {
 
-/** Writes trace lines; knows nothing of what a run means. */
+/** Writes the lines of a trace, without any knowledge of the run. */
 class TraceWriter {
  public:
   TraceWriter(OutputFile* out, const nc_system_config& system);
 
-  void move(const nc_source& source, const nc_move& move, const bool* skipped = nullptr);  // skipped: of a skip move
+  void move(const nc_source& source, const nc_move& move, const bool* skipped = nullptr);  // skipped: given only for a skip move
   void block(const nc_source& source, const nc_axes& work, const nc_axes& machine);
   void aux(const nc_source& source, char code, double value);
   void dwell(const nc_source& source, bool turns, double value);
   void sync(const nc_source& source, uint32_t what);
   void message(const nc_source& source, uint32_t port, const nc_text& text);
   void alarm(const nc_alarm& alarm);
-  /** The last line; common variables and modal codes are asked of `items`. */
+  /** Writes the last line; common variables and modal codes come from `items`. */
   void end(const nc_source& source, bool ok, const nc_axes& work, const nc_axes& machine, uint32_t modal,
            ItemSource* items);
 
@@ -45,7 +45,7 @@ class TraceWriter {
   char* at_ = nullptr;             // next byte of the line being built
 };
 
-/** `text` as the inside of a JSON string: control characters escaped, bytes that are no UTF-8 as
+/** `text` as the contents of a JSON string: control characters are escaped, and bytes that are not valid UTF-8 become
  * U+0080...U+00FF. */
 std::string json_escaped(std::string_view text);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The variables that programs use; see variable_use.hpp.
+// Finds the variables that programs use; see variable_use.hpp.
 #include "tools/lib/variable_use.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr uint32_t kLocals = 33;  // M700 13.4
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) { return c >= 'A' && c <= 'Z'; }
 
-/** A block as the lexer sees it: capitals, without blanks and comments. `name` gets what stands between < and >. */
+/** A block as the lexer sees it: in capitals, without blanks and comments. `name` gets the text between < and >. */
 std::string condensed(const std::string& line, std::string* name) {
   std::string out;
   for (size_t i = 0; i < line.size(); ++i) {
@@ -36,7 +36,7 @@ std::string condensed(const std::string& line, std::string* name) {
   return out;
 }
 
-/** Behind the operand of a '#' that begins at `at`: digits, a name, a bracket, another '#'. */
+/** The position after the operand of a '#'. The operand begins at `at` and is digits, a name, an expression in brackets or another '#'. */
 size_t behind_operand(const std::string& s, size_t at) {
   if (at < s.size() && s[at] == '#') return behind_operand(s, at + 1);
   if (at < s.size() && s[at] == '[') {
@@ -79,17 +79,17 @@ class TextReader {
       const bool plain = text.size() > 1 && text.size() <= 9 && std::all_of(text.begin() + 1, text.end(), digit);
       if (plain) use.number = static_cast<uint32_t>(std::stoul(text.substr(1)));
       if (text.size() == 1 || (plain && use.number <= kLocals)) continue;
-      // A name stands in brackets: [#DEPTH]=5.
+      // A name may be in brackets, as in [#DEPTH]=5.
       const bool in_brackets = letter(text[1]) && end < block.size() && block[end] == ']';
       const size_t behind = in_brackets ? end + 1 : end;
-      const bool target = at == 0 || block[at - 1] != '#';  // of ##120= the number of what is written is read from #120
+      const bool target = at == 0 || block[at - 1] != '#';  // in ##120= the variable #120 is only read: it has the number of the one that is written
       const bool written = target && behind < block.size() && block[behind] == '=';
       (written ? use.written : use.read) = {file_, line_};
       found_.uses.push_back(use);
     }
   }
 
-  // M98, M198, G65, G66, G66.1, M96: P and a number, or a name.
+  // Finds calls with M98, M198, G65, G66, G66.1 and M96: P and a number, or a name.
   void calls(const std::string& block, const std::string& name) {
     if (!block.empty() && block[0] == 'O' && block.size() > 1 && digit(block[1])) found_.programs.push_back(number(block, 1));
     const bool external = has_code(block, 'M', "198");
@@ -134,7 +134,7 @@ class TextReader {
   TextUses found_;
 };
 
-/** The main program and what it calls, each text once. */
+/** Collects the main program and the programs that it calls, each text once. */
 class Collector {
  public:
   Collector(const SessionOptions& options, std::FILE* err)
@@ -179,7 +179,7 @@ class Collector {
 
   void follow(const TextUses::Call& call, const std::string& path, const std::vector<uint32_t>& own) {
     for (const uint32_t number : own)
-      if (call.name == "O" + std::to_string(number)) return;  // in this text
+      if (call.name == "O" + std::to_string(number)) return;  // the called program is in this text
     const std::string where = rt::valid_utf8(path + ":" + std::to_string(call.line));
     std::string error;
     if (call.name.empty()) {
@@ -199,7 +199,7 @@ class Collector {
   std::map<std::string, size_t> places_;
 };
 
-/** What a number means, as the tables of the dialect have it. */
+/** The meaning of a number according to the tables of the dialect. */
 std::string meaning(const VariableUse& use, nc_dialect dialect) {
   if (use.number == 0) return letter(use.text.size() > 1 ? use.text[1] : '\0') ? "by its name" : "computed";
   nc_system_variable row;

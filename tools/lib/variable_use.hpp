@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which variables a program and the programs that it calls read and write: from their texts, whether a block is executed or not.
+// Finds which variables a program and the programs that it calls read and write. It goes by their texts, whether a block is executed or not.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,28 @@ struct TextPlace {
   uint32_t line = 0;  // 0 = nowhere
 };
 
-/** One variable, or one way in which a number is computed. */
+/** One variable, or one expression that computes the number of a variable. */
 struct VariableUse {
-  uint32_t number = 0;  // 0 = computed, or a name
-  std::string text;     // as written: "#100", "#[#1+2]", "#DEPTH"
-  TextPlace read, written;  // first
+  uint32_t number = 0;  // 0 = the number is computed, or the variable has a name
+  std::string text;     // as in the program: "#100", "#[#1+2]", "#DEPTH"
+  TextPlace read, written;  // first place where it is read, and where it is written
 };
 
-/** What one text uses and calls. */
+/** The variables that one text uses and the programs that it calls. */
 struct TextUses {
   std::vector<VariableUse> uses;
   struct Call {
-    std::string name;  // as nc_program_missing names it; "" = computed
+    std::string name;  // in the form of nc_program_missing; "" = computed
     uint32_t line = 0;
   };
   std::vector<Call> calls;
-  std::vector<uint32_t> programs;  // O numbers in the text
+  std::vector<uint32_t> programs;  // O numbers of the programs in the text
 };
 
-/** Local variables (#1 to #33) are left out: they are nobody else's. */
+/** Local variables (#1 to #33) are not listed, because no other program can use them. */
 TextUses uses_of(const std::string& text, const std::string& file);
 
-/** `ncsim variables --of PROGRAM`: a line for each variable to `out`; what could not be followed to `err`. */
+/** `ncsim variables --of PROGRAM`: prints a line for each variable on `out`, and on `err` the calls that could not be followed. */
 int variable_use_command(const SessionOptions& options, std::FILE* out, std::FILE* err);
 
 }  // namespace nc::tools

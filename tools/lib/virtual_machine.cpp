@@ -10,10 +10,10 @@
 namespace nc::tools {
 namespace {
 
-constexpr uint32_t kFeedBudget = 1024;            // blocks per call
+constexpr uint32_t kFeedBudget = 1024;            // blocks that one call of nc_feed() may read
 constexpr uint64_t kMaxSilentFeeds = 16 * 1024;   // 16 M blocks in a row that commit nothing: an endless loop
 constexpr uint64_t kMaxSilentBlocks = 1'000'000;  // blocks executed without motion, dwell or FIN
-constexpr double kPatience = 10.0;  // s; a program that neither runs nor stops for so long hangs
+constexpr double kPatience = 10.0;  // s; a program that does not go on for this time is given up
 
 class VirtualMachine {
  public:
@@ -52,7 +52,7 @@ class VirtualMachine {
       if (result_.one_pass) return take(MachineResult::How::kEnded);
       if (given_up_ && executed_ == committed_) return give_up(loops_.verdict());
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
-      // A stopped spindle, a feed of 0 and a thread that is too fast stay as they are.
+      // Nothing here will change a stopped spindle, a feed of 0 or a thread that is too fast, so such a program is stuck.
       const bool stuck = out.cause == NC_CAUSE_SPINDLE_STOPPED || out.cause == NC_CAUSE_FEED_ZERO || out.cause == NC_CAUSE_SPINDLE_FAST;
       const bool goes_on = started_ && out.state == NC_STATE_RUNNING && !stuck &&
                            (out.cause != NC_CAUSE_STARVED || out.blocks != blocks_before_);
@@ -67,7 +67,7 @@ class VirtualMachine {
   }
 
  private:
-  // Reads ahead as far as the ring takes it: on virtual time the feeder is never late.
+  // Reads ahead until the ring is full, because on virtual time the feeder is never late. False when nothing comes of it.
   bool feed() {
     for (uint64_t calls = 0; calls < kMaxSilentFeeds; ++calls) {
       const nc_status status = nc_feed(control_, kFeedBudget);
@@ -77,7 +77,7 @@ class VirtualMachine {
     return false;
   }
 
-  // As the simulated machine of the runtime: a servo of first order.
+  // Moves the axes as the simulated machine of the runtime does: with a servo of first order.
   void follow() {
     if (servo_ == nullptr) return;
     const nc_axes& command = out_[kPartSystem].command;
@@ -85,7 +85,7 @@ class VirtualMachine {
       actual_.v[i] += (command.v[i] - actual_.v[i]) * servo_->follow[i];
   }
 
-  // Index tables (M700 9.3): like FIN in the next cycle, or in the times of the machine.
+  // The clamps of index tables (M700 9.3): they answer in the next cycle like FIN, or with a machine after its times.
   uint32_t clamps(uint32_t unclamp) {
     if (servo_ == nullptr) return unclamp;
     uint32_t unclamped = 0;
@@ -107,7 +107,7 @@ class VirtualMachine {
     }
   }
 
-  // False after too many blocks in which nothing but calculation happened.
+  // False after too many blocks that only calculate.
   bool progresses(const nc_outputs& out) {
     if (out.path_length != progress_length_ || out.strobe != 0 || out.cause == NC_CAUSE_DWELL) {
       progress_length_ = out.path_length;
@@ -119,7 +119,7 @@ class VirtualMachine {
   void inputs(uint64_t cycle) {
     const nc_outputs& last = out_[kPartSystem];
     nc_inputs& in = in_[kPartSystem];
-    // A rising edge starts and continues; it needs a cycle without it in between.
+    // A rising edge of cycle start starts or continues the program, so the signal is off in the cycle before.
     const bool press = !started_ || last.state == NC_STATE_STOPPED || last.state == NC_STATE_HOLD;
     in.cycle_start = press && !in.cycle_start;
     in.actual_valid = servo_ != nullptr;
@@ -135,7 +135,7 @@ class VirtualMachine {
     in.spindle[0].rev_per_s = (tap ? last.spindle_rev_min[0] : direction_ * last.s) / 60.0;
     in.spindle[0].turns_valid = true;
     in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
-    // Events of the setup: by the blocks, and by the machine's own time.
+    // The events of the setup come with their blocks, or at their time on the clock of the machine.
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
     in.reset = started_ && foresight_.fire(last.serial);
     in.macro_interrupt = world_.macro_interrupt();
@@ -146,7 +146,7 @@ class VirtualMachine {
                   static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
   }
 
-  // It turns as it is told, without a word of it forward.
+  // Sets the direction of the spindle from the M code. It is forward until the first such code.
   void turn_spindle(const nc_outputs& last) {
     if ((last.strobe & 1u) == 0) return;
     const nc_code_role role = nc_code_role_get(static_cast<nc_dialect>(config_.dialect), 'M', last.m);
@@ -161,7 +161,7 @@ class VirtualMachine {
     nc_main_line_get(control_, kPartSystem, &item.source, &main_line);
     if (!foresight_.commit(item, main_line)) return false;
     committed_ = item.serial;
-    // A servo comes to its position in its own time.
+    // With a servo the measured position changes by itself, so reading it counts as well.
     const uint32_t by_itself = servo_ != nullptr ? NC_SYNC_CLOCK | NC_SYNC_POSITION : +NC_SYNC_CLOCK;
     if (world_.changes() || (item.kind == NC_ITEM_SYNC && (item.u.sync.what & by_itself) != 0)) loops_.asked();
     if (item.kind != NC_ITEM_MARK || !item.u.mark.report) return true;
@@ -170,10 +170,10 @@ class VirtualMachine {
       nc_program_state_hash(control_, kPartSystem, &hash);
       return hash;
     });
-    return true;  // the end of the pass is executed, nothing behind it
+    return true;  // the end of the pass is still executed, but nothing after it
   }
 
-  // What the cycle has done, block by block: several may have ended in it.
+  // Takes the events of the cycle one by one, because several blocks may have ended in it.
   void take_events() {
     nc_event event = {};
     while (nc_event_poll(control_, kPartSystem, &event, nullptr) == NC_OK) {
@@ -194,7 +194,7 @@ class VirtualMachine {
         return nc_variable_next(control, kPartSystem, from, number, value) == NC_OK;
       });
     };
-    nc_look_executed(control_, at_executed, &look);  // what was read ahead belongs to passes to come
+    nc_look_executed(control_, at_executed, &look);  // without what was read ahead, which belongs to later passes
     return look.differ;
   }
 
@@ -224,7 +224,7 @@ class VirtualMachine {
   const nc_config& config_;
   const Setup& setup_;
   const ServoModel* servo_;
-  double direction_ = 1.0;  // of the spindle
+  double direction_ = 1.0;  // direction of the spindle
   Passes passes_;
   VirtualWorld world_;
   Foresight foresight_;
@@ -236,7 +236,7 @@ class VirtualMachine {
   MachineResult result_;
   double progress_length_ = 0.0;
   uint64_t progress_blocks_ = 0, blocks_before_ = 0;
-  uint64_t committed_ = 0, executed_ = 0;  // serials
+  uint64_t committed_ = 0, executed_ = 0;  // serial numbers of the last items that were committed and executed
   bool started_ = false, given_up_ = false;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The offline machine; see virtual_world.hpp.
 //
-// Where a skip move meets a solid. The path is p(t) = a + t (b - a), 0 <= t <= 1; a box is the product of
-// intervals, so the parameters inside it are the intersection of one interval per axis (the slab method),
-// exact up to rounding. The signal is on in the open inside: a path that starts on a surface and leaves it,
-// or slides along it, does not skip, one that starts on a surface and goes in skips at once, and so does one
-// that would go in where it ends. A stay shorter than kTouch counts as rounding, not as inside.
+// How it is found where a skip move meets a solid. The path is p(t) = a + t (b - a), 0 <= t <= 1. A box is the product of
+// intervals, so the parameters inside it are the intersection of one interval for each axis (the slab method),
+// exact up to rounding. The signal is on only in the interior, without the surface. So a path that starts on a surface and leaves it,
+// or slides along it, does not skip. A path that starts on a surface and goes in skips at once, and a path
+// that would enter just beyond its end skips at its end. A part inside that is shorter than kTouch counts as rounding.
 #include "tools/lib/virtual_world.hpp"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace nc::tools {
 namespace {
 
 constexpr double kTouch = 1e-9;           // mm
-constexpr double kRapidMmMin = 10'000.0;  // the trace's clock takes rapids at 10 m/min
+constexpr double kRapidMmMin = 10'000.0;  // the clock of the trace assumes rapids of 10 m/min
 constexpr double kClockReadSeconds = 0.001;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// "skip" is signal 1, "skip2" to "skip8" the others; 0 = another signal.
+// The bit of a skip signal: "skip" is signal 1, "skip2" to "skip8" are the others; 0 = not a skip signal.
 uint32_t skip_bit(const std::string& name) {
   if (name.compare(0, 4, "skip") != 0) return 0;
   return name.size() == 4 ? 1u : 1u << (name[4] - '1');
@@ -44,7 +44,7 @@ VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
 
 void VirtualWorld::fire(const SetupEvent& event) {
   signals_.change(event);
-  // feed_hold delays and is continued at once; macro_interrupt without M96 does nothing. // M700 13.12
+  // feed_hold is ignored: it would only delay, and is continued at once. macro_interrupt has no effect without M96. // M700 13.12
   const auto interrupt = event.signals.find("macro_interrupt");
   if (interrupt != event.signals.end()) interrupt_ = interrupt->second != 0;
   const auto reset = event.signals.find("reset");
@@ -85,9 +85,9 @@ uint32_t VirtualWorld::solids_at(const nc_axes& machine, const nc_axes& work) co
   return on;
 }
 
-// Smallest path parameter inside of a plain box; infinity when there is none.
+// The smallest parameter at which the path is inside of a plain box; infinity when there is none.
 double VirtualWorld::first_box(const nc_move& move, const SkipSolid& solid, double length) const {
-  const double end = length > 0.0 ? 1.0 + 2.0 * kTouch / length : 1.0;  // the last place is looked at as well
+  const double end = length > 0.0 ? 1.0 + 2.0 * kTouch / length : 1.0;  // a little beyond the end, so that a path that would enter at its end is found
   double in = 0.0, out = end;
   for (unsigned a = 0; a < axis_count_ && in < out; ++a) {
     if (!solid.bounded[a]) continue;
@@ -124,7 +124,7 @@ VirtualWorld::Touch VirtualWorld::take_hit(const nc_source& source, const nc_mov
       mine = &state;
       break;
     }
-    if (!hit.line && mine == nullptr) mine = &state;  // the next in order, unless one is for this line
+    if (!hit.line && mine == nullptr) mine = &state;  // the next entry in order is used, unless there is one for this line
   }
   if (mine == nullptr) return {};
   mine->taken = true;
@@ -150,7 +150,7 @@ void VirtualWorld::put_back(const Touch& touch) {
   if (touch.hit < hits_.size()) hits_[touch.hit].taken = hits_[touch.hit].missed = false;
 }
 
-// The first event within the next `seconds` that switches a signal of the mask on.
+// The first event within the next `seconds` that switches on a signal of the mask.
 const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask) const {
   const SetupEvent* first = nullptr;
   for (const SetupEvent* event : time_events_) {
@@ -161,7 +161,7 @@ const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask) con
   return first;
 }
 
-// Smallest path parameter at which a signal of the move's mask is on; infinity when there is none.
+// The smallest parameter at which a signal of the move's mask is on; infinity when there is none.
 double VirtualWorld::first_entry(const nc_move& move) const {
   if (signals_.skip & move.skip_mask) return 0.0;
   double entry = kNever;
@@ -253,7 +253,7 @@ nc_world VirtualWorld::answer(uint32_t what) {
   world.skipped = skipped_;
   for (int w = 0; w < NC_WORDS; ++w) world.input[w] = signals_.input[w];
   const double ms =
-      std::floor(seconds_ * 1000.0 + 1e-6);  // a whole number of ms must not fall short by rounding
+      std::floor(seconds_ * 1000.0 + 1e-6);  // rounding must not turn a whole number of ms into the one below
   world.clock_ms = setup_.clock_ms + static_cast<int64_t>(ms);
   world.power_on_ms = ms;
   world.run_ms = ms;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The machine behind an offline run: it is where the last move ended, its clock goes by the length of what
-// was done, its inputs and solids are those of the setup. Nothing depends on wall-clock time.
+// The machine of an offline run. Its position is the end of the last move, its clock goes on by the time that each item
+// takes, and its inputs and solids are those of the setup. Nothing depends on the time of day.
 #pragma once
 
 #include <cmath>
@@ -15,11 +15,11 @@
 
 namespace nc::tools {
 
-/** What comes from outside beside positions: inputs of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
+/** Inputs from outside: those of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
 struct OutsideSignals {
   uint32_t input[NC_WORDS] = {};
   uint32_t skip = 0;
-  /** As the event leaves them. */
+  /** Applies the changes of an event. */
   void change(const SetupEvent& event);
 };
 
@@ -30,9 +30,9 @@ class VirtualWorld {
   VirtualWorld(const Setup& setup, const nc_system_config& system);
 
   /**
-   * To be called with every item before anything else is done with it: fires the events that are due, those of the clock first. For whoever
-   * executes items one by one; an executor that reads ahead has a Foresight.
-   * @param main_line line of the main program to which the item belongs, 0 = not known; of an item of the main program it is not looked at
+   * To be called with every item before anything else is done with it: fires the events that are due, first those of the clock. For an executor that
+   * executes items one by one; an executor that reads ahead uses a Foresight.
+   * @param main_line line of the main program to which the item belongs, 0 = not known; not used for an item of the main program itself
    * @return true when an event commands reset: the run ends here, and the item is not executed.
    */
   bool on_item(const nc_item& item, uint32_t main_line) {
@@ -43,7 +43,7 @@ class VirtualWorld {
   /** True while an event waits for a block or an M code, so that the caller need not look for `main_line` otherwise. */
   bool waits_for_block() const { return schedule_.any(); }
 
-  /** Events or hits are left: what is to come may differ from what was. */
+  /** True when events or hits are left, so that what comes may differ from what was before. */
   bool changes() const;
 
   /** The schedule of the events, for an executor that fires them itself. */
@@ -55,23 +55,23 @@ class VirtualWorld {
   bool reset() const { return reset_; }
 
   /**
-   * Execute a move: position and clock. A skip move is cut where it first enters a solid whose signal ends
-   * it; then *move is changed to what was really done. @return false when nothing was moved at all (the
-   * signal was on at the start).
+   * Executes a move: changes position and clock. A skip move is cut where it first enters a solid whose signal ends
+   * it; then *move is changed to what was really executed. @return false when there was no motion at all, because the
+   * signal was on at the start.
    */
   bool execute(nc_move* move);
 
-  /** A dwell in seconds or spindle turns; none while one of the skip signals is on. // M700 15.3 (2) */
+  /** Executes a dwell in seconds or spindle turns; it is skipped while one of the skip signals is on. // M700 15.3 (2) */
   void dwell(bool turns, double value, uint32_t skip_mask = 0);
   void spindle(double rev_per_min) { spindle_rev_min_ = rev_per_min; }
 
-  /** The world for a sync; a read of the clock lets 1 ms pass. */
+  /** The answer to a sync; reading the clock takes 1 ms. */
   nc_world answer(uint32_t what);
 
-  /** The last skip move was ended by its signal. */
+  /** True when the last skip move was ended by its signal. */
   bool skipped() const { return skipped_; }
 
-  /** What the setup gives that has had no effect so far: sentences that begin with its place. */
+  /** The parts of the setup that have had no effect so far, as sentences that begin with their place. */
   std::vector<std::string> unused() const;
 
   /** Level of the macro interrupt signal. */
@@ -79,35 +79,35 @@ class VirtualWorld {
 
   const nc_axes& machine() const { return machine_; }
   double seconds() const { return seconds_; }
-  /** Set the clock where another executor measures the time. */
+  /** Sets the clock, when another executor measures the time. */
   void set_seconds(double seconds) { seconds_ = seconds; }
   uint32_t input(unsigned word) const { return signals_.input[word]; }
-  /** As the events that have fired have left them. */
+  /** The inputs after the events that have fired. */
   const OutsideSignals& signals() const { return signals_; }
   bool optional_stop() const { return setup_.optional_stop; }
 
-  /** Skip signals that are on at a place in machine coordinates, which is `work` in those of the workpiece: bit n = signal n+1. */
+  /** Skip signals that are on at a place, which is given in machine and in workpiece coordinates: bit n = signal n+1. */
   uint32_t signals_at(const nc_axes& machine, const nc_axes& work) const { return signals_.skip | solids_at(machine, work); }
-  uint32_t signals_at(const nc_axes& machine) const;  // work coordinates as in the last move
-  /** Those that a solid gives there, without those of events. */
+  uint32_t signals_at(const nc_axes& machine) const;  // with the workpiece zero of the last move
+  /** The skip signals that solids give there, without those of events. */
   uint32_t solids_at(const nc_axes& machine, const nc_axes& work) const;
 
-  /** The hit of the setup that a skip move takes. */
+  /** The hit of the setup that belongs to a skip move. */
   struct Touch {
-    size_t hit = SIZE_MAX;  // SIZE_MAX: the setup has none for it
-    double part = INFINITY; // of the way, 0 to 1; infinity: nothing is met
+    size_t hit = SIZE_MAX;  // index of the hit; SIZE_MAX: the setup has none for this move
+    double part = INFINITY; // part of the way at which it is touched, 0 to 1; infinity: nothing is touched
     unsigned signal = 1;
   };
   /** Takes the hit that belongs to this skip move. */
   Touch take_hit(const nc_source& source, const nc_move& move);
-  /** The move was not executed and will be given again. */
+  /** Puts back a hit whose move was not executed and will come again. */
   void put_back(const Touch& touch);
 
  private:
   struct HitState {
     const SkipHit* hit;
-    bool taken = false, missed = false;  // by a move that does not pass the place or listens to other signals
-    uint32_t line = 0;                   // of that move
+    bool taken = false, missed = false;  // missed: the move that took it does not pass the place or listens to other signals
+    uint32_t line = 0;                   // line of that move
   };
   double duration(const nc_move& move) const;
   double first_box(const nc_move& move, const SkipSolid& solid, double length) const;
@@ -122,7 +122,7 @@ class VirtualWorld {
   nc_axes skip_machine_;
   bool skipped_ = false;
   OutsideSignals signals_;
-  nc_axes work_offset_ = {};  // workpiece minus machine coordinates, of the last move
+  nc_axes work_offset_ = {};  // workpiece minus machine coordinates in the last move
   nc_source now_ = {};
   std::vector<HitState> hits_;
   double seconds_ = 0.0;
@@ -130,7 +130,7 @@ class VirtualWorld {
   bool reset_ = false;
   bool interrupt_ = false;
   EventSchedule schedule_;
-  std::vector<const SetupEvent*> time_events_;  // not yet fired
+  std::vector<const SetupEvent*> time_events_;  // events with a time that have not been fired yet
 };
 
 }  // namespace nc::tools

@@ -43,9 +43,9 @@ extern "C" {
  * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics, nc_function, nc_system_variable, nc_parameter. Every other struct stays as it
  * is, for as long as the SONAME of the library does.
  *
- * What a user gives: members that an older user does not have are their defaults. Bytes that a newer user has and this library does not
- * know must be 0, otherwise the call is refused with NC_E_ARGUMENT: nobody asks in vain. What a user receives: as many bytes as both know
- * are written; those behind stay as they were.
+ * A struct that the program gives: members that an older program does not have count as their defaults. Bytes that a newer program has and this
+ * library does not know must be 0, otherwise the call is refused with NC_E_ARGUMENT, so that no request is ignored silently. A struct that the
+ * program receives: the bytes that both know are written, any further bytes stay as they were.
  *
  * In C++ the size is set by itself. In C it is set by the function nc_..._init() of the struct or by NC_INIT(); in a struct that was only
  * cleared it is 0, which stands for the struct of the first version with this SONAME.
@@ -58,7 +58,7 @@ extern "C" {
 #define NC_INIT(type) {.struct_size = sizeof(type)}
 #endif
 
-/** A control: opaque, lives wholly in the memory the caller gave to nc_create(). */
+/** A control. The type is opaque; a control lies entirely in the memory that the caller gave to nc_create(). */
 typedef struct nc_control nc_control;
 
 /** Position of each axis of one part system, mm or deg. */
@@ -66,10 +66,10 @@ typedef struct nc_axes {
   double v[NC_MAX_AXES];
 } nc_axes;
 
-/** Result of a call. Values below zero are errors of the caller; nothing has changed then. */
+/** Result of a call. Values below zero are errors of the caller; the call has changed nothing then. */
 typedef enum nc_status {
   NC_OK = 0,
-  NC_WAITING = 1,      /**< nothing to do until the machine gets somewhere (a sync is open, the ring is full) */
+  NC_WAITING = 1,      /**< nothing can be done until the machine has moved on (a sync is open, the ring is full) */
   NC_BUDGET = 2,       /**< the budget of this call is used up; call again */
   NC_ENDED = 3,        /**< the program has ended (M02/M30) */
   NC_ALARMED = 4,      /**< the program stopped on an alarm; see nc_alarm_get() */
@@ -98,10 +98,10 @@ typedef enum nc_dialect {
 
 /** Where an item comes from. */
 typedef struct nc_source {
-  uint32_t line;    /**< 1-based line of the file on which the block stands; 0 = none (manual motion, start) */
-  uint32_t program; /**< O number of the program it stands in; 0 for a main program without one */
-  uint8_t system;   /**< part system, from 0; people are shown one more */
-  uint8_t depth;    /**< 0 main program, +1 for each call */
+  uint32_t line;    /**< line of the file on which the block stands, from 1; 0 = no line (manual motion, start) */
+  uint32_t program; /**< O number of the program in which the block stands; 0 for a main program without one */
+  uint8_t system;   /**< part system, from 0; what people are shown begins at 1 */
+  uint8_t depth;    /**< 0 in the main program, one more in each program that is called */
   uint16_t file;    /**< index of the text in the program store (several O numbers may stand in one text) */
 } nc_source;
 

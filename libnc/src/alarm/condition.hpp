@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What can be wrong with a program, named by condition and not by a family's number. Each dialect's table turns a condition into the
-// code and the short text of its manual (dialect/alarms.hpp).
+// What can be wrong with a program. A condition has a name here, and no number of a family: the table of each dialect turns it into the code and the
+// short text of its manual (dialect/alarms.hpp).
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 
 namespace nc {
 
-/// Vector of at most N elements, kept in place. push_back says no instead of growing.
+/// Vector of at most N elements, which lie in the object itself. push_back() returns false when it is full.
 template <class T, unsigned N>
 class FixedVector {
  public:

@@ -8,8 +8,8 @@
 
 namespace nc {
 
-/// Interns values that change rarely and are named by many items. Ids count up; a value stays readable until `capacity` newer ones
-/// have been entered, which is more than items can be under way. By 2^31 they begin again at 0: so id + 1 is never 0, which stands for "none".
+/// Interns values that change rarely and are named by many items. Ids count up; a value stays readable until `capacity` newer ones have been entered,
+/// which is more than the number of items that can be under way. After 2^31 - 1 ids begin again at 0, so id + 1 is never 0, which stands for "none".
 template <class T>
 class InternPool {
  public:
@@ -17,10 +17,10 @@ class InternPool {
     ring_ = arena.make<T>(capacity_power_of_two);
     mask_ = capacity_power_of_two - 1;
   }
-  /// The entry made last, nullptr = none yet, and its id.
+  /// The newest value, nullptr = none yet; and its id.
   const T* newest() const { return filled_ == 0 ? nullptr : &ring_[newest_id() & mask_]; }
   uint32_t newest_id() const { return (next_ - 1) & kIds; }
-  /// Id of `value`: the newest entry again when it is equal.
+  /// Enters `value` and returns its id. When it equals the newest value, that one is used again.
   uint32_t intern(const T& value) {
     if (filled_ > 0 && *newest() == value) return newest_id();
     const uint32_t id = next_;
@@ -31,15 +31,15 @@ class InternPool {
   }
   const T& operator[](uint32_t id) const { return ring_[id & mask_]; }
   bool holds(uint32_t id) const { return id <= kIds && ((next_ - 1 - id) & kIds) < filled_; }
-  /// For tests: ids are counted from here. Before anything is entered.
+  /// For tests: ids are counted from `first`. To be called before a value is entered.
   void count_from(uint32_t first) { next_ = first & kIds; }
 
  private:
   T* ring_ = nullptr;
   static constexpr uint32_t kIds = ~0u >> 1;
   uint32_t mask_ = 0;
-  uint32_t next_ = 0;    ///< id of the next value that is new
-  uint32_t filled_ = 0;  ///< values that are there
+  uint32_t next_ = 0;    ///< id of the next new value
+  uint32_t filled_ = 0;  ///< number of values that are kept
 };
 
 }  // namespace nc

@@ -13,7 +13,7 @@ class OptionalDouble {
   constexpr bool has_value() const { return number_ == number_; }
   constexpr double operator*() const { return number_; }
   constexpr double value_or(double fallback) const { return has_value() ? number_ : fallback; }
-  /// The absent ones are equal.
+  /// Two absent numbers are equal.
   friend constexpr bool operator==(OptionalDouble a, OptionalDouble b) { return a.has_value() ? a.number_ == b.number_ : !b.has_value(); }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace nc {
 
-/// Bytes up to the end of a member, and from there to where the next element of an array would begin.
+/// Bytes of a struct whose last member ends at `end`: rounded up to where the next element of an array would begin.
 template <class T>
 constexpr uint32_t padded(size_t end) {
   return static_cast<uint32_t>((end + alignof(T) - 1) / alignof(T) * alignof(T));
@@ -54,22 +54,22 @@ template <>
 inline constexpr uint32_t kFirstSize<nc_parameter> = padded<nc_parameter>(NC_END_OF(nc_parameter, section));
 #undef NC_END_OF
 
-/// More than any version will have: a larger number is one that nobody has set.
+/// More bytes than any struct of any version will have. A larger struct_size is one that was never set.
 constexpr uint32_t kMostStructBytes = 1u << 16;
 
-/// Bytes of a caller's struct; 0 when its struct_size is none.
+/// Bytes of a caller's struct; 0 when its struct_size is not valid.
 template <class T>
 uint32_t caller_bytes(const T* of_caller) {
   static_assert(kFirstSize<T> >= sizeof(uint32_t) && kFirstSize<T> <= sizeof(T));
   uint32_t bytes;
-  std::memcpy(&bytes, of_caller, sizeof bytes);  // all that is sure to be there
+  std::memcpy(&bytes, of_caller, sizeof bytes);  // only the first four bytes are sure to be there
   if (bytes == 0) return kFirstSize<T>;
   return bytes >= sizeof bytes && bytes <= kMostStructBytes ? bytes : 0;
 }
 
 /**
- * Takes what a caller gives over what *known holds, its defaults.
- * @return false when its size is none, or when it has something behind what this library knows.
+ * Copies a caller's struct over *known, which holds the defaults.
+ * @return false when its struct_size is not valid, or a byte behind what this library knows is not 0
  */
 template <class T>
 bool take_struct(const T* given, T* known) {
@@ -83,7 +83,7 @@ bool take_struct(const T* given, T* known) {
   return true;
 }
 
-/// Gives a caller as much of *known as it has room for; its size stays its own.
+/// Gives a caller as much of `known` as its struct has room for; the caller's struct_size stays.
 template <class T>
 void give_struct(const T& known, T* to_caller) {
   const uint32_t bytes = caller_bytes(to_caller);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hand a value from one thread to another without a lock: three buffers, swapped by one 32-bit atomic.
+// Hands a value from one thread to another without a lock: three buffers, exchanged by one 32-bit atomic.
 #pragma once
 
 #include <atomic>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cutting texts. Those of programs are UTF-8 (nc/control.h); one that is not is cut where it must.
+// Cutting texts. They should be UTF-8; one that is not is cut at any byte.
 #pragma once
 
 #include <cstddef>
 
 namespace nc {
 
-/// The largest number of bytes, at most `length`, behind which text[] may be cut without leaving part of a character. text[length] is read.
+/// The largest number of bytes, at most `length`, after which text[] can be cut without cutting a character. text[length] is read.
 inline size_t whole_characters(const char* text, size_t length) {
   constexpr size_t kLongest = 4;  // bytes of a character
   size_t at = length;

@@ -10,7 +10,7 @@
 namespace nc {
 namespace {
 
-/// The name of a status, as the header has it; "" = the number is none.
+/// The name of a status, as in nc/types.h; "" = the number is no nc_status.
 const char* name_of(nc_status status) {
   switch (status) {
     case NC_OK: return "NC_OK";

@@ -9,7 +9,7 @@
 namespace {
 bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
 
-/// Element `index` of an array whose elements have another size than here.
+/// Element `index` of an array whose elements are `bytes` apart, which may be another size than T has here.
 template <class T>
 T* element(T* first, uint32_t bytes, unsigned index) {
   using Byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
@@ -26,7 +26,7 @@ void cycle(nc_control* c, unsigned system, const nc_inputs& in, nc_outputs& out)
   joints.after(&out);
 }
 
-/// nc_cycle() for a caller that was compiled with another version of the headers. All is looked at before anything moves.
+/// nc_cycle() for a caller that was compiled with another version of the headers. All structs are checked before anything moves.
 nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_outputs* out) NC_RT {
   const uint32_t in_bytes = nc::caller_bytes(in), out_bytes = nc::caller_bytes(out);
   if (in_bytes == 0 || out_bytes == 0) return NC_E_ARGUMENT;
@@ -48,7 +48,7 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
   if (!known(c, system) || item == nullptr) return NC_E_ARGUMENT;
-  if (c->system[system].busy()) return NC_E_STATE;  // the machine would miss what is taken here
+  if (c->system[system].busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
   c->system[system].publish_all();
   const uint32_t bytes = nc::caller_bytes(item);
   if (bytes == sizeof(nc_item)) return c->system[system].pull(budget, item);
@@ -108,7 +108,7 @@ nc_status nc_feed(nc_control* c, uint32_t budget) {
   if (c == nullptr) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system_count; ++i)
     if (c->system[i].interpreter.in_vendor_function()) return NC_E_STATE;
-  // The most that any part system still has to say: something committed, then budget, waiting, the ends.
+  // The answer of the part system that comes first in this order: something committed, alarm, budget used up, waiting, ended.
   nc_status result = NC_ENDED;
   c->system[0].publish_all();
   for (unsigned i = 0; i < c->config.system_count; ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 using nc::Frames;
 
-/// Numbers that positions are added up from.
+/// The number is small enough to be added to a position.
 bool sane(double value) { return std::fabs(value) < 1e9; }
 
 bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
@@ -43,7 +43,7 @@ struct Name {
   uint32_t number = 0;
 };
 
-/// "O1000.nc", "1000", "part.nc": base name, and its O number where it is one.
+/// Takes the base name of "O1000.nc", "1000" or "part.nc", and its O number where the name is one.
 bool parse_name(const char* name, Name* out) {
   if (name == nullptr) return false;
   const char* base = name;
@@ -60,7 +60,7 @@ bool parse_name(const char* name, Name* out) {
   return true;
 }
 
-/// One of the protected numbers (#8105: 8000 to 9999, #1121: 9000 to 9999).
+/// The number of the program is one that a parameter protects (#8105: 8000 to 9999, #1121: 9000 to 9999).
 bool is_protected(const nc_control* c, unsigned file) {
   const uint32_t number = c->store.entry(file)->number;
   const auto locked = [c](nc::Parameter parameter) { return c->system[0].interpreter.tables().parameter(parameter) != 0; };
@@ -74,7 +74,7 @@ bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {
   return false;
 }
 
-/// A program whose text must stay: one that runs, or a protected one.
+/// The text of the program must not be changed, because the program runs or is protected.
 bool kept(const nc_control* c, unsigned file) { return is_referred_to(c, file, true) || is_protected(c, file); }
 
 nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file, bool own = false) {
@@ -309,7 +309,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   if (!known(c, system) || text == nullptr || length + 6 > sizeof(c->mdi[0])) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
   if (part.occupied()) return NC_E_STATE;
-  // The end of the blocks ends them; a start mark stands before them where it is required.
+  // A line end is put behind the blocks, and the start mark before them where the dialect requires one.
   char* mdi = c->mdi[system];
   size_t at = 0;
   size_t first = 0;

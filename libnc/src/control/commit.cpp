@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A circle of a plane that the map behind compensation keeps. That map may turn and reflect, never stretch: it would stretch the radius of
-/// the tool with the path.
+/// A circle in machine coordinates, where the map from the compensated path to the machine keeps its plane. That map may turn and reflect but never
+/// stretch: it would stretch the radius of the tool together with the path.
 Circle map_circle(const Circle& c, const Affine& map, unsigned h, unsigned v) {
   Circle m = c;
   AxisVec center;
@@ -32,14 +32,14 @@ Circle map_circle(const Circle& c, const Affine& map, unsigned h, unsigned v) {
   return m;
 }
 
-/// Full turns beyond the arc up to the first time that its end is reached; compensation may have made it longer than programmed.
+/// Full turns in addition to the arc that first reaches the end point. Compensation may have made the arc longer than programmed.
 uint32_t extra_turns(double sweep) {
   constexpr double kNoise = 1e-7;  // turns
   const double turns = std::ceil(std::fabs(sweep) / (2 * kPi) - kNoise) - 1;
   return turns > 0 ? static_cast<uint32_t>(turns) : 0;
 }
 
-/// Largest share of each axis in the path: exact on lines; on any other curve the axes that take part may have the whole.
+/// Largest share of each axis in the direction of the path. It is exact on lines; on any other curve it is taken as 1 for each axis that moves.
 AxisVec shares_of(const Curve& curve, unsigned axis_count) {
   AxisVec share;
   const bool straight = !curve.circular && curve.shape == nullptr;
@@ -50,7 +50,7 @@ AxisVec shares_of(const Curve& curve, unsigned axis_count) {
   return share;
 }
 
-/// This segment as high-accuracy control looks at it.
+/// What high-accuracy control needs to know of this move.
 AccuracyMove accuracy_move(const Move& move, const Curve& curve, const Circle& circle, unsigned axis_count) {
   AccuracyMove m;
   m.axis_count = axis_count;
@@ -91,7 +91,7 @@ void Commit::create(const CommitConfig& config, Arena& arena) {
   mark_mask_ = config.marks - 1;
 }
 
-/// M700 6.16 (5): a held axis does not move, and its stroke limits hold all the same for the way it is commanded.
+/// M700 6.16 (5): an axis that G07 holds does not move. Its stroke limits are still checked, for the way that is commanded.
 void Commit::add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high) {
   CurveShape& shape = shapes_[shape_count_ & shape_mask_];
   const uint8_t held = shape.what.map.frozen;
@@ -129,7 +129,7 @@ bool Commit::inside_limits(const Curve& curve) {
   for (unsigned i = 0; i < axis_count_; ++i) {
     const nc_axis_config& axis = config_.system->axis[i];
     if (!axis.soft_limited) continue;
-    // A move that starts outside may come back in.
+    // A move that starts outside of its limits may lead back towards them.
     const double from = start[i];
     const bool above = high[i] > axis.soft_max + kOnTheLimit && high[i] > from + kOnTheLimit;
     const bool below = low[i] < axis.soft_min - kOnTheLimit && low[i] < from - kOnTheLimit;
@@ -164,8 +164,9 @@ void Commit::commit_shape(const Move& move, const Affine& to_machine, const Move
   make_shaped(shape, plain, to_machine, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
 }
 
-/// Geometry that does not lead away from where the axes are would make them jump. Lines are made from there; a curve is what its block
-/// says, and the axes may have been moved since by hand, or be carried along beside a path that is not theirs (radius compensation).
+/// The curve of the move does not begin where the axes are, so that they would jump. It cannot happen to a line, which is made from the place of
+/// the axes. An arc or a shape is made from what its block says, and since then the axes may have been moved by hand, or stand beside the
+/// programmed path because of radius compensation.
 bool Commit::begins_elsewhere(const Move& move) const {  // a shape, or an arc
   constexpr double kNoJump = 1e-4;  // mm or deg: far above rounding, far below a step of any cycle
   if (curve_.shape != nullptr) return leaves_from(curve_, axis_count_) > kNoJump;
@@ -182,7 +183,7 @@ Committed Commit::commit(const Item& item, const Named& named) {
     settings_ = named.settings;
     const bool tilted = move.circular && shape == nullptr && !to_machine.only_translates() && !to_machine.keeps_plane(move.plane_axis[0], move.plane_axis[1]);
     if (tilted) shape = &arc_in_space_;
-    // The move begins where the one before ended, to the last bit.
+    // The move begins exactly where the one before ended, to the last bit.
     AxisVec end = to_machine.apply(move.end);
     if (shape != nullptr) {
       commit_shape(move, to_machine, *shape);
@@ -215,14 +216,15 @@ Committed Commit::commit(const Item& item, const Named& named) {
   return Committed::yes;
 }
 
-/// M700 6.7.1: the lead of a taper is that of its long axis; the way along the path is longer.
+/// Way along the path per way of the axis that moves most. M700 6.7.1: the lead of a tapered thread is measured along its longest axis, and the
+/// way along the path is longer.
 double Commit::along_longest() const {
   double longest = 0;
   for (unsigned i = 0; i < axis_count_; ++i) longest = std::fmax(longest, std::fabs(curve_.delta[i]));
   return longest > 0 ? curve_.length / longest : 1.0;
 }
 
-/// M700 6.6: from the speed in the plane of the arc to that along the helix.
+/// Factor from the speed in the plane of the arc to the speed along the helix (M700 6.6).
 double Commit::helix_slope() const {
   const double in_plane = std::fabs(circle_.sweep) * 0.5 * (circle_.radius_start + circle_.radius_end);
   return in_plane > 0 ? curve_.length / in_plane : 1.0;
@@ -259,7 +261,8 @@ void Commit::space_arc_to_public(nc_move* out) const {
   out->radius = arc.radius;
 }
 
-/// The arc of a plane that is tilted on the machine: its centre has three coordinates there, the third of the axis that it is tilted towards.
+/// An arc whose plane is tilted in machine coordinates: its centre has three coordinates there, the third one on the axis that the plane is tilted
+/// towards.
 void Commit::tilted_arc_to_public(const Move& move, nc_move* out) const {
   const CurveShape& shape = *curve_.shape;
   const unsigned h = move.plane_axis[0], v = move.plane_axis[1];
@@ -364,7 +367,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
   }
 }
 
-/// M700 9.3: whatever moves the axis.
+/// Bit i: the curve moves axis i, an index table. M700 9.3: the kind of move makes no difference.
 uint8_t Commit::moved_tables(const Curve& curve) const {
   AxisVec low, high;
   curve_bounds(curve, axis_count_, &low, &high);
@@ -374,7 +377,7 @@ uint8_t Commit::moved_tables(const Curve& curve) const {
   return static_cast<uint8_t>(axes);
 }
 
-/// M700 7.9.2: an axis goes back where it has come from. An axis without a movement does not count.
+/// M700 7.9.2: at the start of the move an axis reverses its direction. An axis that does not move on one side of the start does not count.
 bool Commit::turns_round(bool checked) {
   constexpr double kStill = 1e-9;
   bool back = false;
@@ -410,7 +413,7 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
   }
 }
 
-/// What acts behind interpolation. A thread and a tap keep their relation to the spindle.
+/// Sets the filters behind interpolation. A thread and a tap get none, because a filter would change their relation to the spindle.
 void Commit::set_filter(const Move& move, const FilterParameters& filters, Segment* s) const {
   if (!config_.filters || (!filters.any && move.high_accuracy == 0) || move.kind == NC_MOVE_THREAD || move.kind == NC_MOVE_TAP || move.rule.tapping) return;
   FilteredMove filtered;
@@ -426,7 +429,7 @@ void Commit::set_filter(const Move& move, const FilterParameters& filters, Segme
     if (high[i] > low[i]) filtered.moving |= 1u << i;
   s->filter = config_.rules->filter_times(filters, filtered, config_.cycle_s);
   if (s->filter.kind == FilterTimes::Kind::none && filtered.high_accuracy && filtered.kind == FilteredMove::Kind::cut) s->filter = config_.rounding;
-  // M700 13.15: arcs of two linear axes themselves; roundness is nothing that a rotary axis has a part in.
+  // M700 13.15: only arcs that two linear axes make themselves are compensated; with a rotary axis the path is not round anyway.
   if (!curve_.circular || curve_.shape != nullptr || filtered.kind != FilteredMove::Kind::cut) return;
   if (((rotary_ >> curve_.h | rotary_ >> curve_.v) & 1) != 0) return;
   s->round_mm[0] = static_cast<float>(filters.round_mm[curve_.h]);
@@ -453,7 +456,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       s.skip_speeds = item.move.skip_speeds;
       s.start_feed_mm_s = s.feed_mm_s;
       for (unsigned i = 0; s.skip_speeds != nullptr && i < SkipSpeeds::kSignals; ++i)
-        s.feed_mm_s = std::fmax(s.feed_mm_s, s.skip_speeds->feed_mm_min[i] / 60);  // the fastest: what the plan must allow for
+        s.feed_mm_s = std::fmax(s.feed_mm_s, s.skip_speeds->feed_mm_min[i] / 60);  // the plan must allow for the fastest of them
       s.thread = item.move.kind == NC_MOVE_THREAD;
       set_rule(item.move.rule, &s);
       if (s.thread) s.feed_mm_rev *= along_longest();
@@ -461,7 +464,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();
       s.feed_end_mm_s = static_cast<double>(item.move.feed_end) / 60;
       s.thread_angle = item.move.thread_angle;
-      if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // those go with the spindle
+      if (item.move.high_accuracy != 0 && !s.thread && item.move.kind != NC_MOVE_TAP)  // threads and taps go with the spindle
         s.accuracy = config_.rules->accuracy_limits(named.settings->accuracy, accuracy_move(item.move, curve_, circle_, axis_count_));
       set_filter(item.move, named.settings->filters, &s);
       s.unclamps = item.move.unclamps;

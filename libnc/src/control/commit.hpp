@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commit: the last stage before the sinks. Gives an item its serial, takes it to machine coordinates, checks the stroke limits. What
-// leaves here never changes.
+// Commit: the last stage before the sinks. It gives an item its serial, transforms it to machine coordinates and checks the stroke limits. An item
+// that has been committed never changes.
 #pragma once
 
 #include "base/intern_pool.hpp"
@@ -17,14 +17,14 @@ namespace nc {
 
 struct CommitConfig {
   const nc_system_config* system = nullptr;
-  const InternPool<StrokeBox>* stroke_boxes = nullptr;  ///< that moves name
+  const InternPool<StrokeBox>* stroke_boxes = nullptr;  ///< the prohibited areas that moves name by number
   uint32_t marks = 1024;      ///< marks that can be rewound to, power of two
-  uint32_t records = 1024;    ///< that may be under way behind here
+  uint32_t records = 1024;    ///< records that may be under way between here and the scan
   double cycle_s = 0.001;
-  const MotionRules* rules = nullptr;  ///< of the family
+  const MotionRules* rules = nullptr;  ///< rules of the controller family
   bool filters = false;       ///< there are filters behind interpolation
-  FilterTimes rounding;       ///< of cuts in high-accuracy control whose parameters give no filter
-  bool rotary_makes_length = false;  ///< F of a line is composite: a degree counts as a millimetre (M700 7.6)
+  FilterTimes rounding;       ///< filter for cuts in high-accuracy control for which the parameters give none
+  bool rotary_makes_length = false;  ///< F of a line is the composite speed of all axes, in which a degree counts as a millimetre (M700 7.6)
 };
 
 /// A place to rewind to, right behind a mark.
@@ -32,10 +32,10 @@ struct MarkPoint {
   Serial serial = 0;
   BlockSeq seq = 0;
   AxisVec machine;
-  uint8_t stages = 0;  ///< bit k: stage k of the row goes on from here in its own way, by Commit::resume()
+  uint8_t stages = 0;  ///< bit k: stage k of the row needs something to go on from here, see Commit::resume()
 };
 
-/// What a move names by number. Of any other item nothing is looked at.
+/// What a move names by number. For items of other kinds it is not used.
 struct Named {
   const Affine* to_machine;
   const MoveShape* shape;          ///< nullptr: none
@@ -44,9 +44,9 @@ struct Named {
 
 enum class Committed : uint8_t {
   yes,
-  nothing,       ///< the item vanishes: a move without length
-  prohibited,    ///< it starts or ends in the area of G22: nothing was committed
-  displaced,     ///< the axes are not where its curve begins: nothing was committed
+  nothing,       ///< the item is a move without length: it is left out
+  prohibited,    ///< the move starts or ends in the area of G22: nothing was committed
+  displaced,     ///< the axes are not where the curve of the move begins: nothing was committed
   at_pole,       ///< the rotary axis of polar coordinate interpolation would jump: nothing was committed
   soft_limit     ///< the move would leave the stroke: nothing was committed, `limit_axis()` says which axis
 };
@@ -55,7 +55,7 @@ class Commit {
  public:
   void create(const CommitConfig& config, Arena& arena);
 
-  /// The machine stands here, before the next move.
+  /// Sets where the machine stands before the next move.
   void set_machine(const AxisVec& machine) { machine_ = machine; }
   const AxisVec& machine() const { return machine_; }
   /// The machine has been moved to this place at the newest mark: a program that goes back to that mark begins here, too.
@@ -63,7 +63,7 @@ class Commit {
     machine_ = machine;
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].machine = machine;
   }
-  /// These stages go on otherwise from the newest mark: what they have kept for it is no more.
+  /// Takes back what these stages have kept to go on from the newest mark: they will not go on that way.
   void forget_stages(uint8_t which) {
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].stages &= static_cast<uint8_t>(~which);
   }
@@ -72,9 +72,9 @@ class Commit {
     mark_count_ = 0;
   }
 
-  /// Fills the geometry members.
+  /// Gives the item its serial, and makes the curve of a move: machine_, start_, circle_ and curve_.
   Committed commit(const Item& item, const Named& named);
-  /// What trying changes, to be put back behind it.
+  /// What commit() changes, kept to be put back after items have only been tried.
   struct Place {
     AxisVec machine, start;
     Circle circle;
@@ -91,7 +91,7 @@ class Commit {
     last_serial_ = place.serial;
     shape_count_ = place.shapes;
   }
-  /// What commit() would say; the next one to be tried begins behind it.
+  /// What commit() would answer. The next move that is tried begins where this one ends.
   Committed try_item(const Item& item, const Named& named) {
     const uint64_t shapes = shape_count_;
     const Committed committed = commit(item, named);
@@ -103,11 +103,11 @@ class Commit {
   /// The curve just committed, which is a move, goes into record number `record`.
   void note_record(uint32_t record);
   const Curve& curve() const { return curve_; }
-  /// The item just committed is `mark`: a place to go back to, if it is one. No stage needs anything to go on from there.
+  /// The item just committed is `mark`. Remembers it as a place to rewind to, if it is one; no stage needs anything to go on from there.
   void remember(const Item& mark) {
     if (mark.mark.resume) add_point(mark).stages = 0;
   }
-  /// The same of a mark behind which stages need `stages` to go on.
+  /// Remembers a mark in the same way, where the stages need `stages` to go on behind it.
   void remember(const Item& mark, const Stages::Resume& stages) {
     if (!mark.mark.resume) return;
     MarkPoint& point = add_point(mark);
@@ -117,19 +117,19 @@ class Commit {
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
-  /// commit() of a mark, which has nothing but its serial, and to_public() of it.
+  /// Short forms of commit() and to_public() for a mark, to which commit() gives only its serial.
   void commit_mark() { ++last_serial_; }
   void mark_to_public(const Item& item, nc_item* out) const;
-  /// The same for the ring.
+  /// The item just committed, as a record for the ring.
   void to_record(const Item& item, const Named& named, Record* out);
 
-  /// A segment of the move just committed that has its curve: the index tables that it moves, and that it begins and ends at rest then.
+  /// Notes in a segment, whose curve is set, which index tables it moves. A segment that moves one begins and ends at rest.
   void set_index_axes(Segment* segment) const {
     segment->index_axes = index_axes(segment->curve);
     if (segment->index_axes != 0) segment->rest_before = segment->exact_stop = true;
   }
 
-  /// The item just committed has not been executed and is given up; `move`: it was one.
+  /// Takes the item just committed back, which has not been executed; `move`: it is a move. put_back() undoes it.
   void take_back(bool move) {
     taken_end_ = machine_;
     if (move) machine_ = start_;
@@ -139,21 +139,21 @@ class Commit {
     if (move) machine_ = taken_end_;
     ++last_serial_;
   }
-  /// Serial numbers go on behind `serial`, the machine stands here.
+  /// The serials to come follow `serial`, and the machine stands at `machine`.
   void go_on(Serial serial, const AxisVec& machine) {
     last_serial_ = serial;
     displace(machine);
   }
-  /// It has been executed before under another serial.
+  /// Takes the serial of the item just committed back: the item has been executed before, under another serial.
   void uncount() { --last_serial_; }
 
   Serial serial() const { return last_serial_; }
   int8_t limit_axis() const { return limit_axis_; }
   const MarkPoint* find(Serial serial) const;
-  /// Of a point that find() has given, where its `stages` are not 0.
+  /// What the stages need to go on from a point that find() has given, when its `stages` are not 0.
   const Stages::Resume& resume(const MarkPoint& point) const { return resumes_[&point - marks_]; }
   const MarkPoint* newest() const { return mark_count_ == 0 ? nullptr : &marks_[(mark_count_ - 1) & mark_mask_]; }
-  /// Serial numbers go on behind `point`.
+  /// Back to `point`: the machine stands there, and the serials to come follow that of the point.
   void rewind_to(const MarkPoint& point);
 
  private:
@@ -181,19 +181,19 @@ class Commit {
 
   CommitConfig config_;
   unsigned axis_count_ = 3;
-  uint32_t rotary_ = 0, line_rotary_ = 0;
+  uint32_t rotary_ = 0, line_rotary_ = 0;  ///< bit i: axis i is rotary; ... and does not count in the length of a line
   uint32_t limited_ = 0;     ///< bit i: axis i has a limit of acceleration
   bool any_limit_ = false;
   static inline constexpr MotionSettings kNoSettings{};
   const MotionSettings* settings_ = &kNoSettings;  ///< of the move just committed
   AxisVec machine_;
-  AxisVec start_;            ///< of the move just committed
+  AxisVec start_;            ///< start of the move just committed
   AxisVec taken_end_;        ///< end of the move that was taken back
   Circle circle_;            ///< of the move just committed, machine coordinates
   Curve curve_;
-  /// Shapes in a ring: one is free when its record has been executed or given up.
+  /// The shapes of moves, in a ring. The place of a shape is free when its record has been executed or given up.
   CurveShape* shapes_ = nullptr;
-  const MoveShape arc_in_space_{};  ///< an arc of a plane that the map to the machine tilts: the move's own, in front of that map
+  const MoveShape arc_in_space_{};  ///< the shape of an arc whose plane is tilted by the map to the machine: plain, so that the map makes the tilt
   uint32_t* shape_record_ = nullptr;
   uint32_t shape_mask_ = 0;
   uint64_t shape_count_ = 0;
@@ -202,7 +202,8 @@ class Commit {
   Serial last_serial_ = 0;
   int8_t limit_axis_ = -1;
   MarkPoint* marks_ = nullptr;
-  Stages::Resume* resumes_ = nullptr;  ///< beside each of them: nearly none has one, and those that are written in every block stay in the cache
+  Stages::Resume* resumes_ = nullptr;  ///< one for each of marks_. Nearly no mark needs it, so it is kept apart: marks_, written in every block, stay in
+                                       ///< the cache
   uint32_t mark_mask_ = 0;
   uint64_t mark_count_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What create.cpp asks about a configuration.
+// What creating a control asks about a configuration.
 #pragma once
 
 #include "macro/variables.hpp"
@@ -7,11 +7,11 @@
 
 namespace nc {
 
-/// A caller's configuration as one of this library: what an older caller does not know has its default. False when there is none, or its
-/// struct_size is none, or it asks for what this library does not know.
+/// Turns a caller's configuration into one of this version of the library: members that an older caller does not know get their defaults. False
+/// when `given` is nullptr, its struct_size is not valid, or it sets members that this library does not know.
 bool take_config(const nc_config* given, nc_config* known);
 
-/// M700 13.4: which common variables there are by option, and those that the machine has beside them.
+/// The common variables of a machine: those of its option (M700 13.4) and the further ranges of its configuration.
 CommonRanges ranges_of(const nc_config& config);
 
 }  // namespace nc

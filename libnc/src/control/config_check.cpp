@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// nc_config_init_sized, nc_config_check, nc_variable_range_check: what a configuration may be, and which member of it is refused.
+// nc_config_init_sized, nc_config_check, nc_variable_range_check: the values that a configuration may have, and which member is refused.
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -13,10 +13,10 @@ namespace {
 
 using nc::CommonRanges;
 
-constexpr double kMostLimit = 1e12;  ///< mm/s and so on: what is multiplied with it stays a number
+constexpr double kMostLimit = 1e12;  ///< mm/s, mm/s^2 ...: products of such limits stay finite
 constexpr double kMostPlace = 1e9;   ///< mm or deg
 
-/// Path of a member as C writes it, put together from the outside inwards; one that is longer than its room is cut.
+/// Path of a member as it is written in C, put together from the outside inwards; a path that is too long is cut.
 class Path {
  public:
   Path& member(const char* name) {
@@ -41,7 +41,7 @@ class Path {
   size_t size_ = 0;
 };
 
-/// The first fault that is found; what is asked behind it is not looked at any more.
+/// Checks a configuration up to the first fault; members behind it are not looked at.
 class Check {
  public:
   explicit Check(const nc_config& config) : c_(config) {}
@@ -178,7 +178,7 @@ bool Check::axis(unsigned system, unsigned index) {
   return c_axis(system, index) && unused(Path(path).member("reserved"), a.reserved);
 }
 
-/// M700 10.5: a C axis turns with a spindle that there is, and with no other axis.
+/// M700 10.5: the spindle of a C axis must exist, and must not be the spindle of another axis.
 bool Check::c_axis(unsigned system, unsigned index) {
   const nc_system_config& s = c_.system[system];
   const nc_axis_config& a = s.axis[index];
@@ -286,7 +286,7 @@ nc::CommonRanges nc::ranges_of(const nc_config& c) {
 
 void nc_config_init_sized(nc_config* config, size_t struct_size) {
   if (config == nullptr || struct_size < sizeof(uint32_t) || struct_size > nc::kMostStructBytes) return;
-  std::memset(static_cast<void*>(config), 0, struct_size);  // of a newer caller: what this library does not know is not asked for
+  std::memset(static_cast<void*>(config), 0, struct_size);  // members that only a newer caller knows are 0, so that they ask for nothing
   nc_config defaults;
   set_defaults(&defaults);
   const uint32_t size = static_cast<uint32_t>(struct_size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an nc_control is.
+// The members of an nc_control.
 #pragma once
 
 #include "control/joints.hpp"
@@ -15,5 +15,5 @@ struct nc_control {
   nc::PartSystem system[NC_MAX_SYSTEMS];
   nc::Joints joints[NC_MAX_SYSTEMS];
   bool any_joints;
-  char mdi[NC_MAX_SYSTEMS][1024 + 6];  // and what is put around the blocks
+  char mdi[NC_MAX_SYSTEMS][1024 + 6];  // the MDI blocks of each part system; 6 bytes for what is put before and behind them
 };

@@ -6,20 +6,20 @@
 
 namespace {
 
-/// The vendor's codes are copied: the caller's table may go.
+/// Copies the vendor's codes, so that the caller's table need not stay.
 void lay_out_vendor(const nc_config& config, const nc::Dialect& dialect, nc_control* control, nc::VendorCodes* vendor, nc::Arena& arena) {
   nc_vendor_code* rows = config.vendor_code_count != 0 ? arena.make<nc_vendor_code>(config.vendor_code_count) : nullptr;
   for (unsigned i = 0; i < config.vendor_code_count && rows != nullptr; ++i) nc::take_vendor_code(config.vendor_codes, i, &rows[i]);
   vendor->create(rows, config.vendor_code_count, dialect, control, arena);
 }
 
-/// Lays a control out; with a measuring arena only its size comes out.
+/// Lays a control out in the arena. With a measuring arena only the size of the control is found.
 nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   nc_control* control = arena.make<nc_control>();
   const nc::Dialect& dialect = nc::dialect(static_cast<nc_dialect>(config.dialect));
   const nc::CommonRanges ranges = nc::ranges_of(config);
   if (control == nullptr) {
-    // The rooms lay themselves out through the same calls; a throw-away store and part system stand in for the real ones.
+    // Each room takes its memory through the same calls as for a real control; a store and a part system that are thrown away take their place.
     nc::ProgramStore store;
     nc::CommonVariables common;
     store.create(config.programs, config.system_count, arena);
@@ -38,7 +38,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   control->dialect = &dialect;
   control->store.create(config.programs, config.system_count, arena);
   lay_out_vendor(config, dialect, control, &control->vendor, arena);
-  control->config.vendor_codes = nullptr;  // what they point to is the caller's; only the copies are used
+  control->config.vendor_codes = nullptr;  // these pointers lead into the caller's memory; from here on only the copies are used
   for (const nc_kinematics*& kinematics : control->config.kinematics) kinematics = nullptr;
   for (unsigned i = 0; i < config.system_count; ++i) {
     control->common[i].create(ranges, arena);
@@ -54,7 +54,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   return control;
 }
 
-/// A measuring arena takes what a control takes, and 64 bytes are for the place at which its memory begins.
+/// Bytes of a control, as a measuring arena counts them, and 64 more for the alignment of the memory's beginning.
 size_t bytes_of(const nc_config& config) {
   nc::Arena arena;
   lay_out(config, arena);

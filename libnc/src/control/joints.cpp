@@ -8,7 +8,8 @@
 namespace nc {
 namespace {
 
-/// A difference of two places of one micrometre carries this much rounding at 1e6 mm; a limit that is just kept is kept.
+/// Share by which a velocity or acceleration may exceed its limit. At 1e6 mm rounding changes the difference of two positions one micrometre apart
+/// by about this much, and a limit that is just kept must not be reported.
 constexpr double kRounding = 1e-6;
 
 bool above(double value, double limit) { return limit > 0 && std::fabs(value) > limit * (1 + kRounding) + kRounding; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joints behind the axes of a part system (nc_kinematics): the last thing of a cycle. Scan thread.
+// The joints that the axes of a part system are turned into (nc_kinematics), at the end of each cycle. Scan thread.
 #pragma once
 
 #include "nc/run.h"
@@ -8,12 +8,13 @@ namespace nc {
 
 class Joints {
  public:
-  /// `kinematics` has been looked at; nullptr = the axes are what moves.
+  /// `kinematics` has been checked before; nullptr = there are no joints, the axes themselves are driven.
   void create(const nc_kinematics* kinematics, double cycle_s);
   bool any() const { return any_; }
-  /// In front of the cycle: measured joints become a machine position, and what cannot be gone to stops the part system.
+  /// Before the cycle: turns measured joints into a machine position, and stops the part system when the joints do not reach the last commanded
+  /// position.
   void before(nc_inputs* in) NC_RT;
-  /// Behind it: the joints of the commanded position.
+  /// After the cycle: calculates the joints of the commanded position.
   void after(nc_outputs* out) NC_RT;
 
  private:
@@ -22,8 +23,8 @@ class Joints {
   nc_kinematics kinematics_{};
   bool any_ = false;
   double cycle_s_ = 0.001;
-  unsigned known_ = 0;     ///< good cycles behind one another, at most 2: velocity needs two places, acceleration two velocities
-  bool stops_ = false;     ///< the last commanded place has no joints
+  unsigned known_ = 0;     ///< cycles without a fault in a row, counted up to 2: a velocity needs two positions, an acceleration two velocities
+  bool stops_ = false;     ///< the joints do not reach the last commanded position
   uint8_t actual_fault_ = 0;
   nc_axes joint_{}, velocity_{};
 };

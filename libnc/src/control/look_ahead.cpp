@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a block gives out before it moves (M S T B) waits until all of its moves are known to be possible: a block that a stroke limit
-// stops leaves nothing behind. Only blocks that begin with such a code come here; any other block costs one comparison.
+// The M, S, T and B that a block gives out before it moves wait until all moves of the block are known to be possible, so that a block which a
+// stroke limit stops has given out nothing. Only blocks that begin with such a code come here; any other block costs one comparison.
 //
-//   Nothing to compensate: the items of the block lie in the interpreter's queue, and the moves are tried where they lie. A fixed
-//   cycle makes its moves bit by bit; what it has still to make is rehearsed, without the pecks, which lie within their hole.
+//   A block without radius compensation and without a corner at its end: its items lie in the interpreter's queue, and its moves are tried
+//   there. A fixed cycle makes its moves little by little; those that it has still to make are rehearsed, without the pecks, which lie within
+//   their hole.
 //
-//   With radius compensation, and with a corner at its end: a move has its geometry only when the stages give it out. All of the block is
-//   fetched from there first. What a stage finds itself (interference, no intersection, a corner that does not fit) then stops the block as
-//   a whole, too. So it is behind lines that fairing has held back; elsewhere the ends that fairing moves stay between programmed points, which are tried as they are.
+//   A block with radius compensation, or with a corner at its end: the geometry of its moves is known only when the stages give them out. So all
+//   items of the block are first fetched from the stages. A fault that a stage finds (interference, no intersection, a corner that does not
+//   fit) then stops the block as a whole, too. The same is done with a block behind lines that fairing has held back. In other blocks fairing
+//   moves the ends of lines only to places between programmed points, and the programmed points are tried.
 #include "control/part_system.hpp"
 
 namespace nc {
 namespace {
 
-/// Nothing behind this item belongs to the block, or can be waited for.
+/// The item is the last one of its block, or nothing behind it can be waited for.
 bool ends_look_ahead(const Item& item) {
   return (item.kind == ItemKind::mark && item.mark.resume) || item.kind == ItemKind::sync || item.kind == ItemKind::alarm ||
          item.kind == ItemKind::end;
@@ -21,7 +23,7 @@ bool ends_look_ahead(const Item& item) {
 
 }  // namespace
 
-/// The front of the stream is the first code of its block. NC_OK: all of it has been looked at, or an alarm has taken its place.
+/// The front of the stream is the first code of its block. NC_OK: the whole block has been checked, or an alarm has taken its place.
 nc_status PartSystem::look_ahead(uint32_t& budget) {
   if (!gathering_ && !from_stage_ && !goes_to_stage()) {
     if (block_fits()) looked_behind_ = newest_mark();
@@ -33,7 +35,7 @@ nc_status PartSystem::look_ahead(uint32_t& budget) {
   return NC_OK;
 }
 
-/// The block at the front of the interpreter's queue has a move that will be compensated, or get a corner.
+/// The block at the front of the interpreter's queue has a move that a stage will compensate, or give a corner.
 bool PartSystem::goes_to_stage() const {
   for (unsigned i = 0; i < interpreter.queue().size(); ++i) {
     const Item& item = interpreter.queue()[i];
@@ -68,7 +70,7 @@ bool PartSystem::block_fits() {
 
 /// Whether the moves that the fixed cycle in execution has still to make are within the limits.
 bool PartSystem::cycle_fits(Committed* committed) {
-  if (interpreter.maps().other_axes) return true;  // its moves have shapes, which are few: each is checked when it comes
+  if (interpreter.maps().other_axes) return true;  // its moves have shapes, for which there are few places: each is checked when it is made
   struct Trial {
     PartSystem& system;
     Committed* committed;
@@ -93,7 +95,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
     }
   }
   bool whole = false;
-  while (!whole && staged_count_ < kStaged) {  // no block that can be compensated makes more
+  while (!whole && staged_count_ < kStaged) {  // no block that can be compensated makes more than kStaged items
     Item& place = staged_[staged_count_];
     if (!stages_.idle() && pop_held(place)) {
       ++staged_count_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the time-optimal mode does not move, and the alarm that says so before the move begins.
+// Moves that the time-optimal mode does not make, and the alarm that says so before such a move begins.
 #pragma once
 
 #include "alarm/condition.hpp"
@@ -9,7 +9,7 @@ namespace nc {
 
 struct OptimalMode {
   static bool moves(const Segment& s) { return !stands(s.curve); }
-  /// A line of nothing but axes that G07 holds (M700 6.16): no axis goes a way that a time law could be planned for.
+  /// A line on which only axes that G07 holds are commanded (M700 6.16): no axis moves, so there is no way that a time law could be planned for.
   static bool stands(const Curve& curve) {
     if (curve.shape == nullptr || curve.shape->what.map.frozen == 0) return false;
     if (curve.shape->what.kind != ShapeKind::plain || curve.shape->base.circular) return false;

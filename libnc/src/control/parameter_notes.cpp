@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What parameters behind interpolation do not do on this machine, and where they and not the feed are what limits it: sentences for whoever
-// sets it up.
+// Sentences for the person who sets a machine up: which parameters that act behind interpolation have no effect on it, and where such a parameter
+// and not the feed limits its speed.
 #include <cmath>
 
 #include "control/control.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 using P = Parameter;
 
-/// Counts off the notes and writes the one that is asked for.
+/// Goes through the notes in their order and writes the one whose number is asked for.
 class ParameterNotes {
  public:
   ParameterNotes(const nc_control& control, unsigned system, unsigned wanted, char* text, size_t size)
@@ -38,7 +38,7 @@ class ParameterNotes {
     int bit = -1;
     if (parameter_place(dialect_, parameter, key, &bit)) text_.put('#').put(key);
   }
-  /// A sentence about `parameter`, in which {1} and {2} are others.
+  /// Writes a sentence about `parameter`, in which {1} and {2} stand for the parameters `first` and `second`.
   bool say(ParameterOf parameter, const char* sentence, ParameterOf first = Parameter::none, ParameterOf second = Parameter::none) {
     put(parameter);
     text_.put(": ");
@@ -81,7 +81,7 @@ class ParameterNotes {
         return say(row.parameter, "no effect in the time-optimal mode, which keeps acceleration and jerk by itself");
     }
     if (optimal) return false;
-    // The compensation of arcs needs both switches, and a radius of some axis.
+    // The compensation of arcs acts only when both switches are on and some axis has a radius.
     const bool every = value(P::arc_compensation) != 0, by_axis = value(P::arc_compensation_by_axis) != 0, chosen = every && by_axis;
     if (by_axis && !chosen && is_wanted()) return say(P::arc_compensation_by_axis, "no effect while {1} is 0", P::arc_compensation);
     if (every && !chosen && is_wanted())

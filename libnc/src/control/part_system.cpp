@@ -15,13 +15,11 @@
 namespace nc {
 namespace {
 
-/// A curve that is made again passes through the point where it was cut.
-
 }  // namespace
 
 namespace {
 
-/// The mean of cuts in high-accuracy control, where the parameters give none.
+/// The filter (a mean) of cuts in high-accuracy control for which the parameters give none.
 FilterTimes rounding_of(const nc_config& config, const nc_system_config& system) {
   MotionLimits limits;
   limits.axis_count = system.axis_count;
@@ -104,7 +102,7 @@ void PartSystem::count_from(uint32_t first) {
 
 // ---- the stream behind the stages ----------------------------------------------------------------------------------------
 
-/// Part of both loops that take items: a call for each would be felt.
+/// Inlined into both loops that take items, because a function call for each item would be felt.
 [[gnu::always_inline]] inline nc_status PartSystem::next(uint32_t& budget, const Item** item) {
   if (staged_count_ != 0) {
     from_stage_ = true;
@@ -166,19 +164,19 @@ Fault PartSystem::refused(Committed committed) const {
   return fault;
 }
 
-/// A stage behind the interpreter has found what is wrong: everything that was read beyond is void.
+/// A stage behind the interpreter has found a fault: everything that was read beyond the newest mark is void.
 void PartSystem::stop_on(const Fault& fault, const nc_source& source) {
   const MarkPoint* last = commit_.newest();
   interpreter.note_calls(source, last != nullptr ? last->seq : 0);
   interpreter.rewind(last != nullptr ? last->seq : 0);
-  // Of the block that stops some moves may have gone; compensated ones do not end where the program says.
+  // Some moves of the block that stops may have been committed already. Where compensated moves end is not what the program says, so it is not taken.
   if (!from_stage_) interpreter.end_at(commit_.machine());
   stages_.reset();
   clear_staged();
   interpreter.abort(fault, source);
 }
 
-/// Behind the sentence of the fault where there is room for both, else in its place.
+/// Puts the cause of an alarm behind the sentence of its fault, or in its place where there is no room for both.
 static void put_cause(const RaisedAlarm& alarm, nc_text* detail) {
   const size_t sentence = std::strlen(detail->s), cause = std::strlen(alarm.cause.s);
   if (cause == 0) return;
@@ -217,7 +215,7 @@ void PartSystem::describe_alarm() {
 
 bool PartSystem::alarm(nc_alarm* out) const {
   nc_source place;
-  if (online_ && executor.faulted(&place)) {  // before one that has been read and not come to
+  if (online_ && executor.faulted(&place)) {  // it comes before an alarm that has been read but not reached
     Fault fault;
     fault.condition = Condition::internal;
     put_fault(fault, place, out);
@@ -227,8 +225,8 @@ bool PartSystem::alarm(nc_alarm* out) const {
   return alarm_given_;
 }
 
-/// The blocks that led to where an alarm has stopped the program that is in no record; 0: none has, or that is not known. Those that have been
-/// read behind it know who has called it, until they are given up.
+/// The blocks that led to the block in which an alarm that is no record (one of the scan or of the machine) has stopped the program. 0: there is no
+/// such alarm, or the blocks are not known. The calls are found from the blocks read behind that block, so only until these are given up.
 unsigned PartSystem::stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const {
   nc_source place;
   BlockSeq behind = 0;
@@ -238,7 +236,7 @@ unsigned PartSystem::stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const {
 unsigned PartSystem::alarm_calls(nc_source* out, unsigned capacity) const {
   nc_source place;
   BlockSeq behind = 0;
-  const bool stopped = online_ && executor.stopped(&place, &behind);  // before an alarm that has been read and not come to
+  const bool stopped = online_ && executor.stopped(&place, &behind);  // it comes before an alarm that has been read but not reached
   if (stopped && (run_.active() || run_.word() != executor.run())) {
     nc_source calls[NC_MAX_CALLS];
     const unsigned count = interpreter.calls_behind(place, behind, calls);
@@ -261,8 +259,8 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   if (!(rises || stays) || !interruptible()) return NC_OK;
   uit_pending_ = true;
   watch();
-  // M700 13.12, type 1: at once. The item that was given out last is the one that is interrupted, unless it is done already; a contour
-  // under compensation and a block that waits for an answer are finished first.
+  // M700 13.12: an interrupt of type 1 acts at once. It interrupts the item that was given out last, where that takes time; a contour under
+  // compensation and a block that waits for an answer are finished first.
   const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
   if (interpreter.interrupts().type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
@@ -278,7 +276,7 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   return NC_OK;
 }
 
-/// At the end of a block: the interrupt program comes before what was read ahead.
+/// Begins the interrupt program at the end of a block. The blocks that were read ahead behind this block are given up.
 bool PartSystem::begin_interrupt() {
   const MarkPoint* last = commit_.newest();
   if (last == nullptr || last->serial != commit_.serial()) return false;
@@ -290,7 +288,8 @@ bool PartSystem::begin_interrupt() {
   return true;
 }
 
-/// Behind the newest mark. A block that had been cut before may be the next one: then the machine is not where that block begins.
+/// Begins the interrupt program behind the newest mark. The next block may be one that an earlier interrupt has cut: then the machine is not where
+/// that block begins.
 bool PartSystem::interrupt_between() {
   AxisVec machine = interpreter.machine();
   if (interpreter.repeat().active) {
@@ -301,8 +300,8 @@ bool PartSystem::interrupt_between() {
   return interpreter.interrupt(machine, 0, false);
 }
 
-/// The scan has stopped for an interrupt and the interpreter stands behind the newest mark that has been executed: either the machine does,
-/// too, or it stands inside the block behind (type 1).
+/// The scan has stopped for an interrupt, and the interpreter stands behind the newest mark that has been executed. The machine stands there, too, or
+/// inside the next block (type 1).
 void PartSystem::interrupt_online() {
   const Cut cut = executor.cut();
   if (!cut.inside) {
@@ -312,16 +311,16 @@ void PartSystem::interrupt_online() {
   const auto items = static_cast<unsigned>(cut.done - commit_.serial()) - cut.syncs;  // a sync is not executed again, but answered again
   cut_ = cut;
   if (interpreter.interrupt_inside(cut.machine, items)) {
-    forget_interrupt();  // of a block that had been cut before: what it has done is no part of the interrupt program
+    forget_interrupt();  // what a block cut earlier had done does not belong to the interrupt program
     commit_.go_on(cut.done, cut.machine);
-  } else {  // M97 has come meanwhile: the block goes on
+  } else {  // M97 has been executed meanwhile, so the block goes on
     interpreter.go_on_inside(items);
     commit_.go_on(cut.done, cut.machine);
     drop_repeated(interpreter.repeat(), interpreter.machine());
   }
 }
 
-/// An item that has happened before its block was interrupted. None lies behind the end of its block.
+/// The item was executed before its block was interrupted, so it is dropped. No such item lies behind the end of the block.
 bool PartSystem::drops(const Item& item) {
   if (item.kind == ItemKind::mark && item.mark.resume) drop_ = 0;
   if (drop_ == 0 || item.kind == ItemKind::sync) return false;
@@ -329,7 +328,7 @@ bool PartSystem::drops(const Item& item) {
   return true;
 }
 
-/// What is left of a move or a dwell that was cut.
+/// Reduces the record of a move or dwell that was cut to what is left of it.
 void PartSystem::resume_record(Record& record) {
   resumes_ = false;
   if (record.kind == ItemKind::gate && cut_.left > 0 && (record.gate.kind == NC_GATE_DWELL_SECONDS || record.gate.kind == NC_GATE_DWELL_TURNS))
@@ -339,9 +338,9 @@ void PartSystem::resume_record(Record& record) {
   const AxisVec at = curve_position(s.curve, cut_.length, axis_count_);
   double off = 0;
   for (unsigned i = 0; i < axis_count_; ++i) off = std::fmax(off, std::fabs(at[i] - cut_.machine[i]));
-  if (off < kReached) {
+  if (off < kReached) {  // the curve, which has been made again, passes through the point where it was cut
     s.begun = cut_.length;
-  } else {  // the interrupt program has changed what the block is made of: to its end from where the axes are
+  } else {  // the interrupt program has changed what the block is made from, so the axes do not stand on its curve: a line leads to its end
     s.curve = make_line(cut_.machine, s.curve.end, axis_count_, rotary_);
     s.round_mm[0] = s.round_mm[1] = 0;
     commit_.set_index_axes(&s);
@@ -356,14 +355,14 @@ void PartSystem::drop_repeated(const Repeat& repeat, const AxisVec& head) {
   watch();
 }
 
-/// The one way from the interpreter to a sink. Part of both loops that take items, as next() is.
+/// The only way from the interpreter to a sink. Inlined into both loops that take items, as next() is.
 [[gnu::always_inline]] inline nc_status PartSystem::pump(uint32_t& budget, const Item** given) {
   *given = nullptr;
   const Item* item = nullptr;
   const nc_status status = next(budget, &item);
   if (status != NC_OK) return status;
   if (commit_watch_ != nullptr) [[unlikely]] before_watched_ = commit_.place();
-  if (item->kind == ItemKind::mark && !watched_) [[likely]] {  // every second item of a program, and nearly every one of a macro
+  if (item->kind == ItemKind::mark && !watched_) [[likely]] {  // a mark is every second item of a program, and nearly every item of a macro
     commit_.commit_mark();
     *given = item;
     return NC_OK;
@@ -389,10 +388,10 @@ void PartSystem::drop_repeated(const Repeat& repeat, const AxisVec& head) {
   return NC_OK;
 }
 
-/// What follows from an item for whoever drives the part system.
+/// What follows from a mark for the caller that drives the part system.
 [[gnu::always_inline]] inline void PartSystem::note_mark(const Item& mark) {
   remember_mark(mark);
-  // The stages may have held the mark while the interpreter has read on.
+  // The place of the interrupt comes with the mark, because the stages may have held the mark while the interpreter has read on.
   if (mark.mark.repeat.active) [[unlikely]] drop_repeated(mark.mark.repeat, interpreter.interrupted_at());
 }
 
@@ -401,7 +400,7 @@ void PartSystem::note_given(const Item& item) {
   if (item.kind == ItemKind::alarm) describe_alarm();
 }
 
-/// M96, M97, and the way into an interrupt program and back. They are no block that can be cut.
+/// Notes the state of the macro interrupt that M96, M97, the beginning and the end of an interrupt program give out. Such a block cannot be cut.
 void PartSystem::note_interrupt_mode(const Item& item) {
   if (item.kind != ItemKind::action || item.action.kind != NC_ACTION_CONTROL || item.action.index != NC_CONTROL_INTERRUPT) return;
   const auto mode = static_cast<uint32_t>(item.action.value);
@@ -454,8 +453,8 @@ nc_status PartSystem::move_zero(nc_axes* zero) const {
   return NC_OK;
 }
 
-/// The part system whose next block end was executed first, but not behind the cycle `until`; of one cycle the first one, as nc_cycle() goes.
-/// nullptr: there is no other.
+/// The part system whose next block end was executed earliest, and not after the cycle `until`. Within one cycle the part system with the lowest
+/// number is first, which is the order of nc_cycle(). nullptr: there is no such block end any more.
 PartSystem* PartSystem::first_executed(uint32_t until, BlockSeq* seq) {
   PartSystem* first = nullptr;
   uint32_t earliest = until;
@@ -495,7 +494,7 @@ void PartSystem::publish_all() {
 nc_status PartSystem::answer(const nc_world& world) {
   if (open_sync_ == 0) return NC_E_STATE;
   open_sync_ = 0;
-  if (interpreter.shares()) {  // everything that was read has been executed, calls without a mark of their own as well
+  if (interpreter.shares()) {  // everything that was read has been executed, also calls that have no mark of their own
     publish_all();
     interpreter.publish(interpreter.newest_block());
   }
@@ -509,12 +508,12 @@ nc_status PartSystem::answer(const nc_world& world) {
 }
 
 nc_status PartSystem::rewind(Serial serial) {
-  MarkPoint head;  // of the program: nothing has been read yet
+  MarkPoint head;  // the beginning of the program: nothing has been read there
   const MarkPoint* point = serial == 0 ? &head : commit_.find(serial);
   if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
   if (serial == 0) head.machine = interpreter.machine();
   forget_interrupt();
-  if (stop_ == Stop::committed) stop_ = Stop::none;  // its block is read again; one that is passed is still to be executed
+  if (stop_ == Stop::committed) stop_ = Stop::none;  // the block of the stop is read again; where it is `passed` the machine has still to execute it
   clear_staged();
   open_sync_ = 0;
   finished_ = false;
@@ -550,12 +549,12 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
 
 nc_status PartSystem::reset() {
   if (occupied()) return NC_E_STATE;
-  if (!online_ && !interpreter.ended()) {  // blocks that the stages hold back have not happened
+  if (!online_ && !interpreter.ended()) {  // blocks that the stages hold back have not been executed
     const MarkPoint* last = commit_.newest();
     rewind(last != nullptr ? last->serial : 0);
   }
   interpreter.clear_by_reset();
-  restart(online_ ? executor.commanded() : commit_.machine());  // by hand or with its drives off the machine may have moved
+  restart(online_ ? executor.commanded() : commit_.machine());  // online the machine may have been moved by hand, or while its drives were off
   commit_.restart();
   return NC_OK;
 }
@@ -577,7 +576,7 @@ void PartSystem::set_position(const AxisVec& machine) {
 
 // ---- online ----------------------------------------------------------------------------------------------------------------
 
-/// The item that has just been taken to machine coordinates waits for a later nc_feed(): nothing has happened.
+/// Shows the item just committed to the commit watch. True: it has to wait for a later nc_feed(), and committing it has been undone.
 bool PartSystem::put_off(const Item& item) {
   nc_item shown;
   commit_.to_public(item, &shown);
@@ -638,7 +637,7 @@ void PartSystem::tell_axis_parameters() {
   axes.short_cut = settings.short_cut;
   for (unsigned i = 0; i < axis_count_; ++i)  // M700 2.3: of rotary axes only
     axes.increment[i] = (rotary_ >> i & 1) != 0 ? settings.index_increment[i] : 0;
-  // A mirror that is still on turns the counters as the last block has left them.
+  // While a mirror is still on, the counters stay as the last block has left them.
   axes.idle = !run_.active() && !interpreter.maps().mirror;
   axes.zero = axes.idle ? interpreter.work_zero() : told_axes_.zero;
   if (axes == told_axes_) return;
@@ -646,7 +645,7 @@ void PartSystem::tell_axis_parameters() {
   executor.set_axis_parameters(axes);
 }
 
-/// What has become of the run (interpolate/run_word.hpp).
+/// Acts upon a change of the run that the scan has made (interpolate/run_word.hpp).
 void PartSystem::follow_run() {
   const RunWord now(executor.run()), before = run_;
   if (now.word() == before.word()) return;
@@ -656,7 +655,7 @@ void PartSystem::follow_run() {
   if (now.epoch() != before.epoch()) {
     nc_source calls[NC_MAX_CALLS];
     const unsigned count = stop_calls(calls);
-    // What was read beyond the last block that was executed has not happened: offsets, variables and outputs are as before it.
+    // Blocks beyond the last one that was executed have been read but not executed: offsets, variables and outputs become as before them.
     if (before.active() && !executor.ended()) rewind(executor.last_mark());
     interpreter.clear_by_reset();
     restart(executor.commanded());
@@ -727,7 +726,7 @@ nc_status PartSystem::feed_program(int64_t left) {
 
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
-  tell_axis_parameters();  // a program may have changed them
+  tell_axis_parameters();  // a program may have changed the parameters
   follow_run();
   int64_t left = int64_t{budget} * kUnit;
   if (!run_.active() || !interpreter.is_selected()) {
@@ -752,8 +751,8 @@ nc_status PartSystem::feed(uint32_t budget) {
   return feed_program(left);
 }
 
-/// Behind a sync: axes that are spindles too have turned without the program (M700 10.5 (1)); where a skip move has been dropped with its
-/// servo (precaution (3)) the others are not at its end either.
+/// After a sync: takes the positions that axes which are spindles as well have, because a spindle turns without the program (M700 10.5 (1)). Where a
+/// skip move was dropped when the servo went off (precaution (3)) the other axes are not at its end either, and theirs are taken, too.
 void PartSystem::take_spindle_axes(const nc_world& world) {
   const bool skip = (sync_what_ & NC_SYNC_SKIP) != 0 && !world.skipped;
   const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~interpreter.maps().frozen_axes;
@@ -775,18 +774,18 @@ nc_status PartSystem::recalculate() {
 
 bool PartSystem::read_again(Serial last) {
   if (rewind(last) == NC_OK) return true;
-  // What the machine has not done is given up already, and it cannot be read again: too many writes or calls lie in between.
+  // The records that the machine has not executed are given up already, but the blocks cannot be read again: too many writes or calls lie in between.
   Fault fault;
   fault.condition = Condition::internal;
   stop_on(fault, interpreter.source());
   return false;
 }
 
-/// The axes were moved by hand in a block stop; what follows starts where the machine is. An axis that the next block does not name stays
-/// there, an incremental word counts from there; under radius compensation the vector in force is carried along.
-/// M700 12.4.4, 14.12: with manual absolute on the coordinate systems stay, and an absolute word goes to its programmed place. With it off
-/// (`shift`, what was moved by hand, and not what a stop on a smoothed line lies beside it) they go along: the rest of the program is shifted,
-/// until G92.1.
+/// The axes were moved by hand in a block stop, and what follows starts where the machine is. An axis that the next block does not name stays
+/// there, and an incremental word counts from there; under radius compensation the vector in force is kept.
+/// M700 12.4.4, 14.12: with manual absolute on, the coordinate systems stay, and an absolute word goes to its programmed position. With it off they
+/// are moved along by `shift`, so the rest of the program is shifted until G92.1. `shift` is only the movement by hand: where a stop has left the
+/// axes beside a smoothed line, that distance is not in it.
 void PartSystem::displace(const AxisVec& machine, const AxisVec& shift) {
   AxisVec programmed = interpreter.machine();
   bool any = false;

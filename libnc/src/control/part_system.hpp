@@ -13,23 +13,23 @@ namespace nc {
 
 class PartSystem {
  public:
-  /// What the part systems of a control have in common.
+  /// What the part systems of a control share.
   struct Shared {
     ProgramStore* store;
     CommonVariables* common;
     const VendorCodes* vendor;
   };
   void create(const nc_config& config, unsigned index, const Dialect& dialect, const Shared& shared, Arena& arena);
-  /// Of several part systems: all `count` of them, behind create() of each.
+  /// Where there are several part systems: tells this one of all `count` of them, after create() of each.
   void join(PartSystem* systems, unsigned count, SharedTables* shared) {
     systems_ = systems;
     system_count_ = count;
     interpreter.join(shared);
   }
-  /// What the machine has executed in each part system is known to the others, in the order of execution. Before anything is read.
+  /// Makes what the machine has executed in each part system known to the others, in the order of execution. It is called before blocks are read.
   void publish_all();
 
-  /// `mdi`: blocks of MDI, which go on with the modal state that MDI blocks before them have left.
+  /// `mdi`: MDI blocks, which go on with the modal state that the MDI blocks before them have left.
   nc_status select(const ProgramRef& program, bool mdi = false);
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
@@ -37,7 +37,7 @@ class PartSystem {
   nc_status move_zero(nc_axes* zero) const;
   nc_status answer(const nc_world& world);
   nc_status rewind(Serial serial);
-  /// Offline: level of the interrupt signal (M700 13.12). *take_back: the item pulled last must not be executed.
+  /// Offline: the level of the interrupt signal (M700 13.12). *take_back becomes true when the item pulled last must not be executed.
   nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
   /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
@@ -45,10 +45,10 @@ class PartSystem {
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
   void tell_axis_parameters();
   nc_status recalculate();
-  /// For tests of what becomes of counters after years (docs/counters.md). Right behind create().
+  /// For tests of counters that have run for years (docs/counters.md). To be called right after create().
   void count_from(uint32_t first);
   void set_position(const AxisVec& machine);
-  /// The block that waits for the answer to a sync, and the line of the main program that it belongs to; false: none does.
+  /// The block that waits for the answer to a sync, and the line of the main program that it belongs to; false: no block waits.
   bool sync_place(nc_source* source, uint32_t* main_line) const;
   uint32_t main_line(const nc_source& source) const { return source.depth == 0 ? source.line : interpreter.main_line(); }
   /// Online: `watch` is shown each item before it is committed, and may put it off.
@@ -56,20 +56,21 @@ class PartSystem {
     commit_watch_ = to_call;
     commit_watch_user_ = user;
   }
-  /// A program is in execution or interrupted, as far as the feeder has taken notice.
-  /// Nor may anything be changed from outside while a function of the vendor's reads a block of it.
+  /// A program is in execution or interrupted, as far as the feeder knows yet, or a function of the vendor is running: nothing may be changed from
+  /// outside then.
   bool busy() const { return (online_ && run_.active()) || interpreter.in_vendor_function(); }
-  /// The same as of now: what the scan has done is taken notice of first.
+  /// busy(), after the feeder has taken notice of what the scan has done.
   bool occupied() {
     follow_run();
     return busy();
   }
-  /// The newest block that the machine has executed, of several part systems as of publish_all(); false: it has executed all that was read.
+  /// The newest block that the machine has executed; where there are several part systems, the newest that publish_all() has published. False: the
+  /// machine has executed all blocks that were read.
   bool executed_block(BlockSeq* seq) const {
     if (busy()) *seq = system_count_ != 0 ? published_ : executor.last_block();
     return busy();
   }
-  /// The alarm in words, once its item has been given out, or that of the scan, which has no item; false = none.
+  /// The alarm in words: one whose item has been given out, or one of the scan, which has no item. False = there is none.
   bool alarm(nc_alarm* out) const;
   unsigned alarm_calls(nc_source* out, unsigned capacity) const;
 
@@ -80,11 +81,11 @@ class PartSystem {
   PartSystem* first_executed(uint32_t until, BlockSeq* seq);
   /// Next item in stream order behind the stages; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
-  /// Takes the next item, commits it and gives it to the caller, nc_pull() or nc_feed(). NC_OK with nullptr: work was done, and no item came of it; call again.
+  /// Takes the next item, commits it and gives it to the caller, nc_pull() or nc_feed(). NC_OK with nullptr: work was done but gave no item; call again.
   nc_status pump(uint32_t& budget, const Item** item);
   void take();
   bool pop_held(Item& out) { return stages_.pop(out); }
-  /// The item has been given out.
+  // What follows after an item has been given out.
   void note_mark(const Item& mark);
   void note_given(const Item& item);
   void note_interrupt_mode(const Item& item);
@@ -96,7 +97,7 @@ class PartSystem {
   bool cycle_fits(Committed* committed);
   bool staged_fits();
   bool goes_to_stage() const;
-  /// An item that must not be given out before all of its block has been looked at.
+  /// The item must not be given out before its whole block has been checked.
   bool wants_look_ahead(const Item& item) const {
     return item.kind == ItemKind::action && item.action.kind <= NC_ACTION_B && looked_behind_ != newest_mark();
   }
@@ -133,7 +134,7 @@ class PartSystem {
   void displace(const AxisVec& machine, const AxisVec& shift);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
-  /// Offline: a signal would be accepted behind what has been given out; what is read ahead of that does not count.
+  /// Offline: an interrupt signal would be accepted after the items that have been given out; what has been read beyond them does not count.
   bool interruptible() const { return (uit_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED && pulled_ < ItemKind::alarm; }
   bool interrupt_between();
   void drop_repeated(const Repeat& repeat, const AxisVec& head);
@@ -154,19 +155,19 @@ class PartSystem {
   uint32_t rotary_ = 0;            ///< bit i: axis i is rotary
   PartSystem* systems_ = nullptr;  ///< all of them, where there are several
   unsigned system_count_ = 0;
-  BlockSeq published_ = 0;         ///< online: newest block of this run of which the others know
+  BlockSeq published_ = 0;         ///< online: newest block of this run that is known to the other part systems
   Stages stages_;
   Commit commit_;
   nc_alarm alarm_{};
   bool alarm_given_ = false;
-  /// Items that the stages have given out: the next one, or all of a block that begins with M S T B.
+  /// Items that the stages have given out: only the next one, or all items of a block that begins with M, S, T or B.
   static constexpr unsigned kStaged = 32;
   Item staged_[kStaged];
   unsigned staged_head_ = 0, staged_count_ = 0;
-  bool gathering_ = false;   ///< such a block, and its end has not come yet
+  bool gathering_ = false;   ///< the items of such a block are being fetched, and its end has not come yet
   bool from_stage_ = false;  ///< the item next() gave is one of `staged_`, not the interpreter's front
   static constexpr Serial kNowhere = ~Serial{0};
-  Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been looked at
+  Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been checked
   bool online_ = false;      ///< driven by feed()
   /// The round that feed() is in: first blocks are read, so many at most, and then all is planned.
   struct Feeding {
@@ -178,30 +179,31 @@ class PartSystem {
   static constexpr uint32_t kBlocksOfRound = 1024;
   Feeding feeding_;
   bool optimal_ = false;     ///< time-optimal motion
-  RunWord run_;              ///< that the feeder has acted upon
+  RunWord run_;              ///< newest run word that the feeder has acted upon
   nc_commit_watch commit_watch_ = nullptr;
   void* commit_watch_user_ = nullptr;
-  Commit::Place before_watched_;  ///< the item that is shown to it
+  Commit::Place before_watched_;  ///< state of commit_ before the item that is shown to commit_watch_
   bool finished_ = false;    ///< the end item has been committed
   void watch() { watched_ = uit_ || uit_pending_ || drop_ != 0; }
-  bool watched_ = false;                    ///< one of the three below is on: asked with every item
-  bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: level, and a request that waits for its place
-  uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits as given out
-  InterruptRest uit_rest_;                   ///< of a signal that stays on
+  bool watched_ = false;                    ///< uit_, uit_pending_ or drop_ is set: the one question asked with every item
+  bool uit_ = false, uit_pending_ = false;  ///< interrupt signal: its level, and a request that waits until it can be accepted
+  uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits after the items given out
+  InterruptRest uit_rest_;                   ///< when an interrupt signal that stays on counts again
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
-  AxisVec move_zero_;                        ///< of the move given out last: its workpiece zero with the tool length
-  unsigned drop_ = 0;                        ///< items to come that have been executed already
-  bool resumes_ = false;                     ///< online: the item behind them has been half done, as cut_ says
+  AxisVec move_zero_;                        ///< workpiece zero, with the tool length, of the move given out last
+  unsigned drop_ = 0;                        ///< number of items to come that have been executed already, before an interrupt
+  bool resumes_ = false;                     ///< online: the item behind these has been executed in part, as cut_ says
   Cut cut_;
-  /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate is, its block is not yet; passed: nothing more until the machine has done it.
+  /// M700 9.1: M00 and M01 suspend pre-reading. committed: the gate has been committed, but not yet the end of its block; passed: the end has, too,
+  /// and nothing more is read until the machine has executed it.
   enum class Stop : uint8_t { none, committed, passed };
   Stop stop_ = Stop::none;
-  AxisParameters told_axes_; ///< online: as the scan knows them
+  AxisParameters told_axes_; ///< online: the axis parameters that the scan has been told
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   nc_source sync_source_{};
   Serial open_sync_ = 0;
   uint32_t sync_what_ = 0;
-  uint32_t spindle_axes_ = 0;   ///< bit i: axis i is a spindle, too (M700 10.5)
+  uint32_t spindle_axes_ = 0;   ///< bit i: axis i is a spindle as well (M700 10.5)
 };
 
 }  // namespace nc

@@ -2,18 +2,21 @@
 // The row of stages between the interpreter and commit. Items go in at the front, stage by stage, and come out behind the last one in the
 // order in which they went in. What a stage is:
 //
-//   using Rule                      what it needs of the parameters; rule_of(stage, settings) picks it out of those that travel with a move
-//   bool takes(item, rule, calm)    at rest: the item is one that it begins to hold back with. `calm`: the stages behind are at rest, too
-//   bool push(item, rule)           false: what it holds has to go first, pop() until there is none
-//   bool pop(item&)                 the next finished item; false when it has none or must see more first
-//   bool idle()                     at rest: it holds nothing, and nothing before shows in what comes. Items go round it.
-//   Resume resume_point()           what it needs to go on right behind the mark that pop() gave last; in_force(Resume): it needs anything
-//   void restore(Resume), reset()
-//   kHeld                           items that it has room for
-//   void displaced()                the axes have been moved by hand behind the newest mark that was executed; it holds nothing
+//   using Rule                      the parameters that the stage needs; rule_of(stage, settings) picks them out of those that travel with a move
+//   bool takes(item, rule, calm)    asked while the stage is at rest: whether this item makes it begin to hold items back. `calm`: the stages
+//                                   behind it are at rest, too
+//   bool push(item, rule)           gives it an item. False: the items that it holds have to go first, so pop() until there is none
+//   bool pop(item&)                 the next finished item; false when it has none or must see more items first
+//   bool idle()                     at rest: it holds nothing, and nothing that it has seen changes the items to come. Items bypass it
+//   Resume resume_point()           what it needs to go on right behind the mark that pop() gave last; in_force(Resume): it needs anything at all
+//   void restore(Resume)            goes on right behind that mark
+//   void reset()                    forgets everything
+//   kHeld                           the number of items that it has room for
+//   void displaced()                tells it, while it holds nothing, that the axes have been moved by hand behind the newest mark that was executed
 //
-// Any of them may hold items while others do. So where a mark leaves a stage, what this one needs behind it is written down under the
-// mark's place, and it goes out with the mark: a place to rewind to covers every stage, however far those in front have gone on meanwhile.
+// Several stages may hold items at the same time. When a mark leaves a stage, what this stage needs to go on behind the mark is written down
+// under the number of the mark (Mark::place) and goes out with it. So a mark that can be rewound to covers every stage, however far the stages
+// in front have gone on meanwhile.
 #pragma once
 
 #include <bit>
@@ -32,7 +35,7 @@ template <class... Stages>
 struct StageResume {
   uint8_t stages = 0;  ///< bit k: stage k needs anything
   std::tuple<typename Stages::Resume...> of;
-  /// Nothing is copied of a stage that needs nothing.
+  /// Copies `other`, except for the stages that need nothing.
   void take(const StageResume& other) { take(other, std::index_sequence_for<Stages...>{}); }
 
  private:
@@ -47,7 +50,8 @@ template <class... Stages>
 class StageRow {
  public:
   using Resume = StageResume<Stages...>;
-  /// What has become of an item: it is in a stage, none has to hold it back, or what is held goes first.
+  /// What has become of an item that was pushed. taken: a stage holds it. straight: no stage has to hold it back. later: push it again after the
+  /// held items have been popped.
   enum class Intake : uint8_t { taken, straight, later };
 
   void create(const InternPool<MotionSettings>* settings, Arena& arena) {
@@ -61,17 +65,17 @@ class StageRow {
 
   /// Every stage is at rest: an item that none of them takes goes straight through.
   bool idle() const { return busy_ == 0; }
-  /// A mark that is taken gets its place.
+  /// Pushes an item into the row. A mark that a stage may take gets its number (Mark::place) first.
   Intake push(Item& item) {
     if (item.kind == ItemKind::mark && item.mark.resume && item.mark.place == 0 && busy_ != 0) give_place(item);
     return push_from<0>(item);
   }
-  /// The next item behind the last stage; false when there is none, or one must see more first.
+  /// The next item behind the last stage; false when there is none, or a stage must see more items first.
   bool pop(Item& out) { return pop_behind<sizeof...(Stages) - 1>(out); }
-  /// Right behind this mark, which pop() has given.
+  /// What the stages need to go on right behind this mark, which pop() has given.
   const Resume& behind(const Mark& mark) const { return mark.place == 0 ? kNothing : places_[mark.place % kPlaces]; }
 
-  /// `which` of the stages, by their bits.
+  /// Resets all stages, and lets those whose bit is set in `which` go on from `resume`.
   void restore(const Resume& resume, uint8_t which) {
     reset();
     restore(resume, which, kAll);
@@ -81,7 +85,7 @@ class StageRow {
     for (auto& door : door_) door.waits = false;
     busy_ = 0;
   }
-  /// Of those that go on otherwise by that, the bits: they need nothing any more.
+  /// Tells the stages that the axes have been moved by hand. Returns the bits of the stages that are at rest by that: they need nothing any more.
   uint8_t displaced() {
     const uint8_t before = busy_;
     std::apply([](auto&... stage) { (stage.displaced(), ...); }, stages_);
@@ -91,11 +95,11 @@ class StageRow {
 
  private:
   static constexpr auto kAll = std::index_sequence_for<Stages...>{};
-  /// Marks under way: all that the stages hold, one at each door, and the one on its way to the sink.
+  /// The most marks that can be under way: as many as the stages hold items, one at each door, and one on its way to the sink.
   static constexpr unsigned kPlaces = std::bit_ceil((Stages::kHeld + ... + (unsigned{sizeof...(Stages)} + 1)));
   static inline constexpr Resume kNothing{};
 
-  /// An item that has left the stage before this one, which cannot take it yet.
+  /// The door of a stage: an item that has left the stage before, and waits because this stage cannot take it yet.
   struct Door {
     Item item;
     bool waits = false;

@@ -17,7 +17,7 @@ inline NoRule rule_of(const SpaceStage&, const MotionSettings&) { return {}; }
 
 using Stages = StageRow<ContourStage, FairingStage, OffsetStage, SpaceStage>;
 
-/// Most moves are nothing to any of them: with all at rest this one may be.
+/// False: no stage holds this item back while all stages are at rest, which is so for most moves. True: one of them may.
 inline bool may_be_held(const Item& item) {
   return item.kind == ItemKind::move &&
          (item.move.comp.side != 0 || (item.move.high_accuracy & kFineSegmentsOn) != 0 || item.move.corner != Corner::none || item.move.space.on);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kSize = "must be the size of its struct; what this library does not know behind its own end must be 0";
 
-/// Codes by which the control finds its way through programs; a function in their place would never be asked.
+/// Codes that the control itself looks for when it reads programs; a vendor's function in the place of one would never be called.
 bool irreplaceable(const FunctionRow& row) {
   return is_macro_call(row.function) || row.function == Function::macro_modal_off || row.function == Function::data_input ||
          ends_data_input(row.function);

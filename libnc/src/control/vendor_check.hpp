@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables that nc_config points to: rows of another version's size, and what is wrong with them.
+// Reads and checks the tables that nc_config points to. Their rows may have the size of another version of the library.
 #pragma once
 
 #include "dialect/dialect.hpp"
@@ -7,17 +7,17 @@
 
 namespace nc {
 
-/// What is refused of a row: the member and what it has to be; nullptr = nothing.
+/// The member of a row that is refused, and what it has to be; nullptr = no member is refused.
 struct VendorFault {
   const char* member = nullptr;
   const char* reason = nullptr;
-  int joint = -1;  ///< `member` is one of this joint
+  int joint = -1;  ///< number of the joint whose member it is, -1 = a member of no joint
 };
 
-/// Row `index` of a table whose rows may have the size of another version; false when its struct_size is none, or it asks for what this
-/// library does not know.
+/// Copies row `index` of a table whose rows may have the size of another version. False when its struct_size is not valid, or it sets members that
+/// this library does not know.
 bool take_vendor_code(const nc_vendor_code* rows, unsigned index, nc_vendor_code* known);
-/// Looks at that row; those before it have been looked at.
+/// Checks row `index`. The rows before it have been checked already.
 VendorFault check_vendor_code(const Dialect& dialect, const nc_vendor_code* rows, unsigned index);
 VendorFault check_kinematics(const nc_kinematics& given);
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// High-accuracy control: its parameters and a move that is made in it, which a family's rule is asked about (MotionRules in
-// dialect/rules.hpp). The answer travels with the segment (ring/accuracy_limits.hpp).
+// High-accuracy control: its parameters, and the description of one move in this mode. A rule of the family (MotionRules in
+// dialect/rules.hpp) gets both and answers with limits, which travel with the segment (ring/accuracy_limits.hpp).
 #pragma once
 
 #include "stream/stream.hpp"
 
 namespace nc {
 
-/// Parameters of the mode; 0 = not set.
+/// Parameters of the mode. 0 = the parameter is not set.
 struct AccuracyParameters {
   double target_mm_min = 0;      ///< #1206 G1bF
   double time_ms = 0;            ///< #1207 G1btL: time to #1206
   double radius_percent = 0;     ///< #8019 R COMPEN: accuracy coefficient Ks, negative = faster
   double corner_angle_deg = 0;   ///< #8020 DCC ANGLE
-  bool separate = false;         ///< #8021 COMP CHANGE: the two below instead of #8019
+  bool separate = false;         ///< #8021 COMP CHANGE: #8022 and #8023 are used instead of #8019
   double corner_percent = 0;     ///< #8022 CORNER COMP
   double curve_percent = 0;      ///< #8023 CURVE COMP
-  double arc_joint_mm_min = 0;   ///< #1209 cirdcc, where #1149 cireft is on
+  double arc_joint_mm_min = 0;   ///< #1209 cirdcc, if #1149 cireft is on
 
   double clamp_mm_min[kMaxAxes] = {};    ///< #2110 Clamp(H-precision)
   double rapid_mm_min[kMaxAxes] = {};    ///< #2109 Rapid(H-precision)
@@ -28,14 +28,14 @@ struct AccuracyParameters {
   bool operator==(const AccuracyParameters&) const = default;
 };
 
-/// One move in the mode.
+/// One move in high-accuracy control.
 struct AccuracyMove {
   unsigned axis_count = 0;
   AxisVec share;               ///< largest share of each axis in the path
   bool rapid = false;
   bool circular = false;
-  double radius_mm = 0;        ///< of an arc, the smaller one where it changes
-  double speed_clamp_mm_s = 0; ///< that its own function asked for, 0 = none
+  double radius_mm = 0;        ///< radius of an arc; the smaller one if it changes along the arc
+  double speed_clamp_mm_s = 0; ///< highest speed that the function of the move asks for, 0 = none
   float judged_turn = -1;      ///< AccuracyLimits::judged_turn
   bool fine_segments = false;  ///< in high-speed high-accuracy control II
 };

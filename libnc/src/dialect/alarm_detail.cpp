@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sentence for the person at the machine: what in this block is wrong and, where it helps, what to do.
-// The same for all families, which put in their own codes; the code and the short text beside it are the manual's.
+// One sentence for the person at the machine: what in this block is wrong and, if it helps, what to do. The sentences are the same for all
+// families, and the codes in them are those of the family. The alarm's code and its short text are the manual's and are not made here.
 //
-// A sentence is a template: {word} is the offending word with its value ("X12.5", "G54.1"), {axis} the axis
-// ("axis X"), {value} the value alone, {function} the function or operator of a formula, {comp_off} and its
-// like (kNamedCodes) the code that the family has for that. A fault that does not carry what the first
-// sentence of its row needs takes the second. A fault whose letter is that of G or M codes names the code that is in trouble
-// and its value is that code's number, so it says nothing about {value}.
+// A sentence is a template. {word} stands for the offending word with its value ("X12.5", "G54.1"), {axis} for the axis ("axis X"), {value}
+// for the value alone, {function} for the function or operator of a formula. {comp_off} and other names of kNamedCodes stand for the code that
+// the family has for the function; kNamedMisc and kNamedWords list further names. If a fault does not carry all that the first sentence of its
+// row needs, the second sentence is taken. If the letter of a fault is that of G or M codes, the fault is about a code, and its value is the
+// number of this code; it has no other value for {value}.
 #include <cmath>
 #include <initializer_list>
 
@@ -23,11 +23,11 @@ using C = Condition;
 struct Sentence {
   Condition condition;
   const char* full;
-  const char* plain;           ///< needs no word and no value; nullptr = `full` does not either
-  const char* code = nullptr;  ///< instead of `full` when the letter is that of G or M codes
+  const char* plain;           ///< a sentence that needs no word and no value; nullptr = `full` needs none either
+  const char* code = nullptr;  ///< taken instead of `full` if the letter of the fault is that of G or M codes
 };
 
-/// What a sentence may name a code by: {comp_off} is the code that the family has for it.
+/// A name that may stand for a G code in a sentence: {comp_off} becomes the code that the family has for this function.
 struct NamedCode {
   const char* name;
   Function function;
@@ -50,7 +50,7 @@ constexpr NamedCode kNamedCodes[] = {
     {"macro_modal", Function::macro_modal}, {"data_input_end", Function::data_input_end},
 };
 
-/// The same of M codes, all that mean it, and of words: {feed} is the letter of its address.
+/// A name that may stand for M codes: it becomes all codes with this meaning, with "or" between them.
 struct NamedMisc {
   const char* name;
   MiscFunction function;
@@ -59,6 +59,7 @@ constexpr NamedMisc kNamedMisc[] = {
     {"program_end", MiscFunction::program_end}, {"call_sub", MiscFunction::call_sub},
     {"tool_change", MiscFunction::tool_change}, {"spindle_forward", MiscFunction::spindle_forward},
 };
+/// A name that may stand for a word: {feed} becomes the letter of its address.
 struct NamedWord {
   const char* name;
   Role role;
@@ -311,7 +312,7 @@ constexpr Sentence kSentences[] = {
      "The control has met a state that should not exist. Please report the program that led to it.", nullptr},
 };
 
-/// The word in braces at `at` is this one.
+/// The word in braces at `at` is `name`.
 constexpr bool is_key(const char* at, const char* name) {
   for (++at; *name != 0; ++at, ++name)
     if (*at != *name) return false;
@@ -362,20 +363,20 @@ bool about_code(const Dialect& dialect, const Fault& fault) {
   return dialect.addresses.is(fault.letter, Role::code) || dialect.addresses.is(fault.letter, Role::misc_code);
 }
 
-// Bytes outside printable ASCII are not shown: they may be half of a character.
+// The fault has a letter that can be shown. Bytes outside printable ASCII are not shown: they may be a part of a character.
 bool has_letter(const Fault& fault) {
   return fault.letter > ' ' && fault.letter <= '~';
 }
 
-// The offending word: "G54.1", "X12.5", "P" when it has no value; a sign in quotes.
+// Writes the offending word: "G54.1", "X12.5", "P" if it has no value. A sign that is no address is put in quotes.
 void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
   char code[12];
   if (about_code(dialect, fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
-    // no_function carries the code of a table row, times 10; every other G fault the number as programmed.
+    // The value of no_function is the code of a table row, which is times 10 for a G code. In all other faults it is the number as programmed.
     const bool misc = dialect.addresses.is(fault.letter, Role::misc_code);
     const bool times_ten = misc || fault.condition == C::no_function;
     const double number = times_ten ? fault.value : fault.value * 10;
-    if (std::fabs(number - std::nearbyint(number)) < 1e-6) {  // G0.15, M3.5 are no codes: they are shown as they were programmed
+    if (std::fabs(number - std::nearbyint(number)) < 1e-6) {  // G0.15 and M3.5 cannot be codes and are shown as they were programmed
       if (misc) m_code_text(fault.letter, static_cast<unsigned>(std::lround(number)), code, sizeof code);
       else g_code_text(fault.letter, static_cast<int>(std::lround(number)), code, sizeof code);
       out.put(code);
@@ -383,7 +384,7 @@ void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
     }
   }
   if (fault.letter == '#' && fault.condition != C::illegal_character) {
-    // The value may be the number of the variable or what was written into it.
+    // The value is not shown: it may be the number of the variable or what was written into it.
     out.put(out.used() == 0 ? "The variable" : "the variable");
     return;
   }
@@ -394,8 +395,7 @@ void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
   if (is_address && fault.has_value) out.put_number(fault.value);
 }
 
-// Whether the fault carries all that a sentence names. The axis has a word of its own when it is not known,
-// so it never decides.
+// The fault carries everything that a sentence names. {axis} is not checked: there is also a text for an axis that is not known.
 bool complete(const Dialect& dialect, const char* sentence, const Fault& fault) {
   for (; *sentence != 0; ++sentence) {
     if (*sentence != '{') continue;
@@ -415,7 +415,8 @@ const char* choose(const Dialect& dialect, const Fault& fault) {
   return "";
 }
 
-// A family without a code for a function does not raise what is said of it; the sentence holds all the same.
+// Writes the family's code for a function. A family without such a code does not raise an alarm that names it, but the sentence has to be
+// readable all the same.
 void put_code(TextWriter& out, const Dialect& dialect, Function function) {
   char code[12];
   const FunctionRow* const row = find_function(dialect, function);
@@ -458,7 +459,7 @@ void put_alarm_variable(TextWriter& out, const Dialect& dialect) {
   out.put("its variable");
 }
 
-// A sentence may begin with it.
+// Writes the axis, with a capital letter if the sentence begins with it.
 void put_axis(TextWriter& out, const char* axis_name) {
   const bool known = axis_name != nullptr && axis_name[0] != 0, first = out.used() == 0;
   out.put(first ? (known ? "Axis" : "An axis") : (known ? "axis" : "axis of this name"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking things up in the tables of a family.
+// Looks things up in the tables of a family.
 #include "dialect/dialect.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ bool same(const char* a, const char* b) {
   return *a == *b;
 }
 
-// Row with this code of a table sorted by code.
+// Finds the row with this code in a table that is sorted by code.
 template <class Row>
 const Row* find(const Table<Row>& table, int code) {
   const Row* first = table.begin();
@@ -62,7 +62,7 @@ bool uses_default(const Dialect& dialect, const char* code) {
   return false;
 }
 
-// Code that the row of a missing G or M code names, nullptr = the fault is about something else.
+// The alarm code in the row of a G or M code that is not built. nullptr = the fault is about something else.
 const char* missing_code(const Dialect& dialect, const Fault& fault) {
   if (fault.condition != Condition::no_function || !fault.has_value || fault.value < 0 || fault.value > 1e9)
     return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a controller family is: tables. One folder per family (dialect/m700, dialect/dgshape) holds its word formats, its G and M codes,
-// its alarms; this header says what such a table looks like. To add a family, add a folder and one line in registry.cpp.
+// A controller family is a set of tables. One folder per family (dialect/m700, dialect/dgshape, dialect/iso) holds its word formats, its G
+// and M codes and its alarms; this header says what such a table looks like. To add a family, add a folder and one line in registry.cpp.
 #pragma once
 
 #include "dialect/alarms.hpp"
@@ -18,39 +18,40 @@ struct FunctionRow {
   int16_t code;          ///< times 10: G54.1 = 541
   uint8_t group;         ///< modal group as the manual numbers it, 0 = one-shot; for showing only
   Function function;
-  const char* missing;   ///< not built: the code of the alarm that it raises ("P90"); nullptr = built
+  const char* missing;   ///< if the function is not built: the code of the alarm that it raises ("P90"); nullptr = it is built
   const char* name;      ///< short English name, our words
-  const char* section;   ///< of the manual
-  const char* part = nullptr;  ///< supported in part: what of it is not built
-  uint8_t number = 0;    ///< which one of the rows with this function, from 0: G54 to G59 are 0 to 5, G107 is the second name of G07.1
+  const char* section;   ///< section of the manual
+  const char* part = nullptr;  ///< if the function is built in part: what is not built; nullptr = it is built completely
+  uint8_t number = 0;    ///< counts the rows with the same function from 0: G54 to G59 are 0 to 5; G107, the second code of G07.1, is 1
 };
 
 struct MiscRow {
   uint16_t code;
   MiscFunction function;
-  const char* missing;   ///< as that of FunctionRow
+  const char* missing;   ///< as in FunctionRow
   const char* name;
   const char* section;
 };
 
 /// What data setting by program sets.
 enum class DataInput : uint8_t {
-  missing,           ///< in the manual, not built
-  work_offset,       ///< of a workpiece coordinate system, or of them all
-  work_offset_here,  ///< the same, so that the axis reads the value where it stands
-  extended_offset,   ///< of an extended workpiece coordinate system
+  missing,           ///< something that the manual has and that is not built
+  work_offset,       ///< the offset of a workpiece coordinate system, or of all of them
+  work_offset_here,  ///< the same offset, chosen such that the axis shows the given value where it stands
+  extended_offset,   ///< the offset of an extended workpiece coordinate system
   tool_length, tool_length_wear, tool_radius, tool_radius_wear,
   current_limit, parameters
 };
 
-/// The value of L that says what is set.
+/// Which value of L sets what.
 struct DataInputRow {
   static constexpr uint32_t kWithoutL = ~uint32_t{0};
-  uint32_t l;        ///< kWithoutL: the block has none
+  uint32_t l;        ///< value of L; kWithoutL stands for a block without L
   DataInput input;
 };
 
-/// What the codes of high speed select by their value: the modes of the first one, those of the second.
+/// What the two codes of high speed select by their value: SpeedMode belongs to the first code (Function::high_speed), SpeedOption to the
+/// second one (Function::high_speed_accuracy).
 enum class SpeedMode : uint8_t { off, machining_1, machining_2, machining_3, accuracy_2 };
 enum class SpeedOption : uint8_t { off, accuracy_1, spline };
 struct SpeedModeRow {
@@ -62,19 +63,19 @@ struct SpeedOptionRow {
   SpeedOption option;
 };
 
-/// An M code that goes out like any other and means something to the control besides.
+/// An M code that is put out like any other and also means something to the control.
 struct OutputRow {
   uint16_t code;
   MiscFunction function;
 };
 
-/// Numbers of codes from the first to the last; none when the last comes before the first.
+/// The code numbers from `first` to `last`. The range is empty if `last` is less than `first`.
 struct CodeRange {
   uint16_t first, last;
   constexpr bool holds(uint32_t code) const { return code >= first && code <= last; }
 };
 
-/// Every code of the manual's alarm list, with its short text.
+/// One code of the manual's alarm list, with its short text.
 struct AlarmText {
   const char* code;
   const char* message;
@@ -85,12 +86,12 @@ struct Dialect {
   const char* name;                  ///< "m700"
   const LexRules* lex;
   AddressTable addresses;            ///< which address carries which meaning
-  uint32_t axis_addresses;           ///< bit n: address n is for axes; one that no axis has is a fault (or the second auxiliary function)
-  uint32_t length_addresses;         ///< of words other than those of axes: the ones whose values have the range of lengths
-  const uint8_t* argument_of;        ///< local variable that takes the word of each address in a macro call, 0 = none; nullptr without macros
-  const char* calling_letters;       ///< those that may be registered to call a program by parameter
-  char device_letter;                ///< in front of the number of a device where sub programs are looked for, 0 = there are none
-  Table<FunctionRow> functions;      ///< sorted by code
+  uint32_t axis_addresses;           ///< bit n: address n is for axes; if no axis has it, the word is a fault (or the second auxiliary function)
+  uint32_t length_addresses;         ///< bit n: the words of address n, which are not those of axes, have the range of lengths
+  const uint8_t* argument_of;        ///< by address: local variable that takes its word in a macro call, 0 = none; nullptr = no macros
+  const char* calling_letters;       ///< letters that a parameter may register to call a program
+  char device_letter;                ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
+  Table<FunctionRow> functions;      ///< G codes, sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
   Table<OutputRow> outputs;          ///< those that go out and mean something besides, sorted by code
   Table<AlarmRow> conditions;        ///< condition -> code, at most one row for each; what has none is as dialect/default_alarms.hpp says
@@ -98,40 +99,41 @@ struct Dialect {
   Table<DataInputRow> data_input;
   Table<SpeedModeRow> speed_modes;
   Table<SpeedOptionRow> speed_options;
-  const FamilyParameters* parameters;  ///< their numbers, names and what they mean
-  const FamilyVariables* variables;    ///< system variables: their numbers and what they mean
-  Rules rules;                       ///< in which families differ
-  Table<Function> initial;           ///< what is in force at power on, each by its row that is numbered 0; modes that are not here have no group
-  CodeRange macro_codes;             ///< G codes that exist to call macros where a parameter registers them
-  CodeRange own_codes;               ///< G codes that may be registered, too, where a parameter allows it
-  CodeRange macro_misc;              ///< M codes that may be registered, but for those that the control keeps for itself
-  CodeRange interrupt_misc;          ///< M codes that a parameter may give the meaning of those of macro interrupt, as long as they go out otherwise
+  const FamilyParameters* parameters;  ///< numbers and names of the parameters and what they mean
+  const FamilyVariables* variables;    ///< numbers of the system variables and what they mean
+  Rules rules;                       ///< rules in which families differ
+  Table<Function> initial;           ///< functions in force at power on, by their row number 0; a mode without an entry begins with resting() (modal/modes.hpp)
+  CodeRange macro_codes;             ///< G codes that call a macro if a parameter registers them
+  CodeRange own_codes;               ///< G codes of the control that may be registered too if a parameter allows it
+  CodeRange macro_misc;              ///< M codes that may be registered, except those that the control keeps for itself
+  CodeRange interrupt_misc;          ///< M codes that a parameter may make the codes of macro interrupt, except those that the control keeps
   // rules of program texts
-  bool percent_required;             ///< DGSHAPE 2: the first block must be '%'
-  bool end_code_required;            ///< M700 P36: text must not end without M02/M30
-  bool bare_letters;                 ///< "G" alone is G00, "G28 XYZ" means zeros (M700 3.7, 14.10); else every word has its number
-  unsigned call_depth;               ///< levels of sub programs
+  bool percent_required;             ///< the first block must be '%' (DGSHAPE 2)
+  bool end_code_required;            ///< the text must not end without M02 or M30 (M700 P36)
+  bool bare_letters;                 ///< "G" alone is G00, "G28 XYZ" means zeros (M700 3.7, 14.10); otherwise every word needs its number
+  unsigned call_depth;               ///< how many levels deep sub programs may be called
 };
 
-/// The family of a configuration that names none.
+/// The family that applies if a configuration names none.
 inline constexpr nc_dialect kDefaultDialect = NC_DIALECT_M700;
 
-/// `id` came from outside and names a family.
+/// `id`, which came from outside libnc, is the number of a family.
 constexpr bool known(unsigned id) { return id < NC_DIALECT_COUNT; }
 
-/// The families there are stand in registry.cpp.
+/// The tables of a family. registry.cpp lists the families.
 const Dialect& dialect(nc_dialect id);
 
-/// Row of a G code (times 10), nullptr = the manual does not list it (Condition::illegal_g).
+/// Row of a G code (times 10), nullptr = the manual does not list the code (Condition::illegal_g).
 const FunctionRow* find_function(const Dialect& dialect, int code);
 const MiscRow* find_misc(const Dialect& dialect, unsigned code);
 
-/// The row of this function that is numbered 0, whatever the order of the codes; nullptr = the family has no code for it.
+/// The row with number 0 of this function, whatever the order of the codes. nullptr = the family has no code for the function.
 const FunctionRow* find_function(const Dialect& dialect, Function function);
-/// What an M code means; MiscFunction::output where it means nothing here.
+/// What an M code means. MiscFunction::output if it means nothing to the control.
 MiscFunction misc_function(const Dialect& dialect, unsigned code);
-/// First M code that means this, kNoMisc where there is none.
+/// The result of misc_code() if there is no such code.
 inline constexpr unsigned kNoMisc = ~0u;
+/// The first M code that means this, or kNoMisc.
 unsigned misc_code(const Dialect& dialect, MiscFunction function);
 
 /// Alarms that the family can raise, from 0 on: those of its list, then those of the common table (dialect/default_alarms.hpp) that it has no

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What G and M codes mean, apart from their numbers. A family's table binds its codes to these names (dialect.hpp); everything outside of
-// dialect/ knows these names only. A function that nobody has built has its name here, too: its row says that it is not built.
+// What G and M codes mean, apart from their numbers. A family's table binds its codes to these names (dialect.hpp), and everything outside
+// dialect/ knows only these names. A function that is not built yet has a name here too; its row says that it is not built.
 #pragma once
 
 #include <cstdint>
 
 namespace nc {
 
-/// What a G code means. Numbers of the M700's codes stand beside the names that do not say it.
+/// What a G code means. Where a name alone does not say it, the code of the M700 stands beside it.
 enum class Function : uint8_t {
-  rapid, linear, arc_cw, arc_ccw,   ///< the four of plain_motion()
+  rapid, linear, arc_cw, arc_ccw,   ///< these four are the ones of plain_motion()
   spiral_cw, spiral_ccw,                ///< G02.1 G03.1
-  exponential_positive, exponential_negative,   ///< G02.3 G03.3: by the sense of the rotary axis
-  space_arc_first, space_arc_second,    ///< G02.4 G03.4: one curve under two names
+  exponential_positive, exponential_negative,   ///< G02.3 G03.3: named after the sense in which the rotary axis turns
+  space_arc_first, space_arc_second,    ///< G02.4 G03.4: two codes for the same curve
   nurbs, thread,                        ///< G06.2 G33
   cylinder, polar_on, polar_off,        ///< G07.1 G12.1 G13.1
   polar_command_on, polar_command_off,  ///< G16 G15
@@ -32,7 +32,7 @@ enum class Function : uint8_t {
   skip, multi_skip, measure_length,     ///< G31 G31.1-G31.3 G37
   machine_move,                         ///< G53
   holes_on_circle, holes_on_line, holes_on_arc, holes_on_grid,   ///< G34 G35 G36 G37.1
-  stroke_check_on, stroke_check_off,    ///< G22 G23: modal, and the first takes the axis words of the block
+  stroke_check_on, stroke_check_off,    ///< G22 G23: modal; G22 takes the axis words of its block
   comp_off, comp_left, comp_right,      ///< G40 G41 G42
   comp_vector, comp_corner_arc,         ///< G38 G39
   comp_corner_turn,                     ///< G39 that stands alone in its block: its words lead on from the corner (DGSHAPE)
@@ -56,16 +56,16 @@ enum class Function : uint8_t {
   return_initial, return_r,
   exact_stop_mode, corner_override, tapping_mode, cutting_mode,  ///< G61 G62 G63 G64
   synchronous_tapping, synchronous_tapping_reverse,              ///< G63.1 G63.2
-  macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind them are arguments
+  macro_call, macro_modal, macro_every_block,   ///< G65 G66 G66.1: the words behind the code are arguments
   macro_modal_off,                      ///< G67
-  user_macro,                           ///< G100 to G255: what a parameter registers there
+  user_macro,                           ///< G100 to G255: calls the macro that a parameter registers for the code
   surface_on, surface_off,              ///< G96 G97
-  mirror_on, mirror_off,                ///< G51.1 G50.1: modal, and they take the axis words of the block
+  mirror_on, mirror_off,                ///< G51.1 G50.1: modal; both take the axis words of their block
   scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50 G68 G69
-  // Numbers of the codes of RS-274/NGC and LinuxCNC stand beside those that follow.
-  probe, probe_away,                    ///< G38.2, as skip() but that no contact is an alarm; G38.4 G38.5
-  centre_incremental, centre_absolute,  ///< G91.1 G90.1: of arcs
-  shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: what coordinate_set has set
+  // Beside the names that follow stand the codes of RS-274/NGC and LinuxCNC.
+  probe, probe_away,                    ///< G38.2: as `skip`, but it is an alarm if there is no contact; G38.4 G38.5
+  centre_incremental, centre_absolute,  ///< G91.1 G90.1: how the centres of arcs are given
+  shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: act on the shift that coordinate_set has set
   reference_set,                        ///< G28.1 G30.1
   rigid_tap, thread_cycle,              ///< G33.1 G76
   comp_dynamic, length_of_block, length_added,   ///< G41.1 G42.1, G43.1, G43.2
@@ -79,17 +79,17 @@ enum class Function : uint8_t {
 };
 inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);
 
-/// G27 to G30.
+/// One of G27 to G30.
 constexpr bool is_reference_move(Function f) {
   return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
 }
-/// A straight feed that a signal ends.
+/// A straight line at feed that a signal ends.
 constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe; }
-/// Tool position offset (M700 12.6): a motion of the block that is longer or shorter by an offset.
+/// Tool position offset (M700 12.6): it makes the motion of its block longer or shorter by an offset.
 constexpr bool offsets_position(Function f) {
   return f == Function::offset_longer || f == Function::offset_shorter || f == Function::offset_twice_longer || f == Function::offset_twice_shorter;
 }
-/// One-shot functions whose axis words are positions to go to; those of the others are data.
+/// One-shot functions whose axis words are positions to go to. The axis words of all other one-shot functions are data.
 constexpr bool goes_to_position(Function f) {
   return is_reference_move(f) || f == Function::tool_change_return || is_skip(f) ||
          f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional || offsets_position(f);
@@ -101,30 +101,30 @@ constexpr bool is_arc(Function f) { return f == Function::arc_cw || f == Functio
 constexpr bool is_spiral(Function f) { return f == Function::spiral_cw || f == Function::spiral_ccw; }
 constexpr bool is_space_arc(Function f) { return f == Function::space_arc_first || f == Function::space_arc_second; }
 constexpr bool is_exponential(Function f) { return f == Function::exponential_positive || f == Function::exponential_negative; }
-/// A whole circle from its centre and back there; it names no axis.
+/// A full circle that begins and ends at its centre. Its block names no axis.
 constexpr bool cuts_circle(Function f) { return f == Function::circle_cut_cw || f == Function::circle_cut_ccw; }
-/// A straight line by axis words alone.
+/// A straight line that needs no other words than those of axes.
 constexpr bool is_line(Function f) { return f == Function::rapid || f == Function::linear; }
-/// Rapid traverse, lines and arcs: motions without words of their own beside the arc's.
+/// Rapid traverse, line or arc: motions that have no words of their own, except those for the centre or the radius of an arc.
 constexpr bool plain_motion(Function f) { return f <= Function::arc_ccw; }
 static_assert(plain_motion(Function::rapid) && plain_motion(Function::linear) && plain_motion(Function::arc_cw) && plain_motion(Function::arc_ccw) &&
               !plain_motion(Function::spiral_cw));
-/// Functions that end the input of data or parameters.
+/// The function ends the input of data or parameters.
 constexpr bool ends_data_input(Function f) { return f == Function::data_input_end || f == Function::parameter_input_end; }
 
-/// What an M code is to the control itself.
+/// What an M code means to the control itself.
 enum class MiscFunction : uint8_t {
   output,                                       ///< goes out and means nothing here
   spindle_forward, spindle_reverse, spindle_stop, tool_change, spindle_oriented,   ///< go out, too
   interrupt_on, interrupt_off,                  ///< as long as no parameter gives another code this meaning; then they are output
   program_stop, optional_stop, program_end,     ///< kept by the control, as the rest
   call_sub, return_sub, call_external,
-  override_allowed, override_barred, override_of_one,   ///< of the operator: both of them, or one
+  override_allowed, override_barred, override_of_one,   ///< allow or bar both overrides of the operator; or act on one of them
   spindle_orient, tool_number, machine_output, machine_input, modal_state
 };
-/// It goes out to the machine.
+/// The M code is put out to the machine.
 constexpr bool goes_out(MiscFunction f) { return f <= MiscFunction::interrupt_off; }
-/// It goes on in another program.
+/// Execution goes on in another program.
 constexpr bool calls_program(MiscFunction f) { return f == MiscFunction::call_sub || f == MiscFunction::call_external; }
 
 }  // namespace nc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a family as the public API shows them: for documentation and for HMIs, without a control.
+// The tables of a family as the public API shows them. Documentation and HMIs can read them without creating a control.
 #include "dialect/function_table.hpp"
 
 #include <cstring>
@@ -70,7 +70,7 @@ void set(nc_function* out, uint8_t group, const char* missing, const char* name,
 }  // namespace
 }  // namespace nc
 
-// G codes first, then the M codes that the control keeps for itself.
+// The rows are the G codes first, then the M codes that the control keeps for itself.
 nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) {
   if (row == nullptr || nc::caller_bytes(row) == 0 || !nc::known(dialect)) return NC_E_ARGUMENT;
   const nc::Dialect& family = nc::dialect(dialect);

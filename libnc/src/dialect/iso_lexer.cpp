@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lexer. Words of the common form (letter, sign, digits) go through words() and short_words(), which is
-// the inner loop of the whole product; everything else (expressions, statements, comments inside words,
-// missing values) leaves it for the functions behind it.
+// The lexer. Words of the common form (letter, sign, digits) go through words() and short_words(), which are the innermost loop of the whole
+// product. Everything else (expressions, statements, comments inside words, missing values) is left to the functions behind them.
 #include "dialect/iso_lexer.hpp"
 
 #include <cstddef>
@@ -18,7 +17,8 @@ namespace {
 
 constexpr unsigned kMaxMessage = 127;     // bytes kept of a comment that may be a message
 
-/// What a character behind a number means for its word. `more`: the word goes on, X1 0, X1+2, S1=5.
+/// What a character behind a number means for the word: the word is done; the character is a blank; or there is `more` of the word to read,
+/// as in X1 0, X1+2 and S1=5.
 enum class Behind : uint8_t { done, blank, more };
 struct BehindNumber {
   Behind is[256] = {};
@@ -37,19 +37,20 @@ Behind behind(const char* p, const char* end) {
 /// Sign and number of a word of the common form.
 struct Plain {
   uint64_t mantissa = 0;
-  uint32_t integer_digits = 0;  ///< leading zeros included
+  uint32_t integer_digits = 0;  ///< with leading zeros
   uint32_t fraction_digits = 0;
   uint8_t flags = 0;
-  bool good = false;  ///< there are digits, and not too many
+  bool good = false;  ///< there is at least one digit and there are not too many
 
   double value(bool integer_only) const {
-    // One division rounds once: a good mantissa is below 10^18, but only up to 2^53 is it exact in a double.
+    // The division has to round only once. A good mantissa is below 10^18, but only up to 2^53 is it exact in a double.
     const uint64_t whole = mantissa / kPowersOfTen[fraction_digits];
     const double v = integer_only ? static_cast<double>(whole)
                                   : scale_decimal(mantissa, fraction_digits);
     return (flags & kWordNegative) != 0 ? -v : v;
   }
-  /// More digits before the point than `most`; a good mantissa is below the last power of the table.
+  /// The number has more digits before the point than `most`, leading zeros not counted. A good mantissa is below the last power of the
+  /// table.
   bool longer_than(unsigned most) const {
     if (integer_digits <= most) return false;
     const unsigned power = most + fraction_digits;
@@ -76,7 +77,8 @@ struct Plain {
   }
 };
 
-/// Letter, sign, seven digits, point, eight characters and one behind them.
+/// How many characters short_words() may look at from the start of a word: letter, sign, seven digits, point, eight characters and the one
+/// behind them.
 constexpr ptrdiff_t kShortReach = 20;
 
 class Lexer {
@@ -98,10 +100,10 @@ class Lexer {
   }
 
  private:
-  /// Skip sign, O, N. False when the block is over or has a fault.
+  /// Reads what may stand at the head of a block: skip sign, O, N. False if the block is over or has a fault.
   bool head() {
     if (at_.p != at_.end && *at_.p > 'A' && *at_.p <= 'Z' && *at_.p != rules_.sequence_letter && *at_.p != rules_.program_letter)
-      return true;  // most blocks
+      return true;  // most blocks begin like this
     char c = at_.peek();
     if (c == '\0' && at_.p != at_.end && *at_.p == '%') {
       block_.percent = true;
@@ -112,7 +114,7 @@ class Lexer {
       skip_sign();
       c = at_.peek();
     }
-    if (c == '\0') return !block_.has_fault;  // over; and a family may have no such letters, which are 0
+    if (c == '\0') return !block_.has_fault;  // the block is over; it must not be compared below with letters that a family has not, which are 0
     if (c == rules_.program_letter) {
       if (!head_number(c, &block_.has_o, &block_.o)) return false;
       c = at_.peek();
@@ -121,8 +123,8 @@ class Lexer {
     return !block_.has_fault;
   }
 
-  /// Words behind '%' would be lost: letters and numbers up to the end of the line. Comments and plain text
-  /// lose nothing.
+  /// Raises a fault if the rest of the line behind '%' consists of letters with numbers: these would be words that are lost. With comments
+  /// and plain text nothing is lost.
   void check_percent_alone() {
     ++at_.p;
     const char first = at_.peek();
@@ -161,7 +163,7 @@ class Lexer {
     return true;
   }
 
-  /// Words until something else comes. True when there is something else at the cursor.
+  /// Reads words until something else comes. True if there is something else at the cursor.
   bool words() {
     const char* p = at_.p;
     const char* const end = at_.end;
@@ -175,7 +177,7 @@ class Lexer {
       const char* q = plain.scan(p + 1, end);
       Behind next = behind(q, end);
       while (next == Behind::blank) next = behind(++q, end);
-      if (!plain.good || next == Behind::more || *p == 'e') {  // what a small e is goes by what stands before it: word()
+      if (!plain.good || next == Behind::more || *p == 'e') {  // what a small e means depends on what stands before it: see word()
         at_.p = p;
         if (!slow_word()) return false;
         p = at_.p;
@@ -199,9 +201,8 @@ class Lexer {
     return p != end && *p != '\n';
   }
 
-  /// The words from here on that are a letter, a sign and at most seven digits on either side of a point;
-  /// these are nearly all there are. Whatever is not plainly so, or not plainly right, is left for words().
-  /// Where it stops.
+  /// Reads the words from here on that are a letter, a sign and at most seven digits on either side of a point, which nearly all words are.
+  /// Stops at the first word that is not of this form or may be wrong, and leaves it to words(). Returns where it stopped.
   const char* short_words(const char* p) {
     if (!EightCharacters::kUsable || columns_ != nullptr || !block_.statements.empty()) return p;
     const char* const end = at_.end;
@@ -225,7 +226,7 @@ class Lexer {
         fraction = length - 1 - digits;
         if (length < 8) {
           mantissa = all.value_without(digits, length);
-        } else {  // longer: what is before the point and what is behind it
+        } else {  // longer: the digits before the point and those behind it are read one after the other
           const EightCharacters tail(q + digits + 1);
           fraction = tail.digits();
           if (fraction == 8) break;
@@ -253,7 +254,8 @@ class Lexer {
     return p;
   }
 
-  /// In place: a word put together from bytes and then copied whole would wait for the store buffer.
+  /// Writes the members of a word in its place. If the word were put together from bytes and then copied as a whole, the copy would wait for
+  /// the store buffer.
   void fill(Word* word, char letter, uint8_t flags, const char* at, double value) const {
     word->letter = letter;
     word->flags = flags;
@@ -274,12 +276,13 @@ class Lexer {
            (d.fraction_digits > format.fraction_digits && !keeps_any_fraction(format));
   }
 
-  /// What a number out of range is: where no point may stand (DGSHAPE 2-2 to 2-4) its fraction is not a matter of range.
+  /// The condition of a number that does not fit its format. If no point may stand in the number (DGSHAPE 2-2 to 2-4), a fraction is a fault
+  /// of format, not of range.
   static Condition refusal(const WordFormat& format, unsigned fraction_digits) {
     return format.fraction_digits == 0 && fraction_digits != 0 ? Condition::format_error : Condition::value_range;
   }
 
-  /// A place for a word; nullptr when there must be none.
+  /// Makes a place for a word in the block. nullptr, with a fault, if the block cannot take a word.
   Word* new_word(char letter) {
     const unsigned count = block_.words.size();
     if (!block_.statements.empty()) {
@@ -295,7 +298,7 @@ class Lexer {
     return &block_.words[count];
   }
 
-  /// A word that is not letter, sign, number; or a macro statement.
+  /// Reads a word that is not of the form letter, sign, number, or a macro statement.
   bool slow_word() {
     const char letter = upper(*at_.p);
     if (rules_.statements) {
@@ -310,7 +313,7 @@ class Lexer {
     const char letter = upper(*at_.p);
     const WordFormat& format = rules_.word[letter - 'A'];
     if (!format.known && (flags & kWordComma) == 0) return fault(unknown(format), letter);
-    // "X1e2", and no address E.
+    // A small e directly behind a number, as in "X1e2", is meant as an exponent and not as the address E.
     if (*at_.p == 'e' && at_.p != text_ && (is_digit(at_.p[-1]) || at_.p[-1] == '.')) flags |= kWordExponent;
     Word word{letter, flags, 0, column(at_.p), kNoCode, 0};
     ++at_.p;
@@ -321,7 +324,7 @@ class Lexer {
     return true;
   }
 
-  /// The value behind a letter, or behind "S1=".
+  /// Reads the value behind a letter, or behind "S1=".
   bool value(const WordFormat& format, Word* word, bool may_count) {
     const Cursor start = at_;
     char c = at_.peek();
@@ -363,7 +366,7 @@ class Lexer {
     return true;
   }
 
-  /// S1=500, F1=10: the number before '=' chooses the spindle or the speed.
+  /// Reads words such as S1=500 and F1=10, in which the number before '=' chooses the spindle or the speed.
   bool count_value(const WordFormat& format, Word* word, const Decimal& count) {
     if ((word->letter != 'S' && word->letter != 'F') || count.point)
       return fault(Condition::format_error, word->letter);
@@ -384,7 +387,7 @@ class Lexer {
     return true;
   }
 
-  /// What stands here and is no word. False when the block is over.
+  /// Reads what stands here and is no word. False if the block is over or has a fault.
   bool special() {
     const char c = at_.peek();
     switch (c) {
@@ -393,7 +396,7 @@ class Lexer {
       case '#':
       case '[':
         if (!rules_.macros) return fault(Condition::illegal_character, c);
-        if (c == '[' && rules_.formula == Formula::ngc) return fault(Condition::format_error, c);  // no names that stand for numbers
+        if (c == '[' && rules_.formula == Formula::ngc) return fault(Condition::format_error, c);  // it has no names for variables in brackets
         return assignment();
       case ',':
         if (!rules_.comma_words) return fault(Condition::illegal_character, c);
@@ -415,7 +418,7 @@ class Lexer {
       default:
         break;
     }
-    if (is_letter(c)) return true;  // behind a comment
+    if (is_letter(c)) return true;  // a word behind a comment
     return fault(is_digit(c) ? Condition::format_error : Condition::illegal_character, c);
   }
 
@@ -455,7 +458,7 @@ class Lexer {
     return add_statement(s);
   }
 
-  /// The comment behind #3000=1(...): a message when the variable turns out to be one that has messages.
+  /// Keeps the comment behind #3000=1(...). It is a message if the variable turns out to be one that has messages.
   bool message(Statement* s) {
     const size_t room = decltype(Block::text)::capacity() - block_.text.size();
     size_t length = static_cast<size_t>(at_.comment_end - at_.comment);
@@ -487,7 +490,7 @@ class Lexer {
     return true;
   }
 
-  /// A macro statement when its keyword stands here. False on a fault.
+  /// Reads a macro statement if its keyword stands here. False on a fault.
   bool keyword(char letter, bool* was_statement) {
     *was_statement = true;
     switch (letter) {
@@ -587,7 +590,7 @@ class Lexer {
     return body(&s) && add_statement(s);
   }
 
-  /// Text between '[' and the ']' that belongs to it, without blanks.
+  /// Keeps the text between '[' and the ']' that belongs to it, without blanks.
   bool body(Statement* s) {
     unsigned depth = 1;
     ++at_.p;
@@ -617,7 +620,7 @@ class Lexer {
   // ---- end
   // ---------------------------------------------------------------------------------------------------------
 
-  /// Passes over what is left of the block (after a fault), its end included.
+  /// Passes over what is left of the block after a fault, and over the end of the block.
   LexResult finish() {
     if (block_.percent) {
       to_line_end();
@@ -643,8 +646,8 @@ class Lexer {
     at_.p = line_end != nullptr ? static_cast<const char*>(line_end) : at_.end;
   }
 
-  /// At the ';' behind the words. What follows it in the line is never executed by accident: it is another block
-  /// only where a text may have several in a line.
+  /// The cursor is at the ';' behind the words. What follows in the line must never be executed by accident: it is another block only in a
+  /// text that may have several blocks in a line.
   void pass_semicolon() {
     if (semicolon_ == Semicolon::ends_block) return;
     if (semicolon_ == Semicolon::ends_line) {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lexer of languages of ISO words (ISO 6983: letters with numbers): text of one block -> Block, in one pass. A family names it, or
-// another reader of its own, in its LexRules.
+// The lexer of languages that consist of ISO words (ISO 6983: a letter with a number). It turns the text of one block into a Block in one
+// pass. A family names this lexer, or a reader of its own, in its LexRules.
 #pragma once
 
 #include "program/block.hpp"
 
 namespace nc {
 
-/// Compiles the block at text[0]. `columns`, when given, holds the column of text[i] for i < 256 (the text
-/// has been condensed). Sets everything of `block` but file, begin, next, line, next_line and end_of_text.
-/// Never reads beyond text[size - 1]. `semicolon` is what ';' is in this text (LexRules has that of a family).
+/// Compiles the block that begins at text[0]. If `columns` is given, the text has been condensed, and columns[i] is the original column of
+/// text[i] for i < 256. Sets every member of `block` except file, begin, next, line, next_line and end_of_text. Never reads beyond
+/// text[size - 1]. `semicolon` says what ';' means in this text; LexRules has the meaning that is usual in the family.
 LexResult lex_block(const char* text, size_t size, const LexRules& rules, Semicolon semicolon,
                     const uint8_t* columns, Block& block);
 
-/// What all families of ISO words begin with: this lexer, O and N at the head of a block.
+/// The rules that every family of ISO words starts from: this lexer, and O and N as the letters of a program and of a sequence number.
 constexpr LexRules iso_rules() {
   LexRules rules{};
   rules.read = lex_block;

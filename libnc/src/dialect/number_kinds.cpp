@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the numbers of a block are, by the family's tables: for hosts that look at the text of a program (nc_number_kinds).
+// Tells hosts that look at the text of a program what the numbers of a block are (nc_number_kinds). The tables of the family decide.
 #include <cmath>
 #include <cstring>
 
@@ -9,7 +9,7 @@
 namespace nc {
 namespace {
 
-/// What the codes of a block make of its words.
+/// What the words of a block are, which its codes decide.
 enum class BlockKind : uint8_t { motion, dwell, arguments, work_data, tool_data, other_data, parameters_begin, data_end };
 
 BlockKind kind_of(DataInput input) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What parameters mean to the control. A family's table (dialect/parameter_rows.hpp) binds its numbers and names to them; nothing outside
-// dialect/ knows a number. A parameter of which there are several for one thing after the other ("[n]") is one meaning and an index.
+// What parameters mean to the control. A family's table (dialect/parameter_rows.hpp) binds its numbers and names to these meanings; nothing
+// outside dialect/ knows a number. Parameters that mean the same for several things, the first, the second and so on, are one meaning with an
+// index. "[n]" stands beside such a meaning and says how many there are.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ enum class Parameter : uint8_t {
   setting_unit,                ///< letter of the unit that positions are set and shown in
   command_unit,                ///< unit of a word without a point
   start_plane,
-  plane_axis,                  ///< [3] axes of I, J, K
-  parallel_axis,               ///< [3] axes parallel to those
+  plane_axis,                  ///< [3] axes that I, J and K belong to
+  parallel_axis,               ///< [3] axes parallel to those of plane_axis
   tool_memory_type,
   start_absolute,
   start_synchronous,
@@ -43,7 +44,7 @@ enum class Parameter : uint8_t {
   surface_axis,
   digit_feed,                  ///< [5]
   checks_position,
-  words_call,                  ///< [4] M, S, T, second auxiliary function
+  words_call,                  ///< [4] in order: M, S, T, second auxiliary function
   rapid_before,
   accuracy_speed,
   accuracy_time,
@@ -113,7 +114,7 @@ enum class Parameter : uint8_t {
   corner_percent,              ///< [2] corners, curves
   spline_allowed,
   spline_cancel_angle,
-  spline_tolerance,            ///< [2] with an inflection, without
+  spline_tolerance,            ///< [2] with an inflection, without one
   fairing_length,
   spline_minute_length,
   fairing,
@@ -180,8 +181,8 @@ enum class Parameter : uint8_t {
   count_
 };
 
-/// There is one for all part systems: what divides the common variables among them (M700 13.4), and what is said of programs and of variables that
-/// they share (13.3, 13.4).
+/// The parameter has one value for all part systems. Such parameters divide the common variables among the part systems (M700 13.4), or
+/// concern programs and variables that the part systems share (13.3, 13.4).
 constexpr bool is_common(Parameter parameter) {
   return parameter == Parameter::shared_100 || parameter == Parameter::shared_500 || parameter == Parameter::protects_8000 ||
          parameter == Parameter::protects_9000 || parameter == Parameter::power_off_clears_common;
@@ -189,9 +190,9 @@ constexpr bool is_common(Parameter parameter) {
 
 inline constexpr unsigned kParameters = static_cast<unsigned>(Parameter::count_);
 
-/// One parameter: what it means and, of several, which one.
+/// One parameter: its meaning and, if several have this meaning, which of them it is.
 struct ParameterOf {
-  // A meaning alone is its first one.
+  // A meaning without an index stands for the first parameter of this meaning.
   constexpr ParameterOf(Parameter meaning, unsigned which = 0) : what(meaning), index(which) {}  // NOLINT(google-explicit-constructor)
   Parameter what;
   unsigned index;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of a family: how their numbers and names are bound to what they mean. Others that a manual has are kept for programs that
-// read them (#100000), and do nothing; who sets one should be told.
+// The parameters of a family: how their numbers and names are bound to what they mean. A parameter of the manual that is not in these tables
+// can be set and read by programs (#100000) but has no effect. Whoever sets such a parameter should be told so.
 #pragma once
 
 #include "dialect/parameter.hpp"
@@ -10,14 +10,14 @@ namespace nc {
 
 struct Dialect;
 
-/// One parameter, or several `step` apart with the same meaning for one thing after the other.
+/// One parameter, or several whose numbers are `step` apart and which mean the same for the first thing, the second and so on.
 struct ParameterRow {
-  uint32_t first, last, step;  ///< numbers
-  int8_t bit;                  ///< of it, -1 = all
-  bool by_axis;                ///< may differ from axis to axis
+  uint32_t first, last, step;  ///< first and last number, and the distance from one number to the next
+  int8_t bit;                  ///< bit of the parameter that has this meaning, -1 = the whole parameter
+  bool by_axis;                ///< the value may differ from axis to axis
   Parameter what;
-  bool (*takes)(double);       ///< values that it can have; a row of one bit is not asked
-  const char* values;          ///< unit or values; the first one in force when it is not set
+  bool (*takes)(double);       ///< tells whether the parameter can have a value; not called if the row is one bit
+  const char* values;          ///< unit, or the possible values, of which the first one holds while the parameter is not set
   const char* name;
   const char* section;         ///< of the manual
   uint32_t axis_step = 0;      ///< numbers from one axis to the next, where each axis has its own; 0 = by_axis says
@@ -25,26 +25,26 @@ struct ParameterRow {
   double (*means)(double) = nullptr;  ///< value of the meaning for a value of the manual; nullptr = the same
 };
 
-/// A parameter that has no number but a name: how its key is written.
+/// A parameter that has a name instead of a number.
 struct ParameterName {
-  const char* key;
+  const char* key;       ///< the name as it is written
   Parameter what;
-  uint8_t index;
-  double value;          ///< default
-  const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = number
-  const char* values;    ///< what holds without it first; nullptr = the words
+  uint8_t index;         ///< which one of several with the same meaning (ParameterOf::index)
+  double value;          ///< value while it is not set
+  const char* words;     ///< accepted words in the order of their values, "|"-separated ("conventional|calculator"), nullptr = its value is a number
+  const char* values;    ///< unit, or the possible values with the default first; nullptr = `words` lists them
   const char* name;
-  const char* section;   ///< of the manual
+  const char* section;   ///< section of the manual
 };
 
-/// What a program can read like a parameter, but the configuration of the machine says and no parameter repeats.
+/// A fact about the machine that a program can read like a parameter. It comes from the configuration; no parameter holds it.
 enum class MachineDatum : uint8_t { axis_count, axis_name, rotary };
 struct MachineParameter {
   uint32_t number;
   MachineDatum what;
 };
 
-/// What holds for good where a family has no such parameter and others do.
+/// The value of a meaning for which this family has no parameter and others do. It never changes.
 struct FixedParameter {
   Parameter what;
   double value;
@@ -54,7 +54,7 @@ struct NumberRange {
   uint32_t first, last;
 };
 
-/// Row of each meaning in the table of numbers, counted from 1; 0 = it has no number.
+/// For each meaning its row in the table of numbers, counted from 1; 0 = no row has this meaning.
 struct ParameterPlaces {
   uint8_t row[kParameters] = {};
 };
@@ -68,28 +68,28 @@ constexpr ParameterPlaces places_of(const ParameterRow (&rows)[count]) {
 
 struct FamilyParameters {
   Table<ParameterRow> numbers = {};            ///< sorted by number
-  const ParameterPlaces* places = nullptr;  ///< in it; nullptr: parameters have no numbers
+  const ParameterPlaces* places = nullptr;  ///< places in `numbers`; nullptr = the family's parameters have no numbers
   Table<ParameterName> names = {};
   Table<FixedParameter> fixed = {};
   Table<MachineParameter> machine = {};
-  Table<NumberRange> of_axes = {};             ///< numbers that parameter input by program sets of one axis, those of no row among them
-  double arc_tolerance_mm = 0;            ///< where Parameter::arc_tolerance is not set
-  double arc_tolerance_of_radius = 0;     ///< or this part of the radius, if that is more,
-  double arc_tolerance_most_mm = 0;       ///< and never more than this; 0 = arc_tolerance_mm alone counts
-  bool checks_interference = false;       ///< of radius compensation, unless Parameter::interference_ignored
+  Table<NumberRange> of_axes = {};             ///< numbers that a program sets for one axis (parameter input), also numbers without a row
+  double arc_tolerance_mm = 0;            ///< tolerance while Parameter::arc_tolerance is not set,
+  double arc_tolerance_of_radius = 0;     ///< or this part of the radius if that is more,
+  double arc_tolerance_most_mm = 0;       ///< but never more than this; 0 = only arc_tolerance_mm counts
+  bool checks_interference = false;       ///< radius compensation checks for interference unless Parameter::interference_ignored is set
 };
 
-/// "1229/bit2": number 1229, written with 4 digits, bit 2. "1229": bit -1, all of it.
+/// A parsed key. "1229/bit2" is number 1229, written with 4 digits, bit 2. "1229" has bit -1, which means the whole parameter.
 struct ParameterKey {
   uint32_t number;
   unsigned digits;
   int bit;
 };
 
-/// @return false when `text` is no such key.
+/// @return false if `text` is no such key.
 bool parse_parameter_key(const char* text, ParameterKey* key);
 
-/// A whole parameter of a family: one with a number, or the place of one that has none among the family's names.
+/// Identifies a whole parameter of a family: by its number, or, if it has none, by its place in the family's table of names.
 struct ParameterId {
   static constexpr uint32_t kFirstName = 1000000;  ///< numbers have six digits
   uint32_t value = 0;
@@ -99,12 +99,13 @@ struct ParameterId {
   bool operator==(const ParameterId&) const = default;
 };
 
-/// What a key of the public interface means: "1229", "1229/bit2" (bit -1 = the whole parameter), "UNIT*10". False: it is none of the family's.
+/// Finds the parameter that a key of the public interface means: "1229", "1229/bit2", "UNIT*10". `bit` becomes -1 for the whole parameter.
+/// @return false if it is no key of this family.
 bool parse_parameter(const Dialect& dialect, const char* key, ParameterId* id, int* bit);
 
-/// Longest key of a parameter, its end included.
+/// Size of the longest key of a parameter, with the NUL at its end.
 inline constexpr unsigned kParameterKeySize = 24;
-/// The key of a whole parameter.
+/// Writes the key of a whole parameter.
 void put_parameter_key(const Dialect& dialect, ParameterId id, char (&key)[kParameterKeySize]);
 
 /// Where a parameter is kept: the whole of it, and its bit there (-1 = all); that of an axis where each has a number. False: the family has no such
@@ -115,19 +116,20 @@ const ParameterRow* parameter_row(const Dialect& dialect, Parameter what);
 /// The same with its key.
 bool parameter_place(const Dialect& dialect, ParameterOf parameter, char (&key)[kParameterKeySize], int* bit);
 
-/// The row of a number; of several rows for bits of it the one that has the key's, or the first if the key is all of it.
+/// The row of the parameter with the key's number, nullptr = there is none. If several rows are bits of this number, it is the row of the
+/// key's bit, or the first row if the key means the whole parameter.
 const ParameterRow* find_parameter(const Dialect& dialect, const ParameterKey& key);
 const ParameterName* find_parameter_name(const Dialect& dialect, const char* key);
 
-/// The whole parameter can have this value. One that nothing asks for takes any.
+/// The whole parameter can have this value. A parameter without a row takes any value.
 bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double value);
 
-/// A function of the control asks for it: "1084", "1229/bit2", "1229" (some bit of it), "UNIT*10".
+/// The control uses the parameter with this key: "1084", "1229/bit2", "1229" (then it uses at least one bit of it), "UNIT*10".
 bool parameter_used(const Dialect& dialect, const char* key);
 
-/// Parameter input by program sets this number of one axis.
+/// When a program sets this number (parameter input), it sets it for one axis.
 bool parameter_of_axis(const Dialect& dialect, uint32_t number);
-/// There is one for all part systems (is_common()).
+/// This number has one value for all part systems (is_common()).
 bool parameter_is_common(const Dialect& dialect, uint32_t number);
 
 }  // namespace nc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which families there are. Alone in its file so that a program of the tests can hand the library tables of its own: one that defines
-// dialect() itself links its own, and libnc.a's stays out (tests/permuted).
+// The list of the families. It has a file of its own so that a test program can give the library other tables: if the program defines
+// dialect() itself, the linker takes that one and leaves this file of libnc.a out (tests/permuted).
 #include "dialect/dgshape/dgshape.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/hx/hx.hpp"

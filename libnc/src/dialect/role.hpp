@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a word of a block means to the function that takes it. The addresses (letters) that carry these meanings are a table of the family, so
-// the same address may stand for several of them: which one is meant follows from the function that asks.
+// What a word of a block means to the function that takes it. A table of the family says which address (letter) carries which meaning. The
+// same address may carry several meanings; which of them applies follows from the function that asks for the word.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ enum class Role : uint8_t {
   code, misc_code,                      ///< G and M codes
   sequence_number, program_number,
   feed, spindle_speed, tool,
-  second_function, second_function_2, second_function_3,   ///< the first of them that is no axis is the second auxiliary function
-  offset_number, length_number,         ///< of the radius and the length of a tool
-  basic_x, basic_y, basic_z,            ///< names of the basic axes, where a rule names them and no parameter does
-  vector_x, vector_y, vector_z,         ///< components along the basic axes: of the centre of an arc, of a vector, of a second corner
+  second_function, second_function_2, second_function_3,   ///< the first of them that is no axis of the machine is the second auxiliary function
+  offset_number, length_number,         ///< number of the offset of the tool radius and of the tool length
+  basic_x, basic_y, basic_z,            ///< names of the basic axes, used if a rule names these axes and no parameter does
+  vector_x, vector_y, vector_z,         ///< components along the basic axes of the centre of an arc, of a vector or of a second corner
 
   // ---- motions
   arc_radius, arc_turns,
-  spiral_pitches, spiral_step, helix_pitches,   ///< of a spiral: number of its pitches, way of one, number of those of its helix
-  thread_lead, fine_thread_lead, thread_start,  ///< fine: with more digits, or threads per inch
+  spiral_pitches, spiral_step, helix_pitches,   ///< of a spiral: number of pitches, change of the radius in one pitch, number of pitches of the helix
+  thread_lead, fine_thread_lead, thread_start,  ///< the fine lead has more digits, or is in threads per inch
   taper_angle, torsion_angle, exponential_radius, exponential_end_feed,   ///< of an exponential curve
   curve_order, curve_knot, curve_weight,        ///< of a NURBS
   circle_radius,                                ///< of a circle that is cut from its centre
@@ -29,16 +29,16 @@ enum class Role : uint8_t {
   turn_x, turn_y, turn_z,                       ///< names of the axes that turn about the basic ones
 
   // ---- dwell, cycles
-  dwell_seconds, dwell_time,                    ///< a dwell has one of the two; the second is in ms where it has no point
+  dwell_seconds, dwell_time,                    ///< a dwell has one of the two; the second is in ms if it has no decimal point
   cycle_level, cycle_depth_step, cycle_dwell, cycle_count, cycle_count_2,   ///< R point, cut of one peck or shift, time at the bottom, number of holes
 
   // ---- calls and jumps
   call_program, call_repeats, call_sequence, call_option, return_sequence, return_passes, interrupt_program,
-  loop_number, loop_end, port, binary_port,                  ///< statements without words of their own: what their alarms name
+  loop_number, loop_end, port, binary_port,                  ///< of statements that have no words of their own: letters for their alarms
 
   // ---- coordinates and data
-  input_kind, input_number, input_amount, turn_angle,     ///< data setting: what, its number, its value; angle of the workpiece
-  system_number,                                ///< of an extended workpiece coordinate system
+  input_kind, input_number, input_amount, turn_angle,     ///< of data setting: what is set, its number, its value; angle of the workpiece
+  system_number,                                ///< number of an extended workpiece coordinate system
   parameter_number, parameter_system, parameter_axis, parameter_bit, parameter_data,
   scaling_factor, rotation_angle,
   return_place,                                 ///< number of a reference position
@@ -62,10 +62,10 @@ enum class Role : uint8_t {
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);
 
-/// Address without a letter: no word ever has it.
+/// The address of a meaning that has no letter. No word ever has this address.
 inline constexpr uint8_t kNoAddress = 26;
 
-/// The component along basic axis 0, 1 or 2, and the name of that axis.
+/// vector_along() is the vector component along basic axis 0, 1 or 2; basic_along() is the name of this axis.
 constexpr Role vector_along(unsigned axis) { return static_cast<Role>(static_cast<unsigned>(Role::vector_x) + axis); }
 constexpr Role basic_along(unsigned axis) { return static_cast<Role>(static_cast<unsigned>(Role::basic_x) + axis); }
 
@@ -77,26 +77,26 @@ struct RoleRow {
 /// The address of each meaning.
 class AddressTable {
  public:
-  /// Meanings that no row names have no address: the family has no such word.
+  /// A meaning that no row names has no address: the family has no such word.
   template <unsigned n>
   explicit constexpr AddressTable(const RoleRow (&rows)[n]) {
     for (uint8_t& address : at_) address = kNoAddress;
     for (const RoleRow& row : rows) at_[static_cast<unsigned>(row.role)] = static_cast<uint8_t>(row.letter - 'A');
   }
-  /// Another letter for a meaning.
+  /// Gives a meaning another letter.
   constexpr void bind(Role role, char letter) { at_[static_cast<unsigned>(role)] = static_cast<uint8_t>(letter - 'A'); }
-  /// Set of addresses as a family's tables write it.
+  /// The set of the addresses in the string `of`, which consists of capital letters; bit n = address n.
   static constexpr uint32_t letters(const char* of) {
     uint32_t set = 0;
     for (; *of != 0; ++of) set |= 1u << (*of - 'A');
     return set;
   }
-  /// 0 to 25, or kNoAddress.
+  /// The address of a meaning, 0 to 25 for A to Z, or kNoAddress.
   constexpr unsigned at(Role role) const { return at_[static_cast<unsigned>(role)]; }
-  /// The letter, 0 = none: for alarms.
+  /// The letter of a meaning for the text of alarms, 0 = it has none.
   constexpr char letter(Role role) const { return at(role) == kNoAddress ? char{0} : static_cast<char>('A' + at(role)); }
   constexpr bool is(char letter_of_word, Role role) const { return static_cast<unsigned>(letter_of_word - 'A') == at(role); }
-  /// Set of addresses, bit n = address n; meanings without an address add nothing.
+  /// The set of the addresses of these meanings, bit n = address n. A meaning without an address adds nothing.
   constexpr uint32_t set(std::initializer_list<Role> roles) const {
     uint32_t set = 0;
     for (const Role role : roles) set |= 1u << at(role);

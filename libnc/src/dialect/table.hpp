@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table of a family: rows that stand somewhere as constants.
+// A table of a family: a pointer to constant rows and their number. The rows themselves are constants in the files of the family.
 #pragma once
 
 namespace nc {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing text into a fixed buffer: always NUL-terminated, cut where the buffer ends, numbers without a
-// locale.
+// Writes text into a fixed buffer. The text always ends with NUL and is cut where the buffer ends. Numbers do not depend on the locale.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +19,15 @@ class TextWriter {
     }
     return *this;
   }
-  /// Cut between two characters of UTF-8.
+  /// Appends `s`. If it does not fit, it is cut between two characters of UTF-8.
   TextWriter& put(const char* s) {
     const char* const begin = s;
     for (; *s != 0 && used_ + 1 < size_; ++s) put(*s);
-    // Left out: from a byte on that belongs to the character before it.
+    // The text ends before a continuation byte, which belongs to a character already begun: that character is removed.
     for (int i = 0; i < 3 && s != begin && (static_cast<unsigned char>(*s) & 0xc0) == 0x80; ++i, --s) text_[--used_] = 0;
     return *this;
   }
-  /// At least `digits` digits, filled with zeros.
+  /// Appends at least `digits` digits, with leading zeros.
   TextWriter& put_integer(unsigned long long value, unsigned digits = 1) {
     char reversed[24];
     unsigned n = 0;
@@ -39,7 +38,7 @@ class TextWriter {
     while (n > 0) put(reversed[--n]);
     return *this;
   }
-  /// Up to four decimals, trailing zeros left out: "12.5", "-0.0001", "100".
+  /// Appends a number with up to four decimals and without trailing zeros: "12.5", "-0.0001", "100".
   TextWriter& put_number(double value) {
     if (!(value == value)) return put("not a number");
     if (value < 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The system variables of a family: which numbers mean what. The control has one handler for each meaning (interpret/system_variables.cpp)
-// and gets the meaning and the place in the range, never a number.
+// The system variables of a family: which number means what. The control has one handler for each meaning
+// (interpret/system_variables.cpp). A handler gets the meaning and the place in the range, never the number.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@
 
 namespace nc {
 
-/// What a range of system variables is. Unless something else stands beside it a range is one part, and a variable is known by its place
-/// in it, from 0.
+/// Meaning of a range of system variables. A variable is known by the part of the range it is in and by its place in this part, counted
+/// from 0. A range has one part only, unless the comment beside the meaning names several.
 enum class SystemVariable : uint8_t {
-  input_bit, input_word,       ///< macro interface; parts of bits are words, a range may run over several
+  input_bit, input_word,       ///< macro interface; a part of a range of bits is one word, and a range may run over several words
   output_bit, output_word,
-  tool_offset,                 ///< parts are lengths, their wears, radii, their wears; a place for each offset
-  work_offset,                 ///< parts are the external offset, the six standard systems, the extended ones; a place for each axis
+  tool_offset,                 ///< the parts are lengths, wears of lengths, radii, wears of radii; one place for each offset
+  work_offset,                 ///< the parts are the external offset, the six standard systems, the extended systems; one place for each axis
   alarm, message,
-  time_powered, time_running,  ///< with power on, in automatic operation
-  control,                     ///< two: single block and FIN, feed hold and override
+  time_powered, time_running,  ///< time with power on, time in automatic operation
+  control,                     ///< two places: single block and FIN, feed hold and override
   mirror,
   date, time_of_day,
   count,                       ///< two: workpieces machined, their maximum
   code, code_now, code_at_interrupt,   ///< a place for each modal group: as read, in execution, as a macro interrupt came
   word, word_now, word_at_interrupt,   ///< a place for each ModalWord of the family, from that of the part on
   extended_work,               ///< number of the extended coordinate system in force
-  end_point, machine_position, work_position, skip_position, compensation, deviation,   ///< a place for each axis
-  rotation,                    ///< of coordinates: axes h and v, centre h and v, angle, its sine and cosine, vector h and v
+  end_point, machine_position, work_position, skip_position, compensation, deviation,   ///< one place for each axis
+  rotation,                    ///< rotation of coordinates: axes h and v, centre h and v, angle, sine and cosine of it, vector h and v
   tool_group_select, tool_group, tool_life,
-  parameter_select,            ///< three: number, part system, axis
+  parameter_select,            ///< three places: number, part system, axis
   parameter,
-  device_select,               ///< four: device, number, bytes, bit
+  device_select,               ///< four places: device, number, bytes, bit
   device,
   parameter_itself,            ///< the parameter that has the number of the variable
   reference_position,          ///< parts are the reference positions, from 0; a place for each axis
@@ -40,25 +40,25 @@ enum class SystemVariable : uint8_t {
 
 inline constexpr unsigned kSystemVariables = static_cast<unsigned>(SystemVariable::count_);
 
-/// One range. docs/system-variables.md is made from these rows.
+/// One range of system variables. docs/system-variables.md is made from these rows.
 struct VariableRow {
   uint32_t first, last;
   SystemVariable what;
-  uint16_t part;        ///< that it begins with
-  uint16_t stride;      ///< numbers from one part to the next, 0 = it has one part
+  uint16_t part;        ///< the part that the range begins with
+  uint16_t stride;      ///< distance in numbers from one part to the next, 0 = the range has one part only
   const char* unit;
   const char* name;
-  const char* section;  ///< of the manual
+  const char* section;  ///< section of the family's manual
 };
 
-/// Words whose last value can be read.
+/// Words whose last value a program can read in a system variable.
 enum class ModalWord : uint8_t { none, second_auxiliary, radius_number, feed, length_number, misc, sequence, program, spindle, tool };
 
-/// A device of the ladder that programs can read: its code, what its numbers are and how many.
+/// A kind of ladder device that programs can read.
 struct DeviceRow {
-  uint8_t code;
-  bool word;
-  uint32_t count;
+  uint8_t code;    ///< the number by which a program selects this kind
+  bool word;       ///< each device is a word, otherwise a bit
+  uint32_t count;  ///< how many devices of this kind there are
 };
 
 /// How much of a device a program reads: the number that it writes for that, and what it stands for. 0 bytes: one bit.
@@ -73,14 +73,14 @@ struct VariableRange {
 };
 
 struct FamilyVariables {
-  Table<VariableRow> rows = {};   ///< sorted by number, apart from one another
-  VariableRange common[2] = {};   ///< common variables of a family that has no options of them; none where the configuration says
-  Table<ModalWord> words = {};    ///< layout of the ranges of words
+  Table<VariableRow> rows = {};   ///< sorted by number; no two ranges overlap
+  VariableRange common[2] = {};   ///< common variables if the family fixes them; empty if the configuration chooses them
+  Table<ModalWord> words = {};    ///< the places of the ranges `word`, `word_now` and `word_at_interrupt`, in this order
   Table<DeviceRow> devices = {};
   Table<DeviceWidth> device_widths = {};
 };
 
-/// What a host knows such variables by.
+/// The role of such variables as the host's interface names it.
 constexpr nc_variable_role interface_role(SystemVariable what) {
   switch (what) {
     case SystemVariable::input_bit: return NC_VARIABLE_INPUT_BIT;
@@ -91,10 +91,10 @@ constexpr nc_variable_role interface_role(SystemVariable what) {
   }
 }
 
-/// Row of a number; nullptr: it is no system variable.
+/// Row of a variable number, nullptr = the number is no system variable.
 const VariableRow* find_variable(const FamilyVariables& variables, uint32_t number);
 
-/// The part of a row that a number of it belongs to, and its place there.
+/// Where a number is in its row: the part, and the place in this part.
 struct VariablePlace {
   uint32_t part, index;
 };

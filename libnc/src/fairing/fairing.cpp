@@ -6,25 +6,25 @@
 namespace nc {
 namespace {
 
-constexpr double kSlack = 1e-9;     // of the bound, for a restart
+constexpr double kSlack = 1e-9;     // mm, for rounding of positions when the program goes on from a mark
 
-/// The end of a block, with nothing but lines before and behind it. Where the program begins again it is another one.
+/// The mark at the end of a block, which does not end a row of lines. The mark of M99 does, because the program begins again behind it.
 bool plain_mark(const Item& item) { return item.kind == ItemKind::mark && !item.mark.again; }
 
 }  // namespace
 
-// M700 13.17.1 precaution (13): consecutive G01 and nothing else.
+// M700 13.17.1 precaution (13): fairing applies only to consecutive G01 blocks.
 bool FairingStage::takes(const Item& item) const {
   if (item.kind != ItemKind::move) return false;
   const Move& m = item.move;
   const bool line = m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && m.skip_mask == 0 && !m.exact_stop && !m.connecting;
   if (!line || (m.high_accuracy & kFineSegmentsOn) == 0 || m.comp.side != 0 || m.space.on) return false;
   for (unsigned i = 0; rotary_ >> i != 0 && i < axis_count_; ++i)
-    if ((rotary_ >> i & 1) != 0 && m.end[i] != m.start[i]) return false;  // a degree is no millimetre
+    if ((rotary_ >> i & 1) != 0 && m.end[i] != m.start[i]) return false;  // degrees cannot be measured together with millimetres
   return true;
 }
 
-/// The line goes on where the one before it ends, in the same coordinates and by the same parameters.
+/// The line begins where the one before it ends, in the same coordinates and with the same parameters.
 bool FairingStage::follows(const Move& move) const {
   return move.transform == transform_ && move.stroke_box == stroke_box_ && move.settings == settings_ && distance(end_, move.start) <= kNoLength;
 }
@@ -39,7 +39,7 @@ bool FairingStage::push(const Item& item, const FairingRule& rule) {
   Held& place = held(count_);
   if (line) {
     place.length = distance(item.move.start, item.move.end);
-    if (place.length <= kNoLength) return true;  // it would vanish at commit
+    if (place.length <= kNoLength) return true;  // commit would leave it out
     rule_ = rule;
     end_ = item.move.end;
     transform_ = item.move.transform;
@@ -70,8 +70,8 @@ bool FairingStage::pop(Item& out) {
   return false;
 }
 
-/// A line that is left out. False: it is not the one that was meant; behind a restart the text may be another one (a switch of optional
-/// block skip).
+/// Leaves the first line out. False: it is not the line that was meant, because the text may be another one after blocks are read again (a switch of
+/// optional block skip has changed).
 bool FairingStage::drop_line(const Move& move) {
   if (distance(move.end, state_.joint) > rule_.length_mm + kSlack) {
     state_.left_out = 0;
@@ -90,11 +90,11 @@ void FairingStage::drop_front() {
   }
   first_ = (first_ + 1) % kHeld;
   if (--count_ != 0 || !closing_) return;
-  closing_ = false;  // a row of lines is over: the next one knows nothing of it
+  closing_ = false;  // the row of lines has ended; the next row does not depend on it
   state_ = {};
 }
 
-/// Where the line in front begins and ends, how many behind it are left out, and how sharp its first corner is.
+/// Decides where the first line begins and ends, how many lines behind it are left out, and how sharp the corner at its start is judged to be.
 void FairingStage::decide(Move* move) {
   if (state_.moved && distance(move->start, state_.joint) <= rule_.length_mm + kSlack) move->start = state_.joint;
   const bool joins = rule_.fairing && short_ahead();
@@ -116,7 +116,8 @@ void FairingStage::decide(Move* move) {
   if (rule_.judge) judge(chain, move);
 }
 
-/// M700 13.17.1 (3): between the nearest lines before and behind that are not too short.
+/// M700 13.17.1 (3): the corner at the start of the first line is judged by the directions of the nearest lines before and behind it that are not too
+/// short.
 void FairingStage::judge(const LineChain& chain, Move* move) {
   const double least = rule_.judge_length_mm;
   const bool is_short = chain.length(0) < least;
@@ -132,7 +133,7 @@ void FairingStage::judge(const LineChain& chain, Move* move) {
   state_.long_before = chain.direction(0);
 }
 
-/// The same where both lines at the joint are long enough: it is what it is.
+/// Judges the corner where both lines at it are long enough: the real corner counts.
 void FairingStage::judge_long(const Move& move) {
   state_.judging = state_.long_known = true;
   state_.short_before = false;

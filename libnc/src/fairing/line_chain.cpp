@@ -8,7 +8,7 @@
 namespace nc {
 namespace {
 
-constexpr double kNoise = 1e-12;    // of cosines
+constexpr double kNoise = 1e-12;    // rounding of cosines
 
 }  // namespace
 
@@ -44,8 +44,8 @@ void LineChain::add(const AxisVec& point) {
   ++points_;
 }
 
-/// Line b between a and c protrudes: both its corners are corners, and either they turn in opposite senses, or the way goes straighter on
-/// without it than at both of them (a way back, a loop).
+/// Line b between the lines a and c protrudes: there are corners at both its ends, and either these turn in opposite senses, or the corner would be less
+/// sharp without b than each of them is (a way back, a loop).
 ///
 /// Opposite senses in any number of axes: (a x b) . (b x c) < 0, which is (a.b)(b.c) < (a.c)(b.b) by Lagrange's identity.
 bool LineChain::protrudes(unsigned line, const FairingRule& rule) const {
@@ -56,8 +56,8 @@ bool LineChain::protrudes(unsigned line, const FairingRule& rule) const {
   return ac > ab * bc + kNoise || (ac > ab + kNoise && ac > bc + kNoise);
 }
 
-/// Where the neighbours of `line` would meet. False: a programmed point would move by more than `most`, a neighbour would lose its length,
-/// or the new corner would be no less sharp than those that go.
+/// The point at which the neighbours of `line` would meet when it is left out. False, when a programmed point would move by more than `most`, a neighbour
+/// would have no length any more, or the new corner would not be less sharp than those that it replaces.
 bool LineChain::joined(unsigned line, double most, AxisVec* at) const {
   const Joint &before = joint_[line], &behind = joint_[line + 1];
   for (unsigned i = 0; i < axis_count_; ++i) (*at)[i] = 0.5 * (before.at[i] + behind.at[i]);

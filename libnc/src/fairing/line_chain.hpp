@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines in a row, and what fairing makes of them (M700 13.17.1, additional functions (1)). docs/high-accuracy.md has the derivation.
 //
-// Between two lines of a chain lies a joint. At first each is a programmed point. Where a line is left out, its two joints become one, in
-// the middle of it, which stands for all the points that they have stood for.
+// Between two lines of a chain lies a joint. At first each joint is a programmed point. When a line is left out, its two joints become one in the middle
+// of the line; this joint stands for all programmed points for which the two stood.
 #pragma once
 
 #include "fairing/rule.hpp"
@@ -10,19 +10,18 @@
 
 namespace nc {
 
-/// Lines that are looked at together: the one whose end is to be decided and those behind it. M700 13.17.1 precaution (2): mode II looks up
-/// to 8 blocks ahead.
+/// The number of lines that are looked at behind the one whose end is decided. M700 13.17.1 precaution (2): mode II looks up to 8 blocks ahead.
 inline constexpr unsigned kFairingAhead = 8;
 
-/// |b - a|; of two directions 2 sin(angle / 2), the change of velocity at a speed of 1.
+/// |b - a|. For two directions it is 2 sin(angle / 2), the change of velocity at a speed of 1.
 double distance_of(const AxisVec& a, const AxisVec& b, unsigned axis_count);
 
 class LineChain {
  public:
   explicit LineChain(unsigned axis_count) : axis_count_(axis_count) {}
-  /// Where the first line begins. It stays.
+  /// Sets where the first line begins. This point is never moved.
   void begin(const AxisVec& point);
-  /// The next line, to this point. At most kFairingAhead + 1.
+  /// Adds a line to this point, at most kFairingAhead + 1 of them.
   void add(const AxisVec& point);
 
   /// Leaves out protruding lines as long as there are any, the shortest first. The first and the last line stay, and so do the ends of the
@@ -30,17 +29,17 @@ class LineChain {
   void fair(const FairingRule& rule);
 
   unsigned lines() const { return joints_ - 1; }
-  /// End of the first line, and how many lines behind it are left out.
+  /// The end of the first line; and how many lines right behind it are left out.
   const AxisVec& first_end() const { return joint_[1].at; }
   unsigned left_out() const { return joint_[1].last - joint_[1].first; }
   double length(unsigned line) const { return line_[line].length; }
-  /// Of length 1; zeros for a line without a length.
+  /// Direction of a line, of length 1; zeros for a line without length.
   const AxisVec& direction(unsigned line) const { return line_[line].direction; }
 
  private:
   struct Joint {
     AxisVec at;
-    unsigned first = 0, last = 0;  ///< programmed points that it stands for
+    unsigned first = 0, last = 0;  ///< numbers of the first and last programmed point that it stands for
   };
   struct Line {
     AxisVec direction;
@@ -57,7 +56,7 @@ class LineChain {
   static constexpr unsigned kMost = kFairingAhead + 2;
   unsigned axis_count_;
   unsigned joints_ = 0, points_ = 0;
-  AxisVec point_[kMost];  ///< as programmed, but for the first
+  AxisVec point_[kMost];  ///< points as programmed, except the first: there the machine is
   Joint joint_[kMost];
   Line line_[kMost];      ///< line i leads from joint i to joint i + 1
 };

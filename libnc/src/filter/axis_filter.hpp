@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters of one axis. Each takes the way of a cycle and gives the way of a cycle; what it holds back is its lag. The commanded
-// place is the interpolated one minus the lags, so a filter that is empty gives the interpolated place to the last bit, and no
-// rounding outlives a rest. Between two cycles the path is taken as straight, and each filter is exact for such a path.
+// The filters of one axis. Each takes the way of a cycle and gives the way of a cycle; the way that it holds back is its lag. The commanded place is the
+// interpolated one minus the lags, so an empty filter gives exactly the interpolated place, and rounding does not add up over several moves. Between
+// two cycles the path is taken as straight, and each filter is exact for such a path.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,10 @@
 
 namespace nc {
 
-/// Mean of the path over `cycles`: the velocity of the axis changes in a straight line while that of the path steps.
+/// Mean of the path over a number of cycles: where the velocity of the path steps, that of the axis changes linearly.
 class MeanFilter {
  public:
-  /// `ring` holds `cycles` values and is the filter's alone. 0 cycles: the way goes through.
+  /// `ring` has room for `cycles` values and is used by this filter only. With 0 cycles the way passes unchanged.
   void use(double* ring, uint32_t cycles) {
     ring_ = ring;
     cycles_ = cycles;
@@ -26,7 +26,7 @@ class MeanFilter {
     at_ = filled_ = 0;
     quiet_ = cycles_;
   }
-  /// @param way  of this cycle  @return the way behind the filter
+  /// @param way  way of this cycle  @return the way behind the filter
   double advance(double way) NC_RT {
     if (cycles_ == 0) return way;
     if (way != 0) {
@@ -57,7 +57,7 @@ class MeanFilter {
   double lag() const { return settled() ? 0 : place_ - (sum_ + rest_) * per_cycle_; }
 
  private:
-  /// The sum keeps what rounding would take from it: it is exact to 100 bits however long the path goes on.
+  /// Adds to the sum, and keeps in rest_ what rounding takes from it: together they are exact to 100 bits however long the path goes on.
   void add(double x) {
     const double s = sum_ + x, part = s - sum_;
     rest_ += (sum_ - (s - part)) + (x - part);
@@ -66,14 +66,14 @@ class MeanFilter {
 
   double* ring_ = nullptr;
   uint32_t cycles_ = 0, at_ = 0, filled_ = 0;
-  uint32_t quiet_ = 0;      ///< cycles without a way, up to cycles_
+  uint32_t quiet_ = 0;      ///< number of cycles in a row without a way, up to cycles_
   double per_cycle_ = 0;
-  double place_ = 0;        ///< since it was empty
+  double place_ = 0;        ///< way that has gone in since the filter was empty
   double sum_ = 0, rest_ = 0;
 };
 
-/// Lag of first order, l' = v - l / tau. When the path has come to rest the axis goes the rest of its way with a constant deceleration,
-/// which takes 2 tau and ends: M700 7.7, exponential acceleration and linear deceleration.
+/// Lag of first order, l' = v - l / tau. When the path has come to rest the axis goes the rest of its way with a constant deceleration, which takes 2
+/// tau (a lag of first order would never end): M700 7.7, exponential acceleration and linear deceleration.
 class LagFilter {
  public:
   void use(double tau_s, double cycle_s) {
@@ -86,7 +86,7 @@ class LagFilter {
     empty();
   }
   void empty() { lag_ = from_ = time_ = 0, landing_ = false; }
-  /// @param rests  nothing comes any more until it is settled
+  /// @param rests  true: no way comes any more until the filter has settled
   double advance(double way, bool rests) NC_RT {
     if (!(tau_ > 0)) return way;
     const double before = lag_;
@@ -105,7 +105,7 @@ class LagFilter {
   void land() {
     if (!landing_) from_ = lag_, time_ = 0, landing_ = true;
     time_ += cycle_;
-    // Speed lag / tau to 0 in 2 tau; a cycle that is short of the end by rounding is the end.
+    // From the speed lag / tau to 0 in 2 tau. A cycle that is short of the end only by rounding counts as the end.
     const double left = 1 - time_ / (2 * tau_);
     lag_ = left > 1e-9 ? from_ * left * left : 0;
     landing_ = lag_ != 0;
@@ -113,11 +113,11 @@ class LagFilter {
 
   double tau_ = 0, cycle_ = 0, decay_ = 0, gain_ = 0;
   double lag_ = 0;
-  double from_ = 0, time_ = 0;  ///< landing: lag at its beginning, s since then
+  double from_ = 0, time_ = 0;  ///< while it lands: lag when that began, and s since then
   bool landing_ = false;
 };
 
-/// A mean, and behind it another one or a lag.
+/// A mean, and behind it another mean or a lag.
 class AxisFilter {
  public:
   void use(double* ring, uint32_t mean, uint32_t second, double lag_s, double cycle_s) {
@@ -130,7 +130,7 @@ class AxisFilter {
     second_.empty();
     lag_.empty();
   }
-  /// @return what the axis is behind the interpolated place
+  /// @return how far the axis is behind the interpolated place
   double advance(double way, bool rests) NC_RT {
     const double one = first_.advance(way);
     const double two = second_.advance(one);

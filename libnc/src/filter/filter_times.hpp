@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one segment wants of the filters behind interpolation (docs/motion.md, "Behind interpolation"). It goes with the segment, so a
-// parameter that a program changes acts where the program says.
+// The filters behind interpolation that one segment needs (docs/motion.md, "Behind interpolation"). They travel with the segment, so that a parameter
+// which a program changes acts from that place of the program on.
 #pragma once
 
 #include "stream/stream.hpp"
@@ -10,16 +10,16 @@ namespace nc {
 struct FilterTimes {
   enum class Kind : uint8_t {
     none,    ///< the commanded place is the interpolated one
-    after,   ///< acceleration after interpolation: each axis by its own constants, the path without any acceleration
-    before,  ///< the path is accelerated by the planner; S-pattern filters, the same for all axes
+    after,   ///< acceleration after interpolation: each axis has filters by its own constants, and the path itself is not accelerated gradually
+    before,  ///< acceleration before interpolation: the planner accelerates the path; S-pattern filters, the same for all axes, act behind it
   };
   Kind kind = Kind::none;
-  bool one_way = false;             ///< after: a straight line between two rests, so no axis turns round (not part of the equality)
-  uint16_t second = 0;              ///< before: cycles of the mean behind the first
-  uint16_t mean[kMaxAxes] = {};     ///< cycles of the mean, 0 = none
-  float lag_s[kMaxAxes] = {};       ///< after: time constant of the lag of first order behind it, s; 0 = none
+  bool one_way = false;             ///< after: a straight line between two rests, so that no axis reverses (same() does not compare this)
+  uint16_t second = 0;              ///< before: cycles of a second mean behind the first, 0 = none
+  uint16_t mean[kMaxAxes] = {};     ///< cycles of the mean of each axis, 0 = none
+  float lag_s[kMaxAxes] = {};       ///< after: time constant of the lag of first order behind the mean, s; 0 = none
 
-  /// The same filters: a path may go on from one to the other at speed.
+  /// The filters are the same, so the path may go on from one segment to the other at speed.
   bool same(const FilterTimes& other) const {
     if (kind != other.kind) return false;
     if (kind == Kind::none) return true;
@@ -29,9 +29,9 @@ struct FilterTimes {
   }
 };
 
-/// Longest time constants that a parameter can have, ms.
+/// Longest time constants that parameters can give, ms.
 inline constexpr double kLongestMean = 4000, kLongestLag = 5000, kLongestSPattern = 200;
-/// Most cycles that a mean goes over.
+/// The most cycles that a mean can have.
 inline constexpr uint32_t kMostFilterCycles = 65535;
 
 /// A time constant in whole cycles: the nearest, at least one where there is a constant at all, and at most kMostFilterCycles.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind interpolation: filters over the interpolated positions, and the answer whether they have settled (M700 7.7, 13.15;
-// docs/motion.md, "Behind interpolation"). The filters change only while nothing is in them.
+// The filters behind interpolation for all axes, and whether they have settled (M700 7.7, 13.15; docs/motion.md, "Behind interpolation"). Filters are
+// changed only while they hold nothing.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@ namespace nc {
 
 class PositionFilter {
  public:
-  /// Places for each axis' filters.
+  /// Number of values that the filters of one axis need room for.
   static uint32_t places(double longest_ms, double cycle_s) {
     return filter_cycles(longest_ms, cycle_s);
   }
-  /// @param rings  `places` values for each axis, the filters' alone; 0 places: there are no filters
+  /// @param rings  room for `places` values for each axis, used by the filters only; nullptr or 0 places: there are no filters
   void create(unsigned axis_count, double cycle_s, double* rings, uint32_t places) {
     axis_count_ = axis_count;
     cycle_s_ = cycle_s;
@@ -24,13 +24,13 @@ class PositionFilter {
     places_ = rings != nullptr ? places : 0;
   }
 
-  /// Start from rest at a place.
+  /// Begins at rest at `position`.
   void reset(const AxisVec& position) {
     in_ = last_ = position;
     for (unsigned i = 0; active_ && i < axis_count_; ++i) filter_[i].empty();
     lagging_ = false;
   }
-  /// The place counts from elsewhere: what is on its way stays so.
+  /// Shifts the interpolated place to `position` without moving the axes by the filters: what they hold stays.
   void relocate(const AxisVec& position) NC_RT {
     for (unsigned i = 0; i < kMaxAxes; ++i) last_[i] += position[i] - in_[i];
     in_ = position;
@@ -38,7 +38,7 @@ class PositionFilter {
   }
 
   bool uses(const FilterTimes& times) const NC_RT { return times_.same(times); }
-  /// False when they do not fit. Only while drained().
+  /// Changes the filters, only while drained(). False when they do not fit into the room given to create().
   bool use(const FilterTimes& times) NC_RT {
     if (uses(times)) return true;
     for (unsigned i = 0; i < axis_count_; ++i)
@@ -49,10 +49,10 @@ class PositionFilter {
       filter_[i].use(rings_ + size_t{places_} * i, times.mean[i], times.second, static_cast<double>(times.lag_s[i]), cycle_s_);
     return true;
   }
-  /// The path has an acceleration of its own, so it may go on from a rest while something is still on its way.
+  /// The path may go on from a rest while the filters still hold something, because the planner accelerates it.
   bool goes_on() const { return times_.kind != FilterTimes::Kind::after; }
 
-  /// One cycle: what the interpolator wants in, what the axes are told out. `rests`: it stands and does not go on before all is drained.
+  /// One cycle: takes the interpolated place, and returns the commanded one. `rests`: the path rests and does not go on before drained().
   AxisVec filter(const AxisVec& wanted, bool rests) NC_RT {
     if (!active_) [[likely]] {
       in_ = last_ = wanted;
@@ -67,12 +67,12 @@ class PositionFilter {
     in_ = wanted;
     return last_;
   }
-  /// Nothing of what went in is still on its way out: needed by in-position checks, gates and syncs.
+  /// The filters hold nothing, and the commanded place is `wanted`: needed by in-position checks, gates and syncs.
   bool settled(const AxisVec& wanted) const NC_RT { return last_ == wanted && !lagging_; }
-  /// The same where there is a filter; without one nothing is ever on its way.
+  /// The filters hold nothing, and `wanted` has gone in; always true without filters.
   bool drained(const AxisVec& wanted) const NC_RT { return !active_ || (!lagging_ && in_ == wanted); }
   bool active() const { return active_; }
-  /// Where the axes are told to be.
+  /// The commanded place of the last cycle.
   const AxisVec& position() const { return last_; }
 
  private:

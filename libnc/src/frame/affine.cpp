@@ -29,7 +29,7 @@ Affine::Angle Affine::Angle::degrees(double angle) {
 }
 
 Affine::Angle Affine::Angle::radians(double angle) {
-  // An angle between two directions, and a sum of some of them, is off by a few units of its last place: quarters are still meant.
+  // An angle between two directions, or a sum of such angles, is off by a few units of its last place: near a quarter turn, a quarter turn is meant.
   constexpr double kQuarter = std::numbers::pi / 2, kLastPlaces = 1e-14;
   const double turned = std::remainder(angle, 4 * kQuarter), quarters = std::nearbyint(turned / kQuarter);
   if (std::fabs(turned - quarters * kQuarter) <= kLastPlaces * (1 + std::fabs(angle))) return degrees(quarters * 90);
@@ -51,7 +51,7 @@ Affine Affine::rotation(unsigned h, unsigned v, const Angle& angle, double cente
   const double sin = ascending ? angle.sin : -angle.sin;
   map.offset_[h] = center_h - angle.cos * center_h + angle.sin * center_v;
   map.offset_[v] = center_v - angle.sin * center_h - angle.cos * center_v;
-  if (sin == 0) {  // by nothing or by half a turn: no axis depends on another one
+  if (sin == 0) {  // no turn or half a turn: no axis depends on another one
     map.stretch_[h] = map.stretch_[v] = angle.cos;
     map.translates_ = angle.cos == 1;
     return map;

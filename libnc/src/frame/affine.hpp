@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Affine maps of the axes of a part system: what leads from programmed points to the compensation frame (interpret/program_map.hpp), and
-// from there to machine coordinates. Moves name the latter by id, so that a move that was read long ago keeps the frame that was in
-// force then.
+// Affine maps of the axes of a part system: from programmed points to the compensation frame (interpret/program_map.hpp), and from there to machine
+// coordinates. Moves name the latter map by its id, so that a move which was read long ago keeps the map that was in force then.
 //
-// Nearly every map moves only: machine = point + offset. That is what the functions in this header do, inline; everything else is in
-// affine.cpp. A map that turns does so with few axes: those that depend on each other ("coupled") are one small matrix, every other axis
-// has a factor of its own. Two planes that turn independently (G68 and 13.21 of the M700 about different ones) couple four axes, a
-// conversion in space three.
+// Nearly every map only shifts: machine = point + offset. The inline functions in this header do that; everything else is in affine.cpp. A map that
+// rotates concerns few axes: those that depend on each other ("coupled") have one small matrix, every other axis has a factor of its own. Two
+// independent rotations in different planes (G68 and 13.21 of the M700) couple four axes, a conversion in space three.
 #pragma once
 
 #include <cstring>
@@ -17,13 +15,13 @@ namespace nc {
 
 class Affine {
  public:
-  /// Axes that can depend on each other at once.
+  /// The most axes that can depend on each other.
   static constexpr unsigned kMostCoupled = 4;
 
-  /// What a rotation is made with.
+  /// An angle of rotation, by its cosine and sine.
   struct Angle {
     double cos = 1, sin = 0;
-    /// Whole quarters are exact: a rotation by 90 degrees exchanges coordinates to the last bit.
+    /// Quarter turns are exact: a rotation by 90 degrees exchanges coordinates without rounding.
     static Angle degrees(double angle);
     static Angle radians(double angle);
   };
@@ -34,12 +32,13 @@ class Affine {
     map.offset_ = by;
     return map;
   }
-  /// One axis is stretched by `factor`, not 0, about `center`; -1 reflects it there.
+  /// Stretches one axis by `factor`, which is not 0, about `center`; -1 reflects it there.
   static Affine stretch(unsigned axis, double factor, double center);
-  /// The axes h, v turn from h towards v about a point of theirs.
+  /// Rotates the plane of the axes h and v, from h towards v, about a point.
   static Affine rotation(unsigned h, unsigned v, const Angle& angle, double center_h, double center_v);
 
-  /// `next` acts behind this. False, and nothing is changed, where more than kMostCoupled axes would depend on each other.
+  /// Makes this the map that does what it did before and then `next`. False, and nothing is changed, when more than kMostCoupled axes would depend on
+  /// each other.
   [[nodiscard]] bool then(const Affine& next);
   Affine inverse() const;
 
@@ -57,22 +56,22 @@ class Affine {
     for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = q[i] - offset_[i];
     return p;
   }
-  /// A direction: without the offset.
+  /// Maps a direction, so without the offset.
   AxisVec direct(const AxisVec& direction) const;
-  /// Where the origin goes.
+  /// The point to which the origin is mapped.
   const AxisVec& offset() const { return offset_; }
 
-  /// Way of axis `to` per way of axis `from`.
+  /// By how much the mapped coordinate on axis `to` grows when the coordinate on axis `from` grows by 1.
   double coefficient(unsigned to, unsigned from) const;
   /// Bit i: axis i is one of those that depend on each other.
   uint32_t coupled() const;
-  /// Neither of the two axes depends on another one, nor another one on them: a circle about their normal stays one, if it is not stretched.
+  /// Neither of the two axes depends on a third one, nor a third one on them: a circle in their plane stays a circle, if it is not stretched.
   bool keeps_plane(unsigned h, unsigned v) const;
-  /// Of the plane (h, v), where it is kept: area per area, negative where its sense is turned round.
+  /// The factor by which areas of the plane (h, v) grow, where the plane is kept; negative where the plane is turned over.
   double determinant(unsigned h, unsigned v) const;
-  /// The plane is turned over: arcs go the other way round, and what was left of a path is on its right.
+  /// The plane is turned over: clockwise arcs become counter-clockwise ones, and what was left of a path is on its right.
   bool reflects(unsigned h, unsigned v) const { return determinant(h, v) < 0; }
-  /// An axis that depends on no other one: its coordinate.
+  /// The mapped coordinate of an axis that depends on no other one.
   double on_axis(unsigned axis, double value) const { return stretch_[axis] * value + offset_[axis]; }
 
   bool operator==(const Affine& other) const {
@@ -86,10 +85,10 @@ class Affine {
 
   bool translates_ = true;
   uint8_t coupled_count_ = 0;
-  uint8_t axis_[kMostCoupled] = {};  ///< the coupled ones in ascending order
+  uint8_t axis_[kMostCoupled] = {};  ///< the coupled axes in ascending order
   AxisVec offset_;
-  AxisVec stretch_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< of the axes that are not coupled; 1 for those that are
-  /// Row by row, of the coupled axes; behind them that of a map that leaves everything as it is.
+  AxisVec stretch_{{1, 1, 1, 1, 1, 1, 1, 1}};  ///< factors of the axes that are not coupled; 1 for those that are
+  /// The matrix of the coupled axes, row by row; the unused rest is as in a unit matrix.
   double block_[kMostCoupled * kMostCoupled] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 };
 

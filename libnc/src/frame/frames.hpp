@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coordinate systems and offset tables of one part system.
 //
-// The composition, written down once (M700 13.6, 14.2, 14.5, 14.10, 14.11, 14.13; DGSHAPE G54-G59, G92). From what is programmed to
-// what the axes do:
+// How positions are composed (M700 13.6, 14.2, 14.5, 14.10, 14.11, 14.13; DGSHAPE G54-G59, G92), from the programmed word to the machine position:
 //
-//     word      = as programmed; G91: + the programmed position of before         interpret/block_words.cpp, motion.cpp
+//     word      = as programmed; G91: + the previous programmed position          interpret/block_words.cpp, motion.cpp
 //     turned    = an angle of G90 as a way on an axis that turns                  frame/rotary.hpp
 //     work      = M turned                  M affine: figure, scaling, rotation, mirror, and the rotation about a point of the machine
 //                                           where #8627 or G10 K says so; in front of compensation     interpret/program_map.hpp
@@ -14,11 +13,11 @@
 //                                           L local system (G52) held by system k
 //     shown     = machine, and work, within one turn where the axis type says so  interpret/position_shown.cpp
 //
-// G53 and the way to a reference position begin at `machine`: no map, no zero, no compensation.
+// G53 and the way to a reference position command `machine` directly: no map, no zero and no compensation acts.
 //
-// T is applied to an axis when that axis is next commanded (M700 12.2), so it is part of the position's state, not of the tables.
+// T is applied to an axis when that axis is next commanded (M700 12.2), so it belongs to the state of the position and not to the tables.
 //
-// All offsets live in one flat table, so that one journal key undoes any of them.
+// All offsets are in one flat table, so that the journal can name any of them by one key.
 #pragma once
 
 #include "base/arena.hpp"
@@ -26,7 +25,7 @@
 
 namespace nc {
 
-/// M700 12.1, 14.10: an offset is below this, mm or deg.
+/// M700 12.1, 14.10: the magnitude of an offset is below this, mm or deg.
 inline constexpr double kOffsetRange = 100000;
 
 /// Columns of the tool table, as in nc_tool_column.
@@ -44,7 +43,7 @@ class Frames {
   unsigned extended_systems() const { return config_.extended_systems; }
   unsigned tool_offsets() const { return config_.tool_offsets; }
 
-  /// Coordinate systems that are no extended ones.
+  /// Number of coordinate systems that are not extended ones.
   static constexpr unsigned kStandardSystems = 6;
 
   // Keys of the flat table. System numbers: 0..5 = G54..G59, 6.. = G54.1 P1...
@@ -64,7 +63,7 @@ class Frames {
     cached_system_ = kNoSystem;
   }
 
-  /// zero(k). Asked for several times in every block and changed rarely: the last answer is kept.
+  /// zero(k). It is asked for several times in every block and changes rarely, so the last answer is kept.
   const AxisVec& zero(unsigned system) const {
     if (system != cached_system_) compute_zero(system);
     return cached_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rotary axes (M700 14.13, #8213). Inside, such an axis counts on over its turns like any other, so that curves, set-points and limits
-// need nothing of their own; its type says which numbers the counters show and which way an absolute command goes:
+// Rotary axes (M700 14.13, #8213). Inside the control the angle of such an axis is counted on over several turns, like the position of any other axis, so
+// that curves, set-points and limits need no rules of their own. Its type says what the counters show and which way an absolute command goes:
 //
 //   type                        shown (workpiece / machine)   G90 goes by                                     G91
 //   0 rotating, no short cut    one turn / one turn           target - shown, whole turns left out            the amount
@@ -17,19 +17,20 @@ namespace nc {
 
 /// 0 <= angle < 360.
 inline double within_one_turn(double angle) {
-  constexpr double kNoise = 1e-9;  // deg: what adding up leaves; 359.9999999999 is 0
+  constexpr double kNoise = 1e-9;  // deg, for rounding: 359.9999999999 counts as 0
   const double left = angle - 360 * std::floor(angle / 360);
   return left >= 360 - kNoise ? 0 : left;
 }
 
-/// The way of a rotating axis (types 0 and 1) from the angle `shown` to `target`.
+/// The way, deg, of a rotating axis (types 0 and 1) from the angle `shown` to `target`.
 inline double turn_to(double target, double shown, bool short_cut) {
   const double way = std::fmod(target - shown, 360);
   if (!short_cut) return way;
   return way > 180 ? way - 360 : way <= -180 ? way + 360 : way;
 }
 
-/// Limits of an axis whose machine position counts within one turn hold in each of them: the turns that `from` stands away from them.
+/// For an axis whose machine position is counted within one turn, the limits `low` and `high` hold in each turn. Returns by how many turns they have to
+/// be shifted to be those of the turn in which `from` is.
 inline double turns_outside(double from, double low, double high) {
   const double turns = std::floor((from - low) / 360);
   return from - 360 * turns <= high ? turns : std::floor(from / 360);

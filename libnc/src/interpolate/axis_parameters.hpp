@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What parameters and offsets say of the axes and the scan has to know, also while no program runs: the feeder hands it over.
+// What the scan has to know of the parameters and offsets of the axes, also while no program runs. The feeder hands it over.
 #pragma once
 
 #include "stream/stream.hpp"
@@ -7,14 +7,14 @@
 namespace nc {
 
 struct AxisParameters {
-  uint32_t index = 0;      ///< #2076, bit i = axis i: of an index table (M700 9.3)
-  uint32_t turning = 0;    ///< #8213 0 to 2: the machine position counts within one turn (M700 14.13)
-  uint32_t short_cut = 0;  ///< 1: and goes the shorter way
-  double increment[kMaxAxes] = {};  ///< #2106: a table that stands by hand or by chance can be clamped at its multiples; 0 = anywhere
-  /// No program runs: the counters of the workpiece show what the next block would find, work = machine - zero. Behind power on
-  /// that is the first coordinate system with the offsets as they were kept; what is changed meanwhile is seen at once.
+  uint32_t index = 0;      ///< bit i: axis i is an index table (#2076, M700 9.3)
+  uint32_t turning = 0;    ///< bit i: the machine position of axis i is counted within one turn (#8213 = 0 to 2, M700 14.13)
+  uint32_t short_cut = 0;  ///< bit i: axis i takes the shorter way to an angle (#8213 = 1)
+  double increment[kMaxAxes] = {};  ///< #2106, deg: a table that was moved by hand or was stopped can be clamped at multiples of this; 0 = anywhere
+  /// No program runs: the workpiece counters show the coordinates that the next block would find, work = machine - zero. After power on these are of
+  /// the first coordinate system, with the offsets that were kept; a change of an offset shows at once.
   bool idle = false;
-  AxisVec zero;
+  AxisVec zero;  ///< machine coordinates of the workpiece zero, while `idle`
   bool operator==(const AxisParameters&) const = default;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way to rest along a plan whose maker is silent: the time of the plan goes ever slower, tau' = sigma(t), from 1 to 0 in steps of
-// constant sigma''. In each step it is as low as the limits of the axes leave at both ends of the step, which makes the next state
+// The way to rest along a plan when the planner does not answer. The time of the plan goes ever more slowly: tau' = sigma(t) falls from 1 to 0 in
+// steps of constant sigma''. In each step sigma'' is as low as the limits of the axes allow at both ends of the step, so that the next state is
 // allowed, too; the last part has the constant sigma'' that ends at rest (docs/motion-optimal.md, "When the feeder is silent").
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace nc {
 
-/// The plan at one moment of its time: the path, and u by time.
+/// The plan at one moment of its time: the path, and the derivatives of the path length u by time.
 struct PlanMoment {
   CurvePoint path;
-  double v = 0, a = 0, j = 0;
-  bool rests = false;  ///< behind its end
+  double v = 0, a = 0, j = 0;  ///< mm/s, mm/s^2, mm/s^3
+  bool rests = false;  ///< the moment lies behind the end of the plan
 };
 
-/// How fast the time of the plan goes, and how that changes.
+/// How fast the time of the plan goes: sigma, and its derivative (1/s).
 struct PlanPace {
   double sigma = 1, slope = 0;
 };
 
 class Brake {
  public:
-  /// Finds a way to rest from `pace`. `plan` tells of ever later moments (PlanAhead). @param use  of what the limits leave
+  /// Finds a way to rest from `pace`. `plan` gives later and later moments of the plan (PlanAhead). @param use  share of what the limits leave
   template <class Plan>
   bool find(Plan plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
     count_ = 0;
@@ -39,7 +39,7 @@ class Brake {
     while (count_ < kSteps) {
       const Plan here = plan;
       if (!gather(plan, x, 0, step_)) return false;
-      if (rests_) return keeps(x, 0, limits) <= 1 && begin();  // it stands there anyway
+      if (rests_) return keeps(x, 0, limits) <= 1 && begin();  // the plan itself comes to rest here
       if (jerk_to_land(x, look_[0].plan, limits) > use * kLanding) return land(here, limits, x);
       double bend = 0;
       if (!chooses(here, &plan, limits, use, x, &bend)) return lands_sooner(here, limits, x);
@@ -50,7 +50,7 @@ class Brake {
     return false;
   }
 
-  /// Goes on for `time` seconds. @return seconds of the plan.
+  /// Goes on for `time` seconds. @return by how many seconds the time of the plan goes on.
   double advance(double time) NC_RT {
     const double from = now_.tau;
     while (time > 0 && at_ < count_) {
@@ -60,38 +60,38 @@ class Brake {
       in_step_ += part;
       if (part == left) ++at_, in_step_ = 0;
     }
-    if (at_ == count_ && !lands_ && time > 0) {  // to the end of the plan, which is there before sigma is 0
+    if (at_ == count_ && !lands_ && time > 0) {  // to the end of the plan, which comes before sigma is 0
       const double most = now_.slope < 0 ? -now_.sigma / now_.slope : time;
       now_.step(0, std::fmin(time, most));
       if (now_.slope < 0 && !(time < most)) now_.tau += kRounding;
     }
     return std::fmax(0, now_.tau - from);
   }
-  /// At rest.
+  /// The braking has come to rest.
   bool done() const { return lands_ && at_ == count_; }
   double sigma() const { return std::fmax(0, now_.sigma); }
 
  private:
   static constexpr unsigned kSteps = 512;
-  static constexpr unsigned kLooks = 16;    ///< in a step
-  static constexpr double kLongest = 0.00125, kShortest = 0.00025;  ///< s, of a step
-  static constexpr double kOfRise = 0.25;   ///< of the time in which the acceleration goes to its limit
-  static constexpr double kOfSoonest = 0.25;  ///< of the time in which jerk alone lets the axes stand
-  static constexpr double kNothing = 1e-6;  ///< s: who could stand that soon stands at once, and the shortest cycle does not tell the difference
-  static constexpr double kSteady = 0.75;   ///< of the steps, for a stop on a line
-  static constexpr double kShare = 1.0005;  ///< of the acceleration, which the plan may use, too
-  static constexpr double kJerk = 0.995;    ///< of the jerk: between the places that are looked at a cell of the plan may begin and end
-  static constexpr double kMostAcceleration = 1.0009;  ///< anywhere: what is measured is to be below 1.001
-  static constexpr unsigned kTighter = 4;   ///< times that a step is chosen
-  static constexpr double kFurther = 1.5;   ///< of what was too much
-  static constexpr double kLanding = 0.5;   ///< of the jerk limits, where there is nothing else
-  static constexpr double kTiny = 1e-9;     ///< of velocity
-  static constexpr double kAtOnce = 1e-6, kOfStep = 0.01;  ///< s, and of a step: what is as near counts as the same moment
-  static constexpr double kRounding = 1e-9; ///< s
+  static constexpr unsigned kLooks = 16;    ///< the most moments that are looked at in a step
+  static constexpr double kLongest = 0.00125, kShortest = 0.00025;  ///< longest and shortest step, s
+  static constexpr double kOfRise = 0.25;   ///< a step takes this share of the time in which the acceleration rises to its limit
+  static constexpr double kOfSoonest = 0.25;  ///< it takes at most this share of the time in which axes that only jerk limits would stand
+  static constexpr double kNothing = 1e-6;  ///< s: axes that could stand within this time count as standing; it is the shortest cycle
+  static constexpr double kSteady = 0.75;   ///< a stop on a line may take at most this share of kSteps
+  static constexpr double kShare = 1.0005;  ///< share of the limit of acceleration that may be used; the plan may use as much
+  static constexpr double kJerk = 0.995;    ///< share of the limit of jerk: a cell of the plan may begin and end between two moments that are looked at
+  static constexpr double kMostAcceleration = 1.0009;  ///< largest share of the limit anywhere in a step, since measured shares are to be below 1.001
+  static constexpr unsigned kTighter = 4;   ///< how many times a step is chosen anew with tighter limits
+  static constexpr double kFurther = 1.5;   ///< limits are tightened by this multiple of what was too much
+  static constexpr double kLanding = 0.5;   ///< share of the jerk limits above which the landing has to begin
+  static constexpr double kTiny = 1e-9;     ///< a factor below this, mm/s or deg/s, counts as 0
+  static constexpr double kAtOnce = 1e-6, kOfStep = 0.01;  ///< moments count as the same one within this time, s, and within this share of a step
+  static constexpr double kRounding = 1e-9; ///< s, so that rounding does not leave the plan short of its end
 
   struct State {
     double tau = 0, sigma = 1, slope = 0;
-    /// Its sigma `t` later, the slope of now.
+    /// The state `t` later, but with tau and the slope of now.
     State behind(double bend, double t) const { return {tau, sigma + t * (slope + t * bend / 2), slope}; }
     double tau_behind(double bend, double t) const { return tau + t * (sigma + t * (slope / 2 + t * bend / 6)); }
     void step(double bend, double t) {
@@ -126,8 +126,8 @@ class Brake {
     }
     return std::fmin(kLongest, std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))));
   }
-  /// Seconds in which jerk alone lets the axes stand: their acceleration goes, and the velocity in two halves. A step has to be shorter, or
-  /// the least that the limits leave in it goes beyond rest.
+  /// Seconds in which the axes would come to rest if only jerk was limited: first the acceleration goes to 0, then the velocity in two halves. A step has
+  /// to be shorter than that, or the lowest sigma'' that the limits allow would lead beyond rest.
   static double soonest_for(const PlanMoment& now, const optimal::Limits& limits, const PlanPace& pace) NC_RT {
     const double u1 = now.v * pace.sigma, u2 = now.a * pace.sigma * pace.sigma + now.v * pace.slope;
     double t = 0;
@@ -143,8 +143,8 @@ class Brake {
     double t = 0;  ///< s behind the start of the step
   };
 
-  /// The moments of the plan in the step that begins with the first of them: its middle and end, and both sides of each place where a cell
-  /// of the plan ends, because there its jerk changes. False where there are too many.
+  /// Collects the moments of the plan that are looked at in a step. The first is at its beginning and given; then come its middle and end, and both
+  /// sides of each place where a cell of the plan ends, because the jerk changes there. False when there are too many.
   template <class Plan>
   bool gather(Plan& plan, const State& x, double bend, double step) NC_RT {
     const double middle = x.tau_behind(bend, step / 2), end = x.tau_behind(bend, step);
@@ -171,11 +171,12 @@ class Brake {
     }
     return true;
   }
-  /// sigma'' of the step of which the looks are those of a steady pace; `here` is the plan in front of it, and `plan` becomes that behind it.
+  /// Chooses sigma'' of a step whose moments were collected for a steady pace. `here` is the plan at the beginning of the step, and `plan` becomes the
+  /// plan at its end.
   template <class Plan>
   bool chooses(const Plan& here, Plan* plan, const optimal::Limits& limits, double use, const State& x, double* bend) NC_RT {
     if (!choose(x, limits, use, bend)) return false;
-    // With it the step ends elsewhere in the plan, maybe in another cell.
+    // With this sigma'' the step ends at another time of the plan. If that is in another cell, the moments are collected again.
     for (unsigned n = 0; misses(*plan, x, *bend); ++n) {
       if (n == kTighter) return false;
       *plan = here;
@@ -185,20 +186,20 @@ class Brake {
     next.step(*bend, step_);
     return next.sigma > 0 && (next.slope >= 0 || jerk_to_land(next, look_[looks_ - 1].plan, limits) <= kJerk);
   }
-  /// With this sigma'' the step does not end in the cell in which the looks have ended.
+  /// With this sigma'' the step does not end in the cell of the last moment that was collected.
   template <class Plan>
   bool misses(const Plan& plan, const State& x, double bend) const NC_RT {
     const double end = x.tau_behind(bend, step_);
     return end >= plan.cell_end() || end < entered_;
   }
-  /// When in the step the plan's time is tau.
+  /// The time within the step at which the time of the plan is tau.
   static double time_of(const State& x, double bend, double step, double tau) NC_RT {
     double t = step * (tau - x.tau) / (x.tau_behind(bend, step) - x.tau);
     for (unsigned n = 0; n < 2; ++n) t += (tau - x.tau_behind(bend, t)) / (x.sigma + t * (x.slope + t * bend / 2));
     return t;
   }
 
-  /// sigma'' of the step that is looked at. Where something between two looks is too much, both limits are kept that much lower in it.
+  /// sigma'' of the step that is looked at. Where a limit is exceeded between two moments, it is chosen again with both limits lowered by as much.
   bool choose(const State& x, const optimal::Limits& limits, double use, double* bend) NC_RT {
     double share = 1;
     for (unsigned n = 0; n < kTighter; ++n) {
@@ -209,11 +210,11 @@ class Brake {
     }
     return false;
   }
-  /// The least sigma'' that the looks leave; false where they leave none.
+  /// The lowest sigma'' that the limits allow at the moments looked at; false where they allow none.
   bool least(const State& x, const optimal::Limits& limits, double use, double share, double* out) NC_RT {
     Range r;
     double bend = 0;
-    for (unsigned pass = 0; pass < 2; ++pass) {  // the second one knows how sigma goes on
+    for (unsigned pass = 0; pass < 2; ++pass) {  // the second pass knows how sigma changes within the step
       r = {};
       for (unsigned n = 0; n < looks_; ++n) {
         const State then = x.behind(bend, look_[n].t);
@@ -234,8 +235,8 @@ class Brake {
     const double u3 = p.j * x.sigma * x.sigma * x.sigma + 3 * p.a * x.sigma * x.slope + p.v * bend;
     return {p.path.d1[i] * u2 + p.path.d2[i] * u1 * u1, p.path.d1[i] * u3 + 3 * p.path.d2[i] * u1 * u2 + p.path.d3[i] * u1 * u1 * u1};
   }
-  /// The most that the axes have in the step with this sigma'', as a share of what they may. Between two looks nothing jumps, because both
-  /// sides of each place where something does are looked at: there the acceleration is the cubic that has its value and its jerk at both.
+  /// The largest acceleration or jerk of an axis in the step with this sigma'', as a share of its limit. Between two moments nothing jumps, because both
+  /// sides of each jump are looked at: there the acceleration is taken as the cubic with the values and slopes (jerks) at both moments.
   double keeps(const State& x, double bend, const optimal::Limits& limits) const NC_RT {
     double most = 0;
     for (unsigned n = 1; n < looks_; ++n) {
@@ -253,7 +254,7 @@ class Brake {
     return most;
   }
 
-  /// What jerk allows sigma'' to be, `behind` seconds after sigma' was `slope`.
+  /// Narrows the range of sigma'' to what the limits of jerk allow `behind` seconds after the beginning of the step. x.slope is sigma' at the beginning.
   static void jerk_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double share, Range* r) NC_RT {
     const double sigma = x.sigma, slope = x.slope;
     const double u1 = p.v * sigma, u2 = p.a * sigma * sigma + p.v * slope, u3 = p.j * sigma * sigma * sigma + 3 * p.a * sigma * slope;
@@ -263,10 +264,10 @@ class Brake {
               p.path.d1[i] * p.v + 3 * behind * sigma * (p.path.d1[i] * p.a + p.path.d2[i] * p.v * p.v), share * kJerk * limits.jerk[i]);
     }
   }
-  /// What acceleration allows it to be, `behind` seconds after sigma' was x.slope.
+  /// Narrows the range of sigma'' to what the limits of acceleration allow `behind` seconds after the beginning, where sigma' was x.slope.
   void acceleration_range(const PlanMoment& p, const optimal::Limits& limits, const State& x, double behind, double use, double share, Range* r) const NC_RT {
     Range slopes;
-    const bool now = behind < at_once_;  // nothing can change any more
+    const bool now = behind < at_once_;  // too soon for sigma'' to change anything
     const double most = now ? kShare : share * kShare;
     const double sigma2 = x.sigma * x.sigma;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -281,7 +282,7 @@ class Brake {
     r->low = std::fmax(r->low, (low - x.slope) / behind);
     r->high = std::fmin(r->high, (slopes.high - x.slope) / behind);
   }
-  /// Jerk of the sigma'' that ends at rest from here, as a share of what the axes have.
+  /// Jerk of the constant sigma'' that ends at rest from here, as a share of the limits of the axes.
   static double jerk_to_land(const State& x, const PlanMoment& p, const optimal::Limits& limits) NC_RT {
     const double bend = x.slope * x.slope / (2 * x.sigma);
     double share = 0;
@@ -289,7 +290,7 @@ class Brake {
       if (limits.jerk[i] > 0) share = std::fmax(share, bend * std::fabs(p.path.d1[i] * p.v) / limits.jerk[i]);
     return share;
   }
-  /// A step that would go beyond rest, or to where only a jump lands: a landing from its beginning asks for less.
+  /// For a step that would lead beyond rest, or to where the landing would exceed the limits: lands from its beginning, which needs less.
   template <class Plan>
   bool lands_sooner(const Plan& here, const optimal::Limits& limits, const State& x) NC_RT {
     return x.slope < 0 && land(here, limits, x);
@@ -333,14 +334,14 @@ class Brake {
 
   Look look_[kLooks];
   unsigned looks_ = 0;
-  double entered_ = 0;      ///< plan's time at which the cell of the last of them begins, or the step
-  bool rests_ = false;      ///< the plan does, in the step that is looked at
+  double entered_ = 0;      ///< time of the plan at which the cell of the last moment begins, or the step, whichever is later
+  bool rests_ = false;      ///< the plan comes to rest in the step that is looked at
   double bend_[kSteps] = {};
   unsigned count_ = 0, at_ = 0;
   double step_ = kLongest, at_once_ = kAtOnce;
-  double last_ = kLongest;  ///< s, of the last step
-  double in_step_ = 0;
-  bool lands_ = false;      ///< it ends at rest, else with the plan
+  double last_ = kLongest;  ///< length of the last step, s
+  double in_step_ = 0;      ///< s of the step in execution that have passed
+  bool lands_ = false;      ///< true: it ends at rest with sigma = 0; false: at the end of the plan
   State now_;
   PlanPace from_;
 };

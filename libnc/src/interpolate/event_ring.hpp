@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events from the scan to the host: the scan never waits, the oldest are overwritten and counted when nobody
-// fetches them.
+// Events from the scan to the host. The scan never waits: when events are not fetched, the oldest are overwritten and counted as dropped.
 #pragma once
 
 #include <atomic>
@@ -36,6 +35,7 @@ class EventRing {
     head_.store(head + 1, std::memory_order_release);
   }
 
+  /// The oldest event that is kept. False: there is none. *dropped receives how many have been overwritten since create().
   bool pop(nc_event* event, uint64_t* dropped) {
     for (;;) {
       const uint32_t head = head_.load(std::memory_order_acquire);
@@ -58,7 +58,7 @@ class EventRing {
     return false;
   }
 
-  /// For tests: events are counted from here.
+  /// For tests: events are counted from `first`.
   void count_from(uint32_t first) {
     head_.store(first);
     claimed_.store(first);
@@ -75,7 +75,7 @@ class EventRing {
   uint32_t mask_ = 0;
   alignas(64) std::atomic<uint32_t> head_{0};  ///< events written
   std::atomic<uint32_t> claimed_{0};           ///< events written or being written
-  alignas(64) uint32_t next_ = 0;              ///< reader's place
+  alignas(64) uint32_t next_ = 0;              ///< the event that the reader takes next
   uint64_t dropped_ = 0;
 };
 

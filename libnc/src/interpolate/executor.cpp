@@ -41,7 +41,7 @@ MotionLimits motion_limits(const ExecutorConfig& config) {
   return limits;
 }
 
-/// The speed from which on a thread of the optimal mode would not keep its place on the spindle.
+/// Sets the speed above which a thread of the optimal mode could not stay at its angle of the spindle.
 void limit_thread(Segment& s, const ExecutorConfig& config) {
   const MotionLimits limits = motion_limits(config);
   set_segment_limits(s, shape_of(s, limits), 0, limits);
@@ -56,10 +56,10 @@ void Executor::create(const ExecutorConfig& config, Arena& arena) {
   LeftRecord* const left = config.tells_marks ? arena.make<LeftRecord>(config.capacity) : nullptr;
   double* const filters = config.filters ? arena.make<double>(size_t{PositionFilter::places(kLongestMean, config.cycle_s)} * config.axis_count) : nullptr;
   const MotionLimits limits = motion_limits(config);
-  // While measuring there is no state: the parts are laid out from throw-away ones of the same size.
+  // While an arena only measures there is no state: parts that are thrown away are laid out in the place of its members.
   Planner measured_planner;
   EventRing measured_events;
-  // Of the trapezoid nothing is used in the optimal mode, and the other way round.
+  // Only the planner of the mode that is chosen gets memory.
   optimal::OptimalPlanner* optimal = nullptr;
   if (config.optimal) {
     optimal = create_optimal(config, ring, arena);
@@ -133,7 +133,7 @@ bool Executor::plan(int64_t* instructions) {
   return true;
 }
 
-/// A truncation that was asked for and never fetched must not keep the scan waiting for ever.
+/// Forgets a truncation that was asked for and whose answer was never fetched, so that the scan does not wait for ever.
 void ExecutorState::forget_truncation() {
   constexpr unsigned kPatience = 1000;
   if (!truncate_open || ++truncate_age < kPatience || !shared.truncation.answered()) return;
@@ -234,7 +234,7 @@ Cut Executor::cut() const {
 
 Serial Executor::give_up_ahead() {
   Serial last = 0;
-  give_up_behind_block(&last);  // complete: without its end the scan lets no axis be moved by hand
+  give_up_behind_block(&last);  // always complete: the scan lets no axis be moved by hand before the end of the block is committed
   return last;
 }
 

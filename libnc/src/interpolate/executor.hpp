@@ -19,28 +19,29 @@ struct ExecutorConfig {
   uint32_t soft_limited = 0;   ///< bit i: axis i has soft limits
   AxisVec reference;           ///< first reference position
   unsigned spindle_count = 1;
-  uint8_t spindle_unsigned = 0;         ///< bit n: the measured speed of spindle n+1 does not say which way it turns
-  uint8_t axis_spindle[kMaxAxes] = {};  ///< number of the spindle that is this axis (M700 10.5), 0 = none
+  uint8_t spindle_unsigned = 0;         ///< bit n: the measured speed of spindle n+1 has no sign for the direction in which it turns
+  uint8_t axis_spindle[kMaxAxes] = {};  ///< number (from 1) of the spindle that becomes this axis while its servo is on (M700 10.5), 0 = none
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< MotionLimits::accuracy_joint_speed
   uint32_t capacity = 1024;  ///< records in the ring, power of two
-  bool tells_marks = false;  ///< executed_mark() is asked
+  bool tells_marks = false;  ///< executed_mark() will be called
   bool filters = false;      ///< there may be filters behind interpolation, each mean up to kLongestMean
   bool optimal = false;      ///< time-optimal jerk-limited law instead of the trapezoid
-  double tolerance = 0.01;   ///< optimal: by which lines may leave the programmed path, mm; else by which the mean of a segment may round its corners
+  double tolerance = 0.01;   ///< mm. optimal: the distance by which lines may leave the programmed path; else by which a filter of high-accuracy
+                             ///< control may round corners
 };
 
-class ExecutorState;  ///< all members; defined in interpolate/executor_state.hpp
+class ExecutorState;  ///< the members of an executor; defined in interpolate/executor_state.hpp
 
 /// Where the scan has stopped for a macro interrupt.
 struct Cut {
-  bool inside = false;   ///< a block, else behind the newest mark
+  bool inside = false;   ///< true: inside a block; false: behind the newest mark that has been executed
   Serial done = 0;       ///< newest record that has been executed
-  unsigned syncs = 0;    ///< among those of the block
-  AxisVec machine;
-  double length = 0;     ///< of the move behind it that has been gone, mm
-  double left = 0;       ///< of the dwell behind it, s or revolutions
+  unsigned syncs = 0;    ///< number of syncs among the executed records of the block
+  AxisVec machine;       ///< interpolated place at which the axes stand
+  double length = 0;     ///< length of the next record, a move, that is done already, mm
+  double left = 0;       ///< what is left of the next record, a dwell, s or revolutions
 };
 
 /// Handle with the state in arena memory.
@@ -51,16 +52,15 @@ class Executor {
 
   // ---- feeder thread
   // ----------------------------------------------------------------------------------------------
-  /// Records that may be pushed now.
+  /// Number of records that may be pushed now.
   unsigned room() const;
-  /// Numbers of the records under way: [tail, head).
+  /// Ring numbers of the records that are not executed yet: from tail() up to, but not including, head().
   uint32_t head() const;
   uint32_t tail() const;
-  /// Commits one record: computes its speed limits, and makes it visible to the scan after the next plan().
+  /// Commits one record: computes its speed limits. The scan sees the record after the next plan().
   void push(const Record& record);
-  /// Recomputes the time law over everything committed (always ending at rest at its end) for the override
-  /// the scan last saw, and swaps it in. Cheap when nothing changed. Call after pushing, and once per feeder
-  /// period.
+  /// Computes the time law over everything committed, which always ends at rest, for the override that the scan has reported last, and
+  /// hands it to the scan. Cheap when nothing has changed. To be called after pushing, and once per feeder period.
   void plan();
   /// The same in slices of about so many `instructions`, of which they leave what is left. First what the scan asks for and what can wait for
   /// nothing, a stop before all; then, when that is done (true), a round for what was pushed before it began. True at its end.
@@ -75,57 +75,57 @@ class Executor {
   bool drained() const;
   /// The run that the scan is in (interpolate/run_word.hpp). Records of another epoch are thrown away.
   uint32_t run() const;
-  /// The feeder has acted upon this word; the next start waits for that.
+  /// Tells the scan that the feeder has acted upon this run word; the next start waits for it.
   void run_taken(uint32_t word);
-  /// The newest run has come to its end item; it need not be taken back.
+  /// The newest run has come to its end item, so nothing of it has to be taken back.
   bool ended() const;
-  /// Axes that the signals of the machine mirror since the newest start.
+  /// Bit i: axis i is mirrored by a signal of the machine since the newest start.
   uint32_t mirror() const;
-  /// At rest in a block stop or hold: give up every committed record behind the block in execution. On
-  /// success *last is the mark of that block, which will still be executed, or where no block has been begun
-  /// the newest that has been (0: none in this run). The first call asks and returns false, a later one finds
-  /// the answer: false again when the machine moves, when the end of the block in execution is not committed
-  /// yet, or when the scan has not run in between.
-  /// A request whose answer is not fetched within 1000 calls of plan() is forgotten, so that the machine can
-  /// be started again.
+  /// At rest in a block stop or hold: give up every committed record behind the block in execution. On success *last is the mark of that
+  /// block, which will still be executed; where no block has been begun, it is the newest mark that has been executed (0: none in this run).
+  /// The first call asks the scan and returns false, a later call finds the answer. It returns false again when the machine moves, when the
+  /// end of the block in execution is not committed yet, or when the scan has not run in between.
+  /// A request whose answer is not fetched within 1000 calls of plan() is forgotten, so that the machine can be started again.
   bool truncate(Serial* last);
-  /// The axes were moved by hand in a block stop and the program is to go on: the scan waits, and the ring
-  /// from its tail on is the feeder's alone until reread_done().
+  /// The scan waits until blocks are read again, and only the feeder uses the ring from its tail on until reread_done(). So it is when axes were
+  /// moved by hand in a block stop and the program is to go on, for a macro interrupt, and for a recalculation.
   bool reread_asked() const;
-  /// The request is for a macro interrupt (M700 13.12); cut() says where.
+  /// The request of reread_asked() is for a macro interrupt (M700 13.12); cut() says where the machine stands.
   bool interrupt_asked() const;
   Cut cut() const;
-  /// Gives up every committed record behind the block stop; the mark to go on behind, as truncate().
+  /// Gives up every committed record behind the block stop. Returns the mark behind which reading goes on, as truncate() does.
   Serial give_up_ahead();
-  /// By which axes were moved by hand that take the coordinate systems along.
+  /// The ways by which axes were moved by hand, where the coordinate systems are to be moved along; else 0.
   AxisVec shift_asked() const;
   void reread_done();
-  /// Next executed record for the host.
+  /// Next executed record for the host; *dropped: how many have been dropped in all.
   bool poll_event(nc_event* event, uint64_t* dropped);
-  /// End of the newest block that has been executed in this run, 0: none. Right behind a new run(): as of when the program was given up.
+  /// Mark at the end of the newest block that has been executed in this run, 0: none. Right after run() has changed it is still that of the program
+  /// which was given up.
   Serial last_mark() const;
   BlockSeq last_block() const;
-  // ---- where it matters to others in which order blocks are executed (ExecutorConfig::tells_marks)
-  /// The oldest block end that has been executed in the run `epoch` and not been taken yet: its block, and the cycle of the scan. False: none.
+  // ---- for other part systems, to which the order matters in which blocks are executed (ExecutorConfig::tells_marks)
+  /// The oldest block end that has been executed in the run `epoch` and has not been taken yet: its block, and the cycle of the scan in which it was
+  /// executed. False: there is none.
   bool executed_mark(uint32_t epoch, uint32_t* cycle, BlockSeq* seq);
   void take_executed_mark();
-  /// All that was executed up to this cycle, and in it, can be seen.
+  /// Number of the newest cycle that is complete: everything that was executed in it and before can be seen.
   uint32_t cycle_seen() const;
-  /// The places of those that are not taken yet are not needed for the next record.
+  /// The next record does not need the ring place of a block end that has not been taken yet.
   bool may_push() const;
-  /// The alarm of the scan is its own: the move at *where cannot be begun or gone on with. Holds until reset.
+  /// The scan itself has raised the alarm: the move of the block *where cannot begin or go on. It holds until reset.
   bool faulted(nc_source* where) const;
-  /// An alarm that is in no record, the scan's own or one of the machine, has stopped the program in the block *where, behind *behind. Holds
-  /// until reset.
+  /// An alarm that is no record, one of the scan or of the machine, has stopped the program in the block *where. *behind: the last block that had been
+  /// executed to its end. It holds until reset.
   bool stopped(nc_source* where, BlockSeq* behind) const;
-  /// Bit i: axis i is a spindle, too (M700 10.5), and holds its position; and its reference position return is complete.
+  /// Bit i: axis i, which is a spindle as well (M700 10.5), holds its position; and: its reference position return is complete.
   uint8_t servo_ready() const;
   uint8_t referenced() const;
-  /// Commanded machine position as of the last scan (consistent snapshot).
+  /// Commanded machine position of the last cycle (all axes of the same cycle).
   AxisVec commanded() const;
-  /// For tests of what becomes of counters after years (docs/counters.md): everything that is counted begins here. Before anything else.
+  /// For tests of counters that have run for years (docs/counters.md): all counters begin at `first`. To be called before anything else.
   void count_from(uint32_t first);
-  /// Set position; only while idle, before the scan runs.
+  /// Sets the position; only while idle, before the scan runs.
   void set_position(const AxisVec& machine);
 
   // ---- scan thread

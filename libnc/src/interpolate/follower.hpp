@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scan's side of the optimal mode: goes along the chain of cells in time. It has no law of its own: what it follows always ends at
-// rest, and where the chain goes on is changed only in front of it (docs/motion-optimal.md, "Changing the plan on the way"). A stop that
-// the planner is asked for in vain it makes itself, by going through the plan ever slower.
+// The scan's side of the optimal mode: it goes along the chain of cells in time. It has no time law of its own. The chain that it follows always ends
+// at rest, and is changed only ahead of it (docs/motion-optimal.md, "Changing the plan on the way"). When the planner does not answer a request for a
+// stop, the follower stops by itself, by going through the plan ever more slowly.
 #pragma once
 
 #include "base/triple_buffer.hpp"
@@ -18,7 +18,7 @@ class Follower {
     axis_count_ = limits->axis_count;
   }
 
-  /// Looks at the newest offer, once.
+  /// Looks at the newest offer of the planner, and takes it where it fits. Each offer is answered once.
   void look(const optimal::Proposal& offer) NC_RT {
     rests_ = offer.generation == generation_ ? offer.rests : optimal::kNoCell;
     if (offer.number == answered_) return;
@@ -43,33 +43,33 @@ class Follower {
     }
   }
 
-  /// At rest, and nothing is left to follow.
+  /// At rest, and there is nothing left to follow.
   bool idle() const { return cell_ == optimal::kNoCell || (at_end_ && store_->next[cell_ & store_->cell_mask] == optimal::kNoCell); }
   bool at_rest() const { return at_end_ || begins_; }
-  /// Speed of the spindle, rev/s, for which the next cell was planned; not when idle().
+  /// Speed of the spindle, rev/s, for which the next cell was planned. Not to be called when idle().
   double planned_turns() const NC_RT {
     return static_cast<double>(store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turns);
   }
-  /// The path, not the plan alone, rests here.
+  /// At rest at a place where the path itself rests, and not only the plan.
   bool at_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).path_ends; }
-  /// At rest at the end of what it has followed, and the record at ring index k has its place on that path.
+  /// At rest at the end of the plan, and the record at ring index k lies on the path of that plan.
   bool rests_behind(uint32_t k) const { return at_end_ && cell_ != optimal::kNoCell && static_cast<int32_t>(k - taken_to_) < 0; }
-  /// At rest on the path, where no plan ends: a stop that brake() has found is over, and nothing further is planned.
+  /// At rest at a place of the path where no plan ends: a stop that brake() has found has come to its end, and nothing further is planned.
   bool halted() const { return halted_ && cell_ == optimal::kNoCell; }
   uint32_t generation() const { return generation_; }
   double u() const { return u_; }
   double v() const { return v_; }
-  double planned_v() const { return planned_v_; }  ///< by the time of the plan
-  /// What is followed is the way to a rest that was asked for.
+  double planned_v() const { return planned_v_; }  ///< mm per second of the plan
+  /// The path is on the way to a stop that was asked for.
   bool stops() const { return stops_ || braking_ || (rests_ != optimal::kNoCell && !at_end_ && rests_ >= cell_); }
 
-  /// Where the next cell begins; not when idle().
+  /// Positions of the axes where the next cell begins. Not to be called when idle().
   AxisVec start() const NC_RT {
     const optimal::PlanCell& c = store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_);
     return point(c, 0);
   }
 
-  /// Looks for a way to rest that the plan in front leaves, and takes it. To be called in each cycle until stops().
+  /// Looks for a way to rest along the plan ahead that keeps the limits, and takes it. To be called in each cycle until stops().
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
@@ -89,8 +89,8 @@ class Follower {
     }
     return 0;
   }
-  /// Goes on by `plan_time` seconds of the plan, whose time goes `sigma` times as fast as that of the machine at the end of it.
-  /// @return what is left of the plan's time behind a rest.
+  /// Goes on by `plan_time` seconds of the plan, whose time goes `sigma` times as fast as that of the machine at the end of the step.
+  /// @return the part of `plan_time` that is left when the plan has come to rest.
   double advance_plan(double plan_time, double sigma) NC_RT {
     const double left = follow(plan_time);
     v_ *= sigma;
@@ -100,13 +100,13 @@ class Follower {
     return cell_ == optimal::kNoCell ? on_piece(halt_piece_, halt_x_) : point(store_->at(cell_), x_);
   }
 
-  /// Everything that is planned is void: only a plan made for what comes then is followed.
+  /// Gives up everything that is planned: from now on only a plan with the new generation number is followed.
   void give_up() NC_RT {
     if (store_ == nullptr) return;
     let_go();
     halted_ = false;
   }
-  /// For tests: generations, offers and records are counted from here.
+  /// For tests: generations, offers and records are counted from `first`.
   void count_from(uint32_t first) { generation_ = answered_ = taken_to_ = first; }
   void say(optimal::Following* out) const NC_RT {
     out->answered = answered_;
@@ -122,10 +122,10 @@ class Follower {
   }
 
  private:
-  static constexpr unsigned kOfGentle = 8;                ///< tries, one of which is gentle
-  static constexpr double kGentle[] = {0.6, 0.35, 0.15};  ///< of what the limits leave
+  static constexpr unsigned kOfGentle = 8;                ///< one of so many tries of brake() is gentle: it uses less than the limits leave
+  static constexpr double kGentle[] = {0.6, 0.35, 0.15};  ///< shares that gentle tries use
 
-  /// Time of the plan.
+  /// Goes on by `time` seconds of the plan. @return what is left behind a rest.
   double follow(double time) NC_RT {
     if (idle() || !(time > 0)) return time;
     if (at_end_) {
@@ -165,7 +165,7 @@ class Follower {
     begins_ = braking_ = stops_ = false;
     v_ = planned_v_ = 0;
   }
-  /// At rest within a cell: a new plan begins at this place of the same path.
+  /// At rest within a cell: the next plan begins at this place of the same path.
   void halt() NC_RT {
     const optimal::PlanCell& c = store_->at(cell_);
     halt_piece_ = c.piece;
@@ -174,7 +174,7 @@ class Follower {
     halted_ = true;
   }
 
-  /// The plan as Brake looks through it, in the direction of time: `begun` is the plan's time at which `cell` is entered, 0 = now.
+  /// The plan as Brake goes through it, in the direction of time: `begun` is the time of the plan at which `cell` is entered, 0 = now.
   struct PlanAhead {
     const Follower* of;
     optimal::CellIndex cell;
@@ -219,7 +219,7 @@ class Follower {
     if (braking_) return false;
     if (offer.fresh) return at_rest();
     if (cell_ == optimal::kNoCell || offer.after < cell_) return false;
-    // Behind the end of a plan that rests there, or behind a cell that has not been left.
+    // The offer goes on behind the end of the plan, where it rests, or behind a cell that has not been left yet.
     return true;
   }
   AxisVec point(const optimal::PlanCell& c, double x) const NC_RT { return on_piece(c.piece, c.x + x); }

@@ -6,7 +6,7 @@
 namespace nc {
 namespace {
 
-// As in nc/run.h.
+// The ranges that nc/run.h documents for the inputs.
 constexpr double kLeastOverride = 1e-4;
 constexpr double kLeastRevPerS = 1e-5, kMostRevPerS = 1e4, kMostTurns = 1e12;
 constexpr double kMostPlace = 1e9;   // mm or deg
@@ -36,7 +36,7 @@ const nc_inputs& InputBorder::check(const nc_inputs& in) {
   return now_;
 }
 
-/// A little beside 0 is noise of a potentiometer: nothing moves with it, and no plan is made for it.
+/// A value next to 0 is noise of a potentiometer: it counts as 0, so that nothing moves with it and no plan is made for it.
 void InputBorder::override_of(double* value, double most, double* last, uint32_t bit) {
   if (!(*value >= -kLeastOverride && *value <= most)) {
     refused_ |= bit;
@@ -47,7 +47,8 @@ void InputBorder::override_of(double* value, double most, double* last, uint32_t
   *last = *value;
 }
 
-/// One that goes on as it was keeps a thread; for longer nobody knows where it is.
+/// While the inputs of a spindle are refused it counts as turning on with its last speed, which keeps a thread. After kSpindleGoesOn_s its position
+/// cannot be known any more, and it counts as not measured.
 void InputBorder::spindle(unsigned n) {
   nc_spindle_inputs& in = now_.spindle[n];
   Spindle& last = spindle_[n];
@@ -58,8 +59,8 @@ void InputBorder::spindle(unsigned n) {
     return;
   }
   if (within(in.rev_per_s, kMostRevPerS) && (!in.turns_valid || within(in.turns, kMostTurns))) {
-    if (std::fabs(in.rev_per_s) < kLeastRevPerS) in.rev_per_s = 0;  // it stands: noise of its encoder
-    // Without an encoder its turns are counted by its speed: from anywhere, and a thread goes by them all the same.
+    if (std::fabs(in.rev_per_s) < kLeastRevPerS) in.rev_per_s = 0;  // the spindle stands: this is noise of its encoder
+    // If the turns are not measured, they are calculated from the speed and begin at any angle. A thread can be cut with them, too.
     last = {in.rev_per_s, in.turns_valid ? in.turns : last.turns + in.rev_per_s * cycle_s_, 0};
     in.turns = last.turns;
     return;
@@ -86,7 +87,7 @@ void InputBorder::actual() {
   }
 }
 
-/// A step with next to no speed would be on its way for years, and nothing else could be done at the machine.
+/// A velocity next to 0 is refused, too: such a step would take years, and nothing else could be done at the machine meanwhile.
 void InputBorder::manual() {
   for (unsigned i = 0; i < axis_count_; ++i) {
     nc_manual& m = now_.manual[i];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The border of the scan: every number of nc_inputs passes it once in each cycle. What is none, or out of the range that nc/run.h gives,
-// does not come in; what acts instead stands there at nc_input_bits. Behind here nobody has to ask.
+// The border of the scan: every number of nc_inputs passes it once in each cycle. A number that is not finite, or out of the range that nc/run.h
+// gives, is refused; nc_input_bits says what acts in its place. Code behind this border need not check inputs.
 #pragma once
 
 #include "nc/run.h"
@@ -14,7 +14,7 @@ class InputBorder {
   /// The inputs of this cycle as they act; valid until the next call.
   const nc_inputs& check(const nc_inputs& in) NC_RT;
   uint32_t refused() const { return refused_; }  ///< nc_input_bits of this cycle
-  uint32_t lost_axes() const { return lost_axes_; }  ///< bit i: where axis i is, is not measured
+  uint32_t lost_axes() const { return lost_axes_; }  ///< bit i: the measured position of axis i was refused in this cycle
 
  private:
   void override_of(double* value, double most, double* last, uint32_t bit) NC_RT;
@@ -26,12 +26,12 @@ class InputBorder {
   double most_ = 2, cycle_s_ = 0.001;
   nc_inputs now_{};
   uint32_t refused_ = 0, lost_axes_ = 0;
-  // the last good ones
+  // the last values that were accepted
   double feed_ = 0, rapid_ = 0;
   nc_axes actual_{};
   struct Spindle {
     double rev_per_s = 0, turns = 0;
-    double bad_s = 0;  ///< so long has it been none
+    double bad_s = 0;  ///< s for which its inputs have been refused
   };
   Spindle spindle_[NC_MAX_SPINDLES];
 };

@@ -10,10 +10,11 @@
 namespace nc {
 namespace {
 
-/// Records executed in one cycle at most. At speed the planner keeps it below (kSegmentsPerCycle + 1) *
+/// The most records that are executed in one cycle. At speed the planner keeps their number below (kSegmentsPerCycle + 1) *
 /// (kRecordsBetween + 1).
 constexpr unsigned kRecordsPerCycle = 256;
-/// The same where the path goes on by itself and records are only counted off: lines of 1 um at full speed.
+/// The most records in one cycle of the optimal mode, where the path goes on by itself and records are only counted off: enough for lines of 1 um at
+/// full speed.
 constexpr unsigned kRecordsPassed = 2048;
 
 nc_axes to_nc(const AxisVec& a) {
@@ -103,8 +104,7 @@ void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   publish(in);
 }
 
-/// The feeder wants to give up records that are committed: agree only at rest in a stop, and touch none until
-/// it is done.
+/// The feeder wants to give up records that are committed: the scan agrees only at rest in a stop, and touches no record until the feeder is done.
 void Interpolator::answer_truncate() {
   Truncation& truncation = shared_->truncation;
   if (frozen_ && truncation.holds()) return;
@@ -117,16 +117,15 @@ void Interpolator::answer_truncate() {
   truncation.answer(frozen_);
 }
 
-/// The feeder has read again from where the axes are; before the plan of this cycle is taken, because the one
-/// of the cycle before may lead over records that are given up.
+/// Notices that the feeder has read again from where the axes are. It is called before the plan of this cycle is taken, because the plan of the
+/// cycle before may lead over records that are given up.
 void Interpolator::await_reread() {
   if (!rereading_ || shared_->reread_done.load(std::memory_order_acquire) != reread_) return;
   rereading_ = displaced_ = false;
 }
 
-/// FIN completes the strobes that are on, whatever the program does meanwhile: FIN2 at once, FIN1 takes them
-/// off and the program goes on when it falls. A FIN that was on before the
-/// strobe does not count until it has been off once.
+/// FIN completes the strobes that are on, whatever the program does meanwhile. FIN2 completes them when it rises; FIN1 takes the strobes off when it
+/// rises, and the program goes on when it falls. A FIN that was on before the strobe does not count until it has been off once.
 void Interpolator::handshake(const nc_inputs& in) {
   fin_ = in.fin || in.fin2;
   if (!in.fin) fin1_groups_ = 0;
@@ -138,7 +137,7 @@ void Interpolator::handshake(const nc_inputs& in) {
   }
 }
 
-/// Operator messages and lines for the external output, one at a time, each with a rising edge of its own.
+/// Gives out operator messages and lines for the external output one at a time, with a cycle between two of them, so that each has a rising edge.
 void Interpolator::messages() {
   if (message_) {
     message_ = false;
@@ -149,13 +148,14 @@ void Interpolator::messages() {
   }
 }
 
-/// M700 4.2, 10.5 (2): the recalculation request of an M code acts when that is complete.
+/// M700 4.2, 10.5 (2): a recalculation request acts at the end of the block in execution, so when its M code is complete.
 void Interpolator::take_recalculation(const nc_inputs& in) {
   if (in.recalculate && !recalculate_last_ && state_ == NC_STATE_RUNNING) recalculate_ = true;
   recalculate_last_ = in.recalculate;
 }
 
-/// M700 13.12: by level or by rising edge, between M96 and M97, not while an interrupt is in service, and only while a program runs.
+/// M700 13.12: the interrupt signal is accepted by its level or by its rising edge, between M96 and M97, not while an interrupt is in service, and
+/// only while a program runs.
 void Interpolator::interrupt(const nc_inputs& in) {
   const bool rises = in.macro_interrupt && !interrupt_last_;
   interrupt_last_ = in.macro_interrupt;
@@ -173,8 +173,9 @@ void Interpolator::interrupt(const nc_inputs& in) {
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
-/// Type 1 stops at once, but not before FIN has come (M700 13.12), and not in a thread, an arc with radius compensation, a contour (where blocks are not apart), a skip move
-/// whose signal has come, behind a skip move, while a table is unclamped, or in a block that changes what is asked here: these are finished first.
+/// An interrupt of type 1 may stop the program now, in the middle of a block. It may not before FIN has come (M700 13.12), in a thread, in an arc
+/// whose radius is compensated, in a contour (where the blocks cannot be told apart), in a skip move whose signal has come, behind a skip move,
+/// while a table is unclamped, or in a block that changes the state of the interrupt: all these are finished first.
 bool Interpolator::may_cut() const {
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
   if (tail_ == end_) return true;
@@ -184,19 +185,19 @@ bool Interpolator::may_cut() const {
   return !(moving_ && (r.segment.thread || skip_braking_ || r.segment.rounds()));
 }
 
-/// At rest inside the block: what is left of it is given up, and the feeder goes on with the interrupt program.
+/// To be called at rest inside a block: what is left of the block is given up, and the feeder goes on with the interrupt program.
 void Interpolator::cut_block() {
-  if (!may_cut()) return;  // the end of the block was nearer
+  if (!may_cut()) return;  // the block has ended before the axes stood
   if (stale_ != 0) settle_axes();
-  const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of it has happened
+  const bool begun = done_ != last_mark_ || law_.s > 0 || gate_begun_;  // else nothing of the block has been executed
   cut_ = Cut{begun, done_, block_syncs_, wanted_, moving_ ? law_.s : 0, gate_begun_ ? gate_left_ : 0};
   cutting_ = interrupt_wanted_ = moving_ = gate_begun_ = false;
   law_.s = 0;
-  interrupt_mode_ |= NC_INTERRUPT_IN_SERVICE;  // before the program says so: a signal in between is none
+  interrupt_mode_ |= NC_INTERRUPT_IN_SERVICE;  // already now, so that a signal before the program says the same is ignored
   rereading_ = reread_reached_ = reread_interrupt_ = true;
 }
 
-/// A cycle after the mark, so that what the feeder reads of the scan's place is as of the mark.
+/// Asks the feeder to read again. It does so one cycle after the mark, so that the place which the scan has published is that of the mark.
 void Interpolator::ask_for_interrupt() {
   if (!reread_reached_) return;
   reread_reached_ = false;
@@ -206,9 +207,9 @@ void Interpolator::ask_for_interrupt() {
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
-/// A reset that was asked for acts when the axes stand and the feeder is out of the ring, which may be cycles later. Whoever was shown IDLE
-/// meanwhile presses behind the reset: the program begins when that is done. In other states a start would go on with what the reset gives up:
-/// it is refused, and NC_CAUSE_RESET has said so.
+/// Takes a press of cycle start. A reset acts when the axes stand and the feeder does not use the ring, which may be some cycles after it was
+/// pressed. If IDLE was shown meanwhile, a press of start counts, and the program begins when the reset is done. In other states a start would go on
+/// with what the reset gives up, so it is refused, and NC_CAUSE_RESET is shown.
 void Interpolator::take_start(const nc_inputs& in) {
   if (in.cycle_start && !last_start_ && !in.reset && (!reset_ || shown_ == NC_STATE_IDLE)) start_ = true;
   last_start_ = in.cycle_start;
@@ -219,13 +220,14 @@ void Interpolator::states(const nc_inputs& in) {
   take_start(in);
   if (in.reset && !last_reset_) {
     reset_ = true;
-    start_ = false;  // one of before is taken back
+    start_ = false;  // a start that was pressed before and still waits is taken back
   }
   last_reset_ = in.reset;
   interlock_ = in.interlock;
   if (in.alarm) {
     const bool program = state_ == NC_STATE_RUNNING || state_ == NC_STATE_HOLD || state_ == NC_STATE_STOPPED;
-    // Behind the end of a block, and not yet in the next one, it is still that block: what is before it has called it.
+    // Between the end of a block and the beginning of the next, the alarm counts as one of the block that has ended. The block executed before that one
+    // tells which calls led to it.
     if (!alarmed_ && program && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
     alarmed_ = true;
     start_ = false;
@@ -258,12 +260,12 @@ void Interpolator::states(const nc_inputs& in) {
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
-  if (start_ && in.feed_hold && !(disable_ & 1)) {  // also one that still waits: whoever presses hold sees nothing begin
+  if (start_ && in.feed_hold && !(disable_ & 1)) {  // feed hold refuses a start, also one that still waits
     start_ = false;
     start_refused_ = true;
   }
   if (start_ && !frozen_ && !rereading_) {
-    if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // acts when that is done
+    if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // axes were moved by hand: the start acts when blocks have been read again
       rereading_ = true;
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
@@ -272,7 +274,7 @@ void Interpolator::states(const nc_inputs& in) {
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
     }
-    if (state_ == NC_STATE_IDLE && shared_->run_taken.load(std::memory_order_acquire) != run_.word()) return;  // acts when it is
+    if (state_ == NC_STATE_IDLE && shared_->run_taken.load(std::memory_order_acquire) != run_.word()) return;  // the start acts when the feeder has taken it
     start_ = false;
     if (still || state_ == NC_STATE_HOLD) start(in);
   }
@@ -294,7 +296,7 @@ void Interpolator::start(const nc_inputs& in) {
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       run_.start();
       run_ended_ = false;
-      follower_.give_up();  // the path is measured from here on: its length must not grow with the years
+      follower_.give_up();  // path lengths are counted from 0 again, so that they do not grow with the years
       [[fallthrough]];
     case NC_STATE_STOPPED:
     case NC_STATE_HOLD:
@@ -307,8 +309,8 @@ void Interpolator::start(const nc_inputs& in) {
   }
 }
 
-/// At rest: everything that is committed, and whatever comes with the same epoch, is void. Macro outputs and
-/// codes stay.
+/// To be called at rest: makes everything void that is committed, and all records that still come with the same epoch. Macro outputs and the codes M, T,
+/// B stay.
 void Interpolator::give_up() {
   run_.give_up();
   hold_tap();
@@ -322,7 +324,7 @@ void Interpolator::give_up() {
   tapping_ = 0;
   by_hand_ = 0;
   fin1_groups_ = 0;
-  strobe_ = 0;               // a FIN that comes now is late and completes nothing
+  strobe_ = 0;               // a FIN that comes after the reset completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   interrupt_mode_ = 0;
   interrupt_rest_.forget();
@@ -378,10 +380,11 @@ void Interpolator::run(const nc_inputs& in) {
     leave(r, true);
     if (rereading_ || (state_ != NC_STATE_RUNNING && at_rest())) break;
   }
-  if (n < most) passing_ = false;  // else the rest of them is passed in the next cycle
+  if (n < most) passing_ = false;  // otherwise further records are passed in the next cycle
 }
 
-/// Every record is passed. The path ends at rest where the last one does, but by rounding it may have been passed before that.
+/// Every record has been passed. The path comes to rest at the end of the last one, but because of rounding the record may have counted as passed
+/// just before.
 void Interpolator::come_to_rest() {
   if (optimal_ == nullptr || follower_.at_rest()) return;
   (void)follower_.advance(time_);
@@ -397,7 +400,7 @@ void Interpolator::leave(const Record& r, bool executed) {
     event.source = r.source;
     event.kind = static_cast<uint8_t>(r.kind);
     event.again = r.kind == ItemKind::mark && r.mark.again;
-    // Passed at speed, within the cycle: where the record ends.
+    // A record that is passed at speed within the cycle is reported with its end point.
     event.machine = to_nc(optimal_ != nullptr && (passing_ || !follower_.at_rest()) ? passed_at_ : wanted_);
     shared_->events.push(event);
     done_ = r.serial;
@@ -412,7 +415,7 @@ void Interpolator::leave(const Record& r, bool executed) {
   ++tail_;
 }
 
-/// In a block stop: no move of the block in execution is left, so the next one can begin from anywhere.
+/// In a block stop: no move of the block in execution is left, so the next block can begin from any place.
 bool Interpolator::between_blocks() const {
   if (!block_begun_) return true;
   for (uint32_t at = tail_; at != end_; ++at) {
@@ -423,8 +426,8 @@ bool Interpolator::between_blocks() const {
   return false;  // its end is not committed yet
 }
 
-/// Jog, step, handle and reference return, while no program moves. The path may come to its end within a cycle: what is left of that cycle is
-/// rest, because an axis that braked in it and set off by hand as well would use its acceleration twice.
+/// Jog, step, handle and reference return, while no program moves. When the path has come to its end within this cycle, manual motion waits for the
+/// next: an axis that brakes and sets off by hand in the same cycle would use its acceleration twice.
 void Interpolator::manual(const nc_inputs& in, bool rested) {
   manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !in.reset && !frozen_ && !rereading_ &&
                     (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
@@ -444,8 +447,7 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
   }
 }
 
-/// Drives off: the axes are where they are, and the command goes there with them, so that nothing jumps when
-/// the drives come on again.
+/// While the drives are off the commanded position follows the measured one, so that nothing jumps when the drives come on again.
 void Interpolator::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
   if (!in.follow_up || !in.actual_valid || !given_up || !stands() || manual_.active() || frozen_) return;
@@ -459,7 +461,7 @@ void Interpolator::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
   status.feed_override = feed_override(in);
-  // The plan rests at the ends of blocks where an interrupt waits, a hold that was pressed in a thread, or what is read again from there.
+  // The plan also comes to rest at the end of a block when an interrupt waits for it, a hold was pressed in a thread, or blocks are to be read again.
   status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
   status.servo_ready = servo_ready_;
   status.referenced = referenced_;
@@ -479,12 +481,13 @@ void Interpolator::publish(const nc_inputs& in) {
   if (optimal_ != nullptr) tell_planner(in, status);
 }
 
-/// Override in force, #3004 bit 1 included.
+/// Feed override in force for cuts in general: #3004 bit 1 switches overrides off.
 double Interpolator::feed_override(const nc_inputs& in) const {
   return (disable_ & 2) != 0 ? 1 : in.feed_override;
 }
 
-/// For displays, of the move in execution: M700 6.7.1, 7.11, 15.2 (where an override of 0 holds all the same).
+/// Feed override of the move in execution, for displays. A thread (M700 6.7.1), the tapping mode (7.11) and a skip move (15.2) go at 100 %, except that
+/// an override of 0 stops a skip move.
 double Interpolator::override_in_force(const nc_inputs& in, nc_override_source* source) const {
   const Segment* s = moving_ ? &current().segment : nullptr;
   const bool fixed = s != nullptr && (s->thread || s->fixed_override || (s->skip && feed_override(in) > 0));
@@ -540,7 +543,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.m = m_;
   out.t = t_;
   out.b = b_;
-  // Constant surface speed asks for the coordinate of its axis.
+  // Constant surface speed needs the workpiece coordinate of its axis.
   spindles_.update([&work](unsigned axis) { return work[axis]; });
   out.s = spindles_.commanded();
   for (unsigned i = 0; i < config_.spindle_count; ++i) out.spindle_rev_min[i] = spindles_.now(i);

@@ -25,53 +25,53 @@
 
 namespace nc {
 
-/// What the scan says in every cycle.
+/// What the scan publishes in every cycle.
 struct ScanStatus {
   AxisVec command;
   double feed_override = 1;
   bool single_block = false;
-  uint8_t servo_ready = 0, referenced = 0;  ///< of axes that are spindles, too (M700 10.5)
+  uint8_t servo_ready = 0, referenced = 0;  ///< bit i: axis i, which is a spindle as well, holds its position; and is referenced (M700 10.5)
   bool ended = true;     ///< the newest run has come to its end item
   Serial last_mark = 0;  ///< newest block end that has been executed in this run
-  BlockSeq last_block = 0;  ///< of that block
+  BlockSeq last_block = 0;  ///< number of that block
   Cut cut;
   // A program that was in execution has been stopped by an alarm that is no item of it.
-  bool stopped = false;     ///< the machine has given the alarm, or the scan itself has found it
-  bool faulted = false;     ///< the scan has found it: the move in hand cannot begin, or cannot go on
+  bool stopped = false;     ///< there is such an alarm, of the machine or of the scan itself
+  bool faulted = false;     ///< it is one of the scan itself: the move in execution cannot begin, or cannot go on
   nc_source stopped_at{};   ///< block in execution at that moment
   BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
 };
 
-/// What has become of a record that the scan has left.
+/// What has become of a record that the scan has gone past.
 struct LeftRecord {
-  uint32_t cycle = 0;
-  bool executed = false;  ///< else it has been thrown away
+  uint32_t cycle = 0;     ///< cycle in which it was
+  bool executed = false;  ///< true: it has been executed; false: it has been thrown away
 };
 
-/// The world at the last sync.
+/// The state of the machine at the last sync, the answer for the interpreter.
 struct ScanWorld {
   Serial serial = 0;
   nc_world world{};
 };
 
-/// Runs (interpolate/run_word.hpp) and truncation (interpolate/truncation.hpp) are protocols of their own.
+/// What scan and feeder tell each other. The protocols of `run` and `truncation` are described in interpolate/run_word.hpp and truncation.hpp.
 struct ScanShared {
   alignas(64) std::atomic<uint32_t> tail{0};  ///< ring index of the record in execution
-  std::atomic<uint32_t> ordinal{0};           ///< of the segment in execution or the next one
-  std::atomic<uint32_t> cycle{0};             ///< the newest one of which all else has been said
+  std::atomic<uint32_t> ordinal{0};           ///< number of the segment in execution, or of the next one
+  std::atomic<uint32_t> cycle{0};             ///< newest cycle for which everything else has been published
   std::atomic<uint32_t> run{0};     ///< RunWord
   std::atomic<uint32_t> mirror{0};  ///< nc_inputs::mirror of the newest start
   std::atomic<uint32_t> block_begun{
-      0};  ///< some of the block in execution has been executed (valid with the answer to a truncation)
+      0};  ///< 1: a part of the block in execution has been executed (valid with the answer to a truncation)
   Truncation truncation;
-  alignas(64) std::atomic<uint32_t> run_taken{0};  ///< feeder: the newest run word that it has acted upon
-  std::atomic<uint32_t> reread_request{0};  ///< scan: read again from where the axes are; it waits for
-  std::atomic<uint32_t> reread_interrupt{0};  ///< 1: and begin with the interrupt program
-  AxisVec reread_shift;                     ///< by which the coordinate systems go along, published with the request
-  std::atomic<uint32_t> reread_done{0};     ///< feeder: the request that is done
+  alignas(64) std::atomic<uint32_t> run_taken{0};  ///< by the feeder: the newest run word that it has acted upon
+  std::atomic<uint32_t> reread_request{0};  ///< by the scan: number of its newest request to read again from where the axes are; it waits for the answer
+  std::atomic<uint32_t> reread_interrupt{0};  ///< by the scan: 1: the feeder is to begin with the interrupt program
+  AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
+  std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
-  Latest<AxisParameters> axes;  ///< feeder: as the parameters are
+  Latest<AxisParameters> axes;  ///< by the feeder
   EventRing events;
 };
 
@@ -84,7 +84,7 @@ class Interpolator {
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
  private:
-  enum class Done : uint8_t { yes, no };  ///< of a record: go on with the next one, or stay here
+  enum class Done : uint8_t { yes, no };  ///< whether a record is done: go on with the next one, or stay at it
 
   // interpolator.cpp: states
   void handshake(const nc_inputs& in) NC_RT;
@@ -109,7 +109,7 @@ class Interpolator {
   void outputs(const nc_inputs& in, nc_outputs& out) NC_RT;
   void publish(const nc_inputs& in) NC_RT;
 
-  // interpolator_spindle.cpp: spindles, and axes that are one
+  // interpolator_spindle.cpp: spindles, and axes that are a spindle as well
   void follow_spindles(const nc_inputs& in) NC_RT;
   void take_position(unsigned axis, const nc_inputs& in) NC_RT;
   void settle_axes() NC_RT;
@@ -147,7 +147,7 @@ class Interpolator {
   Done dwell(double rate, double amount) NC_RT;
   Done dwell_turns(double turns, const nc_inputs& in) NC_RT;
   Done sync(const Record& record, const nc_inputs& in) NC_RT;
-  // interpolator_filter.cpp: what waits for the filters, and what is added behind interpolation
+  // interpolator_filter.cpp: records that wait for the filters, and the compensation that is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
   bool filters_ready(const Record& record) NC_RT;
   void note_skip(const nc_inputs& in) NC_RT;
@@ -167,7 +167,7 @@ class Interpolator {
   void stop_in(const nc_source& block, BlockSeq behind) NC_RT;
   Done fault(const Record& record) NC_RT;
   void leave(const Record& record, bool executed) NC_RT;
-  /// `width` > 0: of the block instead of the axes'.
+  /// `width` > 0: in-position width that the block gives, in the place of those of the axes.
   bool in_position(const nc_inputs& in, double width = 0) const NC_RT;
 
   // interpolator_index.cpp: index tables
@@ -180,13 +180,13 @@ class Interpolator {
   void manual_cycle(const nc_inputs& in) NC_RT;
 
   const Record& current() const { return ring_[tail_ & mask_]; }
-  /// Of this run; others are thrown away.
+  /// The record belongs to this run; records of other runs are thrown away.
   bool is_current(const Record& r) const { return r.epoch == run_.epoch(); }
-  bool at_rest() const { return law_.v == 0 && !passing_; }  ///< the path: the axes may still be on their way through the filters
-  /// Nothing is on its way to the axes any more.
+  bool at_rest() const { return law_.v == 0 && !passing_; }  ///< the interpolated path rests; behind the filters the axes may still move
+  /// The filters hold nothing any more.
   bool drained() const NC_RT { return !filter_.active() || filter_.drained(place()); }
   bool stands() const NC_RT { return at_rest() && drained(); }
-  /// The interpolated place with the compensation of the arc.
+  /// The interpolated place with the radius compensation of an arc (M700 13.15).
   AxisVec place() const NC_RT {
     AxisVec at = wanted_;
     if (rounding_)
@@ -194,9 +194,9 @@ class Interpolator {
     return at;
   }
   uint32_t spindles_now() const { return c_axes_ & ~uint32_t{servo_ready_}; }  ///< axes that are spindles at present (M700 10.5)
-  bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< nothing is executed at rest
+  bool held() const { return hold_ || reset_ || alarmed_ || cutting_; }  ///< at rest no further record is executed
   bool braking() const { return held() || interlock_ || index_lost_ || losing_; }  ///< no axis may move
-  /// M700 6.7.1: a thread that is being cut is not held, nor is its feed changed.
+  /// What stops a thread that is being cut. M700 6.7.1: feed hold does not.
   bool thread_braking() const { return reset_ || alarmed_ || interlock_ || index_lost_; }
   bool cutting_thread() const {
     return moving_ && (optimal_ != nullptr ? !follower_.at_rest() : law_.v > 0) && current().segment.thread;
@@ -205,56 +205,56 @@ class Interpolator {
   void turn_feed_handle(const nc_inputs& in) NC_RT;
   bool thread_may_begin(const Segment& segment, const nc_inputs& in) NC_RT;
   double thread_speed(const Segment& segment, const nc_inputs& in) NC_RT;
-  /// Of the spindle at this moment of the cycle.
   bool spindle_reversed(const nc_inputs& in) const;
+  /// Turns of the spindle at this moment of the cycle.
   double spindle_turns(const nc_inputs& in) const { return encoder(in).turns + (config_.cycle_s - time_) * encoder(in).rev_per_s; }
 
   // ---- set once
   ExecutorConfig config_;
   const Record* ring_ = nullptr;
-  LeftRecord* left_ = nullptr;  ///< by place in the ring, where somebody asks
+  LeftRecord* left_ = nullptr;  ///< one for each place of the ring; nullptr: not needed
   uint32_t mask_ = 0;
   Planner* planner_ = nullptr;
-  optimal::OptimalPlanner* optimal_ = nullptr;  ///< nullptr: the trapezoid
+  optimal::OptimalPlanner* optimal_ = nullptr;  ///< nullptr in the trapezoid mode
   ScanShared* shared_ = nullptr;
 
   // ---- place in the ring
-  const Plan* plan_ = nullptr;  ///< of this cycle (trapezoid)
+  const Plan* plan_ = nullptr;  ///< plan of this cycle (trapezoid mode)
   uint32_t end_ = 0;            ///< ring index behind the last record that may be executed
-  uint32_t tail_ = 0, ordinal_ = 0;
+  uint32_t tail_ = 0, ordinal_ = 0;  ///< ring index of the record in execution; number of its segment, or of the next one
   RunWord run_;
   bool run_ended_ = true;  ///< the newest run has come to its end item
   bool frozen_ = false;    ///< the feeder may be truncating
-  bool block_begun_ = false;
-  bool displaced_ = false;  ///< moved by hand since the block stop
-  AxisVec hand_from_;       ///< where the axes stood in it before that
-  uint32_t by_hand_ = 0;    ///< bit i: axis i was, and the program has not moved it since
-  bool rereading_ = false;  ///< the feeder reads again from here; nothing is executed, moved or given up
-  uint32_t reread_ = 0;     ///< requests so far
+  bool block_begun_ = false;  ///< a part of the block in execution has been executed
+  bool displaced_ = false;  ///< axes were moved by hand since the block stop
+  AxisVec hand_from_;       ///< where the axes stood in the block stop before they were moved by hand
+  uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
+  bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
+  uint32_t reread_ = 0;     ///< number of requests to read again so far
 
   InputBorder border_;
 
   // ---- motion
   LawState law_;         ///< on the segment in execution; v carries over to the next one
-  Follower follower_;    ///< optimal: makes what is in law_
+  Follower follower_;    ///< optimal: goes along the plan; law_ is set from it
   AxisVec passed_at_;    ///< optimal: end of the newest record that was passed
-  bool passing_ = false; ///< optimal: in the cycle in which a stop ends, as long as the record in which it ends has not begun
-  double silent_ = 0;    ///< optimal: s for which a stop has been asked for
-  bool no_law_ = false;  ///< optimal: none was found for what follows
-  double turns_ = 0;     ///< optimal: speed of the spindle that the planner knows, rev/s
-  double feed_scale_ = 1;  ///< optimal: and the override
-  SpindleSync sync_;     ///< optimal: of the thread in execution
+  bool passing_ = false; ///< optimal: in the cycle in which a stop ends, until the record in which it ends has been reached
+  double silent_ = 0;    ///< optimal: s for which a stop has been asked for without a plan that stops
+  bool no_law_ = false;  ///< optimal: the planner has found no law for what follows
+  double turns_ = 0;     ///< optimal: speed of the spindle that the planner has been told, rev/s
+  double feed_scale_ = 1;  ///< optimal: feed override that the planner has been told
+  SpindleSync sync_;     ///< optimal: keeps the thread in execution with the spindle
   bool moving_ = false;  ///< the current record is a segment that has begun
   double time_ = 0;      ///< what is left of this cycle, s
   AxisVec wanted_;       ///< interpolated position
   bool rounding_ = false;  ///< on an arc with radius compensation (M700 13.15)
   uint8_t round_axis_[2] = {0, 1};
-  double round_[2] = {};   ///< what it adds to these axes
-  bool rapid_behind_ = false;  ///< the move that has ended was rapid traverse
-  bool check_ = false;     ///< the block that has ended ends with a deceleration check (M700 7.9)
-  AxisVec command_, last_command_;
+  double round_[2] = {};   ///< mm that the radius compensation adds to these two axes
+  bool rapid_behind_ = false;  ///< the move that ended last was rapid traverse
+  bool check_ = false;     ///< the move that ended last ends with a deceleration check (M700 7.9)
+  AxisVec command_, last_command_;  ///< commanded positions, behind the filters, of this cycle and the one before
   const Segment* latest_ = nullptr;                        ///< segment that was executed last in this cycle
-  Affine to_work_;  ///< of the segment executed last
+  Affine to_work_;  ///< from machine to workpiece coordinates, of the segment executed last
   AxisVec target_;                                         ///< end of the segment in execution
   PositionFilter filter_;
   Manual manual_;
@@ -266,52 +266,52 @@ class Interpolator {
   bool hold_ = false, reset_ = false, alarmed_ = false, interlock_ = false;
   bool last_start_ = false, last_reset_ = false;
   bool start_ = false;  ///< cycle start was pressed and not yet acted upon
-  bool start_refused_ = false;  ///< because feed hold was on, as it still is
+  bool start_refused_ = false;  ///< a cycle start was refused because feed hold was on, and feed hold still is
   nc_run_state shown_ = NC_STATE_IDLE;  ///< nc_outputs::state of the cycle before
-  bool faulted_ = false;  ///< alarmed_ by fault(), until reset
+  bool faulted_ = false;  ///< fault() has raised an alarm; until reset
   bool placed_ = false;         ///< source_ is a block of this run
-  bool stopped_ = false;        ///< ScanStatus::stopped and what belongs to it, until reset
+  bool stopped_ = false;        ///< ScanStatus::stopped, and below stopped_at and stopped_behind; until reset
   nc_source stopped_at_{};
   BlockSeq stopped_behind_ = 0;
 
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
-  uint8_t held_ = 0;     ///< its strobe cannot rise in this cycle, because FIN is on or it waits itself
+  uint8_t held_ = 0;     ///< bit of the code whose strobe cannot rise in this cycle, because FIN is on or its last strobe still waits
   uint8_t fin_wait() const { return strobe_ | fin1_groups_; }
-  bool fin_ = false;     ///< level of either in this cycle
-  uint8_t fin1_groups_ = 0;  ///< completed by the FIN1 that is on
-  bool fin_low_ = true;  ///< was low since a strobe rose
+  bool fin_ = false;     ///< FIN1 or FIN2 is on in this cycle
+  uint8_t fin1_groups_ = 0;  ///< bits of the codes that the FIN1 which is on completes when it falls
+  bool fin_low_ = true;  ///< FIN has been off since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
   uint32_t suppress_ = 0;  ///< #3003
   uint32_t disable_ = 0;   ///< #3004
 
   // ---- index tables (M700 9.3)
   IndexClamp index_;
-  bool index_waits_ = false;  ///< for a clamp or its release, in this cycle
+  bool index_waits_ = false;  ///< in this cycle something waits for a table to be clamped or unclamped
   bool index_lost_ = false;   ///< a table that moves is not unclamped any more
 
   // ---- macro interrupt (M700 13.12)
   uint32_t interrupt_mode_ = 0;      ///< nc_interrupt_bits
   bool interrupt_last_ = false;      ///< level of the signal
-  InterruptRest interrupt_rest_;     ///< of a signal that stays on
-  bool interrupt_wanted_ = false;    ///< accepted: acts at the end of the block in execution, or at once
-  bool cutting_ = false;             ///< on the way to rest inside a block
-  bool block_waits_ = false;         ///< the block in execution cannot be cut any more: its skip signal has been asked for, M96 or M97
-  unsigned block_syncs_ = 0;         ///< of the block in execution that have been answered
-  bool last_staged_ = false;         ///< the newest record was of a contour
+  InterruptRest interrupt_rest_;     ///< when a signal that stays on counts again
+  bool interrupt_wanted_ = false;    ///< the signal has been accepted: it acts at the end of the block in execution, or at once
+  bool cutting_ = false;             ///< the axes come to rest inside a block, to cut it
+  bool block_waits_ = false;         ///< the block in execution cannot be cut any more: its skip move has ended, or it holds M96 or M97
+  unsigned block_syncs_ = 0;         ///< number of syncs of the block in execution that have been answered
+  bool last_staged_ = false;         ///< the record executed last came out of a stage (Record::staged)
   Serial done_ = 0;                  ///< newest record that has been executed
   Cut cut_;
-  bool recalculate_ = false, recalculate_last_ = false;  ///< asked for: at the end of the block; level of the signal
-  bool reread_reached_ = false;      ///< the place has been reached from where it is read again: the feeder is asked with the next cycle
-  bool reread_interrupt_ = false;    ///< and begins with the interrupt program
+  bool recalculate_ = false, recalculate_last_ = false;  ///< a recalculation waits for the end of the block; level of the signal
+  bool reread_reached_ = false;      ///< the place from which blocks are read again has been reached: the feeder is asked in the next cycle
+  bool reread_interrupt_ = false;    ///< the feeder begins with the interrupt program then
 
   // ---- gates
   bool gate_begun_ = false;
   double gate_left_ = 0;
 
   // ---- threads (M700 6.7.1)
-  bool block_has_thread_ = false;    ///< the block in execution has cut one
-  bool hold_behind_thread_ = false;  ///< feed hold was pressed in a thread: stop behind the first block that is none
+  bool block_has_thread_ = false;    ///< the block in execution has cut a thread
+  bool hold_behind_thread_ = false;  ///< feed hold was pressed in a thread: it acts behind the first block without a thread
 
   bool thread_locked_ = false;       ///< the thread has reached its speed and keeps its place on the spindle
   double thread_origin_ = 0;         ///< turns of the spindle where the segment in execution would have begun at speed
@@ -326,14 +326,14 @@ class Interpolator {
   bool hold_behind_tap_ = false;     ///< feed hold was pressed between R and R again of a tap
   double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
 
-  // ---- spindles (M700 10.6), and axes that are one (M700 10.5)
+  // ---- spindles (M700 10.6), and axes that are a spindle as well (M700 10.5)
   SpindleSpeeds spindles_;
-  unsigned encoder_ = 1;       ///< number of the spindle whose encoder counts
-  uint8_t c_axes_ = 0;         ///< bit i: axis i is a spindle, too; the three below are of these
+  unsigned encoder_ = 1;       ///< number (from 1) of the spindle whose encoder is used, 0 = none
+  uint8_t c_axes_ = 0;         ///< bit i: axis i is a spindle as well; only these have bits in the three below
   uint8_t servo_on_ = 0, servo_ready_ = 0, referenced_ = 0;
-  AxisVec turned_;             ///< by which such axes stand beside the committed path, which does not know of it yet
-  uint8_t stale_ = 0;          ///< bit i: axis i does; what is committed is read again before it moves
-  bool losing_ = false;        ///< the move in execution has lost its C axis: to rest
+  AxisVec turned_;             ///< how far such axes stand beside the committed path, which does not know of it yet
+  uint8_t stale_ = 0;          ///< bit i: axis i stands beside that path: what is committed is read again before it moves
+  bool losing_ = false;        ///< the move in execution has lost its C axis, and comes to rest
   bool dropping_ = false;      ///< the rest of the block is not executed
 
   // ---- skip
@@ -341,11 +341,11 @@ class Interpolator {
   bool skip_braking_ = false;  ///< on the way to rest after the signal
   uint8_t skip_behind_ = 0;    ///< signals of a skip move whose path has ended before its axes have
   AxisVec skip_position_;
-  double skip_feed_ = 0;       ///< of a move whose signals change it (M700 15.5), mm/s
-  uint32_t skip_last_ = 0;     ///< signals of the cycle before, for their rising edges
+  double skip_feed_ = 0;       ///< feed of a move whose skip signals change it (M700 15.5), mm/s
+  uint32_t skip_last_ = 0;     ///< skip signals of the cycle before, to find their rising edges
   uint16_t current_limit_[kMaxAxes] = {};  ///< percent (M700 15.6)
 
-  // ---- outside
+  // ---- what is shown to the outside
   uint32_t output_[NC_WORDS] = {};
   uint32_t output_written_[NC_WORDS] = {};  ///< bits that blocks have written in this cycle
   struct Text {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scan and what lies behind interpolation: what waits until the filters are empty (M700 7.7, 7.9), and the compensation of an arc's
-// radius that is added to the interpolated place (M700 13.15).
+// The scan and what acts behind interpolation: records that wait until the filters are empty (M700 7.7, 7.9), and the compensation of an arc's radius,
+// which is added to the interpolated place (M700 13.15).
 #include <cmath>
 
 #include "interpolate/interpolator.hpp"
@@ -8,12 +8,12 @@
 
 namespace nc {
 
-/// The next record is executed when the filters are empty: behind a deceleration check every one is (7.9, "XX expresses all commands"),
-/// what needs standing axes always, M, S, T and B where the path rests for them, and the end of a block where something stops or is read
-/// again there.
+/// The next record has to wait until the filters are empty. After a deceleration check every record waits (7.9, "XX expresses all commands"). Records
+/// that need standing axes always wait; M, S, T, B and messages wait where the path rests before them; and the end of a block waits where the program
+/// stops, is interrupted, or is read again from there.
 bool Interpolator::waits_for_filters(const Record& r, const nc_inputs& in) {
   const bool stands_there = r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
-  if (stands_there) law_.v = 0;  // the plan rests in front of these: what is left of the speed is rounding
+  if (stands_there) law_.v = 0;  // the plan comes to rest before such a record, so any speed that is left is rounding
   if (!at_rest()) return false;
   if (drained()) {
     check_ = false;
@@ -26,8 +26,9 @@ bool Interpolator::waits_for_filters(const Record& r, const nc_inputs& in) {
   return waits;
 }
 
-/// A move begins, or goes on from a rest. Filters change while nothing is in them. Acceleration after interpolation goes on from a rest
-/// only when that has ended; a path that is accelerated before interpolation goes on at once, but for a deceleration check.
+/// A move begins, or goes on from a rest: whether the filters are ready for it. Filters are changed only while they are empty. With acceleration after
+/// interpolation the path goes on from a rest only when the axes rest, too; with acceleration before interpolation it goes on at once, except after
+/// a deceleration check.
 bool Interpolator::filters_ready(const Record& r) {
   const Segment& s = r.segment;
   const bool same = filter_.uses(s.filter);
@@ -37,15 +38,15 @@ bool Interpolator::filters_ready(const Record& r) {
   if (same && !check && filter_.goes_on()) return true;
   if (!drained()) return false;
   if (same) return true;
-  if (!filter_.settled(place())) return false;  // what was gone in this cycle is not for the new ones
-  if (!filter_.use(s.filter)) {  // commit lets none through that does not fit
+  if (!filter_.settled(place())) return false;  // the way of this cycle still belongs to the old filters
+  if (!filter_.use(s.filter)) {  // never happens: commit makes only filters that fit
     (void)fault(r);
     return false;
   }
   return true;
 }
 
-/// The position that the axes had when the cycle began, at which the signal was sampled.
+/// Notes where the skip signal came: the position that the axes had when the cycle began, which is when the signal was sampled.
 void Interpolator::note_skip(const nc_inputs& in) {
   skipped_ = true;
   skip_position_ = filter_.active() ? filter_.position() : wanted_;
@@ -54,7 +55,7 @@ void Interpolator::note_skip(const nc_inputs& in) {
     if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
 }
 
-/// The path of a skip move rests, or has come to its end, and the axes are still on their way: the signal counts as long as they are.
+/// When the path of a skip move rests, or has come to its end, the axes may still be moving behind the filters: the signal counts as long as they do.
 void Interpolator::watch_skip(const nc_inputs& in) {
   if (drained()) {
     skip_behind_ = 0;
@@ -68,8 +69,8 @@ void Interpolator::watch_skip(const nc_inputs& in) {
   note_skip(in);
 }
 
-/// M700 13.15 "circular error radius compensation control for each axis": outwards from the centre, growing over the first quarter turn and
-/// falling over the last.
+/// M700 13.15 "circular error radius compensation control for each axis": moves the place outwards from the centre, by an amount that grows over the
+/// first quarter turn and falls over the last one.
 void Interpolator::round_arc(const Segment& s) {
   const Curve& c = s.curve;
   const double along = wanted_[c.h] - c.circle.center[0], across = wanted_[c.v] - c.circle.center[1];
@@ -85,7 +86,7 @@ void Interpolator::round_arc(const Segment& s) {
   round_[1] = static_cast<double>(s.round_mm[1]) * share * (across / radius);
 }
 
-/// The arc is not gone on with: the path is where the axes are.
+/// The arc does not go on: the path goes on from where the compensation has brought the axes.
 void Interpolator::end_rounding() {
   wanted_ = place();
   rounding_ = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Index tables in the scan (M700 9.3). A segment says which of them it moves; it begins when they are unclamped. Behind it they stay so
-// until it is known what follows: another move of the same axes goes on without a clamp (7), before anything else they are clamped.
+// Index tables in the scan (M700 9.3). A segment says which tables it moves, and it begins when they are unclamped. After it they stay unclamped until
+// it is known what follows: another move of the same axes goes on without clamping (7); before anything else they are clamped.
 #include <cmath>
 
 #include "interpolate/interpolator.hpp"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kStands = 1e-4;  ///< mm or deg in one cycle: noise of an encoder while the drives are off
 
-/// Moves of these axes do without a clamp.
+/// Bit i: axis i stays unclamped for this record, because it moves the axis, or the one behind it does.
 uint32_t stay_open(const Record& r) {
   const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
   return moves ? uint32_t{r.segment.index_axes} | r.segment.unclamps : 0;
@@ -23,8 +23,8 @@ Interpolator::Done Interpolator::wait_for_clamp() {
   return wait(NC_CAUSE_FIN);
 }
 
-/// 9.3 (3), (4): the whole path waits. What moves by itself only asks for it ("the movement of other axes ... is carried out for
-/// non-interpolation commands").
+/// Unclamps the tables that a segment moves. 9.3 (3), (4): the whole path waits for them. Tables of the move behind are only commanded to be unclamped,
+/// and the segment does not wait for these ("the movement of other axes ... is carried out for non-interpolation commands").
 bool Interpolator::unclamp_for(const Segment& s, const nc_inputs& in) {
   law_.v = 0;
   if (interlock_) {  // nothing may move: the table stays clamped
@@ -37,14 +37,14 @@ bool Interpolator::unclamp_for(const Segment& s, const nc_inputs& in) {
   return false;
 }
 
-/// 9.3 (5), (6): the next record is executed when the tables that it does not move are clamped. The end of a block is passed, unless
-/// single block stops there (7); so is the deceleration check, which comes before the clamp.
+/// 9.3 (5), (6): the next record is executed only when the tables that it does not move are clamped; until then the answer is false. The end of a block
+/// does not wait, unless the program stops there (7), nor does the deceleration check, which comes before clamping.
 bool Interpolator::clamp_before(const Record& r, const nc_inputs& in) {
   if (r.kind == ItemKind::move && !(r.segment.curve.length > 0)) return true;
   if (r.kind == ItemKind::mark && !stops_at(r.mark, in)) return true;
   if (r.kind == ItemKind::gate && r.gate.kind == NC_GATE_IN_POSITION) return true;
   uint32_t off = index_.unclamp() & ~stay_open(r);
-  if (r.kind == ItemKind::alarm && off != 0) off &= may_clamp();  // it comes whether they can be clamped or not
+  if (r.kind == ItemKind::alarm && off != 0) off &= may_clamp();  // an alarm does not wait for tables that cannot be clamped
   if (off == 0 && index_.clamping() == 0) return true;
   law_.v = 0;
   if (off != 0 && !in_position(in)) {
@@ -65,15 +65,15 @@ uint32_t Interpolator::may_clamp() {
   return axes;
 }
 
-/// 9.3 (5): a table that is not unclamped any more stops, with what moves together with it; the command stays, and the move goes on when
-/// the answer is back.
+/// 9.3 (5): when a moving table is no longer answered as unclamped, it stops with everything that moves together with it. The command to unclamp it
+/// stays, and the move goes on when the answer is back.
 void Interpolator::watch_index(const nc_inputs& in) {
   index_waits_ = false;
   index_lost_ = index_.busy() && moving_ && (current().segment.index_axes & ~in.unclamped) != 0;
 }
 
-/// No program moves: what manual motion does not need (`wanted`) and what was stopped where it can be clamped. A move that is interrupted
-/// keeps its tables unclamped (6).
+/// While no program moves: clamps the tables that manual motion does not need (`wanted` are those that it does) and that stand where they can be
+/// clamped. The tables of a move that is interrupted stay unclamped (6).
 void Interpolator::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
   if (state_ == NC_STATE_RUNNING || moving_ || !stands() || frozen_ || rereading_) return;
   uint32_t off = index_.unclamp() & ~wanted;
@@ -88,12 +88,12 @@ void Interpolator::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
   index_.close(off, in.unclamped);
 }
 
-/// Manual motion; a table is unclamped before it and clamped behind it.
+/// Manual motion. A table is unclamped before it moves and clamped after it.
 void Interpolator::manual_cycle(const nc_inputs& in) {
   const AxisParameters& parameters = shared_->axes.read();
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
-  rules.dropped = spindles_now();  // M700 10.5 (1): a spindle is not moved as an axis, nor behind that (precaution (3))
+  rules.dropped = spindles_now();  // M700 10.5 (1): an axis that is a spindle is not moved; the command does not go on later either (precaution (3))
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   rules.unlimited = static_cast<uint32_t>(in.unlimited);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves in the optimal mode: the scan follows the chain of cells and counts off the records that it passes.
+// Moves in the optimal mode: the scan goes along the chain of cells of the plan, and counts off the records that it passes.
 #include <algorithm>
 #include <cmath>
 
@@ -8,16 +8,16 @@
 namespace nc {
 namespace {
 
-constexpr double kJump = 1e-6;        ///< mm or deg: the path goes on where the axes stand
-constexpr double kAtEnd = 1e-7;       ///< mm: a path at rest has reached the end of a record ...
-constexpr double kRounding = 1e-13;   ///< ... but for this share of its length: what adding up some hundred cells leaves
-constexpr double kPassed = 1e-9;      ///< mm: and one that moves has passed it
-constexpr double kHit = 1e-6;         ///< mm or deg: in some cycle an exact stop is as near
-constexpr double kPatience = 0.03;     ///< s that the planner has for a stop
-constexpr double kTurnsChange = 0.002; ///< of the speed of the spindle, that asks for another plan
-constexpr double kPlannedTurns = 0.02; ///< of it, by which the plan of a thread may differ when it begins
+constexpr double kJump = 1e-6;        ///< mm or deg: axes that are no farther away stand where the path goes on
+constexpr double kAtEnd = 1e-7;       ///< mm: a path that rests no farther before the end of a record has reached it ...
+constexpr double kRounding = 1e-13;   ///< ... plus this share of the path length: the rounding of adding up some hundred cells
+constexpr double kPassed = 1e-9;      ///< mm: a moving path that is farther than this behind the end of a record has passed it
+constexpr double kHit = 1e-6;         ///< mm or deg: how near to an exact stop the axes have to be in some cycle
+constexpr double kPatience = 0.03;     ///< s: how long the planner may take for a stop before the scan brakes itself
+constexpr double kTurnsChange = 0.002; ///< share by which the speed of the spindle has to change before another plan is made
+constexpr double kPlannedTurns = 0.02; ///< share by which it may differ from the speed of the plan when a thread begins
 
-/// Where a path at rest counts as having come to u.
+/// The place from which on a path at rest counts as having come to u.
 double nearly(double u) { return u - kAtEnd - kRounding * std::fabs(u); }
 
 }  // namespace
@@ -34,14 +34,14 @@ void Interpolator::take_plan() {
   no_law_ = offer.failed && offer.generation == follower_.generation();
 }
 
-/// The axes do not stand at `place`.
+/// The axes would jump when the path goes on at `place`, because they do not stand there.
 bool Interpolator::would_jump(const AxisVec& place) const {
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if (std::fabs(place[i] - wanted_[i]) > kJump) return true;
   return false;
 }
 
-/// Why a move does not go on.
+/// Why a move does not go on, when there is nothing to follow.
 nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
   if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return no_spindle(in);
@@ -49,10 +49,10 @@ nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
 }
 
-/// The path is to rest as soon as the limits allow.
+/// The path has to come to rest as soon as the limits allow.
 bool Interpolator::path_stops(const nc_inputs& in) const {
-  const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, but for an override of 0
-  if (s != nullptr && s->thread && !follower_.at_rest()) return false;  // it stops by itself: follow_spindle()
+  const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, unless the override is 0
+  if (s != nullptr && s->thread && !follower_.at_rest()) return false;  // a thread is stopped by follow_spindle()
   return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
 }
 
@@ -63,10 +63,10 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
       end_move(r);
       return Done::yes;
     }
-    if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, but for an override of 0
+    if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, unless the override is 0
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
-    // A hold may have come while several records that end here were counted off.
+    // The path may rest at the end of several records, and a hold may have come before all of them were counted off.
     if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r);
     if (follower_.idle()) {
       return wait(no_law_ ? NC_CAUSE_NO_LAW : standing(s, in));
@@ -95,7 +95,7 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   return passed(r);
 }
 
-/// M700 6.7.1: a thread begins at its angle of the spindle, with a plan that was made for about the speed that the spindle has.
+/// M700 6.7.1: a thread begins when the spindle is at its start angle, and only with a plan that was made for about the speed that the spindle has.
 bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
   const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
   if (spindle_reversed(in)) {
@@ -106,7 +106,7 @@ bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
     wait(turns > 0 ? NC_CAUSE_SPINDLE_ANGLE : no_spindle(in));
     return false;
   }
-  if (law_.s > s.begun) {  // an interlock has stopped it: it goes on, and its groove is lost
+  if (law_.s > s.begun) {  // an interlock has stopped the thread: it goes on at any angle, so its groove is lost
     if (s.feed_mm_rev * turns > s.speed_limit) {
       wait(NC_CAUSE_SPINDLE_FAST);
       return false;
@@ -118,7 +118,7 @@ bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
   return true;
 }
 
-/// One step along a thread; an interlock, a reset or an alarm stops it along its plan, as fast as the axes can.
+/// One step along a thread. An interlock, a reset or an alarm stops it along its plan, as fast as the limits of the axes allow.
 void Interpolator::follow_spindle(const Segment& s, const nc_inputs& in) {
   if (thread_braking()) follower_.brake(sync_.pace());
   if (follower_.braking()) {
@@ -137,7 +137,8 @@ void Interpolator::follow_spindle(const Segment& s, const nc_inputs& in) {
   time_ = left > 0 && sync_.sigma() > 0 ? std::min(time_, left / sync_.sigma()) : 0;
 }
 
-/// Neither the cycle before nor this one, when the path goes on, gives out a place as near to an exact stop as it is to be hit (M700 7.7).
+/// If the path goes on within this cycle, no cycle gives out a place within kHit of the exact stop (M700 7.7): neither the cycle before did, nor will
+/// this one, in whose rest an axis may go jerk * time^3 / 6.
 bool Interpolator::misses(const AxisVec& stop) const {
   double before = 0, behind = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
@@ -147,7 +148,7 @@ bool Interpolator::misses(const AxisVec& stop) const {
   return before > kHit && behind > kHit;
 }
 
-/// The path has come to the end of the record.
+/// The path has come to the end of the record of this move.
 Interpolator::Done Interpolator::passed(const Record& r) {
   const Segment& s = r.segment;
   if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_] && !would_jump(s.curve.end)) {
@@ -159,7 +160,7 @@ Interpolator::Done Interpolator::passed(const Record& r) {
   return Done::yes;
 }
 
-/// What the plan depends on.
+/// Tells the planner everything that the plan depends on.
 void Interpolator::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   optimal::Following f;
   follower_.say(&f);

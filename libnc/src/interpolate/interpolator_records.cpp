@@ -18,7 +18,7 @@ uint32_t code_number(double value) {
 
 Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
   Done done = Done::yes;
-  // The plan rests in front of these: what is left of the speed is rounding.
+  // The plan comes to rest before such a record, so any speed that is left is rounding.
   if (r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm ||
       r.kind == ItemKind::end)
     law_.v = 0;
@@ -69,13 +69,13 @@ Interpolator::Done Interpolator::wait(nc_stop_cause cause) {
   return Done::no;
 }
 
-/// The alarm that stops the program: the interpreter has it in words.
+/// The alarm item that stops the program. Its text is in the interpreter.
 void Interpolator::alarm() {
   alarmed_ = true;
   state_ = NC_STATE_ALARM;
 }
 
-/// The move does not go on from where the axes stand, which should not be: nothing moves, and the feeder has it in words.
+/// The move does not begin where the axes stand, which should never happen: nothing moves, and the feeder shows an internal alarm.
 Interpolator::Done Interpolator::fault(const Record& r) {
   alarmed_ = faulted_ = true;
   stop_in(r.source, last_block_);
@@ -96,7 +96,7 @@ void Interpolator::stop_in(const nc_source& block, BlockSeq behind) {
 bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
   const Segment& s = r.segment;
   if (at_rest()) {
-    // A smoothed line may have been stopped beside it; where its path goes on is looked at when it does.
+    // Axes that were stopped on a smoothed line may stand beside the programmed line; whether its path goes on there is checked when it does.
     const double most = optimal_ != nullptr ? kReached + 2 * config_.tolerance : kReached;
     const AxisVec from = s.begun > 0 ? curve_position(s.curve, s.begun, config_.axis_count) : s.curve.start;
     for (unsigned i = 0; i < config_.axis_count; ++i) {
@@ -117,8 +117,8 @@ bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
 }
 
 void Interpolator::end_move(const Record& r) {
-  // What a signal has left of a move is not gone, though the plan leads over it: what follows is planned anew, from where the
-  // axes are.
+  // The rest of a move that a skip signal has ended is not executed, although the plan leads over it: what follows is planned anew, from where
+  // the axes are.
   if (skip_braking_ && follower_.at_rest()) {
     follower_.give_up();
     passing_ = false;
@@ -137,8 +137,8 @@ void Interpolator::end_move(const Record& r) {
   }
 }
 
-/// Feed of the segment at 100 %. M700 6.11: that of an exponential curve goes from F to Q evenly with its linear axis. 7.3: that of F1 to
-/// F5 is what the handle has made of it.
+/// Feed of the segment at an override of 100 %. M700 6.11: on an exponential curve the feed changes evenly with its linear axis from F to Q. 7.3: the
+/// handle may have changed the feed of F1 to F5.
 double Interpolator::programmed_feed(const Segment& s) const {
   if (s.digit_step_mm_s > 0)
     return std::clamp(s.feed_mm_s + digit_pulses_[s.feed_digit - 2] * static_cast<double>(s.digit_step_mm_s), 0.0,
@@ -150,7 +150,7 @@ double Interpolator::programmed_feed(const Segment& s) const {
   return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::min(1.0, std::max(0.0, share));
 }
 
-/// M700 7.3: the first handle acts while a cut with F1 to F5 is in execution. What it has made of the feed stays, within 0 and #1506.
+/// M700 7.3: the first handle changes the feed while a cut with F1 to F5 is in execution. The change stays, and the feed is kept within 0 and #1506.
 void Interpolator::turn_feed_handle(const nc_inputs& in) {
   if (in.feed_pulses == 0 || !moving_ || state_ != NC_STATE_RUNNING) return;
   const Segment& s = current().segment;
@@ -160,13 +160,13 @@ void Interpolator::turn_feed_handle(const nc_inputs& in) {
   pulses = std::clamp(pulses + in.feed_pulses, -s.feed_mm_s / step, (most - s.feed_mm_s) / step);
 }
 
-/// Why what goes by the spindle does not.
+/// Why a move that needs a turning spindle does not go on.
 nc_stop_cause Interpolator::no_spindle(const nc_inputs& in) const {
   return encoder(in).unmeasured ? NC_CAUSE_SPINDLE_UNMEASURED : NC_CAUSE_SPINDLE_STOPPED;
 }
 
-/// M700 6.7.1: a thread that is cut from rest begins at its angle of the spindle, within the cycle. At the start its feed must not
-/// exceed the largest one.
+/// M700 6.7.1: a thread that is cut from rest begins when the spindle is at its start angle, at that moment within the cycle. It does not begin when
+/// its feed would exceed the largest cutting feed.
 bool Interpolator::thread_may_begin(const Segment& s, const nc_inputs& in) {
   const double speed = encoder(in).rev_per_s;
   if (spindle_reversed(in)) {
@@ -192,10 +192,11 @@ bool Interpolator::thread_may_begin(const Segment& s, const nc_inputs& in) {
   return true;
 }
 
-/// Path speed of a thread: the pace of the spindle, and once that is reached, what keeps the place that the path then has on the
-/// spindle: where its measured speed and its angle differ, the angle counts.
+/// Path speed of a thread. First it goes to the speed that belongs to the measured speed of the spindle; once that is reached, each place on the path
+/// belongs to an angle of the spindle, and the speed also corrects the error of that place: speed and angle may be measured a little
+/// differently, and the angle counts.
 double Interpolator::thread_speed(const Segment& s, const nc_inputs& in) {
-  constexpr double kReturn = 0.2;  // share of an error that is made good in one cycle
+  constexpr double kReturn = 0.2;  // share of an error that is corrected in one cycle
   const double pace = s.feed_mm_rev * std::fabs(encoder(in).rev_per_s);
   if (!encoder(in).turns_valid) return pace;
   const double turns = spindle_turns(in);
@@ -210,7 +211,7 @@ double Interpolator::thread_speed(const Segment& s, const nc_inputs& in) {
   return std::max(0.0, pace + kReturn * behind / config_.cycle_s);
 }
 
-/// M700 15.5 (9): at the rising edge of a signal its feed; of several the smaller.
+/// M700 15.5 (9): at the rising edge of a skip signal its feed acts; when several rise together, the smallest.
 void Interpolator::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) {
   const uint32_t rises = signals & ~skip_last_ & speeds.mask;
   skip_last_ = signals;
@@ -220,9 +221,10 @@ void Interpolator::change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) 
   if (feed < HUGE_VAL) skip_feed_ = feed;
 }
 
-/// M700 7.10: what the feed is lowered by before an inner corner, which may lie behind blocks that are shorter than the zone.
+/// M700 7.10: factor by which the feed is lowered before an inner corner. The corner may lie some blocks ahead, where blocks are shorter than the zone
+/// in which the feed is lowered.
 double Interpolator::corner_factor(const Segment& s) const {
-  constexpr unsigned kRecordsAhead = 128;  // looked at in one cycle
+  constexpr unsigned kRecordsAhead = 128;  // the most records that are looked at in one cycle
   if (s.slow_zone > 0) return law_.s >= s.curve.length - static_cast<double>(s.slow_zone) ? static_cast<double>(s.slow_factor) : 1;
   double way = s.curve.length - law_.s;
   for (uint32_t at = tail_ + 1; at != end_ && at - tail_ < kRecordsAhead && way < static_cast<double>(s.corner_reach); ++at) {
@@ -235,7 +237,7 @@ double Interpolator::corner_factor(const Segment& s) const {
   return 1;
 }
 
-/// Path speed that is wanted now; 0 brakes.
+/// Path speed that is wanted now; 0 lets the path come to rest.
 double Interpolator::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
   double cap = s.speed_limit;
@@ -252,7 +254,7 @@ double Interpolator::speed_cap(const Segment& s, const nc_inputs& in) {
     if (feed <= 0) cause = s.feed_mm_rev > 0 ? no_spindle(in) : NC_CAUSE_FEED_ZERO;
     // M700 7.10: on top of the override, below the clamp.
     if (s.slow_zone > 0 || s.corner_reach > 0) feed *= corner_factor(s);
-    // M700 15.2: a skip move goes at 100 %, but for an override of 0.
+    // M700 15.2: a skip move goes at 100 %, unless the override is 0.
     cap = std::min(cap, s.skip && override_now > 0 ? feed : feed * override_now);
   }
   if (cap <= 0 && at_rest()) cause_ = cause;
@@ -265,7 +267,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   const bool begins = !moving_;
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
-  if (filter_.active() && moving_ && skip_braking_ && at_rest()) {  // the signal came while the axes were still on their way
+  if (filter_.active() && moving_ && skip_braking_ && at_rest()) {  // the path rested already when the signal came, but the axes still moved
     end_move(r);
     return Done::yes;
   }
@@ -287,7 +289,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skip_braking_ = true;
     note_skip(in);
-    // M700 15.2: on already at the start, no movement. A path that comes at speed brakes first.
+    // M700 15.2: a signal that is on already at the start leaves no movement. A path that comes at speed has to brake first.
     if (begins && follower_.at_rest()) {
       end_move(r);
       return Done::yes;
@@ -334,7 +336,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
         const uint32_t mode = code_number(a.value);
         interrupt_rest_.change(interrupt_mode_, mode);
         interrupt_mode_ = mode;
-        block_waits_ = true;  // a block that changes this is finished first
+        block_waits_ = true;  // a block that changes the state of the interrupt is finished first
       }
       if (a.index == NC_CONTROL_TAPPING) take_tapping(static_cast<uint8_t>(code_number(a.value)));
       return Done::yes;
@@ -346,8 +348,8 @@ Interpolator::Done Interpolator::action(const Action& a) {
   }
 }
 
-/// M, S, T, B: code and strobe. A strobe rises only when FIN is off and the last one of its kind is complete;
-/// on the fly (no gate follows) it cannot wait.
+/// Gives out M, S, T or B with its strobe. A strobe rises only when FIN is off and the last strobe of its kind is complete; a code that is given
+/// out while the axes move cannot wait for that.
 Interpolator::Done Interpolator::strobe(const Action& a) {
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
   const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
@@ -386,7 +388,7 @@ bool Interpolator::in_position(const nc_inputs& in, double width_of_block) const
   if ((border_.lost_axes() & ~spindles_now()) != 0) return false;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
-    if ((spindles_now() >> i & 1) != 0) continue;  // a spindle
+    if ((spindles_now() >> i & 1) != 0) continue;  // the axis is a spindle now
     if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i] - turned_[i]) > width) return false;
   }
   return true;
@@ -401,19 +403,20 @@ Interpolator::Done Interpolator::dwell(double rate, double amount) {
     gate_left_ -= rate * time_;
     return wait(NC_CAUSE_DWELL);
   }
-  if (gate_left_ > 0) time_ -= gate_left_ / rate;  // the rest of the cycle is the next record's
+  if (gate_left_ > 0) time_ -= gate_left_ / rate;  // the rest of the cycle is for the next record
   gate_begun_ = false;
   return Done::yes;
 }
 
-/// By the revolutions of a spindle that stands it never ends.
+/// A dwell in revolutions does not end while the spindle stands.
 Interpolator::Done Interpolator::dwell_turns(double turns, const nc_inputs& in) {
   const Done done = dwell(std::fabs(encoder(in).rev_per_s), turns);
   if (done == Done::no && encoder(in).unmeasured) cause_ = NC_CAUSE_SPINDLE_UNMEASURED;
   return done;
 }
 
-/// M700 9.1: M01 is an M code with strobe and completion, and a stop, when its switch is on as it is reached.
+/// M700 9.1: when the optional stop switch is on as M01 is reached, M01 is given out with strobe and completion like any M code, and then the program
+/// stops.
 Interpolator::Done Interpolator::optional_stop(const nc_inputs& in) {
   if (!gate_begun_) {
     if (!in.optional_stop) return Done::yes;
@@ -454,7 +457,7 @@ Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
 
 Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
   if (!in_position(in)) return wait(NC_CAUSE_IN_POSITION);
-  if (stale_ != 0) settle_axes();  // nothing is committed beyond a sync, and its answer says where the axes are
+  if (stale_ != 0) settle_axes();  // nothing is committed beyond a sync, and its answer tells the interpreter where the axes are
   recalculate_ = false;
   ScanWorld w;
   w.serial = r.serial;
@@ -482,7 +485,7 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   const bool thread = block_has_thread_;
   if (m.report) block_has_thread_ = false;
   if (m.report && m.stop && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
-    // What lies behind this block is given up and the feeder goes on with the interrupt program.
+    // The records behind this block are given up, and the feeder goes on with the interrupt program.
     interrupt_wanted_ = false;
     cut_.inside = false;
     if (stale_ != 0) settle_axes();

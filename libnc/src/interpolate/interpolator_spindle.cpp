@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which spindles the program commands (M700 10.6), and axes that are a spindle, too (M700 10.5): the C axis.
+// Which spindles the program commands (M700 10.6), and axes that are a spindle as well (M700 10.5): the C axis.
 //
-// While its servo is off such an axis is a spindle: its position counter is held, and the spindle turns away under it. When the servo is
-// ready the counter takes the position that the axis really has. What has been committed meanwhile knows nothing of it, so the axis then
-// stands beside that path by `turned_`: it goes along beside it, which is right for every move that does not turn it. A move that does is
-// not executed. What is committed is read again from the end of the block on, from where the axes are; nothing is to be done where the
-// interpreter has waited for this moment (a sync: an M code that prohibits reading ahead).
+// While its servo is off such an axis is a spindle: its position counter stays, and the spindle turns without it. When the servo is ready the
+// counter takes the position that the axis really has. Records committed meanwhile do not know that position, so the axis stands beside their path
+// by `turned_`. It keeps that distance, which is right for every move that does not move the axis. A move that does is not executed. The blocks
+// behind the one in execution are read again, from where the axes are. Nothing of this is needed where the interpreter has waited for this moment
+// (a sync: an M code that prohibits reading ahead).
 #include <cmath>
 
 #include "base/same_place.hpp"
@@ -18,13 +18,13 @@ uint8_t with(uint8_t bits, uint8_t bit, bool on) { return static_cast<uint8_t>(o
 
 }  // namespace
 
-/// The measured spindle of feed per revolution, threads and dwells.
+/// The inputs of the spindle whose encoder is used for feed per revolution, threads and dwells.
 const nc_spindle_inputs& Interpolator::encoder(const nc_inputs& in) const {
   static constexpr nc_spindle_inputs kNone{};
   return encoder_ != 0 ? in.spindle[encoder_ - 1] : kNone;
 }
 
-/// Its thread would have the wrong hand.
+/// The spindle turns in the wrong direction: a thread would get the wrong hand.
 bool Interpolator::spindle_reversed(const nc_inputs& in) const {
   if (encoder_ == 0 || (config_.spindle_unsigned >> (encoder_ - 1) & 1) != 0) return false;
   return spindles_.turns_wrong(encoder_ - 1u, encoder(in).rev_per_s);
@@ -53,7 +53,7 @@ void Interpolator::follow_spindles(const nc_inputs& in) {
   }
 }
 
-/// M700 10.5 (1): at servo READY the counter is updated for the way of the spindle.
+/// M700 10.5 (1): at servo READY the position counter of the axis is set to where the spindle has turned to.
 void Interpolator::take_position(unsigned axis, const nc_inputs& in) {
   const nc_spindle_inputs& spindle = in.spindle[config_.axis_spindle[axis] - 1];
   double place = command_[axis];
@@ -66,10 +66,10 @@ void Interpolator::take_position(unsigned axis, const nc_inputs& in) {
   if (state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM) return settle_axes();
   if (state_ != NC_STATE_STOPPED || !between_blocks()) return;
   settle_axes();
-  displaced_ = true;  // as by hand: what follows is read again at the start
+  displaced_ = true;  // as if it was moved by hand: the blocks that follow are read again at the next start
 }
 
-/// Whoever makes the path goes on from where the axes are.
+/// The path goes on from where the axes are, so they do not stand beside it any more.
 void Interpolator::settle_axes() {
   dropping_ = false;
   if (stale_ == 0) return;
@@ -82,7 +82,8 @@ void Interpolator::settle_axes() {
   filter_.relocate(place());
 }
 
-/// An axis that a block does not name goes to where it is, but for what the way there and back through the coordinate systems leaves.
+/// The segment moves one of `axes`. An axis that a block does not name is commanded to where it is, up to the rounding of two conversions between
+/// coordinate systems; such a difference does not count.
 bool Interpolator::moves_any(const Segment& s, uint8_t axes) const {
   if (axes == 0) return false;
   AxisVec low, high;
@@ -93,12 +94,12 @@ bool Interpolator::moves_any(const Segment& s, uint8_t axes) const {
   return false;
 }
 
-/// M700 10.5, precaution (3): without its servo the C axis stops, and at the next servo ON the rest of its command is dropped: here all that
-/// the block has left, because the other axes of the move go on with it. True: `done` says what becomes of the move.
+/// M700 10.5, precaution (3): when its servo goes off the C axis stops, and at the next servo ON the rest of its command is dropped. Here the whole
+/// rest of the block is dropped, because the other axes move together with it. True: *done says what becomes of the move.
 bool Interpolator::lost_move(const Record& r, Done* done) {
   *done = Done::yes;
   if (dropping_) return true;
-  if (stale_ != 0 && !moving_ && at_rest()) {  // it may have been made when the axis stood there already
+  if (stale_ != 0 && !moving_ && at_rest()) {  // the move may have been read when the axis had its present position already
     bool known = true;
     for (unsigned i = 0; i < config_.axis_count; ++i)
       known = known && std::fabs(r.segment.curve.start[i] - wanted_[i] - turned_[i]) <= kReached;
@@ -120,8 +121,9 @@ bool Interpolator::lost_move(const Record& r, Done* done) {
   return true;
 }
 
-/// At the end of a block, a C axis being elsewhere. An alarm that has been read stays: that is how the reference check made as the block is
-/// read shows (M700 10.5 (2), note), unless a move that would be dropped comes before it.
+/// At the end of a block, while a C axis stands beside the committed path: whether the next blocks may be read again. They may not when an alarm has
+/// been read, so that the alarm of the reference check, which is made as a block is read, shows (M700 10.5 (2), note); but they may when a move that
+/// would be dropped comes before the alarm.
 bool Interpolator::may_read_again() const {
   if (dropping_) return true;
   for (uint32_t at = tail_ + 1; at != end_; ++at) {

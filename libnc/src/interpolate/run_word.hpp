@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which run of a program scan and feeder are in. One word says it, the scan alone writes it, and the feeder answers with the word that it
-// has acted upon: so that no two events between two turns of the feeder can look like another one, or like none.
+// Says which run of a program the scan and the feeder are in. It is one word, which only the scan writes; the feeder answers with the word that it
+// has acted upon. So several events that happen between two calls of the feeder can never look like another event, or like none.
 //
 //     word = epoch * 2 + active          epoch: how often everything that was committed has become void
 //
@@ -18,14 +18,14 @@
 //     even, another epoch                    takes back what was read beyond the last block that was executed, unless that was the end;
 //                                            interpreter as after reset
 //
-// The feeder looks in nc_feed(), and before every call that is refused while a program runs, so that none of them has to wait for nc_feed().
-// A start waits until the feeder has taken the word that it changes: else the feeder could miss that something lay between two starts.
-// A record carries the epoch that it was made in; the scan throws those of another one away.
+// The feeder reads the word in nc_feed(), and before every call that is refused while a program runs, so that no such call has to wait for nc_feed().
+// A start waits until the feeder has taken the word that it changes: else the feeder could miss what happened between two starts.
+// A record carries the epoch in which it was made; the scan throws records of another epoch away.
 //
 // A reset comes to IDLE when (1) the axes have come to rest, (2) a truncation is withdrawn, or done by the feeder in the call that it is in
 // (interpolate/truncation.hpp), (3) a rereading that was asked for is done, by the next nc_feed() whatever its state is.
 //
-// By the end of its 31 bits the epoch begins again at 0: it is only compared with records that are in the ring.
+// After 2^31 - 1 the epoch begins again at 0. That does no harm, because it is compared only with records that are in the ring.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The speeds that the spindles of a part system are wanted at: the S code, or so many revolutions that the surface at the tool goes with
-// a constant speed, within the clamp (M700 10.3, 10.4); which way round, where the program has said it; and which of the spindles that is for (M700 10.6.1).
+// The commanded speeds of the spindles of a part system: the S code, or the speed at which the surface at the tool has a constant speed, within the
+// clamp (M700 10.3, 10.4). Also the commanded directions, where the program has given one, and which spindles are selected (M700 10.6.1).
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ class SpindleSpeeds {
   void create(unsigned count) { count_ = count; }
   unsigned count() const { return count_; }
 
-  /// M700 10.6.1 (1): bit n: spindle n+1 follows what is commanded; the others keep the speed that they have.
+  /// M700 10.6.1 (1): bit n of `selected`: spindle n+1 follows the commands; the others keep their speeds.
   void select(uint8_t selected) {
     selected_ = selected;
     if (selected != 0) lead_ = static_cast<unsigned>(std::countr_zero(selected));
   }
   uint8_t selected() const { return selected_; }
-  /// The first of the selected spindles; while none is selected, the one that was last.
+  /// The first of the selected spindles, counted from 0; while none is selected, the one that was the first before.
   unsigned lead() const { return lead_; }
 
   void command(double rev_min) { code_ = rev_min; }
@@ -31,11 +31,12 @@ class SpindleSpeeds {
     for (unsigned i = 0; i < count_ && how != SpindleTurn::as_it_is; ++i)
       if (how == SpindleTurn::stop_all || (selected_ >> i & 1) != 0) direction_[i] = how;
   }
-  /// The spindle, counted from 0, turns the other way round than the program has said. What it has not said may be either way.
+  /// The spindle, counted from 0, turns in the direction opposite to the one commanded. A spindle without a commanded direction may turn either way.
   bool turns_wrong(unsigned spindle, double rev_per_s) const {
     return rev_per_s != 0 && direction_[spindle] == (rev_per_s > 0 ? SpindleTurn::reverse : SpindleTurn::forward);
   }
-  /// m/min around the coordinate of `axis` (from 1); 0 = the speed stays what it is until the next code.
+  /// Constant surface speed of `m_min`, m/min, at the radius that an axis gives: the lowest bit n of `axes` names axis n. No bit: there is no constant
+  /// surface speed any more, and the speed stays as it is until the next S code.
   void surface(double m_min, uint32_t axes) {
     const unsigned axis = axes == 0 ? 0 : static_cast<unsigned>(std::countr_zero(axes)) + 1u;
     if (axis == 0 && axis_ != 0) code_ = spindle_[lead_].now;
@@ -57,7 +58,7 @@ class SpindleSpeeds {
       spindle.how = how;
     }
   }
-  /// G97 and no clamp; what turns goes on turning, and which way nobody has said any more.
+  /// A reset: G97, no clamp unless a reset keeps it, and no commanded direction. Spindles that turn go on with their speeds.
   void reset() {
     std::fill_n(direction_, NC_MAX_SPINDLES, SpindleTurn::as_it_is);
     surface(0, 0);
@@ -65,7 +66,8 @@ class SpindleSpeeds {
       if ((spindle.how & NC_CLAMP_OVER_RESET) == 0) spindle = {.now = spindle.now};
   }
 
-  /// `coordinate(axis)`: workpiece coordinate in mm of an axis counted from 0. No speed is as high as one around the centre.
+  /// Calculates the speeds for this cycle. `coordinate(axis)`: workpiece coordinate in mm of an axis counted from 0. The radius counts as
+  /// kSmallestRadius at least, because the speed would be infinite at the centre.
   template <class Coordinate>
   void update(const Coordinate& coordinate) NC_RT {
     double wanted = code_;
@@ -75,7 +77,7 @@ class SpindleSpeeds {
   }
   /// r/min of a spindle, counted from 0.
   double now(unsigned spindle) const { return spindle_[spindle].now; }
-  /// What the S command stands for: the speed of the selected spindle; of none the code.
+  /// The speed that the S command means, r/min: that of the selected spindle; the S code while no spindle is selected.
   double commanded() const { return selected_ != 0 ? spindle_[lead_].now : code_; }
 
  private:
@@ -89,8 +91,8 @@ class SpindleSpeeds {
 
   double clamped(const Spindle& spindle, double speed) const {
     if (axis_ == 0 && (spindle.how & NC_CLAMP_ALWAYS) == 0) return speed;
-    // M700 10.4, precaution (1): where the S that was commanded, if only S0, is smaller than Q the two change places. Without an S there is
-    // no upper clamp, and Q is the lower one.
+    // M700 10.4, precaution (1): an S that was commanded, be it S0, and is smaller than Q changes places with it. Without an S there is no upper
+    // clamp, and Q is the lower one.
     const uint32_t high = spindle.has_s ? std::max(spindle.s, spindle.q) : 0;
     const uint32_t low = spindle.has_s ? std::min(spindle.s, spindle.q) : spindle.q;
     if (high != 0) speed = std::min(speed, static_cast<double>(high));

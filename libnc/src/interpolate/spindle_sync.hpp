@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads of the optimal mode: the time of their plan goes with the spindle instead of the clock. With tau the time of the plan and
-// sigma = tau' the motion of an axis Q(tau) has
+// Threads of the optimal mode: the plan of a thread is followed by the turning of the spindle and not by the clock. Let tau be the time of the plan,
+// and sigma = tau' how fast it goes. Then the motion of an axis Q(tau) has
 //
 //     velocity Q' sigma      acceleration Q'' sigma^2 + Q' sigma'      jerk Q''' sigma^3 + 3 Q'' sigma sigma' + Q' sigma''
 //
-// The plan leaves a part of the limits (ThreadShare); what sigma' and sigma'' may be follows from the rest (docs/motion-optimal.md,
-// "Threads"). The same angle of the spindle is the same place on the path, also while the axes speed up and brake.
+// The plan uses only a share of the limits (ThreadShare); from what it leaves follows how large sigma' and sigma'' may be (docs/motion-optimal.md,
+// "Threads"). So each angle of the spindle belongs to one place on the path, also while the axes accelerate and brake.
 #pragma once
 
 #include <algorithm>
@@ -21,12 +21,12 @@ class SpindleSync {
  public:
   /// The spindle and the path at the beginning of a step.
   struct Sample {
-    double turns = 0;      ///< of the spindle at its end
-    double rev_per_s = 0;  ///< its speed, both signed
-    double u = 0, v = 0;   ///< on the path, mm; by the time of the plan, mm/s
+    double turns = 0;      ///< turns of the spindle at the end of the step, signed
+    double rev_per_s = 0;  ///< speed of the spindle, rev/s, signed
+    double u = 0, v = 0;   ///< place on the path, mm; and planned speed, mm per second of the plan
     double lead = 0;       ///< mm of path per revolution
   };
-  /// What sigma' (1/s) and sigma'' (1/s^2) may be.
+  /// The largest magnitude that sigma' (slope, 1/s) and sigma'' (bend, 1/s^2) may have.
   struct Reach {
     double slope = HUGE_VAL, bend = HUGE_VAL;
   };
@@ -42,9 +42,9 @@ class SpindleSync {
     locked_ = false;
   }
 
-  /// Goes on for `time` seconds. @return seconds of the plan.
+  /// Goes on for `time` seconds. @return by how many seconds the time of the plan goes on.
   double advance(double time, const Sample& s, const Reach& reach) NC_RT {
-    if (s.v >= kAtPace * s.lead * planned_) {  // at speed the place counts: the plan may be slower by what its law is not exact
+    if (s.v >= kAtPace * s.lead * planned_) {  // at speed the place on the path counts; kAtPace allows for a law that is not quite exact
       if (!locked_) origin_ = turns_ - std::copysign(s.u / s.lead, s.rev_per_s);
       locked_ = true;
       wanted_ = tau_ + (s.lead * std::fabs(turns_ - origin_) - s.u) / s.v;
@@ -70,12 +70,12 @@ class SpindleSync {
   double planned() const { return planned_; }
   PlanPace pace() const { return {sigma_, slope_}; }
 
-  /// What a thread leaves of the limits, which the plan uses by ThreadShare at most.
+  /// The largest sigma' and sigma'' for a thread: the plan uses at most ThreadShare of the limits, the rest is for these.
   static Reach reach_of(const Segment& s, double planned, const optimal::Limits& limits) NC_RT {
     using Share = optimal::ThreadShare;
     constexpr double f = Share::kFaster;
-    constexpr double kOfAcceleration = 0.99 - Share::kAcceleration * f * f;  // left for Q' sigma'
-    constexpr double kOfJerk = 0.5 * (0.99 - Share::kJerk * f * f * f);      // for each of 3 Q'' sigma sigma' and Q' sigma''
+    constexpr double kOfAcceleration = 0.99 - Share::kAcceleration * f * f;  // share left for Q' sigma'
+    constexpr double kOfJerk = 0.5 * (0.99 - Share::kJerk * f * f * f);      // share left for each of 3 Q'' sigma sigma' and Q' sigma''
     const bool line = !s.curve.circular && s.curve.shape == nullptr;
     Reach r;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
@@ -92,26 +92,27 @@ class SpindleSync {
   }
 
  private:
-  /// The largest slope at the end of a step from where sigma still comes to a steady value within its range, of which `left` was there when the
-  /// step began with `slope`. Going down by bend T in each step of T a slope s takes s^2 / (2 bend) + s T / 2 at most, the step itself T times
-  /// the mean of both slopes; what keeps to it goes down by no more than bend T, because sqrt(x^2 + y^2) >= x.
+  /// The largest slope at the end of a step of T = `time` from which sigma can still become steady before it has changed by `left`, counted from the
+  /// beginning of the step, where the slope is `slope`. Derivation: a slope s that goes down by bend T in each further step changes sigma by
+  /// s^2 / (2 bend) + s T / 2 at most, and the step itself changes it by T times the mean of both slopes. The slope never has to go down by more than
+  /// bend T in one step, because sqrt(x^2 + y^2) >= x.
   static double most_slope(double left, double slope, double bend, double time) NC_RT {
     const double by = bend * time;
     return std::max(0.0, std::sqrt(std::max(0.0, by * by + 2 * bend * (left - 0.5 * time * slope))) - by);
   }
 
-  static constexpr double kPole = 120;           ///< 1/s, of the three of the loop that keeps tau with the spindle
-  static constexpr double kPolePerCycle = 0.15;  ///< of a cycle
-  static constexpr double kAtPace = 0.999;
+  static constexpr double kPole = 120;           ///< 1/s, each of the three poles of the control loop that keeps tau with the spindle
+  static constexpr double kPolePerCycle = 0.15;  ///< largest pole times cycle time, for long cycles
+  static constexpr double kAtPace = 0.999;       ///< share of the speed of the thread from which on it counts as reached
   static constexpr double kMostSlope = 1e3, kMostBend = 1e6;  ///< where no axis has limits
 
   double pole_ = kPole;
-  double turns_ = 0;    ///< of the spindle, at the end of the last step
-  double planned_ = 1;  ///< rev/s
+  double turns_ = 0;    ///< turns of the spindle at the end of the last step
+  double planned_ = 1;  ///< speed of the spindle for which the plan was made, rev/s
   double tau_ = 0, sigma_ = 1, slope_ = 0;
   double wanted_ = 0;   ///< what tau should be
-  double origin_ = 0;   ///< turns where u would be 0 at speed
-  bool locked_ = false;
+  double origin_ = 0;   ///< turns of the spindle at which u would be 0, counted back from where the thread has reached its speed
+  bool locked_ = false; ///< the thread has reached its speed, and origin_ is known
 };
 
 }  // namespace nc

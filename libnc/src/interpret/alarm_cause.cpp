@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why a block has raised an alarm, as far as the fault does not say so itself: the option that is off, the code of another control, the
-// vacant variable. All of it is found when the block is given up; nothing is noted for it while programs run, but for a vacant F.
+// Why a block has raised an alarm, where the fault itself does not say it: an option that is off, a code of another control, a vacant variable. All this is
+// found when the block is given up; while programs run nothing is noted for it, except a vacant F.
 #include <cstring>
 
 #include "dialect/alarms.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 bool in_range(uint32_t number, uint32_t first, uint32_t last) { return number >= first && number <= last; }
 
-/// Common variables that an option has (M700 13.4): the smallest value of `variable_sets` with `number`, 0 = none.
+/// The smallest value of nc_config::variable_sets with which the common variable `number` exists (M700 13.4), 0 = there is none.
 unsigned sets_with(uint32_t number) {
   constexpr struct {
     uint32_t first, last;
@@ -33,7 +33,7 @@ TextWriter& put_parameter(const Interpreter& in, ParameterOf parameter, TextWrit
   return parameter_place(*in.dialect, parameter, key, &bit) ? out.put('#').put(key) : out;
 }
 
-/// What a system variable needs that there could be. False: nothing is missing.
+/// Writes which option a system variable needs. False: no option is missing.
 bool put_system_variable_option(const Interpreter& in, uint32_t number, TextWriter& out) {
   const VariableRow* const row = find_variable(*in.dialect->variables, number);
   if (row == nullptr) return false;
@@ -49,9 +49,9 @@ bool put_system_variable_option(const Interpreter& in, uint32_t number, TextWrit
   return true;
 }
 
-/// P241 of a variable that an option would give. False: no option has it.
+/// For P241: writes which option would give the variable. False: there is no such option.
 bool put_variable_option(const Interpreter& in, uint32_t number, TextWriter& out) {
-  const bool exists = in.common->exists(number);  // it cannot have the name that SETVN gives it, or the like
+  const bool exists = in.common->exists(number);  // then the alarm has another cause: it cannot have a name, for example
   const unsigned sets = exists ? 0 : sets_with(number);
   if (sets != 0) {
     out.put("It comes with the option variable_sets = ").put_integer(sets).put(" or more.");
@@ -80,7 +80,7 @@ bool put_option(const Interpreter& in, TextWriter& out, bool* instead) {
 
 // ---- codes of other controls ------------------------------------------------------------------------------------------------
 
-/// Words behind the number or name of an O-word of LinuxCNC.
+/// The words that may follow the number or name of an O-word of LinuxCNC.
 constexpr const char* kOWords[] = {"SUB",   "ENDSUB", "CALL",     "RETURN", "IF",       "ELSEIF",   "ELSE",
                                    "ENDIF", "WHILE",  "ENDWHILE", "DO",     "CONTINUE", "BREAK",    "REPEAT",
                                    "ENDREPEAT"};
@@ -97,7 +97,7 @@ void skip_digits(const char** at) {
   while (**at >= '0' && **at <= '9') ++*at;
 }
 
-/// At an O: "o100 sub", "O<name> call [1]", "o[#1] if [...]", "o#1 call".
+/// `at` is at an O: whether an O-word follows, like "o100 sub", "O<name> call [1]", "o[#1] if [...]", "o#1 call".
 bool is_o_word(const char* at) {
   ++at;
   skip_blanks(&at);
@@ -118,15 +118,15 @@ bool is_o_word(const char* at) {
   return false;
 }
 
-/// At a #: "#<feed>", "# <_global>".
+/// `at` is at a #: whether a named parameter follows, like "#<feed>", "# <_global>".
 bool is_named_parameter(const char* at) {
   ++at;
   skip_blanks(&at);
   return *at == '<';
 }
 
-/// What a line of LinuxCNC holds that there is not here, nullptr = nothing. Anywhere in it, but in a comment: an O-word at its head, behind N,
-/// '/' or another word. Letters before it make it part of a name.
+/// A sentence about what a line of LinuxCNC has and this family has not; nullptr = nothing is found. It is searched for in the whole line except comments:
+/// an O-word at its beginning, or behind N, '/' or another word; an O behind a letter is a part of a name.
 const char* linuxcnc_hint(const char* line) {
   const char* hint = nullptr;
   bool comment = false;
@@ -149,11 +149,11 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
     out.put(hint);
     return true;
   }
-  // Letters without numbers: an O number in front of a block that makes sense is none of these. Behind the first blocks an O begins another
-  // program, so that this one has ended without M30.
+  // An O-word shows by letters without numbers, so the block must be one that could not be read; an O number before a block that can be read is no O-word.
+  // It also shows as a program that has ended without M30, because behind the first blocks an O begins another program.
   const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error ||
                                                   fault.condition == Condition::program_end || fault.condition == Condition::variable_use);
-  if (!unreadable || in.dialect->lex->formula == Formula::ngc) return false;  // which has both of them: its own sentences say what is wrong
+  if (!unreadable || in.dialect->lex->formula == Formula::ngc) return false;  // this family has O-words and named parameters, and sentences of its own
   char text[160] = {};
   const TextEntry* const entry = in.store->entry(in.source.file);
   if (entry == nullptr || TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) <= 0) return false;
@@ -167,8 +167,8 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
 
 // ---- vacant variables ---------------------------------------------------------------------------------------------------------
 
-/// Alarms that a vacant variable can be behind, and the words that are looked at for one: a word with nothing but a vacant variable is
-/// ignored, in a formula it counts as 0 (M700 13.5.4).
+/// Alarms that a vacant variable may cause, and the words in which such a variable is searched for: a word that is only a vacant variable is ignored; in a
+/// formula it counts as 0 (M700 13.5.4).
 enum class Suspected : uint8_t { any_word, named_word, feed, lead, speed, offset, number, kind, program };
 struct Suspects {
   Condition condition;
@@ -197,7 +197,7 @@ constexpr Suspects kSuspects[] = {
     {Condition::variable_number, Suspected::any_word},
 };
 
-/// Reads for the evaluator and remembers the first variable that was vacant.
+/// Reads variables for the evaluator, and remembers the first one that was vacant.
 struct VacancyReader {
   VariableReader reader;
   uint32_t vacant = 0;
@@ -205,7 +205,7 @@ struct VacancyReader {
   static Eval read(void* self, uint32_t number, Value* value, Fault* fault, uint32_t* sync) {
     VacancyReader& me = *static_cast<VacancyReader*>(self);
     const Eval eval = me.reader.read(me.reader.self, number, value, fault, sync);
-    if (eval == Eval::ok && value->vacant && number != 0 && !me.found) {  // #0 is meant to be
+    if (eval == Eval::ok && value->vacant && number != 0 && !me.found) {  // #0 is vacant on purpose
       me.found = true;
       me.vacant = number;
     }
@@ -273,7 +273,7 @@ bool put_vacant_statement(Interpreter& in, TextWriter& out) {
     out.put(jumps ? "In the number behind GOTO, #" : "In the number of the variable, #").put_integer(number).put(" is vacant.");
     return true;
   }
-  // Whether a condition holds is no reason for a jump that leads nowhere; a vacant variable there is often meant.
+  // A jump to a missing place is not caused by its condition, in which a vacant variable is often intended.
   if (in.fault.condition == Condition::sequence_missing || s.kind == StatementKind::go_to) return false;
   if (!(conditional || s.kind == StatementKind::assign) || !vacant_in(in, s.value, &number)) return false;
   if (conditional)

@@ -9,7 +9,7 @@ namespace nc {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSamePoint = 1e-9;   // mm: far below every command unit
+constexpr double kSamePoint = 1e-9;   // mm: points that are no farther apart are the same; far below every command unit
 
 /// Centre of an arc of radius |radius| through start and end: on the perpendicular bisector of the chord, at distance
 /// sqrt(r^2 - (L/2)^2) from its middle; radius > 0 takes the shorter arc, radius < 0 the longer one (M700 6.5).
@@ -34,7 +34,7 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
   const bool closed = std::fabs(end[0] - start[0]) < kSamePoint && std::fabs(end[1] - start[1]) < kSamePoint;
   Circle c;
   if (words.has_radius) {
-    if (closed || words.radius == 0) {  // M700 6.5: a circle that is finished already
+    if (closed || words.radius == 0) {  // M700 6.5: with R an arc to its start is a circle that is finished already
       *straight = closed;
       return closed ? Condition::none : Condition::arc_center;
     }
@@ -46,25 +46,25 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
   }
   c.radius_start = std::hypot(start[0] - c.center[0], start[1] - c.center[1]);
   c.radius_end = std::hypot(end[0] - c.center[0], end[1] - c.center[1]);
-  // M700 6.4: greater than the tolerance is P70; the guard keeps 5.0 - 4.9 from being more than 0.1.
+  // M700 6.4: a difference greater than the tolerance is P70; the 1e-9 allows for rounding, so that 5.0 - 4.9 is not more than 0.1.
   *circle = c;
   if (std::fabs(c.radius_end - c.radius_start) > tolerance + 1e-9) return Condition::arc_deviation;
-  // Within the tolerance it is a spiral "in the direction of the commanded end point". One that begins or ends in its centre has no angle
-  // there that it could turn from: the straight line is all of it that is programmed.
+  // Within the tolerance it is a spiral "in the direction of the commanded end point". A spiral that begins or ends in its centre has no angle there, so
+  // only the straight line to the end remains.
   *straight = c.radius_start < kNoRadius_mm || c.radius_end < kNoRadius_mm;
   if (*straight) return Condition::none;
   c.angle_start = std::atan2(start[1] - c.center[1], start[0] - c.center[0]);
   double sweep = 0;
   if (!closed) {
     sweep = std::atan2(end[1] - c.center[1], end[0] - c.center[0]) - c.angle_start;
-    // An end on the ray of the start is a whole turn away, on whichever side of that ray rounding puts it.
+    // An end on the same ray from the centre as the start is a whole turn away, on whichever side of that ray rounding puts it.
     const double none = kSamePoint / std::fmax(c.radius_start, c.radius_end);
     if (ccw && sweep <= none) sweep += 2 * kPi;
     if (!ccw && sweep >= -none) sweep -= 2 * kPi;
   } else {
     sweep = ccw ? 2 * kPi : -2 * kPi;  // M700 6.4: end equal to the start is a full circle
   }
-  // M700 6.6: 2 pi P + theta with 0 <= theta < 2 pi, so that P2 back to the start goes round twice, as 6.16 draws it.
+  // M700 6.6: the sweep is 2 pi P + theta with 0 <= theta < 2 pi, so P2 with the end at the start makes two turns, as 6.16 draws it.
   const unsigned more = (closed || words.turns_count_last) && words.turns != 0 ? words.turns - 1 : words.turns;
   c.sweep = sweep + (ccw ? 2 : -2) * kPi * more;
   *circle = c;

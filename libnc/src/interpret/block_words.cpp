@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words -> values: expressions, the G and M codes of the block, units and decimal point rules.
+// From words to values: expressions, the G and M codes of the block, units and the rules of decimal points.
 #include "interpret/block_words.hpp"
 
 #include <bit>
@@ -14,7 +14,7 @@
 namespace nc {
 namespace {
 
-/// The motion that will be in force when the whole block has been read, as far as its codes are plain numbers.
+/// The motion that will be in force when the whole block has been read; codes that are expressions are not considered.
 Function motion_of_block(const Interpreter& in) {
   Function motion = in.state.modal.of(Mode::motion);
   for (const Word& word : in.block->words) {
@@ -25,7 +25,7 @@ Function motion_of_block(const Interpreter& in) {
   return motion;
 }
 
-/// Codes that a mode in force does not bear. A curve that the block itself leaves bears everything.
+/// Raises an alarm for a code that may not be commanded in a mode in force. A curve that the block itself ends does not count.
 Execution check_modes(Interpreter& in, const FunctionRow& row, double value) {
   const State& state = in.state;
   const Function before = state.modal.of(Mode::motion), motion = bars_codes(before) ? motion_of_block(in) : before;
@@ -41,10 +41,10 @@ Execution check_modes(Interpreter& in, const FunctionRow& row, double value) {
   return bad == Condition::none ? Execution::done : in.raise(bad, Role::code, value);
 }
 
-/// G51, G68: appendix 2 has no row for them, so whose the words would be beside another such code is not said.
+/// G51 and G68: appendix 2 has no row for them, so it does not say to which code the words belong when another such code stands in the block.
 bool shares_no_words(Function function) { return function == Function::scaling_on || function == Function::rotation_on; }
 
-/// Files a G code under what it is.
+/// Puts a G code of the block into in.words by its function.
 Execution take_g(Interpreter& in, double value) {
   const FunctionRow* const row = in.codes.find(value);
   if (row == nullptr) return in.raise(Condition::illegal_g, Role::code, value);
@@ -53,7 +53,7 @@ Execution take_g(Interpreter& in, double value) {
     if (did != Execution::done) return did;
   }
   if (row->missing != nullptr) {
-    if (in.state.fine_mode != FineMode::none) return in.raise(Condition::illegal_g, Role::code, value);  // M700 13.17: not in its list, fitted or not
+    if (in.state.fine_mode != FineMode::none) return in.raise(Condition::illegal_g, Role::code, value);  // M700 13.17: the code is not in the list, whether the machine has it or not
     const bool excluded = refused_in_inverse_time(row->function) && inverse_time_so_far(in);
     return excluded ? in.raise(Condition::inverse_time_code, Role::code, value) : in.raise_code(Condition::no_function, *row);
   }
@@ -77,7 +77,7 @@ Execution take_g(Interpreter& in, double value) {
       w.one_shot = row;
       return Execution::done;
     case Function::mirror_on:
-    case Function::mirror_off:  // So does this, unless App. 2 lets another one take them.
+    case Function::mirror_off:  // G51.1 and G50.1 take the words, unless by App. 2 they belong to another code of the block
       if (w.one_shot != nullptr && precedence_of(w.one_shot->function).mirror == Precedence::ignored) return Execution::done;
       w.one_shot = row;
       return Execution::done;
@@ -104,11 +104,10 @@ Execution take_m(Interpreter& in, double value) {
   return Execution::done;
 }
 
-/// M700 13.1.1: "0.001 to 999.999 (mm)"; 6.1 and 6.2 print no range for the same word.
+/// M700 13.1.1: "0.001 to 999.999 (mm)"; 6.1 and 6.2 give no range for the same word.
 bool in_position_range(double mm) { return mm > 0.001 - 1e-9 && mm < 999.999 + 1e-9; }
 
-/// M98: what ,D belongs to.
-/// ,C ,R: of a motion, in coordinates that are those of the axes. In a fixed cycle ,R means something else (M700 13.1.1).
+/// The block may have ,C or ,R: it has a motion, and programmed coordinates are those of the axes. In a fixed cycle ,R means something else (M700 13.1.1).
 bool may_have_corner(const Interpreter& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr);
@@ -134,7 +133,8 @@ bool calls_sub(const Interpreter& in) {
   return false;
 }
 
-/// M700 14.10 prints "G28 XYZ", 6.9 "G19 Z C", and 6.16 (4) has "G07 Y": zeros. A word of any other block is a letter and a number (3.2 (1)).
+/// Axis letters without numbers are allowed, and count as 0: M700 14.10 has "G28 XYZ", 6.9 "G19 Z C", and 6.16 (4) "G07 Y". In any other block a word is a
+/// letter and a number (3.2 (1)).
 bool takes_bare_axes(const BlockWords& w) {
   if (w.one_shot != nullptr) return w.one_shot->function == Function::reference_return || w.one_shot->function == Function::hypothetical_axis;
   for (const FunctionRow* row : w.g)
@@ -142,7 +142,7 @@ bool takes_bare_axes(const BlockWords& w) {
   return false;
 }
 
-/// Behind the macro call that is word `first` there is one of another kind.
+/// Behind the macro call that is word `first` stands another macro call, of a different kind.
 bool calls_another(const Interpreter& in, unsigned first) {
   for (unsigned i = first + 1; i < in.block->words.size(); ++i) {
     const Word& word = in.block->words[i];
@@ -153,7 +153,7 @@ bool calls_another(const Interpreter& in, unsigned first) {
   return false;
 }
 
-/// `twice`: addresses that the block has more than once.
+/// Checks words that may stand only once. `twice`: the addresses that the block has more than once.
 Execution check_words_stand_once(Interpreter& in, uint32_t twice) {
   const BlockWords& w = in.words;
   if (twice != 0) return in.raise(Condition::format_error, letter_of(first_of(twice)), w.raw[first_of(twice)]);
@@ -163,7 +163,7 @@ Execution check_words_stand_once(Interpreter& in, uint32_t twice) {
   return Execution::done;
 }
 
-/// For the alarm of the move that has no feed because of it (alarm_cause.cpp).
+/// Notes the variable of an F that is vacant, for the alarm of a move that has no feed because of it (alarm_cause.cpp).
 [[gnu::cold, gnu::noinline]] void note_vacant_feed(Interpreter& in, const Word& word) {
   uint32_t number = 0;
   if (!lone_variable(*in.block, word.code, &number)) return;
@@ -205,7 +205,7 @@ Execution gather_words(Interpreter& in) {
     const Word& word = words[i];
     const unsigned at = address_of(word);
     double value = word.value;
-    // Nearly all words: a number behind a letter that is neither a code nor the number of the block.
+    // Nearly all words are like this: a number behind a letter that is neither that of a code nor that of a block number.
     if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) == 0 && ((codes >> at) & 1) == 0) {
       twice |= present & 1u << at;
       present |= 1u << at;
@@ -270,7 +270,7 @@ Execution gather_words(Interpreter& in) {
       if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
       if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
       if (in.words.one_shot != nullptr && is_macro_call(in.words.one_shot->function)) {
-        // The rest are arguments. M700 App.2: G65 beside G66 is an error.
+        // All further words are arguments. M700 App.2: G65 beside G66 is an error.
         if (calls_another(in, i)) return in.raise(Condition::format_error, Role::code, value);
         break;
       }
@@ -317,7 +317,7 @@ char first_of_block(const BlockContext& in, uint32_t of) {
 
 namespace {
 
-/// raw * unit, computed as a division by the whole number 1/unit where that is exact: 12345 * 0.001 is 12.345 and nothing else.
+/// raw * unit, calculated as a division by the whole number 1/unit where that is exact, so that 12345 * 0.001 is exactly the double 12.345.
 double scaled(double raw, double unit) {
   if (unit >= 1) return raw * unit;
   return raw / std::nearbyint(1 / unit);
@@ -366,7 +366,7 @@ double length_of(const BlockContext& in, Role word, bool setting_unit) {
 
 namespace {
 
-/// In mm/min or inch/min.
+/// The largest feed, mm/min or inch/min.
 double largest_feed(const BlockContext& in) {
   const NumberRules& rules = in.dialect->rules.number;
   if (in.words.pointed(Role::feed)) return inch(in) ? rules.largest_feed_inch : rules.largest_feed_mm;
@@ -386,20 +386,21 @@ Execution feed_of(BlockContext& in, double* feed) {
 
 namespace {
 
-/// M700 2.1, 5.3. DGSHAPE 2-1 "range 1": the same numbers with a point (the two labels are exchanged in print).
+/// M700 2.1, 5.3: the value is in the range of coordinates. DGSHAPE 2-1 "range 1": the same limits for numbers with a point (the manual has the two labels
+/// exchanged).
 bool in_range(const BlockContext& in, double value, uint8_t flags, bool rotary) {
   const Settings& s = in.settings;
   const double last = rotary ? s.last_deg : inch(in) ? s.last_inch : s.last_mm;
   return std::fabs(value) <= last || (in.dialect->rules.number.undotted_range_is_digits && (flags & kWordPoint) == 0);
 }
 
-/// Axes whose words count from where the axis is.
+/// Bit i: the word of axis i is incremental.
 uint32_t incremental_axes(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Families without the rule below have at most one of G90/G91 in a block, so that the order of words does not matter: the code counts
   // for the whole block.
   if (!in.distance_by_word) return in.state.modal.is(Function::incremental) ? ~uint32_t{0} : 0;
-  // M700 5.1: each axis word goes by the G90/G91 before it in the block; the last one stays modal.
+  // M700 5.1: for each axis word the G90 or G91 before it in the block counts; the last one stays modal.
   bool incremental = in.block_starts_incremental;
   uint32_t axes = 0;
   for (unsigned i = 0; i < in.block->words.size(); ++i) {
@@ -427,13 +428,13 @@ Execution resolve_axes(Interpreter& in) {
     // M700 6.10: in the plane of polar coordinate interpolation the rotary axis is commanded in mm or inch.
     const bool turns = ((in.rotary >> axis) & 1) != 0 && !(in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary);
     const double value = axis_value(in, axis, w.raw[at], w.flags[at], turns);
-    const bool time = at == w.addresses->at(Role::dwell_seconds) && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds: a range of its own
+    const bool time = at == w.addresses->at(Role::dwell_seconds) && w.one_shot != nullptr && w.one_shot->function == Function::dwell;  // seconds have a range of their own
     if (!time && !in_range(in, value, w.flags[at], turns)) return in.raise(Condition::value_range, letter_of(at), w.raw[at]);
     w.axis[axis] = value;
   }
   w.axes = axes;
   w.incremental &= axes;
-  // M700 10.5, precaution (2), and (2), note: checked as the block is read.
+  // M700 10.5, precaution (2), and (2), note: this is checked as the block is read.
   if ((axes & in.closed_axes) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function)))
     return in.raise_axis(Condition::no_reference, static_cast<unsigned>(std::countr_zero(axes & in.closed_axes)));
   for (uint32_t lengths = w.present & in.dialect->length_addresses; lengths != 0; lengths &= lengths - 1) {

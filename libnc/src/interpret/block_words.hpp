@@ -13,7 +13,7 @@ struct BlockContext;
 struct Interpreter;
 enum class Execution : uint8_t;
 
-/// Addresses are numbers from 0, whatever letters a family writes for them.
+/// An address is the number of its letter, from 0 = A.
 inline constexpr unsigned kAddresses = 26;
 constexpr unsigned address_of(char letter) { return static_cast<unsigned>(letter - 'A'); }
 constexpr unsigned address_of(const Word& word) { return address_of(word.letter); }
@@ -22,21 +22,21 @@ constexpr char letter_of(unsigned address) { return static_cast<char>('A' + addr
 constexpr unsigned first_of(uint32_t set) { return static_cast<unsigned>(std::countr_zero(set)); }
 
 struct BlockWords {
-  const AddressTable* addresses = nullptr;  ///< of the family: what the words mean
+  const AddressTable* addresses = nullptr;  ///< what the addresses mean in this family
   uint32_t present = 0;            ///< bit n: address n stands in the block, with a value
-  double raw[kAddresses + 1];      ///< as programmed; the last one counts; undefined where not present
-  uint8_t flags[kAddresses + 1];   ///< WordFlag of it
+  double raw[kAddresses + 1];      ///< value of each address as programmed, of several words the last one; undefined where not present
+  uint8_t flags[kAddresses + 1];   ///< WordFlag bits of that word
   uint32_t axes = 0;               ///< bit i: axis i is commanded
-  uint32_t incremental = 0;        ///< bit i: by G91
-  AxisVec axis;                    ///< its value in mm or deg
+  uint32_t incremental = 0;        ///< bit i: axis i is commanded incrementally (G91)
+  AxisVec axis;                    ///< commanded value of each axis, mm or deg
   FixedVector<const FunctionRow*, 16> g; ///< G codes in order
   FixedVector<uint32_t, 16> m;     ///< M codes in order
   const FunctionRow* one_shot = nullptr; ///< the one-shot function that takes the words, or null
   const FunctionRow* motion = nullptr;   ///< the motion that this block names, or null
   const FunctionRow* cycle = nullptr;    ///< the fixed cycle that this block names, or null
   bool exact_stop = false;         ///< G09
-  bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is awaited when the time is over
-  char late_number = 0;            ///< N or O behind other words, 0 = none
+  bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is waited for after the dwell
+  char late_number = 0;            ///< letter of an N or O that stands behind other words, 0 = none
   uint8_t counted_feeds = 0;       ///< F1= to F8=, bit n - 1 (M700 15.5); their values stand in counted_feed
   double counted_feed[8];
   double in_position = 0;          ///< ,I: in-position width of this block, mm (M700 6.1, 6.2, 13.1.1); 0 = none
@@ -56,39 +56,39 @@ struct BlockWords {
 
   bool any(uint32_t of) const { return (present & of) != 0; }
   bool any(std::initializer_list<Role> of) const { return any(addresses->set(of)); }
-  /// The word with this meaning stands in the block; its value as programmed (only where it does); its WordFlags.
+  /// Whether the word with this meaning stands in the block; its value as programmed and its WordFlag bits, which are valid only then.
   bool has(Role word) const { return (present >> addresses->at(word)) & 1; }
   double get(Role word) const { return raw[addresses->at(word)]; }
   uint8_t flag(Role word) const { return flags[addresses->at(word)]; }
-  /// Written with a point, or an expression, which counts as with one (M700 5.3).
+  /// The word is written with a point, or is an expression, which counts as one with a point (M700 5.3).
   bool pointed(Role word) const { return (flag(word) & (kWordPoint | kWordExpression)) != 0; }
-  /// The same by the name that the configuration or a parameter gives an axis.
+  /// Whether a word stands in the block, and its value, by the name that the configuration or a parameter gives an axis.
   bool has(char name) const { return (present >> address_of(name)) & 1; }
   double get(char name) const { return raw[address_of(name)]; }
 };
 
-/// The word of the block that asks for a corner.
+/// The word of the block that commands a corner.
 inline Role corner_word(const BlockWords& words) { return words.corner == Corner::chamfer ? Role::option_chamfer : Role::option_corner_radius; }
 
-/// Evaluates every word, finds the G and M codes and what they are. Changes nothing but in.words.
+/// Evaluates every word, and finds the G and M codes and their functions. Changes only in.words.
 Execution gather_words(Interpreter& in);
 
-/// The letter of the first word of the block whose address is in `of`, which is not empty: alarms name it.
+/// The letter of the first word of the block whose address is in `of` (not empty), for alarms.
 char first_of_block(const BlockContext& in, uint32_t of);
 
-/// Applies the block's unit and distance modes to the axis words (call when the modal codes of the block are in force).
+/// Applies the unit and distance modes to the axis words. To be called when the modal codes of the block are in force.
 Execution resolve_axes(Interpreter& in);
 
-/// Value of a length word (I J K R Q and the like) in mm; axis = -1 a length, else rotary or linear like the axis.
-/// `tenfold`: "UNIT*10" acts on it (M700 2.2).
+/// Value of a length word (I J K R Q and the like) in mm, or of an angle word in deg (`rotary`). `setting_unit`: a word without a point counts in the
+/// setting unit, otherwise in the command unit. `tenfold`: "UNIT*10" acts on it (M700 2.2).
 double length_value(const BlockContext& in, double raw, uint8_t flags, bool rotary, bool setting_unit, bool tenfold = true);
 double length_of(const BlockContext& in, Role word, bool setting_unit = true);
 double length_of(const BlockContext& in, char axis_name, bool setting_unit = true);
 /// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
 double axis_value(const BlockContext& in, unsigned axis, double raw, uint8_t flags, bool rotary);
-/// F of the block -> the number that is kept modal.
+/// Turns the F of the block into the number that becomes modal.
 Execution feed_of(BlockContext& in, double* feed);
-/// A word that must be a whole number; fraction is dropped (M700 5.3). False when it is negative or too large.
+/// Turns a value into a whole number; a fraction is dropped (M700 5.3). False when it is negative or too large.
 bool whole_number(double raw, uint32_t* number);
 
 }  // namespace nc

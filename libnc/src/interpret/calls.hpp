@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entering programs: what the kinds of calls have in common. flow.cpp has M98 and M99, macro_call.cpp G65 to G67, code_call.cpp the
-// codes that call, interrupt.cpp M96.
+// Entering programs: what all kinds of calls use. M98 and M99 are in flow.cpp, G65 to G67 in macro_call.cpp, codes that call in code_call.cpp, M96 in
+// interrupt.cpp.
 #pragma once
 
 #include "interpret/interpreter.hpp"
@@ -14,12 +14,12 @@ inline CallFrame& top(Interpreter& in) { return in.state.frame[in.state.depth]; 
 
 Execution evaluate_here(Interpreter& in, uint16_t code, Value* value);
 
-/// The program that P or <name> of the block in hand names; without both the running one where `own_allowed`.
+/// Finds the program that P or <name> of the block in hand names; when there is neither, it is the running program, if `own_allowed`.
 Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program);
-/// A number of a program or a sequence that a call names.
+/// Turns the value of a word of a call into a program number or sequence number.
 Execution called_number(Interpreter& in, Role word, double value, uint32_t* number);
 Execution find_number(Interpreter& in, uint32_t number, ProgramRef* program);
-/// Where a called program begins: its head, or the sequence number that H names.
+/// Finds where a called program begins: at its first block, or at the sequence number that H names.
 Execution find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line);
 /// L of a call: 1 when it is not there.
 Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count);
@@ -35,9 +35,9 @@ struct Entry {
   uint8_t slot = 0;         ///< of the modal call that enters
   uint32_t last_sequence = 0;  ///< of the block behind which a pass has ended, 0 = M99 says so
 };
-/// later, or what is wrong. The block in hand gets its mark when the program returns.
+/// Enters a program; the result is Execution::later, or a fault. The block in hand gets its mark when the program returns.
 Execution enter(Interpreter& in, const Entry& entry);
-/// The same as a macro: a level of local variables with these values (33).
+/// Enters a program as a macro, with its own level of local variables, which get these 33 values.
 Execution enter_macro(Interpreter& in, const Entry& entry, const Value* arguments);
 
 struct MacroCall {
@@ -45,16 +45,16 @@ struct MacroCall {
   double p = 0, l = 0;
   Value argument[kLocals];
 };
-/// The block in hand as arguments. `every_word`: G L N O P are arguments too (M700 13.5.1, G66.1).
+/// Takes the words of the block in hand as arguments. `every_word`: G L N O P are arguments, too (M700 13.5.1, G66.1).
 Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call);
 
-/// G66, G66.1: the call is stored.
-/// The modal call in a slot, from 1.
+/// The modal call in a slot; slots are counted from 1.
 inline const ModalCall& modal_call(const Interpreter& in, unsigned slot) { return in.records->modal_call[slot - 1]; }
+/// G66, G66.1: stores a modal call.
 Execution store_modal_call(Interpreter& in, const ProgramRef& program, const MacroCall& call, uint32_t passes, bool every_block, bool by_code);
-/// The modal call in force in this program is made now.
+/// Makes the modal call that is in force in this program.
 Execution make_modal_call(Interpreter& in);
-/// What #4014 reads follows the program that runs.
+/// Sets the modal state that #4014 reads to the modal call of the program that runs.
 void show_modal_call(Interpreter& in);
 
 /// print.cpp: SETVN, POPEN, PCLOS, DPRNT, BPRNT
@@ -64,7 +64,7 @@ Execution close_port(Interpreter& in);
 Execution print_decimal(Interpreter& in, const Statement& statement);
 Execution print_binary(Interpreter& in, const Statement& statement);
 
-/// M98 or M99 with nothing but O N P L H (M700 13.3.1).
+/// The block has M98 or M99, and no other words than O N P L H (M700 13.3.1).
 bool only_calls(const Interpreter& in);
 
 }  // namespace nc

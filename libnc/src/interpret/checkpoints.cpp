@@ -7,15 +7,15 @@
 namespace nc {
 namespace {
 
-// What is kept of a state, in this order: its values, the call stack up to and with the frames in use, the loops in use.
+// What is kept of a state, in this order: its values, the call stack up to the last frame in use, the loops in use.
 constexpr size_t kDepth = sizeof(StateValues) + offsetof(CallStack, depth);
 constexpr size_t kFrames = sizeof(StateValues) + offsetof(CallStack, frame);
 
-/// Bytes of the state up to and with the frames in use; the loops in use come behind.
+/// Bytes of the state up to the end of the last frame in use; the loops in use follow.
 uint32_t head_size(const State& state) { return static_cast<uint32_t>(kFrames + (state.depth + 1u) * sizeof(CallFrame)); }
 uint32_t loops_size(const State& state) { return static_cast<uint32_t>(state.loop_count * sizeof(Loop)); }
 
-constexpr uint32_t kOrdinary = 736;  // main program and one or two levels
+constexpr uint32_t kOrdinary = 736;  // bytes of a state with the main program and one or two further levels
 
 }  // namespace
 
@@ -47,18 +47,18 @@ void Checkpoints::clear() { oldest_ = next_ = 0; }
 void Checkpoints::save(const State& state) {
   const BlockSeq seq = state.seq;
   if (next_ == oldest_ || seq > next_ || seq < oldest_) {
-    oldest_ = next_ = seq;  // nothing to connect to
+    oldest_ = next_ = seq;  // the kept states do not lead up to this one
   } else {
     next_ = seq;
   }
   const uint32_t head = head_size(state), size = head + loops_size(state);
   uint32_t begin = next_ > oldest_ ? entry(next_ - 1).end : 0;
   if (begin + size > capacity_) {
-    // Around: what lies behind the last state up to the end of the ring is given up first.
+    // The ring begins again: states that lie between the last state and the end of the ring are given up first.
     while (oldest_ < next_ && entry(oldest_).begin >= begin) ++oldest_;
     begin = 0;
   }
-  // Entries lie in order, so those in the way are the oldest.
+  // Entries lie in their order, so those that are in the way are the oldest ones.
   while (oldest_ < next_ && (next_ - oldest_ > mask_ || (entry(oldest_).begin < begin + size && entry(oldest_).end > begin))) ++oldest_;
   std::memcpy(bytes_ + begin, static_cast<const void*>(&state), head);
   std::memcpy(bytes_ + begin + head, state.loop, loops_size(state));
@@ -67,7 +67,7 @@ void Checkpoints::save(const State& state) {
 }
 
 bool Checkpoints::keeps(BlockSeq seq) const {
-  constexpr uint32_t kStates = 4;  // of one block at most: what it calls begins with one of its own
+  constexpr uint32_t kStates = 4;  // the most states that one block saves: a program that it calls begins with its own state
   constexpr uint32_t kRoom = kStates * sizeof(State);
   if (!holds(seq) || next_ - seq + kStates > mask_) return false;
   const uint32_t begin = entry(seq).begin, end = entry(next_ - 1).end;
@@ -85,7 +85,7 @@ bool Checkpoints::frames(BlockSeq seq, unsigned count, CallFrame* out) const {
 
 void Checkpoints::restore(BlockSeq seq, State* state) {
   const Entry& e = entry(seq);
-  // The frames in use are known once the fixed part is there.
+  // The fixed part tells how many frames are in use.
   std::memcpy(static_cast<void*>(state), bytes_ + e.begin, kFrames);
   const uint32_t head = head_size(*state);
   std::memcpy(static_cast<void*>(state), bytes_ + e.begin, head);

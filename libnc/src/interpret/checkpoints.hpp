@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checkpoints of the interpreter's state, one for each block, in a ring of bytes: a state of a program without open calls and loops is
-// a tenth of the largest one, and what is written once in every block must stay in the cache.
+// Checkpoints of the interpreter's state, one for each block, in a ring of bytes: a state without open calls and loops has a tenth of the size of the
+// largest one, and what is written in every block should stay in the cache.
 #pragma once
 
 #include "interpret/state.hpp"
@@ -12,18 +12,18 @@ class Checkpoints {
   /// Room for `count` (power of two) states of ordinary size.
   void create(unsigned count, Arena& arena);
 
-  /// Keeps `state` as the state behind block state.seq; states of later blocks are forgotten.
+  /// Keeps `state` as the state after block state.seq; states of later blocks are forgotten.
   void save(const State& state);
-  /// The state behind block `seq` is still kept.
+  /// The state after block `seq` is kept.
   bool holds(BlockSeq seq) const { return seq >= oldest_ && seq < next_; }
-  /// The same, and it still will be when one more block has been executed.
+  /// The state after block `seq` is kept, and will still be kept when one more block has been executed.
   bool keeps(BlockSeq seq) const;
-  /// Restores the state behind block `seq`, which must be kept. Later states are forgotten.
+  /// Restores the state after block `seq`, which must be kept. Later states are forgotten.
   void restore(BlockSeq seq, State* state);
   void clear();
-  /// The newest kept state is that behind this block; holds() is false for it when none is kept.
+  /// The block after which the newest kept state is; holds() is false for it when no state is kept.
   BlockSeq newest() const { return next_ - 1; }
-  /// The outermost `count` frames of the state behind block `seq`, which must be kept; false when it has fewer.
+  /// The outermost `count` frames of the state after block `seq`, which must be kept; false when it has fewer.
   bool frames(BlockSeq seq, unsigned count, CallFrame* out) const;
   /// The program is in the call stack of a state that is kept.
   bool call(unsigned file) const;
@@ -38,7 +38,7 @@ class Checkpoints {
   char* bytes_ = nullptr;
   uint32_t mask_ = 0;
   uint32_t capacity_ = 0;
-  BlockSeq oldest_ = 0, next_ = 0;  ///< kept: [oldest_, next_)
+  BlockSeq oldest_ = 0, next_ = 0;  ///< the states after blocks oldest_ to next_ - 1 are kept
 };
 
 }  // namespace nc

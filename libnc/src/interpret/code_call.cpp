@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes that call programs: G M S T B codes (M700 13.5.2) and ASCII codes (13.5.3) that parameters register, and what a block calls
-// when its own part is done.
+// Codes that call programs: G M S T B codes (M700 13.5.2) and ASCII codes (13.5.3) that parameters register; and the call that follows a block when the
+// block itself has been executed.
 #include <cmath>
 
 #include "interpret/calls.hpp"
@@ -25,10 +25,10 @@ Execution word_value(Interpreter& in, const Word& word, Value* value) {
 
 bool plain_number(const Word& word) { return (word.flags & (kWordComma | kWordCount | kWordNoValue)) == 0; }
 
-/// The second auxiliary address calls where it is no axis (M700 9.2).
+/// The word is the second auxiliary function; it may call where its address is not an axis (M700 9.2).
 bool second_aux(const Interpreter& in, const Word& word) { return in.is(word, Role::second_function) && in.axis_called(Role::second_function) < 0; }
 
-/// M00 M01 M02 M30, the calls and the macro interrupt are what they are, whatever is registered (M700 13.5.3: priority of the letter M).
+/// M00 M01 M02 M30, the codes of calls and of the macro interrupt keep their meaning, whatever is registered (M700 13.5.3: priority of the letter M).
 bool kept_by_control(const Interpreter& in, double value) {
   uint32_t code = 0;
   return whole_number(value, &code) && code == value && find_misc(*in.dialect, code) != nullptr;
@@ -57,15 +57,15 @@ const CodeCall* registered(const Interpreter& in, const Word& word, double value
   return calls.find_ascii(word.letter);
 }
 
-/// A G word, its number plain, that means this.
+/// The word is a G code, as a plain number, with this function.
 bool is_code(const Interpreter& in, const Word& word, Function function) {
   if (!in.is(word, Role::code) || (word.flags & kWordExpression) != 0) return false;
   const FunctionRow* const row = in.codes.find(word.value);
   return row != nullptr && row->function == function;
 }
 
-/// The first word that calls. G65, G66 and G66.1 before it make it an argument, G10 makes it an ordinary word.
-/// `functions_only`: codes that call programs are ordinary ones here.
+/// Finds the first word that calls. Behind G65, G66 or G66.1 it is an argument, behind G10 an ordinary word. `functions_only`: only codes that call functions
+/// of the vendor count.
 Execution find_caller(Interpreter& in, bool functions_only, Caller* caller) {
   bool data_input = false;
   for (const Word& word : in.block->words) data_input = data_input || is_code(in, word, Function::data_input);
@@ -84,7 +84,7 @@ Execution find_caller(Interpreter& in, bool functions_only, Caller* caller) {
       const FunctionRow* row = in.codes.find(value.number);
       if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Execution::done;
     }
-    // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is the ordinary word.
+    // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is an ordinary word.
     const bool ascii_allowed = !data_input && in.state.cycle.kind == CycleKind::none;
     bool ascii = false;
     const CodeCall* call = registered(in, word, value.number, ascii_allowed, &ascii);
@@ -95,7 +95,7 @@ Execution find_caller(Interpreter& in, bool functions_only, Caller* caller) {
   return Execution::done;
 }
 
-/// The code is shown as any other though nothing goes out (M700 13.5.2 (3)).
+/// Makes the code modal, so that it is shown as any other code although it is not given out (M700 13.5.2 (3)).
 void show_code(Interpreter& in, const Caller& caller) {
   const Word& word = in.block->words[caller.at];
   const auto whole = static_cast<uint32_t>(caller.value > 0 && caller.value < 4294967295.0 ? caller.value : 0);
@@ -105,7 +105,7 @@ void show_code(Interpreter& in, const Caller& caller) {
   if (in.is(word, Role::second_function)) in.state.modal.b = whole;
 }
 
-/// The G codes before the call act as they do before G65: G91 G100 X10.
+/// Executes the G codes before the call, which act as they do before G65: G91 G100 X10.
 Execution apply_codes_before(Interpreter& in, unsigned at) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
@@ -120,7 +120,7 @@ Execution apply_codes_before(Interpreter& in, unsigned at) {
   return did;
 }
 
-/// Type M98: the rest of the block is executed as if the code were not there, then the program is called.
+/// A call as M98: the rest of the block is executed as if the code was not there, then the program is called.
 void run_rest_first(Interpreter& in, const Caller& caller) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
@@ -166,7 +166,7 @@ Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   return did == Execution::done && every_block ? make_modal_call(in) : did;
 }
 
-/// Whether the words of the block are a movement command, after which G66 calls (M700 13.5.1).
+/// The words of the block are a movement command, after which G66 calls (M700 13.5.1).
 bool moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.one_shot != nullptr && cuts_circle(w.one_shot->function)) return true;
@@ -185,7 +185,7 @@ bool cancels(const Interpreter& in) {
 Execution dispatch_block(Interpreter& in, bool* taken) {
   in.after_block = nullptr;
   if (modal_call_takes_blocks(in)) return Execution::done;
-  const bool nested = top(in).origin == CallOrigin::code;  // M700 13.5.2: a code calls nothing in a program that a code has called
+  const bool nested = top(in).origin == CallOrigin::code;  // M700 13.5.2: in a program that a code has called codes do not call
   if (nested && !in.vendor->any()) return Execution::done;
   Caller caller;
   Execution did = find_caller(in, nested, &caller);
@@ -225,8 +225,8 @@ bool goes_on_elsewhere(const Interpreter& in) {
   return false;
 }
 
-/// M700 13.5.1, 13.3.1: the macro of G66 comes behind the movement, the sub program (and the return) behind everything else of the block,
-/// which is read again for that when the macro has ended.
+/// M700 13.5.1, 13.3.1: the macro of G66 comes right behind the movement; the sub program, or the return, comes behind everything else of the block. For
+/// that the block is read again when the macro has ended.
 Execution make_modal_call_first(Interpreter& in) {
   in.emit_stop_point();  // single block may stop behind the move
   CallFrame& frame = top(in);
@@ -236,7 +236,7 @@ Execution make_modal_call_first(Interpreter& in) {
   in.state.codes_left |= bit;
   Execution did = make_modal_call(in);
   if (did != Execution::done) return did;
-  in.state.codes_left &= ~bit;  // G66 L0 calls nothing: the block goes on
+  in.state.codes_left &= ~bit;  // G66 L0 makes no call, so the block goes on
   frame.offset = in.block->next;
   frame.line = in.block->next_line;
   return execute_behind_motion(in);

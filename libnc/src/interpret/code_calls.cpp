@@ -10,7 +10,7 @@ constexpr uint32_t kLargestProgram = 99999999;
 
 using P = Parameter;
 
-/// Order of Parameter::words_call.
+/// Indexes of Parameter::words_call.
 enum WordsCall : unsigned { kCallsByM, kCallsByS, kCallsByT, kCallsBySecondAux };
 
 struct Reader {
@@ -23,7 +23,7 @@ struct Reader {
   }
 };
 
-/// <Type> and <Program No.>; an unused row is printed with program 199999999.
+/// Reads <Type> and <Program No.> of a row; the manual shows an unused row with program 199999999.
 void read_call(const Reader& whole, ParameterOf type, ParameterOf program, CodeCall* call) {
   const uint32_t kind = whole(type, 0);
   call->program = whole(program, 0);
@@ -31,7 +31,7 @@ void read_call(const Reader& whole, ParameterOf type, ParameterOf program, CodeC
   if (kind > 3 || call->program > kLargestProgram) call->program = 0;
 }
 
-/// M700 13.5.2 (2): M00 to M95 but M0 M1 M2 M30.
+/// M700 13.5.2 (2): M00 to M95, except M0 M1 M2 M30.
 bool m_allowed(const Dialect& dialect, uint32_t code) { return dialect.macro_misc.holds(code) && find_misc(dialect, code) == nullptr; }
 
 bool letter_allowed(const Dialect& dialect, uint32_t letter) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes and letters that call a program because a parameter says so: G M S T B (M700 13.5.2) and ASCII codes (13.5.3).
+// Codes and letters to which parameters give a program that they call: G M S T B (M700 13.5.2) and ASCII codes (13.5.3).
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@ namespace nc {
 class Parameters;
 struct Dialect;
 
-/// How a code calls: the values of the manual's <Type>.
+/// How a code calls its program: the values of <Type> in the manual.
 enum class CodeCallType : uint8_t { sub = NC_CALL_SUB, macro = NC_CALL_MACRO, modal = NC_CALL_MODAL, modal_block = NC_CALL_EVERY_BLOCK };
 
 struct CodeCall {
-  uint32_t code = 0;       ///< G (times 1) or M number; ASCII: the letter
+  uint32_t code = 0;       ///< number of the G code (not times 10) or M code; ASCII: the letter
   uint32_t program = 0;    ///< O number; 0 = this row is not in use
-  uint32_t variable = 0;   ///< ASCII type 0: the common variable that takes the value
+  uint32_t variable = 0;   ///< ASCII type 0: number of the common variable that gets the value
   CodeCallType type = CodeCallType::sub;
-  const nc_vendor_code* vendor = nullptr;  ///< a function of the host is called, and no program
+  const nc_vendor_code* vendor = nullptr;  ///< not nullptr: a function of the host is called instead of a program
 };
 
-/// Everything that is registered. Parameters: docs/macros.md.
+/// All codes that parameters have registered (docs/macros.md lists these parameters).
 struct CodeCalls {
   static constexpr unsigned kCodes = 10, kLetters = 2;
   CodeCall g[kCodes], m[kCodes];
   CodeCall s, t, b;
   CodeCall ascii[kLetters];
   bool any = false;
-  bool system_codes = false;  ///< #1081 Gmac_P: also G codes that the control has itself
+  bool system_codes = false;  ///< #1081 Gmac_P: also G codes that the control itself has may be registered
 
   const CodeCall* find_g(double code) const;
   const CodeCall* find_m(double code) const;

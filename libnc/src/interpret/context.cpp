@@ -74,7 +74,7 @@ Item& BlockContext::emit(ItemKind kind) {
   if (kind != ItemKind::mark) world_fresh = false;
   switch (kind) {
     case ItemKind::move:
-    case ItemKind::mark: break;  // whoever emits one makes it in one go
+    case ItemKind::mark: break;  // the caller sets all members of these
     case ItemKind::action: new (&item.action) Action(); break;
     case ItemKind::gate: new (&item.gate) Gate(); break;
     case ItemKind::sync: new (&item.sync) Sync(); break;
@@ -86,7 +86,7 @@ Item& BlockContext::emit(ItemKind kind) {
 
 Move& BlockContext::emit_move(const AxisVec& start, const AxisVec& end) {
   Item& item = emit(ItemKind::move);
-  // Made in one go: clearing three positions only to fill them would be felt in every block.
+  // Constructed with its values, because clearing three positions before they are set would be felt in every block.
   Move& move = *new (&item.move) Move(start, end, state.comp);
   move.stroke_box = state.stroke_box;
   if (settings_of_moves_stale_) [[unlikely]] take_settings_of_moves();
@@ -114,10 +114,10 @@ void BlockContext::emit_stop_point(bool resume) {
 }
 
 ModalId BlockContext::modal_now(bool executable) {
-  // Macro statements command nothing, most moves neither: behind them the modal state is that of the mark before.
+  // Macro statements and most moves change no mode: behind them the modal state is that of the mark before.
   if (!modal_unchanged_) newest_modal_ = modals.intern(state.modal);
   if (modal_unchanged_ && !finished_behind_) return newest_modal_;
-  // M700 13.5.5: G codes beside G65 are pre-read modals; the block in execution is still the one before the call.
+  // M700 13.5.5: G codes beside G65 are pre-read modals; for #4201 and so on the block in execution is still the one before the call.
   finished_behind_ = !executable;
   if (executable) finished_modal = state.modal;
   return newest_modal_;
@@ -128,9 +128,9 @@ void BlockContext::finish_block(bool stop, bool executable) {
   state.repeat = next_repeat_;
   next_repeat_ = {};
   if (state.interrupt_depth != 0) note_interrupt_items();
-  if (stop && (state.end_seen ||             // the program is over: nothing is left that a start could go on with
-               state.nurbs.active() ||       // M700 6.15: single block stops at the last control point only
-               (state.control_3003 & 1) ||   // M700 10.5: single block suppressed
+  if (stop && (state.end_seen ||             // the program has ended, so a start could not go on from here
+               state.nurbs.active() ||       // M700 6.15: single block stops only at the last control point
+               (state.control_3003 & 1) ||   // M700 13.5.9: #3003 bit 0 suppresses single block
                (state.special != 0 && state.modal.is(Function::tapping_mode))))  // M700 7.11 (4)
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);
@@ -150,6 +150,7 @@ void BlockContext::emit_end() {
   ended = true;
 }
 
+/// Notes whether the block in hand, which belongs to the interrupt program, has put a move or M S T B into the stream.
 void BlockContext::note_interrupt_items() {
   for (unsigned i = 0; i < queue.size(); ++i) {
     const Item& item = queue[i];

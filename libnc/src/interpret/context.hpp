@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a function of a block works with: the state, the tables, the words of the block, and the way items go into the stream. Handlers
-// (functions/*.cpp, motion.cpp, feed.cpp ...) get this and no more: how blocks are read, taken back, interrupted and called is the
-// interpreter's (interpreter.hpp), and a change there does not touch them.
+// What a handler of a function works with: the state, the tables, the words of the block, and the functions that put items into the stream. Handlers
+// (functions/*.cpp, motion.cpp, feed.cpp ...) get only this. How blocks are read, taken back, interrupted and called belongs to the interpreter
+// (interpreter.hpp), and a change there does not touch the handlers.
 #pragma once
 
 #include <cstring>
@@ -27,15 +27,15 @@
 
 namespace nc {
 
-/// Result of executing something.
+/// Result of executing a block or a part of it.
 enum class Execution : uint8_t {
   done,
-  fault,   ///< Interpreter::fault says what
-  sync,    ///< Interpreter::sync_needed says what is missing; do the same again when it is there
+  fault,   ///< Interpreter::fault says what is wrong
+  sync,    ///< Interpreter::sync_needed says what is missing; the same is executed again when the answer is there
   later    ///< the block goes on at the next call (a cycle, an answer)
 };
 
-/// A text under way to the operator.
+/// A text on its way to the operator or to an output.
 struct Message {
   nc_text text{};
   bool operator==(const Message& other) const {
@@ -44,14 +44,14 @@ struct Message {
   }
 };
 
-/// A point that blocks to come need: of an axis that is held, on the way of an arc in space, a control point.
+/// A point that later blocks need: where axes are held (G07), a point of an arc in space, or a control point of a NURBS.
 struct PathPoint {
   AxisVec at;
-  double weight = 1, knot = 0;  ///< of a control point
-  double feed = 0;              ///< of the block where an arc in space starts, ...
-  uint16_t feed_digit = 0;      ///< ... and the digit of its F
+  double weight = 1, knot = 0;  ///< weight and knot of a control point
+  double feed = 0;              ///< feed of the block in which an arc in space starts ...
+  uint16_t feed_digit = 0;      ///< ... and ModalState::feed_digit in it
   nc_source source{};
-  bool operator==(const PathPoint&) const { return false; }  // each is one of its own
+  bool operator==(const PathPoint&) const { return false; }  // two points are never stored as one
 };
 
 /// The holes that the block in hand makes (functions/cycle.cpp).
@@ -71,9 +71,9 @@ struct HolesOfBlock {
 class SharedTables;
 struct Interpreter;
 
-/// Base of the Interpreter, which is the only one to make it. What is protected is for the way items go into the stream.
+/// Base of the Interpreter; no other class makes one. The protected members serve to put items into the stream.
 struct BlockContext {
-  // ---- the machine and its family: fixed, but for the letters that a mode gives to axes
+  // ---- the machine and its family: fixed, except for the letters that a mode gives to axes
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
   uint8_t system_index = 0;        ///< part system, from 0
@@ -82,12 +82,12 @@ struct BlockContext {
   int8_t axis_of[26];              ///< axis index by letter, -1 = none
   uint32_t closed_axes = 0;        ///< bit i: axis i is a spindle, or a C axis without its reference (M700 10.5); no command now
   uint32_t axis_letters = 0;       ///< bit n: address n is an axis
-  uint32_t code_addresses = 0;     ///< those of codes and of numbers of blocks
+  uint32_t code_addresses = 0;     ///< bit n: address n is that of a code (G, M) or of a number at the head of a block (N, O)
   CodeIndex codes;                 ///< the family's G codes
-  const VendorCodes* vendor = nullptr;  ///< the machine's own codes
-  CodeCalls code_calls;            ///< codes that parameters have registered
-  bool codes_call = false;         ///< some code calls: a parameter has registered it, or it is the vendor's
-  uint32_t optional_skip = 0;      ///< switches, bit n = /n
+  const VendorCodes* vendor = nullptr;  ///< the codes that the vendor of the machine has added
+  CodeCalls code_calls;            ///< codes that parameters have registered to call a program
+  bool codes_call = false;         ///< there are such codes, or codes of the vendor
+  uint32_t optional_skip = 0;      ///< optional block skip switches, bit n = switch n
 
   // ---- what is in force, and the tables
   State state;
@@ -96,15 +96,15 @@ struct BlockContext {
   Frames frames;
   Variables variables;
   Journalled<ProgramRecords, Interpreter> records;
-  mutable ProgramMatrices program_matrices;  ///< of the maps in force (interpret/program_map.hpp), made when they are asked for
-  SharedTables* shared = nullptr;  ///< with the other part systems; nullptr: there are none
+  mutable ProgramMatrices program_matrices;  ///< matrices of the maps in force (interpret/program_map.hpp), calculated when they are needed
+  SharedTables* shared = nullptr;  ///< what is shared with other part systems; nullptr: there are none
   BlockReader reader;
   InternPool<Affine> transforms;   ///< from the compensation frame to machine coordinates; Move::transform
   InternPool<ModalState> modals;
   InternPool<Message> texts;
-  InternPool<MoveShape> shapes;    ///< of moves under way; Move::shape counts from 1
+  InternPool<MoveShape> shapes;    ///< shapes of moves under way; Move::shape counts from 1
   InternPool<PathPoint> points;
-  InternPool<StrokeBox> stroke_boxes;   ///< of G22; Move::stroke_box counts from 1
+  InternPool<StrokeBox> stroke_boxes;   ///< areas of G22; Move::stroke_box counts from 1
   InternPool<MotionSettings> motion_settings;  ///< Move::settings
 
   // ---- the block in hand
@@ -114,26 +114,26 @@ struct BlockContext {
   Step next_step = Step::none;
   HolesOfBlock holes;
   bool motion_done = false;
-  bool modal_kept = false;         ///< the block in hand has changed nothing of the modal state
+  bool modal_kept = false;         ///< the block in hand has not changed the modal state
   bool block_starts_incremental = false; ///< G91 was modal before this block
-  bool distance_by_word = false;         ///< an axis word goes by the G90/G91 before it in the block (M700 5.1)
-  SkipSpeeds skip_speeds;               ///< of the G31 under way
-  double measured_position = 0, measured_range = 0;  ///< of the G37 under way
-  bool measured_nothing = false;                     ///< it has no range to measure in
+  bool distance_by_word = false;         ///< for an axis word the G90/G91 before it in the block counts (M700 5.1)
+  SkipSpeeds skip_speeds;               ///< feeds of the G31 under way
+  double measured_position = 0, measured_range = 0;  ///< expected position and range of the G37 under way
+  bool measured_nothing = false;                     ///< that G37 has no range in which it could measure
 
-  // ---- what is known of the machine, and what a handler answers
+  // ---- what is known of the machine, and what a handler gives back
   Fault fault;
   uint32_t sync_needed = 0;
   nc_world world{};
   bool world_fresh = false;        ///< `world` is the answer to a sync and nothing has been emitted since
-  bool begins_again = false;       ///< M99 of the main program in this block: its mark says so
+  bool begins_again = false;       ///< the block holds M99 of the main program, which its mark has to say
   bool ended = false, alarmed = false;
-  ModalState finished_modal;       ///< as the last finished block left it: the block in execution, at a sync (#4201...)
+  ModalState finished_modal;       ///< modal state after the last finished block; at a sync that is the block in execution (#4201...)
 
-  /// What a word of the block means. Which of several meanings of its address is asked for, the function in hand decides.
+  /// The word has the address of this meaning. An address may have several meanings; the function in hand decides which one it asks for.
   bool is(const Word& word, Role role) const { return address_of(word) == dialect->addresses.at(role); }
   uint32_t addresses(std::initializer_list<Role> roles) const { return dialect->addresses.set(roles); }
-  /// Index of the axis that the configuration or a parameter names so, and of the one that a rule names; -1 = the machine has none.
+  /// Index of the axis with a name from the configuration or a parameter; and of the axis with a meaning from a rule. -1 = the machine has no such axis.
   int axis_named(char name) const { return name == 0 ? -1 : axis_of[address_of(name)]; }
   int axis_called(Role role) const {
     const unsigned address = dialect->addresses.at(role);
@@ -141,12 +141,12 @@ struct BlockContext {
   }
 
   // ---- positions
-  /// Active zero and the position in it.
+  /// The zero point of the active workpiece coordinates, and the position in these coordinates.
   const AxisVec& zero() const { return frames.zero(state.work_system); }
   AxisVec position() const {
     if (state.map.kind == AxisMap::Kind::polar) [[unlikely]] return polar_position();
     const AxisVec& z = zero();
-    AxisVec p;  // all axes: a count that the compiler knows; those that the machine does not have are zero everywhere
+    AxisVec p;  // for all axes, because the compiler knows that count; axes that the machine does not have are 0
     for (unsigned i = 0; i < kMaxAxes; ++i) p[i] = state.machine[i] - z[i] - state.applied[i];
     return p;
   }
@@ -156,11 +156,11 @@ struct BlockContext {
     const double set = settings.reference[which][axis];
     return set == set ? set : system->axis[axis].reference[which];
   }
-  /// The letters that command axes: those of the axes, or what a mode of the state makes of them.
+  /// Sets the letters that command axes: their names, or the letters that a mode of the state gives them.
   void refresh_axis_names();
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
-  /// The program that runs, or what is in force in it, has changed: what blocks ask of it.
+  /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.
   void program_changed() {
     const CallFrame& frame = state.frame[state.depth];
     state.modal_call = frame.modal_call;
@@ -169,9 +169,9 @@ struct BlockContext {
   }
 
   // ---- journalled writes
-  /// After parameters have been changed: everything that is made of them.
+  /// Makes everything that follows from parameters anew, after parameters have been changed.
   void refresh_settings();
-  /// Journalled write to the frames' table.
+  /// Journalled write to the table of frames.
   void set_table(unsigned key, double value);
   /// Journalled write to a parameter; false when there is no such parameter or value.
   template <class Given>  // double, const char*
@@ -183,21 +183,21 @@ struct BlockContext {
     return true;
   }
   bool set_parameter(ParameterOf parameter, double number);
-  /// The same to the records, or to a field of one: change(&ProgramRecords::figure, &Figure::angle, angle).
+  /// Journalled write to a record, or to a field of one: change(&ProgramRecords::figure, &Figure::angle, angle).
   template <class... Change>
   void change(const Change&... what) {
     records.change(state.seq + 1, what...);
   }
 
   // ---- alarms and questions
-  /// What is missing because the text could not be read is not missing: then that is the alarm.
+  /// Raises an alarm. Where the text could not be read, that is the alarm, because `condition` (something is missing) may only follow from it.
   Execution raise(Condition condition, char letter = 0) {
     fault = Fault{};
     fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
     fault.letter = letter;
     return Execution::fault;
   }
-  /// About a word of the block, by what it means.
+  /// An alarm about a word of the block, given by its meaning.
   Execution raise(Condition condition, Role word) { return raise(condition, dialect->addresses.letter(word)); }
   Execution raise(Condition condition, Role word, double value) { return raise(condition, dialect->addresses.letter(word), value); }
   Execution raise(Condition condition, char letter, double value) {
@@ -206,7 +206,7 @@ struct BlockContext {
     fault.value = value;
     return Execution::fault;
   }
-  /// Of an axis, by its index.
+  /// An alarm about an axis, given by its index.
   Execution raise_axis(Condition condition, unsigned axis) {
     raise(condition, system->axis[axis].name);
     fault.axis = static_cast<int8_t>(axis);
@@ -217,22 +217,23 @@ struct BlockContext {
     fault.axis = static_cast<int8_t>(axis);
     return Execution::fault;
   }
-  /// About a code of the block in hand. What is not fitted names its row (alarm_text), which is the code times ten.
+  /// An alarm about a code of the block in hand. Condition::no_function gives the code times ten, by which alarm_text() finds its row.
   Execution raise_code(Condition condition, const FunctionRow& row) {
     return raise(condition, Role::code, condition == Condition::no_function ? row.code : row.code / 10.0);
   }
-  /// About what a code means, where the code itself is not at hand: by the family's first code with this meaning.
+  /// An alarm about a function, where its code is not at hand: the family's first code with this function is named.
   Execution raise_function(Condition condition, Function function) {
     const FunctionRow* const row = codes.row(function);
     return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
   }
-  /// About the code in force of a mode.
+  /// An alarm about the code that is in force for a mode.
   Execution raise_mode(Condition condition, Mode mode) {
     const FunctionRow* const row = row_in_force(*dialect, state.modal, mode);
     return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
   }
   Execution raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
-  /// What part systems share is as the machine has come to it, or there is one part system. False: it has to be asked for (NC_SYNC_SHARED).
+  /// The data that part systems share can be read now: the machine has come to this block, or there is only one part system. False: a sync is needed
+  /// (NC_SYNC_SHARED).
   bool shared_known() const { return shared == nullptr || world_fresh; }
   Execution need(uint32_t what) {
     sync_needed = what;
@@ -240,47 +241,46 @@ struct BlockContext {
   }
 
   // ---- the stream
-  /// A new item at the end of the queue, its payload as constructed; moves come from emit_move().
+  /// A new item at the end of the queue, with the default payload of its kind; moves are made by emit_move().
   Item& emit(ItemKind kind);
-  /// A move with the compensation in force; transform and kind are left to the caller.
+  /// A move with the compensation in force; the caller sets its transform and kind.
   Move& emit_move(const AxisVec& start, const AxisVec& end);
-  ItemQueue queue;   ///< items made and not yet taken: those of the block in hand
+  ItemQueue queue;   ///< items of the block in hand that have been made and not yet taken
   bool queue_has_room() const { return queue.room() > kReserve; }
-  /// The block of `source` has ended: its mark (and the end, after M02/M30), and the checkpoint to rewind to.
-  /// `executable`: it counts as a block for radius compensation (M700 12.4.2 lists NC blocks; 13.5.9: macro statements are none).
+  /// The block of `source` has ended: emits its mark (and the end, after M02/M30), and keeps the checkpoint to rewind to. `executable`: the block counts
+  /// for radius compensation (M700 12.4.2 lists such blocks; 13.5.9: macro statements do not count).
   void finish_block(bool stop, bool executable);
-  /// A place inside a block where single block may stop. `resume`: what has been read so far is kept, and what follows can be read
-  /// again from here.
+  /// Emits a mark for a place inside a block where single block may stop. `resume`: it can also be rewound to, and what the block has done so far is kept.
   void emit_stop_point(bool resume = false);
-  /// The block has done its part and the program goes on in the one it calls: what comes there does not undo it.
+  /// The block has called a program and done its own part: keeps a checkpoint, so that a fault in the program does not undo this block.
   void keep_call();
 
  protected:
-  static constexpr unsigned kReserve = 24;  ///< one step of a job never makes more than this
+  static constexpr unsigned kReserve = 24;  ///< the most items that one step of a block makes
 
   void note_parameter(unsigned index, ParameterValue old);
   void note_interrupt_items();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);
-  /// Id of the modal state, for a mark. When the block that the mark ends is executable, the state becomes that of the last finished block, too.
+  /// Id of the modal state, for a mark. When the block is executable, its modal state also becomes finished_modal.
   ModalId modal_now(bool executable);
   bool settings_stale_ = false;
-  bool settings_of_moves_stale_ = true;   ///< made anew with the next move, so that numbers go to moves only
+  bool settings_of_moves_stale_ = true;   ///< they are interned anew with the next move, so that only moves take up numbers
   SettingsId settings_of_moves_ = 0;
   void take_settings_of_moves();
-  Repeat next_repeat_;         ///< from the next mark on
+  Repeat next_repeat_;         ///< goes out with the next mark
   Checkpoints checkpoints_;
   static constexpr ModalId kNoModal = ~ModalId{0};
-  ModalId newest_modal_ = kNoModal;  ///< of the newest mark
-  bool modal_unchanged_ = false;     ///< since the newest mark
-  bool finished_behind_ = false;     ///< macro calls have changed the modal state since the block that finished_modal belongs to
+  ModalId newest_modal_ = kNoModal;  ///< modal state of the newest mark
+  bool modal_unchanged_ = false;     ///< the modal state has not changed since the newest mark
+  bool finished_behind_ = false;     ///< a block that is not executable may have changed the modal state since the block of finished_modal
 };
 
-/// M700 12.1: an amount that changes while it is in force counts from the next block on: a length with the next command of its axis.
+/// M700 12.1: an offset amount that is changed while it is in force acts from the next block on; a length acts with the next command of its axis.
 void take_changed_amounts(BlockContext& in);
-/// interpret/interrupt.cpp, macro_call.cpp: what other functions ask of program control.
-bool is_interrupt_on(const BlockContext& in, uint32_t m);   ///< M96, or what stands for it
-bool is_interrupt_off(const BlockContext& in, uint32_t m);  ///< M97
+/// interpret/interrupt.cpp, macro_call.cpp: what other functions need of program control.
+bool is_interrupt_on(const BlockContext& in, uint32_t m);   ///< M96, or the M code that a parameter gives in its place
+bool is_interrupt_off(const BlockContext& in, uint32_t m);  ///< M97, or the M code that a parameter gives in its place
 bool has_modal_call(const BlockContext& in);   ///< something that G67 can cancel
 
 }  // namespace nc

@@ -22,18 +22,18 @@ bool has_own_feed(const BlockContext& in, Function motion) {
   return lead || is_exponential(motion);
 }
 
-/// The F of a skip block and of a measurement is its own and never modal (M700 15.2).
+/// The F of a skip block or of a measurement belongs to that block only and does not become modal (M700 15.2).
 bool keeps_its_feed(const BlockContext& in, Function one_shot) {
   return (is_skip(one_shot) && !in.dialect->rules.skip.feed_is_modal) || one_shot == Function::measure_length;
 }
 
-/// D is no number that radius compensation takes: it is a range (M700 15.1), or the offset of one circle (13.10 (3)).
+/// The D of the block is not for radius compensation: it is a range (M700 15.1), or the offset number of one circle (13.10 (3)).
 bool keeps_its_offset_number(const FunctionRow* one_shot) {
   return one_shot != nullptr && (one_shot->function == Function::measure_length || cuts_circle(one_shot->function));
 }
 
-/// E is the lead of a thread (M700 6.7) or an argument of a macro. What looks like X1E-05 elsewhere would be X1 and a word that nobody reads;
-/// a lead has no sign, and no programmer writes its letter small behind another number (Z1e1).
+/// E is the lead of a thread (M700 6.7) or an argument of a macro. Elsewhere a text like X1E-05 would be X1 and a word E that is ignored, so it is an alarm.
+/// In a thread block it is one, too, when E has a sign, or is a small letter directly behind another number (Z1e1).
 Execution check_lead_word(Interpreter& in) {
   const BlockWords& w = in.words;
   if (!w.has(Role::fine_thread_lead)) return Execution::done;
@@ -43,7 +43,7 @@ Execution check_lead_word(Interpreter& in) {
   return (thread || ridges) && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
-/// M700 App.2: codes of radius and length compensation beside the one-shot function (G49 beside a reference return counts all the same, 12.2).
+/// M700 App.2: a code of radius or length compensation beside this one-shot function is ignored. G49 beside a reference return is not (12.2).
 bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
   if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
@@ -62,14 +62,14 @@ void drop_beside_cancel(Interpreter& in) {
     const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(row->function).cycle == Precedence::ignored;
     if (one_shot) w.one_shot = nullptr;
     if (cycle) w.cycle = nullptr;
-    if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_letters;  // its words, too
+    if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_letters;  // the axis words belong to it and are dropped, too
     return;
   }
 }
 
 }  // namespace
 
-/// 1: modes that other words are read by.
+/// Step 1: modes that decide how other words are read.
 Execution apply_reading_modes(Interpreter& in) {
   in.block_starts_incremental = in.state.modal.is(Function::incremental);
   in.distance_by_word = false;
@@ -149,7 +149,7 @@ Execution apply_reading_modes(Interpreter& in) {
 
 namespace {
 
-/// 2: coordinate systems and compensation.
+/// Step 2: coordinate systems and compensation.
 Execution apply_systems(Interpreter& in) {
   for (const FunctionRow* row : in.words.g) {
     Execution did = Execution::done;
@@ -190,7 +190,7 @@ Execution apply_systems(Interpreter& in) {
   return own_number && !in.words.meeting && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Execution::done;  // P605 (15.1)
 }
 
-/// M700 App.2: codes of length compensation and work systems before a macro call become modal and do no more.
+/// M700 App.2: codes of length compensation and of work systems before a macro call only become modal.
 Execution update_beside_call(Interpreter& in) {
   const PrecedenceRow& beside = precedence_of(in.words.one_shot->function);
   for (const FunctionRow* row : in.words.g) {
@@ -205,7 +205,7 @@ Execution update_beside_call(Interpreter& in) {
   return Execution::done;
 }
 
-/// 4: what moves.
+/// Step 4: the one-shot function, the fixed cycle, or the motion.
 Execution execute_motion(Interpreter& in) {
   const BlockWords& w = in.words;
   if ((w.axes & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
@@ -224,7 +224,7 @@ Execution execute_motion(Interpreter& in) {
 Execution execute_motion_of_words(BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.motion != nullptr) {
-    cancel_cycle(in);  // M700 13.1.1 (4): G00-G03 cancel the cycle, and win over a cycle code in the same block
+    cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
     return do_cycle(in);
   }
@@ -251,15 +251,15 @@ Execution finish(Interpreter& in, Execution did) {
   return call_behind_block(in);
 }
 
-/// What is left of a block whose motion is done, and the macro behind it: the program that it calls, or the end of its own.
+/// Executes what is left of a block whose motion, and the macro behind it, have been executed: its call of a program, or the return from its own.
 Execution execute_codes_left(Interpreter& in) {
   in.state.codes_left &= ~(1u << in.state.depth);
   in.words.axes = 0;
   return execute_behind_motion(in);
 }
 
-/// G10 of tool data in G91 adds to what stands in the table (M700 12.7): it reads what part systems share. Asked for before anything of the
-/// block has happened, as the block is read again behind the answer.
+/// G10 of tool data in G91 adds to the values in the table (M700 12.7), so it reads what part systems share. This is asked before anything of the block
+/// is executed, because the block is read again after the answer of the sync.
 bool adds_to_shared(const Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.one_shot == nullptr || w.one_shot->function != Function::data_input || !w.has(Role::input_amount) ||
@@ -270,8 +270,8 @@ bool adds_to_shared(const Interpreter& in) {
   return in.state.modal.is(Function::incremental);
 }
 
-/// Nothing in the block but axis words, F and a code of a motion: most blocks of a long program. What the other words would need looked
-/// at is left out; the order is that of every block.
+/// The block has only axis words, F and a code of a motion, as most blocks of a long program. For such a block everything that concerns other words is left
+/// out; the order is the same as for every block.
 bool only_moves(const Interpreter& in) {
   const BlockWords& w = in.words;
   // Motions with words of their own, and modes that change what words mean, take the long way.
@@ -332,7 +332,7 @@ Execution execute_words(Interpreter& in) {
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   did = check_lead_word(in);
   if (did != Execution::done) return did;
-  // M700 3.2 note 9, DGSHAPE 1-1: N and O begin a block. Behind other words nothing would find them (N of G10 is something else).
+  // M700 3.2 note 9, DGSHAPE 1-1: N and O stand at the beginning of a block. Behind other words no search would find them. (N of G10 is something else.)
   if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
   did = check_precedence(in);

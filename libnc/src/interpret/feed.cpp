@@ -12,7 +12,7 @@ constexpr double kNoise = 1e-9;
 
 bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
 
-/// M700 7.4 (1): without a point F counts in the least unit of the setting; 0.001 to 999.999, one decimal more for each finer unit.
+/// M700 7.4 (1): F without a point counts in the setting unit; its range is 0.001 to 999.999, with one more decimal for each finer unit.
 Execution take_feed_per_revolution(BlockContext& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
   const double raw = in.words.get(Role::feed);
@@ -23,7 +23,7 @@ Execution take_feed_per_revolution(BlockContext& in) {
   return Execution::done;
 }
 
-/// M700 7.5 (2), precaution (3): 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
+/// M700 7.5 (2), precaution (3): the range of F is 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
 Execution take_inverse_time(BlockContext& in) {
   const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
   if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
@@ -38,7 +38,7 @@ double straight_length(const BlockContext& in, const Move& move) {
   return std::sqrt(squares);
 }
 
-/// Along the arc, and along the axes that make a helix of it.
+/// Length of an arc, with the axes that make it a helix.
 double arc_length(const BlockContext& in, const Move& move) {
   const double round = (move.circle.radius_start + move.circle.radius_end) / 2 * move.circle.sweep;
   double squares = round * round;
@@ -47,7 +47,8 @@ double arc_length(const BlockContext& in, const Move& move) {
   return std::sqrt(squares);
 }
 
-/// M700 7.5 (2): F is the speed over the length of a line, or over the radius of an arc at its start.
+/// M700 7.5 (2): F is the speed divided by the length of a line, or by the start radius of an arc; by the length of the arc in families whose F is for the
+/// whole block.
 void apply_inverse_time(BlockContext& in, Move& move) {
   double extent = straight_length(in, move);
   if (move.circular && in.dialect->rules.feed.inverse_time_is_of_block) {
@@ -58,12 +59,12 @@ void apply_inverse_time(BlockContext& in, Move& move) {
   if (move.shape != 0 && in.shapes[move.shape - 1].kind == ShapeKind::space_arc) extent = in.shapes[move.shape - 1].arc.radius;
   move.rule.inverse_time = extent > 0;
   if (extent > 0) in.state.last_feed = in.state.modal.feed * extent;
-  // A block that only displaces the tool goes on at the speed of the one before (7.5 (4)); there may be none.
+  // A block that only displaces the tool goes at the speed of the block before (7.5 (4)). Where there was none, a speed is taken from F and the tool radius.
   if (!(in.state.last_feed > 0)) in.state.last_feed = in.state.modal.feed * std::fmax(std::fabs(move.comp.radius), 1);
   move.feed_mm_min = in.state.last_feed;
 }
 
-/// M700 7.3: F0 is the rapid rate in the motion of group 1; F1 to F5 are speeds of parameters, in inch a tenth of them.
+/// M700 7.3: F0 is the rapid rate in the motion of group 1; the speeds of F1 to F5 are given by parameters, in inch by a tenth of them.
 void apply_digit(BlockContext& in, Move& move) {
   const unsigned digit = in.state.modal.feed_digit - 1u;
   move.rule.digit = static_cast<uint8_t>(digit + 1);
@@ -117,7 +118,7 @@ Execution change_feed_mode(BlockContext& in, Function before) {
   return Execution::done;
 }
 
-/// The scan has to know of G63: no feed hold in there (M700 7.11 (3), (5)).
+/// Tells the scan that G63 begins or ends, because feed hold does not act in it (M700 7.11 (3), (5)).
 void change_cutting_mode(BlockContext& in, Function before) {
   const bool tapping = in.state.modal.is(Function::tapping_mode);
   in.state.refresh_special();
@@ -166,7 +167,7 @@ Execution check_inverse_time_block(BlockContext& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
-  // (5) modes that were there before
+  // (5): modes that were in force before
   const Function motion = in.state.modal.of(Mode::motion);
   if (motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
   if (motion == Function::nurbs && w.axes != 0) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
@@ -193,7 +194,7 @@ void apply_special_feed(BlockContext& in, Move& move) {
   } else if (modal.is(Function::feed_per_revolution)) {
     move.feed_mm_rev = move.feed_mm_min;
     move.feed_mm_min = 0;
-    move.plane_feed = false;  // M700 6.6: only with the feed per minute
+    move.plane_feed = false;  // M700 6.6: it holds only for the feed per minute
   } else if (modal.feed_digit != 0) {
     apply_digit(in, move);
   }

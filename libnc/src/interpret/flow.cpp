@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kDataServer[] = "198:";      // the place of its programs in the store (nc_program_missing)
 
-/// M700 13.5.7, 13.12: from the next block to the end of the program, then from its head.
+/// Searches for a sequence number. M700 13.5.7, 13.12: from the next block to the end of the program, then from its beginning.
 bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_t* offset, uint32_t* line) {
   bool again = false;
   *offset = frame.offset;
@@ -24,7 +24,7 @@ bool find_from_here(Interpreter& in, const CallFrame& frame, uint32_t n, uint64_
   return in.reader.find_sequence(frame.program.file, n, offset, line, frame.offset, kWholeText, &again);
 }
 
-/// Forgets loops that a jump to `offset` leaves. A loop's end is known once its END has been executed or looked for.
+/// Forgets the loops that a jump to `offset` leaves. The end of a loop is known once its END has been executed or searched for.
 void leave_loops(Interpreter& in, uint64_t offset) {
   State& s = in.state;
   while (s.loop_count > top(in).loop_base) {
@@ -40,7 +40,7 @@ void leave_loops(Interpreter& in, uint64_t offset) {
   }
 }
 
-/// M700 13.5.7 (12): a WHILE or DO of this program that has no END.
+/// M700 13.5.7 (12): finds a WHILE or DO of this program that has no END.
 bool loop_without_end(Interpreter& in, uint32_t* number) {
   const State& s = in.state;
   for (unsigned i = top(in).loop_base; i < s.loop_count; ++i) {
@@ -86,7 +86,7 @@ Execution begin_loop(Interpreter& in, const Statement& statement, bool condition
     return Execution::done;
   }
   if (again) return Execution::done;
-  for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // an active m may not be used again in the nest
+  for (unsigned i = frame.loop_base; i < s.loop_count; ++i)  // the number m of an open loop may not be used again inside of it
     if (s.loop[i].number == statement.number) return in.raise(Condition::loop_pair, Role::loop_number, statement.number);
   if (unsigned{s.loop_count} - frame.loop_base >= in.dialect->rules.program.loops_in_one_another || s.loop_count >= kMaxLoops) return in.raise(Condition::loop_nesting, Role::loop_number, statement.number);
   s.loop[s.loop_count++] = Loop{here, in.block->next, 0, in.block->line, 0, statement.number};
@@ -107,7 +107,7 @@ Execution end_loop(Interpreter& in, const Statement& statement) {
   return Execution::done;
 }
 
-/// Which variable an assignment writes, and what.
+/// Finds which variable an assignment writes, and its new value.
 Execution assigned(Interpreter& in, const Statement& statement, uint32_t* variable, Value* value) {
   uint32_t n = 0;
   Execution did = Execution::done;
@@ -120,7 +120,7 @@ Execution assigned(Interpreter& in, const Statement& statement, uint32_t* variab
   did = evaluate_here(in, statement.value, value);
   if (did != Execution::done) return did;
   *variable = n;
-  return n == 0 ? in.raise(Condition::variable_use, '#', 0) : Execution::done;  // M700 13.5.4: #0 never on the left
+  return n == 0 ? in.raise(Condition::variable_use, '#', 0) : Execution::done;  // M700 13.5.4: #0 cannot be written
 }
 
 Execution store(Interpreter& in, const Statement& statement, uint32_t n, Value value) {
@@ -128,7 +128,7 @@ Execution store(Interpreter& in, const Statement& statement, uint32_t n, Value v
   return write_system_variable(in, n, value, statement);
 }
 
-/// All assignments of the block: what they write is known before the first has been written.
+/// Makes all assignments of the block at once: their values are calculated before the first variable is written.
 Execution assign_at_once(Interpreter& in) {
   const auto& statements = in.block->statements;
   FixedVector<uint32_t, decltype(Block::statements)::capacity()> variables;
@@ -145,7 +145,7 @@ Execution assign_at_once(Interpreter& in) {
     const Execution did = store(in, statements[i], variables[i], values[i]);
     if (did != Execution::done) return did;
   }
-  in.statement = statements.size() - 1;  // the others are done with it
+  in.statement = statements.size() - 1;  // all statements of the block have been executed
   return Execution::done;
 }
 
@@ -167,7 +167,7 @@ Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
   return eval == Eval::need_sync ? Execution::sync : Execution::done;
 }
 
-/// M700 App.1 P35: P of a program has up to eight digits and no sign (3.5); neither have the numbers of H and of the P of M99.
+/// M700 App.1 P35: the P of a program has up to eight digits and no sign (3.5); the same holds for H and for the P of M99.
 Execution called_number(Interpreter& in, Role word, double value, uint32_t* number) {
   return whole_number(value, number) && *number <= 99999999 ? Execution::done : in.raise(Condition::value_range, word, value);
 }
@@ -248,7 +248,7 @@ Execution enter(Interpreter& in, const Entry& entry) {
 
 namespace {
 
-/// I J K of M98: the centre of the figure, from where the call finds the axes (M700 13.3.3).
+/// I J K of M98: the centre of the figure, relative to the position of the axes at the call (M700 13.3.3).
 void figure_center(const Interpreter& in, double center[2]) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const Role h = vector_along(plane.first), v = vector_along(plane.second);
@@ -256,7 +256,7 @@ void figure_center(const Interpreter& in, double center[2]) {
   if (in.words.has(v)) center[1] = length_of(in, v);
 }
 
-/// The program in hand has ended: the one that called it goes on. A modal call that it has commanded or cancelled stays so there.
+/// The program in hand has ended: the program that has called it goes on. A modal call that was commanded or cancelled stays so in that program.
 void leave(Interpreter& in) {
   State& s = in.state;
   const CallFrame& frame = top(in);
@@ -290,11 +290,11 @@ Execution execute_statement(Interpreter& in, const Statement& statement) {
     }
     case StatementKind::do_loop: return begin_loop(in, statement, true);
     case StatementKind::end_loop: return end_loop(in, statement);
-    case StatementKind::if_then: {  // of later models, an option: what follows in the block is done when the condition holds
+    case StatementKind::if_then: {  // an option of later models: the rest of the block is executed only when the condition holds
       if (!in.settings.macro_extensions) return in.raise(Condition::if_statement);
       Value condition;
       const Execution did = evaluate_here(in, statement.value, &condition);
-      if (did == Execution::done && condition.or_zero() == 0) in.jumped = true;  // past the rest of the block
+      if (did == Execution::done && condition.or_zero() == 0) in.jumped = true;  // the rest of the block is not executed
       return did;
     }
     case StatementKind::set_name: return set_names(in, statement);
@@ -321,7 +321,7 @@ Execution find_start(Interpreter& in, const ProgramRef& program, uint64_t* offse
 
 namespace {
 
-/// M700 13.3.1: a sub program of one of the devices 1 to 4.
+/// M700 13.3.1: finds a sub program on one of the devices 1 to 4.
 Execution find_on_device(Interpreter& in, ProgramRef* program) {
   const BlockWords& w = in.words;
   const char place[] = {in.dialect->device_letter, static_cast<char>('0' + w.device), ':', 0};
@@ -355,7 +355,7 @@ Execution call_sub(Interpreter& in) {
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
   Execution did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);
-  if (did != Execution::done || passes == 0) return did;  // M700 13.3.1: not called with L0, so nothing is looked for
+  if (did != Execution::done || passes == 0) return did;  // M700 13.3.1: with L0 no call is made, so no program is searched for
   ProgramRef program;
   did = w.device != 0 ? find_on_device(in, &program) : find_called(in, w.has(Role::call_program), w.has(Role::call_program) ? w.get(Role::call_program) : 0, true, &program);
   if (did != Execution::done) return did;
@@ -363,7 +363,7 @@ Execution call_sub(Interpreter& in) {
   uint32_t line = 0;
   did = find_start(in, program, &offset, &line);
   if (did != Execution::done) return did;
-  // M700 13.3.1: single block does not stop at a block that only calls; with other words it may, behind what they do.
+  // M700 13.3.1: single block does not stop at a block that only calls; where the block has other words it stops after these have been executed.
   const bool stops = !only_calls(in);
   const bool figure = w.any({Role::vector_x, Role::vector_y, Role::vector_z});
   if (figure && in.state.rotated) return in.raise_misc(Condition::rotation_in_figure, MiscFunction::call_sub);  // M700 13.3.3 precaution (2)
@@ -376,16 +376,16 @@ Execution call_sub(Interpreter& in) {
   if (did != Execution::later) return did;
   if (figure) begin_figure(in, center);
   in.keep_call();
-  if (stops) in.emit_stop_point(true);  // the call is made: what is read again after a stop is the sub program
+  if (stops) in.emit_stop_point(true);  // the call has been made, so after the stop the sub program is read
   return did;
 }
 
-/// M700 13.3.2: a program of the data server; what the host has as such (BlockReader::find_external), else the memory.
+/// M700 13.3.2: calls a program of the data server. It is one that the host has under such a name (BlockReader::find_external), or else one in the memory.
 Execution call_external(Interpreter& in) {
   const BlockWords& w = in.words;
   if (w.has(Role::call_sequence)) return in.raise(Condition::format_error, Role::call_sequence, w.get(Role::call_sequence));  // no call of a sequence number
   for (unsigned level = 1; level <= in.state.depth; ++level)
-    if (in.state.frame[level].origin == CallOrigin::external) return in.raise_misc(Condition::nesting, MiscFunction::call_external);  // once per nest
+    if (in.state.frame[level].origin == CallOrigin::external) return in.raise_misc(Condition::nesting, MiscFunction::call_external);  // only one M198 may be open
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_external);
   Entry entry;
   entry.origin = CallOrigin::external;
@@ -403,7 +403,7 @@ Execution call_external(Interpreter& in) {
   if (did != Execution::done) return did;
   if (number != 0) entry.program.number = number;
   if (outside) {
-    // What stands up to the first line feed is not run, unless the file begins with an O number.
+    // The text up to the first line feed is not executed, unless the file begins with an O number.
     const Block* first = in.reader.peek(entry.program.file);
     if (first == nullptr) return in.raise(Condition::read_failed);
     while (!first->end_of_text && !first->has_o && first->line == 1) {
@@ -444,7 +444,7 @@ Execution return_sub(Interpreter& in) {
   State& s = in.state;
   const BlockWords& w = in.words;
   if (check_loops_closed(in) != Execution::done) return Execution::fault;
-  if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to its head
+  if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to the beginning of the program
     CallFrame& frame = top(in);
     if (w.has(Role::return_passes) && in.dialect->rules.program.main_program_counts) {
       bool goes_back = false;
@@ -462,7 +462,7 @@ Execution return_sub(Interpreter& in) {
   CallFrame& frame = top(in);
   const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;
-  if (w.has(Role::return_passes)) {  // 13.3.1 prints "M99 (P_ L_)" and no more; as FANUC: the passes still to come, this one among them
+  if (w.has(Role::return_passes)) {  // 13.3.1 has only "M99 (P_ L_)"; as in FANUC, L is the number of passes still to come, counting this one
     uint32_t passes = 0;
     const Execution did = repetitions(in, true, w.get(Role::return_passes), &passes);
     if (did != Execution::done) return did;
@@ -477,7 +477,7 @@ Execution return_sub(Interpreter& in) {
     in.finish_block(!only_calls(in), !only_calls(in));
     return Execution::later;
   }
-  if (w.has(Role::return_sequence) && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: no P from a tape
+  if (w.has(Role::return_sequence) && !in.reader.is_tape(s.frame[s.depth - 1].program.file)) {  // M700 13.3.1: a tape has no P of M99
     uint32_t n = 0;
     uint64_t offset = 0;
     uint32_t line = 0;
@@ -524,9 +524,9 @@ Execution return_behind_last(Interpreter& in) {
 }
 
 Execution text_ended(Interpreter& in) {
-  // M700 App.1 P36: '%' (or the end of the text, or the next O number) was read without M02, M30 or M99.
+  // M700 App.1 P36: '%', the end of the text, or the next O number was read before M02, M30 or M99.
   if (in.state.depth > 0) return in.raise_misc(Condition::program_end, MiscFunction::return_sub);
-  // The blocks of MDI end with their text.
+  // A text of MDI may end without a code for it.
   if (in.dialect->end_code_required && !(in.mdi && in.block->end_of_text)) return in.raise(Condition::program_end);
   in.state.end_seen = true;
   Item& end = in.emit(ItemKind::end);

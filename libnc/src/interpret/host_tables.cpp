@@ -36,7 +36,7 @@ bool HostTables::next_parameter(unsigned* place, char key[24], int* axis, double
   do {
     if (!in_->parameters.at(*place, &id, axis, &found)) return false;
     ++*place;
-  } while (!found.is_set());  // it was set, and that was taken back
+  } while (!found.is_set());  // skip parameters whose setting has been taken back
   --*place;
   char name[kParameterKeySize];
   put_parameter_key(*in_->dialect, id, name);

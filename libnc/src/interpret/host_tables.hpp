@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of one part system as the host reads and writes them: parameters, offsets, variables, outputs of the macro interface. What the
-// host writes no rewind brings back, and other part systems that share it have it, too.
+// The tables of one part system as the host reads and writes them: parameters, offsets, variables, outputs of the macro interface. No rewind undoes what
+// the host writes, and the host writes to shared places for all part systems.
 #pragma once
 
 #include "dialect/parameter.hpp"
@@ -13,7 +13,7 @@ namespace nc {
 
 struct Interpreter;
 
-/// Handle; the interpreter outlives it.
+/// A handle; the interpreter must outlive it.
 class HostTables {
  public:
   explicit HostTables(Interpreter& in) : in_(&in) {}
@@ -21,13 +21,13 @@ class HostTables {
   nc_status set_parameter(const char* key, int axis, const char* text) const;
   double parameter(const char* key, int axis) const;  ///< 0 where it is not set
   double parameter(ParameterOf parameter, int axis = -1) const;
-  /// The first parameter from *place on that has been set; false: there is none. Key, axis (-1 = of none) and what it is: a number, or a text.
+  /// The first parameter that is set, from *place on; false: there is none. Gives its key, its axis (-1 = for all axes), and its value: a number, or a text.
   bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;
-  int axis_named(char name) const;  ///< its index, -1 = none
+  int axis_named(char name) const;  ///< index of the axis, -1 = there is no such axis
   const FilterParameters& filters() const;
   const Frames& frames() const;
   void set_table(unsigned key, double value) const;
-  /// The macro interface's outputs as read ahead.
+  /// Outputs of the macro interface after the blocks that were read so far.
   uint32_t interface_output(unsigned word) const;
   void set_interface_output(unsigned word, uint32_t mask, uint32_t bits) const;
   void set_tool(unsigned number, nc_tool_column column, double value) const;
@@ -35,7 +35,7 @@ class HostTables {
   bool variable(uint32_t number, Value* value) const;
   bool set_variable(uint32_t number, Value value) const;
   bool next_variable(uint32_t from, uint32_t* number, double* value) const;
-  unsigned variable_name(uint32_t number, char* name) const;  ///< its length
+  unsigned variable_name(uint32_t number, char* name) const;  ///< returns the length of the name, 0 = none
   bool set_variable_name(uint32_t number, const char* name) const;
   void set_devices(nc_device_read read, void* user) const;
 

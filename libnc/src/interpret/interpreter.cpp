@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop: next block, jobs over several calls, checkpoints, rewind, reset.
+// The main loop: reading the next block, blocks that take several calls, checkpoints, rewind, reset.
 #include "interpret/interpreter.hpp"
 
 #include <cstddef>
@@ -47,7 +47,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);
   modals.create(under_way, arena);
-  texts.create(power_of_two_above(config.look_ahead + 64), arena);  // DPRNT: one in every block that is under way
+  texts.create(power_of_two_above(config.look_ahead + 64), arena);  // enough for a DPRNT in every block that is under way
   records.create(&variables.journal(), kRecordKey, arena);
   rewritten = arena.make<Block>();
   shapes.create(128, arena);
@@ -78,7 +78,7 @@ void Interpreter::undo(void* self, uint32_t key, JournalValue old) {
   if (key >= kParameterKey) static_cast<Interpreter*>(self)->settings_stale_ = true;
 }
 
-/// The settings stay: whoever looks at the parameters executes nothing.
+/// Exchanges a value that is not a variable. The settings are not made anew, because nothing is executed while values are exchanged for a look.
 JournalValue Interpreter::exchange(void* self, uint32_t key, JournalValue value) {
   Interpreter& in = *static_cast<Interpreter*>(self);
   if (key >= kParameterKey) return in.parameters.exchange(key - kParameterKey, ParameterValue::of(value)).journalled();
@@ -123,7 +123,7 @@ void Interpreter::reset(bool keep_modal) {
   state.frame[0].line = state.frame[0].begin_line = main_program.line;
   variables.clear_locals(1);
   if (shared != nullptr) {
-    shared->publish(*this, ~BlockSeq{0});  // what is not taken back by now has been executed
+    shared->publish(*this, ~BlockSeq{0});  // everything that has not been taken back by now has been executed
     shared->keep_for_good(*this);
   }
   variables.forget();
@@ -131,7 +131,7 @@ void Interpreter::reset(bool keep_modal) {
   begin_program(left, keep_modal, dialect->rules.reference.forgets_with_program);
   records.change_from_outside(left);
   refresh_derived();
-  take_work_rotation(*this, true);  // M700 13.21 (4): parameters hold from the cycle start on
+  take_work_rotation(*this, true);  // M700 13.21 (4): the parameters act from the cycle start on
   store->forget_notes(system_index);
   forget_block();
   ended = !main_program.valid();
@@ -142,7 +142,7 @@ void Interpreter::reset(bool keep_modal) {
   forget_vendor_call();
 }
 
-/// What was under way when reading begins at another place.
+/// Forgets everything that was under way, because reading begins at another place.
 void Interpreter::forget_block() {
   finished_modal = state.modal;
   newest_modal_ = kNoModal;
@@ -157,8 +157,8 @@ void Interpreter::forget_block() {
   world_fresh = false;
 }
 
-/// The axes do not stand where the program has left them. In the plane of G12.1 a point belongs to two places of the axes: the program
-/// goes on from the one where they really are (M700 6.10). What a curve had of the way before is no more.
+/// The axes do not stand where the program has left them. In the plane of G12.1 a point can be reached by two positions of the axes: the program goes on
+/// from the one at which they really are (M700 6.10). What a curve knew of the way before does not count any more.
 void Interpreter::moved_by_hand() {
   if (state.map.kind == AxisMap::Kind::polar) {
     const unsigned linear = state.map.linear;
@@ -171,7 +171,7 @@ void Interpreter::moved_by_hand() {
 
 void Interpreter::shift_coordinates(unsigned axis, double by) {
   if (state.map.kind == AxisMap::Kind::polar && axis == state.map.rotary) {
-    state.map.angle += by;  // the plane turns with the axis
+    state.map.angle += by;  // the plane is rotated together with the axis
     return;
   }
   set_table_from_outside(Frames::shift_key(axis), frames.get(Frames::shift_key(axis)) + by);
@@ -212,7 +212,7 @@ void Interpreter::clear_by_reset() {
   }
 }
 
-/// What blocks behind `seq` have written; false: the journal does not reach back that far.
+/// Takes back what blocks after `seq` have written; false: the journal does not reach back that far.
 bool Interpreter::take_back(BlockSeq seq) {
   if (shared != nullptr && !shared->reaches(*this, seq)) return false;
   if (!variables.rewind(seq, this, undo)) return false;
@@ -225,11 +225,11 @@ bool Interpreter::rewind(BlockSeq seq) {
   if (!checkpoints_.holds(seq) || !take_back(seq)) return false;
   if (seq < vendor_call_.seq) forget_vendor_call();
   checkpoints_.restore(seq, &state);
-  take_changed_amounts(*this);  // the host may have changed them since
+  take_changed_amounts(*this);  // the host may have changed offsets since then
   refresh_axis_names();
   forget_block();
   ended = false;
-  if (state.end_seen) emit_end();  // it comes behind the mark
+  if (state.end_seen) emit_end();  // the end item comes behind the mark, so it has been given up
   know_world_again();
   return true;
 }
@@ -263,8 +263,8 @@ nc_status Interpreter::step(uint32_t& budget) {
 
 bool Interpreter::skipped(const Block& b) const { return b.skip != 0 && ((optional_skip >> b.skip) & 1) != 0; }
 
-/// What a block asks before its words count: where it stands in its program, '%', O, N, optional skip. False: there are none to
-/// execute, and *status is what the step has come to.
+/// Handles what comes before the words of a block: its place in the program, '%', O, N, optional skip. False: there are no words to execute, and *status
+/// is the result of the step.
 bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   *status = NC_OK;
   const auto settled = [&](Execution did) {
@@ -277,18 +277,18 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   const auto bad_row = [](const Block& b) {  // M700 3.4: parity is checked whether the block is skipped or not
     return b.has_fault && (b.fault.condition == Condition::parity || b.fault.condition == Condition::parity_vertical);
   };
-  const bool half_done = ((state.codes_left >> state.depth) & 1) != 0;  // it was not skipped when it moved
+  const bool half_done = ((state.codes_left >> state.depth) & 1) != 0;  // the block has moved already, so it is not skipped now
   if (skipped(*block) && !bad_row(*block) && !half_done) {
     frame.offset = block->next;
     frame.line = block->next_line;
     return false;
   }
-  // A further O number begins another program; a family without sub programs has one in a program, and prints it behind a block, too.
+  // A further O number begins another program. A family without sub programs has one O number in a program, and its manual shows it behind a block, too.
   const bool number_again = block->has_o && frame.started;
   const bool one_number = dialect->call_depth == 0;
   if (number_again && one_number && frame.program.number != 0) return settled(raise(Condition::format_error, Role::program_number, block->o));  // DGSHAPE 1-1, 2-6
   if (block->percent || block->end_of_text || (number_again && !one_number)) {
-    const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6, also with nothing between the two
+    const bool data_end = dialect->percent_required && state.percent_seen;  // DGSHAPE 2-6: the second '%' ends the data, even if nothing is between the two
     if (block->percent && !frame.started && !data_end) {  // the start mark
       if (block->has_fault) {
         fault = block->fault;
@@ -302,7 +302,7 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
     const Execution did = text_ended(*this);
     return did == Execution::later ? false : settled(did);
   }
-  const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // comments at most
+  const bool blank = block->empty && !block->has_n && !block->has_o && !block->has_fault;  // there are only comments
   if (dialect->percent_required && state.depth == 0 && !state.percent_seen && !blank) return settled(raise(Condition::no_start_mark));
   if (block->has_o) {
     frame.program.number = source.program = block->o;
@@ -333,7 +333,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   if (state.owes_mark) {  // the block of the call ends with the return
     state.owes_mark = false;
     source.line = frame.call_line;
-    finish_block(false, false);  // M700 13.3.1: where it may stop, it has done so before the call
+    finish_block(false, false);  // M700 13.3.1: single block has had its stop before the call
     return NC_OK;
   }
   if (state.stop_reading) {  // M700 4.2: an M code that prohibits reading ahead
@@ -362,7 +362,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   const bool no_statements = block->statements.empty();
   if (no_statements && execute_plain_line(*this)) return settle(Execution::done);
   const Execution did = no_statements ? execute_words(*this) : execute_statements();
-  if (did == Execution::sync && next_step == Step::none) {  // read this block again when the answer is there
+  if (did == Execution::sync && next_step == Step::none) {  // this block is read again when the answer is there
     state.frame[depth].offset = begin;
     state.frame[depth].line = line;
     state.frame[depth].last_begun = false;
@@ -379,7 +379,7 @@ Execution Interpreter::execute_statements() {
     jumped = false;
     const Execution did = execute_statement(*this, block->statements[statement]);
     if (did != Execution::done) {
-      if (did != Execution::sync && did != Execution::fault) statement = 0;  // the one that is wrong is looked at once more (note_cause)
+      if (did != Execution::sync && did != Execution::fault) statement = 0;  // note_cause() still needs the number of a statement that is wrong
       return did;
     }
     if (jumped) {
@@ -392,14 +392,14 @@ Execution Interpreter::execute_statements() {
   return Execution::done;
 }
 
-/// What the result of a block makes of the stream.
+/// Puts into the stream what follows from the result of a block.
 nc_status Interpreter::settle(Execution did) {
   const bool kept = modal_kept;
   modal_kept = false;
   switch (did) {
     case Execution::done: {
       next_step = Step::none;
-      // Macro statements are worked off together with the executable block before them unless #8101 is on (M700 13.5.9).
+      // Macro statements are executed together with the executable block before them, unless #8101 is on (M700 13.5.9).
       const bool macro = block != nullptr && !block->statements.empty();
       modal_unchanged_ = block != nullptr && (macro || kept) && !block->has_n && !block->has_o && newest_modal_ != kNoModal;
       finish_block(!macro || settings.macro_single, !macro);
@@ -418,13 +418,13 @@ nc_status Interpreter::settle(Execution did) {
   }
   note_calls(source, state.frame);
   note_cause(*this);
-  // Nothing of the block that alarms has happened, unless parts of it have gone already.
+  // Nothing of a block with an alarm is executed, unless parts of it have been given out already.
   if (next_step == Step::none) take_block_back();
   stop(fault, source);
   return NC_OK;
 }
 
-/// What the block in hand has put into the stream, and what it has changed.
+/// Takes back what the block in hand has put into the stream, and what it has changed.
 void Interpreter::take_block_back() {
   queue.cut(0);
   if (!checkpoints_.holds(state.seq) || !take_back(state.seq)) return;
@@ -471,7 +471,7 @@ void Interpreter::note_calls(const nc_source& where, const CallFrame* levels) {
 
 unsigned Interpreter::calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[kMaxFrames]) const {
   if (where.depth == 0) return calls_of(where, nullptr, calls);
-  // Behind a block come calls, which have no mark yet, and then the next one: the first state that is as deep as that has its callers.
+  // After a block come calls, which have no mark yet, and then the next block. So the first state that is as deep as the block `where` has its callers.
   CallFrame levels[kMaxFrames];
   for (; checkpoints_.holds(seq); ++seq) {
     if (!checkpoints_.frames(seq, where.depth + 1u, levels)) continue;

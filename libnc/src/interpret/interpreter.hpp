@@ -22,63 +22,65 @@
 
 namespace nc {
 
-/// What stands behind an alarm, noted when the block is given up.
+/// What led to an alarm, noted when the block is given up.
 struct AlarmStory {
-  nc_text cause{};        ///< a sentence more than the fault has; "" = none
-  bool instead = false;   ///< it says all that there is to say
-  uint8_t count = 0;      ///< of calls
-  nc_source calls[kMaxFrames]{};  ///< the blocks that led there, outermost first, the last one that of the alarm
+  nc_text cause{};        ///< a further sentence about the alarm; "" = none
+  bool instead = false;   ///< that sentence replaces the one that the fault gives
+  uint8_t count = 0;      ///< number of `calls`
+  nc_source calls[kMaxFrames]{};  ///< the blocks that led to the alarm, outermost first; the last one is the block of the alarm
 };
 
 struct Interpreter : BlockContext {
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
 
-  /// How many old values are kept: a few of each block that is read ahead, and all of a block that writes many.
+  /// Number of old values that are kept: a few for each block that is read ahead, and enough for a block that writes many.
   static unsigned journal_capacity(unsigned look_ahead);
 
   // ---- the stream ---------------------------------------------------------------------------------------------------
-  /// Makes more items: NC_OK (look at `queue`), NC_WAITING (a sync is open), NC_BUDGET, NC_ENDED, NC_ALARMED.
+  /// Makes more items. NC_OK: they are in `queue`; NC_WAITING: a sync is open; NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status step(uint32_t& budget);
   void answer(const nc_world& world);
 
   // ---- programs -----------------------------------------------------------------------------------------------------
-  /// To the head of the selected program; modal state as after reset 2 (M700 3.7).
+  /// Goes to the beginning of the selected program; the modal state becomes that of reset 2 (M700 3.7).
   void reset() { reset(false); }
   /// With `keep_modal` (MDI after MDI, M700 5.1) modal codes and words, work system and tool length stay; cycles and radius
   /// compensation do not.
   void reset(bool keep_modal);
-  /// What a reset by the operator clears and the end of a program does not: what the end has left in force, and by parameter #100 to
-  /// #199 (M700 13.4, #1128 RstVC1).
+  /// Clears what a reset by the operator clears and the end of a program does not: what the end has left in force, and, where a parameter says so, #100
+  /// to #199 (M700 13.4, #1128 RstVC1).
   void clear_by_reset();
-  /// The next block is read again for somebody who wants everything done again: a function of the vendor, too.
+  /// The next block is read again and has to be executed anew as a whole: also its vendor's function is called again.
   void forget_vendor_call() { vendor_call_ = {}; }
-  /// Whether the vendor's function of the block in hand has been called, and note that it has.
+  /// Whether the vendor's function of the block in hand has been called already; and notes that it has.
   bool vendor_called() const { return vendor_call_.known && vendor_call_.seq == state.seq && vendor_call_.begin == block->begin && vendor_call_.file == source.file; }
   void note_vendor_call() { vendor_call_ = {true, source.file, block->begin, state.seq}; }
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
-  /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
+  /// If `back` is true, tables, variables and parameters get the values that they had after block `seq`, so that they can be read from outside. If it is
+  /// false, they get their present values again. Nothing may be written in between.
   void look_back(BlockSeq seq, bool back) { variables.swap(seq, back, this, exchange); }
-  /// The program is selected, in the call stack now or after a rewind, in a modal call or the interrupt program.
+  /// The program is selected, is in the call stack (now, or after a rewind), or is the program of a modal call or of the macro interrupt.
   bool refers_to(unsigned file) const;
-  /// rewind(seq) is possible, and still will be when one more block has been executed.
+  /// rewind(seq) is possible, and will still be possible when one more block has been executed.
   bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
-  /// Forget checkpoints; go on from here (position of the machine).
+  /// Forgets the checkpoints and goes on from this position of the machine.
   void set_machine(const AxisVec& machine);
-  /// The axes have been moved behind the newest block; whoever goes back there finds them so.
+  /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too.
   void move_to(const AxisVec& machine) {
     state.machine = machine;
     moved_by_hand();
     checkpoints_.save(state);
   }
-  /// All coordinate systems go along with an axis that is moved by hand.
+  /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.
   bool interruptible() const;
-  /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
-  /// `taken_back` items, which are given up. Inside a block only with `cut_block`; false: not now.
+  /// Makes the interrupt program run next; the machine stands at `machine`. Everything made so far has been executed, except the newest `taken_back` items,
+  /// which are given up. Inside a block it is done only with `cut_block`. False: it is not possible now.
   bool interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block);
-  /// The same on the machine: it has stopped inside the next block, of which `items` have happened. False: the block goes on.
+  /// Online: the machine has stopped inside the next block, of which it has executed `items` items. False: no interrupt is accepted any more, and the block
+  /// goes on.
   bool interrupt_inside(const AxisVec& machine, unsigned items);
   /// The next block goes on where it was cut (State::repeat).
   void go_on_inside(unsigned items) {
@@ -88,7 +90,7 @@ struct Interpreter : BlockContext {
     state.repeat.items = static_cast<uint16_t>(state.repeat.items + items);
     know_world_again();
   }
-  /// A block that goes on where it was cut has the answers that it had.
+  /// A block that goes on where it was cut gets the same answers of syncs as before.
   void know_world_again() {
     if (!state.repeat.active || !interrupted_.world_known) return;
     world = interrupted_.world;
@@ -98,18 +100,19 @@ struct Interpreter : BlockContext {
     vendor_call_ = interrupted_.vendor_call;
     vendor_call_.seq = state.seq;
   }
-  /// Program and modal state at the interrupt (#4401...).
+  /// The modal state at the interrupt (#4401...).
   const ModalState& interrupted_modal() const { return interrupted_.state.modal; }
-  /// What the interrupt program goes back to, or what the last one went back to.
+  /// The state to which the interrupt program returns, or to which the last one has returned.
   const StateValues& interrupted_state() const { return interrupted_.state; }
   void leave_interrupt(bool to_sequence);
-  /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
+  /// A stage behind the interpreter has found a fault: the queued items are given up, and the alarm and the end take their place.
   void abort(const Fault& what, const nc_source& where);
-  /// For abort(), before the blocks from `seq` on are given up: which of them called the program of `where`.
+  /// To be called before abort(), while the blocks from `seq` on are still known: notes which of them have called the program of `where`.
   void note_calls(const nc_source& where, BlockSeq seq);
-  /// The blocks that led to `where`, which comes behind block `seq`, outermost first and with it; 0: that is not known any more.
+  /// The blocks that led to the block `where`, which comes after block `seq`: outermost first, `where` itself last. Returns their number; 0: they are not
+  /// known any more.
   unsigned calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[kMaxFrames]) const;
-  /// The host has changed a number of the frames' table: no rewind brings the old one back.
+  /// The host writes to the table of frames: no rewind brings the old value back.
   void set_table_from_outside(unsigned key, double value);
 
   // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
@@ -117,10 +120,10 @@ struct Interpreter : BlockContext {
   struct {
     nc_device_read read = nullptr;
     void* user = nullptr;
-  } devices;                       ///< of the PLC (#100110)
+  } devices;                       ///< reads devices of the PLC (#100110)
   CommonVariables* common = nullptr;
   ProgramStore* store = nullptr;
-  /// For tests: what is named by a number is counted from here.
+  /// For tests: all numbers that name something are counted from `first`.
   void count_from(uint32_t first) {
     transforms.count_from(first);
     modals.count_from(first);
@@ -139,41 +142,41 @@ struct Interpreter : BlockContext {
   Fault alarm_fault;
   nc_source alarm_source{};
   AlarmStory alarm_story;
-  uint32_t last_line = 1;          ///< of the last block read
-  uint32_t user_alarm_text = 0;    ///< text of the last #3000
-  nc_alarm vendor_alarm{};         ///< what the last function of the vendor that failed has said
-  bool in_vendor_function = false; ///< one runs: nothing else drives this part system meanwhile
-  bool feeding = false;            ///< read for the machine, else for nc_pull()
+  uint32_t last_line = 1;          ///< line of the last block read
+  uint32_t user_alarm_text = 0;    ///< id of the text of the last #3000
+  nc_alarm vendor_alarm{};         ///< alarm of the last vendor's function that has failed
+  bool in_vendor_function = false; ///< a vendor's function is running: calls that drive this part system are refused meanwhile
+  bool feeding = false;            ///< blocks are read for the machine (nc_feed()), not for nc_pull()
 
   // the block in hand
   unsigned statement = 0;          ///< next macro statement of the block
-  bool jumped = false;             ///< a statement has sent the program elsewhere: those behind it in the block are not executed
+  bool jumped = false;             ///< a statement has jumped, so the statements behind it in the block are not executed
   Block* rewritten = nullptr;      ///< copy of the block in hand without the code that calls a program
-  const CodeCall* after_block = nullptr; ///< the program to be called when the block in hand has done its part
+  const CodeCall* after_block = nullptr; ///< the call to be made when the block in hand has been executed
 
-  /// Everything that is made of the state's groups, after they have been assigned.
+  /// Makes everything that follows from the groups of the state anew, after they have been assigned.
   void refresh_derived();
 
  private:
-  /// A block whose function of the vendor's has been called.
+  /// A block whose vendor's function has been called.
   struct VendorCall {
     bool known = false;
     uint16_t file = 0;
     uint64_t begin = 0;
-    BlockSeq seq = 0;            ///< the state before it
+    BlockSeq seq = 0;            ///< number of the block before it
   };
-  /// What an interrupt program goes back to.
+  /// What is kept for the return from an interrupt program.
   struct InterruptReturn {
-    StateValues state;           ///< at the head of the interrupted block, or behind the block that came before
-    unsigned items = 0;          ///< of that block that have happened
+    StateValues state;           ///< the state at the beginning of the interrupted block, or behind the block before the interrupt
+    unsigned items = 0;          ///< number of items of that block that have been executed
     bool inside_block = false;
-    VendorCall vendor_call;      ///< of the interrupted block: what it has called is not called again when it goes on
-    bool world_known = false;    ///< the interrupted block has read `world`: it reads the same when it goes on
+    VendorCall vendor_call;      ///< vendor's function of the interrupted block: it is not called again when the block goes on
+    bool world_known = false;    ///< the interrupted block has read `world`, and reads the same when it goes on
     nc_world world{};
-    ProgramMaps maps;            ///< where those of `state` are centred
+    ProgramMaps maps;            ///< centres and factors of the maps that are in force in `state`
   };
   Execution enter_interrupt();
-  /// At the head of a block that is going to be cut.
+  /// Called at the beginning of a block that is going to be cut: notes the answers that it has.
   void note_world() {
     interrupted_.world_known = answered_ == state.seq;
     interrupted_.world = world;
@@ -202,20 +205,20 @@ struct Interpreter : BlockContext {
   bool take_back(BlockSeq seq);
   static void undo(void* self, uint32_t key, JournalValue old);
   static JournalValue exchange(void* self, uint32_t key, JournalValue value);
-  unsigned made_ = 0;          ///< items of the block in hand so far
-  BlockSeq block_seq_ = 0;     ///< the state before it
+  unsigned made_ = 0;          ///< number of items of the block in hand so far
+  BlockSeq block_seq_ = 0;     ///< number of the block before it
   InterruptReturn interrupted_;
-  VendorCall vendor_call_;       ///< the newest block whose function of the vendor's has been called: read again, it has been
-  BlockSeq answered_ = ~BlockSeq{0};  ///< the state before the block that the newest answer was for
+  VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
+  BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for
 };
 
 /// interpret/execute_block.cpp: a block of words.
 Execution execute_words(Interpreter& in);
-/// interpret/plain_line.cpp: a straight line in absolute millimetres. False: nothing has been done, the block needs execute_words().
+/// interpret/plain_line.cpp: executes a straight line in absolute millimetres. False: nothing has been done, and the block needs execute_words().
 bool execute_plain_line(BlockContext& in);
-/// The G codes of in.words that say how other words are read.
+/// Applies the G codes of in.words that decide how other words are read.
 Execution apply_reading_modes(Interpreter& in);
-/// Goes on with a block that said Execution::later.
+/// Goes on with a block that has returned Execution::later.
 Execution continue_block(Interpreter& in);
 
 /// interpret/flow.cpp
@@ -237,17 +240,17 @@ bool modal_call_takes_blocks(const Interpreter& in);
 void cancel_modal_call(Interpreter& in);      ///< G67
 
 /// interpret/code_call.cpp
-/// A block that may hold a registered code. *taken: the call has been made and takes all the words.
+/// Handles a block that may hold a registered code. *taken: the call has been made, and all words of the block belong to it.
 Execution dispatch_block(Interpreter& in, bool* taken);
-/// interpret/vendor_call.cpp: word `at` of the block is a code of the vendor's that calls a function; everything before it has happened.
+/// interpret/vendor_call.cpp: word `at` of the block is a code of the vendor that calls a function. Calls it when everything before has been executed.
 Execution call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code);
-/// G66.1 is in force and takes the words of this block (in.words).
+/// G66.1 is in force, and the words of this block (in.words) are its arguments.
 bool block_is_argument(const Interpreter& in);
-/// What a block calls behind its own part: a code of type M98, the modal call after a move.
+/// Makes the call that comes after a block: that of a code that calls as M98 does, or the modal call after a move.
 Execution call_behind_block(Interpreter& in);
-/// M, S, T that come behind the motion, and the call of a code among them; no modal call.
+/// Executes M, S and T that come behind the motion, and the call of a code among them, but no modal call.
 Execution execute_behind_motion(Interpreter& in);
-/// The block moves under a modal call (G66), and calls a program or returns from its own.
+/// The block moves under a modal call (G66), and also calls a program or returns from its own.
 bool goes_on_elsewhere(const Interpreter& in);
 Execution make_modal_call_first(Interpreter& in);
 
@@ -255,15 +258,15 @@ Execution make_modal_call_first(Interpreter& in);
 Execution enable_interrupt(Interpreter& in);
 Execution disable_interrupt(Interpreter& in);
 
-/// interpret/alarm_cause.cpp: why the block in hand has raised Interpreter::fault, as far as the fault itself does not say so.
+/// interpret/alarm_cause.cpp: notes why the block in hand has raised Interpreter::fault, where the fault itself does not say it.
 void note_cause(Interpreter& in);
 
 /// interpret/system_variables.cpp
 Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault* fault, uint32_t* sync);
 Execution write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement);
-/// print.cpp: the variable that SETVN has given this name.
+/// print.cpp: finds the variable to which SETVN has given this name.
 bool find_variable_name(void* self, const char* name, size_t length, uint32_t* number);
-/// Reader over everything, for evaluate().
+/// The reader of all variables, for evaluate().
 VariableReader variable_reader(Interpreter& in);
 
 }  // namespace nc

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Macro interrupt: M96, M97, and the way into the interrupt program and back (M700 13.12).
 //
-// An interrupt comes when everything before it has happened, so it never has to be taken back: what is kept for the return lies beside
-// the state and not in it.
-// On the machine the item in execution may be half done: what is left of it is made again from there (PartSystem).
+// An interrupt comes when everything before it has been executed, so it never has to be taken back: therefore what is kept for the return is not a part of
+// the state. On the machine the item in execution may have been executed in part; the rest of it is executed after the return (PartSystem).
 //
-// A block is interrupted at one of its items. The interpreter goes back to where the block began and enters the interrupt program from
-// there, with the machine where it stands. On return either the rest of the block is lost (type 1, when the interrupt program moved or
-// gave out M S T B), or the block is read again and the items that have happened already are dropped.
+// A block is interrupted at one of its items. The interpreter goes back to the beginning of the block and enters the interrupt program from there, with the
+// machine where it stands. On return either the rest of the block is not executed (type 1, when the interrupt program has moved or given out M S T B), or
+// the block is read again and the items that have been executed already are dropped.
 #include "interpret/calls.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -17,7 +16,7 @@
 namespace nc {
 namespace {
 
-/// What sinks and the scan know of the interrupt.
+/// Tells the sinks and the scan the state of the interrupt.
 void announce(Interpreter& in) {
   uint32_t bits = 0;
   if (in.state.interrupt_on) bits |= NC_INTERRUPT_ENABLED;
@@ -30,7 +29,7 @@ void announce(Interpreter& in) {
   action.value = bits;
 }
 
-/// The block that was interrupted is not finished: the program that runs it goes on behind it.
+/// The interrupted block is not finished: its program goes on behind it.
 void pass_over_block(Interpreter& in, CallFrame& frame) {
   const Block* block = in.reader.read(frame.program.file, frame.offset, frame.line);
   if (block == nullptr || block->end_of_text) return;
@@ -67,13 +66,13 @@ bool Interpreter::interruptible() const { return state.interrupt_on && state.int
 
 bool Interpreter::interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block) {
   if (!queue.empty() || next_step != Step::none || taken_back > 0) {
-    if (!cut_block || (waiting_ && queue.empty())) return false;  // a sync that is not given out yet is not waited for
-    // The block in hand may have ended the program or what M96 began: it counts what was in force at its head.
+    if (!cut_block || (waiting_ && queue.empty())) return false;  // a block that waits for the answer of a sync is finished first
+    // The block in hand may have ended the program, or the state that M96 began: what was in force at the beginning of the block counts.
     const unsigned items = made_ - queue.size() - taken_back;
     return rewind(block_seq_) && begin_interrupt(true, items, machine);
   }
   if (!interruptible()) return false;
-  // Between two blocks, the second of which may have begun before another interrupt.
+  // The interrupt comes between two blocks; a part of the second one may have been executed before an earlier interrupt.
   return begin_interrupt(state.repeat.active, state.repeat.items, machine);
 }
 
@@ -91,7 +90,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   back.state = state;
   note_block_call();
   back.maps = records->maps;
-  const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up: the place is that of the next block
+  const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up, so the place is that of the next block
   source.depth = state.depth;
   source.file = frame.program.file;
   source.program = frame.program.number;
@@ -125,23 +124,23 @@ Execution Interpreter::enter_interrupt() {
   if (entry.kind == CallKind::macro) variables.enter(level, kNoArguments, state.seq + 1);
   state.interrupt_depth = state.depth;
   CallFrame& frame = state.frame[state.depth];
-  frame.modal_call = 0;  // no macro is called behind the moves of an interrupt
+  frame.modal_call = 0;  // no macro is called behind the moves of an interrupt program
   show_modal_call(*this);
   return Execution::later;
 }
 
-/// M700 13.12: modal information is restored, and what the interrupt program has told the machine about it is told again.
+/// M700 13.12: restores modal information, and tells the machine again what the interrupt program has changed there.
 void Interpreter::restore_modal() {
   const Function cutting = state.modal.of(Mode::cutting);
   const SpindleControl spindle = state.spindle;
   return_from_interrupt(state, interrupted_.state, interrupted_.inside_block);
   change_cutting_mode(*this, cutting);
   if (spindle.axis != state.spindle.axis || (state.spindle.axis != 0 && spindle.surface != state.spindle.surface)) announce_surface(*this);
-  refresh_derived();  // the rotation by parameter is data (13.21)
+  refresh_derived();  // the rotation by parameter is data and no mode, so the interrupt program may have changed it (13.21)
   take_changed_amounts(*this);
 }
 
-/// M99 of the interrupt program; its frame is still there. `to_sequence`: M99 P, which has its own place to go to.
+/// M99 of the interrupt program, whose frame is still on the stack. `to_sequence`: it is M99 P, which says itself where to go on.
 void Interpreter::leave_interrupt(bool to_sequence) {
   CallFrame& caller = state.frame[state.depth - 1];
   const bool cut = settings.interrupt_type_2 ? false : state.interrupt_moved;
@@ -162,5 +161,4 @@ void Interpreter::leave_interrupt(bool to_sequence) {
   announce(*this);
 }
 
-/// A move or M S T B of the interrupt program has gone into the stream (the items of the block in hand).
 }  // namespace nc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of an interpreter's journal (macro/journal.hpp) that are no variables: the frames' table, then the records, then the parameters.
+// First keys, in an interpreter's journal (macro/journal.hpp), of the places that are not variables: the table of frames, the records, the parameters.
 #pragma once
 
 #include "macro/variables.hpp"

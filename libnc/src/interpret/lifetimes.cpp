@@ -6,8 +6,8 @@
 namespace nc {
 namespace {
 
-/// M700 9.1, 7.2 note 1: a first movement of coordinate words goes on in the mode of the end. A program that was left before its end leaves
-/// nothing, and while nothing has been read since the last beginning what that one has left still counts.
+/// M700 9.1, 7.2 note 1: a first movement that has only coordinate words is made in the mode at the end of the last program. A program that was left before
+/// its end leaves no mode. When a program begins again before anything of it was read, what was left before still counts.
 void note_end(LeftByEnd& left, const StateValues& before, bool motion_outlives_end) {
   const ModalState& modal = before.modal;
   if (before.end_seen && motion_outlives_end) {
@@ -17,7 +17,7 @@ void note_end(LeftByEnd& left, const StateValues& before, bool motion_outlives_e
   }
 }
 
-/// Reset 2 (3.7), and what is in force in spite of it.
+/// Sets the modes of reset 2 (3.7), and those that stay in force in spite of it.
 void set_initial_modes(State& state, const StateValues& before, const InitialValues& initial) {
   state.modal = initial.modal;
   for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = initial.plane_axis[i];
@@ -29,8 +29,8 @@ void set_initial_modes(State& state, const StateValues& before, const InitialVal
   if (state.modal.is(left.feed_mode)) state.modal.feed = left.feed;
 }
 
-/// What stands among the modes and ends with its text all the same: radius compensation, cycles and modal calls (docs/decisions.md, 5.1), and
-/// tapping mode, which ends with its program (7.11).
+/// Ends the modes that end with their MDI text: radius compensation, cycles and modal calls (docs/decisions.md, 5.1), and tapping mode, which ends with
+/// its program (7.11).
 void end_modes_of_text(ModalState& modal, const ModalState& initial) {
   for (const Mode mode : {Mode::radius, Mode::cycle, Mode::macro}) modal.set(initial.of(mode));
   if (modal.is(Function::tapping_mode)) modal.set(initial.of(Mode::cutting));
@@ -64,9 +64,9 @@ void end_by_operator(State& state) {
 
 void begin_interrupt_program(State& state, const AxisVec& machine) {
   state.machine = machine;
-  state.repeat = {};  // of the block that is interrupted
+  state.repeat = {};  // it concerned the block that is interrupted
   state.interrupt_moved = false;
-  state.parameter_input = false;  // G10 L70 of the program that is interrupted: the blocks to come are no parameters
+  state.parameter_input = false;  // a G10 L70 of the interrupted program does not make the blocks to come parameters
 }
 
 void return_from_interrupt(State& state, const StateValues& before, bool inside_block) {
@@ -75,11 +75,11 @@ void return_from_interrupt(State& state, const StateValues& before, bool inside_
   if (inside_block) {
     take<MachinePosition, AppliedLength>(state, before);
   } else {
-    for (unsigned i = 0; i < kMaxAxes; ++i)  // G07: the position of the program is beside that of the axis, as the mode is in force again
+    for (unsigned i = 0; i < kMaxAxes; ++i)  // an axis that G07 holds is again at the position of the program, beside where the axis stands
       if ((state.map.frozen >> i & 1) != 0) state.machine[i] = before.machine[i];
   }
-  state.modal.m = m;  // 13.12 speaks of modals; the code that has been given out is none
-  if (moves_since_comp_off != 0) state.moves_since_comp_off = 1;  // a move of the interrupt program is one, too (P112)
+  state.modal.m = m;  // 13.12 restores modal information; the last M code that was given out is not modal
+  if (moves_since_comp_off != 0) state.moves_since_comp_off = 1;  // a move of the interrupt program counts, too (P112)
   if (state.interrupt_moved) state.spline_way = {};  // the curve begins again where the axes are
 }
 

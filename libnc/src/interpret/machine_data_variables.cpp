@@ -28,7 +28,7 @@ Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a
 
 bool whole_between(double value, double low, double high) { return value >= low && value <= high && value == std::trunc(value); }
 
-/// Bits of the selected devices from the selected one on, `count` of them; what lies beyond the last device is 0.
+/// `count` bits of devices, from device `number` on; bits beyond the last device are 0.
 uint64_t device_bits(const Interpreter& in, const DeviceRow& device, uint32_t number, unsigned count) {
   uint64_t bits = 0;
   if (device.word) {
@@ -60,7 +60,7 @@ Eval read_rotation(Access& a) {
     case 1: return give(a, a.in.axis_called(basic_along(pair[a.index])) + 1);
     case 6: return give(a, a.in.state.rotated ? std::cos(angle) : 1);
     case 2:
-    case 3:  // a position: it was where the program stood, or has moved with an offset
+    case 3:  // a position: rounding has to be removed, since it was the position of the program, or has moved with an offset
       return give(a, a.in.state.rotated ? whole_units(a.in.records->maps.rotation_center[a.index - 2], a.in.settings.setting_unit_mm) : 0);
     case 4: return give(a, a.in.state.rotated ? degrees : 0);
     case 5: return give(a, a.in.state.rotated ? std::sin(angle) : 0);
@@ -78,7 +78,7 @@ Execution select_tool_group(Access& a) {
 
 Eval read_tool_group(Access& a) { return give(a, -1); }
 
-/// A place for each registration number.
+/// Tool life data, which has a variable for each registration number; no tool is registered.
 Eval read_tool_life(Access& a) { return give(a, -1); }
 
 // ---- parameters (10.16) ---------------------------------------------------------------------------------------------------------
@@ -94,7 +94,7 @@ Execution select_parameter(Access& a) {
   return Execution::done;
 }
 
-/// What the configuration of the machine says and no parameter repeats; false: nothing of it.
+/// A parameter whose value comes from the configuration of the machine; false: the number is not such a parameter.
 bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, double* value) {
   for (const MachineParameter& row : in.dialect->parameters->machine) {
     if (row.number != number) continue;
@@ -107,7 +107,7 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
   return false;
 }
 
-/// A parameter that nobody has set reads 0. Text of one letter reads as its code.
+/// A parameter that was never set reads as 0. A text of one letter reads as the code of the letter.
 Eval read_parameter(Access& a) {
   const auto& [selected, part, axis] = a.in.records->selection.parameter;
   const uint32_t number = selected >= 1 ? selected : 1u;
@@ -116,7 +116,7 @@ Eval read_parameter(Access& a) {
   if (machine_parameter(a.in, number, static_cast<unsigned>(index), &value)) return give(a, value);
   if (parameter_is_common(*a.in.dialect, number) && !shared_known(a)) return Eval::need_sync;
   const ParameterId id = ParameterId::of_number(number);
-  if (!a.in.parameters.get(id, -1, index, &value) && a.in.parameters.text(id, index) != nullptr) {  // a long text is no number
+  if (!a.in.parameters.get(id, -1, index, &value) && a.in.parameters.text(id, index) != nullptr) {  // a long text cannot be read as a number
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
   }
@@ -157,7 +157,7 @@ Eval read_device(Access& a) {
     a.in.raise(Condition::no_such_data, '#', a.number);
     return Eval::fault;
   }
-  if (number >= device->count) {  // (2); only what lies behind an existing one reads 0
+  if (number >= device->count) {  // (2): the device does not exist; only bits behind an existing device read as 0
     a.in.raise(Condition::no_such_data, '#', number);
     return Eval::fault;
   }

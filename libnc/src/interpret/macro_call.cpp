@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Macro calls: arguments, G65, and the modal calls G66, G66.1, G67 (M700 13.5.1).
 //
-// Modal calls nest. Each frame of the call stack knows the slot of the call that is in force in its program; the program that a call
-// enters has the call below it in force, so that a move in the macro of the last G66 calls the macro of the one before.
+// Modal calls nest. Each frame of the call stack knows the slot of the modal call that is in force in its program. In the program that a modal call enters,
+// the modal call commanded before that one is in force, so that a move in the macro of the last G66 calls the macro of the G66 before.
 #include <cmath>
 #include <initializer_list>
 
@@ -13,12 +13,12 @@
 namespace nc {
 namespace {
 
-/// Designation II: I J K up to ten times, #(3k+1) #(3k+2) #(3k+3); a word that does not come after the one before it in this order begins
-/// the next group. The first group is what designation I says of I J K.
+/// Argument designation II: I J K up to ten times, for #(3k+1) #(3k+2) #(3k+3). A word that does not come after the previous one in the order I J K begins
+/// the next group. The first group gives the same variables as designation I.
 struct GroupCounter {
   unsigned group = 1;
   int last = -1;
-  /// Variable number of component 0, 1, 2; 0 = more than ten groups.
+  /// Number of the variable for component 0, 1 or 2; 0 = there are more than ten groups.
   unsigned variable(int component) {
     if (component <= last) ++group;
     last = component;
@@ -33,7 +33,7 @@ int component_of(const Interpreter& in, const Word& word) {
   return -1;
 }
 
-/// A slot that no open program refers to; 0 = none. Rare, so it may look at all of them.
+/// A slot to which no open program refers; 0 = none. It is needed rarely, so it may look at all frames.
 unsigned free_slot(const Interpreter& in) {
   uint32_t used = 0;
   for (unsigned level = 0; level <= in.state.depth; ++level) {
@@ -144,8 +144,7 @@ Execution make_modal_call(Interpreter& in) {
   return enter_modal(in, slot, arguments);
 }
 
-/// M700 13.5.1, G66.1: the words of a block in the mode go to the macro as if G65 P_ stood before them. O, N and modal G codes update
-/// the modal state all the same.
+/// M700 13.5.1, G66.1: the words of each block are given to the macro as if G65 P_ stood before them. O, N and modal G codes also change the modal state.
 Execution call_with_block(Interpreter& in) {
   MacroCall call;
   for (const FunctionRow* row : in.words.g) {
@@ -158,10 +157,10 @@ Execution call_with_block(Interpreter& in) {
 
 bool has_modal_call(const BlockContext& in) {
   const CallFrame& frame = in.state.frame[in.state.depth];
-  return frame.modal_call != 0 || frame.modal_slot != 0;  // a further pass of a macro that has cancelled itself may say so again
+  return frame.modal_call != 0 || frame.modal_slot != 0;  // a macro that has cancelled its own call may do so again in its next pass
 }
 
-/// G67: the call commanded last. A macro that a modal call runs may cancel that call itself (M700 13.5.2 (1)).
+/// G67: cancels the modal call commanded last. A macro that is run by a modal call may cancel that call itself (M700 13.5.2 (1)).
 void cancel_modal_call(Interpreter& in) {
   CallFrame& frame = top(in);
   const unsigned own = frame.modal_call;
@@ -184,7 +183,7 @@ Execution call_macro(Interpreter& in) {
   const Function function = in.words.one_shot->function;
   Entry entry;
   did = repetitions(in, call.has_l, call.l, &entry.passes);
-  if (did != Execution::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // not called, so nothing is looked for
+  if (did != Execution::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // L0: no call is made, and no program is searched for
   did = find_called(in, call.has_p, call.p, false, &entry.program);
   if (did != Execution::done) return did;
   if (function == Function::macro_call) {
@@ -195,7 +194,7 @@ Execution call_macro(Interpreter& in) {
   }
   const bool every_block = function == Function::macro_every_block;
   did = store_modal_call(in, entry.program, call, entry.passes, every_block, false);
-  // M700 13.5.1: the block of G66 only stores the call, that of G66.1 makes it too.
+  // M700 13.5.1: the block of G66 only stores the call; the block of G66.1 also makes it.
   return did == Execution::done && every_block ? make_modal_call(in) : did;
 }
 

@@ -21,7 +21,7 @@ bool same_place(const AxisVec& a, const AxisVec& b, unsigned count) {
   return true;
 }
 
-/// Tool length goes to an axis when it is commanded (M700 12.2).
+/// Applies the tool length to an axis when the axis is commanded (M700 12.2).
 void apply_length(BlockContext& in, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((commanded >> i) & 1) == 0) continue;
@@ -29,7 +29,7 @@ void apply_length(BlockContext& in, uint32_t commanded) {
   }
 }
 
-/// From the compensation frame to machine coordinates: the zero point and the tool length as applied.
+/// The shift from the compensation frame to machine coordinates: the zero point and the tool length that is applied.
 AxisVec offset_in_force(const BlockContext& in) {
   AxisVec offset;
   const AxisVec& z = in.zero();
@@ -39,7 +39,7 @@ AxisVec offset_in_force(const BlockContext& in) {
 
 Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_in_force(in)); }
 
-/// What every move has in common.
+/// Begins a move, with everything that is the same for all moves.
 Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
   Move& move = in.emit_move(start, target);
   if (in.state.mapped) map_compensation(in, move.comp);
@@ -56,7 +56,7 @@ Move& begin_move(BlockContext& in, const Affine& to_machine, const AxisVec& star
   return begin_any_move(in, in.transforms.intern(to_machine), start, target, to_machine.apply(target));
 }
 
-/// The same under a map that only moves, which is not made where the newest one is the same: nearly every block.
+/// Begins a move whose map to the machine only shifts. In nearly every block the newest map is the same, and no new one is made.
 Move& begin_moved(BlockContext& in, const AxisVec& offset, const AxisVec& start, const AxisVec& target) {
   const Affine* newest = in.transforms.newest();
   const bool same = newest != nullptr && newest->translates_by(offset);
@@ -66,8 +66,7 @@ Move& begin_moved(BlockContext& in, const AxisVec& offset, const AxisVec& start,
   return begin_any_move(in, transform, start, target, machine);
 }
 
-/// Programmed coordinates are not those of the axes: the move gets its shape, and the axes end where that leads. `before`: where they
-/// stand.
+/// Gives a move its shape, where programmed coordinates are not those of the axes, and sets where the axes end. `before`: where they stand.
 void finish_shaped(BlockContext& in, const MoveShape& what, const MoveFrame& frame, const AxisVec& before, Move& move) {
   move.shape = in.shapes.intern(what) + 1;
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
@@ -76,11 +75,11 @@ void finish_shaped(BlockContext& in, const MoveShape& what, const MoveFrame& fra
   make_shaped(what, plain, frame.to_machine, before, in.axis_count, in.rotary, &shape, &curve);
   const AxisMap& map = what.map;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    // The program goes on from where a held axis would be; its real place is kept beside (M700 6.16).
+    // For an axis that is held the program goes on from the commanded position; its real position is kept apart (M700 6.16).
     if (((map.frozen >> i) & 1) == 0) in.state.machine[i] = curve.end[i];
   }
   if (map.kind != AxisMap::Kind::cylinder) return;
-  // Positions on a cylinder are shown in degrees.
+  // On a cylinder the positions that are shown are in degrees.
   move.work[map.rotary] /= map.scale;
   for (unsigned i = 0; i < 2; ++i)
     if (move.plane_axis[i] == map.rotary) move.work_center[i] /= map.scale;
@@ -93,7 +92,7 @@ void finish_mapped(BlockContext& in, const MoveFrame& frame, const AxisVec& befo
   finish_shaped(in, shape, frame, before, move);
 }
 
-/// M700 2.3: a rotary position must be a multiple of #2106; in the plane of G12.1 the word is a length (6.10).
+/// M700 2.3: the position of a rotary axis is not a multiple of #2106, as it should be; in the plane of G12.1 the word is a length (6.10).
 bool off_increment(const BlockContext& in, unsigned axis, double value) {
   const double unit = in.settings.index_increment[axis];
   if (unit <= 0 || ((in.rotary >> axis) & 1) == 0) return false;
@@ -108,8 +107,8 @@ double feed_mm_min(const BlockContext& in) {
   return in.state.modal.feed * (inch ? 25.4 : 1.0);
 }
 
-/// When only rotary axes move F is deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is
-/// inch/min along the curve that is programmed there, whatever axis goes (6.9 (6), 6.10 (5)).
+/// When only rotary axes move F is in deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is in mm/min or
+/// inch/min along the programmed curve, whichever axes move (6.9 (6), 6.10 (5)).
 double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
   const bool inch = in.state.modal.is(Function::inch);
   if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
@@ -124,9 +123,9 @@ AxisVec target_of_words(const BlockContext& in) { return target_of_words(in, in.
 
 namespace {
 
-/// M700 14.13: absolute commands to rotating axes; the angles in `target` become places on the axes, which count over their turns.
+/// M700 14.13: absolute commands to rotating axes: turns the angles in `target` into positions of the axes, which count on over several turns.
 void turn_within_range(const BlockContext& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
-  // In the plane of polar coordinate interpolation the rotary axis holds millimetres (6.10).
+  // In the plane of polar coordinate interpolation the word of the rotary axis is in millimetres (6.10).
   if (in.state.map.kind == AxisMap::Kind::polar) axes &= ~(1u << in.state.map.rotary);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
@@ -172,8 +171,8 @@ MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t comman
 
 namespace {
 
-/// M700 7.9: behind rapid traverse, and behind cutting with G09 or in G61, the next block waits until the axes are in position where the
-/// parameters ask for more than that the command has come to rest. A width of the block itself (,I ,J: 6.1, 6.2, 13.1.1) goes before.
+/// M700 7.9: after rapid traverse, and after cutting with G09 or in G61, the next block waits until the axes are in position, if the parameters ask for more
+/// than that the command has come to rest. An in-position width of the block itself (,I ,J: 6.1, 6.2, 13.1.1) replaces those of the parameters.
 inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width = 0) {
   if (!in.settings.check_rapid && !in.settings.check_cutting && width == 0) [[likely]] return;
   const bool check = kind == NC_MOVE_RAPID ? in.settings.check_rapid : in.settings.check_cutting && asks_exact_stop(in);
@@ -183,7 +182,7 @@ inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width
   gate.value = width;
 }
 
-/// The block to come settles where this one ends (contour/contour.hpp). A rounding lies in the plane in force.
+/// Gives a move the corner at its end; the next block decides where the move really ends (contour/contour.hpp). A rounding lies in the plane in force.
 [[gnu::noinline]] void set_corner(const BlockContext& in, Move& move, const LinearStyle& style) {
   const PlaneAxes plane = plane_axes(in);
   move.corner = style.corner;
@@ -231,7 +230,7 @@ void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t comman
 void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style) {
   if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   if ((in.state.special & kSpecialMap) != 0) return move_linear_mapped(in, target, commanded, style);
-  // One for nearly every block: what frame_of_move() does, without carrying it about.
+  // This is done in nearly every block: as frame_of_move() does, but without copying a MoveFrame.
   apply_length(in, commanded);
   const AxisVec offset = offset_in_force(in);
   AxisVec start;
@@ -252,7 +251,7 @@ void move_nowhere(BlockContext& in) {
   const auto side = in.state.moved_side;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
-  if (!in.state.comp.has_vector || in.state.comp.side == 0) in.state.moved_side = side;  // 12.4.3: the vector of I, J is gone to at once
+  if (!in.state.comp.has_vector || in.state.comp.side == 0) in.state.moved_side = side;  // 12.4.3: the vector of I, J acts at once
   move.kind = in.state.modal.is(Function::rapid) ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
@@ -289,7 +288,7 @@ void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& pl
   move.circle = circle;
   move.work_center[0] = circle.center[0];
   move.work_center[1] = circle.center[1];
-  move.plane_feed = kind == NC_MOVE_HELIX && in.settings.helix_plane_feed;  // M700 6.6: lines and arcs keep F
+  move.plane_feed = kind == NC_MOVE_HELIX && in.settings.helix_plane_feed;  // M700 6.6: only for a helix; lines and arcs keep F
   move.exact_stop = asks_exact_stop(in);
   move.rule.check_reversal = in.settings.check_reversal;
   set_modal_feed(in, move, feed_mm_min(in));
@@ -309,8 +308,8 @@ Move& emit_shaped(BlockContext& in, const MoveFrame& frame, const MoveShape& sha
 
 namespace {
 
-/// M700 3.2 note 5: the arc of a linear and a rotary axis in inch is drawn with a degree as a tenth of an inch, I J K and R in inch. It is
-/// the arc on the cylinder (6.9) where a degree is that long.
+/// M700 3.2 note 5: in inch the arc of a linear and a rotary axis is made with a degree as a tenth of an inch, and with I J K and R in inch. So it is an arc on
+/// a cylinder (6.9) on which a degree has that length.
 class InchDegrees {
  public:
   InchDegrees(BlockContext& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
@@ -319,7 +318,7 @@ class InchDegrees {
     if (!on_) return;
     state_.map.kind = AxisMap::Kind::cylinder;
     state_.map.rotary = static_cast<uint8_t>(std::countr_zero(turning));
-    state_.map.scale = 2.54;  // mm
+    state_.map.scale = 2.54;  // mm per degree
     state_.special |= kSpecialMap;
   }
   ~InchDegrees() {
@@ -342,7 +341,7 @@ class InchDegrees {
 
 namespace {
 
-/// LinuxCNC G90.1: the words are the place of the centre; both have to be there.
+/// LinuxCNC G90.1: the centre words are the position of the centre, and both must be there.
 Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double center[2]) {
   const AxisVec position = in.position();
   for (unsigned i = 0; i < 2; ++i) {
@@ -376,13 +375,13 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
     words.turns_count_last = rules.turns_count_last;
     if (!whole_number(turns, &words.turns) || words.turns > 9999 || (words.turns == 0 && rules.turns_count_last)) return in.raise(Condition::value_range, Role::arc_turns, turns);
   }
-  // M700 P113: nothing of the block is of the plane in force, but its centre of another one: a plane code has been forgotten.
+  // M700 P113: no word of the block belongs to the plane in force, but a centre word belongs to another plane: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;
   if (!of_plane && w.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   return Execution::done;
 }
 
-/// By how much the radius at the end may differ. LinuxCNC G2: by a part of it, too.
+/// By how much the radius at the end may differ, mm. LinuxCNC G2: also by a share of the radius.
 static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
   const FamilyParameters& family = *in.dialect->parameters;
   const double tolerance = in.settings.arc_tolerance;
@@ -391,7 +390,7 @@ static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
   return std::fmin(std::fmax(tolerance, family.arc_tolerance_of_radius * radius), family.arc_tolerance_most_mm);
 }
 
-/// M700 12.4.1: compensation, commanded in whatever block before, starts and is cancelled with a straight movement.
+/// M700 12.4.1: compensation starts and is cancelled with a straight movement, also when it was commanded in a block before.
 bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
 
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
@@ -422,7 +421,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);
-  // The blocks before and behind are not drawn that way: nothing to offset against, nothing to turn.
+  // The blocks before and behind do not have this length of a degree, so neither compensation nor a map of the program can be used.
   if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
@@ -439,7 +438,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (bad != Condition::none) return in.raise(bad, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
   if (straight && words.has_radius && in.dialect->rules.arc.closed_by_radius_is_fault) return in.raise(Condition::arc_center, Role::arc_radius, words.radius);
   if (straight) {
-    // Nothing goes round: the axes go along a line, those outside of the plane, too.
+    // There is no circle: the axes go along a line, also those outside of the plane.
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
     style.special_feed = special_feed(in);
@@ -455,7 +454,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   return Execution::done;
 }
 
-/// Motions beside those of plain_motion().
+/// Makes the motions that are not plain_motion().
 Execution move_by_function(BlockContext& in, Function motion, const AxisVec& target, uint32_t commanded) {
   // A vector in space displaces lines and circles (offset/space.hpp).
   if (leads_beside(in.state) && motion != Function::thread) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
@@ -472,7 +471,7 @@ Execution move_by_function(BlockContext& in, Function motion, const AxisVec& tar
   }
 }
 
-/// M700 9.3 (3): without interpolation (#1086) the other axes of the block do not wait until its tables are unclamped. These go behind them.
+/// M700 9.3 (3): without interpolation (#1086) the other axes of the block do not wait until its index tables are unclamped; the tables move after them.
 void move_rapid(BlockContext& in, const AxisVec& target, uint32_t axes) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
@@ -491,7 +490,7 @@ Execution check_index_positions(BlockContext& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    // M700 9.3 (8): a table that stands between two places (by hand, behind a reset) comes to none by a whole number of them.
+    // M700 9.3 (8): a table that stands between two positions (moved by hand, after a reset) does not reach one by an increment of whole steps.
     const bool between = ((w.incremental & in.settings.index_axes) >> i & 1) != 0 && off_increment(in, i, in.position()[i] + w.axis[i]);
     if (!between && !off_increment(in, i, w.axis[i])) continue;
     return in.raise_axis(Condition::index_increment, i, w.axis[i]);
@@ -499,7 +498,7 @@ Execution check_index_positions(BlockContext& in) {
   return Execution::done;
 }
 
-/// ,C ,R of the block (M700 13.7).
+/// Takes ,C or ,R of the block (M700 13.7).
 static Execution take_corner(BlockContext& in, Function motion, LinearStyle* style) {
   const BlockWords& w = in.words;
   const Role word = corner_word(w);
@@ -509,7 +508,7 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   double amount = length_value(in, w.corner_raw, w.corner_flags, false, true);
   if (amount < 0) return in.raise(Condition::value_range, word, w.corner_raw);
-  if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: scaled as well
+  if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: the corner is scaled, too
   if (!(amount > 0)) return Execution::done;  // no corner is cut
   style->corner = w.corner;
   style->corner_mm = amount;
@@ -534,10 +533,10 @@ Execution move_by_words(BlockContext& in) {
     if (did != Execution::done) return did;
   }
   if (const Execution did = check_index_positions(in); did != Execution::done) return did;
-  // M700 13.1.1: of fixed cycles, whose words are ignored beside a code of a motion (precaution (4)).
+  // M700 13.1.1: ,J belongs to fixed cycles, whose words are ignored beside a code of a motion (precaution (4)).
   if (w.in_position_drill > 0 && w.cycle == nullptr) return in.raise(Condition::illegal_address, Role::vector_y, w.in_position_drill);
-  // Where the block starts is asked only by words that count from there (an axis without a word stays), by the feed of rotary axes,
-  // by a turned figure, in which one word moves two axes, and by curves. The end of an arc in space counts from its middle point.
+  // The start of the block is needed only for words that count from there (an axis without a word stays), for the feed of rotary axes, for a rotated
+  // figure, in which one word moves two axes, and for curves. The end of an arc in space counts from its middle point.
   const bool mapped = program_mapped(in);
   const bool halfway = !plain && in.state.arc_step == ArcStep::middle_given;
   const AxisVec position = halfway                                                    ? in.points[in.state.arc_points + 1].at
@@ -556,15 +555,15 @@ Execution move_by_words(BlockContext& in) {
   if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, ccw);
   if (arc) {
     const Execution did = move_arc(in, target, w.axes, ccw);
-    // M700 6.13: in type 2 radii that differ by more than the tolerance are a spiral of less than one turn (L1 when omitted).
+    // M700 6.13: in type 2, radii that differ by more than the tolerance make a spiral of less than one turn (L1 when omitted).
     const bool spiral = did == Execution::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius);
     return spiral && arc_words ? move_spiral(in, target, w.axes, ccw) : did;
   }
   style.feed_mm_min = feed_for(in, position, target);
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
-  style.in_position = style.exact_stop ? w.in_position : 0;  // only where there is a deceleration check
-  // The line that takes the axes into another rotation (13.21) is no part of a curve.
+  style.in_position = style.exact_stop ? w.in_position : 0;  // it acts only where there is a deceleration check
+  // The line on which the axes reach another rotation (13.21) does not belong to a spline.
   if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.axes, style);
   const unsigned before = in.queue.size();
   move_linear(in, target, w.axes, style);

@@ -11,9 +11,9 @@ struct LinearStyle {
   double feed_mm_min = 0;
   const SkipSpeeds* skip_speeds = nullptr;
   bool exact_stop = false;
-  bool transparent = false;   ///< radius compensation vectors are away for this move
+  bool transparent = false;   ///< the vectors of radius compensation are taken away for this move
   uint8_t skip_mask = 0;
-  uint8_t unclamps = 0;       ///< index tables that are unclamped meanwhile (M700 9.3)
+  uint8_t unclamps = 0;       ///< bit i: axis i, an index table, is unclamped during the move (M700 9.3)
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;
   bool tapping = false;       ///< a stroke of a tap: the override is 100 %
@@ -24,10 +24,9 @@ struct LinearStyle {
   double corner_mm = 0;       ///< ... of this size
   double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
 };
-/// A straight move to `target` in the active coordinates; `commanded` = axes named in the block (tool length is applied to them).
+/// Makes a straight move to `target` in the active coordinates; `commanded`: the axes named in the block, to which tool length is applied.
 void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
-/// A straight rapid to machine coordinates of the `commanded` axes (G53, second leg of G28), without any compensation on those of them
-/// that are `bare`.
+/// Makes a straight rapid to machine coordinates of the `commanded` axes (G53, second part of G28); those of them that are in `bare` get no compensation.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
 /// Moves end beside their programmed ends, by a vector in space (M700 12.3, 12.5).
 inline bool leads_beside(const State& state) { return state.space.on || state.moved_space.on || state.tool_length != 0; }
@@ -35,53 +34,53 @@ inline bool leads_beside(const State& state) { return state.space.on || state.mo
 SpaceVector space_vector(const BlockContext& in, const AxisVec& machine);
 /// The next movement is the one that radius compensation starts or ends with: it must not be an arc.
 bool starts_or_ends_compensation(const BlockContext& in);
-/// An arc in the plane in force by the words of the block.
+/// Makes an arc in the plane in force, by the words of the block.
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;
 struct PlaneAxes;
-/// The words of the block that say which arc it is, for the plane in force.
+/// Reads the words of the block that determine an arc in this plane.
 Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* words);
-/// The same by words that the caller has made.
+/// Makes an arc by words that the caller gives.
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
-/// Programmed coordinates of a move: where it starts and ends, and the map behind them.
+/// The start and end of a move in the compensation frame, and the map from there to the machine.
 struct MoveFrame {
   Affine to_machine;
   AxisVec start, end;
 };
-/// Tool length goes to the commanded axes; axes that are not stay where they are.
+/// The frame of a move to `target`. Tool length is applied to the commanded axes; the other axes stay where they are.
 MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t commanded);
-/// A circular move (arc, helix, spiral) at the feed in force.
+/// Emits a circular move (arc, helix, spiral) at the feed in force.
 void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind);
-/// A move of any other shape; its feed is the caller's.
+/// Emits a move of any other shape; the caller sets its feed.
 Move& emit_shaped(BlockContext& in, const MoveFrame& frame, const MoveShape& shape, nc_move_kind kind);
-/// Modal curves that do not bear some other codes.
+/// A modal curve during which some other codes may not be commanded.
 inline bool bars_codes(Function motion) { return is_space_arc(motion) || is_exponential(motion); }
-/// A compensation command in a block that does not move: a move without length carries it to the offset stage (offset/offset.hpp).
+/// Emits a move without length, which carries a compensation command in a block that does not move to the offset stage (offset/offset.hpp).
 void move_nowhere(BlockContext& in);
-/// P20: a rotary axis commanded to a position that is no multiple of #2106 (M700 2.3).
+/// P20: a rotary axis is commanded to a position that is not a multiple of #2106 (M700 2.3).
 Execution check_index_positions(BlockContext& in);
-/// The motion that the words of the block ask for by the motion in force.
+/// Makes the motion that the words of the block command in the motion mode in force.
 Execution move_by_words(BlockContext& in);
-/// F in force as mm/min, 0 = none.
+/// F in force in mm/min, 0 = none.
 double feed_mm_min(const BlockContext& in);
-/// The same for a line between these points, of which rotary axes alone may be moved.
+/// F in force for a line between these points: in mm/min, or in deg/min where it moves only rotary axes.
 double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end);
-/// The end point that the words ask for.
+/// The end point that the words command.
 AxisVec target_of_words(const BlockContext& in);
-/// The same from values by axis; `axes` of them are programmed.
+/// The end point by a value for each axis; bit i of `axes`: axis i is programmed.
 AxisVec target_of(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value);
-AxisVec target_of_words(const BlockContext& in, const AxisVec& position);  ///< with position() at hand
+AxisVec target_of_words(const BlockContext& in, const AxisVec& position);  ///< for a caller that has position() already
 
 /// interpret/arc.cpp
 struct ArcWords {
   bool has_radius = false;
   double radius = 0;
-  double center[2] = {0, 0};   ///< increments from the start, plane axes
-  uint32_t turns = 0;
-  bool turns_count_last = false;   ///< `turns` counts the one in which the end lies
+  double center[2] = {0, 0};   ///< centre as increments from the start, on the axes of the plane
+  uint32_t turns = 0;          ///< number of turns (P)
+  bool turns_count_last = false;   ///< `turns` includes the turn in which the end point lies
 };
-/// Circle through start and end on the plane axes; Condition::none when it exists. *straight becomes true when the words make no circle: then the path is
-/// the straight line to the end, which has no length where the end is the start.
+/// Makes the circle through start and end on the axes of the plane; Condition::none when it exists. *straight becomes true when the words make no circle: then
+/// the path is the straight line to the end, which has no length where the end is the start.
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
                       bool* straight);
 

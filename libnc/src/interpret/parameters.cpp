@@ -16,7 +16,7 @@ bool same_word(const char* word, size_t length, const char* text) {
   return text[length] == 0;
 }
 
-/// Decimal number with sign and point; false when the text is anything else.
+/// Reads a decimal number with sign and point; false when the text is anything else.
 bool parse_number(const char* text, double* value) {
   bool negative = false;
   if (*text == '-' || *text == '+') negative = *text++ == '-';
@@ -37,7 +37,7 @@ bool parse_number(const char* text, double* value) {
   return any && std::isfinite(*value);
 }
 
-/// Index of `text` in "a|b|c", -1 when it is none of them.
+/// Index of `text` in a list such as "a|b|c", -1 if it is not in the list.
 int word_index(const char* words, const char* text) {
   int index = 0;
   for (const char* at = words;; ++index) {
@@ -49,10 +49,10 @@ int word_index(const char* words, const char* text) {
   }
 }
 
-/// No parameter is as large: from here on the doubles are no finer than whole numbers.
+/// No parameter may be as large as this, from where on doubles have no fractions.
 constexpr double kTooLarge = 4503599627370496.0;
 
-/// Letters, digits and signs, at most 63, a letter first.
+/// The text has at most 63 letters, digits and signs, a letter first.
 bool is_text(const char* text) {
   if (lower(text[0]) < 'a' || lower(text[0]) > 'z') return false;
   size_t length = 0;
@@ -61,7 +61,7 @@ bool is_text(const char* text) {
   return length <= 63;
 }
 
-/// A parameter as bits; what is no whole number of 32 bits has none set.
+/// A parameter as 32 bits; no bit is set when the value is negative or too large.
 uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? static_cast<uint32_t>(value) : 0; }
 
 }  // namespace
@@ -102,7 +102,7 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
   // #1003 takes the letters of 2.1; any letter is stored by its code.
   if (bit >= 0 || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
   if (text[1] == 0) return set(dialect, id, bit, axis, static_cast<unsigned char>(text[0]), index, old);
-  // None of those that the control asks for is a text of several characters.
+  // No parameter that has an effect in the control is a text of several characters.
   if (find_parameter(dialect, ParameterKey{id.value, 0, -1}) != nullptr) return NC_E_ARGUMENT;
   const uint8_t place = keep_text(text);
   return place == 0 ? NC_E_MEMORY : put(id, bit, axis, false, ParameterValue{OptionalDouble{}, place}, index, old);
@@ -118,7 +118,7 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
   return put(id, bit, axis, row != nullptr && nc::is_common(row->what), ParameterValue{number}, index, old);
 }
 
-/// A value that is a right one. Where it is one bit of a parameter the others stay.
+/// Stores a value that has been checked. Where it is one bit of a parameter the other bits stay.
 nc_status Parameters::put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old) {
   if (bit >= 0) {
     double before = 0;
@@ -174,17 +174,17 @@ bool Parameters::get(ParameterId id, int bit, int axis, double* value) const {
   return true;
 }
 
-/// What the table cannot know.
+/// Checks what depends on the machine and so cannot stand in the family's table.
 bool Parameters::machine_takes(Parameter parameter, double value) const {
   switch (parameter) {
-    case Parameter::rapid_before:  // M700 13.15, precaution (5): with one part system only, else Y51 parameter error 17
+    case Parameter::rapid_before:  // M700 13.15, precaution (5): only in the first part system, otherwise Y51 parameter error 17
       return value == 0 || first_system_;
     case Parameter::rapid_linear:
     case Parameter::cut_linear:
     case Parameter::skip_linear:
       return value <= longest_filter_ms_;
     case Parameter::pattern_filter:
-    case Parameter::pattern_second:  // two of them stand one behind the other
+    case Parameter::pattern_second:  // two filters stand one behind the other, so each has half of the room
       return value <= 0.5 * longest_filter_ms_;
     default:
       return true;
@@ -197,7 +197,7 @@ bool Parameters::holds_text(uint8_t place) const {
   return false;
 }
 
-/// The place of the text; 0 = each has one of a parameter.
+/// Stores a text and returns its place; 0 = each place holds the text of a parameter.
 uint8_t Parameters::keep_text(const char* text) {
   for (unsigned tried = 0; tried < kTexts; ++tried) {
     newest_text_ = newest_text_ % kTexts + 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Control parameters: a small store, and the typed values that the interpreter works with.
+// Control parameters: a store for their values, and the typed values with which the interpreter works.
 #pragma once
 
 #include "base/arena.hpp"
@@ -19,16 +19,16 @@ struct TapStage {
 
 /// Parameters as the interpreter uses them. Names say what they do; the manual's number stands beside each.
 struct Settings {
-  double command_unit_mm = 0.001;     ///< #1015 cunit (0: #1003 iunit): an undotted position word, metric
+  double command_unit_mm = 0.001;     ///< #1015 cunit (where it is 0: #1003 iunit): unit of a position word without a point, mm
   double command_unit_inch = 0.0001;  ///< the same in inch
-  double command_unit_deg = 0.001;
-  uint32_t own_unit_axes = 0;         ///< #1015 by axis: bit i: axis i has another unit than these ...
-  double own_unit[kMaxAxes] = {};     ///< ... this one, mm or deg; in inch a tenth of the number
-  double setting_unit_mm = 0.001;     ///< #1003 iunit: undotted I J K R
+  double command_unit_deg = 0.001;    ///< the same for rotary axes, deg
+  uint32_t own_unit_axes = 0;         ///< #1015 may differ between axes: bit i: axis i has its own unit ...
+  double own_unit[kMaxAxes] = {};     ///< ... which is this one, mm or deg; in inch a tenth of the number
+  double setting_unit_mm = 0.001;     ///< #1003 iunit: unit of I J K R without a point, mm
   double setting_unit_inch = 0.0001;
   double setting_unit_deg = 0.001;
-  // Largest coordinate and length, in mm or deg: +-99999.999 mm or deg, +-9999.9999 inch, with more decimals in finer units (M700 2.1,
-  // 5.3). The noise is that of inches in mm, far below the finest unit.
+  // Largest coordinate and length, in mm or deg: +-99999.999 mm or deg, +-9999.9999 inch, and with more decimals in finer units (M700 2.1, 5.3). kNoise
+  // allows for the rounding of inches to mm, far below the finest unit.
   static constexpr double kNoise = 1e-9;
   double last_mm = 100000 - 0.001 + kNoise, last_inch = (10000 - 0.0001) * 25.4 + kNoise, last_deg = 100000 - 0.001 + kNoise;
   bool decimal_type_2 = false;        ///< #1078
@@ -50,10 +50,10 @@ struct Settings {
   double measure_feed = 0;            ///< #8004, mm/min
   double measure_deceleration = 0;    ///< #8005, mm
   double measure_range = 0;           ///< #8006, mm
-  double reference[4][kMaxAxes];      ///< #2037 to #2040, machine coordinates; NaN = that of the machine
+  double reference[4][kMaxAxes];      ///< #2037 to #2040, machine coordinates; NaN = the one in the configuration of the machine
   double tool_change[kMaxAxes] = {};  ///< #8206, machine coordinates
-  uint32_t tool_change_axes = 0;      ///< #1092: bit i: an added axis goes there too
-  // #8213, bit i: axis i. Rotary axes only (Interpreter::refresh_settings).
+  uint32_t tool_change_axes = 0;      ///< #1092: bit i: axis i, an added axis, goes there, too
+  // #8213, bit i: axis i. Only rotary axes have bits (Interpreter::refresh_settings).
   uint32_t turning = 0;               ///< types 0 and 1: workpiece coordinates within one turn
   uint32_t short_cut = 0;             ///< type 1: G90 goes the shorter way
   uint32_t machine_turn = 0;          ///< types 0 to 2: machine coordinates within one turn
@@ -85,7 +85,7 @@ struct Settings {
   bool semicolon_comments = false;    ///< ';' begins a comment in program texts
   bool macro_extensions = false;      ///< IF THEN of later models
   bool negative_count = false;        ///< #3901 may be below 0
-  uint32_t interrupt_on_m = kNoMisc, interrupt_off_m = kNoMisc;  ///< #1109: #1110, #1111 instead
+  uint32_t interrupt_on_m = kNoMisc, interrupt_off_m = kNoMisc;  ///< the M codes that act as M96, M97 (where #1109 says so: #1110, #1111)
   bool interrupt_by_level = false;    ///< #1112 S_TRG
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0
@@ -95,7 +95,7 @@ struct Settings {
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;
   bool start_inch = false;            ///< #1152
-  uint32_t parity_units = 0;          ///< #9n15: input device n has the characters of a block counted, bit n
+  uint32_t parity_units = 0;          ///< #9n15: bit n: of the tapes of input device n the characters of each block are counted
   double scaling_factor = 1;          ///< #8072 SCALING P
   char work_turn_axis[2] = {};        ///< #8621, #8622: plane of the rotation of 13.21, 0 = the first and the second axis
   double work_turn_center[2] = {};    ///< #8623, #8624, machine coordinates
@@ -121,8 +121,8 @@ struct Settings {
   double digit_feed[5] = {};              ///< #1185-#1189: F1 to F5, mm/min, not above #1506
   double digit_most = 0;                  ///< #1506 F1_FM, mm/min, 0 = the handle changes nothing
   double digit_step = 0;                  ///< #1506 / #1507: by one pulse of the handle, mm/min
-  bool check_rapid = false;               ///< 7.9: rapid traverse ends in position, not only at rest
-  bool check_cutting = false;             ///< 7.9: the same where G09 or G61 stands
+  bool check_rapid = false;               ///< 7.9: rapid traverse ends with a check that the axes are in position, not only at rest
+  bool check_cutting = false;             ///< 7.9: the same for cuts with G09 or G61
   bool check_reversal = false;            ///< #1503 G1Ipfg
   double corner_override = 0;             ///< #8007, %
   double corner_angle = 0;                ///< #8008, deg
@@ -137,7 +137,7 @@ struct Settings {
   double spline_minute_length = 1;        ///< #8030 MINUTE LENGTH, mm; negative = any length
   double spline_tolerance_inflected = 0;  ///< #8027 Toler-1, mm; 0 = no revision
   double spline_tolerance_arched = 0;     ///< #8028 Toler-2, mm
-  AccuracyParameters accuracy;            ///< of high-accuracy control, 13.15
+  AccuracyParameters accuracy;            ///< parameters of high-accuracy control, 13.15
   FairingRule fairing;                    ///< #8033, #8029, #8036, #8037 (13.17.1)
   FilterParameters filters;               ///< behind interpolation, 7.7, 13.15
   bool start_linear = false;              ///< HX PI 144
@@ -154,15 +154,14 @@ struct Settings {
   bool calculator_reads_positions() const { return calculator && (calculator_words == 1 || calculator_words == 3); }
   bool calculator_reads_feed() const { return calculator && (calculator_words == 1 || calculator_words == 2); }
 
-  /// Positions, lengths and times of a dwell without a point count in mm, inch, deg and s (M700 5.3 type II, DGSHAPE 3), not in the least
-  /// command unit.
+  /// Positions, lengths and dwell times without a point are in mm, inch, deg and s (M700 5.3 type II, DGSHAPE 3), and not in the least command unit.
   bool whole_positions() const { return decimal_type_2 || calculator_reads_positions(); }
 };
 
-/// What a parameter has been set to: a number, or a text by its place in the part system's store of texts.
+/// The value of a parameter: a number, or a text, given by its place in the part system's store of texts.
 struct ParameterValue {
   OptionalDouble number;  ///< absent = not set, or a text
-  uint8_t text = 0;       ///< its place, from 1; 0 = none
+  uint8_t text = 0;       ///< place of the text, from 1; 0 = there is none
   bool is_set() const { return text != 0 || number.has_value(); }
   JournalValue journalled() const { return JournalValue::of(number, text); }
   static ParameterValue of(JournalValue value) { return {value.as<OptionalDouble>(), value.kind}; }
@@ -171,52 +170,54 @@ struct ParameterValue {
 class Parameters {
  public:
   void create(unsigned capacity, Arena& arena);
-  /// From the text that the public interface gives: a number, a word of the family's, a text.
+  /// Sets a parameter from the text that the public interface gives: a number, a word of the family, or a text.
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text) {
     unsigned index = 0;
     ParameterValue old;
     return set(dialect, key, axis, text, &index, &old);
   }
-  /// The same; what was there before can be put back with restore(*index, *old).
+  /// Sets it in the same way. restore(*index, *old) puts the previous value back.
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text, unsigned* index, ParameterValue* old);
-  /// The same of a parameter, or of one bit of it (-1 = all), from a number or from a text.
+  /// Sets a parameter, or one bit of it (-1 = the whole parameter), from a number or from a text.
   nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, double number, unsigned* index, ParameterValue* old);
   nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, const char* text, unsigned* index, ParameterValue* old);
   void restore(unsigned index, ParameterValue old) { exchange(index, old); }
-  /// The same; what stood there.
+  /// Sets the value of an entry and returns the previous value.
   ParameterValue exchange(unsigned index, ParameterValue value) {
     const ParameterValue old = entries_[index].value();
     entries_[index].set(value);
     return old;
   }
-  /// Entry `index` is a parameter of which there is one for all part systems.
+  /// Entry `index` is a parameter that all part systems share.
   bool is_common(unsigned index) const { return entries_[index].common; }
   ParameterValue stored(unsigned index) const { return entries_[index].value(); }
-  /// Where entry `index` of another part system stands here, without a value where it has not been set yet; false: nowhere, and there is no room.
+  /// Finds the entry for the parameter of entry `index` of another part system; where it was never set here, an entry without a value is made. False: there
+  /// is no room for one.
   bool same_entry(const Parameters& other, unsigned index, unsigned* there);
-  /// Those that have been set, from 0 on: axis -1 = all, a value that is not set = no longer; false behind the last.
+  /// Entry `index`, from 0 on: axis -1 = all axes; a value that is not set was taken back; false: behind the last entry.
   bool at(unsigned index, ParameterId* id, int* axis, ParameterValue* value) const;
-  /// Value of a parameter or of a bit of it (-1 = all); a text by the codes of its characters, one byte each, when these are at most six
-  /// (#100010: "ASCII codes as decimal"). False = never set, or a longer text.
+  /// Value of a parameter or of a bit of it (-1 = the whole parameter). A text of at most six characters gives a number, one byte for the code of each
+  /// character (#100010: "ASCII codes as decimal"). False: it was never set, or is a longer text.
   bool get(ParameterId id, int bit, int axis, double* value) const;
-  /// The same by what it means. False as well: the family has no such parameter.
+  /// Value of a parameter by its meaning. False also when the family has no such parameter.
   bool get(const Dialect& dialect, ParameterOf parameter, int axis, double* value) const;
-  /// The text of a parameter that has been set to one of two characters or more; nullptr = it has none.
+  /// The text of a parameter that is set to a text of two or more characters; nullptr = it is not.
   const char* text(ParameterId id, int axis) const;
   const char* text(const ParameterValue& value) const { return value.text == 0 ? nullptr : texts_[value.text - 1]; }
-  /// What the machine leaves to the filters behind interpolation: the longest mean that fits, and whether it is the first part system.
+  /// Sets what decides which filter parameters the machine accepts: the longest mean that fits behind interpolation, and whether it is the first part
+  /// system.
   void set_filter_room(double longest_ms, bool first_system) {
     longest_filter_ms_ = longest_ms;
     first_system_ = first_system;
   }
-  /// Typed view; call after changes.
+  /// The typed values, to be asked for after changes.
   Settings settings(const Dialect& dialect) const;
 
  private:
   struct Entry {
     ParameterId id;
     int8_t axis;           ///< -1 = all axes
-    bool common;           ///< to all part systems
+    bool common;           ///< all part systems share it
     uint8_t text;
     OptionalDouble number;
     ParameterValue value() const { return {number, text}; }
@@ -227,15 +228,16 @@ class Parameters {
   };
   static_assert(sizeof(Entry) == 16);
   Entry* find(ParameterId id, int axis) const;
-  /// That of the axis, else that of all axes; nullptr = not set.
+  /// The entry for the axis, otherwise the one for all axes; nullptr = it is not set.
   const Entry* in_force(ParameterId id, int axis) const;
   Entry* add(ParameterId id, int axis, bool common);
   nc_status put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old);
   bool machine_takes(Parameter parameter, double value) const;
   uint8_t keep_text(const char* text);
   bool holds_text(uint8_t place) const;
-  static constexpr unsigned kCommon = 16;  ///< places that are left for those that are common, beside `capacity_`
-  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; a place that no parameter has is used again, the oldest first
+  static constexpr unsigned kCommon = 16;  ///< places for shared parameters, in addition to `capacity_`
+  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; a place whose text no parameter uses is used again, the
+                                                          ///< oldest first
   Entry* entries_ = nullptr;
   char (*texts_)[kTextSize] = nullptr;
   unsigned capacity_ = 0, count_ = 0, newest_text_ = 0;

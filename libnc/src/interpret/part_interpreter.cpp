@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What control asks of an interpreter, handed on to it.
+// Hands on to the interpreter what control asks of it.
 #include "interpret/part_interpreter.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace nc {
 
 void PartInterpreter::create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena) {
   in_ = arena.make<Interpreter>();
-  if (in_ == nullptr) {  // measuring: the tables are laid out from a throw-away one of the same size
+  if (in_ == nullptr) {  // the arena measures: the tables are laid out for an interpreter that is thrown away
     Interpreter measured;
     measured.create(config, store, common, arena);
     return;
@@ -36,7 +36,7 @@ nc_status PartInterpreter::make_more(uint32_t& budget, Item** front) {
 void PartInterpreter::answer(const nc_world& world) { in_->answer(world); }
 bool PartInterpreter::in_cycle() const { return in_->next_step == Step::cycle; }
 
-/// Without the pecks, which lie within their hole. The interpreter is afterwards as it was.
+/// The cycle is rehearsed as plain drilling, without the pecks, which lie within their hole. Afterwards the interpreter is as it was before.
 bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user) {
   Interpreter& in = *in_;
   const State state = in.state;
@@ -48,7 +48,7 @@ bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move),
   Execution did = Execution::later;
   while (fit && did == Execution::later) {
     did = continue_cycle(in);
-    if (in.queue.size() == queued) break;  // codes fill the queue
+    if (in.queue.size() == queued) break;  // the codes of the block fill the queue, so that no move fits in
     for (unsigned i = queued; fit && i < in.queue.size(); ++i) fit = in.queue[i].kind != ItemKind::move || fits(user, in.queue[i]);
     in.queue.cut(queued);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interpreter of one part system as control sees it: what it constructs, takes items from, rewinds and asks. What an interpreter is made
-// of (interpreter.hpp) stays in this room, so a change of it does not rebuild control.
+// The interpreter of one part system as control sees it: control creates it, takes items from it, rewinds it and asks it. The members of an interpreter
+// (interpreter.hpp) are not visible outside of this room, so that a change of them does not rebuild control.
 #pragma once
 
 #include "alarm/fault.hpp"
@@ -31,26 +31,26 @@ struct InterpreterConfig {
   uint32_t window_bytes = 65536;
   FramesConfig frames;
   const VendorCodes* vendor = nullptr;
-  double longest_filter_ms = 0;    ///< the longest mean that fits behind interpolation
+  double longest_filter_ms = 0;    ///< longest mean for which the filters behind interpolation have room, ms
 };
 
-/// The alarm that has ended the program, as far as it is not made of its condition.
+/// The alarm that has ended the program: its fault, and texts that do not follow from the fault.
 struct RaisedAlarm {
   const Fault& fault;
   const nc_source& source;
-  const char* own_words;    ///< those of the program (M700 13.5.5), "" = none
-  const nc_alarm& vendor;   ///< what the last function of the vendor that failed has said
-  const nc_text& cause;     ///< a sentence more than the fault has; "" = none
-  bool cause_instead;       ///< it says all that there is to say
+  const char* own_words;    ///< message of the program itself (#3000, M700 13.5.5), "" = none
+  const nc_alarm& vendor;   ///< alarm of the last vendor's function that has failed
+  const nc_text& cause;     ///< a further sentence about the alarm; "" = none
+  bool cause_instead;       ///< that sentence replaces the one that the fault gives
 };
 
-/// What parameters say of the axes while no block moves them. Bit i of a set: axis i.
+/// What the parameters say about the axes. Bit i of a set: axis i.
 struct AxisSettings {
   uint32_t index_axes, machine_turn, short_cut, no_reference;
-  const double* index_increment;  ///< by axis
+  const double* index_increment;  ///< for each axis, deg
 };
 
-/// What moves name by a number.
+/// The tables of what moves name by a number.
 struct MovePools {
   const InternPool<Affine>* transforms = nullptr;
   const InternPool<MoveShape>* shapes = nullptr;  ///< Move::shape counts from 1
@@ -58,14 +58,14 @@ struct MovePools {
   const InternPool<StrokeBox>* stroke_boxes = nullptr;
 };
 
-/// Maps between what is programmed and the axes, as they are behind the newest block.
+/// Maps between programmed coordinates and the axes that are in force behind the newest block.
 struct MapsInForce {
-  bool mirror;           ///< of any kind
-  bool other_axes;       ///< moves go through a map of axes (cylinder, polar, hypothetical axis)
-  uint32_t frozen_axes;  ///< bit i: axis i does not move itself, a map of axes moves for it
+  bool mirror;           ///< a mirror image, of whatever kind
+  bool other_axes;       ///< moves have a map of axes (cylinder, polar, hypothetical axis)
+  uint32_t frozen_axes;  ///< bit i: axis i is held (G07): it is a part of the path but does not move
 };
 
-/// Macro interrupt (M700 13.12), as parameters and the newest block say.
+/// Macro interrupt (M700 13.12) by the parameters and the blocks up to the newest.
 struct InterruptSettings {
   bool by_level, type_2;
   uint32_t mode;  ///< nc_interrupt_bits
@@ -77,11 +77,11 @@ class PartInterpreter {
   /// Lays the interpreter out in `arena`. With a measuring arena only counts.
   void create(const InterpreterConfig& config, ProgramStore* store, CommonVariables* common, Arena& arena);
 
-  // ---- the stream: items that have been made and not been taken
+  // ---- the stream: items that have been made and not yet taken
   ItemQueue& queue() { return *queue_; }
   const ItemQueue& queue() const { return *queue_; }
-  /// The queue's front; where it is empty more items are made first. NC_OK, or why there is none: NC_WAITING (a sync is open), NC_BUDGET,
-  /// NC_ENDED, NC_ALARMED.
+  /// The first item of the queue; when the queue is empty more items are made first. NC_OK, or why there is none: NC_WAITING (a sync is open),
+  /// NC_BUDGET, NC_ENDED, NC_ALARMED.
   nc_status next(uint32_t& budget, Item** front) {
     *front = queue_->front();
     return *front != nullptr ? NC_OK : make_more(budget, front);
@@ -89,45 +89,44 @@ class PartInterpreter {
   void answer(const nc_world& world);
   /// A fixed cycle is under way: items of its block are still to be made.
   bool in_cycle() const;
-  /// Shows `fits` each move that the cycle has still to make, hole by hole and straight to the bottom, until it says false. Nothing has
-  /// happened afterwards. @return what `fits` has said last.
+  /// Calls `fits` for each move that the cycle has still to make, hole by hole and straight to the bottom, until `fits` returns false. Afterwards the
+  /// interpreter is as it was before. @return what `fits` has returned last.
   bool rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user);
 
-  // ---- what items name by a number
-  // (none of them while a measuring arena counts)
+  // ---- what items name by a number (there is none after a measuring arena has counted)
   const MovePools& pools() const { return pools_; }
-  /// False: what has this number is not known any more.
+  /// False: the snapshot, or the text, with this number is not known any more.
   bool modal(uint32_t id, nc_modal* out) const;
   bool text(uint32_t id, nc_text* out) const;
-  /// For tests: what is named by a number is counted from here.
+  /// For tests: all numbers that name something are counted from `first`.
   void count_from(uint32_t first);
 
   // ---- programs
-  /// reset() goes to its head. `mdi`: blocks of MDI, whose end is no alarm.
+  /// Selects a program; reset() goes to its beginning. `mdi`: it is a text of MDI, whose end without M02 is not an alarm.
   void select(const ProgramRef& program, bool mdi);
   bool is_selected() const;
   bool is_mdi() const;
-  /// To the head of the selected program; modal state as after reset 2 (M700 3.7). With `keep_modal` (MDI after MDI, M700 5.1) modal codes
-  /// and words, work system and tool length stay; cycles and radius compensation do not.
+  /// Goes to the beginning of the selected program; the modal state becomes that of reset 2 (M700 3.7). With `keep_modal` (MDI after MDI, M700 5.1) modal
+  /// codes and words, work system and tool length stay; cycles and radius compensation do not.
   void reset(bool keep_modal);
-  /// What a reset by the operator clears and the end of a program does not.
+  /// Clears what a reset by the operator clears and the end of a program does not.
   void clear_by_reset();
-  /// The program is selected, in the call stack now or after a rewind, in a modal call or the interrupt program.
+  /// The program is selected, is in the call stack (now, or after a rewind), or is the program of a modal call or of the macro interrupt.
   bool refers_to(unsigned file) const;
   bool ended() const;
   bool alarmed() const;
-  /// The block that is read next is read for the machine, else for nc_pull().
+  /// Sets whether blocks are read for the machine (nc_feed()) or for nc_pull().
   void set_feeding(bool feeding);
-  /// Axes that a signal of the machine mirrors in the next program.
+  /// Bit i: a signal of the machine mirrors the next program in axis i.
   void set_mirror_signal(uint32_t axes);
   void set_switches(uint32_t optional_skip, uint32_t mirror_axes);
   /// Bit i: axis i takes no command now (M700 10.5).
   void set_closed_axes(uint32_t axes);
-  /// A function of the vendor's runs: nothing else drives this part system meanwhile.
+  /// A vendor's function is running: calls that drive this part system are refused meanwhile.
   bool in_vendor_function() const { return *in_vendor_function_; }
-  /// The next block is read again for somebody who wants everything done again: a function of the vendor, too.
+  /// The next block is read again and has to be executed anew as a whole: also its vendor's function is called again.
   void forget_vendor_call();
-  /// The block in hand, and the line of the main program that has called its program.
+  /// Where the block in hand stands; and, where it stands in a called program, the line of the main program that has led to it.
   const nc_source& source() const;
   uint32_t main_line() const;
   BlockSeq newest_block() const;
@@ -135,41 +134,43 @@ class PartInterpreter {
   // ---- going back
   /// Back to right behind the block `seq`; false when it is too old.
   bool rewind(BlockSeq seq);
-  /// rewind(seq) is possible, and still will be when one more block has been executed.
+  /// rewind(seq) is possible, and will still be possible when one more block has been executed.
   bool remembers(BlockSeq seq) const;
-  /// Tables, variables and parameters are as block `seq` has left them (back), and again as they were: for a look from outside, without a write.
+  /// If `back` is true, tables, variables and parameters get the values that they had after block `seq`, so that they can be read from outside. If it is
+  /// false, they get their present values again. Nothing may be written in between.
   void look_back(BlockSeq seq, bool back);
 
   // ---- positions, machine coordinates
   const AxisVec& machine() const;
-  /// The newest block ends here.
+  /// Sets where the newest block has ended.
   void end_at(const AxisVec& machine);
-  /// Forget what has been read; go on from here.
+  /// Forgets what has been read, and goes on from this position.
   void set_machine(const AxisVec& machine);
-  /// The axes have been moved behind the newest block; whoever goes back there finds them so.
+  /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too.
   void move_to(const AxisVec& machine);
-  /// All coordinate systems go along with an axis that is moved by hand.
+  /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
-  /// Zero of the workpiece with the tool length as applied.
+  /// Machine coordinates of the workpiece zero, with the tool length that is applied.
   AxisVec work_zero() const;
   MapsInForce maps() const;
-  /// As the counters show them (M700 14.13).
+  /// The positions as the counters show them (M700 14.13).
   AxisVec work_shown(const AxisVec& work) const;
   AxisVec machine_shown(const AxisVec& machine) const;
   AxisSettings axis_settings() const;
 
   // ---- macro interrupt (M700 13.12)
   InterruptSettings interrupts() const;
-  /// The interrupt program runs next, the machine stands at `machine`. Everything made before has happened but for the newest
-  /// `taken_back` items, which are given up. Inside a block only with `cut_block`; false: not now.
+  /// Makes the interrupt program run next; the machine stands at `machine`. Everything made so far has been executed, except the newest `taken_back` items,
+  /// which are given up. Inside a block it is done only with `cut_block`. False: it is not possible now.
   bool interrupt(const AxisVec& machine, unsigned taken_back, bool cut_block);
-  /// The same on the machine: it has stopped inside the next block, of which `items` have happened. False: the block goes on.
+  /// Online: the machine has stopped inside the next block, of which it has executed `items` items. False: no interrupt is accepted any more, and the block
+  /// goes on.
   bool interrupt_inside(const AxisVec& machine, unsigned items);
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
-  /// The next block has been cut: it is read again.
+  /// Tells whether the next block was cut by an interrupt, and how many of its items have been executed.
   const Repeat& repeat() const;
-  /// Head of the block that was interrupted last.
+  /// Machine position at the beginning of the block that was interrupted last.
   const AxisVec& interrupted_at() const;
 
   // ---- alarms
@@ -177,19 +178,20 @@ class PartInterpreter {
   /// The blocks that led to the alarm, outermost first, up to `capacity`. @return how many.
   unsigned alarm_calls(nc_source* out, unsigned capacity) const;
   void set_alarm_calls(const nc_source* calls, unsigned count);
-  /// A stage behind has found a fault: what is queued is void, the alarm and the end take its place.
+  /// A stage behind the interpreter has found a fault: the queued items are given up, and the alarm and the end take their place.
   void abort(const Fault& what, const nc_source& where);
-  /// For abort(), before the blocks from `seq` on are given up: which of them called the program of `where`.
+  /// To be called before abort(), while the blocks from `seq` on are still known: notes which of them have called the program of `where`.
   void note_calls(const nc_source& where, BlockSeq seq);
-  /// The blocks that led to `where`, which comes behind block `seq`, outermost first and with it; 0: that is not known any more.
+  /// The blocks that led to the block `where`, which comes after block `seq`: outermost first, `where` itself last. Returns their number; 0: they are not
+  /// known any more.
   unsigned calls_behind(const nc_source& where, BlockSeq seq, nc_source (&calls)[NC_MAX_CALLS]) const;
 
   // ---- tables
-  /// What the host reads and writes of them.
+  /// The tables as the host reads and writes them.
   HostTables tables() const { return HostTables(*in_); }
   void join(SharedTables* shared);
   bool shares() const;  ///< there are other part systems
-  /// The machine has executed the blocks up to `executed`: what they have written to shared places is published.
+  /// The machine has executed the blocks up to `executed`: publishes what they have written to places that part systems share.
   void publish(BlockSeq executed);
   uint64_t state_hash() const;  ///< interpret/state_hash.hpp
 
@@ -197,7 +199,7 @@ class PartInterpreter {
   nc_status make_more(uint32_t& budget, Item** front);
 
   Interpreter* in_ = nullptr;
-  // Of *in_: asked for with every item.
+  // Members of *in_ that are needed with every item.
   ItemQueue* queue_ = nullptr;
   MovePools pools_;
   const bool* in_vendor_function_ = nullptr;

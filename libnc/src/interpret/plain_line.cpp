@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short way for "G1 X1.5 Y2.0 Z-0.25" in absolute millimetres: nearly every block of a program that comes
-// out of a CAM system. It does what execute_words() does with such a block and leaves everything else to it,
-// so a rule that is added there needs nothing here but a condition when it changes what these words mean.
-// tests/interpret/plain_line_test.cpp runs random programs both ways.
+// The short way for blocks like "G1 X1.5 Y2.0 Z-0.25" in absolute millimetres, as nearly every block of a program from a CAM system is. It does what
+// execute_words() does with such a block and leaves every other block to it. So a rule that is added there needs at most a condition here, when it changes
+// what these words mean. tests/interpret/plain_line_test.cpp runs random programs both ways.
 #include <cmath>
 
 #include "interpret/functions/functions.hpp"
@@ -10,7 +9,7 @@
 namespace nc {
 namespace {
 
-/// Modes in which axis words of a line are its end in work coordinates and nothing else acts in the block.
+/// The modes are such that the axis words of a line are its end point in work coordinates, and nothing else acts in the block.
 bool plain_modes(const BlockContext& in) {
   const State& s = in.state;
   const ModalState& m = s.modal;
@@ -19,7 +18,7 @@ bool plain_modes(const BlockContext& in) {
          m.is(Function::metric) && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting;
 }
 
-/// X#3: the value of a local variable that has one.
+/// The value of a word like X#3, where the local variable is not vacant.
 [[gnu::noinline]] bool local_number(const BlockContext& in, uint16_t code, double* number) {
   uint32_t variable = 0;
   if (!lone_variable(*in.block, code, &variable) || variable - 1 >= kLocals) return false;
@@ -38,17 +37,17 @@ bool execute_plain_line(BlockContext& in) {
   for (const Word& word : in.block->words) {
     const unsigned at = address_of(word);
     const int axis = in.axis_of[at];
-    if (axis < 0) {  // G1 and nothing else
+    if (axis < 0) {  // of the words that are no axis words only G1 is allowed
       if (!in.is(word, Role::code) || word.value != in.codes.linear_number() || (word.flags & ~kWordPoint) != 0) return false;
       named = true;
       continue;
     }
-    // With its point a word is in millimetres, whatever the unit of words without one; so is a variable.
+    // A word with a point is in millimetres, whatever the unit of words without a point is; so is a variable.
     double number = word.value;
     if ((word.flags & ~(kWordNegative | kWordPlus)) != kWordPoint && (word.flags != kWordExpression || !local_number(in, word.code, &number)))
       return false;
     if (!(std::fabs(number) <= in.settings.last_mm)) return false;
-    if ((axes >> axis & 1) != 0) return false;  // twice
+    if ((axes >> axis & 1) != 0) return false;  // the axis is commanded twice
     axes |= 1u << axis;
     value[static_cast<unsigned>(axis)] = number;
   }

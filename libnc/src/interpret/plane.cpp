@@ -55,7 +55,7 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
   return Execution::done;
 }
 
-/// By the names of the machine's axes: the letters of a mode that ends here (G12.1, M700 6.10) are none of them.
+/// The axes are found by their names in the machine, because the letters of a mode that ends here (G12.1, M700 6.10) are not among these.
 void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]) {
   const PlanePair pair = pair_of(plane);
   const char name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};

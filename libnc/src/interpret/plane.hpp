@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane of G17, G18, G19 and the axes that it has: basic axes and, where a parameter gives them one, their parallel axes.
+// The plane of G17, G18, G19 and its axes: the basic axes, and the parallel axes that parameters give them.
 #pragma once
 
 #include "interpret/motion.hpp"
@@ -7,19 +7,19 @@
 namespace nc {
 
 struct PlaneAxes {
-  int h, v;        ///< first and second axis, right-handed; -1 = the machine has none
+  int h, v;        ///< index of the first and second axis, right-handed; -1 = the machine has no such axis
   Plane plane;
-  Role center[2];  ///< the centre words
+  Role center[2];  ///< the words that give the centre on these axes
 };
 
-/// Which axis of the pair I, J or K (0, 1, 2) the block in hand means: the parallel one of #1029 to #1031 where the block names it and
-/// not the basic one (#1026 to #1028), else that; -1 = the machine has none.
+/// Which axis of the pair I, J or K (0, 1, 2) the block in hand means: the parallel axis (#1029 to #1031) where the block names it and not the basic one,
+/// otherwise the basic axis (#1026 to #1028); -1 = the machine has no such axis.
 int8_t axis_of_pair(const BlockContext& in, unsigned pair);
 
 /// The plane in force.
 PlaneAxes plane_axes(const BlockContext& in);
 
-/// G17, G18, G19 in the block in hand: M700 6.3, the axis of a pair that the block names, the basic one when it names both or none.
+/// Executes G17, G18 or G19 of the block in hand. M700 6.3: of each pair the axis that the block names is taken, the basic one when it names both or none.
 Execution select_plane(BlockContext& in, const FunctionRow& row);
 
 /// HX 4.7: the axis (I, J or K: 0, 1, 2) of the plane in force that the rotary axis of a cylinder stands for.
@@ -30,7 +30,7 @@ void put_cylinder_axis(BlockContext& in);
 /// The basic axes of a plane, which it has at power on and reset.
 void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]);
 
-/// The plane as a pair of I, J, K (0, 1, 2), right-handed: M700 6.3, G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
+/// A plane by its first and second pair I, J, K (0, 1, 2), right-handed. M700 6.3: G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
 struct PlanePair {
   uint8_t first, second;
   Plane plane;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the counters show of an axis that counts on over its turns (M700 14.13).
+// The position that the counters show of an axis whose position goes on growing with every turn (M700 14.13).
 #include "frame/rotary.hpp"
 #include "interpret/functions/functions.hpp"
 

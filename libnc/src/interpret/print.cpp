@@ -11,11 +11,11 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kPort = 1;              ///< external output; 0 is the operator's message line
-constexpr char kDc2 = 0x12, kDc4 = 0x14;   ///< switch the punch of the external device on and off
+constexpr uint32_t kPort = 1;              ///< the external output; 0 is the message line of the operator
+constexpr char kDc2 = 0x12, kDc4 = 0x14;   ///< characters that switch the punch of the external device on and off
 
-/// What no name may begin with: the functions and operators (M700 13.5.5, note). Those of two letters are left out but LN, so that
-/// ORIGIN, LENGTH or NEXT are names; in the brackets of [#NAME] nothing can be mistaken.
+/// A name may not begin with the name of a function or operator (M700 13.5.5, note). Those of two letters, except LN, are left out here, so that ORIGIN,
+/// LENGTH or NEXT can be names; within [#NAME] they cannot be confused.
 constexpr const char* kReserved[] = {"SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ATN", "SQRT", "SQR", "ABS", "BIN", "BCD",
                                      "ROUND", "RND", "FIX", "FUP", "LN", "EXP", "MOD", "AND", "XOR"};
 
@@ -29,7 +29,7 @@ bool begins_reserved(const char* name, size_t length) {
 
 Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
   char name[kNameLength];
-  if (length == 0) return Execution::done;  // "[A,,C]": the variable between keeps its name
+  if (length == 0) return Execution::done;  // "[A,,C]": the second variable keeps its name
   if (length > kNameLength) return in.raise(Condition::name_statement, '#', variable);
   for (size_t i = 0; i < length; ++i) {
     name[i] = upper(from[i]);
@@ -42,7 +42,7 @@ Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, siz
   return Execution::done;
 }
 
-/// Text for the port on its way to the machine: it goes out when the machine gets there.
+/// Puts a text for the port into the stream; it is given out when the machine gets there.
 Execution emit_line(Interpreter& in, const char* text, size_t length) {
   Message message;
   if (length >= sizeof message.text.s) return in.raise(Condition::block_too_long, Role::port);
@@ -54,7 +54,7 @@ Execution emit_line(Interpreter& in, const char* text, size_t length) {
   return Execution::done;
 }
 
-/// [dc] behind a variable: digits before and behind the point. The cursor is behind '['.
+/// Reads [dc] behind a variable: the numbers of digits before and behind the point. *at is behind '['.
 bool digits_wanted(const char** at, const char* end, unsigned* before, unsigned* behind) {
   const char* p = *at;
   if (end - p < 3 || !is_digit(p[0]) || !is_digit(p[1]) || p[2] != ']') return false;
@@ -64,7 +64,7 @@ bool digits_wanted(const char** at, const char* end, unsigned* before, unsigned*
   return *before + *behind >= 1 && *before + *behind <= 8;  // M700 13.5.8: c + d <= 8
 }
 
-/// Trailing zeros stay, leading ones go, or become blanks where the parameter says so. A value that needs more digits gets them.
+/// Writes a value. Trailing zeros stay; leading zeros are left out, or become blanks where the parameter says so. A value that needs more digits gets them.
 void put_value(TextWriter& out, double value, unsigned before, unsigned behind, bool blanks) {
   double scale = 1;
   for (unsigned i = 0; i < behind; ++i) scale *= 10;
@@ -90,7 +90,7 @@ bool printable(char c) { return is_letter(c) || is_digit(c) || c == '+' || c == 
 }  // namespace
 
 Execution set_names(Interpreter& in, const Statement& statement) {
-  if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // a name that another part system has given is not given twice
+  if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // a name that another part system has given must be known, since it cannot be given twice
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
   uint32_t variable = statement.number;
@@ -121,7 +121,7 @@ Execution close_port(Interpreter& in) {
 
 namespace {
 
-/// The value behind '#' or '[' at *at, which goes behind it.
+/// Evaluates the value that begins with '#' or '[' at *at, and moves *at behind it.
 Execution next_value(Interpreter& in, const char** at, const char* end, double* number) {
   Block& scratch = *in.rewritten;
   scratch.clear();
@@ -164,8 +164,9 @@ Execution print_decimal(Interpreter& in, const Statement& statement) {
   return emit_line(in, line, out.used());
 }
 
-/// The manual names BPRNT ("character output and variable value binary output") and has lost its format; this is that of FANUC:
-/// BPRNT[text #v[c] ...], characters as they are, the value times 10^c, rounded, as four bytes, highest first, two's complement.
+/// The manual names BPRNT ("character output and variable value binary output"), but its format is missing there. This is the format of FANUC:
+/// BPRNT[text #v[c] ...]. Characters are printed as they are; a value is multiplied by 10^c, rounded, and printed as four bytes in two's complement, the
+/// highest first.
 Execution print_binary(Interpreter& in, const Statement& statement) {
   if (!in.state.port_open) return in.raise(Condition::print_port);
   Message message;

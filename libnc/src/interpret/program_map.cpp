@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pass n of a rotated figure is pass 1 turned about the centre c by (n - 1) a, where a is the angle from the start to the end of pass 1
-// as seen from c:  p = c + R((n - 1) a) (q - c).  The radius is not scaled: when start and end are not on one circle, the first move of
-// a pass leads from where the last one ended to the end point of its turned block (M700 13.3.3 (4)).
+// Pass n of a rotated figure is pass 1 rotated about the centre c by (n - 1) a, where a is the angle from the start to the end of pass 1 as seen from c:
+// p = c + R((n - 1) a) (q - c).  The radius is not scaled: when start and end are not on one circle, the first move of a pass leads from where the last
+// pass ended to the rotated end point of its block (M700 13.3.3 (4)).
 //
-// Scaling and mirror image that are in force when the figure is called act on its centre and radius, too: they lie behind the turn
-// (13.19 (5)). What the sub program commands is part of the shape, and all of its blocks are turned: it lies in front (13.19 (6), 13.3.3 (3)).
+// Scaling and mirror image that are in force when the figure is called act on its centre and radius, too, so they come after the rotation (13.19 (5)).
+// Those that the sub program commands are a part of the shape, of which all blocks are rotated, so they come before it (13.19 (6), 13.3.3 (3)).
 //
-// Each map is an affine one and so is what they are together: it is made when the first block asks for it behind a change.
+// Each map is affine, and so is the composition of all. It is calculated when a block asks for it for the first time after a change.
 #include "interpret/program_map.hpp"
 
 #include "interpret/plane.hpp"
@@ -22,7 +22,7 @@ PlaneAxes plane(const BlockContext& in) { return plane_axes(in); }
 
 bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
 
-/// Axes that are scaled and mirrored by program in front of the turn of a figure, and behind it.
+/// Axes that are scaled and mirrored by program before the rotation of a figure; and those that are so after it.
 unsigned scaled_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
 unsigned mirror_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
 unsigned scaled_behind(const BlockContext& in) { return in.state.scaled ^ scaled_in_figure(in); }
@@ -30,7 +30,8 @@ unsigned mirror_behind(const BlockContext& in) { return in.state.mirror ^ mirror
 
 // ---- each map by itself
 
-/// `next` behind `map`. G68 and the figure turn the plane in force, 13.21 another one at most: no more axes than a map can hold.
+/// Makes `map` the map that does what it did before and then `next`. G68 and the figure rotate the plane in force, 13.21 at most one other plane, so there are never more
+/// coupled axes than a map can hold.
 void add(Affine& map, const Affine& next) {
   static_assert(Affine::kMostCoupled >= 4);
   [[maybe_unused]] const bool fits = map.then(next);
@@ -62,7 +63,7 @@ Affine mirror_by_program(const BlockContext& in, unsigned axes) {
   return map;
 }
 
-/// About where each axis stood on the machine when the program began.
+/// Mirror image by switch: about the machine position at which each axis stood when the program began.
 Affine mirror_by_switch(const BlockContext& in) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -90,7 +91,7 @@ Affine turn_of_figure(const BlockContext& in) {
 
 // ---- all of them
 
-/// With the rotation by parameter as commanded, or as the axes have reached it; `stretched`: with scaling.
+/// The composition of all maps. `turn`: the rotation by parameter, as commanded or as the axes have reached it; `stretched`: with scaling.
 Affine whole_map(const BlockContext& in, const WorkTurn& turn, bool stretched) {
   const auto scaled = stretched ? scaling : mirror_by_scaling;
   Affine map = scaled(in, scaled_in_figure(in));
@@ -150,7 +151,7 @@ const ProgramMatrices& matrices(const BlockContext& in) {
   return in.program_matrices;
 }
 
-/// A direction on the axes h, v, of a plane that the map keeps.
+/// Maps a direction on the axes h and v, whose plane the map keeps.
 void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2]) {
   const double first = direction[0], second = direction[1];
   direction[0] = map.coefficient(h, h) * first + map.coefficient(h, v) * second;
@@ -162,7 +163,7 @@ void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2
 AxisVec to_program(const BlockContext& in, const AxisVec& work) {
   const ProgramMatrices& m = matrices(in);
   if (in.state.frame[in.state.depth].figure != kFigureStarts) return m.backward.apply(work);
-  // Nothing of this pass has moved yet: its increments count from where the figure began.
+  // This pass has not moved yet, so its increments count from where the figure began.
   AxisVec p = m.to_turned.apply(work);
   const PlaneAxes axes = plane(in);
   if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = in.records->figure.start[0];
@@ -243,7 +244,7 @@ void turn_figure(BlockContext& in) {
   uint8_t& state = in.state.frame[in.state.depth].figure;
   if (axes.h < 0 || axes.v < 0) return;
   Figure figure = in.records->figure;
-  if (figure.angle == 0 && figure.step == 0) {  // behind pass 1
+  if (figure.angle == 0 && figure.step == 0) {  // pass 1 has ended
     const AxisVec end = matrices(in).to_turned.apply(in.position());
     const double* const c = figure.center;
     const double from = std::atan2(figure.start[1] - c[1], figure.start[0] - c[0]);

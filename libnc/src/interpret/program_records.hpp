@@ -10,9 +10,9 @@
 //   MapRecordsLife          yes       RETURNS       yes          -            -             -
 //   MachineRecordsLife      yes          -          yes         yes          yes            -
 //
-// A figure's and a modal call's frame say whether they are in force (CallFrame), the state whether an interrupt, a map or a mirror is.
-// G28's intermediate points end with the program where the family says so (ReferenceRules::forgets_with_program). What is retained
-// over power off, a host writes down and gives back (nc/control.h).
+// Whether a figure or a modal call is in force is told by its call frame (CallFrame), whether an interrupt, a map or a mirror is, by the state.
+// The intermediate points of G28 end with the program where the family says so (ReferenceRules::forgets_with_program). What has to outlast power off
+// is stored and given back by the host (nc/control.h).
 #pragma once
 
 #include <type_traits>
@@ -27,32 +27,32 @@ namespace nc {
 
 inline constexpr unsigned kModalCalls = 8;
 
-/// A modal macro call: G66, G66.1, or a registered code of their kind (M700 13.5.1).
+/// A modal macro call: by G66, G66.1, or a registered code that calls in the same way (M700 13.5.1).
 struct ModalCall {
   ProgramRef program;
   uint32_t repeats = 0;             ///< L
-  bool every_block = false;         ///< G66.1, else G66
+  bool every_block = false;         ///< true: as G66.1; false: as G66
   bool by_code = false;             ///< commanded by a registered code
-  uint8_t below = 0;                ///< slot of the call that was in force before, from 1; 0 = none
-  uint8_t depth = 0;                ///< of the program that commanded it
-  OptionalDouble argument[kLocals]; ///< of #1 to #33
+  uint8_t below = 0;                ///< slot, from 1, of the call that was in force before; 0 = none
+  uint8_t depth = 0;                ///< call level of the program that commanded it
+  OptionalDouble argument[kLocals]; ///< values for #1 to #33
   bool operator==(const ModalCall&) const = default;
 };
 
 /// A figure that is rotated pass by pass, in the plane in force (M700 13.3.3).
 struct Figure {
   double center[2] = {0, 0};
-  double start[2] = {0, 0};  ///< of pass 1
-  double step = 0;           ///< from pass to pass, rad; 0 = pass 1 has not ended
-  double angle = 0;          ///< of the pass under way, rad
+  double start[2] = {0, 0};  ///< start point of pass 1
+  double step = 0;           ///< angle from pass to pass, rad; 0 = pass 1 has not ended
+  double angle = 0;          ///< angle of the pass under way, rad
   bool operator==(const Figure&) const = default;
 };
 
 /// The program of M96 (M700 13.12).
 struct InterruptProgram {
   ProgramRef program;
-  uint64_t begin = 0;  ///< where its first block stands ...
-  uint32_t begin_line = 0;
+  uint64_t begin = 0;  ///< byte offset of its first block
+  uint32_t begin_line = 0;  ///< line of that block
   bool operator==(const InterruptProgram&) const = default;
 };
 
@@ -72,7 +72,7 @@ struct SwitchMirror {
   bool operator==(const SwitchMirror&) const = default;
 };
 
-/// What the macro has selected to read next; 0 = nothing yet.
+/// What a macro has selected to read next; 0 = nothing yet.
 struct Selection {
   uint32_t parameter[3] = {0, 0, 0};  ///< #100000: number, part, axis (M700 10.16)
   uint32_t device[4] = {0, 0, 0, 0};  ///< #100100: device, number, bytes, bit (10.17)
@@ -84,14 +84,14 @@ struct Selection {
 struct WorkTurn {
   double deg = 0;
   double center[2] = {0, 0};      ///< machine coordinates
-  int32_t axis[2] = {-1, -1};     ///< -1 = the machine has none of the name in the parameter
+  int32_t axis[2] = {-1, -1};     ///< -1 = the machine has no axis with the name in the parameter
   bool turns() const { return deg != 0; }
   bool has_plane() const { return axis[0] >= 0 && axis[1] >= 0 && axis[0] != axis[1]; }
   bool operator==(const WorkTurn&) const = default;
 };
 struct WorkTurns {
-  WorkTurn commanded;  ///< by the parameters
-  WorkTurn reached;    ///< by the axes
+  WorkTurn commanded;  ///< the rotation that the parameters command
+  WorkTurn reached;    ///< the rotation that the axes have reached
   bool operator==(const WorkTurns&) const = default;
 };
 
@@ -107,7 +107,7 @@ struct SkipPosition {
   bool operator==(const SkipPosition&) const = default;
 };
 
-/// A word of the macro interface's outputs (#1100, #1132) as read ahead.
+/// A word of the outputs of the macro interface (#1100, #1132) after the blocks that were read so far.
 struct InterfaceOutput {
   uint32_t bits = 0;
   bool operator==(const InterfaceOutput&) const = default;
@@ -122,7 +122,7 @@ struct WorkpieceCounts {
 // ---- the groups ------------------------------------------------------------------------------------------------------------------
 
 struct ProgramRecordsLife {
-  ModalCall modal_call[kModalCalls];  ///< slot n is place n - 1
+  ModalCall modal_call[kModalCalls];  ///< slot n is element n - 1
   Figure figure;
   InterruptProgram interrupt;
   SwitchMirror switch_mirror;
@@ -144,7 +144,7 @@ struct MachineRecordsLife {
   bool operator==(const MachineRecordsLife&) const = default;
 };
 
-/// All of them, each in exactly one group (tests/interpret/lifetimes_test.cpp).
+/// All records; each is in exactly one group (tests/interpret/lifetimes_test.cpp).
 struct ProgramRecords : ProgramRecordsLife, MapRecordsLife, MachineRecordsLife {};
 static_assert(std::is_trivially_copyable_v<ProgramRecords>);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the parameters that have been set to the typed values that the interpreter works with. What a parameter means decides, never its
-// number: that is the family's (dialect/parameter_rows.hpp), and one that a family does not have stands as if nobody had set it.
+// Turns the parameters that are set into the typed values with which the interpreter works. Parameters are found by their meaning and never by their number,
+// which belongs to the family (dialect/parameter_rows.hpp). A parameter that the family does not have counts as not set.
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 
 using P = Parameter;
 
-/// An axis name, 0 = none (blank, 0, or a number that is no letter).
+/// The name of an axis, 0 = none (blank, 0, or a number that is not the code of a letter).
 char axis_letter(double value) {
   if (!(value >= 'A' && value <= 'z')) return 0;
   const char letter = static_cast<char>(value);
@@ -21,7 +21,7 @@ char axis_letter(double value) {
   return letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : char{0};
 }
 
-/// One bit for each of eight signals; what is no whole number of 32 bits has none.
+/// One bit for each of eight signals; no bit is set when the value is negative or too large.
 uint8_t signals(double value) {
   return value >= 0 && value <= 4294967295.0 ? static_cast<uint8_t>(static_cast<uint32_t>(value) & 0xff) : uint8_t{0};
 }
@@ -57,7 +57,7 @@ class SettingsReader {
   }
   bool flag(ParameterOf parameter) const { return value(parameter, 0) != 0; }
   char axis_name(ParameterOf parameter, char fallback = 0) const { return axis_letter(value(parameter, fallback)); }
-  /// Bits of the axes for which it is on.
+  /// Bit i: the parameter is on for axis i.
   uint32_t axes_with(Parameter parameter) const {
     uint32_t mask = 0;
     for (unsigned i = 0; i < kMaxAxes; ++i) mask |= value(parameter, 0, static_cast<int>(i)) != 0 ? 1u << i : 0;
@@ -84,7 +84,7 @@ class SettingsReader {
   Settings s_;
 };
 
-/// M700 2.1, 2.2, 5.3.
+/// Units: M700 2.1, 2.2, 5.3.
 void SettingsReader::units() {
   const double finer = dialect_.rules.number.units_per_micrometre(value(P::setting_unit, 0));
   s_.setting_unit_mm = 0.001 / finer;
@@ -109,7 +109,7 @@ void SettingsReader::units() {
   s_.calculator_words = static_cast<uint8_t>(value(P::calculator_words, s_.calculator ? 1 : 0));
 }
 
-/// What is in force at power on, and which codes there are.
+/// What is in force at power on, and which codes exist.
 void SettingsReader::start() {
   s_.start_inch = flag(P::start_inch);
   s_.start_absolute = value(P::start_absolute, 1) != 0;
@@ -170,7 +170,7 @@ void SettingsReader::macros() {
   s_.run_time_hours = flag(P::run_time_hours);
   s_.interrupt_on_m = misc_code(dialect_, MiscFunction::interrupt_on);
   s_.interrupt_off_m = misc_code(dialect_, MiscFunction::interrupt_off);
-  if (flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97 but 30
+  if (flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97, except 30
     const auto m_code = [this](Parameter parameter, uint32_t fallback) {
       const double m = value(parameter, fallback);
       const CodeRange range = dialect_.interrupt_misc;
@@ -227,7 +227,7 @@ void SettingsReader::cycles() {
   s_.measure_range = value(P::measure_range, 0);
 }
 
-/// M700 6, 13.18.
+/// Curves: M700 6, 13.18.
 void SettingsReader::curves() {
   s_.arc_tolerance = value(P::arc_tolerance, dialect_.parameters->arc_tolerance_mm);
   s_.helix_plane_feed = flag(P::helix_plane_feed);
@@ -273,7 +273,7 @@ void SettingsReader::high_accuracy() {
 void SettingsReader::filters() {
   FilterParameters& f = s_.filters;
   const auto number = [this](ParameterOf parameter, int axis = -1) { return value(parameter, 0, axis); };
-  const bool rounds = number(P::arc_compensation) != 0 && number(P::arc_compensation_by_axis) != 0;  // #8108 holds only with #8107
+  const bool rounds = number(P::arc_compensation) != 0 && number(P::arc_compensation_by_axis) != 0;  // #8108 acts only together with #8107
   for (unsigned i = 0; i < kMaxAxes; ++i) {
     const int axis = static_cast<int>(i);
     f.rapid.linear_ms[i] = number(P::rapid_linear, axis);
@@ -306,7 +306,7 @@ void SettingsReader::feeds() {
     s_.digit_feed[i] = value({P::digit_feed, i}, 0);
     if (s_.digit_most > 0 && s_.digit_feed[i] > s_.digit_most) s_.digit_feed[i] = s_.digit_most;
   }
-  // 7.9 (a), (b): with #1306 = 0 rapid traverse and cutting have a parameter each, else one for both.
+  // 7.9 (a), (b): with #1306 = 0 rapid traverse and cutting have a parameter each, otherwise one parameter is for both.
   const bool in_position = flag(P::checks_position);
   s_.check_rapid = in_position;
   s_.check_cutting = flag(P::one_position_check) ? in_position : flag(P::checks_cutting);
@@ -316,7 +316,7 @@ void SettingsReader::feeds() {
   s_.corner_zone = value(P::corner_override_zone, 0);
 }
 
-/// M700 13.13, 14.7, 14.13: what stands for each axis.
+/// M700 13.13, 14.7, 14.13: parameters that each axis has for itself.
 void SettingsReader::one_axis(int axis) {
   const auto number = [this, axis](ParameterOf parameter, double fallback) { return value(parameter, fallback, axis); };
   const uint32_t bit = 1u << axis;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The journal of the places that part systems share, in the order of execution: what stood there before each write that the machine has executed.
+// The journal of the places that part systems share, in the order of execution: the value before each write that the machine has executed.
 //
-// Each part system's own journal (macro/journal.hpp) undoes what that one has read ahead. Offline, a host may also go back behind what has been
-// executed, in one part system alone; what the others have written since then stays. So a write is taken out of the middle of a chain: the next
-// write to the same place, whoever made it, has overwritten what this one had overwritten. Only where there is no later write does the place
-// itself get the older value back.
+// The journal of each part system (macro/journal.hpp) undoes what it has read ahead. Offline, a host may also go back in one part system to before blocks
+// that have been executed; what the other part systems have written since then stays. So a write may have to be taken out of the middle of a chain of
+// writes: then the next write to the same place, by whichever part system, gets the old value of the write that is taken out. Only where there is no later
+// write does the place itself get the old value back.
 #pragma once
 
 #include <cstdint>
@@ -20,21 +20,21 @@ class SharedHistory {
   /// `capacity` is a power of two.
   void create(unsigned capacity, Arena& arena);
 
-  /// Block `seq` of part system `system` has been executed and has written to `key`, where `before` stood.
+  /// Block `seq` of part system `system` has been executed and has written to `key`, which had the value `before`.
   void note(unsigned system, BlockSeq seq, uint32_t key, JournalValue before);
-  /// A program of `system` has ended or was given up: no way leads back to what was before its writes.
+  /// A program of `system` has ended or was given up: its writes are never taken out any more.
   void keep_for_good(unsigned system);
-  /// Somebody outside of the programs has written `value` to `key`: whatever is taken out from now on, no older value comes back.
+  /// The host has written `value` to `key`: whatever is taken out from now on, no older value comes back.
   void replace(uint32_t key, JournalValue value);
-  /// Everything that `system` has executed behind `seq` is still known.
+  /// Everything that `system` has executed after block `seq` is still known.
   bool reaches(unsigned system, BlockSeq seq) const { return lost_[system] <= seq; }
-  /// Takes the writes of `system` behind `seq` out, newest first; give(key, value) for each that was the last one to its place.
+  /// Takes the writes of `system` after block `seq` out, newest first. give(key, value) is called for each that was the last write to its place.
   template <class Give>
   void take_out(unsigned system, BlockSeq seq, Give&& give);
 
  private:
   struct Entry {
-    BlockSeq seq;  ///< 0: kept for good
+    BlockSeq seq;  ///< 0: the write is never taken out any more
     uint64_t bytes;
     uint32_t key;
     uint8_t kind;

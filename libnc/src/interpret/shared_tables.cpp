@@ -15,8 +15,8 @@ JournalValue value_of(const Interpreter& in, uint32_t key) {
   return in.parameters.stored(key - kParameterKey).journalled();
 }
 
-/// `value` is what the machine has come to; what `in` has read ahead comes behind it. Parameters are numbered by each part system as they are
-/// set, so `key` is its own.
+/// Puts a value that the machine has executed into the copy of `in`, before what `in` has read ahead. `key` is the key of this part system: each numbers
+/// its parameters in the order in which they are set.
 void take(Interpreter& in, uint32_t key, JournalValue value) {
   if (key < kFrameKey) {
     in.variables.take_published(key, value);
@@ -79,8 +79,8 @@ void SharedTables::take_back(Interpreter& writer, BlockSeq seq) {
   });
 }
 
-/// The key that a shared place of `from` has in `to`. Parameters are numbered by each part system as they are set; as many fit into each of
-/// them, and common ones are common to the tables.
+/// Finds the key that a shared place of `from` has in `to`. Each part system numbers its parameters in the order in which they are set; each has room for
+/// the same number of them.
 bool SharedTables::same_place(Interpreter& to, const Interpreter& from, uint32_t key, uint32_t* there) {
   *there = key;
   if (key < kParameterKey || &to == &from) return true;
@@ -98,7 +98,7 @@ void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, Jo
   if (key >= kParameterKey) divide_again(writer.settings.shared_100, writer.settings.shared_500);
 }
 
-/// No rewind brings back what stood in the place of `in` before.
+/// The host has changed a place of `in`: no rewind brings its old value back.
 void SharedTables::changed_by_host(const Interpreter& in, uint32_t key) {
   uint32_t first = 0;
   if (same_place(*system_[0], in, key, &first)) history_.replace(first, value_of(in, key));
@@ -133,8 +133,8 @@ void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {
   divide_again(in.settings.shared_100, in.settings.shared_500);
 }
 
-/// The parameters that divide the common variables have changed: what becomes common is for all what the first part system has, and what is
-/// common no longer stays with that one and is vacant in the others.
+/// The parameters that say which common variables are shared have changed. A variable that becomes shared gets the value of the first part system in all of
+/// them; one that is not shared any more keeps its value in the first part system and becomes vacant in the others.
 void SharedTables::divide_again(uint32_t last_100, uint32_t last_500) {
   const auto between = [this](uint32_t before, uint32_t now) {
     if (before < now) divide_again(before + 1, now + 1, true);

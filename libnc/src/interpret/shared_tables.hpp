@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the part systems of a control have in common: the tool table, the common variables that M700 13.4 (#1303, #1304) does not give to each of
-// them, those of later models and of further ranges, the names of #500 up, the parameters that are the control's (is_common()).
+// What the part systems of a control share: the tool table, the common variables that M700 13.4 (#1303, #1304) does not give to each of them separately,
+// those of later models and of further ranges, the names of #500 up, and the parameters of the whole control (is_common()).
 //
-// Each part system reads ahead with a copy of its own, so that what it takes back is what it has written itself. When the machine has executed a
-// block, what that block has written to shared places is published: it goes into the copies of the others, in front of what these have read
-// ahead and not executed. So all copies agree in what has been executed, and each has in front of that what its own program is going to do.
+// Each part system reads ahead with its own copy of these, so that a rewind takes back only what it has written itself. When the machine has executed a
+// block, what that block has written to shared places is published: it goes into the copies of the others, as if it was written before the blocks that
+// these have read ahead and not executed. So all copies agree about what has been executed, and each also has what its own program will do next.
 //
-// A program that reads a shared place waits until the machine has come there (NC_SYNC_SHARED): by then everything that the others have executed
-// is in its copy. Tool data that H and D select are read from the copy as they are, like those of one part system.
+// A program that reads a shared place waits until the machine has come to its block (NC_SYNC_SHARED): then everything that the others have executed is in
+// its copy. Tool data selected by H and D are read from the copy without waiting, as with a single part system.
 #pragma once
 
 #include <cstdint>
@@ -20,32 +20,32 @@ namespace nc {
 
 struct Interpreter;
 
-/// All calls are made by the feeder's thread.
+/// All functions are called in the feeder thread.
 class SharedTables {
  public:
-  /// For `systems` part systems that look `look_ahead` blocks ahead.
+  /// For `systems` part systems that read `look_ahead` blocks ahead.
   void create(unsigned systems, unsigned look_ahead, Arena& arena);
-  /// All part systems of a control, once, when they have been created.
+  /// Adds a part system. To be called once for each of a control, after all have been created.
   void join(Interpreter& in);
 
   /// The machine has executed the blocks of `writer` up to `executed`.
   void publish(Interpreter& writer, BlockSeq executed);
-  /// Offline a host can go back to any mark. False: of what `writer` has published since block `seq` some is no longer known.
+  /// Everything that `writer` has published since block `seq` can be taken back. (Offline a host may go back to any mark.)
   bool reaches(const Interpreter& writer, BlockSeq seq) const { return history_.reaches(number_of(writer), seq); }
-  /// Blocks of `writer` behind `seq` have been taken back: what of theirs had been published is taken back as well. What another part system has
-  /// written since stays.
+  /// The blocks of `writer` after `seq` have been taken back: what they had published is taken back as well. What another part system has written to the
+  /// same places since then stays.
   void take_back(Interpreter& writer, BlockSeq seq);
-  /// All that `writer` has published stays: its program has ended or was given up.
+  /// The program of `writer` has ended or was given up: everything that it has published stays.
   void keep_for_good(const Interpreter& writer) { history_.keep_for_good(number_of(writer)); }
 
-  // What the host writes is so for all of them, and no rewind undoes it.
+  // Writes by the host: they hold for all part systems, and no rewind undoes them.
   void set_variable(uint32_t number, Value value);
   void set_name(uint32_t number, const char* name);
   void set_tool(unsigned key, double value);
   /// The parameter `index` of `in` has been changed.
   void parameter_changed(const Interpreter& in, unsigned index);
 
-  /// Journal key of a place that part systems share.
+  /// The journal key is that of a place which part systems share.
   static bool shares(const Interpreter& in, uint32_t key);
 
  private:
@@ -57,8 +57,8 @@ class SharedTables {
   void divide_again(uint32_t first, uint32_t end, bool common);
   Interpreter* system_[NC_MAX_SYSTEMS] = {};
   unsigned count_ = 0;
-  SharedHistory history_;  ///< by the keys of the first part system
-  uint32_t last_100_ = 0, last_500_ = 0;  ///< as the copies are divided now
+  SharedHistory history_;  ///< its keys are those of the first part system
+  uint32_t last_100_ = 0, last_500_ = 0;  ///< last shared variable of #100 up and of #500 up, as the copies are divided now
 };
 
 }  // namespace nc

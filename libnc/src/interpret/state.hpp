@@ -2,9 +2,9 @@
 // The whole state of the interpreter of one part system, as one copyable value. What is not in here is either a table that is
 // journalled (frame/frames.hpp, macro/variables.hpp) or fixed while a program runs (parameters, programs).
 //
-// The members stand in groups by what they outlive. A group is copied whole or begins anew whole (interpret/lifetimes.cpp), so that a new
-// member is kept and given back as its group is, without a line elsewhere; the few values that go another way than their group are written
-// down there, each with its section.
+// The members are grouped by the events that they outlive. A group is copied as a whole or begins anew as a whole (interpret/lifetimes.cpp), so that a new
+// member is kept and given back with its group, without a line elsewhere. The few values that are treated otherwise than their group are written down
+// there, each with its section.
 //
 //   group              over M98,   interrupt   next text   M02, M30,    reset by the   power off
 //                      G65, M99    and M99     of MDI      next start   operator
@@ -20,7 +20,7 @@
 //   Derived            is made of the other groups whenever one of them has been assigned
 //   CallStack          is what M98 and G65 push and M99 pops; empty where a program or a text of MDI begins
 //
-//   M98, G65, M99   M700 13.3.1, 13.5.1: a program that is called changes the modes of the one that calls it, there and back
+//   M98, G65, M99   M700 13.3.1, 13.5.1: a program that is called uses and changes the modes of the program that calls it
 //   interrupt       M700 13.12. RETURNS: has the value from before the interrupt again; - : goes on with what the interrupt program made
 //                   of it; place: RETURNS where the interrupted block is read again from its head, else goes on. Behind M99 P, and where
 //                   a program of type 1 has moved, everything goes on
@@ -42,7 +42,7 @@
 namespace nc {
 
 inline constexpr unsigned kMaxFrames = 9;     ///< main program and eight levels (M700 13.3.1)
-inline constexpr unsigned kMaxLoops = 108;    ///< DO-END: 27 in each program (M700 13.5.7), four macro levels deep at most
+inline constexpr unsigned kMaxLoops = 108;    ///< open DO loops: 27 in each program (M700 13.5.7), with four macro levels at most
 
 enum class CallKind : uint8_t { main, sub, macro };
 
@@ -50,26 +50,26 @@ enum class CallKind : uint8_t { main, sub, macro };
 enum class CallOrigin : uint8_t {
   word,       ///< M98, G65
   modal,      ///< G66, G66.1
-  code,       ///< a registered G M S T B or ASCII code: such codes are ordinary ones in there (M700 13.5.2, 13.5.3)
+  code,       ///< a registered G M S T B or ASCII code; in the program that it calls such codes do not call (M700 13.5.2, 13.5.3)
   external,   ///< M198
   interrupt   ///< M96
 };
 
-/// CallFrame::figure: this pass has not moved yet, or it has.
+/// Values of CallFrame::figure: this pass has not moved yet, or it has moved.
 inline constexpr uint8_t kFigureStarts = 1, kFigureMoved = 2;
 
 /// One level of the call stack.
 struct CallFrame {
   ProgramRef program;
-  uint64_t offset = 0;        ///< next block
-  uint64_t begin = 0;         ///< first block of a pass (H word), where a repetition starts again
-  uint32_t line = 1, begin_line = 1;
-  uint32_t call_line = 0;     ///< of the block that made the level above this one: its mark comes after the return
-  uint32_t repeats = 0;       ///< passes still to come after this one
+  uint64_t offset = 0;        ///< byte offset of the next block
+  uint64_t begin = 0;         ///< byte offset of the first block of a pass (H word), where a repetition starts again
+  uint32_t line = 1, begin_line = 1;  ///< lines of these two blocks
+  uint32_t call_line = 0;     ///< line of the block that has called the program of the next level; its mark comes after the return
+  uint32_t repeats = 0;       ///< number of passes still to come after this one
   CallKind kind = CallKind::main;
   uint8_t macro_level = 0;
-  uint8_t loop_base = 0;      ///< loops of this level start here
-  bool started = false;       ///< a block of this program has been executed: a further O line is another program
+  uint8_t loop_base = 0;      ///< the loops of this level begin at this index of CallStack::loop
+  bool started = false;       ///< a block of this program has been executed, so that a further O line begins another program
   CallOrigin origin = CallOrigin::word;
   uint8_t modal_call = 0;     ///< slot (interpret/program_records.hpp) of the modal macro call in force in this program, 0 = none
   uint8_t modal_slot = 0;     ///< slot of the modal call that runs this program, 0 = none
@@ -81,24 +81,24 @@ static_assert(sizeof(CallFrame) == 72);
 
 /// An open DO.
 struct Loop {
-  uint64_t offset = 0;        ///< of its WHILE/DO block
-  uint64_t body = 0;          ///< of the block behind that
-  uint64_t end = 0;           ///< of the block behind its END; 0 = not known yet
+  uint64_t offset = 0;        ///< byte offset of its WHILE/DO block
+  uint64_t body = 0;          ///< byte offset of the block behind that
+  uint64_t end = 0;           ///< byte offset of the block behind its END; 0 = not known yet
   uint32_t line = 0;
   uint32_t end_line = 0;
   uint32_t number = 0;
 };
 
-/// What a block still has to do after its first items; always Step::none at a mark that reports.
+/// What a block still has to do after its first items. At a mark that ends a block it is always Step::none.
 enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, after_motion };
 
-/// What cylindrical and polar coordinate interpolation give back when they end (M700 6.9, 6.10).
+/// What cylindrical and polar coordinate interpolation restore when they end (M700 6.9, 6.10).
 struct MillReturn {
   double feed = 0;
   Function plane = Function::plane_xy, feed_mode = Function::feed_per_minute;
   int8_t plane_axis[2] = {0, 1};
-  char hypothetical_letter = 0;  ///< commands the rotary axis in the plane; 0 = its own name does
-  bool moved = false;            ///< the mode has seen a movement
+  char hypothetical_letter = 0;  ///< letter that commands the rotary axis in the plane; 0 = its own name
+  bool moved = false;            ///< there was a movement in this mode
 };
 
 /// An arc in space over two blocks (M700 6.14).
@@ -106,11 +106,11 @@ enum class ArcStep : uint8_t { none, middle_given, halfway };
 
 /// A NURBS that is being given block by block (M700 6.15).
 struct NurbsState {
-  uint32_t first = 0;   ///< of its points (Interpreter::points), one behind the other
-  uint32_t knots = 0;   ///< given so far; 0 = no curve is open
-  uint32_t points = 0;  ///< control points among them
+  uint32_t first = 0;   ///< id of its first point; the others follow (Interpreter::points)
+  uint32_t knots = 0;   ///< number of knots given so far; 0 = no curve is open
+  uint32_t points = 0;  ///< number of control points given so far
   uint8_t order = 4;    ///< degree + 1
-  uint8_t axes = 0;     ///< bit i: axis i stands in the first block
+  uint8_t axes = 0;     ///< bit i: axis i is commanded in the first block
   bool active() const { return knots != 0; }
 };
 
@@ -129,10 +129,10 @@ struct MeetingFirst {
 /// Constant surface speed (M700 10.3).
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
-  uint8_t axis = 0;            ///< of G96, from 1; 0 = G97
+  uint8_t axis = 0;            ///< number of the axis of G96, from 1; 0 = G97
 };
 
-/// The mode of fine segments in force: which codes may be commanded (M700 13.17; functions/fine_mode.cpp).
+/// The mode of fine segments in force. It decides which codes may be commanded (M700 13.17; functions/fine_mode.cpp).
 enum class FineMode : uint8_t {
   none,
   accuracy1,   ///< high-speed high-accuracy control I: G05.1 Q1
@@ -146,14 +146,14 @@ struct SplineState {
   uint8_t axes = 0;          ///< bit i: axis i was named with G05.1 Q2
 };
 
-/// The block before, on a spline.
+/// What a spline has to know of the block before.
 struct SplineWay {
-  bool joined = false;       ///< the block before ended smoothly into the one to come
+  bool joined = false;       ///< the block before ended so that the next one goes on smoothly
   bool moved = false;        ///< the block before was a movement, by `back`
   double back[3] = {0, 0, 0};  ///< way of the block before along the basic axes
 };
 
-/// What the end of a program leaves to a first movement that names no mode (M700 9.1, 7.2 note 1).
+/// What the end of a program leaves for a first movement of the next program that names no mode (M700 9.1, 7.2 note 1).
 struct LeftByEnd {
   double feed = 0;
   Function motion = Function::rapid, feed_mode = Function::feed_per_minute;
@@ -162,19 +162,19 @@ struct LeftByEnd {
 
 /// Bits of State::special.
 enum Special : uint8_t {
-  kSpecialMap = 1,         ///< programmed coordinates are not those of the axes
+  kSpecialMap = 1,         ///< programmed coordinates are not those of the axes (AxisMap)
   kSpecialWords = 2,       ///< axis words mean something else (G16)
-  kSpecialFeed = 4,        ///< F is more than the speed of every cut, or cutting has a mode of its own (interpret/feed.hpp)
+  kSpecialFeed = 4,        ///< F is not a plain feed per minute, or a special cutting mode is in force (interpret/feed.hpp)
   kSpecialSpline = 8       ///< G01 goes along a spline
 };
 // ---- the groups ---------------------------------------------------------------------------------------------------------
 
-/// Belongs to one block and to the next: each of them sets it, and nothing gives it back.
+/// Belongs to one block and the next one: each block sets it, and nothing restores it.
 struct BlockLife {
-  BlockSeq seq = 0;             ///< blocks executed
-  Repeat repeat;                ///< of the next block; its mark carries it to those who drop what has happened
-  bool owes_mark = false;       ///< the block that called a program has ended with the return and still needs its mark
-  bool stop_reading = false;    ///< an M code that prohibits reading ahead was in the block before
+  BlockSeq seq = 0;             ///< number of blocks executed
+  Repeat repeat;                ///< of the next block; its mark carries it to the stages and to control, which drop what has been executed
+  bool owes_mark = false;       ///< a block has called a program, which has returned, and its mark is still to be made
+  bool stop_reading = false;    ///< an M code that prohibits reading ahead stood in the block before
 };
 
 /// Where the axes are.
@@ -182,12 +182,12 @@ struct MachinePosition {
   AxisVec machine;              ///< end of the last move, machine coordinates, without radius compensation
 };
 
-/// Goes with the position: how much of the length compensation the moves have put into it.
+/// Belongs to the position: how much of the length compensation the moves have applied to it.
 struct AppliedLength {
   AxisVec applied;              ///< tool length as applied to each axis
 };
 
-/// The modes, and the words that a mode needs as long as it is in force.
+/// The modes, and the values that a mode needs as long as it is in force.
 struct ModalLife {
   ModalState modal;
   double tool_length = 0;       ///< length compensation along the axis of the tool (M700 12.3)
@@ -196,32 +196,33 @@ struct ModalLife {
   int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
   bool polar_angle_known = false;
   uint16_t work_system = 0;     ///< 0..5 G54..G59, 6.. G54.1 P1..
-  SpeedMode high_speed = SpeedMode::off;  ///< by the code of high-speed machining
+  SpeedMode high_speed = SpeedMode::off;  ///< high-speed machining that is commanded
   FineMode fine_mode = FineMode::none;
   bool accuracy_command = false;  ///< between G08 P1 and G08 P0
   uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
   SplineState spline;
-  uint32_t held_point = 0;      ///< where the axes of G07 stand (Interpreter::points)
+  uint32_t held_point = 0;      ///< id of the point at which the axes of G07 stand (Interpreter::points)
   uint32_t stroke_box = 0;      ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
   double polar_angle = 0;       ///< G16: angle of the block before, deg
   double thread_lead = 0;       ///< G33: mm along the long axis
-  double last_feed = 0;         ///< G93: of the last cutting block, mm/min: displacements of compensation go on with it
+  double last_feed = 0;         ///< G93: feed of the last cutting block, mm/min; a block that only displaces the tool uses it
   AxisMap map;
   MillReturn mill;
   SpindleControl spindle;
 };
 
-/// Modes that end with the program, or with the text of MDI, that has commanded them.
+/// Modes that end with the program, or with the MDI text, that has commanded them.
 struct ModalInProgram {
   Compensation comp;            ///< tool radius compensation in force
   CycleState cycle;
   uint32_t moves_since_comp_off = 1;  ///< M700 P112: a plane change right after G40 needs a move in between
-  int8_t moved_side = 0;        ///< Compensation::side of the last movement: where it differs from that in force, compensation starts or ends next
-  uint32_t arc_points = 0;      ///< start and middle point of the arc in space
+  int8_t moved_side = 0;        ///< Compensation::side of the last movement; where it differs from the one in force the next movement starts or ends
+                                ///< compensation
+  uint32_t arc_points = 0;      ///< id of the start point of the arc in space; its middle point has the next id
   NurbsState nurbs;
-  uint8_t nurbs_order = 0;      ///< of the last curve, for one that a knot alone begins
+  uint8_t nurbs_order = 0;      ///< order of the last curve, for a curve that begins with a knot alone
   ArcStep arc_step = ArcStep::none;
   bool parameter_input = false; ///< between G10 L70 and G11 (M700 13.11)
   bool tap_code = false;        ///< the M code that makes taps synchronous has been given out
@@ -229,15 +230,16 @@ struct ModalInProgram {
   uint8_t figure_scaled = 0;    ///< of `scaled` and `mirror`: commanded in the program that is being rotated (13.3.3, 13.19 (6));
   uint8_t figure_mirror = 0;    ///< they mean something in that program only
   uint16_t vacant_feed_file = 0;
-  uint32_t vacant_feed = 0;     ///< variable of the last F, which was vacant and so gave no feed (M700 13.5.4); 0 = F has been given since
-  uint32_t vacant_feed_line = 0;
+  uint32_t vacant_feed = 0;     ///< number of the variable of the last F, where it was vacant and so gave no feed (M700 13.5.4); 0 = F has a value
+  uint32_t vacant_feed_line = 0;  ///< line, and above file, of that F
   SplineWay spline_way;
   MeetingFirst meeting;         ///< of the block before
   SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5)
   SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
 };
 
-/// Belongs to the run of one program, or of one text of MDI, with all that it calls: no mode, so an interrupt program may change it.
+/// Belongs to the run of one program, or of one MDI text, with all programs that it calls. These are not modes, so they are not restored after an
+/// interrupt program.
 struct ProgramLife {
   bool end_seen = false;
   bool percent_seen = false;    ///< the start mark of the main program has been read
@@ -247,46 +249,46 @@ struct ProgramLife {
   uint8_t control_3003 = 0, control_3004 = 0;  ///< M700 13.5.5: cleared by a reset
 };
 
-/// What has been commanded of the machine: it goes on over an interrupt and over blocks of MDI.
+/// What the machine has been commanded to do: it stays over an interrupt and over MDI blocks.
 struct UntilReset {
   bool spindle_on = false;
   bool spindle_reverse = false; ///< as it was last turned
   bool spindle_clamped = false; ///< by G92 S Q (M700 10.4): what at is known where it is executed
 };
 
-/// What outlives the end of a program, and no reset by the operator (M700 9.1).
+/// What outlives the end of a program, but not a reset by the operator (M700 9.1).
 struct UntilOperatorReset {
   LeftByEnd left_by_end;
 };
 
-/// What no program and no reset ends.
+/// What neither a program nor a reset ends.
 struct UntilPowerOff {
-  double clock_base[2] = {0, 0};  ///< what #3001, #3002 read 0 at, ms (M700 13.5.5: only writing them changes the clocks)
-  int64_t clock_shift_s = 0;      ///< the program's clock (#3011, #3012) against the machine's
+  double clock_base[2] = {0, 0};  ///< time of the machine, ms, at which #3001 and #3002 are 0 (M700 13.5.5: only writing to them changes them)
+  int64_t clock_shift_s = 0;      ///< s by which the clock of programs (#3011, #3012) is ahead of the machine's
   bool port_open = false;         ///< POPEN has been executed (M700 13.5.8)
 };
 
-/// Asked in every block or move, and made of what stands in the other groups, in the records and in the parameters
-/// (refresh_special, refresh_accuracy, refresh_work_rotation, Interpreter::program_changed).
+/// Follows from the other groups, the records and the parameters, and is kept because every block or move needs it (refresh_special, refresh_accuracy,
+/// refresh_work_rotation, Interpreter::program_changed).
 struct Derived {
   uint8_t special = 0;            ///< Special bits: 0 in nearly every program
-  uint8_t high_accuracy = 0;      ///< high-accuracy control, whatever has turned it on (13.15): bits of HighAccuracy
-  uint8_t modal_call = 0;         ///< of the program that runs (CallFrame::modal_call)
+  uint8_t high_accuracy = 0;      ///< bits of HighAccuracy, whichever command has switched it on (13.15)
+  uint8_t modal_call = 0;         ///< CallFrame::modal_call of the program that runs
   bool mapped = false;            ///< a map of interpret/program_map.hpp is in force
-  bool work_turned = false;       ///< workpiece coordinates are rotated by parameter (13.21), as commanded or as reached ...
-  bool work_turn_pending = false; ///< ... and these two differ
+  bool work_turned = false;       ///< workpiece coordinates are rotated by parameter (13.21): in the rotation commanded or in the one reached
+  bool work_turn_pending = false; ///< the rotation commanded and the rotation reached differ
 };
 
 /// The open programs and loops. Only the first depth + 1 frames and loop_count loops are meaningful, and only these are copied into checkpoints.
 struct CallStack {
-  uint32_t codes_left = 0;      ///< bit d: the next block of level d has moved, and a modal call has run behind it; its M98 or M99 is left
+  uint32_t codes_left = 0;      ///< bit d: the next block of level d has moved and a modal call has run behind it; only its M98 or M99 is left
   uint8_t depth = 0;
   uint8_t loop_count = 0;
   CallFrame frame[kMaxFrames];
   Loop loop[kMaxLoops];
 };
 
-/// All groups but the call stack: small, of one size, copied at every block.
+/// All groups except the call stack: small, of fixed size, copied at every block.
 struct StateValues : BlockLife,
                      MachinePosition,
                      AppliedLength,
@@ -298,7 +300,7 @@ struct StateValues : BlockLife,
                      UntilPowerOff,
                      Derived {};
 
-/// Declares no member of its own: each is in exactly one group (tests/interpret/lifetimes_test.cpp).
+/// It has no members of its own: each member is in exactly one group (tests/interpret/lifetimes_test.cpp).
 struct State : StateValues, CallStack {
   /// Radius compensation is in force, in the plane or in space.
   bool compensated() const { return comp.side != 0 || space.on; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// See state_hash.hpp. Structs of the state have padding, whose bytes mean nothing, so it is taken member by member. A structured binding names all
-// members of its struct: one that is forgotten here does not compile.
+// See state_hash.hpp. Structs of the state have padding, whose bytes mean nothing, so they are hashed member by member. A structured binding names all members
+// of its struct, so that a forgotten member does not compile.
 #include "interpret/state_hash.hpp"
 
 #include <bit>
@@ -23,7 +23,8 @@ class Hash {
 
  private:
   void word(uint64_t bits) {
-    // A step of a linear congruential generator (its multiplier: Knuth, TAOCP 3.3.4), with the upper bits, which have seen most, brought down.
+    // A step of a linear congruential generator (its multiplier: Knuth, TAOCP 3.3.4). The upper bits, on which most input bits have acted, are then
+    // added to the lower ones.
     value_ = (value_ ^ bits) * 6364136223846793005u + 1442695040888963407u;
     value_ ^= value_ >> 32;
   }
@@ -134,7 +135,8 @@ class Hash {
   uint64_t value_ = 0;
 };
 
-/// All groups of the state. Not in it is what only counts on: the blocks, and the number of a point or an area that is held, for which its contents stand.
+/// Adds all groups of the state. Left out is what only counts up: the number of blocks, and the ids of a held point or an area, whose contents are added
+/// instead.
 void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   {
     const auto& [seq, repeat, owes_mark, stop_reading] = static_cast<const BlockLife&>(values);
@@ -186,7 +188,7 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     const auto& [clock_base, clock_shift_s, port_open] = static_cast<const UntilPowerOff&>(values);
     hash.add(clock_base, clock_shift_s, port_open);
   }
-  // Derived is made of the other groups, of the records and of the parameters.
+  // The group Derived follows from the other groups, the records and the parameters.
 }
 
 void add_calls(Hash& hash, const CallStack& stack) {
@@ -212,7 +214,7 @@ void add_parameters(Hash& hash, const Parameters& parameters) {
   ParameterValue value;
   int axis = 0;
   for (unsigned i = 0; parameters.at(i, &id, &axis, &value); ++i) {
-    hash.add(i, value.number);  // its id and axis stay, as all of them stand in the order in which they first were set
+    hash.add(i, value.number);  // the id and axis of entry i never change, so its number is enough
     if (const char* text = parameters.text(value)) {
       for (; *text != 0; ++text) hash.add(*text);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One number for all that a program can go by: the state of an interpreter and every table that blocks write.
+// One number for everything that decides how a program goes on: the state of an interpreter and every table that blocks write.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@ namespace nc {
 
 struct Interpreter;
 
-/// Two numbers that differ: a block could tell the two states apart, or what they name has been entered anew. The same number twice (but for one case in
-/// 2^64): as long as nothing from outside differs, what follows is the same. Looks at every variable, offset and parameter, so it is not for every block.
+/// When two hashes differ, a block could tell the two states apart, or something that the states name has been entered anew. When they are the same (chance
+/// apart, 1 in 2^64), the program goes on in the same way, as long as nothing from outside differs. The function reads every variable, offset and
+/// parameter, so it is not meant for every block.
 uint64_t state_hash(const Interpreter& in);
 
 }  // namespace nc

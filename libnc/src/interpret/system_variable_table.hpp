@@ -11,11 +11,11 @@ namespace nc {
 /// One access to one variable.
 struct Access {
   Interpreter& in;
-  uint32_t part, index;     ///< what of its meaning (dialect/variable_rows.hpp)
-  uint32_t number;          ///< for sentences about it only
-  Value* value = nullptr;   ///< read
-  uint32_t* sync = nullptr; ///< read: what is missing
-  double written = 0;       ///< write
+  uint32_t part, index;     ///< which part of its meaning is accessed (dialect/variable_rows.hpp)
+  uint32_t number;          ///< number of the variable, used only in alarms
+  Value* value = nullptr;   ///< reading: receives the value
+  uint32_t* sync = nullptr; ///< reading: receives the nc_sync_what bits that are missing
+  double written = 0;       ///< writing: the value
   const Statement* statement = nullptr;
 };
 
@@ -27,7 +27,7 @@ struct VariableHandler {
   SystemVariable what;
   VariableGet read;         ///< nullptr: cannot be read (P243)
   VariableSet write;        ///< nullptr: cannot be written (P243)
-  uint32_t sync;            ///< nc_sync_what: its value exists only when everything before has happened; 0 = read ahead
+  uint32_t sync;            ///< nc_sync_what bits: the value exists only when everything before has been executed; 0 = it is read ahead
 };
 
 inline Eval give(Access& a, double number) {
@@ -40,22 +40,22 @@ inline Eval no_variable(Access& a) {
   return Eval::fault;
 }
 
-/// The value exists only when everything before has happened: is the answer there?
+/// The value exists only when everything before has been executed: whether the answer is there. If not, *a.sync gets `what`.
 inline bool world_known(Access& a, uint32_t what) {
   if (a.in.world_fresh) return true;
   *a.sync = what;
   return false;
 }
 
-/// Part systems share the value: has the machine come to this block?
+/// Part systems share the value: whether the machine has come to this block. If not, *a.sync gets NC_SYNC_SHARED.
 inline bool shared_known(Access& a) {
   if (a.in.shared_known()) return true;
   *a.sync = NC_SYNC_SHARED;
   return false;
 }
 
-/// The whole number of units nearest to `value`, the half away from 0, whatever noise adding up has left on it. `unit` is a power of ten
-/// below 1: dividing by its inverse gives the double next to the decimal number, so that it compares and prints as that.
+/// The value rounded to whole units, a half away from 0; noise of adding up does not count. `unit` is a power of ten below 1; the result is divided by its
+/// inverse, which gives the double nearest to the decimal number, so that it compares and prints as that number.
 inline double whole_units(double value, double unit) {
   constexpr double kNoise = 1e-9;  // mm, inch, deg: a hundredth of the finest unit
   const double per_one = std::nearbyint(1 / unit);

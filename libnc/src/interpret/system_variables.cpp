@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// System variables (M700 13.5.5): each meaning has a reader and a writer. Which numbers have it is the family's table
+// System variables (M700 13.5.5): each meaning has a function that reads and one that writes it. The numbers of a meaning are in the family's table
 // (dialect/variable_rows.hpp).
 #include <cmath>
 #include <cstring>
@@ -17,15 +17,15 @@ bool reads_inch(const Interpreter& in, unsigned axis) {
   return in.state.modal.is(Function::inch) && ((in.rotary >> axis) & 1) == 0;
 }
 
-/// A position as a program reads it. It is a whole number of the setting unit #1003, the finest step that an axis can be commanded to or
-/// be read at (M700 2.1): what is left of sums of offsets, of maps and of the division by 25.4 is no place of the machine.
+/// A position as a program reads it: rounded to the setting unit #1003, the finest step in which an axis can be commanded or read (M700 2.1). So the
+/// rounding of sums of offsets, of maps and of the division by 25.4 does not show.
 double position_read(const Interpreter& in, unsigned axis, double mm) {
   const Settings& s = in.settings;
   if (reads_inch(in, axis)) return whole_units(mm / 25.4, s.setting_unit_inch);
   return whole_units(mm, ((in.rotary >> axis) & 1) != 0 ? s.setting_unit_deg : s.setting_unit_mm);
 }
 
-/// The same of an axis that may count within one turn: 359.9999 is 0 where the unit is 0.001.
+/// A position, as a program reads it, of an axis that may be counted within one turn: 359.9999 is 0 where the unit is 0.001.
 using Shown = AxisVec (*)(const BlockContext&, const AxisVec&);
 double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Shown shown) {
   if (((in.rotary >> axis) & 1) != 0) position[axis] = position_read(in, axis, position[axis]);
@@ -34,7 +34,7 @@ double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Sh
 
 // ---- macro interface (M700 13.5.5, tables 21036-22098) ------------------------------------------------------------------
 
-/// Word and bit of a bit of the interface: the part is the word that its range begins with.
+/// The word and bit of a variable that is one bit of the interface; a.part is the word with which its range begins.
 void interface_bit(const Access& a, uint32_t* word, uint32_t* bit) {
   *word = a.part + a.index / 32;
   *bit = a.index % 32;
@@ -53,7 +53,7 @@ Eval read_input_word(Access& a) {
 
 uint32_t output_word(const Interpreter& in, uint32_t word) { return in.records->output[word].bits; }
 
-/// Outputs change when the machine gets there: the interpreter keeps what it has read ahead, the action goes into the stream.
+/// Writes outputs. They change when the machine gets there, so an action goes into the stream, and the interpreter keeps the value that it has read ahead.
 Execution put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
   a.in.change(&ProgramRecords::output, word, InterfaceOutput{(output_word(a.in, word) & ~mask) | (bits & mask)});
   Action& action = a.in.emit(ItemKind::action).action;
@@ -72,7 +72,7 @@ Eval read_output_bit(Access& a) {
 Execution write_output_bit(Access& a) {
   uint32_t word = 0, bit = 0;
   interface_bit(a, &word, &bit);
-  // vacant = 0, any number other than 0 = 1; below 1e-8 the manual says "indefinite": here 0.
+  // Vacant is 0, and any number other than 0 is 1; for values below 1e-8 the manual says "indefinite", and here they are 0.
   return put_outputs(a, word, 1u << bit, std::fabs(a.written) < 1e-8 ? 0 : 1u << bit);
 }
 Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.index)); }
@@ -150,7 +150,7 @@ Execution write_message(Access& a) {
   return Execution::done;
 }
 
-/// Clocks of the program: with power on and in automatic operation.
+/// Counters of time: with power on, and in automatic operation.
 enum Counter : unsigned { kPowered, kRunning };
 
 double counter_ms(const Interpreter& in, Counter which) { return which == kPowered ? in.world.power_on_ms : in.world.run_ms; }
@@ -195,14 +195,14 @@ int64_t days_of(int64_t year, unsigned month, unsigned day) {
 
 int64_t clock_seconds(const Interpreter& in) { return in.world.clock_ms / 1000 + in.state.clock_shift_s; }
 
-/// The program sets its own clock, kept as a shift against the machine's.
+/// Sets the clock of programs, which is kept as its difference from the clock of the machine.
 Execution set_clock(Access& a, int64_t day, int64_t second_of_day) {
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   a.in.state.clock_shift_s += day * 86400 + second_of_day - clock_seconds(a.in);
   return Execution::done;
 }
 
-/// Six or eight digits, in pairs from the right (M700 10.18).
+/// A number of six or eight digits, split into pairs from the right (M700 10.18).
 struct Digits {
   unsigned high, middle, low;
 };
@@ -244,7 +244,7 @@ Eval read_time_of_day(Access& a) {
   return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
 }
 
-/// Workpieces machined, and their maximum (M700 10.13: positive). Macros of the maker write the first as -1, which is an option.
+/// Number of machined workpieces, and its maximum (M700 10.13: positive). Macros of machine makers write -1 as the first, which an option allows.
 Eval read_count(Access& a) { return give(a, a.in.records->workpieces.count[a.index]); }
 Execution write_count(Access& a) {
   constexpr double kMost = 999999;
@@ -256,7 +256,7 @@ Execution write_count(Access& a) {
   return Execution::done;
 }
 
-/// M700 13.5.5: the first takes 0 to 3, the second 0 to 7.
+/// The bits of #3003 and #3004. M700 13.5.5: the first takes 0 to 3, the second 0 to 7.
 struct ControlBits {
   uint8_t State::*bits;
   double end;
@@ -291,7 +291,7 @@ Eval give_group(Access& a, const ModalState& modal) {
 Eval read_group_ahead(Access& a) { return give_group(a, a.in.state.modal); }
 Eval read_group_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_group(a, a.in.finished_modal) : Eval::need_sync; }
 
-/// M700 10.10: the number that the name of the file is, "blank" where it is none.
+/// M700 10.10: the number that the name of the file stands for; where it is no number the variable is vacant ("blank").
 Eval give_program(Access& a, uint32_t number) {
   if (number != 0) return give(a, number);
   *a.value = Value{};
@@ -327,7 +327,7 @@ Eval read_extended_work(Access& a) {
 Eval read_word_ahead(Access& a) { return give_word(a, a.in.state.modal); }
 Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.finished_modal) : Eval::need_sync; }
 
-/// As the interrupt program was entered, and only in it (M700 13.12).
+/// The modal state when the interrupt program was entered, which can be read only in it (M700 13.12).
 Eval read_group_interrupt(Access& a) {
   return a.in.state.interrupt_depth != 0 ? give_group(a, a.in.interrupted_modal()) : no_variable(a);
 }
@@ -357,7 +357,7 @@ Eval read_machine(Access& a) {
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   return give(a, shown_position(a.in, a.index, axes_of(a.in.world.machine), machine_shown));
 }
-Eval read_work_position(Access& a) {  // with tool compensation in it (M700 10.11)
+Eval read_work_position(Access& a) {  // it includes tool compensation (M700 10.11)
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);
@@ -374,7 +374,7 @@ Eval read_compensation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   return give(a, position_read(a.in, a.index, a.in.state.applied[a.index]));
 }
-/// Behind a sync the machine is in position: the deviation that is left is below the in-position width.
+/// After a sync the machine is in position, so the deviation that is left is below the in-position width.
 Eval read_deviation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   return world_known(a, NC_SYNC_POSITION) ? give(a, 0) : Eval::need_sync;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A code of the vendor's that calls a function of the host (nc/vendor.h). The block is one that reads the world: a sync stands in the
-// stream before it, so that everything that the program has commanded so far has been executed when the function is called.
+// A code of the vendor that calls a function of the host (nc/vendor.h). The block waits for a sync, as one that reads the state of the machine, so that
+// everything that the program has commanded before has been executed when the function is called.
 #include <cstring>
 
 #include "dialect/text.hpp"
@@ -10,7 +10,7 @@
 namespace nc {
 namespace {
 
-/// The words that the function is given: all but the code itself, the G codes before it, and those without a value.
+/// The words that the function gets: all except the code itself, the G codes before it, and words without a value.
 Execution gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& words) {
   const auto& all = in.block->words;
   for (unsigned i = 0; i < all.size(); ++i) {
@@ -27,7 +27,7 @@ Execution gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word,
   return Execution::done;
 }
 
-/// What the program stops with unless the function says something else.
+/// Prepares the alarm with which the program stops, unless the function gives another one.
 void prepare_alarm(Interpreter& in, const Fault& fault) {
   const AlarmText text = alarm_text(*in.dialect, fault);
   in.vendor_alarm = nc_alarm{};
@@ -38,7 +38,7 @@ void prepare_alarm(Interpreter& in, const Fault& fault) {
   in.vendor_alarm.source = in.source;
 }
 
-/// Whatever it has written into them, texts end and an alarm has a code.
+/// Makes sure that the texts of the alarm are ended and that it has a code, whatever the function has written.
 void take_alarm(nc_alarm* alarm, const nc_alarm& prepared) {
   end_text(alarm->code, sizeof alarm->code);
   end_text(alarm->message, sizeof alarm->message);

@@ -42,8 +42,8 @@ void end_text(char* text, size_t size) {
   text[size - 1] = 0;
   size_t end = 0;
   while (text[end] != 0) ++end;
-  if (end + 1 < size) return;  // it has ended before
-  size_t behind = end;         // the first byte of the last character
+  if (end + 1 < size) return;  // the text does not fill its room
+  size_t behind = end;         // will be the first byte of the last character
   while (behind > 0 && (text[behind - 1] & 0xc0) == 0x80) --behind;
   if (behind == 0) return;
   const auto lead = static_cast<unsigned char>(text[behind - 1]);

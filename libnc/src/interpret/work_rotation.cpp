@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSame = 1e-9;  // mm
 
-/// Bits of the axes of a rotation that is one.
+/// Bits of the two axes of a rotation; 0 where it does not rotate.
 uint32_t plane_bits(const WorkTurn& turn) {
   return turn.turns() && turn.has_plane() ? 1u << turn.axis[0] | 1u << turn.axis[1] : 0u;
 }
@@ -42,7 +42,7 @@ void take_work_rotation(BlockContext& in, bool at_head) {
     turn.center[i] = s.work_turn_center[i];
     turn.axis[i] = axis(s.work_turn_axis[i], i);
   }
-  if (at_head) {  // nothing has been read that could be taken back
+  if (at_head) {  // no block has been read yet that could be taken back
     in.records.change_from_outside(&ProgramRecords::work_turn, WorkTurns{turn, turn});
   } else {
     in.change(&ProgramRecords::work_turn, &WorkTurns::commanded, turn);
@@ -86,7 +86,7 @@ Execution check_work_rotation(BlockContext& in) {
   const bool straight = is_line(motion) || motion == Function::thread || in.words.one_shot != nullptr ||
                         in.state.cycle.kind != CycleKind::none;
   if (!in.state.work_turn_pending || straight) return Execution::done;
-  // The start of the curve would not be turned, its end would.
+  // The end of the curve would be rotated, but its start not yet.
   const AxisVec start = in.position(), turned = from_program(in, to_program(in, start));
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (std::fabs(start[i] - turned[i]) > kSame) return in.raise(Condition::arc_deviation, Role::code);

@@ -6,7 +6,7 @@
 namespace nc {
 namespace {
 
-// M700 13.5.6. A name that begins with another one stands before it.
+// M700 13.5.6. A name that begins with another name of the table stands before it, so that it is found first.
 constexpr Keyword kFunctions[] = {
     {"ASIN", Op::asin}, {"ACOS", Op::acos}, {"ATAN", Op::atan}, {"ATN", Op::atan},    {"ABS", Op::abs},
     {"SIN", Op::sin},   {"SQRT", Op::sqrt}, {"SQR", Op::sqrt},  {"COS", Op::cos},     {"TAN", Op::tan},
@@ -90,7 +90,7 @@ bool ExpressionCompiler::product(unsigned depth, bool comparison_allowed) {
   }
 }
 
-/// One sign at most: --5 must be written -[-5] (M700 13.4 (1)).
+/// There may be one sign at most: --5 must be written -[-5] (M700 13.4 (1)).
 bool ExpressionCompiler::signed_operand(unsigned depth, bool comparison_allowed) {
   const char c = at_.peek();
   if (c != '-' && c != '+') return operand(depth, comparison_allowed, false);
@@ -113,7 +113,7 @@ bool ExpressionCompiler::operand(unsigned depth, bool comparison_allowed, bool n
     if (at_.peek() != '[') return fail(Condition::calculation);  // M700 13.5.6 (Note 3)
     return bracket(depth, false) && emit(op);
   }
-  // ']' too many, or the block ends before a '[' is closed.
+  // There is a ']' too many, or the block ends before a '[' is closed.
   const bool unpaired = depth == 0 ? c == ']' : at_.at_end();
   return fail(unpaired ? Condition::bracket_pair : Condition::calculation);
 }
@@ -134,8 +134,7 @@ bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
   return at_.accept(']') || fail(unclosed(Condition::calculation));
 }
 
-/// What is wrong where ']' should stand: it is missing altogether (M700 P281), or something else stands
-/// before it.
+/// The fault where a ']' is expected and does not stand: the ']' is missing altogether (M700 P281), or something else stands before it (`otherwise`).
 Condition ExpressionCompiler::unclosed(Condition otherwise) const {
   Cursor ahead = at_;
   for (ahead.skip(); !ahead.at_end(); ahead.skip()) {

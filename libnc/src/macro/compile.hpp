@@ -2,10 +2,10 @@
 // The expression compiler: text -> short stack code in the block that it stands in. Private to the lexer and
 // expression.hpp.
 //
-//   formula   = [sign] operand { operator [sign] operand }       + - OR XOR  below  * / MOD AND  below
-//   functions (M700 13.5.6) operand   = number | variable | '[' formula ']' | function '[' formula ']' | '['
-//   '#' NAME ']' variable  = '#' digits | '#' variable | '#' '[' formula ']' (M700 13.4 (1)) condition = '['
-//   formula (EQ NE GT LT GE LE) formula ']'                                      (M700 13.5.7)
+//   formula   = [sign] operand { operator [sign] operand }      binding: + - OR XOR weakest, then * / MOD AND, then functions (M700 13.5.6)
+//   operand   = number | variable | '[' formula ']' | function '[' formula ']' | '[' '#' NAME ']'
+//   variable  = '#' digits | '#' variable | '#' '[' formula ']'                                    (M700 13.4 (1))
+//   condition = '[' formula (EQ NE GT LT GE LE) formula ']'                                        (M700 13.5.7)
 #pragma once
 
 #include "macro/expression.hpp"
@@ -13,20 +13,20 @@
 
 namespace nc {
 
-/// Instructions of the stack machine; operands follow the byte.
+/// Instructions of the stack machine. The operands named here (u8: one byte, u16: two bytes, lowest first, ...) follow the byte of the instruction.
 enum class Op : uint8_t {
   end,
   constant,     ///< u8: push Block::constants[u8]
   small,        ///< i16: push
   variable,     ///< u24: push the value of this variable
-  load,         ///< number -> value of that variable
-  name,         ///< u16 u8: push the number of the variable with this name, a range of Block::text
-  named,        ///< u16 u8: push the value of the parameter of this name, a range of Block::text
-  name_for_writing,  ///< u16 u8: push the number of the parameter of this name, which is there from now on
-  exists,       ///< u16 u8: push whether a parameter of this name has a value
-  zero_for_vacant,
-  check_number,  ///< the number of a variable; leave it
-  negate,       ///< vacant becomes 0
+  load,         ///< replace the number of a variable by the value of that variable
+  name,         ///< u16 u8: push the number of the variable with a name; begin and length of the name in Block::text
+  named,        ///< u16 u8: push the value of the parameter with a name
+  name_for_writing,  ///< u16 u8: push the number of the parameter with a name; if there is none yet, make it
+  exists,       ///< u16 u8: push whether the parameter with a name has a value: 1 or 0
+  zero_for_vacant,  ///< replace a vacant value by 0
+  check_number,  ///< check that the value is the number of a variable, and leave it
+  negate,       ///< change the sign; vacant becomes 0
   negate_word,  ///< vacant stays vacant: X-#1 is ignored like X#1 (M700 13.5.4)
   add,
   subtract,
@@ -67,15 +67,15 @@ enum class Op : uint8_t {
   less_equal
 };
 
-/// Numbers of a stack that no expression of five brackets can exceed: two waiting operands per level, the one
-/// at work, and one to spare.
-inline constexpr unsigned kMaxBrackets = 5;  // M700 13.4 (Note 2)
-/// The same of RS-274/NGC, which names no bound: with five steps of binding, five operands wait per level.
+/// The most brackets that may be open at once: five in M700 13.4 (Note 2); RS-274/NGC names no bound.
+inline constexpr unsigned kMaxBrackets = 5;
 inline constexpr unsigned kMaxNgcBrackets = 10;
+/// Values of a stack that no expression can exceed: of each level (brackets, and outside of them) two operands can wait, in RS-274/NGC five, one for each
+/// step of binding; and a few more for the operand at work.
 inline constexpr unsigned kStackDepth = 5 * (kMaxNgcBrackets + 1) + 4;
 static_assert(kStackDepth >= 2 * (kMaxBrackets + 1) + 4);
 
-/// Vacant rules and M700's ranges leave any variable number to the reader; the code holds 24 bits.
+/// The largest variable number that the code can hold (24 bits). Which numbers exist is checked only when a variable is read or written.
 inline constexpr uint32_t kMaxVariable = 0xffffff;
 
 struct Keyword {
@@ -94,7 +94,7 @@ bool accept_keyword(Cursor& at, const Keyword (&table)[N], Op* op) {
   return false;
 }
 
-/// True when a function name and '[' stand here: XSIN[30].
+/// True when the name of a function and '[' stand here, as in XSIN[30].
 bool starts_function(Cursor at, Formula formula);
 
 class ExpressionCompiler {
@@ -103,15 +103,15 @@ class ExpressionCompiler {
 
   static bool starts_ngc_function(Cursor at);
 
-  /// A formula; stops at the first character that cannot go on with it.
+  /// A formula, up to the first character that cannot belong to it.
   bool expression(uint16_t* code) { return start(code) && (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end); }
-  /// The value of a word, without brackets around it: only the four operators may stand in it, and a sign in front belongs to the word.
+  /// The value of a word without brackets around it: only + - * / may stand in it, and a sign at its head belongs to the word.
   bool word_value(uint16_t* code);
   /// '[' formula comparison formula ']'
   bool condition(uint16_t* code);
-  /// Formula, or formula comparison formula, with or without brackets around it.
+  /// A formula, or two formulas with a comparison between them, with or without brackets around it.
   bool expression_or_condition(uint16_t* code);
-  /// '#' ..., or [#NAME]: code that gives the number of the variable and not its value.
+  /// '#' ..., or [#NAME]: code that gives the number of the variable, and not its value.
   bool variable_number(uint16_t* code);
 
   const Fault& fault() const { return fault_; }
@@ -147,7 +147,7 @@ class ExpressionCompiler {
   Cursor& at_;
   Fault fault_;
   const bool ngc_;
-  bool word_ = false;      ///< unbracketed in a word
+  bool word_ = false;      ///< the value of a word without brackets is being compiled
   bool compared_ = false;  ///< a comparison has been compiled
 };
 

@@ -2,10 +2,10 @@
 // Expressions of RS-274/NGC 3.3.2.3 and 3.3.2.4, with LinuxCNC's comparisons and named parameters. What differs from macro/compile.cpp:
 //
 //   * outside of [ ] a value is a number, a parameter, an expression in brackets or a function, never a formula: X1+2 is an error;
-//   * operators bind in five steps: **, then * / MOD, then + -, then EQ NE GT GE LT LE, then AND OR XOR, which know true and false only;
-//     of one step the left one comes first, ** included;
-//   * ATAN has two arguments, ATAN[y]/[x]; FIX goes down and FUP up, also below 0; MOD is never negative;
-//   * a parameter without a value is 0, a named one without a value is an error.
+//   * operators bind in five steps: ** first, then * / MOD, then + -, then EQ NE GT GE LT LE, then AND OR XOR, which only know true and false;
+//     operators of the same step are executed from left to right, ** included;
+//   * ATAN has two arguments, ATAN[y]/[x]; FIX rounds down and FUP up, also below 0; MOD is never negative;
+//   * a parameter without a value counts as 0; a named parameter without a value is an error.
 #include "alarm/condition.hpp"
 #include "macro/compile.hpp"
 
@@ -16,7 +16,7 @@ constexpr Keyword kFunctions[] = {{"ACOS", Op::acos}, {"ASIN", Op::asin}, {"ATAN
                                   {"EXISTS", Op::exists}, {"EXP", Op::exp}, {"FIX", Op::floor}, {"FUP", Op::ceil}, {"LN", Op::ln},
                                   {"ROUND", Op::round}, {"SIN", Op::sin}, {"SQRT", Op::sqrt}, {"TAN", Op::tan}};
 
-/// Steps of binding, the weakest first.
+/// Steps of binding, from the weakest to the strongest.
 enum Step : unsigned { kLogic, kComparison, kSum, kProduct, kPower, kSteps };
 struct Operator {
   const char* text;
@@ -31,7 +31,7 @@ constexpr Operator kOperators[] = {
     {"**", Op::power, kPower}, {"*", Op::multiply, kProduct}, {"/", Op::divide, kProduct}, {"MOD", Op::remainder, kProduct},
 };
 
-/// The operator here, if it is one of `step`.
+/// Takes the operator that comes next, if it belongs to `step`.
 bool accept_operator(Cursor& at, unsigned step, Op* op) {
   for (const Operator& row : kOperators) {
     const Cursor before = at;
@@ -97,8 +97,8 @@ bool ExpressionCompiler::ngc_bracket(unsigned depth) {
   return at_.accept(']') || fail(unclosed(Condition::calculation));
 }
 
-/// Behind '#': the value of the parameter whose number, or name, stands here; each further '#' takes the value before it as a number. They are
-/// counted and not followed by a call each: a line of nothing else must not need the stack of a firmware.
+/// Behind '#': the value of the parameter whose number or name stands here; each further '#' takes the value as the number of another parameter. The '#' are
+/// counted in a loop and not by recursion, so that a line with very many of them does not overflow the small stack of a firmware.
 bool ExpressionCompiler::ngc_parameter(unsigned depth) {
   unsigned more = 0;
   while (at_.accept('#')) ++more;
@@ -116,7 +116,7 @@ bool ExpressionCompiler::ngc_parameter(unsigned depth) {
   return good;
 }
 
-/// A number of a parameter that is a value itself: ##2, #[1+2].
+/// The number of a parameter where it is a value itself: ##2, #[1+2].
 bool ExpressionCompiler::ngc_number(unsigned depth) {
   const char c = at_.peek();
   if (c == '[') return ngc_bracket(depth);
@@ -132,7 +132,7 @@ bool ExpressionCompiler::ngc_index(uint32_t* number) {
   return true;
 }
 
-/// <name>, in capitals and without blanks in Block::text.
+/// A <name>; it is put into Block::text in capitals and without blanks.
 bool ExpressionCompiler::ngc_name(Op op) {
   if (!at_.accept('<')) return fail(Condition::variable_name);
   const unsigned begin = block_.text.size();

@@ -13,9 +13,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
-/// Relative difference that a control with some ten digits (M700 13.5.6, table of accuracy) does not see.
+/// Relative difference that a control which calculates with about ten digits (M700 13.5.6, table of accuracy) does not notice.
 constexpr double kNoise = 1e-9;
-constexpr double kLargestNoise = 1e-4;  ///< cap, so that large numbers keep their visible fractions
+constexpr double kLargestNoise = 1e-4;  ///< upper limit of it, so that large numbers keep their visible fractions
 
 double noise(double x) {
   const double scale = std::fabs(x) > 1 ? std::fabs(x) : 1;
@@ -38,8 +38,8 @@ double round_half_away(double x) {
   return x < 0 ? 0 - whole : whole;
 }
 
-/// sin and cos of degrees, exact at multiples of 30 where the value is 0, +-1/2 or +-1: reduced to [-45, 45]
-/// degrees first.
+/// Sine and cosine of an angle in degrees, which is reduced to [-45, 45] degrees first. They are exact at multiples of 30 degrees where the value is 0, +-1/2
+/// or +-1.
 void sine_cosine(double degrees, double* sine, double* cosine) {
   double r = std::fmod(degrees, 360.0);
   const double quarter = std::nearbyint(r / 90.0);
@@ -64,15 +64,14 @@ void sine_cosine(double degrees, double* sine, double* cosine) {
   *cosine += 0.0;
 }
 
-/// Angle in degrees. A result that is a whole number of degrees but for the last bits is that number:
-/// ACOS[0.5] is 60.
+/// Angle in degrees. A result that differs from a whole number of degrees only in its last bits becomes that number: ACOS[0.5] is 60.
 double to_degrees(double radians) {
   const double degrees = radians / kDegree;
   const double whole = std::nearbyint(degrees);
   return std::fabs(degrees - whole) <= 1e-13 * std::fabs(whole) ? whole : degrees;
 }
 
-/// A 32-bit pattern, unsigned or two's complement. False when the value is none.
+/// The value as a pattern of 32 bits, unsigned or two's complement. False when it does not fit.
 bool to_bits(double x, int64_t* bits) {
   const double whole = fix(x);
   if (!(whole >= INT32_MIN && whole <= UINT32_MAX)) return false;
@@ -111,13 +110,12 @@ bool binary_to_bcd(double x, double* result) {
   return true;
 }
 
-/// x is 1 but for the noise of a calculation: taken as 1, so that ASIN[1] found by calculation is not an
-/// error.
+/// An x that is above 1 only by the noise of a calculation is taken as 1, so that ASIN of a calculated 1 is not an error.
 double clip_to_one(double x) {
   return std::fabs(x) > 1 && std::fabs(x) - 1 < kNoise ? std::copysign(1.0, x) : x;
 }
 
-/// none = *result is good.
+/// Calculates a function. Condition::none = *result is valid.
 Condition function(Op op, double x, const EvalOptions& options, double* result) {
   double sine = 0, cosine = 0;
   switch (op) {
@@ -166,7 +164,7 @@ Condition function(Op op, double x, const EvalOptions& options, double* result) 
     case Op::fup:
       *result = fup(x);
       return Condition::none;
-    case Op::floor:  // as FIX does, what is whole but for noise is whole
+    case Op::floor:  // as with FIX, a value that is whole except for noise counts as whole
       *result = std::floor(x + noise(x));
       return Condition::none;
     case Op::ceil:
@@ -184,13 +182,13 @@ Condition function(Op op, double x, const EvalOptions& options, double* result) 
   }
 }
 
-/// Remainder with the sign of the dividend; a remainder that is the divisor but for noise is 0.
+/// Remainder with the sign of the dividend; a remainder that equals the divisor except for noise is 0.
 double modulo(double a, double b) {
   const double r = std::fmod(a, b);
   return std::fabs(b) - std::fabs(r) <= 1e-12 * std::fabs(a) ? 0.0 : r;
 }
 
-/// *culprit: the operand that has no result.
+/// Calculates an operator. *culprit: the operand because of which there is no result.
 Condition binary(Op op, double a, double b, double* result, double* culprit) {
   int64_t m = 0, n = 0;
   *culprit = b;
@@ -217,7 +215,7 @@ Condition binary(Op op, double a, double b, double* result, double* culprit) {
       *result = modulo(a, b);
       if (*result < 0) *result += std::fabs(b);
       return Condition::none;
-    case Op::power:  // what is no number, or none that is finite, is refused as every result is
+    case Op::power:  // a result that is not finite is refused by the caller, as with every operator
       *result = std::pow(a, b);
       return Condition::none;
     case Op::logic_and:
@@ -244,26 +242,26 @@ Condition binary(Op op, double a, double b, double* result, double* culprit) {
   return Condition::none;
 }
 
-/// Numbers that differ by this or less compare as equal. What a program compares are decimal numbers of at most 12 digits (M700 5.3: below
-/// 100000 in units of 1e-6 mm, below 10000 in units of 1e-7 inch), and what calculating with them leaves:
-///   * the difference of two positions, of whatever size: a few units in the last place of 100000, 1.5e-11 each. Where it should be 0 its
-///     own size says nothing, so there is a floor: 1e-9 is 68 of them, and a hundredth of the finest unit.
-///   * a chain of calculations: half a unit in the last place for each step, 2^-53 of the value. 2^-40 is 8192 steps, and still less than a
-///     tenth of the finest unit at the end of the range of positions (9.1e-8 of 1e-6 mm, 9.1e-9 of 1e-7 inch).
-/// FIX and FUP see at least as much as whole: what EQ finds equal to a whole number has that number as its FIX and FUP.
+/// Numbers that differ by this or less compare as equal. Programs compare decimal numbers of at most 12 digits (M700 5.3: below 100000 in units of 1e-6 mm,
+/// below 10000 in units of 1e-7 inch), and results of calculations with them, which have rounding errors:
+///   * The difference of two positions, which may be large, is off by a few units in the last place of 100000, 1.5e-11 each. Where it should be 0 the
+///     error cannot be measured by the size of the result, so there is a lower limit: 1e-9 is 68 such units, and a hundredth of the finest unit.
+///   * A chain of calculations adds half a unit in the last place for each step, 2^-53 of the value. 2^-40 allows for 8192 steps, and is still less than
+///     a tenth of the finest unit at the end of the range of positions (9.1e-8 for 1e-6 mm, 9.1e-9 for 1e-7 inch).
+/// FIX and FUP allow for at least as much: the FIX and the FUP of a value that EQ finds equal to a whole number are that number.
 double sameness(double x, double y) {
   constexpr double kFloor = 1e-9, kShare = 0x1p-40;
   const double width = kShare * std::fmax(std::fabs(x), std::fabs(y));
   return width < kFloor ? kFloor : width < kLargestNoise ? width : kLargestNoise;
 }
 
-/// -1, 0, 1: exactly one of LT, EQ and GT holds, and the other three are what their names say of these.
+/// -1, 0 or 1 for LT, EQ or GT, of which exactly one holds. LE, GE and NE follow from these three.
 int order(double x, double y) {
   if (x == y || std::fabs(x - y) <= sameness(x, y)) return 0;
   return x < y ? -1 : 1;
 }
 
-/// M700 13.5.4 (3): vacant and 0 differ for EQ and NE only.
+/// M700 13.5.4 (3): vacant and 0 differ only for EQ and NE.
 bool compare(Op op, const Value& a, const Value& b) {
   const int is = order(a.or_zero(), b.or_zero());
   switch (op) {
@@ -291,7 +289,7 @@ Eval fail(Fault* fault, Condition condition, double value, const char* function 
   return Eval::fault;
 }
 
-/// As it is written.
+/// The name of an operator or function as it is written in a program.
 const char* name_of(Op op) {
   static constexpr const char* kNames[] = {"+",    "-",    "OR",  "XOR", "*",   "/",     "MOD", "**", "MOD", "AND", "OR", "XOR", "ATAN", "AND", "SIN", "COS", "TAN", "ASIN",
                                            "ACOS", "ATAN", "SQRT", "ABS", "BIN", "BCD", "ROUND", "FIX", "FUP", "FIX", "FUP", "LN",  "EXP"};
@@ -299,7 +297,7 @@ const char* name_of(Op op) {
   return kNames[static_cast<unsigned>(op) - static_cast<unsigned>(Op::add)];
 }
 
-/// Room for values that are written before they are read: clearing it would take longer than most formulas.
+/// The stack of values. It is not cleared, because that would take longer than most formulas; every value is written before it is read.
 struct ValueStack {
   ValueStack() {}
   union {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The journal that can undo what was written while reading ahead: what stood in each place before a block wrote to it. Places are named by keys;
-// what a key stands for and of which type its value is, its table knows (macro/variables.hpp, interpret/journal_keys.hpp).
+// The journal, by which everything that was written while reading ahead can be undone: it keeps the value that each place had before a block wrote to it.
+// Places are named by keys; which place a key stands for, and the type of its value, is known to the table of the place (macro/variables.hpp,
+// interpret/journal_keys.hpp).
 #pragma once
 
 #include <cstring>
@@ -11,8 +12,8 @@
 
 namespace nc {
 
-/// The value of a place: its bytes, at most eight, with zeros behind them, and for places that take values of several kinds the kind, by a
-/// number of their table's own.
+/// The value of a place: its bytes, at most eight, filled up with zeros; and for places that can have values of several kinds a number for the kind, which
+/// their table defines.
 struct JournalValue {
   uint64_t bytes = 0;
   uint8_t kind = 0;
@@ -34,38 +35,38 @@ struct JournalValue {
   }
 };
 
-/// Old values by the block that overwrote them; bounded: the oldest entries go first, and with them the
-/// ability to rewind that far.
+/// Old values, with the block that overwrote each of them. The room is limited: the oldest entries are lost first, and then a rewind cannot go back that
+/// far.
 class Journal {
  public:
   void create(unsigned capacity, Arena& arena);  ///< capacity: power of two
   void note(BlockSeq seq, uint32_t key, JournalValue old);
-  BlockSeq oldest() const;  ///< rewinding to seq >= oldest() - 1 is possible
-  /// Rewinding to `seq` is possible, and still will be after `more` notes.
+  BlockSeq oldest() const;  ///< a rewind to seq >= oldest() - 1 is possible
+  /// A rewind to `seq` is possible, and will still be possible after `more` notes.
   bool keeps(BlockSeq seq, unsigned more) const;
-  /// Takes entries newer than `seq` back, newest first, through `undo`.
+  /// Takes the entries of blocks after `seq` back, newest first: undo(key, old value) is called for each.
   template <class Undo>
   void rewind(BlockSeq seq, Undo&& undo);
-  /// Entries newer than `seq` change places with what they speak of, newest first (back), or oldest first, which undoes exactly that.
-  /// exchange(key, value) puts a value in place and gives what was there.
+  /// Exchanges the values in the entries of blocks after `seq` with those in their places: newest first (`back`), or oldest first, which undoes exactly
+  /// that. exchange(key, value) puts a value into its place and returns the value that was there.
   template <class Exchange>
   void swap(BlockSeq seq, bool back, Exchange&& exchange);
   void clear();
-  /// Someone outside the program has changed `key`: whatever is taken back from now on, it keeps this value. `mask` has a 1 for each bit of
-  /// the value that has been changed, where it holds more than that.
+  /// The place `key` was changed from outside the program: it keeps this value, whatever is taken back from now on. `mask` has a 1 for each bit that was
+  /// changed, where only some bits of the value were.
   void replace(uint32_t key, JournalValue value, uint64_t mask = ~uint64_t{0});
 
-  // ---- of several part systems
-  /// Blocks up to `executed` have been executed: give(seq, key, before, value) is called for each key of theirs that is shared(key), with the
-  /// block, what stood there before it and the value that it has left, nullptr where that is the present one. Once for each entry.
+  // ---- for several part systems
+  /// The machine has executed the blocks up to `executed`. For each of their entries whose key is shared(key), give(seq, key, before, value) is called: with
+  /// the block, the value before it, and the value that it has left, nullptr where that is the present value.
   template <class Shared, class Give>
   void publish(BlockSeq executed, Shared&& shared, Give&& give);
-  /// Another part system has executed a write to `key` before the blocks of this journal that are not published: no rewind brings an older value
-  /// back. False: one of those blocks writes `key`, and what it has written stays.
+  /// Another part system has written `value` to `key`, and this was executed before the blocks of this journal that are not published yet. So a rewind
+  /// must bring back this value and no older one. False: one of those blocks has written `key` later, and the value in place stays.
   bool precede(uint32_t key, JournalValue value);
-  /// The value that `key` has behind the published blocks; `present` is the one that it has now.
+  /// The value that `key` has after the published blocks; `present` is the one that it has now.
   JournalValue published(uint32_t key, JournalValue present) const;
-  /// Called with the block of an entry that is not published yet and is going to be lost.
+  /// Sets a function that is called with the block of an entry which is not published yet and is about to be lost.
   void before_loss(void* self, void (*call)(void* self, BlockSeq seq)) {
     loser_ = self;
     before_loss_ = call;
@@ -88,7 +89,7 @@ class Journal {
   uint32_t mask_ = 0;
   uint64_t head_ = 0, tail_ = 0;
   BlockSeq lost_ = 0;
-  uint64_t published_ = 0;  ///< entries below this number are
+  uint64_t published_ = 0;  ///< entries with a number below this are published
   void* loser_ = nullptr;
   void (*before_loss_)(void* self, BlockSeq seq) = nullptr;
 };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A struct every change of which is journalled. It can be read like any other (records->figure.angle) and there is no way to write to it but
-// the two below, each of which tells the journal, and the way back that a rewind takes. A record is changed whole or by one of its fields; what goes into the
-// journal are the words of eight bytes that differ, so a record may have fields of any types that can be copied byte by byte. (Where a record has
-// padding, that is written with it.)
+// A struct of which every change is journalled. It can be read like any other struct (records->figure.angle), but it can be written only by change() and
+// change_from_outside(), which tell the journal, and by a rewind. A record is changed as a whole or in one of its fields. The journal gets the words of
+// eight bytes that differ, so a record may have fields of any types that can be copied byte by byte. (Padding of a record is written with it.)
 #pragma once
 
 #include <concepts>
@@ -12,15 +11,15 @@
 
 namespace nc {
 
-/// `Owner` is the one who rewinds the journal.
+/// `Owner` is the class that rewinds the journal.
 template <class T, class Owner>
 class Journalled {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(uint64_t) == 0);
   template <class Base>
-  static constexpr bool kHolds = std::derived_from<T, Base>;  // T is made of groups: a pointer to a member of a group is one to a member of T
+  static constexpr bool kHolds = std::derived_from<T, Base>;  // T inherits groups, so a pointer to a member of a group can be used for T
 
  public:
-  /// Words are journalled under `first_key` and the keys behind it, as many as words() says.
+  /// The words are journalled under the keys first_key to first_key + words() - 1.
   void create(Journal* journal, uint32_t first_key, Arena& arena) {
     value_ = arena.make<T>();
     journal_ = journal;
@@ -30,10 +29,10 @@ class Journalled {
 
   const T* operator->() const { return value_; }
   const T& operator*() const { return *value_; }
-  /// How often anything has been changed, by a rewind as well: what is made of the records holds as long as this stays.
+  /// How often anything has been changed, also by a rewind. What has been calculated from the records stays valid as long as this number stays.
   uint64_t changes() const { return changes_; }
 
-  // ---- by block `seq`: a rewind to a block before it takes the change back
+  // ---- changes by block `seq`: a rewind to a block before it takes them back
   template <class Record, class Group>
   requires kHolds<Group>
   void change(BlockSeq seq, Record Group::*record, const std::type_identity_t<Record>& value) {
@@ -44,14 +43,14 @@ class Journalled {
   void change(BlockSeq seq, Record Group::*record, Field Part::*field, const std::type_identity_t<Field>& value) {
     write(value_->*record.*field, value, Journalling{seq, false});
   }
-  /// One of several.
+  /// Changes one record of an array.
   template <class Record, size_t count, class Group>
   requires kHolds<Group>
   void change(BlockSeq seq, Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value) {
     write((value_->*records)[index], value, Journalling{seq, false});
   }
 
-  // ---- by no block: no rewind takes it back, whichever block has changed the same before
+  // ---- changes from outside of the program: no rewind takes them back, also where blocks have changed the same record before
   template <class Record, class Group>
   requires kHolds<Group>
   void change_from_outside(Record Group::*record, const std::type_identity_t<Record>& value) {
@@ -62,7 +61,7 @@ class Journalled {
   void change_from_outside(Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value) {
     write((value_->*records)[index], value, Journalling{0, true});
   }
-  /// Bit by bit: those that `mask` has. The others stay what they are, and what a rewind makes of them stays so, too.
+  /// Changes only the bits that are set in `mask`. The other bits are not changed, and a rewind may still change them.
   template <class Record, size_t count, class Group>
   requires kHolds<Group>
   void change_bits_from_outside(Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value,
@@ -78,7 +77,7 @@ class Journalled {
     bool outside;
   };
 
-  /// For a rewind, and for a look at how things were (Journal::rewind, swap): what stood in a word is in it again. What has been in it.
+  /// For Journal::rewind() and swap(): puts `value` into a word and returns the value that was in it.
   JournalValue exchange(uint32_t word, JournalValue value) {
     const JournalValue old{load(word)};
     store(word, value.bytes);
@@ -90,7 +89,7 @@ class Journalled {
     const auto begin = static_cast<size_t>(reinterpret_cast<const char*>(&field) - reinterpret_cast<const char*>(value_));
     write(begin, reinterpret_cast<const char*>(&value), sizeof value, how, reinterpret_cast<const char*>(bits));
   }
-  /// `bits`: those that are written; null = all.
+  /// `bits`: which bits are written; nullptr = all.
   void write(size_t begin, const char* bytes, size_t size, Journalling how, const char* bits = nullptr) {
     constexpr size_t kWord = sizeof(uint64_t);
     for (size_t at = begin, end = begin + size; at < end;) {
@@ -108,7 +107,7 @@ class Journalled {
   }
   void write_word(uint32_t word, uint64_t now, uint64_t then, uint64_t mask, Journalling how) {
     const uint32_t key = first_key_ + word;
-    // From outside also what is so already: an older value could still come back.
+    // A change from outside is told to the journal even where the value is the same already: a rewind could still bring an older value back.
     if (how.outside) journal_->replace(key, JournalValue{then}, mask);
     if (now == then) return;
     if (!how.outside) journal_->note(how.seq, key, JournalValue{now});

@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-/// Vacant in storage: a NaN. No calculation stores one, the evaluator refuses results that are not finite.
+/// A vacant variable is stored as a NaN. No calculation stores one, because the evaluator refuses results that are not finite.
 constexpr double kVacant = std::numeric_limits<double>::quiet_NaN();
 
 bool is_vacant(double stored) {

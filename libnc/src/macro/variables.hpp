@@ -11,17 +11,17 @@
 namespace nc {
 
 inline constexpr unsigned kLocals = 33;      ///< #1..#33
-inline constexpr unsigned kNames = 20;       ///< #500..#519 can have a name (M700 13.5.5)
-inline constexpr unsigned kNameLength = 7;   ///< characters
-/// A name with zeros behind it; empty = none.
+inline constexpr unsigned kNames = 20;       ///< number of variables that can have a name: #500..#519 (M700 13.5.5)
+inline constexpr unsigned kNameLength = 7;   ///< most characters of a name
+/// A name, filled up with zeros; empty = none.
 struct VariableName {
   char text[kNameLength + 1] = {};
   bool operator==(const VariableName&) const = default;
 };
 inline constexpr unsigned kLocalLevels = 5;  ///< main program and four macro levels (M700 13.5.2)
 
-/// Which common variables exist (M700 13.4): those of the option `variable_sets`, #900000 up of later models, and what else the machine has.
-/// They are apart from one another.
+/// Which common variables exist (M700 13.4): two ranges by the option nc_config::variable_sets, #900000 up of later models, and the further ranges of the
+/// machine. The ranges do not overlap.
 struct CommonRanges {
   static constexpr unsigned kCount = 3 + NC_VARIABLE_RANGES, kExtended = 2;
   uint32_t first[kCount] = {100, 500, 900000};
@@ -29,14 +29,13 @@ struct CommonRanges {
   uint32_t size(unsigned i) const { return first[i] == 0 || last[i] < first[i] ? 0 : last[i] - first[i] + 1; }
 };
 
-/// Common variables as one part system sees them, with storage for those that are configured: its own, and its copy of those that part systems
-/// share (interpret/shared_tables.hpp).
+/// The common variables of one part system: those of its own, and its copy of those that all part systems share (interpret/shared_tables.hpp).
 class CommonVariables {
  public:
   void create(const CommonRanges& ranges, Arena& arena);
   const CommonRanges& ranges() const { return ranges_; }
   bool exists(uint32_t number) const;
-  /// It is one of #100 up or #500 up, which the parameters of 13.4 divide among part systems.
+  /// The variable belongs to the ranges #100 up and #500 up, of which parameters decide what part systems share (13.4).
   bool divided(uint32_t number) const {
     for (unsigned i = 0; i < CommonRanges::kExtended; ++i)
       if (number - ranges_.first[i] < size_[i]) return true;
@@ -52,7 +51,7 @@ class CommonVariables {
 
  private:
   CommonRanges ranges_;
-  unsigned used_ = 0;      ///< no range behind these has a variable
+  unsigned used_ = 0;      ///< number of ranges up to the last one that is not empty
   uint32_t size_[CommonRanges::kCount] = {};
   double* slot_[CommonRanges::kCount] = {};
   VariableName name_[kNames];
@@ -62,29 +61,29 @@ class CommonVariables {
 class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
-  /// Of several part systems all share the common variables up to `last_100` and `last_500` (M700 13.4, #1303, #1304), as they do those of later
-  /// models and of further ranges, and the names.
+  /// Where there are several part systems, they share the common variables from #100 to `last_100` and from #500 to `last_500` (M700 13.4, #1303, #1304), and
+  /// all those of later models and of further ranges, and the names.
   void share(uint32_t last_100, uint32_t last_500) {
     shared_100_ = last_100;
     shared_500_ = last_500;
   }
   uint32_t shared_100() const { return shared_100_; }
   uint32_t shared_500() const { return shared_500_; }
-  /// The variable is one that part systems share, or the key is that of such a variable or of a name.
+  /// The key is that of a variable which part systems share, or of a name.
   bool shares(uint32_t key) const {
     if (key >= kNameKey) return key < kLocalKey;
     if (!common_->exists(key)) return false;
     return !common_->divided(key) || key <= (key < 500 ? shared_100_ : shared_500_);
   }
-  /// How a variable's value stands in the journal, and back.
+  /// The value of a variable as it is written into the journal, and back.
   static JournalValue journalled(Value value) { return JournalValue::of(value.number, value.vacant ? kVacantKind : kNumberKind); }
   static Value variable(JournalValue value) { return {value.as<double>(), value.kind == kVacantKind}; }
   /// The key of a variable's name.
   static uint32_t name_key(uint32_t number);
-  /// What a key stands for now; a foreign one is the caller's.
+  /// The present value of the place that a key stands for. The key must not be a foreign one.
   JournalValue value_of(uint32_t key) const;
   Journal& journal() { return journal_; }
-  /// Journal::precede() for a key that is not foreign, with the value in place where it counts from now on.
+  /// Journal::precede() for a key that is not foreign; where the value counts from now on, it is put into its place.
   void take_published(uint32_t key, JournalValue value) {
     if (journal_.precede(key, value)) put(key, value);
   }
@@ -95,22 +94,22 @@ class Variables {
   bool get(uint32_t number, unsigned level, Value* value) const;
   bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
 
-  /// The stored #1..#33 of a level: NaN = vacant.
+  /// The local variables #1..#33 of a level as they are stored: NaN = vacant.
   const double* locals(unsigned level) const { return local_[level]; }
-  /// Locals of `level` become `arguments` (33 values).
+  /// Sets the 33 local variables of `level` to `arguments`.
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
-  /// rewind(seq) is possible, and still will be when one more block has been executed.
+  /// rewind(seq) is possible, and will still be possible when one more block has been executed.
   bool keeps(BlockSeq seq) const { return journal_.keeps(seq, kMostWrites); }
-  static constexpr unsigned kMostWrites = 512;  ///< of a block: each of its words and statements writes a few numbers
+  static constexpr unsigned kMostWrites = 512;  ///< the most writes of one block: each of its words and statements writes a few numbers
   void clear_locals(BlockSeq seq);
 
-  /// SETVN: capitals and digits, 1..kNameLength of them; false when the variable cannot have a name.
+  /// SETVN: a name of 1 to kNameLength capitals and digits; false when the variable cannot have a name.
   bool set_name(uint32_t number, const char* name, size_t length, BlockSeq seq);
-  /// The same by the host, NUL-terminated; "" takes the name away. No rewind undoes it.
+  /// A name given by the host, ended by a NUL; "" takes the name away. No rewind undoes it.
   bool name_from_outside(uint32_t number, const char* name);
   bool find_name(const char* name, size_t length, uint32_t* number) const;
 
-  /// Programs of this family name parameters themselves. They have numbers that no program can write.
+  /// For families whose programs name parameters themselves. Inside, these have numbers that a program cannot write.
   void create_named(Arena& arena) { named_.create(arena); }
   const NamedParameters& named() const { return named_; }
   bool find_named(const char* name, size_t length, bool make, uint32_t* number) {
@@ -118,14 +117,12 @@ class Variables {
     *number += kFirstNamed;
     return true;
   }
-  /// The name of a variable, without end; 0 = none. `name` has kNameLength places.
+  /// The name of a variable, without a NUL; returns its length, 0 = none. `name` has room for kNameLength characters.
   unsigned name_of(uint32_t number, char* name) const;
 
-  /// Journal key for something that is not a variable (offset tables, parameters): the owner undoes it in
-  /// rewind().
+  /// Journals the old value of a place that is not a variable (an offset table, a parameter); its owner undoes it in rewind().
   void note(BlockSeq seq, uint32_t key, JournalValue old) { journal_.note(seq, key, old); }
-  /// A write that no block made (the host's): rewind() keeps it. For a foreign key the caller has changed it
-  /// already.
+  /// A write by the host and not by a block, which rewind() keeps. For a foreign key (changed_from_outside) the caller has changed the place already.
   bool set_from_outside(uint32_t number, unsigned level, Value value);
   void changed_from_outside(uint32_t key, JournalValue value) { journal_.replace(key, value); }
   /// A run begins: its blocks count from 0 again, and nothing from before can be taken back.
@@ -135,15 +132,14 @@ class Variables {
   }
   static constexpr uint32_t kForeignKey = 0x40000000;  ///< keys from here on belong to the caller
 
-  /// Undo every write made by blocks after `seq`; false when the journal does not reach back that far.
-  /// foreign(self, key, old) is called for foreign keys.
+  /// Undoes every write by blocks after `seq`; false when the journal does not reach back that far. foreign(self, key, old) is called for foreign keys.
   bool rewind(BlockSeq seq, void* self, void (*foreign)(void* self, uint32_t key, JournalValue old));
-  /// Everything is as blocks up to `seq` have left it (back), and as it was before that: nothing may be written in between. For foreign
-  /// keys foreign(self, key, value) exchanges.
+  /// If `back` is true, sets everything to the values after block `seq`. If it is false, sets everything to the present values again, provided that nothing
+  /// was written in between. For foreign keys foreign(self, key, value) exchanges the values.
   void swap(BlockSeq seq, bool back, void* self, JournalValue (*foreign)(void* self, uint32_t key, JournalValue value));
 
  private:
-  // Journal keys of names and of local variables: beside the numbers of common variables, below kForeignKey.
+  // First journal keys of named parameters, of names and of local variables; they lie above the numbers of common variables and below kForeignKey.
   static constexpr uint32_t kFirstNamed = 0x08000000;
   static constexpr uint32_t kNameKey = 0x10000000;
   static constexpr uint32_t kLocalKey = 0x20000000;

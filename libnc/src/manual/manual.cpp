@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every kind of manual motion is "go to a target with a top speed": a jog's target is the soft limit (or far
-// away), a step's and a handle's are `distance` further, a reference return's the reference position. Letting
-// go of a jog brakes to rest.
+// Every kind of manual motion goes to a target with a top speed. The target of a jog is the soft limit (or far away), that of a step or a handle is
+// `distance` further on, that of a reference return is the reference position. When a jog or a reference return is released the axis brakes to rest.
 #include "manual/manual.hpp"
 
 #include <algorithm>
@@ -14,10 +13,10 @@
 namespace nc {
 namespace {
 
-constexpr double kFar = 1e7;        ///< mm or deg: a jog without soft limits
+constexpr double kFar = 1e7;        ///< mm or deg: distance to the target of a jog without soft limits
 constexpr double kUnlimited = 1e9;  ///< stands for a limit that is not configured
-/// A handle that is turned faster than its axis can go runs at most so far ahead of it, at the top speed of the axis: what it has asked for is
-/// kept, and the axis is at rest soon after the wheel. As in nc/run.h.
+/// The target of a handle is at most the way of this time, at the top speed of the axis, plus the braking distance ahead of the axis. So the axis comes to
+/// rest soon after the wheel when the wheel was turned faster than the axis can go. nc/run.h promises it.
 constexpr double kHandleAhead_s = 0.5;
 
 }  // namespace
@@ -91,7 +90,7 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
   }
 }
 
-/// One cycle towards the target, or to rest. The way to a target behind the axis leads over rest.
+/// One cycle towards the target, or to rest. When the target lies behind the axis, it brakes to rest first and then goes back.
 double Manual::move(unsigned i, bool held, double position) {
   Axis& a = axis_[i];
   const double accel = acceleration(i);
@@ -114,7 +113,7 @@ double Manual::move(unsigned i, bool held, double position) {
     a.velocity = arrived ? 0 : direction * state.v;
     if (arrived) a.going = false;
     if (brake && state.v == 0) {
-      time = a.going ? std::max(0.0, time - v / accel) : 0;  // turn round with what is left of the cycle
+      time = a.going ? std::max(0.0, time - v / accel) : 0;  // it goes back in what is left of the cycle
     } else {
       time = arrived ? 0 : left;
     }
@@ -122,14 +121,14 @@ double Manual::move(unsigned i, bool held, double position) {
   return position;
 }
 
-/// What is left of the way to a handle's target is not gone.
+/// Gives up the target of a handle, and notes it when a part of the way was still left.
 void Manual::give_up_handle(unsigned i) {
   Axis& a = axis_[i];
   if (a.going && a.by_handle) handle_dropped_ |= 1u << i;
   a.by_handle = false;
 }
 
-/// The axis brakes to rest, what it had before it is given up, and what is commanded now does not begin later.
+/// Refuses the command of an axis: the axis brakes to rest, its target is given up, and the command that is on now does not begin later.
 void Manual::refuse(unsigned i, const nc_manual& w) {
   Axis& a = axis_[i];
   const bool pulses = w.kind == NC_MANUAL_HANDLE;
@@ -140,7 +139,8 @@ void Manual::refuse(unsigned i, const nc_manual& w) {
   if (!pulses) a.refused = w.kind == NC_MANUAL_JOG && w.velocity == 0 ? uint8_t{NC_MANUAL_NONE} : w.kind;
 }
 
-/// True when nothing waits to be let go before this command may act. Each pulse of a handle is a command of its own, and lets go of no button.
+/// True when the command may act; false while it has to be released first because it was refused. Each pulse of a handle is a command of its own, and
+/// does not release a refused kind.
 bool Manual::let_go(unsigned i, const nc_manual& w) {
   uint8_t& refused = axis_[i].refused;
   if (w.kind == NC_MANUAL_HANDLE) return true;

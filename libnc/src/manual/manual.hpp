@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manual motion of the axes of one part system: jog, step, handle and reference return. Each axis is a
-// trapezoid of its own that can always stop at its soft limit.
+// Manual motion of the axes of one part system: jog, step, handle and reference return. Each axis moves by a trapezoid of velocity of its own, and can
+// always stop at its soft limit.
 #pragma once
 
 #include "motion/axis_limits.hpp"
@@ -29,27 +29,27 @@ class Manual {
     uint32_t short_cut = 0;  ///< ... and they go to one by the shorter way
     uint32_t unlimited = 0;  ///< the soft limits of these do not hold: where they stand is not known
   };
-  /// One cycle: `position` is moved. Call it only while no program moves.
+  /// One cycle, in which `position` is moved. To be called only while no program moves.
   void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;
-  /// A cycle in which no manual motion is possible: what is commanded is refused, and does not begin by itself when it is possible again.
+  /// A cycle in which no manual motion is possible: what is commanded is refused, and does not begin by itself when motion is possible again.
   void idle(const nc_manual* wish) NC_RT;
-  /// Some axis moves or has a target before it.
+  /// Some axis moves, or has a target to go to.
   bool active() const NC_RT { return active_ != 0; }
-  /// That, or some axis has come to rest in the cycle just done: a detent of a handle begins and ends in one.
+  /// Some axis is active, or has moved in the last cycle and come to rest: a single step of a handle begins and ends in one cycle.
   bool moving() const NC_RT { return (active_ | moved_) != 0; }
   uint32_t active_axes() const NC_RT { return active_; }
-  /// Bit per axis: of the way that its handle asked for a part was given up in the cycle just done.
+  /// Bit i: in the last cycle a part of the way that the handle of axis i asked for was given up.
   uint32_t handle_dropped() const NC_RT { return handle_dropped_; }
 
  private:
   struct Axis {
     double velocity = 0;            ///< signed, mm/s or deg/s
-    double target = 0;              ///< where it goes
-    double cap = 0;                 ///< speed of this motion
-    uint8_t kind = NC_MANUAL_NONE;     ///< kind commanded in the last cycle in which it acted
-    uint8_t refused = NC_MANUAL_NONE;  ///< kind that could not act, or was stopped, and is commanded still: it waits to be let go
-    bool going = false;                ///< has a target; otherwise it is braking
-    bool by_handle = false;            ///< the target is a handle's
+    double target = 0;              ///< position to which the axis goes, mm or deg
+    double cap = 0;                 ///< top speed of this motion, mm/s or deg/s
+    uint8_t kind = NC_MANUAL_NONE;     ///< kind that was commanded in the last cycle, if it acted
+    uint8_t refused = NC_MANUAL_NONE;  ///< kind that was refused or stopped and is still commanded: it has to be released before it acts again
+    bool going = false;                ///< true: it goes to its target; false: it brakes or stands
+    bool by_handle = false;            ///< the target comes from a handle
   };
   void give_up_handle(unsigned axis) NC_RT;
   void refuse(unsigned axis, const nc_manual& wish) NC_RT;
@@ -63,7 +63,7 @@ class Manual {
   ManualConfig config_;
   Axis axis_[kMaxAxes];
   uint32_t active_ = 0;
-  uint32_t moved_ = 0;  ///< bit per axis: its position was changed in the cycle just done
+  uint32_t moved_ = 0;  ///< bit i: the position of axis i was changed in the last cycle
   uint32_t handle_dropped_ = 0;
 };
 

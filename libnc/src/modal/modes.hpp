@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modes of a program: of the functions of one mode exactly one is in force. One table for all families; the number that a family gives
-// to its group of codes is only a column of its own table.
+// The modes of a program: exactly one function of each mode is in force. This table serves all families; the number that a family gives to its group
+// of codes is only a column of the family's own table.
 #pragma once
 
 #include "dialect/function.hpp"
@@ -125,10 +125,10 @@ inline constexpr ModeTable kModeTable = make_mode_table();
 
 }  // namespace detail
 
-/// The mode that a function is one of, Mode::none when it is not modal.
+/// The mode to which a function belongs, Mode::none when it is not modal.
 constexpr Mode mode_of(Function function) { return detail::kModeTable.of[static_cast<unsigned>(function)]; }
 
-/// What is in force where a family has no codes for a mode: the first row of the mode above.
+/// The function in force where a family has no codes for a mode: that of the first row of the mode above.
 constexpr Function resting(Mode mode) {
   for (const detail::ModeRow& row : detail::kModeRows)
     if (row.mode == mode) return row.function;

@@ -9,8 +9,8 @@ using F = Function;
 
 constexpr Precedence kBoth = Precedence::both, kIgnored = Precedence::ignored, kModal = Precedence::modal, kLoses = Precedence::loses;
 
-// M700 appendix 2, one row for each commanded code in its order. The cells that are alarms have rules of their own where the state decides:
-// arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
+// M700 appendix 2: one row for each commanded code, in the order of the appendix. The cells that are alarms are checked elsewhere, where the state
+// decides: arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
 constexpr PrecedenceRow kInOneBlock[] = {
     // function            motion  radius    length    cycle     work    macro   mirror
     {F::dwell,             kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
@@ -40,7 +40,7 @@ constexpr PrecedenceRow kInOneBlock[] = {
     {F::macro_modal_off,   kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},
     {F::coordinate_set,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
-/// Any other code that takes the axis words of the block: mirror cannot have them, too.
+/// Any other code that uses the axis words of the block, so that mirror cannot use them, too.
 constexpr PrecedenceRow kAnyOther{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
 
 constexpr BarredRow kBarred[] = {
@@ -86,7 +86,8 @@ constexpr BarredRow kBarred[] = {
     {kInExponential, F::scaling_on, Condition::exponential_mode, "6.11"},
     {kInExponential, F::mirror_on, Condition::exponential_mode, "6.11"},
     {kInExponential, F::rotation_on, Condition::exponential_mode, "6.11"},
-    // Fixed cycles and scaling are errors there, and so are the codes that end them. Those that begin them have their own checks.
+    // DGSHAPE: fixed cycles and scaling are errors under diameter offset, and so are the codes that end them. The codes that begin a fixed cycle are
+    // checked elsewhere.
     {kInDiameterOffset, F::scaling_off, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, F::scaling_on, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, F::cycle_off, Condition::cycle_in_compensation, "DGSHAPE G41"},

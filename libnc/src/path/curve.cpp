@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluation of lines and circular arcs by path length.
 //
-// An arc is P(u) = C + R(u) (cos t(u), sin t(u)) with u in [0, 1], R(u) = R0 + (R1 - R0) u and t(u) = t0 +
-// sweep u; all other axes go with u linearly. Its speed by u is
-//     sigma(u) = |dP/du| = sqrt(b^2 + (sweep R(u))^2),   b^2 = (R1 - R0)^2 + (linear axes outside the
-//     plane)^2
-// and s(u) is its integral. With equal radii sigma is constant and s = L u. Where the radii differ (an end
-// point beside the circle, within the arc tolerance) s(u) is inverted by Newton's method, which converges
-// from any start because s is monotone and convex or concave; a few steps reach the last bit.
+// An arc is P(u) = C + R(u) (cos t(u), sin t(u)) with u in [0, 1], R(u) = R0 + (R1 - R0) u and t(u) = t0 + sweep u; all other axes change linearly with
+// u. Its speed by u is
+//     sigma(u) = |dP/du| = sqrt(b^2 + (sweep R(u))^2),   b^2 = (R1 - R0)^2 + (linear axes outside the plane)^2
+// and the length s(u) is the integral of sigma. With equal radii sigma is constant and s = L u. Where the radii differ (the end point lies beside the
+// circle, within the arc tolerance) s(u) is inverted by Newton's method, which converges from any start because s is monotone and convex or concave; a few
+// steps reach the last bit.
 #include "path/curve.hpp"
 
 #include <algorithm>
@@ -19,14 +18,14 @@ namespace nc {
 namespace {
 
 constexpr double kHalfPi = 1.57079632679489661923;
-/// Below this relative difference of the radii sigma is constant to 1e-8 and u = s / L.
+/// Below this relative difference of the radii sigma is constant to 1e-8, and u = s / L is used.
 constexpr double kEqualRadii = 1e-8;
 
 double squared(double x) {
   return x * x;
 }
 
-/// What evaluation needs of an arc beside the curve itself.
+/// What is needed to evaluate an arc, in addition to the curve itself.
 struct Spiral {
   double r0, dr, sweep, b2;
   bool uniform;
@@ -42,12 +41,12 @@ double spiral_length(const Spiral& a, double u) {
   const double x0 = std::fabs(a.sweep) * a.r0;
   const double x1 = x0 + slope * u;
   if (std::fabs(slope) > 0.05 * std::max(x0, std::fabs(x0 + slope))) {
-    // In closed form: with x = |sweep| R, integral of sqrt(b^2 + x^2) dx / slope.
+    // The closed form: with x = |sweep| R, the integral of sqrt(b^2 + x^2) dx / slope.
     const double b = std::sqrt(a.b2);
     const auto g = [&](double x) { return 0.5 * (x * std::sqrt(a.b2 + x * x) + a.b2 * std::asinh(x / b)); };
     return (g(x1) - g(x0)) / slope;
   }
-  // Nearly equal radii: the closed form cancels, Gauss-Legendre with 5 points is exact to the last bits.
+  // With nearly equal radii the closed form loses accuracy by cancellation; Gauss-Legendre with 5 points is exact to the last bits there.
   constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
                                0.95308992296933200};
   constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444,
@@ -57,7 +56,7 @@ double spiral_length(const Spiral& a, double u) {
   return sum * u;
 }
 
-/// b^2 from the curve: linear axes outside the plane make length, rotary axes go along.
+/// The values of the curve's circle. In b^2 only linear axes outside the plane count; rotary axes do not make length.
 Spiral spiral_of(const Curve& c) {
   Spiral a;
   a.r0 = c.circle.radius_start;
@@ -83,10 +82,9 @@ double spiral_parameter(const Curve& c, const Spiral& a, double s) {
   return u;
 }
 
-/// Extremes of one plane axis, x(u) = C + R(u) cos t(u) with t = t0 + sweep u - phase; phase 0 for the first
-/// axis, pi/2 for the second. They lie where R' cos t = R sweep sin t, that is t - atan(R' / (R sweep)) = n
-/// pi. The left side is monotone in u with a slope between sweep and 2 sweep, so every n has one root and
-/// Newton finds it.
+/// Extremes of one axis of the plane, x(u) = C + R(u) cos t(u) with t = t0 + sweep u - phase; phase is 0 for the first axis, pi/2 for the second. They lie
+/// where R' cos t = R sweep sin t, that is, where t - atan(R' / (R sweep)) = n pi. The left side is monotone in u with a slope between sweep and 2 sweep, so
+/// every n has one root, and Newton's method finds it.
 void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, double* high) {
   const Circle& k = c.circle;
   const double center = k.center[phase > 0 ? 1 : 0];
@@ -111,7 +109,7 @@ void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, do
   if (k.sweep == 0) return;
   const double from = left_side(0) / pi, to = left_side(1) / pi;
   const double first = std::ceil(std::min(from, to)), last = std::floor(std::max(from, to));
-  // R is monotone, so over many turns the outermost on either side is among the first or the last two.
+  // R is monotone, so of the extremes of many turns the outermost one on each side is among the first two or the last two.
   for (double n = first; n <= last && n <= first + 1; n += 1) take(n);
   for (double n = last; n >= first && n >= last - 1; n -= 1) take(n);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluation of shapes: programmed coordinates by the length, then the map, then what leads to the machine.
+// Evaluation of shapes: first the programmed coordinates at a path length, then the map to the axes, then the affine map to the machine.
 #include "path/shape.hpp"
 
 #include <algorithm>
@@ -18,11 +18,11 @@ constexpr double kAtPole = 1e-9;  // mm
 
 // ---- the angle about the pole, continuous along a line or an arc ---------------------------------------------------
 
-/// Angle from `from` to `to` about the pole of a straight way: less than half a turn.
+/// Angle about the pole, rad, from (x0, y0) to (x, y) along a line: less than half a turn.
 double turn_of_line(double x0, double y0, double x, double y) { return std::atan2(x0 * y - y0 * x, x0 * x + y0 * y); }
 
-/// Continuous angle of C + r e^(it). Inside the circle it is t + arg(1 + C e^(-it) / r), outside arg(C) + arg(1 + r e^(it) / C):
-/// the second term never leaves the right half plane.
+/// Angle of the point C + r e^(it) about the pole, rad, continuous in t. Where the pole is inside the circle it is t + arg(1 + C e^(-it) / r), otherwise
+/// arg(C) + arg(1 + r e^(it) / C). The argument of the last arg stays in the right half plane, so that it never jumps.
 double angle_on_circle(const Circle& c, bool circles_pole, double r, double t) {
   const double cx = c.center[0], cy = c.center[1];
   if (circles_pole) {
@@ -38,7 +38,7 @@ bool circles_pole(const Circle& c) {
   return std::hypot(c.center[0], c.center[1]) < 0.5 * (c.radius_start + c.radius_end);
 }
 
-/// Axes of the circle as (first, second) = (linear, rotary) of the map, whichever way round the plane has them.
+/// The circle with the linear axis of the map as its first and the rotary axis as its second, whatever their order in the plane is.
 Circle pole_circle(const Curve& base, const AxisMap& map) {
   Circle c = base.circle;
   if (base.h == map.linear) return c;
@@ -64,7 +64,7 @@ double turned(const CurveShape& shape, const AxisVec& p, double u) {
 
 // ---- from programmed coordinates to the axes -----------------------------------------------------------------------
 
-/// Place of the axes at the programmed point p.
+/// Turns the programmed point *p into the position of the axes.
 void map_position(const CurveShape& shape, double u, AxisVec* p) {
   const AxisMap& map = shape.what.map;
   if (map.kind == AxisMap::Kind::polar) {
@@ -82,11 +82,12 @@ struct Complex {
   Complex operator-(Complex o) const { return {re - o.re, im - o.im}; }
 };
 
-/// Derivatives of radius and angle. With z = x + iy and w = z'/z: ln z' = w, w' = z''/z - w^2, w'' = z'''/z - (z''/z) w - 2 w w'.
+/// Derivatives of radius and angle. Let z = x + iy and w = z'/z. Then (ln z)' = w, w' = z''/z - w^2, w'' = z'''/z - (z''/z) w - 2 w w'; the real part of ln z
+/// is the logarithm of the radius, the imaginary part is the angle.
 void map_polar_derivatives(const AxisMap& map, const AxisVec& at, CurvePoint* q) {
   const unsigned l = map.linear, r = map.rotary;
   const double x = at[l], y = at[r], rho = std::hypot(x, y);
-  if (rho < kAtPole) {  // at the pole the radius alone moves
+  if (rho < kAtPole) {  // at the pole only the radius changes
     q->d1[l] = map.side * std::hypot(q->d1[l], q->d1[r]);
     q->d1[r] = q->d2[l] = q->d2[r] = q->d3[l] = q->d3[r] = 0;
     return;
@@ -109,14 +110,14 @@ void map_derivatives(const CurveShape& shape, const AxisVec& at, CurvePoint* q) 
   const AxisMap& map = shape.what.map;
   if (map.kind == AxisMap::Kind::polar) {
     map_polar_derivatives(map, at, q);
-    // The angle is that of the machine: its sense is not applied again.
+    // The angle is that of the machine already, so the factor of to_machine is divided out.
     for (AxisVec* d : {&q->d1, &q->d2, &q->d3}) (*d)[map.rotary] /= shape.to_machine.coefficient(map.rotary, map.rotary);
   } else if (map.kind == AxisMap::Kind::cylinder) {
     for (AxisVec* d : {&q->d1, &q->d2, &q->d3}) (*d)[map.rotary] /= map.scale;
   }
 }
 
-/// The parameter that the angle of an arc needs; every other kind does without.
+/// The parameter u at the length s, which only the angle of a polar arc needs; otherwise 0.
 double arc_parameter(const CurveShape& shape, double s) {
   return shape.what.map.kind == AxisMap::Kind::polar && shape.base.circular ? curve_arc_parameter(shape.base, s) : 0.0;
 }
@@ -139,7 +140,7 @@ AxisVec axes_at(const CurveShape& shape, const Curve& curve, AxisVec p, double u
 
 bool MoveShape::operator==(const MoveShape& other) const {
   if (std::memcmp(&map, &other.map, sizeof map) != 0 || kind != other.kind) return false;
-  return kind == ShapeKind::plain;  // every other curve is one of a kind
+  return kind == ShapeKind::plain;  // two other shapes are never taken as the same
 }
 
 PolarReach polar_reach(const CurveShape& shape) {
@@ -151,7 +152,7 @@ PolarReach polar_reach(const CurveShape& shape) {
     const double r = std::min(c.radius_start, c.radius_end);
     out.curvature = r > 0 ? 1 / r : HUGE_VAL;
     out.distance = std::min(std::hypot(base.start[map.linear], base.start[map.rotary]), std::hypot(base.end[map.linear], base.end[map.rotary]));
-    // The place of the circle that is nearest to the pole, when the arc gets there.
+    // The point of the circle that is nearest to the pole counts when the arc contains it.
     const double nearest = std::atan2(-c.center[1], -c.center[0]) - c.angle_start, whole = 2 * kPi;
     const double ahead = c.sweep > 0 ? nearest - whole * std::floor(nearest / whole) : -nearest - whole * std::floor(-nearest / whole);
     if (ahead <= std::fabs(c.sweep)) {
@@ -191,7 +192,8 @@ double leaves_from(const Curve& curve, unsigned axis_count) {
   for (unsigned i = 0; i < axis_count; ++i)
     if (((map.frozen >> i) & 1) == 0) off = std::max(off, std::fabs(first[i] - curve.start[i]));
   if (map.kind != AxisMap::Kind::polar || ((map.frozen >> map.rotary) & 1) != 0) return off;
-  // The angle is counted on from the axis: it has to be that of the point, or it would be lost at the end of the move.
+  // The angle is counted on from the position of the rotary axis. If that is not the angle of the start point, the difference would vanish at the end of the
+  // move, which takes its angle from the end point.
   const double x = shape.base.start[map.linear], y = shape.base.start[map.rotary], radius = std::hypot(x, y);
   if (radius < kAtPole) return off;
   const double angle = map.angle + std::atan2(map.side * y, map.side * x) * kDegrees;
@@ -213,7 +215,7 @@ void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_
   shape->what = what;
   shape->to_machine = to_machine;
   const AxisMap& map = what.map;
-  // On a mapped plane the rotary axis holds millimetres.
+  // On a mapped plane the programmed coordinate of the rotary axis is in millimetres.
   const uint32_t degrees = map.kind != AxisMap::Kind::none ? rotary & ~(1u << map.rotary) : rotary;
   if (what.kind != ShapeKind::plain) {
     make_base(*move.start, *move.end, axis_count, degrees, shape);
@@ -238,7 +240,7 @@ void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_
   curve->length = shape->base.length;
   curve->end = axes_at(*shape, *curve, shape->base.end, 1.0, axis_count);
   if (map.kind == AxisMap::Kind::polar && ((map.frozen >> map.rotary) & 1) == 0) {
-    // Named by its angle, so that nothing adds up from move to move.
+    // The end is calculated from the angle of the end point, so that rounding does not add up from move to move.
     const double x = shape->base.end[map.linear], y = shape->base.end[map.rotary];
     const double about = machine_start[map.rotary] + end_turn * kDegrees;
     curve->end[map.rotary] = about;
@@ -286,7 +288,7 @@ CurvePoint shape_evaluate(const Curve& curve, double s, unsigned axis_count) {
   return q;
 }
 
-/// Extremes lie at the ends or where d1 changes its sign; each change is narrowed down by bisection.
+/// Extremes lie at the ends, or where d1 changes its sign; such a place is found by bisection.
 void shape_bounds(const Curve& curve, unsigned axis_count, AxisVec* low, AxisVec* high) {
   constexpr unsigned kPieces = 32;
   constexpr unsigned kHalvings = 40;

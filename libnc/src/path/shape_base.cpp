@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arcs in space, exponential curves, spans of NURBS and blocks of splines by their own parameter u:
+// Arcs in space, exponential curves, spans of NURBS and blocks of splines as functions of their own parameter u:
 //
 //     space arc     u in [0, 1], angle = sweep u, all other axes linearly; |dP/du| is constant
 //     exponential   u in [0, end] is the angle of M700 6.11
 //     rational      u in [0, 1] of one knot span
 //     spline        u in [0, 1] of one block
 //
-// With sigma = |dP/du| over the axes that make the length, u' = 1/sigma by the length s; u(s) itself comes from a table of exact
-// values at equal steps of s with quintic interpolation between them.
+// Let sigma = |dP/du| over the axes that make the length. Then du/ds = 1/sigma; u(s) itself comes from a table of exact values at equal steps of s, with
+// quintic interpolation between them.
 #include "path/shape_base.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace nc {
 namespace {
 
-/// Point and derivatives by u.
+/// A point and its derivatives by u.
 struct ByParameter {
   AxisVec p, d1, d2, d3;
 };
@@ -53,7 +53,7 @@ void exponential_at(const CurveShape& shape, double u, unsigned axis_count, ByPa
   q->d1[e.rotary] = e.degrees_per_rad;
 }
 
-/// Bernstein coefficients of degree `n` to powers of u: the degree is at most 3, so nothing cancels that was not small.
+/// Turns Bernstein coefficients of degree `n` into those of powers of u. The degree is at most 3, so only small numbers lose accuracy by cancellation.
 void to_powers(const double (&b)[4], unsigned n, double (&a)[4]) {
   a[0] = b[0];
   a[1] = a[2] = a[3] = 0;
@@ -112,7 +112,7 @@ AxisVec rational_point(const CurveShape& shape, double u) {
   return p;
 }
 
-/// |dP/du| alone, which the length is the integral of.
+/// |dP/du| alone; the length is its integral.
 double rational_speed(const CurveShape& shape, double u) {
   const double iw = 1 / value_of(shape.power[3], u), w1 = slope_of(shape.power[3], u);
   double sum = 0;
@@ -178,7 +178,7 @@ double dot(const CurveShape& shape, const AxisVec& a, const AxisVec& b, unsigned
   return sum;
 }
 
-/// u', u'', u''' by the length: 1/sigma, -sigma'/sigma^3, (3 sigma'^2 - sigma sigma'')/sigma^5.
+/// Derivatives of u by the length: 1/sigma, -sigma'/sigma^3, (3 sigma'^2 - sigma sigma'')/sigma^5, where primes are derivatives by u.
 struct ByLength {
   double u1 = 0, u2 = 0, u3 = 0;
 };
@@ -205,7 +205,7 @@ double sigma_at(const CurveShape& shape, double u, unsigned axis_count) {
   return std::sqrt(dot(shape, q.d1, q.d1, axis_count));
 }
 
-/// Length from `from` to `to` by Gauss-Legendre with five points in each of so many parts.
+/// Length from `from` to `to`, by Gauss-Legendre integration with five points in each of `panels` parts.
 double length_between(const CurveShape& shape, double from, double to, unsigned panels, unsigned axis_count) {
   constexpr double kNode[5] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
   constexpr double kWeight[5] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
@@ -216,7 +216,7 @@ double length_between(const CurveShape& shape, double from, double to, unsigned 
   return sum * part;
 }
 
-/// The parts that are needed for an error below `fine`, of which more would not help any more.
+/// The number of parts with which the error of the length is below `fine`; at most kMost.
 unsigned panels_for(const CurveShape& shape, double from, double to, double fine, unsigned axis_count) {
   constexpr unsigned kMost = 16;
   unsigned panels = 1;
@@ -243,7 +243,7 @@ double quintic(const ParameterTable& table, unsigned k, double h, double t) {
   return ((((c5 * t + c4) * t + c3) * t + a0) * t + v0) * t + p0;
 }
 
-constexpr unsigned kPieces = 64;  ///< of the parameter, for the length of the whole
+constexpr unsigned kPieces = 64;  ///< equal pieces of the parameter in which the whole length is integrated
 
 /// Length up to the beginning of each piece.
 struct PieceLengths {
@@ -251,7 +251,7 @@ struct PieceLengths {
   unsigned panels[kPieces];
 };
 
-/// The parameter at the length s: the piece, then Newton's method inside it.
+/// The parameter at the length s: finds the piece, then uses Newton's method in it.
 double solve_parameter(const CurveShape& shape, const PieceLengths& pieces, double s, unsigned axis_count) {
   const double last = last_parameter(shape);
   unsigned k = 0;
@@ -269,7 +269,7 @@ double solve_parameter(const CurveShape& shape, const PieceLengths& pieces, doub
   return u;
 }
 
-/// One step of Newton's method from u towards the place `behind` the beginning of step k.
+/// One step of Newton's method from u towards the place whose length from the beginning of step k is `behind`.
 double towards(const CurveShape& shape, unsigned k, double behind, double u, unsigned axis_count) {
   const double sigma = sigma_at(shape, u, axis_count);
   if (!(sigma > 0)) return u;
@@ -277,7 +277,7 @@ double towards(const CurveShape& shape, unsigned k, double behind, double u, uns
   return std::clamp(u - over / sigma, 0.0, last_parameter(shape));
 }
 
-/// What it takes to find a place in step k.
+/// Sets how many parts and steps of Newton's method it takes to find a place in step k.
 void set_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
   constexpr unsigned kMost = 4, kLooks = 4;
   const double h = shape.base.length / ParameterTable::kSteps;
@@ -296,7 +296,7 @@ void set_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_
   table->newton[k] = static_cast<uint8_t>(steps);
 }
 
-/// Newton's method inside an interval of a divided step: `steps` of it.
+/// `steps` steps of Newton's method in interval n of a divided step.
 double inside_interval(const CurveShape& shape, unsigned n, double behind, unsigned steps, unsigned axis_count) {
   const ParameterTable& t = shape.table;
   const double from = t.graded_u[n], to = t.graded_u[n + 1], whole = t.behind[n + 1] - t.behind[n], wanted = behind - t.behind[n];
@@ -309,12 +309,12 @@ double inside_interval(const CurveShape& shape, unsigned n, double behind, unsig
   return u;
 }
 
-/// Halves intervals of step k until one part measures each of them well enough. False, and nothing has changed, where they have no room.
+/// Halves intervals of step k until each of them can be integrated in one part. False, and the table is as before, when there are too many intervals.
 bool divide_step(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
   constexpr unsigned kDeepest = 40;
   ParameterTable& t = *table;
   const unsigned first = t.places;
-  double ends[kDeepest + 1] = {t.u[k + 1]};  // of the intervals that are still to be looked at
+  double ends[kDeepest + 1] = {t.u[k + 1]};  // ends of the intervals that are still to be looked at
   unsigned open = 1, n = first;
   if (first + 2 > ParameterTable::kGraded) return false;
   t.graded_u[n] = t.u[k];
@@ -338,10 +338,10 @@ bool divide_step(const CurveShape& shape, unsigned k, double fine, unsigned axis
   return true;
 }
 
-/// How many steps of Newton's method the intervals of a divided step take.
+/// Sets how many steps of Newton's method each interval of a divided step takes.
 void set_interval_effort(const CurveShape& shape, unsigned k, double fine, unsigned axis_count, ParameterTable* table) {
   constexpr unsigned kMost = 12;
-  constexpr double kLooks[] = {1e-4, 0.003, 0.05, 0.25, 0.5, 0.75, 0.95, 0.997, 1 - 1e-4};  // the way is as a square beside a cusp
+  constexpr double kLooks[] = {1e-4, 0.003, 0.05, 0.25, 0.5, 0.75, 0.95, 0.997, 1 - 1e-4};  // dense at the ends: next to a cusp the length grows as a square
   ParameterTable& t = *table;
   for (unsigned n = t.first[k]; n < unsigned{t.first[k]} + t.graded[k]; ++n) {
     t.effort[n] = 1;
@@ -356,7 +356,8 @@ void set_interval_effort(const CurveShape& shape, unsigned k, double fine, unsig
   }
 }
 
-/// The parameter in a divided step. Its length was measured more finely than that of the whole: what they differ by, some nm, is spread over it.
+/// The parameter in a divided step. The length of the step was integrated more finely here than for the table, so the difference (some nm) is spread evenly
+/// over the step.
 double graded_parameter(const CurveShape& shape, unsigned k, double behind, unsigned axis_count) {
   const ParameterTable& t = shape.table;
   unsigned low = t.first[k], high = low + t.graded[k];
@@ -368,13 +369,13 @@ double graded_parameter(const CurveShape& shape, unsigned k, double behind, unsi
   return inside_interval(shape, low, behind, t.effort[low], axis_count);
 }
 
-/// Fills length and table.
+/// Calculates the length and the table.
 void make_table(unsigned axis_count, CurveShape* shape) {
   constexpr unsigned kSteps = ParameterTable::kSteps;
-  constexpr double kFine = 1e-11;     // of the length: nobody sees an error of the parameter below this, not in third differences either
-  constexpr double kMeasured = 1e-13; // of the length: the error of measuring it
-  constexpr unsigned kAtOnce = 4;     // parts measured for one point, above which a step is divided
-  constexpr unsigned kNear = 2;       // steps of Newton's method, above which the quintic is no guess
+  constexpr double kFine = 1e-11;     // share of the length: an error of a place below this does not show, not even in third differences
+  constexpr double kMeasured = 1e-13; // share of the length: the error with which it is integrated
+  constexpr unsigned kAtOnce = 4;     // a step is divided when more parts than this have to be integrated for one point
+  constexpr unsigned kNear = 2;       // a step is divided when more steps of Newton's method than this are needed
   PieceLengths pieces;
   const double last = last_parameter(*shape);
   const double about = length_between(*shape, 0, last, kPieces, axis_count);
@@ -415,7 +416,7 @@ void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, ui
   base.start = start;
   base.end = end;
   for (unsigned i = 0; i < kMaxAxes; ++i) base.delta[i] = i < axis_count ? end[i] - start[i] : 0;
-  // M700 6.11: the feed of an exponential curve is that of all its axes; else the linear ones make the length.
+  // M700 6.11: on an exponential curve all axes make the length, because its feed is that of all axes; otherwise only the linear ones do.
   shape->length_axes = (1u << axis_count) - 1;
   if (shape->what.kind != ShapeKind::exponential) shape->length_axes &= ~rotary;
   if (shape->what.kind == ShapeKind::rational) make_powers(shape);
@@ -461,7 +462,7 @@ CurvePoint base_evaluate(const CurveShape& shape, double s, unsigned axis_count)
   by_parameter(shape, u, axis_count, &q);
   const AxisVec at = q.p;
   ByLength d = by_length(shape, q, axis_count);
-  if (d.u1 == 0) {  // control points that coincide: the tangent is that of the curve right beside
+  if (d.u1 == 0) {  // control points coincide here: the tangent is taken from the curve right beside
     constexpr double kBeside = 1e-5;
     by_parameter(shape, u + (u < 0.5 * last ? kBeside : -kBeside) * last, axis_count, &q);
     d = by_length(shape, q, axis_count);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compiled block: one line of program text, split into words and statements, its expressions as code for
-// the evaluator. Compiling looks at characters only; what a G code means is none of its business.
+// A compiled block: one line of program text, split into words and statements, its expressions turned into code for the evaluator. Compiling looks only at
+// the characters; it does not know what a G code means.
 #pragma once
 
 #include "base/fixed.hpp"
@@ -17,46 +17,46 @@ enum class Formula : uint8_t {
 /// What the words of a dialect look like; a table in dialect/<family>/.
 struct WordFormat {
   bool known = false;           ///< the address exists (else Condition::illegal_address)
-  Condition refusal{};          ///< what a word of an address that is not known is, in place of that
+  Condition refusal{};          ///< alarm for a word of an unknown address; none = Condition::illegal_address
   bool integer = false;         ///< decimals are cut off (M700 5.3: D H L M N O S T)
-  uint8_t integer_digits = 8;   ///< at most 19; more in a word is Condition::value_range
-  uint8_t fraction_digits = 8;  ///< more is accepted and kept when 8
+  uint8_t integer_digits = 8;   ///< most digits before the point, up to 19; a word with more is Condition::value_range
+  uint8_t fraction_digits = 8;  ///< most digits behind the point; where it is 8, more are accepted, too
 };
 
-/// What ';' is in a text.
+/// The meaning of ';' in a text.
 enum class Semicolon : uint8_t {
-  unknown,     ///< no character of the family
-  ends_line,   ///< the end of the block, last in its line: blanks and comments in ( ) may follow, anything else is a fault
-  comment,     ///< the rest of the line is a comment
-  ends_block   ///< the end of the block; the next one may follow in the line
+  unknown,     ///< the family does not have this character
+  ends_line,   ///< it ends the block, and the line: only blanks and comments in ( ) may follow in the line, anything else is a fault
+  comment,     ///< it begins a comment, which ends with the line
+  ends_block   ///< it ends the block; the next block may follow in the same line
 };
 
 struct LexResult {
   size_t used = 0;       ///< bytes up to the first character of the next block
-  bool ran_out = false;  ///< the text ended before the block did: at the end of a program that is its end, in
-                         ///< a window read more
-  bool newline = false;  ///< ended by a line end
+  bool ran_out = false;  ///< the text ended before the block did: at the end of a program the block ends there, in a window more has to be
+                         ///< read
+  bool newline = false;  ///< the block was ended by a line end
 };
 
 struct Block;
 struct LexRules;
 
-/// Compiles the block at text[0] of a family's language. `columns`, when given, holds the column of text[i] for i < 256 (the text has been
-/// condensed). Sets everything of `block` but file, begin, next, line, next_line and end_of_text. Never reads beyond text[size - 1].
-/// `semicolon` is what ';' is in this text (LexRules has that of a family).
+/// Compiles the block at text[0] in a family's language. `columns` is given when the text has been condensed, and holds the column of text[i] for
+/// i < 256. Sets all members of `block` except file, begin, next, line, next_line and end_of_text. Never reads beyond text[size - 1]. `semicolon` is the
+/// meaning of ';' in this text (LexRules has the one of the family).
 using ReadBlock = LexResult (*)(const char* text, size_t size, const LexRules& rules, Semicolon semicolon, const uint8_t* columns, Block& block);
 
 struct LexRules {
   ReadBlock read = nullptr;        ///< reads a block of the language; never null in a family
-  char program_letter = 0, sequence_letter = 0;  ///< of the numbers at the head of a block
-  bool macros = false;             ///< '#', '[ ]' exist
-  bool statements = false;         ///< with them: IF, WHILE, GOTO, ...
+  char program_letter = 0, sequence_letter = 0;  ///< letters of the program and sequence numbers at the head of a block
+  bool macros = false;             ///< '#' and '[ ]' exist
+  bool statements = false;         ///< with `macros`: IF, WHILE, GOTO, ... exist, too
   Formula formula = Formula::macro;
   bool zero_numbers = false;       ///< a number at the head of a block may be 0
-  Semicolon semicolon = Semicolon::unknown;      ///< in program texts; a machine may have made it a comment
-  Semicolon mdi_semicolon = Semicolon::unknown;  ///< in blocks of MDI
-  bool skip_numbers = false;       ///< "/3": switches 1..9; else only "/"
-  bool slash_only_at_head = true;  ///< elsewhere '/' is an error (dgshape) or division (with macros)
+  Semicolon semicolon = Semicolon::unknown;      ///< meaning in program texts; a parameter of the machine may make it a comment
+  Semicolon mdi_semicolon = Semicolon::unknown;  ///< meaning in blocks of MDI
+  bool skip_numbers = false;       ///< true: "/1" to "/9" name the skip switch; false: only "/" exists
+  bool slash_only_at_head = true;  ///< '/' skips a block only at its head; elsewhere it is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65
   bool jump_letter = false;        ///< the letter of sequence numbers may stand in front of the number behind GOTO (HX 14.5.1)
@@ -73,14 +73,14 @@ enum WordFlag : uint8_t {
   kWordNoValue = 16,    ///< letter alone: "G28 XYZ"
   kWordCount = 32,      ///< S1=, F1=: `index` holds the number before '='
   kWordPlus = 64,       ///< written with '+'
-  kWordExponent = 128   ///< a lower-case e directly behind a number: X1e2
+  kWordExponent = 128   ///< a lower-case e stands directly behind the number: X1e2
 };
 
 struct Word {
   char letter = 0;
   uint8_t flags = 0;
   uint8_t index = 0;
-  uint8_t column = 0;  ///< 1-based, 255 = further right
+  uint8_t column = 0;  ///< from 1; 255 = this or any column further right
   uint16_t code = 0;   ///< start in Block::code
   double value = 0;    ///< as written, sign included, no unit applied
 };
@@ -113,28 +113,28 @@ struct Statement {
 inline constexpr uint16_t kNoCode = 0xffff;
 
 struct Block {
-  uint64_t begin = 0, next = 0;      ///< byte offsets: first character, first character of the next block
-  uint32_t line = 0, next_line = 0;  ///< 1-based line of the first character, and of `next`
+  uint64_t begin = 0, next = 0;      ///< byte offsets of its first character, and of the first character of the next block
+  uint32_t line = 0, next_line = 0;  ///< lines of these characters, from 1
   uint16_t file = 0;
   bool percent = false;      ///< a '%' block
-  bool end_of_text = false;  ///< nothing was left
+  bool end_of_text = false;  ///< there is no block: the text has ended
   uint8_t skip = 0;          ///< optional block skip number, 0 = none
   bool has_n = false, has_o = false;
   uint32_t n = 0, o = 0;
   bool empty = true;  ///< no word and no statement (comments do not count)
-  bool ordinary = false;  ///< words or statements and nothing to look at before them: no '%', O, N, skip or fault, not the end
+  bool ordinary = false;  ///< only words or statements: there is no '%', O, N, skip, fault or end of text to look at before them
   bool has_fault = false;
   Fault fault{};                ///< first error, raised when the block is executed
   FixedVector<Word, 48> words;  ///< without O, N and the skip
   FixedVector<Statement, 12> statements;
   FixedVector<uint8_t, 480> code;  ///< expression code, see macro/expression.hpp
   FixedVector<double, 64> constants;
-  FixedVector<char, 256> text;         ///< messages and names, raw
+  FixedVector<char, 256> text;         ///< messages and names as they are written
   uint16_t name = 0, name_length = 0;  ///< <...> as a range of `text`
   uint16_t comment = 0,
            comment_length = 0;  ///< last ( ) as a range of `text` (only kept where it may be a message)
 
-  void clear();  ///< sizes to zero, flags off; arrays are not touched
+  void clear();  ///< sets all sizes to 0 and all flags off, without clearing the arrays
 };
 
 inline void Block::clear() {

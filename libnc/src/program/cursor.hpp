@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moving over the characters of one block: what is skipped everywhere, where the block ends, numbers,
-// keywords. Shared by the lexer (dialect/iso_lexer.cpp) and the expression compiler (macro/compile.cpp).
+// Moves over the characters of one block: skips what has no meaning, finds the end of the block, reads numbers and keywords. Used by the lexer
+// (dialect/iso_lexer.cpp) and the expression compiler (macro/compile.cpp).
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace nc {
 
-/// NUL and DEL are blank tape and a row that was punched out (M700 3.1): editors and transmissions leave them in files.
+/// NUL (blank tape) and DEL (a row that was punched out) have no meaning (M700 3.1): editors and transmissions leave them in files.
 inline bool is_ignored(char c) {
   return c == '\0' || c == '\x7f';
 }
@@ -27,8 +27,8 @@ inline char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
 }
 
-/// Eight characters looked at together: how many of them, from the first on, are digits, and what number
-/// these make. Loops over digits mispredict once per number; this does not branch.
+/// Looks at eight characters together: how many of them, from the first on, are digits, and which number these make. A loop over digits mispredicts a
+/// branch once per number; this has no branch.
 class EightCharacters {
  public:
   static constexpr bool kUsable = std::endian::native == std::endian::little;
@@ -41,14 +41,14 @@ class EightCharacters {
     count_ = first(others_);
   }
   unsigned digits() const { return count_; }
-  /// Value of the digits; not for eight of them. Neighbours are joined: to 2, 4 and 8 decimals.
+  /// Value of the digits, where there are fewer than eight. Neighbours are joined to numbers of 2, then 4, then 8 digits.
   uint64_t value() const { return joined(x_, count_); }
 
-  /// Digits and the point behind them: how many characters, digits behind the point included; 8 = perhaps more.
+  /// Number of characters up to the end of the digits behind a point; 8 = there may be more.
   unsigned length_past_point() const {
-    return first(others_ & (others_ - 1));  // a point makes no carry, so the next mark is right too
+    return first(others_ & (others_ - 1));  // a point makes no carry, so the next mark is right, too
   }
-  /// Value of `length` characters but for the point among them.
+  /// Value of `length` characters, leaving out the point among them.
   uint64_t value_without(unsigned point, unsigned length) const {
     const unsigned bits = 8 * point;
     const uint64_t before = x_ & ((uint64_t{1} << bits) - 1);
@@ -56,7 +56,7 @@ class EightCharacters {
   }
 
  private:
-  /// Byte of the lowest mark, 8 = there is none.
+  /// Number of the byte with the lowest mark, 8 = there is no mark.
   static unsigned first(uint64_t marks) {
     return marks != 0 ? static_cast<unsigned>(std::countr_zero(marks)) >> 3 : 8;
   }
@@ -71,15 +71,15 @@ class EightCharacters {
   unsigned count_;
 };
 
-/// A place in a block and the rules that hold there.
+/// A place in the text of a block, and the rules for moving on from it.
 struct Cursor {
   const char* p = nullptr;
   const char* end = nullptr;
-  bool semicolon_ends = false;    ///< ';' ends the words of a block, whatever may follow it
+  bool semicolon_ends = false;    ///< ';' ends the words of a block, whatever follows it
   const char* comment = nullptr;  ///< text of the last comment passed over
   const char* comment_end = nullptr;
 
-  /// Behind blanks and comments. An unclosed comment ends with its line (M700 3.1, 3.2).
+  /// Moves past blanks and comments. A comment that is not closed ends with its line (M700 3.1, 3.2).
   void skip() {
     while (p != end) {
       if (is_blank(*p)) {
@@ -97,20 +97,20 @@ struct Cursor {
     comment_end = p;
     if (p != end && *p == ')') ++p;
   }
-  /// At the end of the block: line end, ';' of those that have it, '%', end of the text.
+  /// At the end of the block: a line end, a ';' that ends it, '%', or the end of the text.
   bool at_end() const { return p == end || *p == '\n' || *p == '%' || (*p == ';' && semicolon_ends); }
-  /// The character here after blanks and comments, capital; 0 = end of block.
+  /// The next character behind blanks and comments, as a capital; 0 = end of the block.
   char peek() {
     skip();
     return at_end() ? '\0' : upper(*p);
   }
-  /// Passes over `c` when it is next.
+  /// Moves past `c` when it is the next character.
   bool accept(char c) {
     if (peek() != c || at_end()) return false;
     ++p;
     return true;
   }
-  /// Passes over a keyword when it is next; blanks inside it are allowed as everywhere.
+  /// Moves past a keyword when it comes next; blanks inside it are allowed, as everywhere.
   bool accept(const char* word) {
     const Cursor before = *this;
     for (; *word != '\0'; ++word) {
@@ -121,7 +121,7 @@ struct Cursor {
     }
     return true;
   }
-  /// Unsigned decimal number, blanks and comments allowed between its characters.
+  /// Reads an unsigned decimal number; blanks and comments are allowed between its characters.
   Decimal number() {
     constexpr uint32_t kMantissaDigits = 19;
     Decimal d;
@@ -150,7 +150,7 @@ struct Cursor {
     }
     if (d.integer_digits > kMantissaDigits) {
       d.integer = kPowersOfTen[kMantissaDigits];
-      d.value = static_cast<double>(d.integer);  // whoever asks refuses it: integer_digits says so
+      d.value = static_cast<double>(d.integer);  // the caller refuses such a number, because of integer_digits
     } else {
       d.value = scale_decimal(mantissa, taken_fraction);
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slow path of decimal conversion: more than 2^53 in the mantissa, or more than 22 fraction digits.
+// The slow path of decimal conversion, for a mantissa above 2^53 or more than 22 fraction digits.
 //
-// An approximation d of m / 10^k is a few units in the last place off at most. Whether a neighbour is nearer
-// is decided exactly: with the midpoint between d and its neighbour written as M * 2^e (M an integer),
-// compare  m  with  M * 2^e * 10^k  in big integers.
+// An approximation d of m / 10^k is off by a few units in the last place at most. Whether a neighbour of d is nearer is decided exactly: the midpoint
+// between d and its neighbour is written as M * 2^e (M an integer), and  m  is compared with  M * 2^e * 10^k  in big integers.
 #include "program/number.hpp"
 
 #include <cmath>
@@ -11,7 +10,7 @@
 namespace nc {
 namespace {
 
-/// Natural number of at most kLimbs * 32 bits, little endian; just what the comparison needs.
+/// Natural number of at most kLimbs * 32 bits, little endian, with just the operations that the comparison needs.
 class BigNatural {
  public:
   explicit BigNatural(uint64_t value) {
@@ -57,7 +56,7 @@ class BigNatural {
   unsigned size_ = 0;
 };
 
-/// From here on the value of any 64-bit mantissa is less than half of the smallest denormal.
+/// With so many fraction digits, or more, the value of any 64-bit mantissa is less than half of the smallest denormal.
 constexpr uint32_t kMostDigits = 343;
 
 /// Sign of m - 10^k * 2^e * midpoint.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimal text to double, correctly rounded, without strtod (no locale, no OS, the same bits everywhere).
+// Turns decimal text into a double, correctly rounded. It does not use strtod, so there is no locale and no OS, and the result has the same bits
+// everywhere.
 #pragma once
 
 #include <cstddef>
@@ -34,12 +35,10 @@ inline constexpr uint64_t kPowersOfTen[20] = {1u,
                                               1000000000000000000u,
                                               10000000000000000000u};
 
-/// mantissa / 10^fraction_digits, correctly rounded, for any mantissa and any number of digits. Exact
-/// big-number comparison.
+/// mantissa / 10^fraction_digits, correctly rounded, for any mantissa and any number of digits, by exact comparison of big numbers.
 double scale_decimal_exact(uint64_t mantissa, uint32_t fraction_digits);
 
-/// The same. Mantissa and power of ten are exact in a double up to 2^53 and 10^22, so one division rounds
-/// once.
+/// mantissa / 10^fraction_digits, correctly rounded. Up to 2^53 and 10^22 both are exact in a double, so a single division rounds only once.
 inline double scale_decimal(uint64_t mantissa, uint32_t fraction_digits) {
   if (mantissa <= (uint64_t{1} << 53) && fraction_digits <= 22) {
     if (fraction_digits == 0) return static_cast<double>(mantissa);
@@ -48,13 +47,13 @@ inline double scale_decimal(uint64_t mantissa, uint32_t fraction_digits) {
   return scale_decimal_exact(mantissa, fraction_digits);
 }
 
-/// An unsigned decimal number met in a text.
+/// An unsigned decimal number in a text.
 struct Decimal {
   double value = 0;
-  uint64_t integer = 0;          ///< digits before the point, saturated at 10^19
-  uint32_t integer_digits = 0;   ///< without leading zeros
-  uint32_t fraction_digits = 0;  ///< as written
-  uint32_t digits = 0;           ///< all digits as written; 0 = there is no number here
+  uint64_t integer = 0;          ///< value of the digits before the point, saturated at 10^19
+  uint32_t integer_digits = 0;   ///< number of digits before the point, without leading zeros
+  uint32_t fraction_digits = 0;  ///< number of digits behind the point, as written
+  uint32_t digits = 0;           ///< number of all digits, as written; 0 = there is no number here
   bool point = false;
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading blocks: window, lexer, cache of compiled blocks.
 //
-// A block is cached from its second reading on. A program that runs straight through is lexed into one block
-// that stays in the first-level cache of the processor; a loop or a subprogram is lexed twice and then taken
-// as it is.
+// A block is cached when it is read for the second time. A program that runs straight through is lexed into one block object, which stays in the
+// first-level cache of the processor; a loop or a subprogram is lexed twice, and then its blocks are taken from the cache.
 #include <cstring>
 
 #include "alarm/condition.hpp"
@@ -14,15 +13,14 @@
 namespace nc {
 namespace {
 
-/// Text of one block that is longer than the window, made short: blanks and comments left out, but for a
-/// comment that may be a message. Columns are kept beside it.
+/// Shortens the text of one block that is longer than the window: leaves out blanks and comments, except a comment that may be a message. The columns of the
+/// characters that stay are kept, too.
 class Condenser {
  public:
   Condenser(char* buffer, size_t capacity, const LexRules& rules, Semicolon semicolon)
       : rules_(rules), semicolon_(semicolon), out_(buffer), capacity_(capacity) {}
 
-  /// Takes one character of the source. False when the block ended in front of it (*consumed = false) or with
-  /// it.
+  /// Takes one character of the source. False when the block has ended: before this character (*consumed = false) or with it.
   bool take(char c, bool* consumed) {
     *consumed = true;
     if (source_column_ < UINT8_MAX) ++source_column_;
@@ -47,9 +45,9 @@ class Condenser {
   const uint8_t* columns() const { return columns_; }
 
  private:
-  /// percent: the rest of the line is passed over.
+  /// percent: the rest of the line is left out.
   enum class State : uint8_t { words, comment, name, percent, behind_semicolon, comment_behind };
-  static constexpr unsigned kKeptComment = 127 + 4;  ///< what the lexer keeps, and enough to see where its last character ends
+  static constexpr unsigned kKeptComment = 127 + 4;  ///< bytes that the lexer keeps, and enough behind them to see where the last character ends
 
   bool take_outside(char c, bool* consumed) {
     if (c == '\n') return put_spare(c), false;
@@ -71,7 +69,7 @@ class Condenser {
       comment_kept_ = assigned_;
       comment_length_ = 0;
       if (!comment_kept_) return comment_dropped_ = true;
-      if (comment_at_ != kNone) size_ = comment_at_;  // of several comments in a row the last one counts
+      if (comment_at_ != kNone) size_ = comment_at_;  // when several comments follow one another the last one counts
       comment_at_ = size_;
       return put_spare(c), true;
     }
@@ -88,7 +86,8 @@ class Condenser {
     return put(c), true;
   }
 
-  /// A comment in the middle of a word or a number is a fault: without it X1(..)0 would be X10. An empty one stays, but where a word begins.
+  /// A comment in the middle of a word or a number is a fault, so it must not vanish: X1(..)0 would become X10. An empty comment is put in its place,
+  /// except where a word begins.
   void keep_apart(char c) {
     comment_dropped_ = false;
     const char last = size_ != 0 ? out_[size_ - 1] : ';';
@@ -99,8 +98,8 @@ class Condenser {
     put(')');
   }
 
-  /// Of what stands behind the ';' that ends the line one character is enough to tell that there is something. The block cannot do without
-  /// it: where it has no room the text behind would be as if it were not there.
+  /// Of the text behind a ';' that ends the line one character is kept, which is enough to show that there is something. It is not a spare character:
+  /// without it a fault would be overlooked.
   bool take_behind(char c, bool* consumed) {
     if (c == '\n') return false;
     if (state_ == State::comment_behind) {
@@ -119,7 +118,7 @@ class Condenser {
     put_spare(c);
   }
 
-  /// A character that the block can do without: its end, the comment behind a message variable.
+  /// Puts a character that may be missing when there is no room: the end of the block, a comment behind a message variable.
   void put_spare(char c) {
     if (size_ == capacity_) return;
     if (size_ < 256) columns_[size_] = source_column_;
@@ -132,10 +131,10 @@ class Condenser {
   char* const out_;
   const size_t capacity_;
   size_t size_ = 0;
-  size_t comment_at_ = kNone;  ///< where the comment begins that nothing significant has followed yet
+  size_t comment_at_ = kNone;  ///< beginning of the last comment that was kept, as long as nothing significant has followed it
   State state_ = State::words;
   unsigned comment_length_ = 0;
-  bool comment_dropped_ = false;  ///< and nothing significant has come behind it
+  bool comment_dropped_ = false;  ///< a comment was left out, and nothing significant has followed it yet
   bool significant_ = false, assigned_ = false, comment_kept_ = false, overflowed_ = false;
   uint8_t source_column_ = 0;
   uint8_t columns_[256] = {};
@@ -174,13 +173,13 @@ const Block* BlockReader::read(unsigned file, uint64_t offset, uint32_t line) {
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr) return nullptr;
   const Seen& last = seen_[seen_used_];
-  if (offset >= last.end && last.generation == entry->generation) return miss(*entry, file, offset, line);  // never read: not in the cache
+  if (offset >= last.end && last.generation == entry->generation) return miss(*entry, file, offset, line);  // never read before, so not in the cache
   const Block* block = cached(*entry, offset, line);
   return block != nullptr ? block : miss(*entry, file, offset, line);
 }
 
-/// Slot of a block in the cache, or ~0u. A block may lie in any slot of its set: a loop whose blocks met in one slot would be compiled
-/// again in every turn.
+/// Slot of a block in the cache, or ~0u. A block may lie in any slot of its set: if there was only one slot for it, two blocks of a loop that share the
+/// slot would be compiled again in every pass.
 unsigned BlockReader::find_slot(uint32_t generation, uint64_t offset) const {
   const unsigned set = static_cast<unsigned>(hash(generation, offset)) & (slots_ - 1) & ~(kWays - 1);
   for (unsigned at = set; at < set + kWays; ++at) {
@@ -191,7 +190,7 @@ unsigned BlockReader::find_slot(uint32_t generation, uint64_t offset) const {
 
 const Block* BlockReader::cached(const TextEntry& entry, uint64_t offset, uint32_t line) {
   if (slots_ == 0) return nullptr;
-  // Where the way has gone on from the block before, it does so nearly always.
+  // A block is nearly always followed by the same block as last time.
   Tag& before = tags_[last_slot_];
   unsigned at = before.follower;
   if (tags_[at].offset != offset || tags_[at].generation != entry.generation) {
@@ -244,7 +243,7 @@ bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset
   block.line = line;
   block.next_line = newline ? line + 1 : line;
   block.ordinary = !block.empty && !block.percent && !block.end_of_text && !block.has_o && !block.has_n && block.skip == 0 && !block.has_fault;
-  if (!has_parity(entry, offset) || block.percent) return true;  // behind the end of the record nothing is significant
+  if (!has_parity(entry, offset) || block.percent) return true;  // nothing is significant behind the end of the record
   const Condition wrong = parity_fault(entry, offset, block.next);
   if (wrong == Condition::none) return true;
   block.has_fault = true;
@@ -254,7 +253,7 @@ bool BlockReader::compile(const TextEntry& entry, unsigned file, uint64_t offset
   return true;
 }
 
-/// M700 3.6: every row of the significant section, and by parameter the number of characters of a block.
+/// M700 3.6: checks every row of the significant section, and where a parameter says so the number of characters of a block.
 Condition BlockReader::parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const {
   BlockParity parity;
   bool whole = false;  // the block has its end
@@ -271,7 +270,7 @@ Condition BlockReader::parity_fault(const TextEntry& entry, uint64_t begin, uint
   return whole && parity.odd() && ((parity_units_ >> entry.unit) & 1) != 0 ? Condition::parity_vertical : Condition::none;
 }
 
-/// A read through the window came to nothing.
+/// Notes why reading through the window has failed.
 bool BlockReader::failed() {
   failure_ = window_.failure();
   return false;
@@ -325,7 +324,7 @@ bool BlockReader::compile_long(const TextEntry& entry, uint64_t offset, Block& b
     }
   }
   rules_->read(buffer, condenser.size(), *rules_, semicolon_of(entry), condenser.columns(), block);
-  if (condenser.overflowed()) {  // what else seems wrong may come from the cut
+  if (condenser.overflowed()) {  // other faults may only come from the cut, so this one replaces them
     block.has_fault = true;
     block.fault = Fault{};
     block.fault.condition = Condition::block_too_long;
@@ -343,7 +342,7 @@ Semicolon BlockReader::semicolon_of(const TextEntry& entry) const {
 void BlockReader::semicolon_begins_comment(bool comments) {
   if (comments == comments_) return;
   comments_ = comments;
-  for (unsigned i = 0; i < slots_; ++i) tags_[i].generation = 0;  // compiled by the other rule
+  for (unsigned i = 0; i < slots_; ++i) tags_[i].generation = 0;  // it was compiled by the other rule
   for (unsigned i = 0; i < kIndexes; ++i) indexes_[i].generation = 0;
   for (unsigned i = 0; i < kJumps; ++i) jumps_[i].generation = 0;
 }

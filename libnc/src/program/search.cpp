@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking for programs, sequence numbers and the ends of loops in a text. Only the heads of blocks are looked
-// at: blanks, skip sign, O, N; the rest of a block is passed over as fast as its end can be told.
+// Searches a text for programs, sequence numbers and the ends of loops. Only the heads of blocks are read: blanks, skip sign, O, N; the rest of a block is
+// passed over as fast as its end can be found.
 #include <cstring>
 #include <initializer_list>
 
@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-/// Characters at which passing over a block has to look closer.
+/// Characters at which passing over a block has to stop and look closer.
 struct StopCharacter {
   bool is[256] = {};
   constexpr StopCharacter() {
@@ -20,16 +20,16 @@ struct StopCharacter {
 };
 constexpr StopCharacter kStop;
 
-/// What stands at the head of a block.
+/// The head of a block.
 struct Head {
   uint64_t offset = 0;
   uint32_t line = 1;
   uint64_t o = 0, n = 0;  ///< 0 = none
   bool percent = false;
-  bool blank = true;  ///< nothing but blanks and comments
+  bool blank = true;  ///< the block holds only blanks and comments
 };
 
-/// Goes from block to block of a text through a window of its reader.
+/// Goes from block to block of a text, through the window of its reader.
 class HeadScanner {
  public:
   HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, Semicolon semicolon,
@@ -80,7 +80,7 @@ class HeadScanner {
 
   bool ends(int c) const { return c < 0 || c == '\n' || c == '%' || (c == ';' && semicolon_ != Semicolon::unknown); }
 
-  /// The character behind blanks and comments, capital.
+  /// The next character behind blanks and comments, as a capital.
   int significant() {
     for (;;) {
       const int c = look();
@@ -97,7 +97,7 @@ class HeadScanner {
     }
   }
 
-  /// Number behind a letter, decimals left out; 0 = none. *c becomes the character behind it.
+  /// The number behind a letter, without its decimals; 0 = there is none. *c becomes the character behind it.
   uint64_t number(int* c) {
     constexpr uint64_t kSaturated = UINT32_MAX + uint64_t{1};
     uint64_t n = 0;
@@ -119,14 +119,14 @@ class HeadScanner {
     }
   }
 
-  /// Behind the ';' that ends a line: is there anything in the line that makes it a fault?
+  /// Behind a ';' that ends a line: whether something follows in the line, which is a fault.
   bool more_in_line() {
     int c = significant();
     for (; c == ';'; c = significant()) take();
     return !ends(c);
   }
 
-  /// Over the rest of the block and its end.
+  /// Passes over the rest of the block and its end.
   void pass_over(bool whole_line) {
     for (;;) {
       while (p_ != end_ && !kStop.is[static_cast<unsigned char>(*p_)]) ++p_;
@@ -219,7 +219,7 @@ ProgramRef BlockReader::find_program(uint32_t number, unsigned own_file) {
   int file = store_->find_number(number);
   if (file < 0) {
     const ProgramRef own = find_o_line(number, own_file);
-    if (own.valid() || failure_ != 0) return own;  // what could not be read may be it: no other program stands in for it
+    if (own.valid() || failure_ != 0) return own;  // where the text could not be read the program may be in it, so no other one is taken instead
     char name[16] = "O";
     unsigned length = 1;
     char digits[10];
@@ -309,12 +309,12 @@ bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uin
   return jump.found;
 }
 
-/// `wanted` with what has been found; *again: its offset and line are where to go on.
+/// Returns `wanted` with what has been found. *again: the budget is used up, and offset and line are where the search has to go on.
 BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted,
                                                  uint64_t budget, bool* again, bool* failed) {
   Jump jump = wanted;
   HeadScanner scanner(window_, entry, *rules_, semicolon_of(entry), wanted.from, line);
-  bool at_head = wanted.from_head;  // nothing but what may stand before a program has been seen
+  bool at_head = wanted.from_head;  // so far only blocks have been seen that may stand before a program
   bool o_seen = false;
   for (Head head;;) {
     if (budget != 0 && scanner.offset() - wanted.from >= budget) {
@@ -325,7 +325,7 @@ BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_
     }
     if (!scanner.next(&head) || (wanted.limit != 0 && head.offset >= wanted.limit)) break;
     if (has_parity(entry, head.offset) && !head.percent && parity_fault(entry, head.offset, scanner.offset()) != Condition::none) {
-      head.n = wanted.n;  // the search ends here, and whoever reads this block finds the alarm (M700 3.6)
+      head.n = wanted.n;  // the search ends at this block; reading it gives the alarm (M700 3.6)
     }
     if (head.blank && !head.percent) continue;
     if (head.percent) {

@@ -19,7 +19,7 @@ const char* without_folder(const char* name) {
   return base;
 }
 
-/// Length without the ending: "1000.nc" 4. A name that begins with its only point has none.
+/// Length of a name without its ending: "1000.nc" has 4. A name whose only point is its first character has no ending.
 size_t stem_length(const char* name, size_t length) {
   for (size_t i = length; i-- > 1;) {
     if (name[i] == '.') return i;
@@ -27,8 +27,8 @@ size_t stem_length(const char* name, size_t length) {
   return length;
 }
 
-/// "O1000", "o0100.nc", "1000.nc" -> the number; 0 = none. Without the O leading zeros make it a name: the
-/// file "0100" is reached as <0100> only (M700 13.3.1).
+/// The program number of "O1000", "o0100.nc" or "1000.nc"; 0 = none. Without the O a number with leading zeros counts as a name: the file "0100" can only
+/// be called as <0100> (M700 13.3.1).
 uint32_t number_of_name(const char* name) {
   const size_t length = stem_length(name, std::strlen(name));
   const bool letter = upper(name[0]) == 'O';
@@ -109,7 +109,7 @@ const TextEntry* ProgramStore::entry(unsigned file) const {
 
 bool ProgramStore::set_tape(unsigned file, uint8_t code, uint8_t unit) {
   TextEntry& entry = entries_[file];
-  entry.tape = NC_TAPE_NONE;  // read as it is
+  entry.tape = NC_TAPE_NONE;  // the rows of the label are read without decoding
   entry.label = 0;
   entry.generation = ++generation_;
   bool in_label = code != NC_TAPE_NONE;
@@ -142,7 +142,7 @@ int ProgramStore::find_name(const char* name, size_t length) const {
   for (unsigned i = 0; i < count_; ++i) {
     if (same_name(entries_[i].name, std::strlen(entries_[i].name), name, length)) return static_cast<int>(i);
   }
-  // One of the two may lack the ending; two different endings are two different files.
+  // An ending may be missing in one of the two names; two different endings mean two different files.
   const size_t stem = stem_length(name, length);
   for (unsigned i = 0; i < count_; ++i) {
     const size_t entry_length = std::strlen(entries_[i].name);

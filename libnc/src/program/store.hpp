@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program store: texts by name and O number, read through a read-at callback in windows, never whole.
+// The program store: texts with their names and O numbers. They are read piece by piece through a read-at callback, never as a whole.
 #pragma once
 
 #include "alarm/condition.hpp"
@@ -23,35 +23,36 @@ struct ProgramRef {
 /// Shared by all part systems of a control.
 class ProgramStore {
  public:
-  /// `reserved` places more are for texts of the control's own (MDI), whatever the host has entered.
+  /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters.
   void create(unsigned capacity, unsigned reserved, Arena& arena);
   nc_status add(const TextEntry& entry, const char* name, unsigned* file, bool own = false);
   /// Frees the place of an entry that nothing refers to.
   void remove(unsigned file);
-  /// It is used now.
+  /// Notes that the program is used now.
   void touch(unsigned file) { entries_[file].used = ++uses_; }
-  /// A part system (counted from 0) keeps a reference beside its state, until forget_notes().
+  /// Notes that a part system (from 0) refers to the program in tables outside of its state, until forget_notes().
   void note(unsigned file, unsigned system) { entries_[file].noted |= static_cast<uint8_t>(1u << system); }
   void forget_notes(unsigned system);
   void on_missing(nc_program_missing callback, void* user, nc_control* control);
   const TextEntry* entry(unsigned file) const;
   void set_edited(unsigned file, bool edited) { entries_[file].edited = edited; }
-  /// The text is that of MDI: it may have several blocks in a line.
+  /// Notes that the text is one of MDI, in which a line may hold several blocks.
   void set_mdi(unsigned file) { entries_[file].mdi = true; }
-  /// The text is a tape in the code of nc_tape, read by `unit`: looks for its label. False: the text cannot be read.
+  /// Notes that the text is a tape, `code` being an nc_tape, read by input device `unit`, and finds the end of its label. False: the text cannot be read.
   bool set_tape(unsigned file, uint8_t code, uint8_t unit);
-  /// By the whole name; case is ignored.
+  // The following find an entry, -1 = there is none.
+  /// Finds it by its whole name; upper and lower case are the same.
   int find_exactly(const char* name) const;
-  /// By name without folder; case is ignored; with or without an ending.
+  /// Finds it by its name without the folder, with or without the ending; upper and lower case are the same.
   int find_name(const char* name, size_t length) const;
   int find_number(uint32_t number) const;
-  /// Asks the host. True when it has added something.
+  /// Asks the host for a program. True when the host has added one.
   bool ask_host(const char* name);
 
  private:
   TextEntry* entries_ = nullptr;
   unsigned capacity_ = 0, reserved_ = 0, count_ = 0;  ///< places behind count_ have never been used
-  unsigned given_ = 0;                                ///< entries of the host
+  unsigned given_ = 0;                                ///< number of entries of the host
   uint64_t uses_ = 0;
   uint32_t generation_ = 0;  ///< of the newest entry; unique in the store
   nc_program_missing missing_ = nullptr;
@@ -59,80 +60,75 @@ class ProgramStore {
   nc_control* control_ = nullptr;
 };
 
-/// Reads blocks of the texts of a store for one part system: window, compiled-block cache, searches.
+/// Reads blocks of the texts of a store for one part system: with a window, a cache of compiled blocks, and searches.
 class BlockReader {
  public:
   void create(ProgramStore* store, const LexRules* rules, unsigned window_bytes, unsigned cached_blocks,
               Arena& arena);
 
-  /// The block at `offset` (first character) of `file`, compiled; from the cache when it is there. The
-  /// reference holds until the next call of read(); searching leaves it alone. At the end of the text: a
-  /// Block with end_of_text. nullptr when the read callback failed.
+  /// The compiled block whose first character is at `offset` of `file`, from the cache when it is there. It is valid until the next call of read();
+  /// searches do not change it. At the end of the text: a Block with end_of_text. nullptr when the read callback has failed.
   const Block* read(unsigned file, uint64_t offset, uint32_t line);
 
-  /// Program `number`: an entry of the store by number; else an O line inside `own_file`; else whatever the
-  /// host adds.
+  /// Program `number`: an entry of the store with this number; else an O line inside `own_file`; else the program that the host adds.
   ProgramRef find_program(uint32_t number, unsigned own_file);
   ProgramRef find_program(const char* name, size_t length);
-  /// A program outside the memory: by name, or by number where `length` is 0. In the store and for the host its name begins with
-  /// `place`: "198:" the data server (M198), "D1:" to "D4:" a device (M98 ,D).
+  /// A program outside the memory, by its name, or by its number where `length` is 0. Its name in the store, and for the host, begins with `place`:
+  /// "198:" for the data server (M198), "D1:" to "D4:" for a device (M98 ,D).
   ProgramRef find_external(const char* place, const char* name, size_t length, uint32_t number);
-  /// The block at `offset` without disturbing the one that read() gave.
+  /// The compiled block at `offset`; the block that read() has given stays valid.
   const Block* peek(unsigned file, uint64_t offset = 0, uint32_t line = 1);
 
-  /// First block with sequence number n in [offset, limit); limit 0 = the end of the program (a '%', the next
-  /// O line, the end of the text). Blocks with a skip sign count (M700 13.5.7). False when there is none.
-  /// Interruptible: gives up after `budget` bytes with *offset at where to go on and *again = true. budget 0
-  /// = no limit. `from_head`: *offset is where a program begins, so an O line (or, at the start of the text,
-  /// '%' before it) does not end it.
+  /// First block with sequence number n in [offset, limit); limit 0 = up to the end of the program (a '%', the next O line, the end of the text). Blocks
+  /// with a skip sign count, too (M700 13.5.7). False when there is none. The search can be interrupted: after `budget` bytes it returns false with
+  /// *again = true and *offset at where it has to go on; budget 0 = no limit. `from_head`: *offset is where a program begins, so that its own O line
+  /// (or, at the start of the text, a '%' before it) does not end the search.
   bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t limit,
                      uint64_t budget, bool* again, bool from_head = true);
 
-  /// Start of the block behind the END m that belongs to the DO m whose block ends at *offset (nesting
-  /// respected); false = none.
+  /// Start of the block behind the END m that belongs to the DO m whose block ends at *offset; loops in between are respected. False = there is none.
   bool find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line);
 
-  /// Input devices whose tapes have the number of characters in each block checked, bit n = unit n (M700 3.6 (2)).
+  /// Sets the input devices on whose tapes the number of characters of each block is checked, bit n = unit n (M700 3.6 (2)).
   void check_block_parity(uint32_t units) { parity_units_ = units; }
-  /// By parameter ';' begins a comment, in families that know it and in texts that are not MDI.
+  /// Sets whether ';' begins a comment, as a parameter may say. It holds in families that know ';', and not for MDI.
   void semicolon_begins_comment(bool comments);
   bool is_tape(unsigned file) const { return store_->entry(file)->tape != NC_TAPE_NONE; }
 
-  /// Why the last read or search came to nothing: read_failed or program_changed; none where the text could be read.
+  /// Why the text could not be read in the last read or search: read_failed or program_changed; none where it could.
   Condition failure() const {
     return failure_ == 0 ? Condition::none : failure_ == NC_READ_CHANGED ? Condition::program_changed : Condition::read_failed;
   }
 
-  /// Same program text, different content: forget compiled blocks of a file.
+  /// The content of a text has changed: forgets the compiled blocks of the file.
   void forget(unsigned file);
 
  private:
-  static constexpr unsigned kWays = 4;     ///< slots of the cache where a block may lie; power of two
-  static constexpr unsigned kSeen = 8;     ///< texts whose extent of reading is remembered
-  static constexpr unsigned kIndexes = 2;  ///< texts whose O lines are remembered
-  static constexpr unsigned kJumps = 64;  ///< searches for sequence numbers that are remembered; power of two
-  static constexpr unsigned kIndexed = 64;  ///< O lines of each; those beyond are looked for every time
+  static constexpr unsigned kWays = 4;     ///< number of slots of the cache in which a block may lie; power of two
+  static constexpr unsigned kSeen = 8;     ///< number of texts for which it is remembered how far they have been read
+  static constexpr unsigned kIndexes = 2;  ///< number of texts whose O lines are remembered
+  static constexpr unsigned kJumps = 64;  ///< number of searches for sequence numbers that are remembered; power of two
+  static constexpr unsigned kIndexed = 64;  ///< O lines remembered of each text; further ones are searched for every time
 
   /// Name of a compiled block: generations are unique in the store.
   struct Tag {
     uint64_t offset = 0;
     uint32_t generation = 0;  ///< 0 = free
-    uint32_t follower = 0;    ///< slot of the block that was read behind this one: a guess
+    uint32_t follower = 0;    ///< slot of the block that was read after this one, as a guess for the next time
   };
-  /// How far a text has been read. Blocks beyond are read for the first time and most likely the last: they
-  /// are not cached.
+  /// How far a text has been read. Blocks beyond that are read for the first time, and most likely the last time: they are not cached.
   struct Seen {
     uint64_t end = 0;
     uint32_t generation = 0;
   };
-  /// A search for a sequence number and what came of it: a GOTO in a loop looks once.
+  /// A search for a sequence number and its result, so that a GOTO in a loop searches only once.
   struct Jump {
     uint64_t from = 0, limit = 0, offset = 0;
     uint32_t generation = 0, n = 0, line = 0;
     bool from_head = false, found = false;
   };
   struct Index {
-    uint64_t scanned = 0;  ///< where looking for O lines goes on
+    uint64_t scanned = 0;  ///< where the search for further O lines goes on
     uint32_t scanned_line = 1;
     uint32_t generation = 0;
     unsigned count = 0;
@@ -159,8 +155,8 @@ class BlockReader {
 
   ProgramStore* store_ = nullptr;
   const LexRules* rules_ = nullptr;
-  bool comments_ = false;  ///< semicolon_begins_comment()
-  long failure_ = 0;  ///< what the read callback gave in the last read or search; 0 = the text
+  bool comments_ = false;  ///< set by semicolon_begins_comment()
+  long failure_ = 0;  ///< what the read callback returned when it failed in the last read or search; 0 = it did not fail
   TextWindow window_;
   Block* first_time_ = nullptr;  ///< block that is being read for the first time
   Block* searched_ = nullptr;    ///< block that a search looks at
@@ -168,7 +164,7 @@ class BlockReader {
   Tag* tags_ = nullptr;
   unsigned slots_ = 0;  ///< power of two, at least kWays, or 0
   unsigned next_way_ = 0;
-  unsigned last_slot_ = 0;  ///< of the block read last
+  unsigned last_slot_ = 0;  ///< slot of the block read last
   Seen seen_[kSeen];
   unsigned seen_used_ = 0;  ///< entry of seen_ last used
   uint32_t parity_units_ = 0;

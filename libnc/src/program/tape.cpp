@@ -8,9 +8,9 @@ namespace {
 
 constexpr unsigned char kIsoDelete = 0xff, kIsoLineFeed = 0x0a;
 constexpr unsigned char kEiaDelete = 0x7f, kEiaEndOfBlock = 0x80;
-constexpr char kUnknown = '\x01';  ///< a row that is in no table: P32 where it is executed (3.1 note 1)
+constexpr char kUnknown = '\x01';  ///< stands for a row that is in no table: P32 when its block is executed (3.1 note 1)
 
-/// RS-244: channels 1 to 8 are the bits, channel 5 makes the number of holes odd.
+/// RS-244: channels 1 to 8 are the bits; channel 5 makes the number of holes odd.
 struct EiaTable {
   char character[256] = {};
   constexpr EiaTable() {
@@ -41,7 +41,7 @@ char decode_iso(unsigned char row) {
   if (row == 0 || row == kIsoDelete) return kIgnoredRow;
   if (std::popcount(row) % 2 != 0) return kBadRow;
   const char c = static_cast<char>(row & 0x7f);
-  return c == '\r' ? ' ' : c;  // without meaning, but counted
+  return c == '\r' ? ' ' : c;  // it has no meaning, but counts in the parity of the block
 }
 
 char decode_eia(unsigned char row) {
@@ -57,7 +57,7 @@ bool ends_tape_block(uint8_t code, char row) {
 
 void decode_tape(const TextEntry& entry, uint64_t offset, char* text, size_t size) {
   for (size_t i = 0; i < size; ++i) {
-    if (offset + i < entry.label) {  // M700 3.1 (1); the end of its only block stays, for the count of lines
+    if (offset + i < entry.label) {  // M700 3.1 (1): the label becomes blanks; the end of its only block stays, so that lines are counted
       text[i] = ends_tape_block(entry.tape, text[i]) ? '\n' : ' ';
     } else if (entry.tape != NC_TAPE_TEXT) {
       const unsigned char row = static_cast<unsigned char>(text[i]);

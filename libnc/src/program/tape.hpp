@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that are images of a punched tape, one byte for each row of holes (M700 3.1, 3.6): rows to
-// characters, the label in front of the significant section, the parity of rows and blocks.
+// Programs that are images of a punched tape, one byte for each row of holes (M700 3.1, 3.6): turns rows into characters, hides the label before the
+// significant section, and checks the parity of rows and blocks.
 //
 // A row becomes exactly one character, so that offsets into the tape are offsets into the text.
 #pragma once
@@ -12,24 +12,23 @@
 
 namespace nc {
 
-/// What a row with a wrong number of holes becomes; no other character of a tape has this code.
+/// The character for a row with a wrong number of holes; no other row gives it.
 inline constexpr char kBadRow = '\x80';
-/// What a row that is always ignored becomes (codes B of 3.1): blank, and not counted in the parity of a
-/// block.
+/// The character for a row that is always ignored (codes B of 3.1): a blank, which does not count in the parity of a block.
 inline constexpr char kIgnoredRow = '\r';
 
-/// `size` rows from `offset` on, in place.
+/// Decodes `size` rows, the first of which is at `offset`, in place.
 void decode_tape(const TextEntry& entry, uint64_t offset, char* text, size_t size);
 
 /// The row is the end of a block.
 bool ends_tape_block(uint8_t code, char row);
 
-/// Parity of the rows of one block, decoded.
+/// Checks the parity of the decoded rows of one block.
 class BlockParity {
  public:
   void take(const char* text, size_t size);
   bool bad_row() const { return bad_; }
-  /// Valid for a block with its end: the number of its characters, the end among them, is odd.
+  /// The number of characters of the block, counting its end, is odd. Valid only when the end has been taken.
   bool odd() const { return odd_; }
 
  private:

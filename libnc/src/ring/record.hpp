@@ -11,8 +11,8 @@ struct Record {
   Serial serial = 0;
   nc_source source{};
   ItemKind kind = ItemKind::mark;
-  bool staged = false;  ///< it has come out of the offset stage, where blocks are not apart
-  uint32_t epoch = 0;   ///< RunWord::epoch(): records of another one are thrown away by the scan
+  bool staged = false;  ///< it has come out of a stage, where the items of neighbouring blocks cannot be told apart
+  uint32_t epoch = 0;   ///< RunWord::epoch() in which it was made: the scan throws records of another epoch away
   union {
     Segment segment;
     Action action;

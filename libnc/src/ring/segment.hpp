@@ -10,22 +10,22 @@
 
 namespace nc {
 
-/// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, this may not.
+/// Committed geometry and its own speed limits. The plan over it (motion/plan.hpp) may change, a segment never does.
 struct Segment {
   Curve curve;
   Affine to_work;        ///< from machine coordinates to the workpiece coordinates that the display shows
   double feed_mm_s = 0;  ///< commanded path speed; 0 for rapid
-  double feed_mm_rev = 0;
+  double feed_mm_rev = 0;        ///< feed per revolution; 0 = the feed is per time
   bool rapid = false;
-  bool exact_stop = false;
-  uint8_t skip_mask = 0;  ///< ends where one of these signals comes
+  bool exact_stop = false;       ///< the path comes to rest at its end
+  uint8_t skip_mask = 0;  ///< skip: the signals that end it, bit n = signal n+1
   bool skip = false;
-  const SkipSpeeds* skip_speeds = nullptr;  ///< skip: signals that change its feed, feed_mm_s is then the fastest
-  double start_feed_mm_s = 0;               ///< and this the one that it begins with
-  bool thread = false;       ///< goes with the spindle, whatever override and hold say (M700 6.7.1)
-  float thread_angle = 0;    ///< of the spindle where it starts, deg
-  double feed_end_mm_s = 0;  ///< the feed goes evenly to this at the end; 0 = it stays
-  uint8_t feed_digit = 0;    ///< n + 1: commanded as Fn of one digit (M700 7.3)
+  const SkipSpeeds* skip_speeds = nullptr;  ///< skip: signals that change its feed; feed_mm_s is then the fastest feed
+  double start_feed_mm_s = 0;               ///< feed with which it begins: feed_mm_s, unless there are skip_speeds
+  bool thread = false;       ///< goes with the spindle; override and feed hold do not act (M700 6.7.1)
+  float thread_angle = 0;    ///< angle of the spindle where the thread starts, deg
+  double feed_end_mm_s = 0;  ///< the feed changes evenly to this at the end; 0 = it does not change
+  uint8_t feed_digit = 0;    ///< n + 1: commanded as the one-digit feed Fn (M700 7.3); 0 = not
   bool fixed_override = false;  ///< the feed override does not act (G63)
   bool rest_before = false;     ///< the path comes to rest where it begins
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
@@ -40,11 +40,11 @@ struct Segment {
   FilterTimes filter;        ///< behind interpolation
   float round_mm[2] = {};    ///< arc: radius compensation of its two axes (M700 13.15, #2069), mm outwards
   bool rounds() const { return round_mm[0] != 0.0f || round_mm[1] != 0.0f; }
-  // filled by the planner when it is committed
-  double speed_limit = 0;  ///< path speed at which some axis reaches its velocity limit, or the curvature its
-                           ///< acceleration limit
-  double acceleration = 0;  ///< path acceleration that no axis limit is broken by
-  uint32_t ordinal = 0;     ///< counts segments; names this one in the plan
+  // set by the planner when the segment is committed
+  double speed_limit = 0;  ///< mm/s: path speed at which some axis reaches its limit of velocity, or by curvature its limit of
+                           ///< acceleration
+  double acceleration = 0;  ///< mm/s^2: largest path acceleration that keeps the limits of every axis
+  uint32_t ordinal = 0;     ///< number of the segment, which names it in the plan
 };
 
 }  // namespace nc

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The items that a block has made and that nobody has taken yet, in the order of the stream. The interpreter puts them in at the end, the
-// part system takes them from the front; both see this type, because it is asked twice for every item.
+// The items that a block has made and that have not been taken yet, in the order of the stream. The interpreter adds them at the end, the part system
+// takes them from the front. Both use this type directly, without a function call into another file, because it is used twice for every item.
 #pragma once
 
 #include "base/arena.hpp"
@@ -12,12 +12,12 @@ class ItemQueue {
  public:
   static constexpr unsigned kCapacity = 64;
 
-  /// Lays it out in `arena`; with a measuring arena it only counts.
+  /// Takes memory from `arena`; a measuring arena only counts it.
   void create(Arena& arena) { item_ = arena.make<Item>(kCapacity); }
   bool empty() const { return count_ == 0; }
   unsigned size() const { return count_; }
   unsigned room() const { return kCapacity - count_; }
-  /// The first of them, nullptr = none.
+  /// The first item, nullptr = there is none.
   Item* front() { return count_ == 0 ? nullptr : &item_[head_ % kCapacity]; }
   /// Number 0 is the front; `number` is below size().
   const Item& operator[](unsigned number) const { return item_[(head_ + number) % kCapacity]; }
@@ -28,12 +28,12 @@ class ItemQueue {
     ++count_;
     return item;
   }
-  /// Takes the front off.
+  /// Removes the first item.
   void pop() {
     ++head_;
-    if (--count_ == 0) head_ = 0;  // from the first place again: a short queue stays in the cache
+    if (--count_ == 0) head_ = 0;  // a queue that is empty begins at its first place again, so that a short one stays in the cache
   }
-  /// Gives up those from `number` on.
+  /// Removes the items from `number` on.
   void cut(unsigned number) { count_ = number; }
   void clear() { head_ = count_ = 0; }
 

@@ -55,20 +55,20 @@ struct AxisVec {
   bool operator==(const AxisVec&) const = default;
 };
 
-using Serial = uint64_t;      ///< of an item, given at commit; 0 = none
-using BlockSeq = uint64_t;    ///< counts the blocks that the interpreter has executed; journal and checkpoints go by it
-using TransformId = uint32_t; ///< of a frame/affine.hpp map in the pool of the part system
-using ModalId = uint32_t;     ///< of an interned modal snapshot
-using SettingsId = uint32_t;  ///< of interned MotionSettings (interpret/motion_settings.hpp)
+using Serial = uint64_t;      ///< number of an item, given at commit; 0 = none
+using BlockSeq = uint64_t;    ///< number of a block in the order in which the interpreter executes them; journal and checkpoints are ordered by it
+using TransformId = uint32_t; ///< number of an affine map (frame/affine.hpp) in the pool of the part system
+using ModalId = uint32_t;     ///< number of an interned modal snapshot
+using SettingsId = uint32_t;  ///< number of interned MotionSettings (interpret/motion_settings.hpp)
 
 enum class ItemKind : uint8_t { move, action, gate, sync, mark, alarm, end };
 
 /// How tool radius compensation acts on a move. side 0 = the move is not compensated.
 struct Compensation {
   int8_t side = 0;         ///< +1 left of the direction of travel (G41), -1 right (G42); 0 off
-  bool transparent = false;  ///< vectors are taken away for this move and come back (G28, G53, G33): M700 12.4.2
+  bool transparent = false;  ///< the offset vectors are taken away for this move and come back after it (G28, G53, G33): M700 12.4.2
   bool has_vector = false; ///< G41/G42/G38 with I J K: `vector` is the direction given, no intersection is computed
-  bool hold_vector = false;  ///< G38: keep the vector of the end before
+  bool hold_vector = false;  ///< G38: keep the vector at the end of the move before
   bool corner_arc = false; ///< G39
   bool type_b = false;     ///< start and cancel type B (M700 #1229 bit 2, DGSHAPE startup)
   bool cancel_vector = false; ///< G40 with I J K: `vector` is the hypothetical direction
@@ -103,7 +103,7 @@ struct Circle {
 
 enum class Plane : uint8_t { xy = NC_PLANE_XY, zx = NC_PLANE_ZX, yz = NC_PLANE_YZ, none = NC_PLANE_NONE };
 
-/// What the feed of a move goes by beside its number; all zero for the plain feed per minute.
+/// What decides the feed of a move in addition to the number F; all zero for the plain feed per minute.
 struct FeedRule {
   uint8_t digit = 0;           ///< n + 1: commanded as Fn of one digit (M700 7.3)
   bool inverse_time = false;   ///< G93: the time of the block stays as it is compensated (M700 7.5)
@@ -117,17 +117,17 @@ struct FeedRule {
   float corner_reach = 0;      ///< the same for a corner at the end of a block behind, mm
 };
 
-/// Feeds that the skip signals of a G31 call for (M700 15.5). One such move is under way at a time: it is followed by a sync.
+/// Feeds that the skip signals of a G31 change to (M700 15.5). Only one such move is under way at a time, because a sync follows it.
 struct SkipSpeeds {
   static constexpr unsigned kSignals = 8;
   uint8_t mask = 0;                  ///< signals that change the feed, bit n = signal n+1
   double feed_mm_min[kSignals] = {};
 };
 
-/// What is on of M700 13.15 and 13.17 while a move is made.
+/// Which functions of M700 13.15 and 13.17 are on for a move: bits.
 enum HighAccuracy : uint8_t { kHighAccuracyOn = 1, kFineSegmentsOn = 2 /**< high-speed high-accuracy control II */ };
 
-/// What a block says of its end that only the next movement settles: such a move is pending, and contour/ holds it back.
+/// A corner at the end of a block, whose geometry only the next movement decides: contour/ holds such a move back until then.
 enum class Corner : uint8_t {
   none,
   chamfer,  ///< ,C (M700 13.7.1)
@@ -142,13 +142,13 @@ struct Move {
 
   nc_move_kind kind = NC_MOVE_LINE;
   bool circular = false;
-  bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and what the dialect says
+  bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and where the dialect says so
   bool connecting = false;       ///< inserted by a stage (corner of a compensated contour), not programmed
   uint8_t skip_mask = 0;
   const SkipSpeeds* skip_speeds = nullptr; ///< skip: signals that change its feed (M700 15.5); nullptr in nearly every move
   uint32_t stroke_box = 0;       ///< id of the prohibited area in force, counted from 1; 0 = none (M700 15.7)
-  Plane plane = Plane::none;     ///< circular, and the line before a rounding
-  uint8_t plane_axis[2] = {0, 1};  ///< the same
+  Plane plane = Plane::none;     ///< plane of a circular move, and of a line with a rounding at its end
+  uint8_t plane_axis[2] = {0, 1};  ///< first and second axis of that plane
   bool plane_feed = false;       ///< helix: the feed is the speed in the plane of its arc (M700 6.6)
   uint8_t unclamps = 0;          ///< bit i: axis i of an index table is unclamped meanwhile, for the move behind (M700 9.3 (3))
   uint8_t high_accuracy = 0;     ///< corners and arcs by the rules of high-accuracy control: bits of HighAccuracy
@@ -158,24 +158,24 @@ struct Move {
   bool meets = false;            ///< the move before, which is pending, ends where this one begins
   SettingsId settings = 0;       ///< parameters as they were when the move was made: stages and commit go by them alone
   TransformId transform = 0;
-  uint32_t shape = 0;            ///< of the MoveShape, counted from 1; 0 = the line or circle below is all
+  uint32_t shape = 0;            ///< number of its MoveShape, counted from 1; 0 = the move is just the line or circle below
   AxisVec start, end;            ///< compensation frame; after the offset stage: of the compensated path
-  AxisVec work;                  ///< programmed end point, same frame, never changed by the offset stage
-  double work_center[2] = {0, 0};  ///< circular: programmed centre, never changed
+  AxisVec work;                  ///< programmed end point, in the same frame; the offset stage does not change it
+  double work_center[2] = {0, 0};  ///< circular: programmed centre; the offset stage does not change it
   Circle circle;                 ///< circular only
   double feed_mm_min = 0;        ///< 0 = rapid
-  double feed_mm_rev = 0;
+  double feed_mm_rev = 0;        ///< feed per revolution; 0 = the feed is per minute
   float feed_end = 0;            ///< exponential: feed at its end, mm/min; 0 = constant
   float thread_angle = 0;        ///< thread: start angle of the spindle, deg
   float tap_rev_min = 0;         ///< synchronous tap: speed of the spindle for it, forward positive; the feed per revolution is its lead
   float tap_slope = 0;           ///< highest acceleration of the spindle for it, rev/s^2; 0 = what the axes bear
   FeedRule rule;
-  float speed_clamp = 0;         ///< highest speed, whatever the feed and the override, mm/s; 0 = none
+  float speed_clamp = 0;         ///< highest speed whatever the feed and the override are, mm/s; 0 = none
   Compensation comp;
   SpaceVector space;
 };
 
-/// What an M code says of the spindles that are selected; the end of a program is for all of them.
+/// What an M code commands the selected spindles to do; stop_all, for the end of a program, concerns all spindles.
 enum class SpindleTurn : uint8_t { as_it_is, forward, reverse, stop, stop_all };
 
 struct Action {
@@ -197,25 +197,25 @@ struct Sync {
   uint32_t what = 0;  ///< nc_sync_what bits
 };
 
-/// A block that a macro interrupt has cut and that goes on: what it has done already is not done again (M700 13.12).
+/// A block that a macro interrupt has cut and that goes on: what has been executed of it is not executed again (M700 13.12).
 struct Repeat {
   bool active = false;
-  uint16_t items = 0;   ///< of that block that have happened
+  uint16_t items = 0;   ///< number of items of that block that have been executed
 };
 
 struct Mark {
   AxisVec work;                  ///< programmed position at the end of the block, active workpiece coordinates
   ModalId modal = 0;
-  BlockSeq seq = 0;              ///< its checkpoint, where `resume`
-  TransformId transform = 0;     ///< in force at the end of the block
-  bool stop = true, report = true;
-  bool resume = true;            ///< what follows can be read again from here: the end of a block, or a call that has been entered
-  bool again = false;            ///< M99 of the main program: the next block is its first
+  BlockSeq seq = 0;              ///< with `resume`: number of the checkpoint here
+  TransformId transform = 0;     ///< the map in force at the end of the block
+  bool stop = true, report = true;  ///< as in nc_mark
+  bool resume = true;            ///< the blocks that follow can be read again from here: it is the end of a block, or a call that has been entered
+  bool again = false;            ///< M99 of the main program: the next block is the first one of the program
   Repeat repeat;                 ///< of the block that follows
-  uint32_t place = 0;            ///< what the stages keep of it on its way through them (StageRow), counted from 1; 0 = nothing
+  uint32_t place = 0;            ///< number, from 1, under which the stages keep what they need behind this mark (StageRow); 0 = nothing is kept
 };
 
-/// Of a stage that goes by no parameters (StageRow).
+/// Rule of a stage that needs no parameters (StageRow).
 struct NoRule {};
 
 struct End {
@@ -227,7 +227,7 @@ struct End {
 struct Item {
   ItemKind kind = ItemKind::mark;
   nc_source source{};
-  /// For the offset stage: a block without movement in the plane, an M00, ... counts as one block of look-ahead (M700 12.4.2).
+  /// For the offset stage: the item ends a block that counts for its look-ahead, also one without movement in the plane or an M00 (M700 12.4.2).
   bool block_end = false;
   union {
     Move move;
@@ -241,7 +241,7 @@ struct Item {
   Item() : mark() {}
 };
 
-/// True when the stages behind must not wait for anything that comes after this item (M700 9.1 "pre-read inhibit").
+/// True when the stages must not wait for anything that comes after this item (M700 9.1 "pre-read inhibit").
 inline bool inhibits_read_ahead(const Item& item) {
   switch (item.kind) {
     case ItemKind::sync:

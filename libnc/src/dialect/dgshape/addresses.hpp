@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which address of the dgshape family carries which meaning: DGSHAPE 1-1 and the formats of the functions.
+// Which address of the dgshape family carries which meaning, from DGSHAPE 1-1 and the formats of the functions.
 #pragma once
 
 #include "dialect/role.hpp"

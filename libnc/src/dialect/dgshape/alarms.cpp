@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// DGSHAPE prints no error numbers; it only says that something "results in an error". The codes and texts are
-// ours: NC- and a word that says what is wrong. One code may stand for several conditions, the sentence for
-// the operator tells them apart.
+// DGSHAPE prints no error numbers; it only says that something "results in an error". The codes and texts are ours: "NC-" and a word that
+// says what is wrong. One code may stand for several conditions, which the sentence for the operator tells apart. "Does not occur" stands
+// beside a condition that the family cannot meet.
 #include "dialect/dgshape/tables.hpp"
 
 namespace nc::dgshape {
@@ -46,7 +46,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::illegal_address, "NC-ADDRESS", nullptr},
     {C::exponent, "NC-ADDRESS", nullptr},         // does not occur: E is no address
     {C::format_error, "NC-FORMAT", nullptr},
-    {C::behind_semicolon, "NC-FORMAT", nullptr},  // does not occur: ';' is no character
+    {C::behind_semicolon, "NC-FORMAT", nullptr},  // does not occur: ';' is no character of the family
     {C::value_range, "NC-RANGE", nullptr},
     {C::illegal_character, "NC-CHARACTER", nullptr},
     {C::block_too_long, "NC-LENGTH", nullptr},
@@ -56,7 +56,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::illegal_axis, "NC-AXIS", nullptr},
     {C::too_many_axes, "NC-AXIS", nullptr},
     {C::index_increment, "NC-RANGE", nullptr},  // does not occur: no indexing axes
-    {C::parity, "NC-CHARACTER", nullptr},       // a tape that the host gives all the same
+    {C::parity, "NC-CHARACTER", nullptr},       // the family has no tapes, but a host may give one
     {C::parity_vertical, "NC-CHARACTER", nullptr},
     // G and M codes
     {C::illegal_g, "NC-NO-SUCH-CODE", nullptr},
@@ -71,7 +71,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::helix_option, "NC-ARC", nullptr},  // does not occur: helices are standard
     {C::plane_mismatch, "NC-PLANE", nullptr},
     {C::plane_in_compensation, "NC-OFFSET-CODE", nullptr},
-    {C::plane_in_rotation, "NC-NOT-BUILT", nullptr},  // these two do not occur: there is no G68
+    {C::plane_in_rotation, "NC-NOT-BUILT", nullptr},  // this one and the next do not occur: there is no G68
     {C::space_conversion, "NC-NOT-BUILT", nullptr},
     {C::arc_in_compensation_start, "NC-OFFSET-START", nullptr},
     {C::no_offset_number, "NC-OFFSET-DATA", nullptr},
@@ -88,7 +88,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "NC-TOOL", nullptr},
     {C::comp_no_intersection, "NC-OFFSET-PATH", nullptr},
     {C::comp_interference, "NC-OFFSET-PATH", nullptr},
-    // ",C" ",R" are no words of the family
+    // the next eight do not occur: ",C" and ",R" are no words of the family
     {C::corner_option, "NC-ADDRESS", nullptr},
     {C::corner_arc, "NC-ADDRESS", nullptr},
     {C::corner_no_move, "NC-ADDRESS", nullptr},
@@ -97,10 +97,10 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::corner_next_short, "NC-ADDRESS", nullptr},
     {C::corner_motion, "NC-ADDRESS", nullptr},
     {C::pre_read, "NC-ADDRESS", nullptr},
-    {C::geometric_option, "NC-ADDRESS", nullptr},    // nor is ",A"
-    {C::second_aux, "NC-ADDRESS", nullptr},          // nor B and C
-    {C::space_compensation, "NC-ADDRESS", nullptr},  // G41/G42 take no I J K
-    // do not occur: curves and modes that the family does not have
+    {C::geometric_option, "NC-ADDRESS", nullptr},    // does not occur: ",A" is no word of the family
+    {C::second_aux, "NC-ADDRESS", nullptr},          // does not occur: B and C are no words of the family
+    {C::space_compensation, "NC-ADDRESS", nullptr},  // does not occur: G41/G42 take no I J K
+    // the next conditions do not occur: the family does not have these curves and modes
     {C::thread_lead, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_code, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_axis, "NC-NO-SUCH-CODE", nullptr},
@@ -142,8 +142,8 @@ const AlarmRow kConditions[kConditionRows] = {
     // offsets
     {C::g10_l, "NC-DATA", nullptr},
     {C::g10_p, "NC-DATA", nullptr},
-    {C::local_in_extended, "NC-NOT-BUILT", nullptr},  // does not occur: neither G52 nor G54.1
-    // programs and macros: the family has neither, so what looks like one is a macro that does not exist
+    {C::local_in_extended, "NC-NOT-BUILT", nullptr},  // does not occur: there is neither G52 nor G54.1
+    // sub programs and macros: the family has neither, so that anything which looks like one is a macro that does not exist
     {C::program_missing, "NC-MACRO", nullptr},
     {C::sequence_missing, "NC-MACRO", nullptr},
     {C::nesting, "NC-MACRO", nullptr},
@@ -174,7 +174,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::parameter_input, "NC-DATA", nullptr},
     {C::no_such_data, "NC-DATA", nullptr},
     {C::program_edited, "NC-READ", nullptr},
-    {C::rotation_in_figure, "NC-NOT-BUILT", nullptr},  // these do not occur: there is no such function
+    {C::rotation_in_figure, "NC-NOT-BUILT", nullptr},  // this one and the next five do not occur: there are no such functions
     {C::offset_in_figure, "NC-NOT-BUILT", nullptr},
     {C::offset_arc, "NC-NOT-BUILT", nullptr},
     {C::machine_in_figure, "NC-NOT-BUILT", nullptr},
@@ -183,7 +183,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::read_failed, "NC-READ", nullptr},
     {C::program_changed, "NC-READ", nullptr},
     {C::vendor_function, "NC-VENDOR", nullptr},
-    // do not occur: the family has no such words
+    // the next four do not occur: the family has no such words
     {C::control_structure, "NC-ADDRESS", nullptr},
     {C::name_without_value, "NC-MACRO", nullptr},
     {C::too_many_names, "NC-MACRO", nullptr},

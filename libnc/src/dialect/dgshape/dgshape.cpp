@@ -9,13 +9,14 @@
 namespace nc::dgshape {
 namespace {
 
-// G10.
+// What G10 L sets.
 constexpr DataInputRow kDataInput[] = {
-    {DataInputRow::kWithoutL, DataInput::tool_length},  // P R: the tool-diameter offset, in the one column that there is
+    {DataInputRow::kWithoutL, DataInput::tool_length},  // P R sets the tool-diameter offset, in the only column of offsets that there is
     {2, DataInput::work_offset},
 };
 
-// The manual does not say what is active at power on. G00 G17 G90 and mm are the safe ones; of every other group the cancel code.
+// The manual does not say which codes are active at power on. G00, G17, G90 and mm are the safe ones; of every other group it is the cancel
+// code.
 const Function kInitial[] = {
     Function::rapid, Function::plane_xy, Function::absolute, Function::metric, Function::comp_off,
     Function::length_off, Function::cycle_off, Function::return_initial, Function::scaling_off,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DGSHAPE 2-7, the list of words: its G codes and M codes. The manual names its groups and does not number
-// them; here a group has the number that the M700 gives to the same thing, so that a reader of a modal
-// snapshot need not care for the family:
+// The G codes and M codes of DGSHAPE 2-7, the list of words. The manual names its groups and does not number them. Here a group has the number
+// that the M700 gives to the same group, so that a reader of a modal snapshot need not know the family:
 //   1 positioning/interpolation  2 plane  3 dimension (G90 G91)  6 unit  7 tool-diameter offset  8
 //   tool-length offset  9 fixed cycle 10 return point  11 scaling  12 workpiece coordinate systems  0
 //   one-shot
@@ -48,7 +47,7 @@ const FunctionRow kFunctions[] = {
     {830, 9, F::cycle_peck, nullptr, "deep hole drilling cycle", "G83"},
     {850, 9, F::cycle_bore_feed, nullptr, "boring cycle, return at feed", "G85"},
     {860, 9, F::cycle_bore_stop, "NC-NOT-BUILT", "boring cycle",
-     "G86"},  // what happens at its bottom stood in a figure that is lost
+     "G86"},  // what happens at its bottom was said in a figure that is lost
     {890, 9, F::cycle_bore_dwell, nullptr, "boring cycle with dwell, return at feed", "G89"},
     {900, 3, F::absolute, nullptr, "absolute values", "G90"},
     {910, 3, F::incremental, nullptr, "incremental values", "G91"},
@@ -57,8 +56,8 @@ const FunctionRow kFunctions[] = {
     {990, 10, F::return_r, nullptr, "return to the point R level", "G99"},
 };
 
-// DGSHAPE 2-3. M03 M05 M06 M12 to M17 are output like any other M; M98 and M99 of other families are no codes
-// here.
+// DGSHAPE 2-3: the M codes that the control keeps for itself. M03, M05, M06 and M12 to M17 are put out like any other M code; M98 and M99 of
+// other families are no codes here.
 const MiscRow kMisc[] = {
     {0, M::program_stop, nullptr, "program stop", "M00"},
     {1, M::optional_stop, nullptr, "optional stop", "M01"},
@@ -68,7 +67,8 @@ const MiscRow kMisc[] = {
     {99, M::return_sub, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
 };
 
-// M04 is no code of the list. It goes out like any M that the machine may have, and turns what it turns elsewhere.
+// M04 is not in the list of the manual. It is put out like any M code that the machine may have, and it means that the spindle turns in
+// reverse, as in other families.
 const OutputRow kOutputs[] = {
     {3, M::spindle_forward},
     {4, M::spindle_reverse},

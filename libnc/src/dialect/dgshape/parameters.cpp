@@ -7,7 +7,7 @@ namespace {
 
 using P = Parameter;
 
-// 1-5 and G40-G42: settings made on the machine, here parameters by name.
+// DGSHAPE 1-5 and G40-G42: settings that are made on the machine. Here they are parameters with names.
 constexpr ParameterName kNames[] = {
     {"calculator_words", P::calculator_words, 0, 1, "none|all|F|IJKRXYZA", nullptr, "words that the calculator type applies to", "1-5"},
     {"interpretation", P::calculator, 0, 0, "conventional|calculator", nullptr, "type of numbers without a point", "1-5"},
@@ -18,7 +18,7 @@ constexpr ParameterName kNames[] = {
 
 constinit const FamilyParameters kParameters = {
     .names = {kNames, sizeof kNames / sizeof kNames[0]},
-    .arc_tolerance_mm = 0.01,      // the manual gives none; docs/decisions.md
+    .arc_tolerance_mm = 0.01,      // the manual gives none: see docs/decisions.md
     .checks_interference = false,  // the manual knows no interference check
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of the dgshape family that are functions.
+// Those rules of the dgshape family that are functions.
 #include "dialect/dgshape/rules.hpp"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace nc::dgshape {
 
 double units_per_micrometre(double /*parameter*/) { return 1; }
 
-// A code n is 10^(n/20), stepped by the rounded factors of the series.
+// The code n stands for 10^(n/20), with the rounded factors of the series.
 double speed_of_word(uint32_t value) {
   static constexpr double kFactor[20] = {1,    1.12, 1.25, 1.4, 1.6, 1.8, 2,   2.24, 2.5, 2.8,
                                         3.15, 3.55, 4, 4.5, 5, 5.6, 6.3, 7.1, 8, 9};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the dgshape family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
+// How the dgshape family answers each rule of dialect/rules.hpp. The sections of its manual are cited there.
 #pragma once
 
 #include "dialect/rules.hpp"
@@ -9,10 +9,10 @@ namespace nc::dgshape {
 /// 2-1: the unit is 0.001 mm, or 0.0001 inch; no parameter changes it.
 double units_per_micrometre(double parameter);
 
-/// 2, S: S00 to S99 are code numbers of the R20 series; from 100 on r/min.
+/// 2, S: S00 to S99 are code numbers of the R20 series; from 100 on S is in r/min.
 double speed_of_word(uint32_t value);
 
-/// G51: 0.001 to 999.999; what is outside is held within the range without a fault.
+/// G51: the factor is 0.001 to 999.999; a value outside this range becomes the nearest value in it, without a fault.
 bool factor_of_word(double value, bool pointed, double* factor);
 
 inline constexpr Rules kRules = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which address of the iso family carries which meaning: RS-274/NGC 3.3.2.1, table 2, and the formats of the functions.
+// Which address of the iso family carries which meaning, from RS-274/NGC 3.3.2.1, table 2, and the formats of the functions.
 #pragma once
 
 #include "dialect/role.hpp"

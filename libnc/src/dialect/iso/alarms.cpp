@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RS-274 has no alarm numbers. The codes and texts are ours: NC- and a word that says what is wrong. One code may stand for several
-// conditions, the sentence for the operator tells them apart.
+// RS-274 has no alarm numbers. The codes and texts are ours: "NC-" and a word that says what is wrong. One code may stand for several
+// conditions, which the sentence for the operator tells apart. "Does not occur" stands beside a condition that the family cannot meet.
 #include "dialect/iso/tables.hpp"
 
 namespace nc::iso {
@@ -93,7 +93,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "NC-TOOL", nullptr},  // does not occur
     {C::comp_no_intersection, "NC-OFFSET-PATH", nullptr},
     {C::comp_interference, "NC-OFFSET-PATH", nullptr},
-    // options of the end of a line, three words of a vector: the family has no such words
+    // options at the end of a line, vectors of three words: the family has no such words
     {C::corner_option, "NC-ADDRESS", nullptr},
     {C::corner_arc, "NC-ADDRESS", nullptr},
     {C::corner_no_move, "NC-ADDRESS", nullptr},
@@ -105,7 +105,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::geometric_option, "NC-ADDRESS", nullptr},
     {C::second_aux, "NC-ADDRESS", nullptr},
     {C::space_compensation, "NC-ADDRESS", nullptr},
-    // curves and modes; those that the family does not have are codes that do not exist
+    // curves and modes; if the family does not have one, its code does not exist
     {C::thread_lead, "NC-THREAD", nullptr},
     {C::mill_code, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_axis, "NC-NO-SUCH-CODE", nullptr},
@@ -163,7 +163,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::bracket_pair, "NC-FORMULA", nullptr},
     {C::calculation, "NC-FORMULA", nullptr},
     {C::division_by_zero, "NC-FORMULA", nullptr},
-    // statements of other families: no words here
+    // statements of other families, which are no words here
     {C::if_statement, "NC-NOT-BUILT", nullptr},
     {C::while_statement, "NC-NOT-BUILT", nullptr},
     {C::name_statement, "NC-NOT-BUILT", nullptr},
@@ -191,7 +191,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::read_failed, "NC-READ", nullptr},
     {C::program_changed, "NC-READ", nullptr},
     {C::vendor_function, "NC-VENDOR", nullptr},
-    // what RS-274 has and others have not
+    // conditions that only RS-274 has
     {C::control_structure, "NC-O-WORD", nullptr},
     {C::name_without_value, "NC-PARAMETER", nullptr},
     {C::too_many_names, "NC-PARAMETER", nullptr},

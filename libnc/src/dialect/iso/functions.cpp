@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The G and M codes of the iso family: RS-274/NGC 3.5 and 3.6, and what LinuxCNC has beside them. Groups are those of RS-274/NGC 3.4, table 4, and of
-// LinuxCNC (4 arc distance mode, 13 path control, 14 spindle speed mode), but for the cycles: they are of group 1 there and go on
-// until G80 or a motion ends them; here they are a mode of their own, with the number that others give it.
+// The G and M codes of the iso family: RS-274/NGC 3.5 and 3.6, and the codes that LinuxCNC has in addition. The groups are those of RS-274/NGC
+// 3.4, table 4, and of LinuxCNC (4 arc distance mode, 13 path control, 14 spindle speed mode), except for the cycles. Those are in group 1
+// there and stay in force until G80 or a motion code ends them. Here they are a mode of their own, with the group number that other families
+// give it.
 #include "dialect/iso/tables.hpp"
 
 namespace nc::iso {
@@ -91,7 +92,8 @@ const FunctionRow kFunctions[] = {
     {990, 10, F::return_r, nullptr, "cycles return to R", "RS-274/NGC 3.5.20"},
 };
 
-// RS-274/NGC 3.6, and those of LinuxCNC that the control would have to know more of than their number. The others go out: M7 M8 M9, M100 to M199.
+// The M codes of RS-274/NGC 3.6, and those of LinuxCNC that the control itself would have to carry out. All others are put out to the machine:
+// M7, M8, M9, M100 to M199.
 const MiscRow kMisc[] = {
     {0, M::program_stop, nullptr, "program stop", "RS-274/NGC 3.6.1"},
     {1, M::optional_stop, nullptr, "optional stop", "RS-274/NGC 3.6.1"},
@@ -121,7 +123,7 @@ const MiscRow kMisc[] = {
     {99, M::return_sub, "NC-NOT-BUILT", "return from a sub program", "LinuxCNC M99"},
 };
 
-// RS-274/NGC 3.6.2, 3.6.3.
+// RS-274/NGC 3.6.2, 3.6.3: M codes that are put out and also mean something to the control.
 const OutputRow kOutputs[] = {
     {3, M::spindle_forward},
     {4, M::spindle_reverse},
@@ -129,7 +131,7 @@ const OutputRow kOutputs[] = {
     {6, M::tool_change},
 };
 
-// How many there are is checked where the tables are declared.
+// The sizes are those that iso/tables.hpp declares.
 static_assert(sizeof kFunctions / sizeof kFunctions[0] == kFunctionRows && sizeof kMisc / sizeof kMisc[0] == kMiscRows);
 
 }  // namespace nc::iso

@@ -9,17 +9,17 @@
 namespace nc::iso {
 namespace {
 
-// LinuxCNC G10.
+// What G10 L sets (LinuxCNC G10).
 constexpr DataInputRow kDataInput[] = {
     {1, DataInput::missing},  // tool table
     {2, DataInput::work_offset},
-    {10, DataInput::missing},  // tool table, by where the tool stands
+    {10, DataInput::missing},  // tool table, calculated from the position of the tool
     {11, DataInput::missing},  // the same in a fixture
     {20, DataInput::work_offset_here},
 };
 
-// RS-274/NGC 3.6.1 says what M2 leaves; the rest are the cancel codes. A motion is in force from the start on, the one that does not
-// cut: docs/decisions.md.
+// RS-274/NGC 3.6.1 says which codes are in force after M2; the rest are the cancel codes. A motion is in force from the start on, namely the one
+// that does not cut: see docs/decisions.md.
 const Function kInitial[] = {
     Function::rapid, Function::plane_xy, Function::absolute, Function::centre_incremental, Function::feed_per_minute,
     Function::metric, Function::comp_off, Function::length_off, Function::cycle_off, Function::return_initial,
@@ -55,7 +55,7 @@ const Dialect kDialect = {
     .macro_misc = {1, 0},
     .interrupt_misc = {1, 0},
     .percent_required = false,   // RS-274/NGC 3.4: the % lines may be left out
-    .end_code_required = false,  // docs/decisions.md: a text that ends is a program that ends
+    .end_code_required = false,  // docs/decisions.md: the program ends where its text ends
     .bare_letters = false,       // RS-274/NGC 3.3.2: a word is a letter and a value
     .call_depth = 0,
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of the iso family that are functions.
+// Those rules of the iso family that are functions.
 #include "dialect/iso/rules.hpp"
 
 namespace nc::iso {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the iso family answers each rule of dialect/rules.hpp, where the sections stand.
+// How the iso family answers each rule of dialect/rules.hpp, where most of the sections are cited.
 #pragma once
 
 #include "dialect/rules.hpp"
 
 namespace nc::iso {
 
-/// RS-274/NGC 3.3.2.1: numbers are what they say; the unit is asked for where one has to be the finest, a micrometre.
+/// RS-274/NGC 3.3.2.1: numbers do not count in a setting unit. Where the control needs a finest unit, it is a micrometre.
 double units_per_micrometre(double parameter);
 
-/// RS-274/NGC 3.7.2: S is r/min.
+/// RS-274/NGC 3.7.2: S is in r/min.
 double speed_of_word(uint32_t value);
 
-/// There is no scaling.
+/// Not used: the family has no scaling.
 bool factor_of_word(double value, bool pointed, double* factor);
 
 inline constexpr Rules kRules = {
@@ -30,12 +30,12 @@ inline constexpr Rules kRules = {
               .dwell_stands_alone = false,
               .words_stand_once = true,
               .assigns_at_once = true},
-    .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T prepares, M6 changes
+    .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T selects the tool, M6 changes it
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = false,
                 .skips_repeated_codes = false},
     .feed = {.inch_is_ten_degrees = false,
-             .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: of X Y Z where they move
+             .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: F is the speed of X Y Z if one of them moves
              .inverse_time_is_of_block = true},
     .skip = {.feed_is_modal = true},
     .arc = {.takes_rotary_axes = true,
@@ -49,7 +49,7 @@ inline constexpr Rules kRules = {
                      .bars_scaling_and_cycle_end = false,
                      .bars_systems_and_data = true,  // RS-274/NGC 3.5.13, 3.5.18
                      .bars_reference_return = true,  // RS-274/NGC 3.5.8
-                     .may_change_side = false,       // RS-274/NGC 3.5.10: an error while it is on
+                     .may_change_side = false,       // RS-274/NGC 3.5.10: an error while compensation is on
                      .vector_by_words = false,
                      .takes_changed_amounts = false,
                      .code_alone_waits = true,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of the iso family; iso.cpp puts them together. The sizes stand here so that a row lost or added by accident does not
-// compile.
+// The tables of the iso family; iso.cpp puts them together. Their sizes are declared here so that a row that is lost or added by accident is
+// an error of compilation.
 #pragma once
 
 #include "dialect/dialect.hpp"

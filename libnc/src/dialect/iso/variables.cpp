@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of RS-274/NGC 3.2.1, table 3, that mean something to the control; the others up to 5399 are the user's.
+// Those parameters of RS-274/NGC 3.2.1, table 3, that mean something to the control. All others up to 5399 are free for the user.
 #include "dialect/iso/tables.hpp"
 
 namespace nc::iso {
@@ -20,7 +20,7 @@ constexpr ModalWord kWords[] = {ModalWord::tool};
 
 constinit const FamilyVariables kVariables = {
     .rows = {kRows, sizeof kRows / sizeof kRows[0]},
-    .common = {{34, 499}, {500, 5000}},  // RS-274/NGC 3.2.1: the user's; #1 to #33 are local to the program here
+    .common = {{34, 499}, {500, 5000}},  // RS-274/NGC 3.2.1: free for the user; #1 to #33 are local variables here
     .words = {kWords, sizeof kWords / sizeof kWords[0]},
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// RS-274/NGC 3.3: lines, words, parameters and expressions. Letters are of either case and blanks may stand anywhere (3.3); a number has
-// a point or none and means the same (3.3.2.1).
+// RS-274/NGC 3.3: lines, words, parameters and expressions. Letters may be of either case and blanks may stand anywhere (3.3). A number means
+// the same with or without a point (3.3.2.1).
 #include "alarm/condition.hpp"
 #include "dialect/iso/tables.hpp"
 #include "dialect/iso_lexer.hpp"
@@ -14,7 +14,7 @@ constexpr unsigned at(char letter) {
 
 constexpr LexRules make_rules() {
   LexRules rules = iso_rules();
-  rules.program_letter = 0;  // LinuxCNC "O-codes": O begins no program but a control structure, which is not built
+  rules.program_letter = 0;  // LinuxCNC "O-codes": O does not begin a program but a control structure, which is not built
   rules.macros = true;       // RS-274/NGC 3.3.2.2, 3.3.2.3
   rules.formula = Formula::ngc;
   rules.semicolon = Semicolon::comment;

@@ -13,7 +13,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kMsPerMinute = 60.0 * 1000.0;
 
-/// What an accuracy coefficient leaves of a speed or an error.
+/// The part of a speed or an error that an accuracy coefficient leaves.
 double remaining(double percent) { return std::max(0.0, (100 - percent) / 100); }
 
 }  // namespace
@@ -46,7 +46,7 @@ double exponential_rise(double t, double g1t1) {
 double combined_rise(double t, double g1tl, double g1t1) {
   if (!(g1tl > 0)) return exponential_rise(t, g1t1);
   if (!(g1t1 > 0) || !(t > 0)) return linear_rise(t, g1tl);
-  // The ramp through the lag of first order: 1/T of the integral of 1 - e^(-t/tau) over the time for which the ramp has lasted.
+  // A ramp through a lag of first order: 1/T times the integral of 1 - e^(-t/tau) over the time that the ramp has lasted.
   const auto area = [g1t1](double x) { return x > 0 ? x + g1t1 * std::expm1(-x / g1t1) : 0; };
   return (area(t) - area(t - g1tl)) / g1tl;
 }
@@ -85,7 +85,7 @@ double equivalent_feed_forward(double fwd_g, double conventional, double shg) {
 double corner_speed(const AccuracyParameters& p, double theta_deg) {
   const double step = tolerable_step(p), theta = std::fabs(theta_deg);
   if (!(step > 0) || theta <= p.corner_angle_deg) return kInfinite;
-  // dV is the third side of the triangle of two equal speeds that enclose theta.
+  // Two equal speeds that enclose the angle theta are two sides of a triangle; dV is its third side.
   const double optimum = step / (2 * std::sin(0.5 * theta * kDegree));
   return optimum * remaining(p.corner_coefficient());
 }
@@ -103,7 +103,8 @@ double corner_speed_at_least(double optimum, const double* direction, const doub
 double arc_speed_clamp(const AccuracyParameters& p, double radius) {
   const double coefficient = p.curve_coefficient(), step = tolerable_step(p);
   if (coefficient == 0 || !(step > 0)) return kInfinite;
-  // F' = sqrt(R dV 60 1000), of which dR' = dR (100 - Ks)/100 leaves the root of the share: dR goes with the square of the speed.
+  // F' = sqrt(R dV 60 1000). The error dR grows with the square of the speed, so that for dR' = dR (100 - Ks)/100 the speed is multiplied by
+  // the root of (100 - Ks)/100.
   return std::sqrt(radius * step * kMsPerMinute * remaining(coefficient));
 }
 
@@ -115,7 +116,7 @@ double spline_speed_clamp(const AccuracyParameters& p, double radius) {
 double acceleration_clamp(const AccuracyParameters& p, double theta_deg, double before, double behind) {
   const double a = tolerable_acceleration(p), turn = 2 * std::sin(0.5 * std::fabs(theta_deg) * kDegree);
   if (!(a > 0) || !(turn > 0)) return kInfinite;
-  // The direction changes by `turn` while the mean of the two blocks is gone: a = v turn / (mean / v).
+  // The direction changes by `turn` in the time in which the mean length of the two blocks is passed: a = v turn / (mean / v).
   return std::sqrt(a * 0.5 * (before + behind) / turn) * 60;
 }
 
@@ -159,10 +160,10 @@ double joint_speed(const AccuracyLimits& before, const AccuracyLimits& behind, c
   const double judged = behind.judged_turn < 0.0f ? joint.turn : static_cast<double>(behind.judged_turn);  // 13.17.1 (3)
   if (step > 0 && 1 - 0.5 * judged * judged < smooth) {
     v = step / judged;
-    const float least = std::min(before.corner_least, behind.corner_least);  // #2096, where every moving axis has one
+    const float least = std::min(before.corner_least, behind.corner_least);  // #2096, not 0 only if every moving axis has a setting
     v = std::max(v, static_cast<double>(least));
   }
-  // 13.17.1 (2): the direction turns while the mean of two lines is gone.
+  // 13.17.1 (2): the direction turns in the time in which the mean length of the two lines is passed.
   const double bend = static_cast<double>(behind.bend_acceleration);
   if (bend > 0 && joint.turn > 0 && joint.both_lines)
     v = std::min(v, std::sqrt(0.5 * bend * (joint.length_before_mm + joint.length_behind_mm) / joint.turn));
@@ -180,7 +181,7 @@ double radius_compensation(double coefficient, double share, double phi_deg) { r
 double s_filter(double t, double first, double second) {
   if (!(second > 0)) return linear_rise(t, first);
   if (!(first > 0)) return linear_rise(t, second);
-  // The mean of a ramp over a window: the ramp's integral is x^2/2 up to its end and a straight line behind.
+  // The mean of a ramp over a window. The integral of the ramp is x^2 / (2 first) up to its end and a straight line behind it.
   const auto area = [first](double x) { return x <= 0 ? 0 : x < first ? x * x / (2 * first) : x - 0.5 * first; };
   return (area(t) - area(t - second)) / second;
 }

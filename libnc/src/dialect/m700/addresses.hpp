@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which address of the m700 family carries which meaning: chapter 3.2 and the formats of the functions.
+// Which address of the m700 family carries which meaning, from chapter 3.2 and the formats of the functions. Numbers in comments are sections
+// of the manual.
 #pragma once
 
 #include "dialect/role.hpp"
@@ -14,7 +15,7 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::feed, 'F'},
     {Role::spindle_speed, 'S'},
     {Role::tool, 'T'},
-    {Role::second_function, 'B'},    // 9.2: #1170 is not built, so B first
+    {Role::second_function, 'B'},    // 9.2: #1170, which would choose it, is not built, so B comes first
     {Role::second_function_2, 'A'},
     {Role::second_function_3, 'C'},
     {Role::offset_number, 'D'},      // 12.4
@@ -52,7 +53,7 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::cycle_depth_step, 'Q'},
     {Role::cycle_dwell, 'P'},
     {Role::cycle_count, 'K'},        // 5.3
-    {Role::cycle_count_2, 'L'},      // 13.1.1: goes before K
+    {Role::cycle_count_2, 'L'},      // 13.1.1: counts if K is there, too
     {Role::call_program, 'P'},       // 13.3.1, 13.5.1
     {Role::call_repeats, 'L'},
     {Role::call_sequence, 'H'},
@@ -104,7 +105,7 @@ inline constexpr RoleRow kRoleRows[] = {
 };
 inline constexpr AddressTable kAddressTable(kRoleRows);
 
-/// 13.5.1, designation I. G L N O P are arguments in the mode of G66.1 only.
+/// Local variable of each address (13.5.1, designation I). G, L, N, O and P are arguments only in the mode of G66.1.
 inline constexpr uint8_t kArgumentOf[26] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7,  /*E*/ 8,  /*F*/ 9,  /*G*/ 10, /*H*/ 11, /*I*/ 4,
                                             /*J*/ 5,  /*K*/ 6,  /*L*/ 12, /*M*/ 13, /*N*/ 14, /*O*/ 15, /*P*/ 16, /*Q*/ 17, /*R*/ 18,
                                             /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// M700 appendix 1, the list of program errors: every code and its message as printed, misprints included,
-// because an operator looks a message up by its letters. At the end what this control needs beyond that list.
+// M700 appendix 1, the list of program errors: every code and its message as printed, with the misprints, because an operator looks a message
+// up by its letters. The codes that this control needs in addition stand at the end.
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
@@ -22,7 +22,7 @@ const AlarmText kAlarms[] = {
     {"P40", "Pre-read block error"},
     {"P49", "Invalid restart search"},
     {"P60", "Compensation length over"},
-    {"P61", "No spec: Unidirectional posit"},  // 6.8: code without a text, the text is ours
+    {"P61", "No spec: Unidirectional posit"},  // 6.8 has the code without a text; the text is ours
     {"P62", "No F command"},
     {"P65", "No spec: High speed mode 3"},
     {"P70", "Arc end point deviation large"},
@@ -38,9 +38,9 @@ const AlarmText kAlarms[] = {
     {"P111", "Plane selected while coord rot"},
     {"P112", "Plane selected while R compen"},
     {"P113", "Illegal plane select"},
-    {"P121", "F0 during arc mode"},  // 7.3: code without a text, the text is ours
+    {"P121", "F0 during arc mode"},  // 7.3 has the code without a text; the text is ours
     {"P122", "No spec: Auto corner override"},
-    {"P123", "No spec: High-accuracy control"},  // 13.15: code without a text, the text is ours
+    {"P123", "No spec: High-accuracy control"},  // 13.15 has the code without a text; the text is ours
     {"P124", "No spec: Inverse time feed"},
     {"P125", "G93 mode error"},
     {"P126", "Invalid cmnd in high-accuracy"},
@@ -60,7 +60,7 @@ const AlarmText kAlarms[] = {
     {"P157", "R compen direction changed"},
     {"P158", "Illegal tip point"},
     {"P170", "No offset number"},
-    {"P171", "No spec: Compensation input"},  // 12.7: code without a text, the text is ours
+    {"P171", "No spec: Compensation input"},  // 12.7 has the code without a text; the text is ours
     {"P172", "G10 L number error"},
     {"P173", "G10 P number error"},
     {"P177", "Tool life count active"},
@@ -89,7 +89,7 @@ const AlarmText kAlarms[] = {
     {"P230", "Subprogram nesting over"},
     {"P231", "No sequence No."},
     {"P232", "No program No."},
-    {"P233", "Circle cutting radius"},  // 13.10: code without a text, the text is ours
+    {"P233", "Circle cutting radius"},  // 13.10 has the code without a text; the text is ours
     {"P235", "Program editing"},
     {"P241", "No variable No."},
     {"P242", "= not defined at vrble set"},
@@ -191,8 +191,8 @@ const AlarmText kAlarms[] = {
     {"P942", "Invalid cmnd during T tip ctrl"},
     {"P943", "Tool posture command illegal"},
     {"P990", "PREPRO error"},
-    // The program manual refers to operation errors by number and leaves their list to the alarm manual. The
-    // number of a programmed move beyond a stored stroke limit is known from machines of the family.
+    // The programming manual refers to operation errors by their number; their list is in the alarm manual. The number of a programmed move
+    // beyond a stored stroke limit is known from machines of the family.
     {"M01-0007", "S/W stroke end"},
     {"P452", "Limit before travel"},
     {"NC-VENDOR", "Function of the machine failed"},

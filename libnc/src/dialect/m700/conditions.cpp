@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// M700: which alarm of appendix 1 a condition is. The message comes from the alarm list (alarms.cpp).
-// Conditions that this family cannot meet carry the nearest code all the same, so that no path ends without
-// an alarm; each says why it is the nearest.
+// M700: which alarm of appendix 1 belongs to a condition. The message comes from the alarm list (alarms.cpp). A condition that cannot occur in
+// this family has the nearest code all the same, so that nothing can end without an alarm; a comment says why it cannot occur or why the code
+// is the nearest.
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
@@ -16,10 +16,10 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::behind_semicolon, "P33", nullptr},  // appendix 1: "the command format of the block"
     {C::value_range, "P35", nullptr},
     {C::illegal_character, "P32", nullptr},  // 3.1: a code outside the tape code table
-    {C::block_too_long, "P33", nullptr},     // 3.2 gives no length of a block: it is a matter of its format
+    {C::block_too_long, "P33", nullptr},     // 3.2 gives no largest length of a block, so it is a fault of format
     {C::number_zero, "P37", nullptr},
     {C::program_end, "P36", nullptr},
-    {C::no_start_mark, "P33", nullptr},  // does not occur: no start mark is asked for
+    {C::no_start_mark, "P33", nullptr},  // does not occur: no start mark is required
     {C::illegal_axis, "P11", nullptr},
     {C::too_many_axes, "P10", nullptr},
     {C::index_increment, "P20", nullptr},  // 2.3
@@ -27,7 +27,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::parity_vertical, "P31", nullptr},
     // G and M codes
     {C::illegal_g, "P34", nullptr},
-    {C::no_function, "P39", nullptr},       // a code's own row may say something more telling
+    {C::no_function, "P39", nullptr},       // unless the row of the G or M code names an alarm of its own
     {C::must_stand_alone, "P33", nullptr},  // 13.18: "not independent"
     {C::words_missing, "P33", nullptr},
     {C::center_missing, "P33", nullptr},
@@ -51,22 +51,22 @@ const AlarmRow kConditions[kConditionRows] = {
      nullptr},  // does not occur: cycles run without a spindle; "spindle speed S=0"
     {C::cycle_wrong_plane, "P113", nullptr},  // does not occur: cycles work in every plane (13.1.1)
     {C::not_in_compensation, "P155",
-     nullptr},  // does not occur: what is forbidden in compensation has codes of its own
+     nullptr},  // does not occur: everything that is forbidden in compensation has an alarm of its own
     {C::code_in_incremental, "P33", nullptr},  // does not occur: G53 takes G91 (14.4)
-    {C::tool_pair, "P33", nullptr},            // does not occur: M06 is output like any other M
+    {C::tool_pair, "P33", nullptr},            // does not occur: M06 is put out like any other M code
     {C::comp_no_intersection, "P152", nullptr},
     {C::comp_interference, "P153", nullptr},
-    {C::corner_option, "P380", nullptr},       // 13.7; in a fixed cycle, and where programmed coordinates are not those of the axes
+    {C::corner_option, "P380", nullptr},       // 13.7; in a fixed cycle, and while programmed coordinates are not those of the axes
     {C::corner_arc, "P381", nullptr},          // 13.7
     {C::corner_no_move, "P382", nullptr},
     {C::corner_short, "P383", nullptr},
-    {C::corner_reversal, "P383", nullptr},  // 13.7.2 has no other: the arc would take more than any length of the line
+    {C::corner_reversal, "P383", nullptr},  // 13.7.2 has no other code: the arc would be longer than any line
     {C::corner_next_short, "P384", nullptr},
     {C::corner_motion, "P385", nullptr},
     {C::pre_read, "P990", nullptr},            // appendix 1
     {C::geometric_option, "P390", nullptr},    // 13.8, 13.9
     {C::second_aux, "P130", nullptr},          // 9.2
-    {C::space_compensation, "P150", nullptr},  // 12.5: the option that I J K together ask for
+    {C::space_compensation, "P150", nullptr},  // 12.5: I, J and K together need an option
     {C::thread_lead, "P93", nullptr},          // 6.7.1
     {C::mill_code, "P481", nullptr},           // 6.9, 6.10
     {C::mill_axis, "P482", nullptr},
@@ -90,7 +90,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::measure_h, "P605", nullptr},
     {C::measure_no_length, "P606", nullptr},
     {C::measure_signal, "P607", nullptr},
-    {C::stroke_check, "P452", nullptr},        // 15.7 prints no number; that of the family's later manuals
+    {C::stroke_check, "P452", nullptr},        // 15.7 prints no number; this one is from later manuals of the family
     {C::not_accepted, "P29", nullptr},         // 13.15
     {C::in_high_accuracy, "P126", nullptr},    // 13.15, appendix 1
     {C::high_speed_3, "P65", nullptr},         // appendix 1

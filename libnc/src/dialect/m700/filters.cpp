@@ -6,7 +6,8 @@ namespace {
 
 uint16_t whole_cycles(double ms, double cycle_s) { return static_cast<uint16_t>(filter_cycles(ms, cycle_s)); }
 
-/// M700 13.15: in the normal mode each axis has constants of its own, linear, exponential, or one behind the other.
+/// Acceleration after interpolation. In the normal mode each axis has time constants of its own: linear, exponential, or one behind the other
+/// (M700 13.15).
 FilterTimes after(const TimeConstants& constants, const FilteredMove& move, double cycle_s) {
   FilterTimes times;
   bool any = false;
@@ -24,7 +25,7 @@ FilterTimes after(const TimeConstants& constants, const FilteredMove& move, doub
   return times;
 }
 
-/// M700 13.15 "S-pattern filter control": the same for all axes.
+/// The filters of acceleration before interpolation (M700 13.15 "S-pattern filter control"). They are the same for all axes.
 FilterTimes before(double first_ms, double second_ms, double cycle_s) {
   FilterTimes times;
   if (!(first_ms > 0) && !(second_ms > 0)) return times;
@@ -44,7 +45,7 @@ FilterTimes filter_times(const FilterParameters& p, const FilteredMove& move, do
       if (p.rapid_before) return before(p.pattern_rapid_ms, p.pattern_second_ms, cycle_s);
       const FilterTimes times = after(p.rapid, move, cycle_s);
       if (times.kind != FilterTimes::Kind::none || !move.high_accuracy) return times;
-      return before(p.pattern_rapid_ms, p.pattern_second_ms, cycle_s);  // without constants it is accelerated before interpolation
+      return before(p.pattern_rapid_ms, p.pattern_second_ms, cycle_s);  // a move without constants is accelerated before interpolation
     }
     case FilteredMove::Kind::cut:
       break;

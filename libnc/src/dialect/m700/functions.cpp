@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// M700 3.7, the list of G codes: one row for each code, in its order. A row of a function that is not built names
-// the alarm that the manual has for a control without it: the code of its "No spec" alarm (appendix 1), else P39.
+// M700 3.7, the list of G codes: one row for each code, in the order of the codes. If a function is not built, its row names the alarm that
+// the manual has for a control without the function: the code of its "No spec" alarm (appendix 1), or P39 if there is none.
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
@@ -113,7 +113,7 @@ constexpr FunctionRow kListed[] = {
     {670, 14, F::macro_modal_off, nullptr, "modal macro call off", "13.5.1"},
     {680, 16, F::rotation_on, nullptr, "coordinate rotation", "13.20", "I J K together (conversion in space, 13.22): P920"},
     {690, 16, F::rotation_off, nullptr, "coordinate rotation off", "13.20"},
-    // Appendix 1, P180: "G72 to G89"; G70 and G71 are not in that range.
+    // Appendix 1 says of P180 "G72 to G89". G70 and G71 are not in this range.
     {700, 9, F::user_cycle, "P39", "user cycle", "3.7"},
     {710, 9, F::user_cycle, "P39", "user cycle", "3.7", nullptr, 1},
     {720, 9, F::user_cycle, "P180", "user cycle", "3.7", nullptr, 2},
@@ -152,10 +152,9 @@ constexpr FunctionRow kListed[] = {
 constexpr unsigned kListedRows = sizeof kListed / sizeof kListed[0];
 constexpr int kFirstUserCode = 100, kLastUserCode = 255;
 
-// G100 to G255 call a user macro where the machine builder has registered the code (13.5.1, at most ten of
-// them). None can be registered here, so the code does not exist: P34. G101 to G110 and G200 to G202 are
-// "user macro I" codes without registration (13.5.1, G code macro call, note 1): the user macro they belong
-// to is missing, P270.
+// G100 to G255 call a user macro if the machine builder has registered the code in a parameter (13.5.1, at most ten codes). A code that is not
+// registered does not exist: P34. G101 to G110 and G200 to G202 are "user macro I" codes, which need no registration (13.5.1, G code macro
+// call, note 1): the user macro that they belong to is missing, which is P270.
 constexpr FunctionRow user_macro(int code) {
   const bool macro_one = (code >= 101 && code <= 110) || (code >= 200 && code <= 202);
   return {static_cast<int16_t>(code * 10),

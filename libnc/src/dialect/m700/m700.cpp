@@ -9,9 +9,9 @@
 namespace nc::m700 {
 namespace {
 
-// G10: 12.7, 14.10 (6).
+// What G10 L sets (12.7, 14.10 (6)).
 constexpr DataInputRow kDataInput[] = {
-    {DataInputRow::kWithoutL, DataInput::work_offset},  // judged as L2
+    {DataInputRow::kWithoutL, DataInput::work_offset},  // the same as L2
     {2, DataInput::work_offset},
     {3, DataInput::missing},  // tool life
     {10, DataInput::tool_length},
@@ -24,14 +24,14 @@ constexpr DataInputRow kDataInput[] = {
     {70, DataInput::parameters},
 };
 
-// G05 P: 13.16, 13.17. G05.1 Q: 13.17, 13.18.
+// The values of P beside G05 (13.16, 13.17), and of Q beside G05.1 (13.17, 13.18).
 constexpr SpeedModeRow kSpeedModes[] = {
     {0, SpeedMode::off},          {1, SpeedMode::machining_1},    {2, SpeedMode::machining_2},
     {3, SpeedMode::machining_3},  {10000, SpeedMode::accuracy_2},
 };
 constexpr SpeedOptionRow kSpeedOptions[] = {{0, SpeedOption::off}, {1, SpeedOption::accuracy_1}, {2, SpeedOption::spline}};
 
-// 3.7: the codes marked as initial, and of those that a parameter chooses G01 G17 G21 G90 G94 G97.
+// The codes that 3.7 marks as initial. If a parameter chooses the initial code of a group, it is G01, G17, G21, G90, G94 or G97 here.
 const Function kInitial[] = {
     Function::linear, Function::plane_xy, Function::absolute, Function::stroke_check_off,
     Function::feed_per_minute, Function::metric, Function::comp_off, Function::length_off,

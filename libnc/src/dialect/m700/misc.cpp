@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// M700 9.1: the M codes that the control keeps for itself. Every other M is output.
+// M700 9.1: the M codes that the control keeps for itself. Every other M code is put out to the machine.
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of the m700 family that something in the control asks for.
+// The parameters of the m700 family that the control uses.
 #include <cmath>
 
 #include "dialect/m700/tables.hpp"
@@ -12,7 +12,7 @@ using P = Parameter;
 constexpr int8_t kAll = -1;
 constexpr const char* kOffOn = "0, 1";
 
-// What a parameter can be.
+// Each of these functions tells whether a parameter can have a value.
 bool any(double) { return true; }
 bool at_least_0(double value) { return value >= 0; }
 template <int low, int high>
@@ -183,7 +183,7 @@ constexpr ParameterRow kNumbers[] = {
 
 constexpr ParameterPlaces kPlaces = places_of(kNumbers);
 
-/// Each meaning stands in one row: the control asks for it by that.
+/// Each meaning has one row only, because the control finds a parameter by its meaning.
 constexpr bool rows_differ() {
   for (const ParameterRow& row : kNumbers)
     if (&kNumbers[kPlaces.row[static_cast<unsigned>(row.what)] - 1] != &row) return false;
@@ -191,9 +191,9 @@ constexpr bool rows_differ() {
 }
 static_assert(rows_differ());
 
-// Every parameter has a number; these have none in the manual: UNIT*10 is only named (2.2), the blanks of
-// DPRNT are "a parameter" (13.5.8), M codes that prohibit pre-reading and the order of M S T B and motion are the
-// machine's (4.2, 9.1), macro_extensions and negative_count are options (docs/macros.md), and ';' begins comments in other families only.
+// Parameters for which the manual gives no number: UNIT*10 is only named (2.2), the blanks of DPRNT are "a parameter" (13.5.8), and the M codes that
+// prohibit pre-reading and the order of M S T B and motion are left to the machine (4.2, 9.1). macro_extensions and negative_count are options
+// (docs/macros.md), and comments behind ';' exist only in other families.
 constexpr ParameterName kNames[] = {
     {"UNIT*10", P::tenfold, 0, 1, nullptr, "1, 10", "tenfold: numbers without a point, times this", "2.2"},
     {"DPRNT_BLANK", P::print_blanks, 0, 0, nullptr, "0, 1", "DPRNT prints blanks for leading zeros", "13.5.8"},
@@ -212,10 +212,10 @@ constexpr ParameterName kNames[] = {
     {"PREREAD_STOP_M8", P::reading_stop, 7, 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
 };
 
-// 13.5.5 (10.16): the manual's own example is axisno; axname and rot stand beside it.
+// 13.5.5 (10.16): the manual's own example is axisno; axname and rot are the parameters beside it.
 constexpr MachineParameter kMachine[] = {{1002, MachineDatum::axis_count}, {1013, MachineDatum::axis_name}, {1017, MachineDatum::rotary}};
 
-// 13.11, note 3: parameters of the axes; all others take no notice of A.
+// 13.11, note 3: the parameters of axes. For all other parameters the word A, which chooses the axis, has no effect.
 constexpr NumberRange kOfAxes[] = {{1013, 1013}, {1015, 1015}, {2000, 2299}, {8200, 8299}};
 
 template <class T, unsigned count>

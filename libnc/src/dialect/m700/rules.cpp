@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of the m700 family that are functions.
+// Those rules of the m700 family that are functions.
 #include "dialect/m700/rules.hpp"
 
 namespace nc::m700 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the m700 family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
+// How the m700 family answers each rule of dialect/rules.hpp. The sections of its manual are cited there.
 #pragma once
 
 #include "dialect/m700/accuracy.hpp"
@@ -8,13 +8,13 @@
 
 namespace nc::m700 {
 
-/// 2.1: B, C, D and E, each ten times finer than the one before.
+/// 2.1: the units B, C, D and E are each ten times finer than the one before. `parameter` is the letter.
 double units_per_micrometre(double parameter);
 
-/// 10.1, 10.2: S is r/min.
+/// 10.1, 10.2: S is in r/min.
 double speed_of_word(uint32_t value);
 
-/// 13.19: least unit 0.000001; a number without a point counts in it.
+/// 13.19: the least unit of the factor is 0.000001, and a number without a point counts in this unit.
 bool factor_of_word(double value, bool pointed, double* factor);
 
 inline constexpr Rules kRules = {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of the m700 family; m700.cpp puts them together. The sizes stand here so that a row lost or
-// added by accident does not compile: a definition with another number of rows conflicts with its
-// declaration.
+// The tables of the m700 family; m700.cpp puts them together. Their sizes are declared here so that a row that is lost or added by accident
+// is an error of compilation: a definition with another number of rows conflicts with its declaration.
 #pragma once
 
 #include "dialect/dialect.hpp"

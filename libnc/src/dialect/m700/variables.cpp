@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The system variables of the m700 family (M700 13.5.5), laid out as the manual's table.
+// The system variables of the m700 family (M700 13.5.5), in the layout of the manual's table.
 #include "dialect/m700/tables.hpp"
 
 namespace nc::m700 {
@@ -8,7 +8,7 @@ namespace {
 using V = SystemVariable;
 using W = ModalWord;
 
-// Range, meaning, first part, stride of parts. Sections are those of 13.5.5 but for 13.12 and 14.10.
+// Columns: first and last number, meaning, first part, stride of parts, unit, name, section.
 // clang-format off
 constexpr VariableRow kRows[] = {
     {1000, 1031, V::input_bit, 0, 0, "0/1", "macro interface inputs, bits of #1032", "13.5.5"},
@@ -65,7 +65,7 @@ constexpr VariableRow kRows[] = {
 };
 // clang-format on
 
-// 10.10, #41nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T.
+// 10.10: the words of #41nn by nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T.
 constexpr ModalWord kWords[] = {W::none,          W::second_auxiliary, W::none,     W::none,    W::none, W::none, W::radius_number,
                                 W::none,          W::feed,             W::none,     W::length_number, W::none, W::misc, W::sequence,
                                 W::program,       W::none,             W::none,     W::none,    W::spindle, W::tool};

@@ -74,7 +74,7 @@ Execution spindle_word(BlockContext& in) {
   return Execution::done;
 }
 
-/// Addresses that are neither an axis nor anything else here.
+/// Raises an alarm for an address that is neither an axis nor has another meaning.
 Execution check_axis_letters(BlockContext& in, char second) {
   const AddressTable& addresses = in.dialect->addresses;
   const uint32_t auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
@@ -90,11 +90,11 @@ Execution check_axis_letters(BlockContext& in, char second) {
 }
 
 bool output_code(const BlockContext& in, uint32_t code) {
-  if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: processed internally
+  if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: such a code is processed internally
   return goes_out(misc_function(*in.dialect, code));
 }
 
-/// DGSHAPE M06: M06 and T come as a pair, never more than one of each in a block.
+/// DGSHAPE M06: M06 and T come as a pair, with at most one of each in a block.
 Execution check_tool_pair(BlockContext& in) {
   unsigned changes = 0, tools = 0;
   for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
@@ -103,8 +103,8 @@ Execution check_tool_pair(BlockContext& in) {
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
 
-/// DGSHAPE 2: numbers "with no decimal point": codes, speeds, numbers of things; P (but the factor of G51) and K where they are
-/// milliseconds, a number, a count.
+/// DGSHAPE 2: checks numbers "with no decimal point": codes, speeds and numbers of things; also P (except the factor of G51) and K where they are
+/// milliseconds, a number or a count.
 Execution check_whole_numbers(BlockContext& in) {
   const BlockWords& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
@@ -120,7 +120,7 @@ Execution check_whole_numbers(BlockContext& in) {
 
 }  // namespace
 
-/// M700 10.5: #3003 bit 1 = FIN is not awaited.
+/// M700 13.5.9: with #3003 bit 1 FIN is not waited for.
 void await_fin(BlockContext& in) {
   if ((in.state.control_3003 & 2) != 0) return;
   in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
@@ -195,7 +195,7 @@ Execution auxiliary_before(BlockContext& in) {
   }
   if (!waiting) return Execution::done;
   if (w.one_shot != nullptr && w.one_shot->function == Function::dwell) {
-    w.fin_behind_dwell = true;  // M700 8.1 (5): the time begins with the function
+    w.fin_behind_dwell = true;  // M700 8.1 (5): the dwell begins together with the function
   } else {
     emit_fin(in);
   }

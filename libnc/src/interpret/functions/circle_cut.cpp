@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G12 and G13: a circle from its centre and back there (M700 13.10).
+// G12 and G13: cut a circle, from its centre and back to it (M700 13.10).
 #include <cmath>
 
 #include "interpret/feed.hpp"
@@ -10,7 +10,7 @@
 namespace nc {
 namespace {
 
-/// M700 13.10 (4): anything beside the code, the radius, the offset number and the feed.
+/// M700 13.10 (4): the block may hold only the code, the radius, the offset number and the feed.
 Execution check_format(BlockContext& in) {
   const BlockWords& w = in.words;
   const uint32_t others = w.present & ~in.addresses({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
@@ -21,8 +21,8 @@ Execution check_format(BlockContext& in) {
   return w.m.empty() ? Execution::done : in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
 }
 
-/// Radius of the path in programmed coordinates: the sign of the radius word counts for nothing, a positive offset makes the circle
-/// smaller (13.10 (1)). Scaling enlarges the circle and not the tool (13.19).
+/// Radius of the path in programmed coordinates: the sign of the radius word does not count; a positive offset makes the circle smaller (13.10 (1)). Scaling
+/// enlarges the circle but not the tool (13.19).
 Execution path_radius(BlockContext& in, double scale, double* radius) {
   const BlockWords& w = in.words;
   uint32_t number = 0;
@@ -31,24 +31,24 @@ Execution path_radius(BlockContext& in, double scale, double* radius) {
   if (did != Execution::done) return did;
   if (!w.has(Role::circle_radius)) return in.raise(Condition::words_missing, Role::circle_radius);
   *radius = std::fabs(length_of(in, Role::circle_radius)) - radius_amount(in, number) / scale;
-  // Half of it is the radius of the way in and out, which has to be one.
+  // Half of it is the radius of the way in and out, which has to be a real circle, too.
   return *radius / 2 > kNoRadius_mm ? Execution::done : in.raise(Condition::circle_radius, Role::circle_radius, w.get(Role::circle_radius));
 }
 
 }  // namespace
 
-/// The figure of 13.10: half a circle from the centre to the circle on the positive side of the plane's first axis, the whole circle, half a
-/// circle back, all with the same sense.
+/// The figure of 13.10: half a circle from the centre to the point of the circle on the positive side of the plane's first axis, the whole circle, and half a
+/// circle back, all in the same direction.
 Execution do_circle_cut(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Execution did = check_format(in);
   if (did != Execution::done) return did;
-  if (in.words.comp_command) return in.raise_code(Condition::arc_in_compensation_start, row);  // 12.4.1: neither starts nor ends with an arc
+  if (in.words.comp_command) return in.raise_code(Condition::arc_in_compensation_start, row);  // 12.4.1: compensation neither starts nor ends with an arc
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
   const auto h = static_cast<unsigned>(plane.h);
   const uint32_t axes = 1u << h | 1u << plane.v;
-  // In inch a degree of such an axis is a tenth of an inch long (3.2 note 5), which 13.10 knows nothing of.
+  // In inch a degree of a rotary axis has the length of a tenth of an inch (3.2 note 5); 13.10 does not say what that means here.
   if ((in.rotary & axes) != 0 && in.state.modal.is(Function::inch)) return in.raise(Condition::no_function, in.system->axis[first_of(in.rotary & axes)].name);
   double radius = 0;
   did = path_radius(in, std::fabs(scale_of(in, h)), &radius);

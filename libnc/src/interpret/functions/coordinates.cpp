@@ -12,12 +12,12 @@ Execution select_work_system(BlockContext& in, const FunctionRow& row) {
     const unsigned standard = Frames::kStandardSystems;
     if (row.number >= standard + in.frames.extended_systems()) return in.raise_code(Condition::no_function, row);
     state.work_system = row.number;
-    state.modal.extended = row.number < standard ? uint16_t{0} : static_cast<uint16_t>(row.number - standard + 1);  // codes of their own for extended ones
+    state.modal.extended = row.number < standard ? uint16_t{0} : static_cast<uint16_t>(row.number - standard + 1);  // the family has codes for extended systems
   } else {
     uint32_t p = 0;
     if (!in.words.has(Role::system_number)) return in.raise(Condition::format_error, Role::system_number);
     if (!whole_number(in.words.get(Role::system_number), &p) || p == 0) return in.raise(Condition::value_range, Role::system_number, in.words.get(Role::system_number));
-    // M700 14.10 (13): a system that the option does not reach.
+    // M700 14.10 (13): the option does not include this system.
     if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, Role::system_number, p);
     state.work_system = static_cast<uint16_t>(5 + p);
     state.modal.extended = static_cast<uint16_t>(p);
@@ -49,8 +49,8 @@ Execution do_coordinate_set(BlockContext& in) {
   const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    // M700 14.5: the reading of the axis, compensation included, becomes the value; the shift is common to all systems. RS-274/NGC 3.5.18: a length
-    // that shifts the reading is part of it.
+    // M700 14.5: the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a tool length
+    // that shifts the reading belongs to it.
     const double length = in.dialect->rules.length.shifts_reading ? in.state.applied[i] : 0;
     const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - length - in.frames.zero(in.state.work_system, i) - w.axis[i];
     in.set_table(Frames::shift_key(i), shift);
@@ -59,7 +59,7 @@ Execution do_coordinate_set(BlockContext& in) {
   return Execution::done;
 }
 
-/// RS-274/NGC 3.5.18: the shift of all axes.
+/// RS-274/NGC 3.5.18: takes away the shift of all axes.
 Execution do_shift_off(BlockContext& in) {
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
   const AxisVec zero_before = in.zero();
@@ -70,8 +70,8 @@ Execution do_shift_off(BlockContext& in) {
 
 Execution do_coordinate_preset(BlockContext& in) {
   const BlockWords& w = in.words;
-  if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: list 1 only with #1267 bit 0
-  // 14.12: not during scaling, coordinate rotation, mirror image by program.
+  if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: the code exists in list 1 only, chosen by #1267 bit 0
+  // 14.12: it is not allowed during scaling, coordinate rotation, or mirror image by program.
   if (in.state.modal.is(Function::scaling_on) || in.state.rotated || in.state.mirror != 0) return in.raise_code(Condition::illegal_g, *w.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -81,7 +81,7 @@ Execution do_coordinate_preset(BlockContext& in) {
     if (((w.axes >> i) & 1) == 0) continue;
     in.set_table(Frames::shift_key(i), 0);
     if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
-    in.state.applied[i] = 0;  // precaution (1): the reading becomes machine value less offset; the length comes back with the next command
+    in.state.applied[i] = 0;  // precaution (1): the reading becomes the machine value minus the offset; the length acts again with the next command
   }
   return Execution::done;
 }

@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-/// Work offsets of one table row; `key(axis)`.
+/// Writes the work offsets of one coordinate system; key(axis) gives the key of each.
 template <class Key>
 Execution write_axes(BlockContext& in, Key key) {
   const bool accumulate = in.dialect->rules.data_input.incremental_adds;
@@ -21,14 +21,14 @@ Execution write_axes(BlockContext& in, Key key) {
   return Execution::done;
 }
 
-/// Coordinate systems that have a code of their own.
+/// Number of coordinate systems that have a code of their own.
 uint32_t work_systems(const Dialect& dialect) {
   uint32_t count = 0;
   for (const FunctionRow& row : dialect.functions) count += row.function == Function::work_system ? 1u : 0u;
   return count;
 }
 
-/// LinuxCNC G10 L20: the offset with which the axis would read the value where it stands.
+/// LinuxCNC G10 L20: sets the offset with which the axis, where it stands, reads the commanded value.
 Execution work_offset_here(BlockContext& in) {
   const BlockWords& w = in.words;
   uint32_t p = 0;
@@ -47,7 +47,7 @@ Execution work_offset_here(BlockContext& in) {
   return Execution::done;
 }
 
-/// `l` is what said so.
+/// Writes a work offset. `l`: the number of L, for alarms.
 Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const BlockWords& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
@@ -78,7 +78,7 @@ Execution tool_offset(BlockContext& in, unsigned column) {
     return in.raise(Condition::g10_p, Role::input_number, w.get(Role::input_number));
   const unsigned key = in.frames.tool_key(number, column);
   const bool add = in.dialect->rules.data_input.incremental_adds && in.state.modal.is(Function::incremental);
-  // M700 2.2 (4): the tenfold unit is not for the amounts of tool compensation.
+  // M700 2.2 (4): the tenfold unit does not act on the amounts of tool compensation.
   const double input = length_value(in, w.get(Role::input_amount), w.flag(Role::input_amount), false, true, false);
   const double amount = (add ? in.frames.get(key) : 0.0) + input;
   // M700 12.1: the range of an offset.
@@ -87,7 +87,7 @@ Execution tool_offset(BlockContext& in, unsigned column) {
   return Execution::done;
 }
 
-/// The row of an L, kWithoutL of none; nullptr = the family has no such.
+/// The row for an L (kWithoutL: there is no L); nullptr = the family has no such row.
 const DataInputRow* row_of(const Dialect& dialect, uint32_t l) {
   for (const DataInputRow& row : dialect.data_input)
     if (row.l == l) return &row;
@@ -103,7 +103,7 @@ unsigned column_of(DataInput input) {
   }
 }
 
-/// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10. One of them would be lost.
+/// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10, because one of them would be ignored.
 bool two_kinds(const BlockContext& in) {
   unsigned kinds = 0;
   for (const Word& word : in.block->words) kinds += in.is(word, Role::input_kind) ? 1u : 0u;
@@ -112,14 +112,14 @@ bool two_kinds(const BlockContext& in) {
 
 }  // namespace
 
-/// M700 15.6: percent of the rated current, whatever decimals stand behind it.
+/// M700 15.6: the limit is in percent of the rated current; decimals are ignored.
 Execution set_current_limit(BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     const char name = in.system->axis[i].name;
-    if (name == in.dialect->addresses.letter(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): not from a program
+    if (name == in.dialect->addresses.letter(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): a program cannot set the limit of this axis
     const double percent = std::trunc(w.get(name));
     if (!(percent >= 1 && percent <= 300)) return in.raise(Condition::value_range, name, w.get(name));
     Action& action = in.emit(ItemKind::action).action;
@@ -153,7 +153,7 @@ Execution do_data_input(BlockContext& in) {
     case DataInput::tool_length_wear:
     case DataInput::tool_radius:
     case DataInput::tool_radius_wear:
-      // Length wear, radius, radius wear exist in tool memory type II only (M700 12.7).
+      // Length wear, radius and radius wear exist only in tool memory type II (M700 12.7).
       if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, Role::input_kind, l);
       return tool_offset(in, column_of(row->input));
     case DataInput::current_limit: return set_current_limit(in);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G04.
+// G04: dwell.
 #include <cmath>
 
 #include "interpret/functions/functions.hpp"
@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-/// M700 8.1 note 3: an X before G04 is read as a length; what is inch with one decimal more comes out tenfold.
+/// M700 8.1 note 3: an X before G04 is read as a length. In inch, which has one decimal more, the time becomes ten times as long.
 bool read_as_inch(const BlockContext& in) {
   if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
   for (const Word& word : in.block->words) {
@@ -18,8 +18,8 @@ bool read_as_inch(const BlockContext& in) {
   return false;
 }
 
-/// M700 8.1, table of X and P against #1078 and #8112. DGSHAPE G04: P is always ms; X with a point seconds, else ms, or seconds where the
-/// calculator type reads X.
+/// Seconds of the word X or P. M700 8.1: by the table with #1078 and #8112. DGSHAPE G04: P is always in ms; X is in seconds with a point, otherwise in ms, or
+/// in seconds where X is read by the calculator type.
 double seconds_of(const BlockContext& in, Role word) {
   const BlockWords& w = in.words;
   const double raw = w.get(word);

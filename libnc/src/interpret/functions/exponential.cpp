@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G02.3, G03.3: a linear axis goes exponentially with the angle of a rotary one (M700 6.11).
+// G02.3, G03.3: a linear axis moves exponentially with the angle of a rotary axis (M700 6.11).
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -12,7 +12,7 @@ namespace {
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kNoMotion = 1e-9;
 
-/// I, J in degrees, R in mm, F and Q in mm/min.
+/// The words I, J in degrees, R in mm, F and Q in mm/min.
 struct ExponentialWords {
   double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
 };
@@ -70,7 +70,7 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
   MoveFrame frame = frame_of_move(in, target, commanded);
   const double way = frame.end[x] - frame.start[x];
   if (((commanded >> x) & 1) == 0 || std::fabs(way) < kNoMotion || ((commanded >> c) & 1) != 0) {
-    LinearStyle style;  // a straight line at the F of the block
+    LinearStyle style;  // the move is a straight line at the F of the block
     style.feed_mm_min = words.feed;
     move_linear(in, target, commanded, style);
     return Execution::done;
@@ -78,7 +78,7 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
   // x = r (e^(t/D) - 1) / tan i, D = tan j / tan i, so t = D ln(x tan i / r + 1).
   const double tan_i = std::tan(words.taper / kDegrees), tan_j = std::tan(words.torsion / kDegrees);
   const double argument = way * tan_i / words.radius + 1;
-  if (!(argument > 0)) return in.raise(Condition::exponential_mode);  // the curve never gets there
+  if (!(argument > 0)) return in.raise(Condition::exponential_mode);  // the curve does not reach the end point
   const double d = tan_j / tan_i, turn = d * std::log(argument);
   const double sign = turn < 0 ? -1 : 1, sense = negative ? -1 : 1;
   MoveShape shape;
@@ -88,7 +88,7 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
                                   static_cast<uint8_t>(c)};
   frame.end[c] = frame.start[c] + sense * turn * kDegrees;
   Move& move = emit_shaped(in, frame, shape, NC_MOVE_EXPONENTIAL);
-  move.feed_mm_min = words.feed;  // per minute in G95 too, and never modal
+  move.feed_mm_min = words.feed;  // it is per minute, also in G95, and does not become modal
   move.feed_end = static_cast<float>(words.feed_end);
   return Execution::done;
 }

@@ -14,11 +14,11 @@ struct Allowed {
   uint8_t modes;
 };
 
-// The columns of the first table are lost; where no other sentence tells, a row counts for both modes (docs/decisions.md).
+// The columns of the first table are missing in the manual; where no other sentence decides, a row counts for both modes (docs/decisions.md).
 constexpr Allowed kAllowed[] = {
     {Function::rapid, kAll},
     {Function::linear, kAll},
-    {Function::arc_cw, kAll},             // helices, too
+    {Function::arc_cw, kAll},             // also as a helix
     {Function::arc_ccw, kAll},
     {Function::spiral_cw, kSmooth},
     {Function::spiral_ccw, kSmooth},
@@ -40,9 +40,9 @@ constexpr Allowed kAllowed[] = {
     {Function::machine_move, kBoth},
     {Function::work_system, kBoth},
     {Function::data_input, kBoth},        // L50, L10
-    {Function::data_input_end, kBoth},    // ends the first; so does G11.1 (13.11)
+    {Function::data_input_end, kBoth},    // ends data_input; so does G11.1 (13.11)
     {Function::parameter_input_end, kBoth},
-    {Function::high_speed, kAll},         // cancel, spline: rules of their own
+    {Function::high_speed, kAll},         // cancelling and the spline have rules of their own
     {Function::high_speed_accuracy, kAll},
     {Function::macro_call, kMode1},       // precaution (12): user macros cannot be used in II
     {Function::macro_modal, kMode1},
@@ -52,7 +52,7 @@ constexpr Allowed kAllowed[] = {
 
 uint8_t bit_of(FineMode mode) { return mode == FineMode::accuracy1 ? kMode1 : mode == FineMode::accuracy2 ? kMode2 : kSmooth; }
 
-/// L10, and parameters: 13.11 prints L70 for what 13.17 calls L50.
+/// The G10 is L10, or the input of parameters, which is L70 in 13.11 and L50 in 13.17.
 bool data_input_allowed(const BlockContext& in) {
   const BlockWords& w = in.words;
   uint32_t kind = 0;
@@ -65,11 +65,11 @@ bool data_input_allowed(const BlockContext& in) {
 /// Addresses that have a meaning in the block.
 uint32_t addresses(const BlockContext& in) {
   const BlockWords& w = in.words;
-  // Axis movement, F, M S T B with what stands for B, I J K R of arcs, D of radius compensation; O and a late N have errors of their own.
+  // Axis words, F, M S T, B and the addresses in its place, I J K R of arcs, D of radius compensation. O, and N behind other words, have alarms of their own.
   uint32_t known = in.axis_letters | in.addresses({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
                                                       Role::vector_y, Role::vector_z, Role::sequence_number, Role::program_number, Role::arc_radius,
                                                       Role::spindle_speed, Role::tool});
-  if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.addresses({Role::length_number});  // of length compensation, in any block (12.1 (2))
+  if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.addresses({Role::length_number});  // H of length compensation may stand in any block (12.1 (2))
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
   if (is_arc(motion) || is_spiral(motion) || motion == Function::nurbs) known |= in.addresses({Role::arc_turns, Role::curve_order, Role::spiral_step, Role::spiral_pitches});
   for (const FunctionRow* row : w.g) {
@@ -81,7 +81,7 @@ uint32_t addresses(const BlockContext& in) {
   return known;
 }
 
-/// 13.18 (1) (c): anything but a block of G01 breaks the spline.
+/// 13.18 (1) (c): any block other than one of G01 ends the spline.
 bool goes_on_with_spline(const BlockContext& in) {
   const BlockWords& w = in.words;
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
@@ -100,7 +100,7 @@ Execution check_fine_block(BlockContext& in) {
   State& state = in.state;
   const BlockWords& w = in.words;
   const FineMode mode = state.fine_mode;
-  if (mode != FineMode::accuracy1 && !in.block->code.empty())  // precaution (12): no variables in II
+  if (mode != FineMode::accuracy1 && !in.block->code.empty())  // precaution (12): variables cannot be used in II
     for (const Word& word : in.block->words)
       if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
   if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
@@ -111,7 +111,7 @@ Execution check_fine_block(BlockContext& in) {
     const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));
     if (!allowed) return in.raise_code(Condition::illegal_g, *row);
   }
-  if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Execution::done;  // arguments
+  if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Execution::done;  // its words are arguments
   for (const uint32_t m : w.m)  // note 1
     if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, Role::misc_code, m);
   const uint32_t unknown = w.present & ~addresses(in);

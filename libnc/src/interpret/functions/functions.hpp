@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the functions do: one handler for each one-shot Function of dialect/function.hpp. To add a function: a Function, a row in the dialect's
-// table, a handler here and its line in one_shot.cpp.
+// The handlers of functions: one for each one-shot Function of dialect/function.hpp. To add a function, add a Function, a row in the dialect's table, a
+// handler here and its line in one_shot.cpp.
 #pragma once
 
 #include "interpret/motion.hpp"
@@ -17,7 +17,7 @@ Execution do_scaling(BlockContext& in);            // scaling.cpp: G51
 Execution do_rotation(BlockContext& in);           // scaling.cpp: G68
 void end_scaling(BlockContext& in);          ///< G50
 void end_rotation(BlockContext& in);         ///< G69
-/// The zero has moved, or another one is in force: the centre of rotation stays on the machine (M700 13.20 (5), (6)).
+/// The zero point has moved, or another one is in force: the centre of rotation keeps its machine coordinates (M700 13.20 (5), (6)).
 void keep_rotation_center(BlockContext& in, const AxisVec& zero_before);
 Execution do_work_rotation(BlockContext& in);      // work_rotation.cpp: G10 I J K
 Execution begin_parameter_input(BlockContext& in); // parameter_input.cpp: G10 L70
@@ -29,7 +29,7 @@ Execution do_reference_check(BlockContext& in);    // reference.cpp: G27
 Execution compare_reference(BlockContext& in);     // reference.cpp: behind the move of G27
 Execution do_tool_change_return(BlockContext& in); // tool_change.cpp: G30.1 to G30.6
 Execution do_machine_move(BlockContext& in);       // reference.cpp
-/// Rapid to a fixed place in machine coordinates; rotary axes turn by less than 360 deg (M700 14.13). reference.cpp
+/// Makes a rapid to a fixed place in machine coordinates; rotary axes turn by less than 360 deg (M700 14.13). reference.cpp
 void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes);
 void cancel_length_of(BlockContext& in, uint32_t axes);
 /// Positions as the counters show them (M700 14.13): interpret/position_shown.cpp.
@@ -84,7 +84,7 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
 Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
 Execution move_space_arc(BlockContext& in, const AxisVec& target);                              // space_arc.cpp
 Execution move_nurbs(BlockContext& in, const AxisVec& target);                                  // nurbs.cpp
-/// What may stand beside an arc in space: a code while it is modal; a whole block.
+/// Check what may be commanded while an arc in space is modal: a code; a whole block.
 Execution check_in_space_arc(BlockContext& in, const FunctionRow& row);
 Execution check_space_arc_block(BlockContext& in);
 Execution check_nurbs_block(BlockContext& in);
@@ -95,30 +95,31 @@ Execution do_high_accuracy(BlockContext& in);      // high_accuracy.cpp
 Execution check_cutting_code(BlockContext& in, const FunctionRow& row);
 /// G01 between G05.1 Q2 and G05.1 Q0 (spline.cpp).
 Execution move_spline(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
-/// What a block may hold in the modes of M700 13.17 (fine_mode.cpp).
+/// Checks what a block may hold in the modes of M700 13.17 (fine_mode.cpp).
 Execution check_fine_block(BlockContext& in);
 bool allowed_in_fine_mode(FineMode mode, Function function);
 bool means_spiral(const BlockContext& in);                                                // spiral.cpp: a G02/G03 of type 2
 
-/// Rules of a block, and of a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).
+/// Check the rules for a block, and for a move, while cylindrical or polar coordinate interpolation is on (milling.cpp).
 Execution check_mill_block(BlockContext& in);
 Execution check_mill_move(BlockContext& in, uint32_t commanded);
 
-/// G15, G16 (polar_command.cpp): the code; the axis words of a block as radius and angle.
+/// G15, G16 (polar_command.cpp): execute the code; turn radius and angle in the axis words of a block into coordinates.
 Execution select_polar_command(BlockContext& in, const FunctionRow& row);
 void resolve_polar_words(BlockContext& in);
 
-/// Modal functions with more to them than their code.
+/// Modal functions that need more than that their code comes into force.
 Execution select_work_system(BlockContext& in, const FunctionRow& row);   // coordinates.cpp
 Execution set_compensation(BlockContext& in, Function function);          // compensation.cpp
 Execution change_radius(BlockContext& in);                                // compensation.cpp: a D word in the mode
 Execution set_length(BlockContext& in, Function function);                // compensation.cpp
-/// The number of an offset that a word gives, no_offset_number where there is none of this number; the amount of a radius by it, 0 for number 0.
+/// Turns a word into the number of an offset; Condition::no_offset_number when there is no such offset. radius_amount(): the radius of an offset, mm, 0 for
+/// number 0.
 Execution offset_number(BlockContext& in, Role word, uint32_t* number);   // compensation.cpp
 double radius_amount(const BlockContext& in, uint32_t number);      // compensation.cpp
 Execution change_length(BlockContext& in);                                // compensation.cpp: an H without G43, G44, G49
 
-/// Fixed cycles (cycle.cpp): the block's cycle code and words; the holes go on in continue_cycle.
+/// Fixed cycles (cycle.cpp): do_cycle() takes the cycle code and the words of the block, continue_cycle() makes the holes.
 Execution do_cycle(BlockContext& in);
 Execution continue_cycle(BlockContext& in);
 void cancel_cycle(BlockContext& in);
@@ -136,16 +137,16 @@ void await_fin(BlockContext& in);
 /// An M code of the spindle that a cycle makes; the program goes on when it is complete. The modal M of the program stays.
 void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code);
 /// Constant surface speed and clamp speeds (spindle.cpp).
-void announce_surface(BlockContext& in);                ///< to the scan: what of G96, G97 is in force
+void announce_surface(BlockContext& in);                ///< tells the scan which of G96 and G97 is in force
 Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the block
 Execution surface_word(BlockContext& in);                    ///< S while G96 is in force
-bool is_clamp_command(const BlockContext& in);         ///< the S of this block is one of G92
+bool is_clamp_command(const BlockContext& in);         ///< the S of this block belongs to a G92
 Execution set_spindle_clamp(BlockContext& in);               ///< G92 S Q
 void end_spindle_control(BlockContext& in);            ///< M02, M30
 /// M S T B of this block go out behind its motion.
 bool codes_behind_motion(const BlockContext& in);
 
-/// Rules about what may share a block (DGSHAPE 2, M700 App.2).
+/// Checks which functions may stand in one block (DGSHAPE 2, M700 App.2).
 Execution check_precedence(BlockContext& in);
 
 }  // namespace nc

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// High-accuracy control: G61.1, a cutting mode, and G08, a function of its own that excludes the other cutting modes
-// (M700 13.15). What the mode asks of the motion is a rule of the family (MotionRules).
+// High-accuracy control (M700 13.15): G61.1, a cutting mode, and G08, a function of its own that excludes the other cutting modes. How the mode limits the
+// motion is a rule of the family (MotionRules).
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
 
-/// 13.15 "relation with other functions" (1): what G08 P1 needs. The manual gives it no code; P34 as for the modes of 13.17.
+/// 13.15 "relation with other functions" (1): the state is not one in which G08 P1 is possible. The manual names no alarm for it; it is P34, as for the modes
+/// of 13.17.
 bool refuses_command(const BlockContext& in) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
@@ -16,7 +17,7 @@ bool refuses_command(const BlockContext& in) {
          has_modal_call(in) || !modal.is(Function::feed_per_minute) || !modal.is(Function::surface_off) || state.interrupt_on;
 }
 
-/// (2), and 13.20: modes in which high-accuracy control cannot be commanded.
+/// (2), and 13.20: raises an alarm in modes in which high-accuracy control cannot be commanded.
 Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, row);
   if (!in.state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, row);
@@ -27,7 +28,7 @@ Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
 }  // namespace
 
 Execution check_cutting_code(BlockContext& in, const FunctionRow& row) {
-  // After G08 P1 the cutting mode is that of G64; any other code of it is an error.
+  // After G08 P1 the cutting mode is G64; any other code of the cutting mode is an error.
   if (in.state.accuracy_command && row.function != Function::cutting_mode) return in.raise_code(Condition::in_high_accuracy, row);
   if (row.function != Function::high_accuracy_mode) return Execution::done;
   if (!in.settings.high_accuracy_code) return in.raise_code(Condition::illegal_g, row);  // precaution (3)
@@ -46,7 +47,7 @@ Execution do_high_accuracy(BlockContext& in) {
     if (did != Execution::done) return did;
     if (refuses_command(in)) return in.raise_code(Condition::illegal_g, *w.one_shot);
     const Function before = state.modal.of(Mode::cutting);
-    in.state.modal.set(Function::cutting_mode);  // and G08 P0 does not bring the old one back
+    in.state.modal.set(Function::cutting_mode);  // G08 P0 will not restore the previous mode
     if (before != Function::cutting_mode) change_cutting_mode(in, before);
   }
   state.accuracy_command = p == 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// G05: high-speed machining I and II (M700 13.16) and high-speed high-accuracy control II with SSS (13.17); G05.1: high-speed
-// high-accuracy control I and the spline (13.17, 13.18). This control looks ahead as far in every mode, so the modes decide what may be
-// commanded (fine_mode.cpp), turn high-accuracy control on and open the spline; blocks are never merged.
+// G05: high-speed machining I and II (M700 13.16) and high-speed high-accuracy control II with SSS (13.17); G05.1: high-speed high-accuracy control I and the
+// spline (13.17, 13.18). This control looks ahead equally far in every mode. So the modes only decide what may be commanded (fine_mode.cpp), switch
+// high-accuracy control on, and begin the spline; blocks are never merged.
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -11,7 +11,7 @@ bool in_mode_2(const State& state) { return state.fine_mode == FineMode::accurac
 
 bool other_words(const BlockWords& w, uint32_t allowed) { return w.g.size() > 1 || !w.m.empty() || (w.present & ~allowed) != 0; }
 
-/// The row with the value of a word; nullptr = the family has none with it.
+/// The row for the value of a word; nullptr = the family has no such row.
 template <class Row>
 const Row* row_of(const Table<Row>& rows, double raw) {
   uint32_t value = 0;
@@ -23,13 +23,13 @@ const Row* row_of(const Table<Row>& rows, double raw) {
 
 Execution refuse(BlockContext& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
 
-/// 6.11, 6.12: what excludes the modes of 13.17 and the spline.
+/// 6.11, 6.12: a mode is in force that excludes the modes of 13.17 and the spline.
 bool excluded(const State& state) {
   return state.modal.is(Function::polar_command_on) || is_exponential(state.modal.of(Mode::motion));
 }
 
-/// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state that a mode starts from. Mode I takes the cutting modes but
-/// G61.1 and the feed per revolution and constant surface speed, without a promise; it alone asks for G49.
+/// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state is not one in which this mode can start. Mode I can start in the cutting modes except
+/// G61.1, with feed per revolution and with constant surface speed (the manual promises no effect then); only mode I needs G49.
 bool wrong_state(const BlockContext& in, FineMode mode) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
@@ -53,7 +53,7 @@ Execution start(BlockContext& in, FineMode mode) {
   return Execution::done;
 }
 
-/// Precaution (5): radius compensation is turned off inside the mode.
+/// Ends the mode. Precaution (5): radius compensation must have been cancelled inside the mode.
 Execution leave(BlockContext& in) {
   State& state = in.state;
   if (state.comp.side != 0 || !state.modal.is(Function::comp_off)) return refuse(in);
@@ -64,22 +64,22 @@ Execution leave(BlockContext& in) {
   return Execution::done;
 }
 
-/// The machine slows down once at these blocks (13.16 restriction (4), 13.17.1 precaution (4)).
+/// Lets the axes come to rest, because the machine slows down at such a block (13.16 restriction (4), 13.17.1 precaution (4)).
 void slow_down(BlockContext& in) { in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION; }
 
 Execution high_speed_machining(BlockContext& in, SpeedMode mode) {
   State& state = in.state;
-  // 13.20: mode III is refused in a rotation; it is in no part of the manual but that and the list of P.
+  // 13.20: mode III is refused in a rotation; the manual mentions this mode only there and in the list of P.
   if (mode == SpeedMode::machining_3 && !state.modal.is(Function::rotation_off)) return refuse(in);
   if (mode == SpeedMode::machining_3) return in.raise(Condition::high_speed_3, Role::speed_mode, in.words.get(Role::speed_mode));  // App.1 P65
-  if (in_mode_2(state)) return refuse(in);  // not in the list of 13.17
+  if (in_mode_2(state)) return refuse(in);  // it is not in the list of 13.17
   if (is_exponential(state.modal.of(Mode::motion))) return refuse(in);  // 6.11
   if (state.high_speed != mode) slow_down(in);
   state.high_speed = mode;
   return Execution::done;
 }
 
-/// Basic axes named with G05.1 Q2; false when there are other words.
+/// The basic axes named with G05.1 Q2; false when the block has other words.
 bool spline_axes(const BlockContext& in, uint8_t* axes) {
   uint32_t named = 0;
   *axes = 0;
@@ -117,7 +117,7 @@ Execution do_high_speed(BlockContext& in) {
   const SpeedModeRow* const row = row_of(in.dialect->speed_modes, w.get(Role::speed_mode));
   if (row == nullptr) return in.raise(Condition::value_range, Role::speed_mode, w.get(Role::speed_mode));
   const SpeedMode mode = row->mode;
-  // 13.17.1 precaution (5) makes it P33, 13.16 restriction (8) P35.
+  // By 13.17.1 precaution (5) the alarm is P33, by 13.16 restriction (8) P35.
   const bool accuracy = mode == SpeedMode::accuracy_2 || (mode == SpeedMode::off && in_mode_2(state));
   if (other_words(w, in.addresses({Role::speed_mode}))) return in.raise_code(accuracy ? Condition::must_stand_alone : Condition::value_range, *w.one_shot);
   if (state.fine_mode == FineMode::accuracy1) return refuse(in);  // 13.17.1 precaution (11)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G07: axes that take part in the interpolation and do not move (M700 6.16).
+// G07: axes that are interpolated but do not move (M700 6.16).
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -13,10 +13,10 @@ Execution do_hypothetical_axis(BlockContext& in) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     const uint8_t bit = static_cast<uint8_t>(1u << i);
-    // 0 (or the name alone): on; every other number: off.
+    // The number 0 (or the name alone) switches it on, every other number off.
     const bool on = w.get(in.system->axis[i].name) == 0;
     if (on && (frozen & bit) == 0) held[i] = state.machine[i];
-    if (!on && (frozen & bit) != 0) state.machine[i] = held[i];  // it has never left this place
+    if (!on && (frozen & bit) != 0) state.machine[i] = held[i];  // the axis has stood there all the time
     frozen = static_cast<uint8_t>(on ? frozen | bit : frozen & ~bit);
   }
   state.map.frozen = frozen;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// G37: automatic tool length measurement (M700 15.1). Rapid up to the distance R before the measuring position, then at the measuring
-// feed to the distance D behind it, until the sensor comes; it must come within D of the position. What the coordinate at the sensor
-// lacks to the one commanded goes into the tool length.
+// G37: automatic tool length measurement (M700 15.1). The axis goes in rapid to the distance R before the measuring position, then at the measuring feed up
+// to the distance D behind it, until the sensor signals; the signal must come within D of the position. The difference between the commanded coordinate and
+// the one at the signal goes into the tool length.
 #include <cmath>
 #include <initializer_list>
 
@@ -10,16 +10,16 @@
 namespace nc {
 namespace {
 
-/// A distance of the block, or the one of the parameter.
+/// A distance, given by a word of the block, or else by the parameter.
 double distance(const BlockContext& in, Role word, double parameter) {
   return in.words.has(word) ? std::fabs(length_of(in, word)) : parameter;
 }
 
 struct Measurement {
   unsigned axis = 0;
-  double position = 0;       ///< commanded, workpiece coordinates with the tool length in force
-  double deceleration = 0;   ///< R
-  double range = 0;          ///< D
+  double position = 0;       ///< commanded position, in workpiece coordinates with the tool length in force
+  double deceleration = 0;   ///< R, mm
+  double range = 0;          ///< D, mm
   double feed_mm_min = 0;
 };
 
@@ -58,7 +58,7 @@ Execution do_measure_length(BlockContext& in) {
   const AxisVec target = target_of_words(in);
   const double way = target[m.axis] - in.position()[m.axis];
   m.position = target[m.axis];
-  // (7) |measuring point - start point| > R > D; (8), (9): both may be 0, or D alone.
+  // (7): |measuring point - start point| > R > D; (8), (9): both may be 0, or only D.
   const bool none = m.deceleration == 0 && m.range == 0;
   if (!none && !(m.deceleration > m.range)) return in.raise(Condition::value_range, Role::measure_range, m.range);
   if (!none && !(std::fabs(way) > m.deceleration)) return in.raise(Condition::value_range, Role::measure_deceleration, m.deceleration);
@@ -72,7 +72,7 @@ Execution do_measure_length(BlockContext& in) {
   in.measured_position = m.position;
   in.measured_range = m.range;
   in.measured_nothing = none;
-  if (none) return Execution::later;  // (9): P607 whatever the sensor says
+  if (none) return Execution::later;  // (9): P607, whether the sensor signals or not
   AxisVec behind = target;
   behind[m.axis] = m.position + direction * m.range;
   style.kind = NC_MOVE_SKIP;
@@ -94,16 +94,16 @@ Execution measured(BlockContext& in) {
   const double at = in.world.skip_machine.v[axis] - in.zero()[axis] - state.applied[axis];
   const double difference = at - in.measured_position;
   if (std::fabs(difference) > in.measured_range + finest(in)) return in.raise(Condition::measure_signal, name, in.measured_position);
-  // With the offset that is applied the tool would have to be longer by the difference; G44 counts it the other way round.
+  // The tool is longer by the difference than the offset that is applied says; G44 counts the offset with the opposite sign.
   const double longer = state.modal.is(Function::length_minus) ? -difference : difference;
   const Frames& f = in.frames;
   const unsigned length = f.tool_key(state.modal.h, NC_TOOL_LENGTH), wear = f.tool_key(state.modal.h, NC_TOOL_LENGTH_WEAR);
   const double amount = f.get(length) + (in.settings.tool_memory_2 ? f.get(wear) : 0);
-  // An offset that is not 0 is corrected by its wear, where there is one.
+  // An offset that is not 0 is corrected in its wear, where the tool memory has wear.
   const unsigned key = in.settings.tool_memory_2 && amount != 0 ? wear : length;
   const double corrected = f.get(key) + longer;
   if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, Role::length_number, corrected);
-  in.set_table(key, corrected);  // (4): in force from the next command of the axis on
+  in.set_table(key, corrected);  // (4): it acts from the next command of the axis on
   return Execution::done;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cylindrical interpolation G07.1 (G107, M700 6.9) and polar coordinate interpolation G12.1/G13.1 (G112/G113, M700 6.10): modes in
-// which a plane is programmed and a linear and a rotary axis follow. What the mode does to a move is an AxisMap (path/shape.hpp).
+// Cylindrical interpolation G07.1 (G107, M700 6.9) and polar coordinate interpolation G12.1/G13.1 (G112/G113, M700 6.10): modes in which a plane is
+// programmed and the linear and rotary axes of the machine follow it. A move gets an AxisMap for this (path/shape.hpp).
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-/// Codes of the modes in front of which both are refused: P485, P486.
+/// Raises an alarm (P485, P486) in modes in which neither of the two can be commanded.
 Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   const State& state = in.state;
   if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
@@ -41,7 +41,7 @@ int rotary_axis(const BlockContext& in) {
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
 }
 
-/// The basic axis that is the linear one of polar coordinate interpolation: the first, unless #1533 names another (6.10).
+/// The basic axis that is the linear axis of polar coordinate interpolation: the first, unless #1533 names another (6.10).
 unsigned polar_linear(const BlockContext& in) {
   if (const unsigned number = in.settings.polar_axis[0]; number != 0 && number <= in.axis_count) {
     for (unsigned i = 1; i < 3; ++i)
@@ -52,15 +52,16 @@ unsigned polar_linear(const BlockContext& in) {
   return 0;
 }
 
-/// M700 6.9 (1), 6.10 (1): an independent block. An axis word in it would go nowhere; `own` is the axis that the code itself names.
+/// M700 6.9 (1), 6.10 (1): the code has to stand alone in its block. An axis word in it would be ignored, so it is an alarm; `own` is the axis that the code
+/// itself names.
 Execution stands_alone(BlockContext& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.system->axis[i].name, in.words.axis[i]);
   return Execution::done;
 }
 
-/// What both starts have in common: the feed per minute is forced, the state of before is kept, and a tool length that was
-/// commanded without a movement is in force from now on (6.9, 6.10 "tool length compensation").
+/// Does what is the same at the start of both modes: the feed per minute comes into force, the previous state is kept for the end of the mode, and a tool
+/// length that was commanded without a movement acts from now on (6.9, 6.10 "tool length compensation").
 void begin_mode(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   state.mill.moved = false;
@@ -71,7 +72,7 @@ void begin_mode(BlockContext& in, const FunctionRow& row) {
   state.mill.feed = state.modal.feed;
   if (state.mill.feed_mode != Function::feed_per_minute) {
     in.state.modal.set(Function::feed_per_minute);
-    state.modal.feed = 0;  // P62 unless the mode gets an F of its own
+    state.modal.feed = 0;  // so that it is P62 unless an F is commanded in the mode
   }
   for (unsigned i = 0; i < in.axis_count; ++i) state.applied[i] = i == state.length_axis ? state.length_value : 0.0;
   state.modal.set(row);
@@ -98,7 +99,7 @@ void end_mode(BlockContext& in) {
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
-/// M700 6.9, 6.10: what can be used inside.
+/// M700 6.9, 6.10: the function can be used in these modes.
 bool allowed_inside(Function function) {
   switch (function) {
     case Function::rapid:
@@ -209,7 +210,7 @@ Execution do_polar_on(BlockContext& in) {
   in.state.modal.set(basic == 1 ? Function::plane_yz : basic == 2 ? Function::plane_zx : Function::plane_xy);
   state.plane_axis[0] = static_cast<int8_t>(linear);
   state.plane_axis[1] = static_cast<int8_t>(axis);
-  // #1517: the hypothetical axis is commanded by the second letter of the deemed plane, or by the name of the rotary axis.
+  // #1517: the hypothetical axis is commanded by the letter of the second axis of the plane, or by the name of the rotary axis.
   state.mill.hypothetical_letter = in.settings.hypothetical_by_name ? char{0} : in.dialect->addresses.letter(basic_along((basic + 1) % 3));
   state.refresh_special();
   in.refresh_axis_names();
@@ -235,7 +236,7 @@ Execution check_mill_block(BlockContext& in) {
     switch (row->function) {
       case Function::cylinder:
       case Function::polar_on:
-      case Function::polar_off: continue;  // their own rules
+      case Function::polar_off: continue;  // these have rules of their own
       case Function::plane_xy:
       case Function::plane_zx:
       case Function::plane_yz:
@@ -260,7 +261,7 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   if (state.map.kind != AxisMap::Kind::cylinder) return Execution::done;
   const auto rotary = static_cast<int8_t>(state.map.rotary);
   if (state.plane_axis[0] != rotary && state.plane_axis[1] != rotary) return in.raise(Condition::mill_modal);
-  // [App.1 P482] the cylindrical coordinate system is the basic one with the rotary axis in the place of the axis it is parallel to.
+  // App.1 P482: the cylindrical coordinate system is the basic one, with the rotary axis in the place of the axis to which it is parallel.
   uint32_t system = 1u << state.map.rotary;
   for (unsigned i = 0; i < 3; ++i) {
     const char basic = in.settings.plane_basic[i];

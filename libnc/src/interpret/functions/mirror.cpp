@@ -11,7 +11,7 @@ Execution do_mirror(BlockContext& in) {
   if (on && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   uint32_t mirror = in.state.mirror;
   if (on) {
-    // By G90 or G91 like any position; in a rotated program it is one of the shape that is turned.
+    // The centre is given by G90 or G91 like any position; in a rotated program it is a point of the shape that is rotated.
     const bool shape = in_figure(in);
     const AxisVec at = shape ? to_program(in, in.position()) : target_of_words(in);
     ProgramMaps maps = in.records->maps;
@@ -22,9 +22,9 @@ Execution do_mirror(BlockContext& in) {
     }
     in.change(&ProgramRecords::maps, maps);
     mirror |= w.axes;
-    if (shape) in.state.figure_mirror |= static_cast<uint8_t>(w.axes);  // M700 13.3.3 (3): all blocks are turned
+    if (shape) in.state.figure_mirror |= static_cast<uint8_t>(w.axes);  // M700 13.3.3 (3): all blocks are rotated
   } else {
-    mirror = w.axes == 0 ? 0 : mirror & ~w.axes;  // of the named axes, whatever the value
+    mirror = w.axes == 0 ? 0 : mirror & ~w.axes;  // the named axes are not mirrored any more, whatever their values are
   }
   in.state.mirror = static_cast<uint8_t>(mirror);
   in.program_changed();

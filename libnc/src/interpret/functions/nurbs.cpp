@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G06.2: NURBS, one control point with its knot and weight in each block (M700 6.15). A span of the curve goes out as soon as its
-// knots are known, as a rational Bezier curve: nothing limits the number of control points.
+// G06.2: NURBS, with one control point, its knot and its weight in each block (M700 6.15). A span of the curve is given out, as a rational Bezier curve, as
+// soon as its knots are known, so that there is no limit for the number of control points.
 #include <cmath>
 #include <initializer_list>
 
@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-/// The basic axes that the machine has, 0xff for those it has not.
+/// The indexes of the basic axes, 0xff where the machine has no such axis.
 void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const char name = in.settings.plane_basic[i];
@@ -25,7 +25,7 @@ bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(valu
 
 Execution take_knot(BlockContext& in, double* knot) {
   if (!in.words.has(Role::curve_knot)) return in.raise(Condition::format_error, Role::curve_knot);
-  *knot = in.words.get(Role::curve_knot);  // K1 = 1.0
+  *knot = in.words.get(Role::curve_knot);  // K1 means 1.0, with or without a point
   if (too_fine(*knot)) return in.raise(Condition::format_error, Role::curve_knot, *knot);
   return Execution::done;
 }
@@ -39,7 +39,7 @@ Execution take_weight(BlockContext& in, double* weight) {
   return Execution::done;
 }
 
-/// The first block of a curve: its order and axes.
+/// Takes the order and the axes from the first block of a curve.
 Execution begin_curve(BlockContext& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
   const BlockWords& w = in.words;
@@ -56,14 +56,14 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   uint32_t basic = 0;
   for (const uint8_t a : axis)
     if (a < kMaxAxes) basic |= 1u << a;
-  if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone behind a curve begins the next one at its end
+  if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone after a curve begins the next curve at the end of that one
   if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, Role::basic_x);
   return Execution::done;
 }
 
 const PathPoint& point(const BlockContext& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
 
-/// Bezier points of the span between knots j and j + 1: values of the polar form (de Boor's scheme with one argument for each level).
+/// The Bezier points of the span between knots j and j + 1: they are values of the polar form (de Boor's scheme, with one argument for each level).
 RationalSpan span_of(const BlockContext& in, uint32_t j, const uint8_t (&axis)[3]) {
   const unsigned degree = in.state.nurbs.order - 1u;
   RationalSpan span{};
@@ -91,10 +91,10 @@ RationalSpan span_of(const BlockContext& in, uint32_t j, const uint8_t (&axis)[3
   return span;
 }
 
-/// The next point of the curve. Points have numbers one behind the other; when the program is read again from the middle of a curve the
-/// next free number is another one, so those that spans to come need go there too.
+/// Adds the next point of the curve. The points of a curve have consecutive ids. When the program is read again from the middle of a curve, the next free id
+/// is another one; then the older points that further spans need are entered again, too.
 void append(BlockContext& in, const PathPoint& p) {
-  constexpr uint32_t kNeeded = 2 * 3;  // a span reaches back by twice the degree
+  constexpr uint32_t kNeeded = 2 * 3;  // a span needs as many points back as twice the degree
   NurbsState& n = in.state.nurbs;
   uint32_t id = in.points.intern(p);
   if (n.knots > 0 && id != n.first + n.knots) {
@@ -109,7 +109,7 @@ void append(BlockContext& in, const PathPoint& p) {
   ++n.knots;
 }
 
-/// The span whose last knot has just been given.
+/// Emits the span whose last knot has just been given.
 void emit_span(BlockContext& in) {
   const NurbsState& n = in.state.nurbs;
   const unsigned degree = n.order - 1u;
@@ -135,7 +135,7 @@ Execution check_nurbs_block(BlockContext& in) {
   const BlockWords& w = in.words;
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Execution::done;
-  // No other codes, F, M, S or T until the curve is closed.
+  // Until the curve is closed a block may have no other codes, and no F, M, S or T.
   if (!w.g.empty()) return in.raise_code(Condition::format_error, *w.g.back());
   if (!w.m.empty()) return in.raise(Condition::format_error, Role::misc_code, w.m.back());
   for (const Role word : {Role::feed, Role::spindle_speed, Role::tool, Role::curve_order})
@@ -161,11 +161,11 @@ Execution move_nurbs(BlockContext& in, const AxisVec& target) {
     if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.system->axis[i].name, w.axis[i]);
   if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
   const bool closes = w.axes == 0 && n.knots > 0;
-  // The first knots and the last ones are the same as often as the order says, so that the curve begins and ends on control points.
+  // The first knot and the last knot are repeated as often as the order says, so that the curve begins and ends on control points.
   const bool must_repeat = closes ? n.knots > n.points : n.knots > 0 && n.knots < n.order;
   if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
-  if (!closes && n.knots > n.points) return in.raise(Condition::format_error, Role::curve_knot, p.knot);  // a point after the closing has begun
-  if (closes && n.points < n.order) return in.raise(Condition::format_error, Role::curve_knot, p.knot);   // fewer points than the order
+  if (!closes && n.knots > n.points) return in.raise(Condition::format_error, Role::curve_knot, p.knot);  // the closing knots have begun: no more points
+  if (closes && n.points < n.order) return in.raise(Condition::format_error, Role::curve_knot, p.knot);   // there are fewer points than the order
   append(in, p);
   if (!closes) n.points = n.knots;
   emit_span(in);

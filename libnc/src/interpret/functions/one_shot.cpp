@@ -11,7 +11,7 @@ struct Handler {
   Execution (*run)(BlockContext& in);
 };
 
-/// G11 outside the input of parameters: G10 L2 to L20, which 12.7 (3) lets it end too, act in their own block only.
+/// G11 outside of parameter input does nothing: 12.7 (3) lets it also end G10 L2 to L20, but these act only in their own block.
 Execution end_without_input(BlockContext&) { return Execution::done; }
 
 constexpr Handler kHandlers[] = {
@@ -65,7 +65,7 @@ constexpr Handler kHandlers[] = {
 
 namespace {
 
-/// M700 13.3.3 (9): a rotated figure and machine coordinates exclude each other for the axes of the plane.
+/// M700 13.3.3 (9): the block commands machine coordinates on axes of the plane inside a rotated figure, which is not allowed.
 bool machine_in_figure(const BlockContext& in) {
   if (!in.state.mapped || in.state.frame[in.state.depth].figure == 0) return false;
   switch (in.words.one_shot->function) {
@@ -87,7 +87,7 @@ bool machine_in_figure(const BlockContext& in) {
 }  // namespace
 
 Execution execute_one_shot(BlockContext& in) {
-  // M700 6.1, 6.2, 13.1.1: G00, G01 and fixed cycles have an in-position width.
+  // M700 6.1, 6.2, 13.1.1: only G00, G01 and fixed cycles have an in-position width.
   if (in.words.in_position > 0) return in.raise(Condition::illegal_address, Role::vector_x, in.words.in_position);
   if (in.words.in_position_drill > 0) return in.raise(Condition::illegal_address, Role::vector_y, in.words.in_position_drill);
   if (in.state.modal.is(Function::length_along_tool) && (is_reference_move(in.words.one_shot->function) || in.words.one_shot->function == Function::tool_change_return))

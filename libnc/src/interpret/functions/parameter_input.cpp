@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters by program: G10 L70 (L50), data blocks, G11 or G11.1 (M700 13.11 prints both). A change is journalled like an offset: reading ahead may be
-// taken back.
+// Parameters set by a program: G10 L70 (L50), data blocks, and G11 or G11.1 (M700 13.11 has both). A change is journalled as that of an offset is, because
+// blocks that were read ahead may be taken back.
 #include <cmath>
 #include <initializer_list>
 
@@ -33,8 +33,7 @@ bool ends_input(const BlockContext& in) {
   return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && in.block->words.size() == 1;
 }
 
-/// Note 1: the data stand behind the number, the part system and the axis, in the order of the format; of a word that comes twice the
-/// last one counts.
+/// Note 1: number, part system, axis and data stand in the order of the format; when a word comes twice the last one counts.
 bool in_sequence(const BlockContext& in) {
   unsigned place_of[kAddresses] = {};
   unsigned place = 0;
@@ -49,7 +48,7 @@ bool in_sequence(const BlockContext& in) {
   return true;
 }
 
-/// What a block gives to a parameter, or to one bit of it.
+/// The data of a block for a parameter, or for one bit of it.
 struct ParameterData {
   int bit = -1;
   double number = 0;
@@ -81,7 +80,7 @@ Execution read_data(BlockContext& in, ParameterData* data) {
 }  // namespace
 
 Execution begin_parameter_input(BlockContext& in) {
-  // "in independent blocks"; appendix 1, P421: not in a fixed cycle and not under radius compensation.
+  // The block has no other words ("in independent blocks"). Appendix 1, P421: it is not allowed in a fixed cycle or under radius compensation.
   const bool alone = in.block->words.size() == 2;
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return refuse(in, Role::input_kind);
   in.state.parameter_input = true;
@@ -103,13 +102,13 @@ Execution parameter_block(BlockContext& in) {
   ParameterData data;
   const Execution did = read_data(in, &data);
   if (did != Execution::done) return did;
-  // Note 3: parameters that are not of the axes take no notice of A.
+  // Note 3: A is ignored for a parameter that axes do not have for themselves.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
   const ParameterId id = ParameterId::of_number(number);
   const bool kept = number < ParameterId::kFirstName &&
                     (data.is_text ? in.set_parameter(id, -1, of, static_cast<const char*>(data.text)) : in.set_parameter(id, data.bit, of, data.number));
   if (!kept) return refuse(in, Role::parameter_number);
-  if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets holds at once
+  if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets acts at once
   return Execution::done;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G15, G16: the plane's axis words as radius and angle (M700 6.12).
+// G15, G16: the axis words of the plane are radius and angle (M700 6.12).
 #include <cmath>
 #include <numbers>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// M700 6.12: these read their words as they stand: data, machine positions, returns, measurements, and what sets up other modes.
+/// M700 6.12: the words of this block are not radius and angle: those of data, machine positions, returns, measurements, and codes that set up other modes.
 bool reads_plain_words(const BlockContext& in) {
   const BlockWords& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
@@ -47,7 +47,7 @@ void resolve_polar_words(BlockContext& in) {
   if (plane.h < 0 || plane.v < 0) return;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const bool has_radius = ((w.axes >> h) & 1) != 0, has_angle = ((w.axes >> v) & 1) != 0;
-  if (!has_radius && !has_angle) return;  // a block with neither word is not polar
+  if (!has_radius && !has_angle) return;  // there is nothing to convert
   const AxisVec position = program_mapped(in) ? to_program(in, in.position()) : in.position();
   double pole[2] = {0, 0};
   double radius = std::hypot(position[h], position[v]);
@@ -59,12 +59,12 @@ void resolve_polar_words(BlockContext& in) {
   double angle = seen;
   if (has_angle) {
     const unsigned at = address_of(in.system->axis[v].name);
-    angle = length_value(in, w.raw[at], w.flags[at], true, false);  // degrees, in inch too
+    angle = length_value(in, w.raw[at], w.flags[at], true, false);  // in degrees, also in inch mode
     if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
   }
   state.polar_angle = angle;
   state.polar_angle_known = true;
-  // A negative radius lies on the other side: |r| and 180 degrees more.
+  // A negative radius leads to the other side, as |r| at 180 degrees more.
   w.axis[h] = pole[0] + radius * std::cos(angle * kPi / 180);
   w.axis[v] = pole[1] + radius * std::sin(angle * kPi / 180);
   w.axes |= 1u << h | 1u << v;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G45 to G48: the motion of the block with its way made longer or shorter by an offset (M700 12.6).
+// G45 to G48: the way of the block is made longer or shorter by an offset (M700 12.6).
 #include <cmath>
 #include <numbers>
 
@@ -12,12 +12,12 @@ namespace nc {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// An arc begins or ends on an axis of its circle when it is as near to it as the coarsest least input increment, mm.
+/// An end of an arc counts as lying on an axis of its circle when it is no farther away than this, mm: the coarsest least input increment.
 constexpr double kOnAxis_mm = 0.001;
 
 bool is_twice(Function function) { return function == Function::offset_twice_longer || function == Function::offset_twice_shorter; }
 
-/// The amount by which G45 makes a way longer, G46 shorter (12.6): that of D, or of the D before.
+/// The amount by which G45 makes a way longer and G46 shorter (12.6): the offset of D in the block, or else of the last D.
 Execution amount_of(BlockContext& in, double* amount) {
   const ModalState& modal = in.state.modal;
   if (modal.d == 0 && !in.words.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
@@ -27,10 +27,10 @@ Execution amount_of(BlockContext& in, double* amount) {
   return Execution::done;
 }
 
-/// A length with its sign, longer by `by`; one that is shortened below 0 turns round (12.6, precaution (2)).
+/// A length with its sign, made longer by `by`. A length that is shortened below 0 changes its direction (12.6, precaution (2)).
 double longer(double length, double by) { return length + (std::signbit(length) ? -by : by); }
 
-/// Makes the way of each axis of the block longer and gives it to the block as an increment.
+/// Makes the way of each axis of the block longer, and puts it into the block as an incremental word.
 void lengthen_ways(BlockContext& in, double amount, bool arc) {
   BlockWords& w = in.words;
   const bool mapped = program_mapped(in);
@@ -42,14 +42,15 @@ void lengthen_ways(BlockContext& in, double amount, bool arc) {
     const unsigned i = first_of(left);
     const bool by_increment = (w.incremental >> i & 1) != 0;
     const double way = by_increment ? w.axis[i] : target[i] - position[i];
-    // Precaution (3): of a zero that is an increment the sign counts, an absolute one stays; so does the axis that a half circle comes back to.
+    // Precaution (3): the sign of an incremental 0 counts; an absolute word without a way stays, and so does the axis on which a half circle ends where it
+    // began.
     const bool stays = way == 0 && (!by_increment || arc);
     w.axis[i] = stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i)));
   }
   w.incremental = w.axes;
 }
 
-/// The circle that the programmed one becomes: of the same centre where the arc begins beside its programmed start by as much.
+/// Makes the arc that the programmed one becomes. It has the same centre where the arc begins beside its programmed start by the same amount.
 Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const FunctionRow& row = *in.words.one_shot;
   const PlaneAxes plane = plane_axes(in);

@@ -9,7 +9,7 @@
 namespace nc {
 namespace {
 
-/// DGSHAPE G28: an axis that is not named takes part with the midpoint that an earlier G28 of the program gave it.
+/// DGSHAPE G28: an axis that is not named moves, too, by the intermediate point that an earlier G28 of the program gave it.
 void take_remembered_midpoints(BlockContext& in, AxisVec& mid, uint32_t& axes) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const OptionalDouble given = in.records->midpoints.axis[i];
@@ -19,7 +19,7 @@ void take_remembered_midpoints(BlockContext& in, AxisVec& mid, uint32_t& axes) {
   }
 }
 
-/// The area of G22 does not hold for the moves made while this exists (M700 15.7 (6)).
+/// The area of G22 does not count for the moves that are made while this object exists (M700 15.7 (6)).
 class WithoutStrokeCheck {
  public:
   explicit WithoutStrokeCheck(BlockContext& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
@@ -32,7 +32,7 @@ class WithoutStrokeCheck {
   uint32_t box_;
 };
 
-/// G28 and G30: by the intermediate point to reference position `which`, 0 to 3.
+/// G28 and G30: goes through the intermediate point to reference position `which`, 0 to 3.
 Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_t axes) {
   if (axes == 0 && in.dialect->rules.reference.all_axes_without_words) {
     axes = (1u << in.axis_count) - 1;
@@ -45,18 +45,18 @@ Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_
   in.change(&ProgramRecords::midpoints, midpoints);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  style.transparent = true;  // M700 12.4.2: no vector at the intermediate point
+  style.transparent = true;  // M700 12.4.2: there is no offset vector at the intermediate point
   move_linear(in, mid, axes, style);
   AxisVec place;
   for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.reference(which, i);
   const WithoutStrokeCheck from_here(in);
   move_to_place(in, place, axes);
   if (in.dialect->rules.reference.cancels_length) cancel_length_of(in, axes);
-  if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (2): at the intermediate point
+  if (in.state.scaled != 0) end_scaling(in);  // M700 13.19, relation (2): scaling ends at the intermediate point
   return Execution::done;
 }
 
-/// M700 14.13: an angle in machine coordinates as a place on the axis, which counts over its turns.
+/// M700 14.13: turns an angle in machine coordinates into a position of the axis, which counts on over several turns.
 double machine_target(const BlockContext& in, unsigned axis, double angle) {
   const double at = in.state.machine[axis];
   if (((in.settings.turning >> axis) & 1) != 0)
@@ -65,7 +65,7 @@ double machine_target(const BlockContext& in, unsigned axis, double angle) {
   return angle;
 }
 
-/// Half of the finest unit of a command: nearer than this an axis is where it should be.
+/// Half of the finest unit of a command: an axis that is nearer than this is where it should be.
 double same_place(const BlockContext& in) { return in.settings.setting_unit_mm / 2; }
 
 /// Which reference position P names; `fallback` where there is no P.
@@ -83,14 +83,14 @@ void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes) {
     if ((axes & bit) == 0) continue;
     if ((in.settings.machine_turn & bit) == 0) {
       machine[i] = place[i];
-    } else {  // M700 14.13: within 360 deg
+    } else {  // M700 14.13: the axis turns by less than 360 deg
       machine[i] += turn_to(within_one_turn(place[i]), within_one_turn(machine[i]), (in.settings.short_cut & bit) != 0);
     }
   }
   move_machine(in, machine, axes);
 }
 
-/// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled for good when it reaches such a place.
+/// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled when the axis reaches a reference position.
 void cancel_length_of(BlockContext& in, uint32_t axes) {
   if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.is(Function::length_off)) return;
   in.state.length_value = 0;
@@ -108,7 +108,7 @@ Execution do_reference_return(BlockContext& in) {
 }
 
 Execution do_second_reference(BlockContext& in) {
-  // M700 14.8 (1): without P, and with any other P than 2 to 4, the 2nd.
+  // M700 14.8 (1): without P, and with another P than 2 to 4, it is the 2nd reference position.
   uint32_t place = 2;
   if (!place_of_p(in, 2, &place) || place < 2 || place > 4) place = 2;
   return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
@@ -143,7 +143,7 @@ Execution do_start_return(BlockContext& in) {
     style.transparent = true;
     move_linear(in, mid, known, style);
   }
-  style.transparent = false;  // 14.8 (5): from there on with radius compensation again
+  style.transparent = false;  // 14.8 (5): from the intermediate point on radius compensation acts again
   move_linear(in, target_of_words(in), w.axes, style);  // incremental words count from the intermediate point
   return Execution::done;
 }
@@ -157,7 +157,7 @@ Execution do_reference_check(BlockContext& in) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   move_linear(in, target_of_words(in), w.axes, style);
-  // The comparison comes behind the move. Where radius compensation leads is known only then.
+  // The comparison comes after the move, because only then it is known where radius compensation has led.
   in.next_step = Step::reference_check;
   return in.state.compensated() ? in.need(NC_SYNC_POSITION) : Execution::later;
 }
@@ -180,7 +180,7 @@ Execution compare_reference(BlockContext& in) {
   return Execution::done;
 }
 
-/// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away, without motion.
+/// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away without a motion.
 Execution clear_shift(BlockContext& in) {
   const BlockWords& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -203,7 +203,7 @@ Execution do_machine_move(BlockContext& in) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const uint32_t bit = 1u << i;
     if ((w.axes & bit) == 0) continue;
-    if ((w.incremental & bit) != 0) {  // M700 14.4 (4): in G91 a plain incremental rapid; mirror image does not touch it (13.6 (7))
+    if ((w.incremental & bit) != 0) {  // M700 14.4 (4): in G91 it is a plain incremental rapid, on which mirror image does not act (13.6 (7))
       machine[i] += w.axis[i];
       continue;
     }

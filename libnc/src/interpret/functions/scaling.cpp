@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scaling G50 G51 (M700 13.19) and coordinate rotation by program G68 G69 (13.20). What they make of a point:
-// program_map.cpp.
+// Scaling G50 G51 (M700 13.19) and coordinate rotation by program G68 G69 (13.20). How they map a point is in program_map.cpp.
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +12,7 @@ namespace {
 
 constexpr double kLeastFactor = 1e-6, kLargestFactor = 99.999999;
 
-/// P of G51, else #8072; a parameter out of range is 1.
+/// The factor: P of G51, or else #8072; a parameter that is out of range counts as 1.
 bool factor_of(const BlockContext& in, double* factor) {
   const BlockWords& w = in.words;
   if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), factor);
@@ -95,7 +94,7 @@ Execution do_rotation(BlockContext& in) {
   const int axes[2] = {plane.h, plane.v};
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);
-    const bool given = ((w.axes >> axis) & 1) != 0;  // absolute also in G91
+    const bool given = ((w.axes >> axis) & 1) != 0;  // the word is absolute, also in G91
     maps.rotation_center[i] = given ? w.axis[axis] : at[axis];
   }
   in.change(&ProgramRecords::maps, maps);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G31: a straight feed that a signal ends (M700 15.2, 15.4), or that signals change (15.5); G31.1 to G31.3 with signals and feeds by
-// parameter (15.3). Where it ended is known only when it has happened, so the block goes on
-// behind a sync.
+// G31: a straight cut that a signal ends (M700 15.2, 15.4), or whose feed signals change (15.5); G31.1 to G31.3 have signals and feeds by parameter (15.3).
+// Where the move has ended is known only after it was executed, so the block goes on after a sync.
 #include <bit>
 
 #include "interpret/functions/functions.hpp"
@@ -9,7 +8,7 @@
 namespace nc {
 namespace {
 
-/// #5061...: skip position in workpiece coordinates, tool compensation included (M700 10.11). Axes not named keep their value.
+/// Stores #5061...: the skip position in workpiece coordinates, including tool compensation (M700 10.11). Axes that are not named keep their values.
 void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
@@ -18,10 +17,10 @@ void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes
   in.change(&ProgramRecords::skip, skip);
 }
 
-/// M700 15.5: F1= to F8=, the feed behind each signal; 0 ends the move. Signals that are not named do nothing.
+/// M700 15.5: takes F1= to F8=, the feed after each signal; 0 ends the move. Signals that are not named do nothing.
 Execution take_speeds(BlockContext& in, uint32_t* stops) {
   const BlockWords& w = in.words;
-  if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // which signals count is said already
+  if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // F1= to F8= say already which signals count
   const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
   in.skip_speeds = SkipSpeeds{};
   *stops = 0;
@@ -43,7 +42,7 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
 
 Execution do_skip(BlockContext& in) {
   const BlockWords& w = in.words;
-  // M700 9.3 (8): where the signal comes a table that has places of its own (#2106) cannot be clamped.
+  // M700 9.3 (8): an index table that can be clamped only at certain positions (#2106) could not be clamped where the signal comes.
   for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
@@ -75,7 +74,7 @@ Execution do_skip(BlockContext& in) {
   style.skip_mask = static_cast<uint8_t>(mask);
   const AxisVec before = in.state.machine;
   move_linear(in, target_of_words(in), w.axes, style);
-  if (in.state.machine == before) {  // nothing to go: no signal can come
+  if (in.state.machine == before) {  // there is no way on which a signal could come
     if (w.one_shot->function == Function::probe) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
     store_skip_position(in, in.state.machine, w.axes);
     return Execution::done;
@@ -85,10 +84,10 @@ Execution do_skip(BlockContext& in) {
 }
 
 Execution skip_answered(BlockContext& in) {
-  AxisVec at = in.state.machine;  // without a signal: the end point of the block
+  AxisVec at = in.state.machine;  // when no signal has come it is the end point of the block
   if (in.world.skipped) {
     for (unsigned i = 0; i < in.axis_count; ++i) {
-      if (((in.state.map.frozen >> i) & 1) != 0) continue;  // it has not moved (M700 6.16)
+      if (((in.state.map.frozen >> i) & 1) != 0) continue;  // a held axis has not moved (M700 6.16)
       at[i] = in.world.skip_machine.v[i];
       in.state.machine[i] = in.world.machine.v[i];
     }

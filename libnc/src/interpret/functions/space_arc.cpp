@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G02.4, G03.4: arcs in space through three points, given over two blocks (M700 6.14). The first block moves nothing by itself: its
-// arc and its mark come with the second, which is what makes the circle known.
+// G02.4, G03.4: arcs in space through three points, given by two blocks (M700 6.14). The first block alone moves nothing: its arc and its mark are made with
+// the second block, because only then the circle is known.
 #include <cmath>
 #include <initializer_list>
 
@@ -19,14 +19,14 @@ void cross(const Vec3& a, const Vec3& b, Vec3& out) {
   for (unsigned i = 0; i < 3; ++i) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/// The circle through three points, from the first through the second to the third.
+/// The arc through three points, from the first through the second to the third.
 struct ThreePoints {
-  SpaceArc first, second;  ///< up to the middle point, and from there
+  SpaceArc first, second;  ///< the part up to the middle point, and the part from there
 };
 
-/// False when the points lie on one line, or two of them are one: then the ways are straight.
+/// False when the points lie on one line, or two of them are the same: then both parts are straight.
 bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* out) {
-  constexpr double kFlat = 1e-9;  // of the product of the sides: sine of the angle between them
+  constexpr double kFlat = 1e-9;  // sine of the angle between the sides below which the points count as lying on one line
   Vec3 p, q, n;
   for (unsigned i = 0; i < 3; ++i) {
     p[i] = b[i] - a[i];
@@ -35,7 +35,7 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
   cross(p, q, n);
   const double pp = dot(p, p), qq = dot(q, q), nn = dot(n, n);
   if (nn <= kFlat * kFlat * pp * qq || nn == 0) return false;
-  // Centre from a: ((p.p) (q x n)... over 2 n.n, with n = p x q.
+  // The centre, seen from a, is (q.q (n x p) + p.p (q x n)) / (2 n.n), with n = p x q.
   Vec3 np, nq;
   cross(n, p, np);
   cross(q, n, nq);
@@ -83,7 +83,7 @@ bool basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   return true;
 }
 
-/// One half: along its arc, or straight.
+/// Emits one half: along its arc, or as a line.
 void emit_half(BlockContext& in, const AxisVec& to, const SpaceArc* arc) {
   const uint32_t all = (1u << in.axis_count) - 1;
   if (arc == nullptr) {
@@ -101,8 +101,7 @@ void emit_half(BlockContext& in, const AxisVec& to, const SpaceArc* arc) {
   set_modal_feed(in, emit_shaped(in, frame_of_move(in, to, all), shape, NC_MOVE_ARC), feed_mm_min(in));
 }
 
-/// The first half and the end of its block, so that the machine can stop and be stopped there; going back there reads the block in
-/// hand again.
+/// Emits the first half and the mark at the end of its block, so that the machine can stop there; a rewind to that mark reads the block in hand again.
 void emit_first_half(BlockContext& in, const AxisVec& middle, const SpaceArc* arc) {
   State& state = in.state;
   const nc_source second = in.source;
@@ -110,7 +109,7 @@ void emit_first_half(BlockContext& in, const AxisVec& middle, const SpaceArc* ar
   in.source = first.source;
   const double feed = state.modal.feed;
   const uint16_t digit = state.modal.feed_digit;
-  state.modal.feed = first.feed;  // F of its own block
+  state.modal.feed = first.feed;  // the first half has the F of its own block
   state.modal.feed_digit = first.feed_digit;
   state.refresh_special();
   emit_half(in, middle, arc);
@@ -139,7 +138,7 @@ bool names_centre(const BlockContext& in, const Block& block) {
 
 Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
   Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
-  if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it converts in space
+  if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it is a conversion in space
   return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }
 
@@ -160,7 +159,7 @@ Execution check_space_arc_block(BlockContext& in) {
 
 Execution move_space_arc(BlockContext& in, const AxisVec& target) {
   State& state = in.state;
-  if (state.arc_step == ArcStep::none) {  // the first block: the point on the way
+  if (state.arc_step == ArcStep::none) {  // this is the first block, which gives the middle point
     PathPoint start{in.position()}, middle{target};
     start.source = middle.source = in.source;
     start.feed = state.modal.feed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constant surface speed G96, G97 and the clamp speeds G92 S Q (M700 10.3, 10.4). The program says what is wanted; the speed itself follows
-// the axis and is made by the scan (interpolate/spindle.hpp).
+// Constant surface speed G96, G97 and the clamp speeds G92 S Q (M700 10.3, 10.4). The interpreter only hands on what the program commands; the spindle speed
+// follows the position of an axis and is calculated by the scan (interpolate/spindle.hpp).
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -45,7 +45,7 @@ Execution set_surface_speed(BlockContext& in) {
     if (row->function == Function::surface_off) {
       if (state.spindle.axis == 0) continue;
       state.spindle.axis = 0;
-      announce_surface(in);  // what turns goes on with the speed it has until the next S
+      announce_surface(in);  // a spindle that turns keeps its speed until the next S
       continue;
     }
     uint32_t axis = in.settings.surface_axis == 0 ? 1u : in.settings.surface_axis;
@@ -56,7 +56,7 @@ Execution set_surface_speed(BlockContext& in) {
     if (axis > in.axis_count) return in.raise(Condition::surface_axis, Role::surface_axis, axis);
     if (in.words.has(Role::spindle_speed) ? !(in.words.get(Role::spindle_speed) > 0) : state.spindle.surface == 0) return in.raise(Condition::surface_speed, Role::spindle_speed);  // P132
     state.spindle.axis = static_cast<uint8_t>(axis);
-    if (!in.words.has(Role::spindle_speed)) announce_surface(in);  // else with the word
+    if (!in.words.has(Role::spindle_speed)) announce_surface(in);  // otherwise surface_word() does it
   }
   return Execution::done;
 }
@@ -65,7 +65,7 @@ Execution surface_word(BlockContext& in) {
   uint32_t speed = 0;
   const Execution did = speed_word(in, Role::spindle_speed, &speed);
   if (did != Execution::done) return did;
-  // The example says m/min; feet/min in inch as FANUC has it.
+  // The example has m/min; in inch it is feet/min, as in FANUC.
   in.state.spindle.surface = in.state.modal.is(Function::inch) ? speed * 0.3048 : speed;
   announce_surface(in);
   return Execution::done;
@@ -80,7 +80,7 @@ Execution set_spindle_clamp(BlockContext& in) {
   if (did == Execution::done && w.has(Role::clamp_lowest)) did = speed_word(in, Role::clamp_lowest, &smallest);
   if (did != Execution::done) return did;
   in.state.spindle_clamped = true;
-  // 10.4, Sclamp and aux11 bit 5: in G97 only with Sclamp = 1 and bit 5 = 0.
+  // 10.4, Sclamp and aux11 bit 5: the clamp acts in G97 only with Sclamp = 1 and bit 5 = 0.
   const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
                (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has(Role::clamp_lowest) ? NC_CLAMP_Q : 0),

@@ -18,10 +18,10 @@ constexpr double kSameAngle = 1e-9;  // rad
 
 struct Spiral {
   Circle circle;
-  double delta = 0;  ///< from the start angle to the end angle in the direction of travel, [0, 2 pi)
+  double delta = 0;  ///< angle from the start to the end in the direction of travel, rad, [0, 2 pi)
 };
 
-/// Circle and end angle; the turns are still open.
+/// Circle and end angle; the number of turns is set later.
 Spiral spiral_about(const double start[2], const double end[2], const double center[2], bool ccw) {
   Spiral s;
   s.circle.center[0] = start[0] + center[0];
@@ -39,8 +39,8 @@ Spiral spiral_about(const double start[2], const double end[2], const double cen
   return s;
 }
 
-/// Full turns beyond `delta` from the number of turns that a step gives. M700 6.13, type 2: P70 when the end point that the step
-/// leads to is off the commanded one by more than #8075.
+/// Full turns in addition to `delta`, from the number of turns that follows from the step (Q or K). M700 6.13, type 2: P70 when the end point to which the step
+/// leads differs from the commanded one by more than #8075.
 Execution turns_by_step(BlockContext& in, const Spiral& s, double turns, Role word, double* whole) {
   const double angle = turns * kTurn;
   *whole = std::fmax(0.0, std::nearbyint((angle - s.delta) / kTurn));
@@ -56,10 +56,10 @@ Execution pitches(BlockContext& in, Role word, uint32_t* number) {
   return Execution::done;
 }
 
-/// The basic axis of the height of a cone (type 2): Y in G18, X in G19, else Z; J, I or K is its word.
+/// The basic axis along which the height of a cone (type 2) is measured: Y in G18, X in G19, otherwise Z; its word is J, I or K.
 unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 0 : 2; }
 
-/// Type 2: Q before K before L.
+/// Type 2: Q counts before K, and K before L.
 Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role height_word, double* whole) {
   const BlockWords& w = in.words;
   if (w.has(Role::spiral_step)) {
@@ -77,11 +77,11 @@ Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role
     const Execution did = pitches(in, Role::spiral_pitches, &number);
     if (did != Execution::done) return did;
   }
-  *whole = number > 0 ? number - 1 : 0;  // Ln: n - 1 turns or more, less than n
+  *whole = number > 0 ? number - 1 : 0;  // Ln means at least n - 1 turns, and fewer than n
   return Execution::done;
 }
 
-/// Type 1: Pn is n turns or more, less than n + 1.
+/// Type 1: Pn means at least n turns, and fewer than n + 1.
 Execution turns_of_type_1(BlockContext& in, double* whole) {
   uint32_t number = 0;
   if (in.words.has(Role::helix_pitches)) {
@@ -104,7 +104,7 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
   const BlockWords& w = in.words;
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   const bool type_2 = in.settings.spiral_type_2;
-  if (type_2) {  // G02.1 and G03.1 are codes of type 1; no mirror image, no scaling
+  if (type_2) {  // G02.1 and G03.1 belong to type 1; mirror image and scaling are not possible
     const State& state = in.state;
     if (is_spiral(state.modal.of(Mode::motion)) || state.any_mirror() != 0 || !state.modal.is(Function::scaling_off))
       return in.raise_mode(Condition::illegal_g, Mode::motion);
@@ -131,7 +131,7 @@ Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commande
   const Execution did = type_2 ? turns_of_type_2(in, s, height, height_word, &whole) : turns_of_type_1(in, &whole);
   if (did != Execution::done) return did;
   s.circle.sweep = (ccw ? 1 : -1) * (s.delta + whole * kTurn);
-  if (s.circle.sweep == 0) {  // it does not turn: straight to the end
+  if (s.circle.sweep == 0) {  // there is no angle, so a line leads to the end
     LinearStyle style;
     style.feed_mm_min = feed_mm_min(in);
     style.special_feed = special_feed(in);

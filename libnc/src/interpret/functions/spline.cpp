@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spline interpolation G05.1 Q2: a smooth curve through the points of fine segments (M700 13.18). Each block keeps its own part of the
-// curve, so the text is looked at two blocks ahead:
+// Spline interpolation G05.1 Q2: a smooth curve through the points of fine segments (M700 13.18). Each block is its own part of the curve, for which the text
+// is read up to two blocks ahead:
 //
-//   * at a point between two blocks of the spline the curve has the first two derivatives of the parabola through the point and its
-//     two neighbours, by the length of the chords: tangent and curvature are the same on both sides;
-//   * where the spline begins or ends, the block goes on with the parabola of its other end;
-//   * a block is the quintic with these ends; one between two such ends is the parabola itself.
+//   * at a point between two blocks of the spline the curve has the first two derivatives, by chord length, of the parabola through the point and its two
+//     neighbours, so tangent and curvature are the same on both sides;
+//   * at the beginning and the end of the spline, a block has the derivatives of the parabola at its other end;
+//   * a block is the quintic with these derivatives at its ends; where both ends belong to the same parabola it is that parabola.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kNoMotion = 1e-9;      // mm
 constexpr double kLongBlock = 8;        // 13.18 (1) (d)
-constexpr double kCancelError = 5;      // (2): times the tolerance
-constexpr unsigned kEmptyBlocks = 64;   // between two blocks of a spline
+constexpr double kCancelError = 5;      // (2): an error above this multiple of the tolerance cancels the spline
+constexpr unsigned kEmptyBlocks = 64;   // most blocks without a movement that are passed over between two blocks of a spline
 
 struct Vec3 {
   double v[3] = {0, 0, 0};
@@ -36,12 +36,12 @@ struct Chord {
   double length = 0;
 };
 
-/// Derivatives by the length of the chord at one end of a block.
+/// The first two derivatives, by the length of the chord, at one end of a block.
 struct EndDerivatives {
   Vec3 first, second;
 };
 
-/// A block by u in [0, 1]: its way and the derivatives at both ends.
+/// A block as a curve with u in [0, 1]: its way and the derivatives by u at both ends.
 struct Hermite {
   Vec3 way, v0, v1, w0, w1;
 };
@@ -74,7 +74,7 @@ struct Place {
   uint32_t line;
 };
 
-/// Words of a block that only moves spline axes; false when it is something else.
+/// Reads the words of a block that only moves spline axes; false when the block is another one.
 bool read_block(const BlockContext& in, const Block& block, uint32_t* axes, uint32_t* incremental, AxisVec* value, bool* relative) {
   *axes = *incremental = 0;
   for (const Word& word : block.words) {
@@ -101,8 +101,7 @@ bool read_block(const BlockContext& in, const Block& block, uint32_t* axes, uint
   return *axes != 0;
 }
 
-/// The next block of the text that does something, when it moves spline axes and nothing else. `at`: where it begins, then where it
-/// ends.
+/// The next block of the text that is not empty, if it only moves spline axes. *at: before the call where the block begins, after it where the block ends.
 bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
   const unsigned file = in.state.frame[in.state.depth].program.file;
   for (unsigned i = 0; i < kEmptyBlocks; ++i) {
@@ -111,7 +110,7 @@ bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* 
     place->offset = block->next;
     place->line = block->next_line;
     const bool skipped = block->skip != 0 && ((in.optional_skip >> block->skip) & 1) != 0;
-    if (skipped || (block->empty && !block->has_n)) continue;  // (1) (c): a block of ";" alone is none
+    if (skipped || (block->empty && !block->has_n)) continue;  // (1) (c): a block with only ";" does not count
     if (!block->statements.empty()) return false;
     uint32_t axes = 0, incremental = 0;
     AxisVec value;
@@ -129,7 +128,7 @@ bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* 
 
 // ---- conditions ------------------------------------------------------------------------------------------------------
 
-/// (1): the modes in which the spline is formed.
+/// (1): the modes are such that a spline is formed.
 bool modes_fit(const BlockContext& in, bool exact_stop) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
@@ -137,7 +136,7 @@ bool modes_fit(const BlockContext& in, bool exact_stop) {
          modal.is(Function::feed_per_minute) && state.cycle.kind == CycleKind::none && (state.special & kSpecialMap) == 0;
 }
 
-/// (1) (b), (d): no longer than #8030, nor than eight times a neighbour. A neighbour of no length is none.
+/// (1) (b), (d): the block is not longer than #8030, and not longer than eight times a neighbour. A neighbour without length does not count.
 bool length_fits(const BlockContext& in, double length, double before, double behind) {
   const double minute = in.settings.spline_minute_length;
   if (minute < 0) return true;
@@ -147,7 +146,7 @@ bool length_fits(const BlockContext& in, double length, double before, double be
 
 // ---- the curve --------------------------------------------------------------------------------------------------------
 
-/// At the point between the chords a and b.
+/// The derivatives at the point between the chords a and b.
 EndDerivatives parabola(const Chord& a, const Chord& b) {
   const double whole = a.length + b.length;
   EndDerivatives d;
@@ -156,7 +155,7 @@ EndDerivatives parabola(const Chord& a, const Chord& b) {
   return d;
 }
 
-/// The end of `chord` where the spline ends: its other end's parabola goes on. `sign` +1 at the start, -1 at the end.
+/// The derivatives at the end of `chord` at which the spline begins or ends: those of the parabola of its other end. `sign`: +1 at the start, -1 at the end.
 EndDerivatives free_end(const Chord& chord, const EndDerivatives& other, double sign) {
   return {combine(1 / chord.length, chord.way, -sign * 0.5 * chord.length, other.second), other.second};
 }
@@ -172,7 +171,8 @@ Hermite span_between(const Chord& chord, const EndDerivatives& start, const EndD
   return s;
 }
 
-/// The same tangents and curvatures at the ends, nearer to the chord: the parameter runs slower by `share` there.
+/// A curve with the same tangents and curvatures at its ends that lies nearer to the chord: the first derivatives at its ends are multiplied by `share`, the
+/// second ones by its square.
 Hermite flattened(const Hermite& s, double share) {
   Hermite f = s;
   for (unsigned i = 0; i < 3; ++i) {
@@ -203,7 +203,7 @@ double distance_at(const SplineSpan& span, const Vec3& chord, double u) {
   return norm(across(p, chord));
 }
 
-/// Largest distance between the block and its chord: the best of many samples, narrowed down.
+/// Largest distance between the block and its chord: the largest of many samples, made more exact by a search around it.
 double chord_error(const Hermite& s) {
   constexpr unsigned kSamples = 48, kThirds = 40;
   SplineSpan span;
@@ -223,12 +223,12 @@ double chord_error(const Hermite& s) {
   return most;
 }
 
-/// (2): the curvature changes its side inside the block, or the curve leaves and reaches the chord on one side and the other.
+/// (2): inside the block the curvature changes its side, or the curve leaves the chord on one side and reaches it on the other.
 bool inflected(const Hermite& s) {
   return dot(across(s.v0, s.way), across(s.v1, s.way)) > 0 || dot(across(s.w0, s.v0), across(s.w1, s.v1)) < 0;
 }
 
-/// (2): revises a block whose chord error is above its tolerance; false when the error cancels the spline.
+/// (2): revises a block whose chord error is above the tolerance; false when the error is so large that it cancels the spline.
 bool revise(const BlockContext& in, Hermite* s, double error) {
   constexpr unsigned kHalvings = 50;
   const double tolerance = inflected(*s) ? in.settings.spline_tolerance_inflected : in.settings.spline_tolerance_arched;
@@ -294,7 +294,7 @@ Execution move_spline(BlockContext& in, const AxisVec& target, uint32_t commande
   if (!has_next) next = Chord{};
   if (!has_after) after = Chord{};
   if (!length_fits(in, now.length, before.length, next.length)) return straight();
-  // A curve through a turn back on itself has a cusp, whatever #8026 says (docs/decisions.md).
+  // Where the path turns back on itself a curve would have a cusp, so there is none, whatever #8026 says (docs/decisions.md).
   constexpr double kTurnsBack = 150;
   const double cancel = in.settings.spline_cancel_angle, most = cancel > 0 ? std::fmin(cancel, kTurnsBack) : kTurnsBack;
   const bool joins = has_next && length_fits(in, next.length, now.length, after.length) && angle_deg(now, next) <= most;

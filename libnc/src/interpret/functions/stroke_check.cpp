@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G22: an area that no block may start or end in (M700 15.7). Commit looks at the moves, with every compensation in them
-// (control/commit.cpp). G23 ends it and is one of the reading modes of a block (execute_block.cpp).
+// G22: an area in which no block may start or end (M700 15.7). Commit checks the moves, with every compensation in them (control/commit.cpp). G23 ends it
+// and is handled with the reading modes of a block (execute_block.cpp).
 #include <algorithm>
 
 #include "interpret/functions/functions.hpp"
@@ -21,7 +21,7 @@ Execution do_stroke_check(BlockContext& in) {
       continue;
     }
     taken |= 1u << address_of(name);
-    // (2) what is omitted is 0. Machine coordinates, in the unit of the program, whatever G90 and G91 say.
+    // (2): a word that is omitted is 0. The words are machine coordinates in the unit of the program, in G90 and in G91.
     const auto index = static_cast<unsigned>(axis);
     const bool turns = ((in.rotary >> index) & 1) != 0;
     const double upper_point = w.has(name) ? w.axis[index] : 0;
@@ -33,7 +33,7 @@ Execution do_stroke_check(BlockContext& in) {
     box.high[i] = std::max(upper_point, lower_point);
     any = true;
   }
-  // (7): an address that the block has no use for.
+  // (7): an address that has no meaning in this block.
   const uint32_t other = w.present & ~taken & ~in.addresses({Role::sequence_number, Role::program_number, Role::feed, Role::spindle_speed, Role::misc_code, Role::tool});
   if (other != 0) {
     const char letter = first_of_block(in, other);

@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-/// The table of 13.13: axes of one step stand together.
+/// The table of 13.13: the axes of one step are in one element.
 constexpr uint8_t kX = 1, kY = 2, kZ = 4;  // bit n: basic axis n
 constexpr uint8_t kOrder[6][3] = {
     {kZ, kX | kY, 0},        // G30.1
@@ -18,7 +18,7 @@ constexpr uint8_t kOrder[6][3] = {
     {kX | kY | kZ, 0, 0},    // G30.6
 };
 
-/// Of a set of basic axes, those that the machine has.
+/// The axes of a set of basic axes that the machine has.
 uint32_t axes_of(const BlockContext& in, uint8_t basic) {
   uint32_t axes = 0;
   for (unsigned i = 0; i < 3; ++i) {
@@ -41,12 +41,12 @@ Execution do_tool_change_return(BlockContext& in) {
   for (const uint8_t basic : order) {
     const uint32_t axes = axes_of(in, basic);
     if (axes == 0) continue;
-    if (!first) in.emit_stop_point();  // in single block each step is a block of its own
+    if (!first) in.emit_stop_point();  // single block stops after each step
     first = false;
     move_to_place(in, place, axes);
     all |= axes;
   }
-  for (unsigned i = 0; i < in.axis_count; ++i) {  // added axes by #1092, behind the others
+  for (unsigned i = 0; i < in.axis_count; ++i) {  // axes added by #1092 move after the others
     if (((added >> i) & 1) == 0) continue;
     if (!first) in.emit_stop_point();
     first = false;

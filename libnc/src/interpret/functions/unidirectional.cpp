@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// G60: positioning whose last stretch always goes in the same direction (M700 6.8).
+// G60: positioning whose last part is always in the same direction (M700 6.8).
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -11,7 +11,7 @@ Execution do_unidirectional(BlockContext& in) {
   uint32_t creeps = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0 || in.settings.creep[i] == 0) continue;
-    before[i] -= in.settings.creep[i];  // its sign is the final direction
+    before[i] -= in.settings.creep[i];  // the sign of the parameter is the final direction
     creeps |= 1u << i;
   }
   LinearStyle style;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// G10 I J, G10 K: rotation of the workpiece coordinate systems by parameter, from the program (M700 13.21). The
-// numbers of the parameters ("coord rot plane, centre, vector, angle") are those of the family; 13.11 prints
-// the first of them.
+// G10 I J, G10 K: a program sets the parameters of the rotation of the workpiece coordinate systems (M700 13.21). The numbers of these parameters ("coord rot
+// plane, centre, vector, angle") belong to the family; 13.11 shows the first of them.
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -17,7 +16,7 @@ constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
 constexpr ParameterOf kAngle = Parameter::work_turn_angle;
 constexpr double kLargestVector = 999999.999999, kLargestAngle = 360;
 
-/// Parameters have nine decimals at most.
+/// Stores a value in a parameter, rounded to nine decimals.
 bool store(BlockContext& in, ParameterOf parameter, double value) {
   constexpr double kDecimals = 1e9;
   const double rounded = std::nearbyint(std::fabs(value) * kDecimals) / kDecimals;
@@ -28,10 +27,10 @@ bool store(BlockContext& in, ParameterOf parameter, double value) {
 
 Execution do_work_rotation(BlockContext& in) {
   const BlockWords& w = in.words;
-  // Axis words, P and R are data of another G10.
+  // Axis words, P and R belong to another G10.
   if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, *w.one_shot);
-  // A component that is not there stays.
+  // A component that is not commanded keeps its value.
   const double i = w.has(Role::vector_x) ? length_of(in, Role::vector_x) : in.settings.work_turn_vector[0];
   const double j = w.has(Role::vector_y) ? length_of(in, Role::vector_y) : in.settings.work_turn_vector[1];
   for (const Role word : {Role::vector_x, Role::vector_y}) {
@@ -52,7 +51,7 @@ Execution do_work_rotation(BlockContext& in) {
     if (vector) kept = kept && store(in, kAngle, std::atan2(j, i) * 180 / std::numbers::pi);
   }
   if (!kept) return in.raise_code(Condition::parameter_input, *w.one_shot);
-  take_work_rotation(in, false);  // (4): at once
+  take_work_rotation(in, false);  // (4): it acts at once
   const Compensation& comp = in.state.comp;
   const bool tilted = comp.side != 0 && tilts_plane(in, comp.axis[0], comp.axis[1]);
   return tilted ? in.raise_code(Condition::plane_mismatch, *w.one_shot) : Execution::done;
