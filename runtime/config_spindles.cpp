@@ -48,7 +48,9 @@ bool point_without_sign(const Config& config, const SpindleFeedback& feedback) {
   if (feedback.by != SpindleFeedback::By::kPoint) return false;
   const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
   if (point.bus == 0) return false;
-  const std::vector<hal::modbus::PointMap>& maps = config.modbus[point.bus - 1u].link.points;
+  const auto entry = std::find_if(config.modbus.begin(), config.modbus.end(), [&](const ModbusLinkConfig& each) { return each.bus == point.bus; });
+  if (entry == config.modbus.end()) return false;  // on another bus
+  const std::vector<hal::modbus::PointMap>& maps = entry->link.points;
   const auto map = std::find_if(maps.begin(), maps.end(), [&](const hal::modbus::PointMap& each) { return each.point == static_cast<unsigned>(feedback.point); });
   return map != maps.end() && loses_its_sign(*map);
 }

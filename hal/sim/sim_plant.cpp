@@ -39,7 +39,7 @@ void SimPlant::turn(unsigned number, double cycle_s, const PointImage& outputs, 
 
 void SimPlant::change_tools(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept {
   const bool prepare = on(outputs, config_.prepare), change = on(outputs, config_.change);
-  if (prepare && !was_preparing_) prepare_left_s_ = config_.prepare_s;
+  if (prepare && !was_preparing_) prepare_left_s_ = std::max(config_.prepare_s, cycle_s);  // with a time of 0 the tool waits in the same cycle
   if (prepare && prepare_left_s_ > 0) {
     prepare_left_s_ -= cycle_s;
     if (prepare_left_s_ <= 0) {

@@ -78,6 +78,20 @@ TEST_F(SimPlantTest, ToolIsPreparedAndExchanged) {
   EXPECT_EQ(in.value[kChanged], 0u);
 }
 
+TEST_F(SimPlantTest, AToolThatTakesNoTimeIsPreparedAndExchangedAtOnce) {
+  SimPlantConfig c = config();
+  c.prepare_s = c.change_s = 0;
+  SimPlant quick(c);
+  out.value[kPocket] = 7;
+  out.value[kPrepare] = 1;
+  quick.step(0.01, out, &in);
+  EXPECT_EQ(in.value[kPrepared], 1u);
+  out.value[kChange] = 1;
+  quick.step(0.01, out, &in);
+  EXPECT_EQ(in.value[kChanged], 1u);
+  EXPECT_EQ(in.value[kTool], 7u);
+}
+
 TEST_F(SimPlantTest, NoChangeWithATurningSpindleOrWithoutATool) {
   out.value[kChange] = 1;
   for (int n = 0; n < 200; ++n) step();
