@@ -213,7 +213,7 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
 
 // M700 12.4.8 alarm (2)(c): a block that runs against its programmed direction between its vectors. The vectors of short blocks need not cross
 // for that.
-Finding check_direction(Chain* chain, unsigned i, bool may_wait, Vec2 first_vector, unsigned* at) {
+Finding check_direction(Chain* chain, unsigned i, Vec2 first_vector, unsigned* at) {
   Section& section = (*chain)[i];
   const bool along_contour = !section.start && !section.cancel && !section.dead && !section.vanished && section.jointed && section.joint.n > 0;
   if (!along_contour || !section.check || section.commanded) return Finding::none;
@@ -224,7 +224,7 @@ Finding check_direction(Chain* chain, unsigned i, bool may_wait, Vec2 first_vect
   if (!section.avoid || i == 0) return Finding::alarm;
   for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size(); ++target)
     if (go_round(chain, i - 1, target, first_vector)) return Finding::none;
-  return may_wait && chain->size() <= i + kMaxSpan ? Finding::none : Finding::alarm;
+  return Finding::alarm;
 }
 
 }  // namespace
@@ -244,8 +244,8 @@ Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, 
       if ((*chain)[j].dead) break;
     }
   }
-  for (unsigned i = 0; i < chain->size(); ++i)
-    if (check_direction(chain, i, i >= last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
+  for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
+    if (check_direction(chain, i, first_vector, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;
 }
 

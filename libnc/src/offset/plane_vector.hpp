@@ -29,8 +29,10 @@ inline double dot(Vec2 a, Vec2 b) {
 inline double cross(Vec2 a, Vec2 b) {
   return a.h * b.v - a.v * b.h;
 }
+/// Coordinates are neither so large nor so small that their squares could leave the range of a double; std::hypot, which guards against that,
+/// takes a third of the time of a compensated block.
 inline double norm(Vec2 a) {
-  return std::hypot(a.h, a.v);
+  return std::sqrt(a.h * a.h + a.v * a.v);
 }
 /// Turned 90 degrees counter-clockwise: the left normal of a direction.
 inline Vec2 left_of(Vec2 a) {
