@@ -383,10 +383,29 @@ TEST(Hx, HighSpeedMachiningIsAMode) {  // 15.1
   EXPECT_EQ(codes, (std::vector<int>{103, 103, 113, 113}));
 }
 
+TEST(Hx, ARigidTapHasItsLeadFromFeedAndSpeed) {  // 12.3.5: 300 r/min x 1.5 mm = F450
+  const std::vector<nc_move> moves = hx("S300 M03\nG00 Z20.\nG99 G84.2 X1. Z-5. R2. F450.\nX2.\nG80\nG01 X3.\nM30").moves();
+  ASSERT_GE(moves.size(), 5u);
+  unsigned taps = 0;
+  for (const nc_move& move : moves) {
+    if (move.kind != NC_MOVE_TAP) continue;
+    ++taps;
+    EXPECT_NEAR(move.feed_mm_rev, 1.5, 1e-12);
+  }
+  EXPECT_EQ(taps, 4u);  // in and out of two holes
+  EXPECT_EQ(moves.back().feed_mm_min, 450);  // the F stays in force
+  EXPECT_EQ(alarm_of("S300 M03\nG84.3 X1. Z-5. R2.\nM30"), "F_84020");
+}
+
 TEST(Hx, ACycleGoesOnWithItsDataUntilAMotionEndsIt) {  // 12.2.1
   EXPECT_EQ(hx("G00 Z20.\nG99 G81 X1. Z-5. R2. F100.\nG82 X2. P500\nG00 X0\nM30").path(),
             (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -5 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -5 F100", "rapid 2 0 2",
                   "rapid 0 0 2"}));
+  // 12.3.5, 12.3.8: the spindle turns back at the bottom of a tap and stands while a bore is left.
+  EXPECT_EQ(hx("S300 M03\nG00 Z20.\nG99 G84 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M3 M4 M3 M30");
+  EXPECT_EQ(hx("S300 M04\nG00 Z20.\nG99 G74 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M4 M3 M4 M30");
+  EXPECT_EQ(hx("S300 M03\nG00 Z20.\nG99 G86 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M3 M5 M3 M30");
+  for (const char* code : {"G76", "G87"}) EXPECT_EQ(alarm_of(std::string(code) + " X1. Z-5. R2. Q1. F450.\nM30"), "NC-NOT-BUILT") << code;
   // 12.1.3: in G91 R counts from the initial level, Z from R, each with its own sign.
   EXPECT_EQ(hx("G00 Z20.\nG91 G99 G81 X1. Z-5. R-18. F100. K2\nG80\nM30").path(),
             (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -3 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -3 F100", "rapid 2 0 2"}));

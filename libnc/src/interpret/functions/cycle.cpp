@@ -28,6 +28,8 @@ constexpr CycleOfFunction kCycles[] = {
     {Function::cycle_spot, CycleKind::spot, CycleKind::spot},
     {Function::cycle_peck, CycleKind::peck, CycleKind::peck},
     {Function::cycle_tap, CycleKind::tap, CycleKind::tap_by_direction},
+    {Function::cycle_rigid_tap, CycleKind::tap, CycleKind::tap_by_direction},
+    {Function::cycle_rigid_reverse_tap, CycleKind::reverse_tap, CycleKind::reverse_tap_by_direction},
     {Function::cycle_bore_feed, CycleKind::bore_feed, CycleKind::bore_feed},
     {Function::cycle_bore_stop, CycleKind::bore_stop, CycleKind::bore_stop_as_before},
     {Function::cycle_back_bore, CycleKind::back_bore, CycleKind::back_bore_to_level},

@@ -2,6 +2,7 @@
 // The words of the tapping cycles (M700 13.1.1 (6), G84 and G74): whether a tap goes with the angle of the spindle, and what it then needs.
 #include <cmath>
 
+#include "interpret/feed.hpp"
 #include "interpret/functions/cycle.hpp"
 
 namespace nc {
@@ -9,8 +10,15 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 
+/// HX 12.3.5: synchronous taps have codes of their own. Their F is a feed like any other, and with the speed in force it makes the lead.
+bool rigid_by_code(const BlockContext& in) {
+  const Function function = in.words.cycle != nullptr ? in.words.cycle->function : in.state.modal.of(Mode::cycle);
+  return function == Function::cycle_rigid_tap || function == Function::cycle_rigid_reverse_tap;
+}
+
 /// Precaution (20): ,R decides; without it the parameter, or an M code.
 bool synchronous(const BlockContext& in) {
+  if (rigid_by_code(in)) return true;
   const BlockWords& w = in.words;
   const TapControl modal = w.cycle != nullptr && in.state.cycle.kind == CycleKind::none ? TapControl::by_parameter : in.state.cycle.tap;
   if (w.has_tap_control) return w.tap_control == 1;
@@ -33,6 +41,18 @@ Execution take_pitch(BlockContext& in) {
   return Execution::done;
 }
 
+/// HX 12.3.5: F = n x f.
+Execution take_pitch_of_feed(BlockContext& in) {
+  const ModalState& modal = in.state.modal;
+  const Execution did = check_feed(in, Function::linear);
+  if (did != Execution::done || !(modal.spindle > 0)) return did;  // without a speed check_tap() raises its alarm
+  const double feed = modal.feed * (modal.is(Function::inch) ? kMillimetresPerInch : 1.0);
+  const double pitch = modal.is(Function::feed_per_revolution) ? feed : feed / modal.spindle;
+  if (!(pitch > 0 && pitch < 1000)) return in.raise(Condition::tap_pitch, Role::feed, modal.feed);
+  in.state.cycle.pitch = pitch;
+  return Execution::done;
+}
+
 }  // namespace
 
 bool taps(const BlockContext& in) {
@@ -41,7 +61,7 @@ bool taps(const BlockContext& in) {
   return is_tap(w.cycle != nullptr ? cycle_kind(*in.dialect, w.cycle->function) : in.state.cycle.kind);
 }
 
-bool taps_with_spindle(const BlockContext& in) { return taps(in) && synchronous(in); }
+bool taps_with_spindle(const BlockContext& in) { return taps(in) && synchronous(in) && !rigid_by_code(in); }
 
 /// P186: in the mode of synchronous tapping the spindle is the tap's. The block that selects it brings its S.
 Execution check_tap_speed(BlockContext& in) {
@@ -62,13 +82,14 @@ Execution take_tap_words(BlockContext& in) {
     c.return_speed = speed;
   }
   c.synchronous = synchronous(in);
+  if (rigid_by_code(in)) return take_pitch_of_feed(in);
   return c.synchronous ? take_pitch(in) : Execution::done;
 }
 
 Execution check_tap(BlockContext& in) {
   const CycleState& c = in.state.cycle;
   // P181: a speed has been commanded; that of a synchronous tap stands in the block of its code.
-  const bool missing = c.synchronous && in.words.cycle != nullptr ? !in.words.has(Role::spindle_speed) : false;
+  const bool missing = c.synchronous && !rigid_by_code(in) && in.words.cycle != nullptr ? !in.words.has(Role::spindle_speed) : false;
   if (missing || !(in.state.modal.spindle > 0)) {
     if (!in.dialect->rules.cycle.keeps_spindle_direction) return in.raise(Condition::tap_no_speed, Role::spindle_speed);
   }
