@@ -363,18 +363,22 @@ def run_backwards(contour):
     return back.blocks()
 
 
-def follows(result, other, change, backwards=False):
-    """None, or how the other result differs from what the change makes of this one."""
+def follows(result, other, change, way):
+    """None, or how the other result differs from what the change makes of this one. What is too short to be a move, and how far a path may come near
+    a wall, does not scale; backwards the check meets the blocks in another order."""
+    backwards = way == "back"
     if result.alarm or other.alarm:
-        return None if backwards or result.alarm == other.alarm and result.alarm_block == other.alarm_block else f"alarm {other.alarm} and not {result.alarm}"
-    ends = [change(move.end) for _, move in result.moves[:-1]]
-    others = [move.end for _, move in other.moves[:-1]]
+        same = result.alarm == other.alarm and result.alarm_block == other.alarm_block
+        larger = way == "scale" and other.alarm == "P153"
+        return None if backwards or same or larger else f"alarm {other.alarm} and not {result.alarm}"
+    ends = [change(move.end) for _, move in result.moves[:-1] if move.length() > 1e-5]
+    others = [move.end for _, move in other.moves[:-1] if move.length() > (2e-5 if way == "scale" else 1e-5)]
     if backwards:
         others.reverse()
     if len(ends) != len(others):
         return f"{len(others)} moves and not {len(ends)}"
     worst = max((math.dist(a, b) for a, b in zip(ends, others)), default=0)
-    return f"off by {worst:.6f} mm" if worst > 2e-6 else None
+    return f"off by {worst:.6f} mm" if worst > 3e-5 else None
 
 
 # ---- the control
@@ -520,7 +524,7 @@ def main():
             for contour, result, other in zip(tried, results, run_all(ncsim, programs, folder)):
                 if way == "back" and contour.corners:
                     continue  # their words stand at the other block then
-                bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way == "back")
+                bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way)
                 if bad:
                     wrong[way] = wrong.get(way, 0) + 1
                     if sum(wrong.values()) <= 10 or show:
