@@ -364,13 +364,14 @@ def run_backwards(contour):
 
 
 def follows(result, other, change, way):
-    """None, or how the other result differs from what the change makes of this one. What is too short to be a move, and how far a path may come near
-    a wall, does not scale; backwards the check meets the blocks in another order."""
+    """None, or how the other result differs from what the change makes of this one. What is too short to be a move, how far a path may come near
+    a wall, and by how much the radii of an arc may differ that is one (a micrometre: the last digit of these words), does not scale; backwards the
+    check meets the blocks in another order."""
     backwards = way == "back"
     if result.alarm or other.alarm:
         same = result.alarm == other.alarm and result.alarm_block == other.alarm_block
-        larger = way == "scale" and other.alarm == "P153"
-        return None if backwards or same or larger else f"alarm {other.alarm} and not {result.alarm}"
+        tolerances = way == "scale" and "P153" in (result.alarm, other.alarm)
+        return None if backwards or same or tolerances else f"alarm {other.alarm} and not {result.alarm}"
     ends = [change(move.end) for _, move in result.moves[:-1] if move.length() > 1e-5]
     others = [move.end for _, move in other.moves[:-1] if move.length() > (2e-5 if way == "scale" else 1e-5)]
     if backwards:
