@@ -238,5 +238,56 @@ TEST(RtTrap, SoDoAlarmsAndReset) {
   expect_nothing_trapped();
 }
 
+// Homing, a limit switch with its way out, a brake.
+TEST(RtTrap, SoDoHomingAndLimitSwitches) {
+  nc::rt::Config config;
+  ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/homed_mill.toml", &config).empty());
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error));
+  const auto steps = [&](int n) {
+    while (n-- > 0) runtime->step();
+  };
+  const auto jog = [&](double velocity, int times) {
+    nc::rt::Command command;
+    command.kind = nc::rt::CommandKind::kJog;
+    command.value = velocity;
+    for (; times > 0; --times) {
+      (void)runtime->execute(command);
+      steps(100);
+    }
+    command.value = 0;
+    (void)runtime->execute(command);
+    steps(300);
+  };
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  steps(300);
+  (void)runtime->execute(nc::rt::CommandKind::kSetMode, 0, static_cast<std::uint32_t>(nc::rt::Mode::kManual));
+  nc::rt::Command home;
+  home.kind = nc::rt::CommandKind::kHome;
+  home.system = nc::rt::kAllSystems;
+  (void)runtime->execute(home);
+  steps(40000);
+  const std::uint32_t homed = runtime->snapshot().system[0].axes.homed;
+  machine.set_input(static_cast<unsigned>(config.points.find("x_max")), 0);  // until the machine sets it again
+  steps(5);
+  const bool stopped = runtime->snapshot().stopped_by_alarm();
+  (void)runtime->execute(nc::rt::CommandKind::kReset);
+  steps(300);
+  jog(-20, 10);
+  machine.fail_drive(0, 2, true);
+  steps(500);
+  if (refusing) allow_system_calls();
+  EXPECT_EQ(homed, 7u);
+  EXPECT_TRUE(stopped);
+  EXPECT_LT(machine.place(0, 0), -5);
+  expect_nothing_trapped();
+}
+
 }  // namespace
 #endif
