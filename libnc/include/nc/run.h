@@ -107,11 +107,19 @@ NC_API nc_status nc_reset(nc_control* control, unsigned system);
 
 /**
  * Online: read, compensate, plan and commit blocks ahead of the machine, for every part system. Feeder thread.
+ *
+ * A part system works in rounds: blocks are read, 1024 at most, and then what is committed is planned. The budget says where a call ends amid
+ * a round; the next call goes on there. What the machine does depends on how soon the rounds come, and on nothing else: what is planned is the
+ * same to the last bit, whatever the budget is. Until a plan is ready the scan has the one before, which ends at rest. A stop (hold, interlock,
+ * reset, alarm), another override and single block are planned for before anything else, by the first call behind the scan that has seen them.
+ *
+ * A unit of the budget is one block that is read, or planning of 20,000 instructions of a processor at most in the time-optimal mode; no step
+ * of planning takes more than 200,000. With the trapezoid planning is not counted: each call plans once, whatever its budget is.
  * @param control the control
- * @param budget blocks that may be read in this call for each part system
- * @return the first of these that is true of any part system: NC_OK: something was committed; NC_ALARMED: its program is committed up to an alarm;
- *         NC_BUDGET: `budget` blocks were read, call again; NC_WAITING: nothing can be done until the scan goes on. NC_ENDED: every program is
- *         committed to its end. NC_E_STATE: a vendor's function has called; NC_E_ARGUMENT: `control` is NULL
+ * @param budget units of this call for each part system
+ * @return the first of these that is true of any part system: NC_OK: a round has come to its end in which something was committed; NC_ALARMED: its
+ *         program is committed up to an alarm; NC_BUDGET: there is more to be done now, call again; NC_WAITING: nothing can be done until the scan
+ *         goes on. NC_ENDED: every program is committed to its end. NC_E_STATE: a vendor's function has called; NC_E_ARGUMENT: `control` is NULL
  */
 NC_API nc_status nc_feed(nc_control* control, uint32_t budget);
 

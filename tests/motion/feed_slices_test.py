@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+"""No call of nc_feed() takes more than its budget and 200,000 instructions: counted by callgrind, so that it does not hang on the machine.
+
+A program of each kind (corners, noise of a CAM system, a hatch, arcs, rests) is gone with small budgets, while holds and another override
+come again and again. Skipped where there is no valgrind, and under sanitizers, which count other instructions.
+"""
+import math
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BINARY = os.environ.get("NC_BINARY_DIR") or os.path.join(ROOT, "build", "release")
+DRIVER = os.path.join(BINARY, "bin", "feed_slices")
+UNIT = 20000  # instructions (nc/run.h)
+BEYOND = 200000
+HEAD = "G17 G21 G90 G94 G40 G49 G64\nG0 X0. Y0. Z0.\n"
+
+if os.environ.get("NC_SANITIZE"):
+    print("skipped: sanitizers count other instructions")
+    sys.exit(77)
+if shutil.which("valgrind") is None or not os.path.exists(DRIVER):
+    print("skipped: this wants valgrind, and the benches to be built")
+    sys.exit(77)
+
+
+def lines(points, feed):
+    return HEAD + "".join(f"G1 X{x:.4f} Y{y:.4f} Z{z:.4f}{f' F{feed}' if n == 0 else ''}\n" for n, (x, y, z) in enumerate(points)) + "M30\n"
+
+
+def corners():
+    return lines([((n % 2) * 8 + n * 0.3, (n // 2 % 2) * 6, 0) for n in range(1, 9)], 6000)
+
+
+def noise():
+    draw = random.Random(5)
+    return lines([(n * 0.05, 2 * math.sin(n * 0.02), draw.gauss(0, 0.001)) for n in range(1, 300)], 6000)
+
+
+def hatch():
+    points = []
+    for row in range(5):
+        points += [(6 if row % 2 == 0 else 0, row * 0.1, 0), (6 if row % 2 == 0 else 0, (row + 1) * 0.1, 0)]
+    return lines(points, 9000)
+
+
+def walk():
+    draw = random.Random(7)
+    x, y, heading, points = 0.0, 0.0, 0.0, []
+    for _ in range(30):
+        heading += draw.uniform(-2, 2)
+        length = 10 ** draw.uniform(-1.5, 0.5)
+        x, y = x + length * math.cos(heading), y + length * math.sin(heading)
+        points.append((x, y, 0))
+    return lines(points, 4000)
+
+
+def arcs():
+    text = HEAD + "G1 F5000\n"
+    for n in range(12):
+        text += f"G{2 + n % 2} X{4 * (n + 1)} R{2.5 + 0.1 * n}\n" + (f"G1 X{4 * (n + 1)} Y{n % 3}\nY0\n" if n % 4 == 3 else "")
+    return text + "M30\n"
+
+
+def rests():
+    return HEAD + "".join(f"G0 X{10 * n} Y{n}\nG1 Z-3. F800\nG4 P20\nG0 Z0.\n" for n in range(1, 8)) + "M30\n"
+
+
+def counted(program, budget, hold_every):
+    """Instructions of each call of nc_feed()."""
+    with tempfile.TemporaryDirectory() as folder:
+        name, out = os.path.join(folder, "part.nc"), os.path.join(folder, "calls")
+        with open(name, "w") as file:
+            file.write(program)
+        run = subprocess.run(["valgrind", "--tool=callgrind", "--dump-line=no", "--combine-dumps=yes", "--toggle-collect=nc_feed",
+                              "--dump-after=nc_feed", f"--callgrind-out-file={out}", DRIVER, str(budget), "40", str(hold_every), name],
+                             capture_output=True, text=True)
+        if run.returncode != 0:
+            raise AssertionError(run.stderr[-2000:])
+        with open(out) as file:
+            return [int(line.split()[1]) for line in file if re.match(r"totals: \d", line)]
+
+
+class FeedSlices(unittest.TestCase):
+    def check(self, program, budget=2, hold_every=151):
+        calls = counted(program, budget, hold_every)
+        self.assertGreater(len(calls), 100)
+        self.assertGreater(sum(calls), 10 * BEYOND, "next to nothing was planned")
+        print(f"{self.id().split('.')[-1]}: {len(calls)} calls, {sum(calls) / 1e6:.0f} million instructions, the longest {max(calls)}")
+        self.assertLessEqual(max(calls), budget * UNIT + BEYOND)
+
+    def test_corners(self):
+        self.check(corners())
+
+    def test_noise(self):
+        self.check(noise())
+
+    def test_hatch(self):
+        self.check(hatch())
+
+    def test_walk(self):
+        self.check(walk())
+
+    def test_arcs(self):
+        self.check(arcs())
+
+    def test_rests(self):
+        self.check(rests())
+
+    def test_larger_budget(self):
+        self.check(walk(), budget=20)
+
+
+if __name__ == "__main__":
+    unittest.main()
