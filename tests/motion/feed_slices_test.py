@@ -34,17 +34,17 @@ def lines(points, feed):
 
 
 def corners():
-    return lines([((n % 2) * 8 + n * 0.3, (n // 2 % 2) * 6, 0) for n in range(1, 9)], 6000)
+    return lines([((n % 2) * 8 + n * 0.3, (n // 2 % 2) * 6, 0) for n in range(1, 4)], 6000)
 
 
 def noise():
     draw = random.Random(5)
-    return lines([(n * 0.05, 2 * math.sin(n * 0.02), draw.gauss(0, 0.001)) for n in range(1, 300)], 6000)
+    return lines([(n * 0.05, 2 * math.sin(n * 0.02), draw.gauss(0, 0.001)) for n in range(1, 150)], 6000)
 
 
 def hatch():
     points = []
-    for row in range(5):
+    for row in range(3):
         points += [(6 if row % 2 == 0 else 0, row * 0.1, 0), (6 if row % 2 == 0 else 0, (row + 1) * 0.1, 0)]
     return lines(points, 9000)
 
@@ -52,7 +52,7 @@ def hatch():
 def walk():
     draw = random.Random(7)
     x, y, heading, points = 0.0, 0.0, 0.0, []
-    for _ in range(30):
+    for _ in range(7):
         heading += draw.uniform(-2, 2)
         length = 10 ** draw.uniform(-1.5, 0.5)
         x, y = x + length * math.cos(heading), y + length * math.sin(heading)
@@ -62,13 +62,13 @@ def walk():
 
 def arcs():
     text = HEAD + "G1 F5000\n"
-    for n in range(12):
+    for n in range(8):
         text += f"G{2 + n % 2} X{4 * (n + 1)} R{2.5 + 0.1 * n}\n" + (f"G1 X{4 * (n + 1)} Y{n % 3}\nY0\n" if n % 4 == 3 else "")
     return text + "M30\n"
 
 
 def rests():
-    return HEAD + "".join(f"G0 X{10 * n} Y{n}\nG1 Z-3. F800\nG4 P20\nG0 Z0.\n" for n in range(1, 8)) + "M30\n"
+    return HEAD + "".join(f"G0 X{10 * n} Y{n}\nG1 Z-3. F800\nG4 P20\nG0 Z0.\n" for n in range(1, 5)) + "M30\n"
 
 
 def counted(program, budget, hold_every):
@@ -87,7 +87,7 @@ def counted(program, budget, hold_every):
 
 
 class FeedSlices(unittest.TestCase):
-    def check(self, program, budget=2, hold_every=151):
+    def check(self, program, budget=2, hold_every=71):
         calls = counted(program, budget, hold_every)
         self.assertGreater(len(calls), 100)
         self.assertGreater(sum(calls), 10 * BEYOND, "next to nothing was planned")
