@@ -40,7 +40,7 @@ static_assert(offsetof(OldOutputs, cause) == offsetof(nc_outputs, cause));
 
 /// The whole struct of the first version with this SONAME.
 struct alignas(nc_outputs) FirstOutputs {
-  unsigned char bytes[offsetof(nc_outputs, handle_dropped) + sizeof(nc_outputs::handle_dropped)];
+  unsigned char bytes[offsetof(nc_outputs, spindle_synchronous) + sizeof(nc_outputs::spindle_synchronous)];
 };
 
 struct OldWorld {

@@ -13,7 +13,7 @@ DECLARATION = re.compile(
     r"(?:NC_API (?P<returns>[^;{}()]*?)\b(?P<name>nc_[a-z_]+)\((?P<parameters>[^;{}]*)\)(?: NC_RT)?;"
     r"|static inline (?P<returns2>[^;{}()]*?)\b(?P<name2>nc_[a-z_]+)\((?P<parameters2>[^;{}]*?)\) \{"
     r"|typedef (?P<returns3>[^;{}()]*?)\(\*(?P<name3>nc_[a-z_]+)\)\((?P<parameters3>[^;{}]*)\);)", re.S)
-THREAD = re.compile(r"\b(?:Any|Feeder|Scan) thread\b")
+THREAD = re.compile(r"\b(?:Any|Feeder|Scan)\s+(?:\*\s+)?thread\b")
 
 
 def parameters_of(text):

@@ -186,6 +186,18 @@ constexpr AlarmRow kRows[] = {
     {C::hole_angle_zero, "NC-RANGE", nullptr},
     {C::drilling_axis_changed, "NC-PLANE", nullptr},
     {C::call_in_mdi, "NC-MODE", nullptr},
+    {C::geometric_arc_option, "NC-CORNER", nullptr},
+    {C::geometric_circle_option, "NC-CORNER", nullptr},
+    {C::geometric_parallel, "NC-CORNER", nullptr},
+    {C::geometric_incremental, "NC-INCREMENTAL", nullptr},
+    {C::geometric_no_line, "NC-CORNER", nullptr},
+    {C::geometric_address, "NC-CORNER", nullptr},
+    {C::geometric_plane, "NC-PLANE", nullptr},
+    {C::geometric_contact, "NC-CORNER", nullptr},
+    {C::tool_axis_pair, "NC-AXIS", nullptr},
+    {C::tool_axis_code, "NC-MODE", nullptr},
+    {C::space_conversion_block, "NC-MODE", nullptr},
+    {C::outside_compensation, "NC-OFFSET-CODE", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

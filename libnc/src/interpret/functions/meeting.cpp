@@ -205,7 +205,8 @@ Second second_block(const BlockContext& in, const InPlane& plane) {
   const Function motion = in.state.modal.of(Mode::motion);
   second.has_end = (w.axes & plane.bits()) == plane.bits() && plane.bits() != 0;
   second.incremental = (w.incremental & plane.bits()) != 0;
-  second.end = {w.axis[plane.h], w.axis[plane.v]};
+  const auto place = [&](unsigned axis, double from) { return (w.incremental >> axis & 1) != 0 ? from + w.axis[axis] : w.axis[axis]; };
+  second.end = {place(plane.h, plane.at.h), place(plane.v, plane.at.v)};
   if (!second.has_end || !free_for_lines(in)) return second;
   second.line = motion == Function::linear && has_line_angle(in) && (w.has_angle || !letter_is_taken(in));
   if (second.line) second.slope = {second.end, angle_of_block(in)};
