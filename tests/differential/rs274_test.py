@@ -93,7 +93,8 @@ class Maker:
         code = self.random.choice(["G2", "G3"])
         target = list(self.at)
         words, both = [], [None, None]
-        if self.random.random() < 0.4:      # radius form
+        # Behind a whole circle an arc by its radius may be the second block of a pair (M700 13.9).
+        if self.random.random() < 0.4 and not re.fullmatch(r"G[23]( [IJK]-?[\d.]+)+( P\d+)?", self.lines["rs274"][-1]):      # radius form
             target[first] = round(self.at[first] + self.number(10) + 0.5, 4)
             target[second] = round(self.at[second] + self.number(10) + 0.5, 4)
             half = math.hypot(target[first] - self.at[first], target[second] - self.at[second]) / 2

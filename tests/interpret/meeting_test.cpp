@@ -132,6 +132,22 @@ TEST(Meeting, AWholeCircleIsOneWhereNothingMeetsIt) {  // 6.4
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 I10.\nG3 X-15. Y5. R5.\nM30"), (Path{"line -10 0 0", "cw -10 0 0 c0,0", "ccw -15 5 0 c-15,0"}));
 }
 
+// What programs do behind a whole circle: its block alone is behind it, not those that come later.
+TEST(Meeting, AWholeCircleIsForgottenBehindTheNextBlock) {
+  const std::string line = "line -40 -12 0", arc = "G3 X-40. Y0. I8. J6. F100\nM30";
+  const Path all = path_of("G2 I5. F100\nG1 X-40. Y-12.\n" + arc);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[1], line);
+  EXPECT_EQ(path_of("G2 I5. F100\nG0 X-40. Y-12.\n" + arc).size(), 3u);
+  EXPECT_EQ(path_of("G2 I5. F100\nX-40. Y-12. R50.\n" + arc).size(), 3u);
+}
+
+TEST(Meeting, AWholeCircleInFrontOfAnArcThatStandsByItself) {
+  EXPECT_EQ(path_of("G91 G3 I8. J6. F100\nG3 X0. Y12. I8. J6.\nM30").size(), 2u);  // distances, and the same centre
+  EXPECT_EQ(path_of("G3 I1.8 J7.8 F100\nG3 X0. Y12. I8. J6.\nM30").size(), 2u);
+  EXPECT_EQ(path_of("G3 I-4. J4.7 F100\nG2 X2. Y1.4 R-5.6\nM30").size(), 2u);  // the two would not meet
+}
+
 TEST(Meeting, AnArcOfARadiusWithoutAnEndIsNothingWhereNothingMeetsIt) {  // 6.5
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nG1 X5.\nM30"), (Path{"line -10 0 0", "line 5 0 0"}));
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nX0 R10.\nM30"), (Path{"line -10 0 0", "cw 0 0 0 c-5,-8.660254"}));

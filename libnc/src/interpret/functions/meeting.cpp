@@ -232,6 +232,13 @@ bool stands_without_pair(const BlockContext& in, const MeetingFirst& first, cons
   return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
 }
 
+/// The second block is an arc from where the first one began, whatever the sense of the first.
+bool arc_by_itself(const MeetingFirst& first, const Second& second) {
+  if (!second.circle.by_radius) return false;  // stands_without_pair() has looked at its centre
+  const double chord = std::hypot(second.end.h - first.start[0], second.end.v - first.start[1]);
+  return chord > 0 && chord <= 2 * std::fabs(second.circle.radius);
+}
+
 Meeting solve(const BlockContext& in, const MeetingFirst& first, const Second& second) {
   const PlanePoint start{first.start[0], first.start[1]};
   if (first.kind == Kind::line) {
@@ -318,7 +325,11 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   if (did == Execution::done) did = check_modes_of_pair(in, option_of(first, second));
   if (did != Execution::done) return did;
   const Meeting meeting = solve(in, first, second);
-  if (meeting.bad != Condition::none) return in.raise(meeting.bad);
+  if (meeting.bad != Condition::none) {
+    // Two arcs that do not meet, and each of which means something by itself (6.4, 6.5), are no pair.
+    if (!needs_second && second.arc && arc_by_itself(first, second)) return Execution::later;
+    return in.raise(meeting.bad);
+  }
   return make_second(in, plane, second, meeting);
 }
 
