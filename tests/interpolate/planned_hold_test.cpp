@@ -93,7 +93,7 @@ struct Holds {
 };
 Holds holds_in(const char* name, const Program& program, uint64_t from, uint64_t every) {
   Holds all;
-  for (uint64_t n = from; n < kBefore; n += sanitized() ? 5 * every : every) {
+  for (uint64_t n = from; n < kBefore; n += sanitized() ? 2 * every : every) {
     const Late one = late(program, n);
     if (!one.moved) continue;
     EXPECT_TRUE(one.stood) << name << ", hold in cycle " << n;
