@@ -101,6 +101,7 @@ TEST(ModbusSerial, ALateAnswerIsTakenForNoOther) {
   rig.short_timeouts(300);
   rig.config.lost_after = 100;
   const unsigned first = rig.add(Table::kHolding, 0, Format::kU16), second = rig.add(Table::kHolding, 10, Format::kU16);
+  rig.start_serial(device.path());
   std::mt19937 random(5);
   unsigned late = 0;
   device.set_fault([&](const Bytes&, Answer right) {
@@ -111,7 +112,6 @@ TEST(ModbusSerial, ALateAnswerIsTakenForNoOther) {
     ++late;
     return right;
   });
-  rig.start_serial(device.path());
   ASSERT_TRUE(rig.until([&] {
     EXPECT_TRUE(!rig.good(first) || rig.value(first) == 100) << rig.value(first);
     EXPECT_TRUE(!rig.good(second) || rig.value(second) == 200) << rig.value(second);
