@@ -114,7 +114,7 @@ NC_API nc_status nc_reset(nc_control* control, unsigned system);
  * reset, alarm), another override and single block are planned for before anything else, by the first call behind the scan that has seen them.
  *
  * A unit of the budget is one block that is read, or planning of 20,000 instructions of a processor at most in the time-optimal mode; no step
- * of planning takes more than 200,000. With the trapezoid planning is not counted: each call plans once, whatever its budget is.
+ * of planning lines, arcs and rests takes more than 200,000; of curves (NURBS, splines) they were not counted. With the trapezoid planning is not counted: each call plans once, whatever its budget is.
  * @param control the control
  * @param budget units of this call for each part system
  * @return the first of these that is true of any part system: NC_OK: a round has come to its end in which something was committed; NC_ALARMED: its
