@@ -307,7 +307,13 @@ TEST(Misuse, NumbersOutOfTheirTables) {
   EXPECT_EQ(nc_work_offset_set(c, 0, 1, 0, kNan), NC_E_ARGUMENT);
   EXPECT_EQ(nc_work_offset_set(c, 0, 1, 0, kInf), NC_E_ARGUMENT);
   for (unsigned n : {0u, 201u}) EXPECT_EQ(nc_tool_offset_set(c, n, NC_TOOL_LENGTH, 1), NC_E_ARGUMENT) << n;
-  EXPECT_EQ(nc_tool_offset_set(c, 1, static_cast<nc_tool_column>(4), 1), NC_E_ARGUMENT);
+  double kept = 7;
+  for (int column : {4, -1, -8, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {  // an enum of C may hold any int
+    EXPECT_EQ(nc_tool_offset_set(c, 1, static_cast<nc_tool_column>(column), 1), NC_E_ARGUMENT) << column;
+    EXPECT_EQ(nc_tool_offset_get(c, 1, static_cast<nc_tool_column>(column), &kept), NC_E_ARGUMENT) << column;
+    EXPECT_EQ(nc_function_row(static_cast<nc_dialect>(-1), 0, nullptr), NC_E_ARGUMENT);
+  }
+  EXPECT_EQ(kept, 7);
   EXPECT_EQ(nc_tool_offset_set(c, 1, NC_TOOL_LENGTH, kNan), NC_E_ARGUMENT);
   EXPECT_EQ(nc_variable_set(c, 0, 99, 1, false), NC_E_NOT_FOUND);
   EXPECT_EQ(nc_variable_set(c, 0, 500, kNan, false), NC_E_ARGUMENT);
@@ -323,6 +329,7 @@ TEST(Misuse, NumbersOutOfTheirTables) {
   EXPECT_EQ(nc_text_get(c, 0, 99, &text), NC_E_NOT_FOUND);
   const std::string long_text(1024, ' ');
   EXPECT_EQ(nc_mdi_load(c, 0, long_text.data(), 5000), NC_E_ARGUMENT);
+  for (std::size_t less = 0; less < 10; ++less) EXPECT_EQ(nc_mdi_load(c, 0, "X1", SIZE_MAX - less), NC_E_ARGUMENT) << less;
   nc_function row;
   EXPECT_EQ(nc_function_row(static_cast<nc_dialect>(9), 0, &row), NC_E_ARGUMENT);
   EXPECT_EQ(nc_function_row(NC_DIALECT_M700, 100000, &row), NC_E_NOT_FOUND);

@@ -790,11 +790,12 @@ def taken(reader):
 
 
 def answers(operator):
-    """Reader and writer find each other at different times: asked until there is an answer."""
+    """Asked until the control answers: reader and writer find each other at different times, and a gateway that waits for its control refuses by itself."""
     try:
-        return operator.ask(CommandKind.CMD_RELEASE_CONTROL, patience=0.5)
+        ack = operator.ask(CommandKind.CMD_RELEASE_CONTROL, patience=0.5)
     except AssertionError:
         return None
+    return ack if ack.refusal != nc_dds.RefusalCause.REFUSED_NO_ANSWER else None
 
 
 main()

@@ -35,7 +35,7 @@ bool work_key(const nc_control* c, unsigned system, unsigned index, unsigned axi
 }
 
 bool tool_number(const nc_control* c, unsigned number, nc_tool_column column) {
-  return c != nullptr && number >= 1 && number <= c->config.tool_offsets && column <= NC_TOOL_RADIUS_WEAR;
+  return c != nullptr && number >= 1 && number <= c->config.tool_offsets && static_cast<unsigned>(column) <= NC_TOOL_RADIUS_WEAR;
 }
 
 struct Name {
@@ -306,7 +306,7 @@ nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
 }
 
 nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t length) {
-  if (!known(c, system) || text == nullptr || length + 6 > sizeof(c->mdi[0])) return NC_E_ARGUMENT;
+  if (!known(c, system) || text == nullptr || length > sizeof(c->mdi[0]) - 6) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
   if (part.occupied()) return NC_E_STATE;
   // A line end is put behind the blocks, and the start mark before them where the dialect requires one.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "control/part_system.hpp"
-#include "base/same_place.hpp"
 
+#include "base/same_place.hpp"
 #include "control/optimal_mode.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
@@ -13,10 +13,6 @@
 #include <cstring>
 
 namespace nc {
-namespace {
-
-}  // namespace
-
 namespace {
 
 /// The filter (a mean) of cuts in high-accuracy control for which the parameters give none.
