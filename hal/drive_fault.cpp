@@ -64,7 +64,6 @@ const char* trouble_text(DriveTrouble trouble) {
     case DriveTrouble::kNoCommand: return "the scan has given no positions in time";
     case DriveTrouble::kNotConfigured: return "its node cannot be set up, the log says why";
     case DriveTrouble::kHoming: return "its homing has failed";
-    case DriveTrouble::kMode: return "it is not in the mode of operation that it was told";
     case DriveTrouble::kTwice: return "two nodes send under its identifier";
     case DriveTrouble::kJump: return "the scan asks for a jump that the axis cannot do";
     case DriveTrouble::kNone:

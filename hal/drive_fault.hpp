@@ -18,7 +18,6 @@ enum class DriveTrouble : std::uint8_t {
   kNoCommand,    // the scan has given no positions
   kNotConfigured,  // the drive could not be set up again; the log says why
   kHoming,       // homing has ended with an error, or has not ended in time
-  kMode,         // the drive is in another mode of operation than the one that was set
   kTwice,        // two nodes send frames with the same identifier
   kJump          // the set-point of one SYNC is farther than the axis can ever move in it
 };

@@ -164,7 +164,7 @@ void Runtime::step() {
 // ---- real time ----
 
 bool Runtime::start(std::string* error) {
-  wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (wake_fd_ < 0) wake_fd_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  // kept from one start to the next
   if (wake_fd_ < 0) {
     *error = std::string("eventfd: ") + std::strerror(errno);
     return false;

@@ -192,6 +192,15 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
 
 // ---- to the scan ----
 
+// What the alarm of a faulty axis says. That its node was refused when it came back is worth more than the reason for which it had stopped, because
+// a reset alone does not help then.
+std::uint32_t Cyclic::fault_code(const Axis& axis) const noexcept {
+  const Node& node = nodes_[axis.node];
+  if (phase(axis.node) == NodePhase::kRefused) return drive_fault_code(DriveTrouble::kNotConfigured);
+  if (axis.trouble != DriveTrouble::kNone || node.emergency == 0) return drive_fault_code(axis.trouble);
+  return drive_fault_code(DriveTrouble::kEmergency, node.emergency, node.error_register);
+}
+
 void Cyclic::publish() noexcept {
   BusShown& shown = shown_.back();
   bool any = false, all = !bus_off_;
@@ -214,8 +223,7 @@ void Cyclic::publish() noexcept {
     out.homed = axis.homed;
     out.homing = axis.homing != Homing::kNo;
     out.following_fault = axis.following_fault;
-    const bool told = axis.trouble == DriveTrouble::kNone && node.emergency != 0;
-    out.fault = !axis.faulty ? 0 : kFaulty | drive_fault_code(told ? DriveTrouble::kEmergency : axis.trouble, told ? node.emergency : 0, told ? node.error_register : 0);
+    out.fault = axis.faulty ? kFaulty | fault_code(axis) : 0;
     out.probe = axis.probe;
     out.probe_on = axis.probe_on;
   }

@@ -164,6 +164,7 @@ class Cyclic {
   void send_rpdo(const Axis& axis) noexcept;
   void send(const CanFrame& frame) noexcept;
   void fault(Axis* axis, DriveTrouble trouble) noexcept;
+  std::uint32_t fault_code(const Axis& axis) const noexcept;
   void publish() noexcept;
   bool follows(unsigned index) const noexcept;
 

@@ -97,6 +97,23 @@ TEST(CanFault, ANodeThatBeginsAnewByItselfIsAFault) {
   expect_runs_again(&rig);
 }
 
+TEST(CanFault, ANodeThatCannotBeSetUpAgainIsNamedBehindAReset) {
+  CanRig rig;
+  start_moving(&rig);
+  rig.drives[0]->refuses[0x6060u << 8] = 0x06090030;  // it takes no mode any more: value range exceeded
+  rig.drives[0]->power_cycle();
+  rig.step(5);
+  expect_stopped(&rig, "its node has started anew by itself, axis X");
+  ASSERT_TRUE(rig.until([&] { return rig.said().find("6060h:0: the value is out of its range") != std::string::npos; }, 9000)) << rig.said();
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  rig.step(500);
+  expect_in(rig.alarms(), "its node cannot be set up, the log says why, axis X");
+  EXPECT_EQ(rig.run(CommandKind::kCycleStart), Answer::kAlarmActive);
+  rig.drives[0]->refuses.clear();  // repaired
+  ASSERT_TRUE(rig.until([&] { return rig.machine->service().all_operational(); }, 9000)) << rig.said();
+  expect_runs_again(&rig);
+}
+
 TEST(CanFault, PositionsThatDoNotComeStopTheAxes) {
   CanRig rig;
   start_moving(&rig);

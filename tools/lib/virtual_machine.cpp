@@ -142,8 +142,7 @@ class VirtualMachine {
     const OutsideSignals outside = foresight_.signals(last.command, last.work);
     in.skip = outside.skip;
     for (int w = 0; w < NC_WORDS; ++w) in.input[w] = outside.input[w];
-    in.clock_ms = setup_.clock_ms +
-                  static_cast<int64_t>(std::floor(static_cast<double>(cycle) * config_.cycle_s * 1000.0));
+    in.clock_ms = setup_.clock_ms + whole_ms(static_cast<double>(cycle) * config_.cycle_s);
   }
 
   // Sets the direction of the spindle from the M code. It is forward until the first such code.

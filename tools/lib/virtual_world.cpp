@@ -252,11 +252,10 @@ nc_world VirtualWorld::answer(uint32_t what) {
   world.skip_machine = skip_machine_;
   world.skipped = skipped_;
   for (int w = 0; w < NC_WORDS; ++w) world.input[w] = signals_.input[w];
-  const double ms =
-      std::floor(seconds_ * 1000.0 + 1e-6);  // rounding must not turn a whole number of ms into the one below
-  world.clock_ms = setup_.clock_ms + static_cast<int64_t>(ms);
-  world.power_on_ms = ms;
-  world.run_ms = ms;
+  const int64_t ms = whole_ms(seconds_);
+  world.clock_ms = setup_.clock_ms + ms;
+  world.power_on_ms = static_cast<double>(ms);
+  world.run_ms = world.power_on_ms;
   if (what & NC_SYNC_CLOCK) seconds_ += kClockReadSeconds;
   return world;
 }

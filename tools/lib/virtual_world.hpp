@@ -15,6 +15,9 @@
 
 namespace nc::tools {
 
+/// Time of the simulated clock in whole milliseconds. The small addition keeps rounding from turning a whole number into the one below.
+inline int64_t whole_ms(double seconds) { return static_cast<int64_t>(std::floor(seconds * 1000.0 + 1e-6)); }
+
 /** Inputs from outside: those of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
 struct OutsideSignals {
   uint32_t input[NC_WORDS] = {};
