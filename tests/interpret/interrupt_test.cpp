@@ -72,6 +72,29 @@ TEST(MacroInterrupt, BetweenBlocksNothingIsLost) {
   EXPECT_EQ(interrupted(bench, kMain, 2, is_mark).path(), (Path{"rapid 1 0 0", "rapid 1 0 7", "rapid 3 0 7", "rapid 3 5 7", "rapid 3 5 1"}));
 }
 
+TEST(MacroInterrupt, BehindTheReturnOfASubProgramTheCallingBlockEndsFirst) {
+  for (const char* type_2 : {"0", "1"}) {
+    Bench bench;
+    bench.add("O1", "G0 X1.\nM99\n");
+    bench.add("O1000", "#100=#4012\nM99\n");
+    bench.param("1113", type_2);
+    bench.start("M96 P1000\nM98 P1\nG0 X2.\nM30");
+    std::string marks;
+    bool take_back = false, ignored = false;
+    Step step;
+    while (bench.pull(&step) == NC_OK) {
+      if (!is_mark(step.item)) continue;
+      const nc_source& at = step.item.source;
+      marks += std::to_string(at.program) + ":" + std::to_string(at.line) + "/" + std::to_string(at.depth) + " ";
+      if (at.program != 1 || at.line != 2) continue;  // M99 of the sub program
+      nc_interrupt_signal(bench.control(), 0, true, &take_back);
+      nc_interrupt_signal(bench.control(), 0, false, &ignored);
+    }
+    EXPECT_EQ(marks, "0:1/0 1:1/1 1:2/1 0:2/0 1000:1/1 1000:2/1 0:3/0 0:4/0 ");
+    EXPECT_FALSE(take_back);
+  }
+}
+
 TEST(MacroInterrupt, ReturnToASequenceNumber) {  // M99 P: from the block behind the interrupted one
   Bench bench;
   bench.add("O1000", "G91 G0\nM99 P9\n");

@@ -322,6 +322,13 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
   return false;
 }
 
+/// The block that has called a program ends with the return from it: its mark. `source` has the place but for the line.
+void Interpreter::finish_call() {
+  state.owes_mark = false;
+  source.line = state.frame[state.depth].call_line;
+  finish_block(false, false);  // M700 13.3.1: single block has had its stop before the call
+}
+
 nc_status Interpreter::run_block(uint32_t& budget) {
   (void)budget;
   if (next_step != Step::none) return settle(continue_block(*this));
@@ -330,10 +337,8 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   source.depth = state.depth;
   source.file = frame.program.file;
   source.program = frame.program.number;
-  if (state.owes_mark) {  // the block of the call ends with the return
-    state.owes_mark = false;
-    source.line = frame.call_line;
-    finish_block(false, false);  // M700 13.3.1: single block has had its stop before the call
+  if (state.owes_mark) {
+    finish_call();
     return NC_OK;
   }
   if (state.stop_reading) {  // M700 4.2: an M code that prohibits reading ahead

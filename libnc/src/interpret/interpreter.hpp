@@ -184,6 +184,8 @@ struct Interpreter : BlockContext {
   }
   InitialValues initial_values() const;
   void note_block_call() { interrupted_.vendor_call = vendor_call_.known && vendor_call_.seq == state.seq ? vendor_call_ : VendorCall{}; }
+  void place_at_next_block();
+  void finish_call();
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void restore_modal();
   void moved_by_hand();

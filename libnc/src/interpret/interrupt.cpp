@@ -82,7 +82,23 @@ bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
   return begin_interrupt(true, items, machine);
 }
 
+/// What has been read ahead is given up, so the place in the program is that of the next block.
+void Interpreter::place_at_next_block() {
+  const CallFrame& frame = state.frame[state.depth];
+  source.depth = state.depth;
+  source.file = frame.program.file;
+  source.program = frame.program.number;
+  source.line = frame.line;
+}
+
 bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {
+  place_at_next_block();
+  if (state.owes_mark) {  // the block that called the program which has just returned ends before the interrupt program begins
+    finish_call();
+    inside_block = false;
+    items = 0;
+    place_at_next_block();
+  }
   const BlockSeq head = state.seq, answered = answered_;
   InterruptReturn& back = interrupted_;
   back.inside_block = inside_block;
@@ -90,11 +106,6 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   back.state = state;
   note_block_call();
   back.maps = records->maps;
-  const CallFrame& frame = state.frame[state.depth];  // what has been read ahead is given up, so the place is that of the next block
-  source.depth = state.depth;
-  source.file = frame.program.file;
-  source.program = frame.program.number;
-  source.line = frame.line;
   const Execution did = enter_interrupt();
   if (did == Execution::fault) {
     note_calls(source, state.frame);
