@@ -63,7 +63,7 @@ run_ctest() {
     export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1:strict_string_checks=1}
     export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
     export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
-    exec ctest --output-on-failure --no-tests=error -j3 --output-junit "$top/build/$preset/ctest.xml" "$@"
+    exec ctest --output-on-failure --no-tests=error --test-output-size-passed 1000000 -j3 --output-junit "$top/build/$preset/ctest.xml" "$@"
   )
 }
 
