@@ -22,7 +22,7 @@ std::function<void(nc_config&)> machine(uint32_t look_ahead) {
   };
 }
 
-void set_up(Bench& bench, const RandomProgram& program) {
+void prepare(Bench& bench, const RandomProgram& program) {
   for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);
   bench.work_offset(1, {1, 2, 3}).param("8103", "1").param("8013", "0.5").param("8012", "0.3");
   for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
@@ -81,7 +81,7 @@ TEST(Executed, ALookShowsWhatTheExecutedBlocksHaveDone) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomProgram program = ProgramMaker(seed + 2600, false).make();
     Bench online(NC_DIALECT_M700, machine(128));
-    set_up(online, program);
+    prepare(online, program);
     nc_outputs out{};
     const uint64_t last = run_for(online, program.main, 4 + seed * seed % 397, &out);
     const std::string read = tables(online.control());
@@ -90,7 +90,7 @@ TEST(Executed, ALookShowsWhatTheExecutedBlocksHaveDone) {
     ASSERT_EQ(executed(online.control()), seen);
     if (out.state == NC_STATE_IDLE) continue;
     Bench offline(NC_DIALECT_M700, machine(128));
-    set_up(offline, program);
+    prepare(offline, program);
     offline.start(program.main);
     Step step;
     step.item.serial = 0;

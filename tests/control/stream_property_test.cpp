@@ -15,7 +15,7 @@ namespace {
 
 const auto kPrograms = static_cast<uint32_t>(seeds(120, 30));
 
-void set_up(Bench& bench, const RandomProgram& program) {
+void prepare(Bench& bench, const RandomProgram& program) {
   for (unsigned n = 1; n <= 9; ++n) bench.tool(n, 0.2 * n);
   bench.work_offset(1, {1, 2, 3}).work_offset(3, {-5, 0, 1});
   bench.param("8013", "0.5").param("8012", "0.3").param("8103", "1");
@@ -68,7 +68,7 @@ struct Reference {
 
 Reference reference(const RandomProgram& program) {
   Bench bench;
-  set_up(bench, program);
+  prepare(bench, program);
   const Outcome run = bench.run(program.main);
   return {run.steps, texts(run.steps), leavings(bench), run.alarm};
 }
@@ -96,7 +96,7 @@ TEST(Rewind, FromTheEndToAnyMark) {
     const RandomProgram program = ProgramMaker(seed).make();
     const Reference expected = reference(program);
     Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 4096; });
-    set_up(bench, program);
+    prepare(bench, program);
     const std::string before = leavings(bench);
     ASSERT_TRUE(same(texts(bench.run(program.main).steps), expected.text));
     std::mt19937 random(seed);
@@ -125,7 +125,7 @@ TEST(Rewind, InTheMiddleOfARun) {
     const RandomProgram program = ProgramMaker(seed).make();
     const Reference expected = reference(program);
     Bench bench;
-    set_up(bench, program);
+    prepare(bench, program);
     bench.start(program.main);
     std::mt19937 random(seed * 7 + 1);
     std::vector<Step> steps;
@@ -160,7 +160,7 @@ TEST(Rewind, ReachesTheWholeLookAhead) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomProgram program = ProgramMaker(seed).make();
     Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.look_ahead = 64; });
-    set_up(bench, program);
+    prepare(bench, program);
     const Outcome run = bench.run(program.main);
     const Path expected = texts(run.steps);
     std::vector<const Step*> marks;
@@ -236,7 +236,7 @@ TEST(Stream, SizesAndBudgetsChangeNothing) {
         c.look_ahead = 64u << random() % 8;
         c.window_bytes = 512 + random() % 5000;
       });
-      set_up(bench, program);
+      prepare(bench, program);
       ASSERT_TRUE(same(texts(bench.run(program.main, 1 + random() % 20).steps), expected.text));
       EXPECT_EQ(leavings(bench), expected.left);
     }
@@ -263,7 +263,7 @@ TEST(Stream, TextsReadInPieces) {
     const RandomProgram program = ProgramMaker(seed).make();
     const Reference expected = reference(program);
     Bench bench(NC_DIALECT_M700, [](nc_config& c) { c.window_bytes = 512; });
-    set_up(bench, program);
+    prepare(bench, program);
     std::vector<std::unique_ptr<StingyText>> texts_of_subs;
     for (size_t i = 0; i < program.subs.size(); ++i) {
       texts_of_subs.push_back(std::make_unique<StingyText>());
@@ -288,7 +288,7 @@ TEST(Stream, TwoControlsDoNotKnowEachOther) {
     const Reference expected[2] = {reference(program[0]), reference(program[1])};
     Bench bench[2];
     std::vector<Step> steps[2];
-    for (unsigned i = 0; i < 2; ++i) set_up(bench[i], program[i]), bench[i].start(program[i].main);
+    for (unsigned i = 0; i < 2; ++i) prepare(bench[i], program[i]), bench[i].start(program[i].main);
     std::mt19937 random(seed);
     bool open[2] = {true, true};
     while (open[0] || open[1]) {
