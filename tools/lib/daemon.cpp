@@ -17,7 +17,7 @@
 #include "runtime/runtime.hpp"
 #include "tools/lib/daemon_sharing.hpp"
 #include "tools/lib/output_check.hpp"
-#include "tools/lib/plot_options.hpp"
+#include "tools/lib/plot_names.hpp"
 #include "tools/lib/print_file.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/program_run.hpp"

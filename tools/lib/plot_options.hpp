@@ -4,28 +4,11 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
-#include <map>
 #include <string>
 
 #include "tools/lib/option_values.hpp"
-#include "tools/lib/toolpath_plot.hpp"
 
 namespace nc::tools {
-
-inline const std::map<std::string, PlotView>& plot_views() {
-  static const std::map<std::string, PlotView> names = {
-      {"iso", PlotView::kIsometric}, {"xy", PlotView::kXY}, {"xz", PlotView::kXZ}, {"yz", PlotView::kYZ}};
-  return names;
-}
-inline const std::map<std::string, PlotCoordinates>& plot_coordinates() {
-  static const std::map<std::string, PlotCoordinates> names = {{"work", PlotCoordinates::kWork}, {"machine", PlotCoordinates::kMachine}};
-  return names;
-}
-inline const std::map<std::string, PlotColor>& plot_colors() {
-  static const std::map<std::string, PlotColor> names = {
-      {"kind", PlotColor::kKind}, {"tool", PlotColor::kTool}, {"feed", PlotColor::kFeed}, {"z", PlotColor::kZ}};
-  return names;
-}
 
 /** Adds --view, --coordinates and --color; `each` is called with each of them to say which other options they need. */
 inline void add_plot_options(CLI::App* command, std::string* view, std::string* coordinates, std::string* color,

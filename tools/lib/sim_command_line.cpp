@@ -7,6 +7,7 @@
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/option_values.hpp"
 #include "tools/lib/output_check.hpp"
+#include "tools/lib/plot_names.hpp"
 #include "tools/lib/plot_options.hpp"
 #include "tools/lib/variable_use.hpp"
 
