@@ -81,6 +81,7 @@ struct AlarmText {
   const char* message;
 };
 
+/// What has a value here may be left out by a family that does not have it. All else has to be said.
 struct Dialect {
   nc_dialect id;
   const char* name;                  ///< "m700"
@@ -88,25 +89,25 @@ struct Dialect {
   AddressTable addresses;            ///< which address carries which meaning
   uint32_t axis_addresses;           ///< bit n: address n is for axes; if no axis has it, the word is a fault (or the second auxiliary function)
   uint32_t length_addresses;         ///< bit n: the words of address n, which are not those of axes, have the range of lengths
-  const uint8_t* argument_of;        ///< by address: local variable that takes its word in a macro call, 0 = none; nullptr = no macros
-  const char* calling_letters;       ///< letters that a parameter may register to call a program
-  char device_letter;                ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
+  const uint8_t* argument_of = nullptr;  ///< by address: local variable that takes its word in a macro call, 0 = none; nullptr = no macros
+  const char* calling_letters = "";  ///< letters that a parameter may register to call a program
+  char device_letter = 0;            ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
   Table<FunctionRow> functions;      ///< G codes, sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
   Table<OutputRow> outputs;          ///< those that go out and mean something besides, sorted by code
   Table<AlarmRow> conditions;        ///< condition -> code, at most one row for each; what has none is as dialect/default_alarms.hpp says
   Table<AlarmText> alarms;           ///< the manual's whole list
-  Table<DataInputRow> data_input;
-  Table<SpeedModeRow> speed_modes;
-  Table<SpeedOptionRow> speed_options;
+  Table<DataInputRow> data_input{};
+  Table<SpeedModeRow> speed_modes{};
+  Table<SpeedOptionRow> speed_options{};
   const FamilyParameters* parameters;  ///< numbers and names of the parameters and what they mean
   const FamilyVariables* variables;    ///< numbers of the system variables and what they mean
   Rules rules;                       ///< rules in which families differ
   Table<Function> initial;           ///< functions in force at power on, by their row number 0; a mode without an entry begins with resting() (modal/modes.hpp)
-  CodeRange macro_codes;             ///< G codes that call a macro if a parameter registers them
-  CodeRange own_codes;               ///< G codes of the control that may be registered too if a parameter allows it
-  CodeRange macro_misc;              ///< M codes that may be registered, except those that the control keeps for itself
-  CodeRange interrupt_misc;          ///< M codes that a parameter may make the codes of macro interrupt, except those that the control keeps
+  CodeRange macro_codes{1, 0};       ///< G codes that call a macro if a parameter registers them
+  CodeRange own_codes{1, 0};         ///< G codes of the control that may be registered too if a parameter allows it
+  CodeRange macro_misc{1, 0};        ///< M codes that may be registered, except those that the control keeps for itself
+  CodeRange interrupt_misc{1, 0};    ///< M codes that a parameter may make the codes of macro interrupt, except those that the control keeps
   // rules of program texts
   bool percent_required;             ///< the first block must be '%' (DGSHAPE 2)
   bool end_code_required;            ///< the text must not end without M02 or M30 (M700 P36)

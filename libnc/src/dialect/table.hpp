@@ -8,6 +8,11 @@ template <class T>
 struct Table {
   const T* row = nullptr;
   unsigned size = 0;
+  constexpr Table() = default;
+  constexpr Table(const T* first, unsigned count) : row(first), size(count) {}
+  /// All rows of an array.
+  template <unsigned n>
+  constexpr Table(const T (&rows)[n]) : row(rows), size(n) {}
   const T* begin() const { return row; }
   const T* end() const { return row + size; }
 };

@@ -10,8 +10,8 @@ namespace nc::dgshape {
 inline constexpr unsigned kFunctionRows = 39;
 inline constexpr unsigned kMiscRows = 6;
 inline constexpr unsigned kOutputRows = 4;
-inline constexpr unsigned kAlarmRows = 30;
-inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
+inline constexpr unsigned kAlarmRows = 5;
+inline constexpr unsigned kConditionRows = 70;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];

@@ -10,8 +10,8 @@ namespace nc::iso {
 inline constexpr unsigned kFunctionRows = 78;
 inline constexpr unsigned kMiscRows = 26;
 inline constexpr unsigned kOutputRows = 4;
-inline constexpr unsigned kAlarmRows = 35;
-inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
+inline constexpr unsigned kAlarmRows = 8;
+inline constexpr unsigned kConditionRows = 74;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];
