@@ -83,12 +83,20 @@ void each_interface_range(nc_dialect dialect, const Use& use) {
 }
 
 std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_view key) {
-  if (key.empty() || key[0] != '#') return {};
-  key.remove_prefix(1);
   unsigned n = 0;
-  const auto result = std::from_chars(key.data(), key.data() + key.size(), n);
-  if (result.ec != std::errc{} || result.ptr != key.data() + key.size()) return {};
   std::optional<InterfaceNumber> found;
+  if (!key.empty() && key[0] == '@') {  // a family whose inputs and outputs have names: "@RUNG6" begins what the row is called
+    each_interface_range(dialect, [&](const nc_system_variable& row) {
+      const std::string_view name = row.name;
+      if (name.substr(0, name.find(' ')) == key) n = row.first;
+    });
+    if (n == 0) return {};
+  } else {
+    if (key.empty() || key[0] != '#') return {};
+    key.remove_prefix(1);
+    const auto result = std::from_chars(key.data(), key.data() + key.size(), n);
+    if (result.ec != std::errc{} || result.ptr != key.data() + key.size()) return {};
+  }
   each_interface_range(dialect, [&](const nc_system_variable& row) {
     if (n < row.first || n > row.last) return;
     const bool output = row.role == NC_VARIABLE_OUTPUT_BIT || row.role == NC_VARIABLE_OUTPUT_WORD;

@@ -119,6 +119,21 @@ const Groups kIsoList = {
     {14, {960, 970}},
 };
 
+// The list at the head of the SERIES 8 reference; the groups are those of the M700 for the same things.
+const Groups kSeries8List = {
+    {0, {40, 60, 100, 340, 350, 360, 430, 490, 500, 510, 670, 680, 690, 920, 980}},
+    {1, {0, 10, 20, 30, 210, 220, 230}},
+    {2, {170, 180, 190}},
+    {3, {900, 910}},
+    {5, {930, 940, 950}},
+    {6, {700, 710}},
+    {7, {400, 410, 420}},
+    {9, {800, 810, 820, 830, 840, 850, 860, 870, 880, 890}},
+    {11, {570, 580}},
+    {16, {550, 560}},
+    {17, {960, 970}},
+};
+
 std::map<int, unsigned> flat(const Groups& groups) {
   std::map<int, unsigned> codes;
   for (const auto& [group, list] : groups) {
@@ -397,6 +412,8 @@ TEST(IsoManual, MCodesThatNeedMoreThanTheirNumberAreNotBuilt) {  // LinuxCNC "M-
 }
 
 TEST(HxManual, GCodesAndGroupsAreThoseOfTheList) { expect_list(hx(), flat(kHxList)); }
+
+TEST(Series8Manual, GCodesAndGroupsAreThoseOfTheList) { expect_list(dialect(NC_DIALECT_SERIES8), flat(kSeries8List)); }
 
 TEST(HxManual, StateAtPowerOn) {  // 3.2, 5.2.1, 5.3.3
   const std::set<std::string> expected = {"G00", "G97", "G90", "G94", "G21", "G40", "G23", "G80", "G50", "G67",

@@ -305,7 +305,7 @@ TEST_P(Tables, ParametersHaveUniqueKeysAndADefaultAmongTheirWords) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO, NC_DIALECT_HX),
+INSTANTIATE_TEST_SUITE_P(Families, Tables, ::testing::Values(NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO, NC_DIALECT_HX, NC_DIALECT_SERIES8),
                          [](const auto& name) { return std::string(dialect(name.param).name); });
 
 }  // namespace

@@ -87,7 +87,7 @@ void set_parameters(nc_control* control, const Chosen& chosen) {
     for (const auto& call : kCalls) require(nc_parameter_set(control, 0, call[0], 0, call[1]) == NC_OK);
     require(nc_parameter_set(control, 0, "2106", 'A', (o & 2) != 0 ? "5" : "0") == NC_OK);
     require(nc_parameter_set(control, 0, "8213", 'A', (o & 16) != 0 ? "0" : (o & 8) != 0 ? "1" : (o & 32) != 0 ? "2" : "3") == NC_OK);
-  } else if (chosen.dialect == NC_DIALECT_ISO) {
+  } else if (chosen.dialect == NC_DIALECT_ISO || chosen.dialect == NC_DIALECT_SERIES8) {
     set("power_on_unit", (o & 2) != 0, "inch", "mm");
   } else if (chosen.dialect == NC_DIALECT_HX) {
     for (const char* key : {"3072", "3120", "3128", "3147"}) set(key, (o & 2) != 0);
@@ -216,7 +216,9 @@ void cycle(nc_control* control, const Chosen& chosen) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (size < 2) return 0;
-  const nc_dialect other = (data[0] & 1) != 0 ? NC_DIALECT_HX : (data[1] & 0x40) != 0 ? NC_DIALECT_ISO : NC_DIALECT_DGSHAPE;
+  // Bit 0 of the first and bit 6 of the second byte choose among the other families.
+  const nc_dialect with_bit = (data[1] & 0x40) != 0 ? NC_DIALECT_SERIES8 : NC_DIALECT_HX, without = (data[1] & 0x40) != 0 ? NC_DIALECT_ISO : NC_DIALECT_DGSHAPE;
+  const nc_dialect other = (data[0] & 1) != 0 ? with_bit : without;
   const Chosen chosen{(data[0] & 0x80) != 0 ? other : NC_DIALECT_M700, static_cast<uint8_t>(data[0] & 0x7f), data[1]};
   const std::string text(reinterpret_cast<const char*>(data + 2), size - 2);
   const nc_config config = configuration(chosen);

@@ -24,6 +24,7 @@ constexpr Family kHx{NC_DIALECT_HX, "", NC_TOOL_RADIUS};
 constexpr Family kIso{NC_DIALECT_ISO, "", NC_TOOL_RADIUS};
 constexpr Family kDgshape{NC_DIALECT_DGSHAPE, "%\n", NC_TOOL_LENGTH};
 constexpr Family kAll[] = {kM700, kHx, kIso, kDgshape};
+constexpr Family kSeries8{NC_DIALECT_SERIES8, "", NC_TOOL_RADIUS};
 
 Outcome run_as(const Family& family, const std::string& text) {
   Bench bench(family.dialect);
@@ -86,6 +87,33 @@ TEST(SamePart, ARowOfHolesByAMacro) {
   const Outcome m700 = run_as(kM700, loop);
   expect_same(run_as(kHx, loop), m700, kHx);
   expect_same(run_as(kIso, line + "M30\n"), m700, kIso);
+}
+
+// The words of the Series 8 differ too much for one text: each part stands beside its twin.
+TEST(SamePart, IsWrittenForTheSeries8InItsOwnWords) {
+  struct Twin {
+    const char *m700, *series8;
+  };
+  const Twin twins[] = {
+      // A contour with compensation: a straight entry is G43, corners are G10, the centre has no sign.
+      {"G17 G21 G40 G80 G90 G54\nG00 X-15. Y-10. Z5.\nG01 Z-3. F200.\nG41 D1 G01 X0. Y-5. F400.\nY30.\nG02 X10. Y40. I10. J0.\nG01 X60. ,R4.\nX70. Y20. ,C3.\nY0.\nX-5.\n"
+       "G40 G01 X-15. Y-10.\nG00 Z5.\nM30\n",
+       "G17G71G40G80G90\nG00X-15Y-10Z5\nG01Z-3F200\nD1\nG41G43G01X0Y-5F400\nY30\nG02X10Y40I10\nG01G10X60R4\nG10X70Y20L3\nY0\nX-5\nG40\nX-15Y-10\nG00Z5\nM30\n"},
+      // A pocket of arcs and lines.
+      {"G17 G21 G40 G90 G54\nG00 X40. Y25. Z2.\nG01 Z-1.5 F150.\nX46. F600.\nG03 X40. Y31. I-6. J0.\nX34. Y25. I0. J-6.\nX40. Y19. I6.\nX46. Y25. J6.\nG01 X52.\nY32.\nG03 X49. Y35. R3.\n"
+       "G01 X28.\nY18.\nX52.\nY25.\nG91 G02 X-6. Y-6. R-6.\nG90 G00 Z2.\nM30\n",
+       "G17G71G40G90\nG00X40Y25Z2\nG01Z-1.5F150\nX46F600\nG03X40Y31I6\nX34Y25J6\nX40Y19I6\nX46Y25J6\nG01X52\nY32\nG03X49Y35R3\nG01X28\nY18\nX52\nY25\nG68G02X-6Y-6R-6\nG00Z2\nM30\n"},
+      // A circle of holes: R is where each one ends, P is in seconds, and the pecks have words of their own.
+      {"G17 G21 G40 G90 G54\nM03 S1000\nG00 X0. Y0. Z20.\nG99 G81 X20. Y0. Z-5. R2. F120.\nX10. Y17.321\nG82 X-10. Y-17.321 P500\nG80\nG00 Z20.\nX0. Y0.\nM05\nM30\n",
+       "G17G71G40G90\nM03S1000\nG00XYZ20\nG81X20YZ-5R2F120\nX10Y17.321\nG82X-10Y-17.321P.5\nG80\nG00Z20\nXY\nM05\nM30\n"},
+      // The same shape turned and half as large about the zero point.
+      {"G17 G21 G90 G54\nG68 X0. Y0. R30.\nG00 X20. Y0.\nG01 Y10. F100.\nG69\nG51 X0. Y0. P0.5\nG01 X40. Y30.\nX20. Y10.\nG50\nM30\n",
+       "G17G71G90\nG55R30\nG00X20Y0\nG01Y10F100\nG56\nG57R.5\nG01X40Y30\nX20Y10\nG58\nM30\n"},
+  };
+  for (const Twin& twin : twins) {
+    SCOPED_TRACE(twin.series8);
+    expect_same(run_as(kSeries8, twin.series8), run_as(kM700, twin.m700), kSeries8);
+  }
 }
 
 // ---- where they differ -----------------------------------------------------------------------------------------------------------

@@ -130,7 +130,7 @@ const Case kCases[] = {
     {"range_half", "name = \"test\"", "variable_ranges = [{first = 400}]", "machine.variable_ranges[1].last", "is missing"},
     {"extended", "name = \"test\"", "extended_variables = 1", "machine.extended_variables", "true or false"},
     {"extensions", "name = \"test\"", "macro_extensions = \"on\"", "machine.macro_extensions", "true or false"},
-    {"dialect", "name = \"test\"", "dialect = \"series9\"", "machine.dialect", "\"m700\", \"dgshape\", \"iso\" or \"hx\""},
+    {"dialect", "name = \"test\"", "dialect = \"series9\"", "machine.dialect", "\"m700\", \"dgshape\", \"iso\", \"hx\" or \"series8\""},
     {"hal", "name = \"test\"", "hal = \"ethercat\"", "machine.hal", "must be \"sim\""},
     {"duplicate_axis", "name = \"Y\"", "name = \"X\"", "axis[2].name", "already there"},
     {"axis_name", "name = \"Y\"", "name = \"Q\"", "axis[2].name", "one letter of"},
@@ -695,7 +695,7 @@ TEST(Config, AMachineThatNamesNoLawIsOptimalWhereEveryAxisHasAllLimits) {
 }
 
 TEST(Config, TheShippedMachinesAreOptimal) {
-  for (const char* file : {"machine.toml", "modelling-machine.toml", "router.toml", "homed_mill.toml", "drill-mill.toml", "modbus-example.toml"}) {
+  for (const char* file : {"machine.toml", "modelling-machine.toml", "router.toml", "homed_mill.toml", "drill-mill.toml", "knee-mill.toml", "modbus-example.toml"}) {
     Config config;
     EXPECT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/" + file, &config).empty()) << file;
     EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL) << file;

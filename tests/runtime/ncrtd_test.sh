@@ -80,6 +80,7 @@ cmp -s "$work/run1" "$work/run2" || fail "two runs differ"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" run --fast --no-progress "$source/examples/parts/keytag.nc"
 expect 0 "$ncrtd" --config "$source/etc/router.toml" run --fast --no-progress "$source/examples/parts/plate.ngc"
 expect 0 "$ncrtd" --config "$source/etc/drill-mill.toml" run --fast --no-progress "$source/examples/parts/bracket.nc"
+expect 0 "$ncrtd" --config "$source/etc/knee-mill.toml" run --fast --no-progress "$source/examples/parts/jig-plate.s8"
 expect 0 "$ncrtd" --config "$machine" mdi --fast --no-progress "G90 G0 X-10."
 expect 2 "$ncrtd" --config "$machine" mdi --fast "G1 X10."
 said err "P62"
@@ -139,7 +140,7 @@ expect 1 "$ncrtd"
 expect 1 "$ncrtd" --config "$machine"
 expect 1 "$ncrtd" --config "$machine" run
 expect 1 "$ncrtd" --config "$machine" run --dialect series9 x.nc
-said err "--dialect: must be one of m700, dgshape, iso, hx, is series9"
+said err "--dialect: must be one of m700, dgshape, iso, hx, series8, is series9"
 for option in --plot --share --dialect; do
   expect 1 "$ncrtd" --config "$machine" run --fast "$option" "" x.nc
   said err "$option: must"

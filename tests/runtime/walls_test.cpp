@@ -191,7 +191,7 @@ TEST(Walls, ShippedPartsExecuteAsTheyTrace) {
   const std::filesystem::path root(nc::test::kSourceDir);
   unsigned parts = 0;
   for (const auto& [part, machine] :
-       {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}, {"plate.ngc", "router.toml"}, {"bracket.nc", "drill-mill.toml"}}) {
+       {std::pair{"flange.nc", "machine.toml"}, {"keytag.nc", "modelling-machine.toml"}, {"plate.ngc", "router.toml"}, {"bracket.nc", "drill-mill.toml"}, {"jig-plate.s8", "knee-mill.toml"}}) {
     nc::rt::Config config;
     for (const auto& error : nc::rt::load_config((root / "etc" / machine).string(), &config))
       ADD_FAILURE() << error.text();

@@ -438,7 +438,7 @@ TEST_F(CommandTest, OptionsRefuseBadValuesWithASentence) {
       {"trace p.nc --setup ''", "--setup: must not be empty"},
       {"trace p.nc --programs ''", "--programs: must not be empty"},
       {"trace p.nc --dialect ''", "--dialect: must not be empty"},
-      {"trace p.nc --dialect foo", "--dialect foo: this version knows m700, dgshape, iso and hx"},
+      {"trace p.nc --dialect foo", "--dialect foo: this version knows m700, dgshape, iso, hx and series8"},
       {"time p.nc --limits-file ''", "--limits-file: must not be empty"},
       {"time p.nc --max-seconds ''", "--max-seconds: must be above 0"},
       {"motion p.nc --limits 1,2", "--limits: must be three numbers, velocity,acceleration,jerk, is 1,2"},

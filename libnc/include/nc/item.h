@@ -62,6 +62,8 @@ typedef enum nc_control_index {
   NC_CONTROL_SUPPRESS = 3003,    /**< `value`: bit 0 no stop of single block, bit 1 FIN is not awaited (M700 13.5.9, #3003) */
   NC_CONTROL_DISABLE = 3004,     /**< `value`: bit 0 no feed hold, bit 1 no override, bit 2 no exact stop (M700 13.5.10, #3004) */
   NC_CONTROL_TAPPING = 63,       /**< tapping: `value` nc_tapping_bits, 0 = none (M700 7.11, 13.1.1) */
+  NC_CONTROL_SURFACE_RADIUS = 23, /**< constant surface speed: the radius at the present coordinate of the axis of `bits` is `value` mm, and its coordinates
+                                       are diameters */
   NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` bit n = by axis n, 0 = G97 */
   NC_CONTROL_SPINDLE_CLAMP = 92, /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
   NC_CONTROL_INTERRUPT = 96      /**< macro interrupt: `value` nc_interrupt_bits */

@@ -93,7 +93,8 @@ typedef enum nc_dialect {
   NC_DIALECT_DGSHAPE = 1, /**< DGSHAPE NC code (JIS), modelling machines */
   NC_DIALECT_ISO = 2,     /**< ISO 6983 / RS-274 as CAM systems and LinuxCNC users write it, machining centre */
   NC_DIALECT_HX = 3,      /**< TurboTek HX, machining centre */
-  NC_DIALECT_COUNT = 4
+  NC_DIALECT_SERIES8 = 4, /**< SERIES 8, PMI, machining centre */
+  NC_DIALECT_COUNT = 5
 } nc_dialect;
 
 /** Where an item comes from. */

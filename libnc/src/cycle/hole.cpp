@@ -11,6 +11,7 @@ double down(const Hole& hole) { return hole.bottom < hole.r ? -1.0 : 1.0; }
 
 /// Bottom of the next peck. The last cut ends at the bottom, shorter if needed; a rest below the resolution is not a peck of its own.
 double next_peck(const Hole& hole, double depth) {
+  if (hole.has_first && depth == hole.r && (hole.first - depth) * down(hole) > 1e-9) return (hole.bottom - hole.first) * down(hole) > 1e-9 ? hole.first : hole.bottom;
   const double next = depth + down(hole) * hole.q;
   return hole.q > 0 && (hole.bottom - next) * down(hole) > 1e-9 ? next : hole.bottom;
 }

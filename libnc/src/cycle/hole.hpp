@@ -30,8 +30,10 @@ struct CycleState {
                              ///< shift of the coordinates in the cycle mode (M700 13.1.2, 13.1.3) does not move it
   TapControl tap = TapControl::by_parameter;
   bool synchronous = false;  ///< what follows from it and the parameters for the cycle in force
+  bool has_first = false;    ///< the first cut has an end of its own ...
   double pitch = 0;          ///< of a synchronous tap, mm/rev; 0 = none yet
   double return_speed = 0;   ///< ,S: of the spindle on the way back of a synchronous tap, r/min; 0 = that of the way in
+  double first = 0;          ///< ... at this coordinate
 };
 
 /// What a hole needs, resolved to coordinates of the drilling axis.
@@ -41,6 +43,8 @@ struct Hole {
   double initial = 0, r = 0, bottom = 0, third = 0;   ///< coordinates
   double return_to = 0;                    ///< initial level or R point (G98, G99)
   double q = 0;                            ///< > 0 where it is made in cuts
+  bool has_first = false;                  ///< the first of them ends ...
+  double first = 0;                        ///< ... at this coordinate
   double clearance = 0;                    ///< of the cuts: #8013, #8012, DGSHAPE 1 mm
   double dwell_s = 0;
 };

@@ -29,6 +29,10 @@ enum class CycleKind : uint8_t {
   bore_stop_as_before,                          ///< the spindle turns again as it has turned
   back_bore_to_level,                           ///< cut to a third level and back
   bore_left_by_hand,                            ///< the program stops at the bottom; the operator draws the tool back
+  // Series 8
+  case_bore,                                    ///< the tool stays at the bottom; the next layer begins at another R
+  bore_oriented,                                ///< back beside the wall, the spindle oriented, behind a dwell
+  face_upwards,                                 ///< from below, with a dwell and a way back to R
   count_
 };
 

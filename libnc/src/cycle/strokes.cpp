@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The figures of M700 13.1.1 ("movement when executing each fixed cycle") in their order, as tables. Beside each row stands the number that it
-// has in the figure, or in the list of RS-274/NGC 3.5.16.
+// has in the figure, or in the list of RS-274/NGC 3.5.16 or of the Series 8.
 #include "cycle/stroke.hpp"
 
 namespace nc {
@@ -191,6 +191,41 @@ constexpr Stroke kBoreLeftByHand[] = {
     turn(S::as_before),          // 6
 };
 
+// ---- Series 8 G87, G88, G89; the numbers are those of its lists
+
+constexpr Stroke kCaseBore[] = {
+    kToR,       // 2, 4
+    kToBottom,  // 3, 5
+};
+constexpr Stroke kBoreOriented[] = {
+    kToR,                                           // 2
+    kToBottom,                                      // 3
+    kDwell,                                         // 4
+    kStop,
+    kOrient,
+    {shift_rapid, L::beside},                       // 5
+    {rapid, L::exit},                               // 6
+    {shift_rapid, L::over, S::none, kStrokeStops},
+    turn(S::as_before),
+};
+constexpr Stroke kFaceUpwards[] = {
+    kStop,                                          // 2
+    kOrient,
+    {shift_rapid, L::beside},                       // 3
+    {rapid, L::r, S::none, kStrokeStops},           // 4
+    {shift_rapid, L::over},                         // 5
+    {spindle, L::none, S::as_before, kStrokeStops},
+    kToBottom,                                      // 6: upwards
+    kDwell,                                         // 7
+    {feed, L::r},                                   // 8
+    kStop,                                          // 9
+    kOrient,
+    {shift_rapid, L::beside},
+    {rapid, L::initial},                            // 10
+    {shift_rapid, L::over, S::none, kStrokeStops},  // 11
+    turn(S::as_before),                             // 12
+};
+
 template <unsigned count>
 constexpr CycleTable table(const Stroke (&rows)[count], bool takes_widths) {
   bool pecks = false, shifts = false;
@@ -229,6 +264,9 @@ constexpr CycleTable table_of(CycleKind kind) {
     case CycleKind::bore_stop_as_before: return table(kBoreStopAsBefore, false);
     case CycleKind::back_bore_to_level: return table(kBackBoreToLevel, false);
     case CycleKind::bore_left_by_hand: return table(kBoreLeftByHand, false);
+    case CycleKind::case_bore: return table(kCaseBore, false);
+    case CycleKind::bore_oriented: return table(kBoreOriented, false);
+    case CycleKind::face_upwards: return table(kFaceUpwards, false);
   }
   return table(kNothing, false);
 }

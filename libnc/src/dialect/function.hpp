@@ -75,6 +75,14 @@ enum class Function : uint8_t {
   high_speed_on, high_speed_off,        ///< G10.3 G11.3
   stitch_on, stitch_off,                ///< G63.1 G63.2
   cycle_rigid_tap, cycle_rigid_reverse_tap,   ///< G84.2 G84.3
+  // Numbers of the codes of the Series 8 stand beside those that follow.
+  corner_behind,                        ///< G10: a chamfer or a rounding between the line of its block and the next one
+  absolute_once, incremental_once,      ///< G67 G68: as absolute and incremental, for their block only
+  comp_entry,                           ///< G43: the first move with compensation leads straight beside its end
+  cavity_ccw, cavity_cw, cavity_circle, ///< G34 G35 G36
+  holes_on_frame_ccw, holes_on_frame_cw,   ///< G49 G50
+  sine_loop,                            ///< G06
+  cycle_bore_restart, cycle_case_bore, cycle_bore_oriented, cycle_face_upwards,   ///< G86 G87 G88 G89
   count_
 };
 inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);
@@ -91,7 +99,7 @@ constexpr bool offsets_position(Function f) {
 }
 /// One-shot functions whose axis words are positions to go to. The axis words of all other one-shot functions are data.
 constexpr bool goes_to_position(Function f) {
-  return is_reference_move(f) || f == Function::tool_change_return || is_skip(f) ||
+  return is_reference_move(f) || f == Function::sine_loop || f == Function::tool_change_return || is_skip(f) ||
          f == Function::measure_length || f == Function::machine_move || f == Function::unidirectional || offsets_position(f);
 }
 constexpr bool is_macro_call(Function f) { return f == Function::macro_call || f == Function::macro_modal || f == Function::macro_every_block; }
@@ -103,6 +111,8 @@ constexpr bool is_space_arc(Function f) { return f == Function::space_arc_first 
 constexpr bool is_exponential(Function f) { return f == Function::exponential_positive || f == Function::exponential_negative; }
 /// A full circle that begins and ends at its centre. Its block names no axis.
 constexpr bool cuts_circle(Function f) { return f == Function::circle_cut_cw || f == Function::circle_cut_ccw; }
+/// A cavity is milled.
+constexpr bool cuts_cavity(Function f) { return f == Function::cavity_ccw || f == Function::cavity_cw || f == Function::cavity_circle; }
 /// A straight line that needs no other words than those of axes.
 constexpr bool is_line(Function f) { return f == Function::rapid || f == Function::linear; }
 /// Rapid traverse, line or arc: motions that have no words of their own, except those for the centre or the radius of an arc.
@@ -116,6 +126,7 @@ constexpr bool ends_data_input(Function f) { return f == Function::data_input_en
 enum class MiscFunction : uint8_t {
   output,                                       ///< goes out and means nothing here
   spindle_forward, spindle_reverse, spindle_stop, tool_change, spindle_oriented,   ///< go out, too
+  surface_hold, surface_resume,                 ///< constant surface speed keeps the speed that the spindle has; follows the axis again
   interrupt_on, interrupt_off,                  ///< as long as no parameter gives another code this meaning; then they are output
   program_stop, optional_stop, program_end,     ///< kept by the control, as the rest
   call_sub, return_sub, call_external,

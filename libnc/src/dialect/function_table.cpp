@@ -48,6 +48,8 @@ nc_code_role code_role(MiscFunction function) {
     case MiscFunction::override_allowed:
     case MiscFunction::override_barred:
     case MiscFunction::override_of_one:
+    case MiscFunction::surface_hold:
+    case MiscFunction::surface_resume:
     case MiscFunction::spindle_oriented:
     case MiscFunction::spindle_orient:
     case MiscFunction::tool_number:

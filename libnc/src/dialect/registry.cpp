@@ -6,6 +6,7 @@
 #include "dialect/hx/hx.hpp"
 #include "dialect/iso/iso.hpp"
 #include "dialect/m700/m700.hpp"
+#include "dialect/series8/series8.hpp"
 
 namespace nc {
 
@@ -17,6 +18,8 @@ const Dialect& dialect(nc_dialect id) {
       return iso::kDialect;
     case NC_DIALECT_HX:
       return hx::kDialect;
+    case NC_DIALECT_SERIES8:
+      return series8::kDialect;
     case NC_DIALECT_M700:
     case NC_DIALECT_COUNT:
       break;

@@ -58,6 +58,9 @@ enum class Role : uint8_t {
   // ---- taps and patterns of holes
   option_tap_control, option_return_speed, tap_ridges,   ///< behind a comma the first two; threads per inch
   hole_interval, hole_angle, hole_angle_step, hole_columns, hole_interval_2, hole_count,   ///< the interval of a circle is its radius
+  cycle_first_depth, tap_lead,                  ///< end of the first cut; way of a tap in one turn of the spindle
+  cavity_length, cavity_width, cavity_cut, cavity_step, cavity_corner,   ///< of a circle the length is its radius
+  surface_radius,                               ///< radius at the present position, for constant surface speed
   count_
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);

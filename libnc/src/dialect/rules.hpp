@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules in which the families of controllers differ, by subject. A family states each of them in dialect/<family>/rules.hpp; the functions of
 // interpret/ ask for the rule and never for the family. Each comment says what happens if the rule is true, and cites the manuals that have
-// it. What follows "Otherwise", or the name of another manual, is what happens if it is false. Nothing has a default here: a new family has to
-// think of every line.
+// it. What follows "Otherwise", or the name of another manual, is what happens if it is false. A new family has to think of every line; a rule that one
+// family alone has is false where a family says nothing.
 #pragma once
 
 #include <cstdint>
@@ -54,6 +54,8 @@ struct BlockRules {
   /// If a block sets several variables, all values are calculated before the first variable is set: in #1=2 #2=#1 variable #2 gets the value
   /// that #1 had before the block (RS-274/NGC 3.3.2.2). Otherwise they are set one after the other (M700 13.5.4).
   bool assigns_at_once;
+  /// A word without a number is 0, in any block (Series 8 G01, G41 print G00XY). Otherwise it is a fault, but for the blocks that M700 14.10, 6.9 print.
+  bool bare_word_is_zero = false;
 };
 
 /// M, T and the second auxiliary function.
@@ -76,6 +78,9 @@ struct SpindleRules {
   /// The code for start is not put out while the spindle turns, nor the code for stop while it stands (DGSHAPE 2). M700 10 puts out every M
   /// code.
   bool skips_repeated_codes;
+  /// R beside the code of coordinate system setting is the radius at the present position, and the words of the axis are diameters (Series 8 G92).
+  /// Otherwise the coordinate of the axis is the radius (M700 10.3).
+  bool radius_by_coordinate_setting = false;
 };
 
 struct FeedRules {
@@ -88,6 +93,8 @@ struct FeedRules {
   /// F in inverse-time feed is 1 divided by the minutes that the whole block takes, also for an arc (RS-274/NGC 3.5.19). Otherwise F of an
   /// arc is the speed divided by the radius (M700 7.5).
   bool inverse_time_is_of_block;
+  /// F in inverse-time feed holds until the next one (Series 8 G93 prints it in a block of its own). Otherwise each cut has its own (M700 7.5).
+  bool inverse_time_is_modal = false;
 };
 
 /// Skip: a straight line at feed that a signal ends.
@@ -111,6 +118,13 @@ struct ArcRules {
   /// P also counts the turn in which the end lies, so that an arc of less than a full turn has P1 (LinuxCNC G2). Otherwise P counts the full
   /// turns before that one (M700 6.6).
   bool turns_count_last;
+  /// Without R and centre the radius is that of the last R (Series 8 G02). Otherwise a centre without words is the start (M700 6.4).
+  bool radius_is_modal = false;
+  /// A radius below half the chord counts as half the chord (Series 8 G02). Otherwise it is a fault (M700 6.5).
+  bool short_radius_is_half_chord = false;
+  /// The words of the centre have no sign; it lies where the arc stays within a quadrant about it, and there is no other arc (Series 8 G02). Otherwise
+  /// they are increments with a sign (M700 6.4).
+  bool centre_by_quadrant = false;
 };
 
 struct DwellRules {
@@ -155,6 +169,12 @@ struct CompensationRules {
   /// The code without D takes the number of the tool as the offset number (RS-274/NGC 3.5.10). Otherwise the last offset number stays (M700
   /// 12.4.1; DGSHAPE G41).
   bool number_is_that_of_tool;
+  /// The first move begins with a line to the place beside its start, unless its block has the code of an entry (Series 8 G41, G43). Otherwise it leads
+  /// from the place of the code to the place beside its end (M700 12.4.1).
+  bool begins_beside_start = false;
+  /// At an outer corner whose blocks enclose less than this the tool goes round on an arc, at any other one to the intersection (Series 8 G41); 0 =
+  /// as M700 12.4.1 has it.
+  double arc_below_deg = 0;
 };
 
 /// Compensation of the tool length.
@@ -212,6 +232,14 @@ struct CycleRules {
   /// Each block drills along the axis of the plane in force (RS-274/NGC 3.5.16). Else the axis stays as long as the mode does (M700 13.1.1 note
   /// 2; DGSHAPE has one plane).
   bool axis_follows_plane = false;
+  /// Holes end at R, and no code asks for the initial level (Series 8 G81). Otherwise a code says which (M700 13.1.1).
+  bool ends_at_r = false;
+  /// R and the bottom stay known when the mode ends (Series 8 G80). Otherwise they end with it (M700 13.1.1).
+  bool levels_outlive_mode = false;
+  /// The hand of a tap is the direction in which the spindle turns (Series 8 G84). Otherwise that of its code (M700 13.1.1).
+  bool tap_follows_spindle = false;
+  /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
+  bool takes_length_number = false;
 };
 
 /// Reference positions.
@@ -242,6 +270,10 @@ struct CoordinateRules {
   bool machine_move_by_motion;
   /// An incremental move in machine coordinates does nothing (HX 7.1.1). Else it goes, or is a fault (M700 14.4 (4); DGSHAPE G53).
   bool incremental_machine_move_rests;
+  /// Words of a move in machine coordinates are absolute in incremental mode, too (Series 8 G69).
+  bool machine_move_is_absolute = false;
+  /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
+  bool shift_ends_with_program = false;
 };
 
 struct ScalingRules {
@@ -259,6 +291,9 @@ struct ScalingRules {
   /// An arc whose axes have different factors is one by what has become of its words, R times the larger factor, where these still are of one circle
   /// (HX 15.2.2). Else a fault (M700 13.19 (4); DGSHAPE G51 has one factor).
   bool arcs_may_be_uneven;
+  /// The axes of the plane are scaled about the zero point; what has been programmed before stays the programmed position, so that a first move
+  /// moves both (Series 8 G57). Otherwise about the point of the words, or the position of the tool (M700 13.19).
+  bool about_zero = false;
 };
 
 /// Rotation of coordinates by program.
@@ -267,6 +302,8 @@ struct RotationRules {
   bool plane_in_block;
   /// Without an angle it is that of a parameter (HX 15.4.1). Else that of before (M700 13.20 (4)).
   bool angle_by_parameter;
+  /// As ScalingRules::about_zero, and the angle is never added to that of before (Series 8 G55).
+  bool about_zero = false;
 };
 
 /// Interpolation on a cylinder and in polar coordinates.
@@ -340,6 +377,8 @@ struct MotionRules {
   /// The time constants of the filters behind interpolation that act on a move (M700 7.7, 13.15, 15.5). nullptr: the family has no filters
   /// (DGSHAPE).
   FilterTimes (*filter_times)(const FilterParameters& parameters, const FilteredMove& move, double cycle_s);
+  /// The second code of a line or an arc is of one that ends at rest (Series 8 G21 to G23).
+  bool second_code_rests = false;
 };
 
 struct Rules {

@@ -330,6 +330,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
     case NC_ACTION_CONTROL:
       if (a.index == NC_CONTROL_SUPPRESS) suppress_ = code_number(a.value);
       if (a.index == NC_CONTROL_DISABLE) disable_ = code_number(a.value);
+      if (a.index == NC_CONTROL_SURFACE_RADIUS) spindles_.surface_radius(a.value, a.bits);
       if (a.index == NC_CONTROL_SURFACE_SPEED) spindles_.surface(a.value, a.bits);
       if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindles_.clamp(a.bits, a.mask, code_number(a.value));
       if (a.index == NC_CONTROL_INTERRUPT) {

@@ -43,6 +43,13 @@ class SpindleSpeeds {
     m_min_ = m_min;
     axis_ = axis;
   }
+  /// The radius at the present coordinate of the axis that the lowest bit of `axes` names; from here on the coordinates of that axis are diameters.
+  void surface_radius(double radius_mm, uint32_t axes) {
+    if (axes == 0) return;
+    radius_axis_ = static_cast<unsigned>(std::countr_zero(axes)) + 1u;
+    radius_mm_ = radius_mm;
+    radius_waits_ = true;
+  }
   /// G92 S Q of the selected spindles (M700 10.6.1, relation (1)); `how`: nc_clamp_bits. Without S and Q no spindle is clamped any more.
   void clamp(uint32_t s, uint32_t q, uint32_t how) {
     const bool any = (how & (NC_CLAMP_S | NC_CLAMP_Q)) != 0;
@@ -62,6 +69,7 @@ class SpindleSpeeds {
   void reset() {
     std::fill_n(direction_, NC_MAX_SPINDLES, SpindleTurn::as_it_is);
     surface(0, 0);
+    radius_axis_ = 0;
     for (Spindle& spindle : spindle_)
       if ((spindle.how & NC_CLAMP_OVER_RESET) == 0) spindle = {.now = spindle.now};
   }
@@ -71,7 +79,15 @@ class SpindleSpeeds {
   template <class Coordinate>
   void update(const Coordinate& coordinate) NC_RT {
     double wanted = code_;
-    if (axis_ != 0) wanted = 1000 * m_min_ / (2 * std::numbers::pi * std::max(std::fabs(coordinate(axis_ - 1)), kSmallestRadius));
+    if (radius_waits_) {
+      radius_at_ = coordinate(radius_axis_ - 1);
+      radius_waits_ = false;
+    }
+    if (axis_ != 0) {
+      const double at = coordinate(axis_ - 1);
+      const double radius = axis_ == radius_axis_ ? radius_mm_ + (at - radius_at_) / 2 : at;
+      wanted = 1000 * m_min_ / (2 * std::numbers::pi * std::max(std::fabs(radius), kSmallestRadius));
+    }
     for (unsigned i = 0; i < count_; ++i)
       if ((selected_ >> i & 1) != 0) spindle_[i].now = clamped(spindle_[i], wanted);
   }
@@ -103,6 +119,9 @@ class SpindleSpeeds {
   uint8_t selected_ = 1;
   double code_ = 0, m_min_ = 0;
   unsigned axis_ = 0;
+  unsigned radius_axis_ = 0;  ///< axis, from 1, whose radius has been given; 0 = none
+  bool radius_waits_ = false; ///< its coordinate there is still to be taken
+  double radius_mm_ = 0, radius_at_ = 0;
   Spindle spindle_[NC_MAX_SPINDLES];
   SpindleTurn direction_[NC_MAX_SPINDLES] = {};
 };

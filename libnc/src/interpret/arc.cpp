@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Circles from the words of a block (M700 6.4-6.6, DGSHAPE G02/G03).
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "interpret/motion.hpp"
@@ -13,11 +14,11 @@ constexpr double kSamePoint = 1e-9;   // mm: points that are no farther apart ar
 
 /// Centre of an arc of radius |radius| through start and end: on the perpendicular bisector of the chord, at distance
 /// sqrt(r^2 - (L/2)^2) from its middle; radius > 0 takes the shorter arc, radius < 0 the longer one (M700 6.5).
-Condition center_from_radius(const double start[2], const double end[2], double radius, bool ccw, double tolerance, double center[2]) {
+Condition center_from_radius(const double start[2], const double end[2], double radius, bool ccw, bool may_be_short, double tolerance, double center[2]) {
   const double dh = end[0] - start[0], dv = end[1] - start[1];
   const double half = std::hypot(dh, dv) / 2;
   const double r = std::fabs(radius);
-  if (half - r > tolerance) return Condition::arc_center;  // M700 6.5: L/2 - r > #1084 is P71
+  if (half - r > tolerance && !may_be_short) return Condition::arc_center;  // M700 6.5: L/2 - r > #1084 is P71
   const double height = std::sqrt(std::fmax(0.0, r * r - half * half));
   // Left of the chord for a short ccw arc; the side changes with the direction and with the sign of R.
   const double side = (ccw == (radius > 0)) ? 1.0 : -1.0;
@@ -26,7 +27,29 @@ Condition center_from_radius(const double start[2], const double end[2], double 
   return Condition::none;
 }
 
+/// The arc from `start` to `end` about `center` leaves the quadrant that it begins in, by more than the tolerance.
+bool leaves_quadrant(const double start[2], const double end[2], const double center[2], bool ccw, double tolerance) {
+  const double from[2] = {start[0] - center[0], start[1] - center[1]}, to[2] = {end[0] - center[0], end[1] - center[1]};
+  for (unsigned i = 0; i < 2; ++i)
+    if (from[i] * to[i] < 0 && std::fmin(std::fabs(from[i]), std::fabs(to[i])) > tolerance) return true;
+  const double turn = from[0] * to[1] - from[1] * to[0];  // |.| is the sine of the sweep, times the squared radius
+  return (ccw ? turn : -turn) <= 0;
+}
+
 }  // namespace
+
+bool center_of_quadrant(const double start[2], const double end[2], bool ccw, double tolerance, double center[2]) {
+  for (const double h : {1.0, -1.0})
+    for (const double v : {1.0, -1.0}) {
+      const double at[2] = {start[0] + h * center[0], start[1] + v * center[1]};
+      const double apart = std::fabs(std::hypot(end[0] - at[0], end[1] - at[1]) - std::hypot(center[0], center[1]));
+      if (apart > tolerance + 1e-9 || leaves_quadrant(start, end, at, ccw, tolerance)) continue;
+      center[0] *= h;
+      center[1] *= v;
+      return true;
+    }
+  return false;
+}
 
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,
                       bool* straight) {
@@ -38,7 +61,7 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
       *straight = closed;
       return closed ? Condition::none : Condition::arc_center;
     }
-    const Condition bad = center_from_radius(start, end, words.radius, ccw, tolerance, c.center);
+    const Condition bad = center_from_radius(start, end, words.radius, ccw, words.may_be_short, tolerance, c.center);
     if (bad != Condition::none) return bad;
   } else {
     c.center[0] = start[0] + words.center[0];

@@ -61,6 +61,10 @@ Execution take_g(Interpreter& in, double value) {
   if (!w.g.push_back(row)) return in.raise(Condition::format_error, Role::code, value);
   switch (row->function) {
     case Function::exact_stop_once: w.exact_stop = true; return Execution::done;
+    case Function::corner_behind: w.corner_code = row; return Execution::done;
+    case Function::absolute_once:
+    case Function::incremental_once: w.distance_once = row; return Execution::done;
+    case Function::comp_entry: w.comp_entry = true; return Execution::done;
     case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
       return has_modal_call(in) ? Execution::done : in.raise(Condition::cancel_without_call, Role::code, value);
     case Function::stroke_check_on:
@@ -142,6 +146,19 @@ bool takes_bare_axes(const BlockWords& w) {
   return false;
 }
 
+/// Series 8 G10: L or R is the corner that the line of the block ends with.
+Execution take_corner_code(Interpreter& in) {
+  BlockWords& w = in.words;
+  const bool round = w.has(Role::option_corner_radius), cut = w.has(Role::option_chamfer);
+  if (round == cut) return in.raise_code(Condition::words_missing, *w.corner_code);
+  const Role word = round ? Role::option_corner_radius : Role::option_chamfer;
+  w.corner = round ? Corner::rounding : Corner::chamfer;
+  w.corner_flags = w.flag(word);
+  w.corner_raw = w.get(word);
+  w.present &= ~in.addresses({word});
+  return Execution::done;
+}
+
 /// Behind the macro call that is word `first` stands another macro call, of a different kind.
 bool calls_another(const Interpreter& in, unsigned first) {
   for (unsigned i = first + 1; i < in.block->words.size(); ++i) {
@@ -188,7 +205,8 @@ Execution gather_words(Interpreter& in) {
   w.g.clear();
   w.m.clear();
   w.one_shot = w.motion = w.cycle = nullptr;
-  w.exact_stop = w.fin_behind_dwell = false;
+  w.exact_stop = w.fin_behind_dwell = w.comp_entry = false;
+  w.corner_code = w.distance_once = nullptr;
   w.in_position = w.in_position_drill = 0;
   w.counted_feeds = 0;
   w.device = 0;
@@ -263,7 +281,8 @@ Execution gather_words(Interpreter& in) {
       continue;
     }
     const bool bare = (word.flags & kWordNoValue) != 0;
-    if (bare && (in.is(word, Role::misc_code) || !in.dialect->bare_letters)) return in.raise(Condition::format_error, word.letter);
+    const bool bare_is_zero = in.dialect->rules.block.bare_word_is_zero && !in.is(word, Role::code);
+    if (bare && (in.is(word, Role::misc_code) || !(in.dialect->bare_letters || bare_is_zero))) return in.raise(Condition::format_error, word.letter);
     if (in.is(word, Role::code)) {
       const Execution did = take_g(in, value);
       if (did != Execution::done) return did;
@@ -282,7 +301,7 @@ Execution gather_words(Interpreter& in) {
       continue;
     }
     if (in.is(word, Role::sequence_number) || in.is(word, Role::program_number)) w.late_number = word.letter;
-    if (bare) {  // any other address needs a number
+    if (bare && !bare_is_zero) {  // any other address needs a number
       if (in.axis_of[at] < 0) return in.raise(Condition::format_error, word.letter);
       bare_axis = word.letter;
       value = 0;
@@ -298,6 +317,10 @@ Execution gather_words(Interpreter& in) {
     if (did != Execution::done) return did;
   }
   if (w.device != 0 && !calls_sub(in)) return in.raise(Condition::no_function, Role::option_device, w.device);
+  if (w.corner_code != nullptr) {
+    const Execution did = take_corner_code(in);
+    if (did != Execution::done) return did;
+  }
   const Execution options = take_tap_options(in);
   if (options != Execution::done) return options;
   if (w.corner != Corner::none && !may_have_corner(in)) return in.raise(Condition::corner_option, corner_word(w), w.corner_raw);
@@ -305,6 +328,11 @@ Execution gather_words(Interpreter& in) {
   // M700 15.5: feeds behind a skip signal belong to G31.
   if (w.counted_feeds != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::skip)) return in.raise(Condition::format_error, Role::feed);
   return Execution::done;
+}
+
+bool is_incremental(const BlockContext& in) {
+  const FunctionRow* const once = in.words.distance_once;
+  return once != nullptr ? once->function == Function::incremental_once : in.state.modal.is(Function::incremental);
 }
 
 char first_of_block(const BlockContext& in, uint32_t of) {
@@ -397,6 +425,7 @@ bool in_range(const BlockContext& in, double value, uint8_t flags, bool rotary) 
 /// Bit i: the word of axis i is incremental.
 uint32_t incremental_axes(const Interpreter& in) {
   const BlockWords& w = in.words;
+  if (w.distance_once != nullptr) return is_incremental(in) ? ~uint32_t{0} : 0;
   // Families without the rule below have at most one of G90/G91 in a block, so that the order of words does not matter: the code counts
   // for the whole block.
   if (!in.distance_by_word) return in.state.modal.is(Function::incremental) ? ~uint32_t{0} : 0;

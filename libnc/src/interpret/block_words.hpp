@@ -35,6 +35,9 @@ struct BlockWords {
   const FunctionRow* motion = nullptr;   ///< the motion that this block names, or null
   const FunctionRow* cycle = nullptr;    ///< the fixed cycle that this block names, or null
   bool exact_stop = false;         ///< G09
+  const FunctionRow* corner_code = nullptr;    ///< G10 of the Series 8: the block ends with a corner, or null
+  const FunctionRow* distance_once = nullptr;  ///< the code by which all words of this block are absolute or incremental, or null
+  bool comp_entry = false;         ///< compensation that begins here leads straight to its first end (Series 8 G43)
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is waited for after the dwell
   char late_number = 0;            ///< letter of an N or O that stands behind other words, 0 = none
   uint8_t counted_feeds = 0;       ///< F1= to F8=, bit n - 1 (M700 15.5); their values stand in counted_feed
@@ -69,6 +72,9 @@ struct BlockWords {
 
 /// The word of the block that commands a corner.
 inline Role corner_word(const BlockWords& words) { return words.corner == Corner::chamfer ? Role::option_chamfer : Role::option_corner_radius; }
+
+/// Words of the block in hand that belong to no axis in particular are increments.
+bool is_incremental(const BlockContext& in);
 
 /// Evaluates every word, and finds the G and M codes and their functions. Changes only in.words.
 Execution gather_words(Interpreter& in);

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "base/intern_pool.hpp"
+#include "cycle/cavity.hpp"
 #include "cycle/pattern.hpp"
 #include "dialect/code_index.hpp"
 #include "frame/affine.hpp"
@@ -68,6 +69,17 @@ struct HolesOfBlock {
   bool tapping = false;       ///< between R and R again
 };
 
+/// The cavity that the block in hand mills (functions/cavity.cpp); lengths as programmed.
+struct CavityOfBlock {
+  Cavity shape;
+  double center[2] = {0, 0};
+  uint8_t axis = 2;           ///< that goes down
+  double r = 0, bottom = 0, cut = 0;
+  double depth = 0;           ///< level under way
+  uint32_t ring = 0;
+  unsigned piece = 0;
+};
+
 class SharedTables;
 struct Interpreter;
 
@@ -113,6 +125,7 @@ struct BlockContext {
   BlockWords words;
   Step next_step = Step::none;
   HolesOfBlock holes;
+  CavityOfBlock cavity;
   bool motion_done = false;
   bool modal_kept = false;         ///< the block in hand has not changed the modal state
   bool block_starts_incremental = false; ///< G91 was modal before this block

@@ -24,11 +24,14 @@ bool has_own_feed(const BlockContext& in, Function motion) {
 
 /// The F of a skip block or of a measurement belongs to that block only and does not become modal (M700 15.2).
 bool keeps_its_feed(const BlockContext& in, Function one_shot) {
+  const AddressTable& addresses = in.dialect->addresses;
+  if (one_shot == Function::dwell && addresses.at(Role::dwell_time) == addresses.at(Role::feed)) return true;  // Series 8 G04 F
   return (is_skip(one_shot) && !in.dialect->rules.skip.feed_is_modal) || one_shot == Function::measure_length;
 }
 
-/// The D of the block is not for radius compensation: it is a range (M700 15.1), or the offset number of one circle (13.10 (3)).
+/// The D of the block is not for radius compensation: it is a range (M700 15.1), or the offset number of one circle (13.10 (3)), or of a cavity.
 bool keeps_its_offset_number(const FunctionRow* one_shot) {
+  if (one_shot != nullptr && cuts_cavity(one_shot->function)) return true;
   return one_shot != nullptr && (one_shot->function == Function::measure_length || cuts_circle(one_shot->function));
 }
 
@@ -178,6 +181,9 @@ Execution apply_systems(Interpreter& in) {
   } else if (in.state.space.on && gives_space_vector(in)) {
     const Execution did = change_space_vector(in);
     if (did != Execution::done) return did;
+  } else if (in.words.has(Role::offset_number) && gives_length_in_cycle(in)) {
+    const Execution did = take_length_in_cycle(in);
+    if (did != Execution::done) return did;
   } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot)) {
     const Execution did = change_radius(in);
     if (did != Execution::done) return did;
@@ -277,6 +283,7 @@ bool only_moves(const Interpreter& in) {
   // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
   if (in.state.special != 0 || in.state.work_turned || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
+  if (in.dialect->rules.compensation.begins_beside_start && in.state.compensated()) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
   return codes && w.m.empty() && (w.present & ~(in.axis_letters | in.addresses({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
@@ -364,6 +371,8 @@ Execution execute_words(Interpreter& in) {
   if (did == Execution::done && !codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Execution::done) return did;
   if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
+  if (in.dialect->rules.compensation.begins_beside_start) did = go_beside_start(in);
+  if (did != Execution::done) return did;
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
@@ -378,6 +387,8 @@ Execution continue_block(Interpreter& in) {
   if (step == Step::skip_answered) did = skip_answered(in);
   if (step == Step::measured) did = measured(in);
   if (step == Step::reference_check) did = compare_reference(in);
+  if (step == Step::cavity) did = continue_cavity(in);
+  if (step == Step::loop) did = continue_sine_loop(in);
   if (did == Execution::later) return did;
   if (did == Execution::done) in.next_step = Step::none;
   return finish(in, did);

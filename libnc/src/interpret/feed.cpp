@@ -180,7 +180,8 @@ Execution check_inverse_time_block(BlockContext& in) {
 Execution check_special_feed(BlockContext& in, Function motion) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {  // M700 7.5, precaution (2)
-    return in.words.has(Role::feed) ? Execution::done : in.raise(Condition::no_feed, Role::feed);
+    const bool known = in.words.has(Role::feed) || (in.dialect->rules.feed.inverse_time_is_modal && modal.feed > 0);
+    return known ? Execution::done : in.raise(Condition::no_feed, Role::feed);
   }
   if (modal.feed_digit == 1 && motion != Function::linear) return in.raise(Condition::arc_feed_zero, Role::feed, 0);  // M700 7.3 (2) (c)
   if (modal.feed_digit != 0) return Execution::done;

@@ -47,6 +47,7 @@ inline void set_modal_feed(BlockContext& in, Move& move, double mm_min) {
 /// The cut in hand ends with an exact stop, by G09 or G61 (7.7, 7.8). G09 does not count in the tapping mode (7.11 (2)), which has replaced G61, nor
 /// while bit 2 of #3004 is set (13.5.10).
 inline bool asks_exact_stop(const BlockContext& in) {
+  if (in.dialect->rules.motion.second_code_rests && in.state.modal.number[static_cast<unsigned>(Mode::motion)] != 0) return true;
   const Function mode = in.state.modal.of(Mode::cutting);
   return mode == Function::exact_stop_mode || (in.words.exact_stop && mode != Function::tapping_mode && (in.state.control_3004 & 4) == 0);
 }

@@ -118,6 +118,8 @@ void Interpreter::refresh_derived() {
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
 void Interpreter::reset(bool keep_modal) {
   begin_program(state, initial_values(), keep_modal);
+  if (dialect->rules.coordinate.shift_ends_with_program && !keep_modal)
+    for (unsigned i = 0; i < axis_count; ++i) set_table_from_outside(Frames::shift_key(i), 0);
   state.frame[0].program = main_program;
   state.frame[0].offset = state.frame[0].begin = main_program.offset;
   state.frame[0].line = state.frame[0].begin_line = main_program.line;

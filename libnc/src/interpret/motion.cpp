@@ -359,12 +359,19 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
   const ArcRules& rules = in.dialect->rules.arc;
   ArcWords& words = *of_block;
   words.has_radius = w.has(Role::arc_radius);
+  words.may_be_short = rules.short_radius_is_half_chord;
   if (words.has_radius) {
     words.radius = length_of(in, Role::arc_radius);
+    if (rules.radius_is_modal) in.state.arc_radius = words.radius;
     if (w.has(Role::arc_turns) && rules.turns_exclude_radius) return in.raise(Condition::format_error, Role::arc_turns);
+  } else if (rules.radius_is_modal && in.state.arc_radius != 0 && !w.has(plane.center[0]) && !w.has(plane.center[1])) {
+    words.has_radius = true;
+    words.radius = in.state.arc_radius;
   } else {
     for (unsigned i = 0; i < 2; ++i)
       if (w.has(plane.center[i])) words.center[i] = length_of(in, plane.center[i]);
+    for (unsigned i = 0; i < 2 && rules.centre_by_quadrant; ++i)
+      if (words.center[i] < 0) return in.raise(Condition::arc_center, plane.center[i], w.get(plane.center[i]));
     if (in.state.modal.is(Function::centre_absolute)) {
       const Execution did = take_absolute_centre(in, plane, words.center);
       if (did != Execution::done) return did;
@@ -393,12 +400,29 @@ static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
 /// M700 12.4.1: compensation starts and is cancelled with a straight movement, also when it was commanded in a block before.
 bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
 
+/// Where the centre of an arc of the block lies, by programmed coordinates, whose quadrants count.
+static bool find_centre(const BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, bool ccw, double center[2]) {
+  const AxisVec position = in.position();
+  AxisVec end = position;
+  const uint32_t moved = program_mapped(in) ? moved_axes(in, commanded) : commanded;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if ((moved >> i & 1) != 0) end[i] = target[i];
+  const AxisVec from = program_mapped(in) ? to_program(in, position) : position;
+  const AxisVec to = program_mapped(in) ? as_programmed_end(in, end) : end;
+  const double start[2] = {from[static_cast<unsigned>(plane.h)], from[static_cast<unsigned>(plane.v)]};
+  const double finish[2] = {to[static_cast<unsigned>(plane.h)], to[static_cast<unsigned>(plane.v)]};
+  return center_of_quadrant(start, finish, ccw, in.settings.arc_tolerance, center);
+}
+
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   ArcWords words;
   const Execution did = read_arc_words(in, plane, commanded, &words);
-  return did == Execution::done ? move_arc_by(in, plane, target, commanded, words, ccw) : did;
+  if (did != Execution::done) return did;
+  if (in.dialect->rules.arc.centre_by_quadrant && !words.has_radius && !find_centre(in, plane, target, commanded, ccw, words.center))
+    return in.raise_mode(Condition::arc_center, Mode::motion);
+  return move_arc_by(in, plane, target, commanded, words, ccw);
 }
 
 /// M700 12.5: the ends of an arc are displaced, its centre is not; their distances from it have to agree all the same.
@@ -436,6 +460,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   bool straight = false;
   const Condition bad = make_circle(from, to, words, ccw, arc_tolerance(in, words), &circle, &straight);
   if (bad != Condition::none) return in.raise(bad, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
+  if (straight && !words.has_radius && in.dialect->rules.arc.centre_by_quadrant) return in.raise_mode(Condition::arc_center, Mode::motion);
   if (straight && words.has_radius && in.dialect->rules.arc.closed_by_radius_is_fault) return in.raise(Condition::arc_center, Role::arc_radius, words.radius);
   if (straight) {
     // There is no circle: the axes go along a line, also those outside of the plane.

@@ -78,7 +78,10 @@ struct ArcWords {
   double center[2] = {0, 0};   ///< centre as increments from the start, on the axes of the plane
   uint32_t turns = 0;          ///< number of turns (P)
   bool turns_count_last = false;   ///< `turns` includes the turn in which the end point lies
+  bool may_be_short = false;       ///< a radius below half the chord is half the chord
 };
+/// Series 8 G02: gives the increments of a centre, which are without a sign, their signs. False: no arc stays within a quadrant about it.
+bool center_of_quadrant(const double start[2], const double end[2], bool ccw, double tolerance, double center[2]);
 /// Makes the circle through start and end on the axes of the plane; Condition::none when it exists. *straight becomes true when the words make no circle: then
 /// the path is the straight line to the end, which has no length where the end is the start.
 Condition make_circle(const double start[2], const double end[2], const ArcWords& words, bool ccw, double tolerance, Circle* circle,

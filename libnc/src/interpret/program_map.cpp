@@ -160,8 +160,17 @@ void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2
 
 }  // namespace
 
+AxisVec as_programmed_end(const BlockContext& in, const AxisVec& work) { return matrices(in).backward.apply(work); }
+
 AxisVec to_program(const BlockContext& in, const AxisVec& work) {
   const ProgramMatrices& m = matrices(in);
+  if (in.state.map_begins) {  // Series 8 G55, G57: the programmed position is the one from before the map
+    AxisVec p = m.backward.apply(work);
+    const PlaneAxes axes = plane(in);
+    if (axes.h >= 0) p[static_cast<unsigned>(axes.h)] = in.records->maps.start[0];
+    if (axes.v >= 0) p[static_cast<unsigned>(axes.v)] = in.records->maps.start[1];
+    return p;
+  }
   if (in.state.frame[in.state.depth].figure != kFigureStarts) return m.backward.apply(work);
   // This pass has not moved yet, so its increments count from where the figure began.
   AxisVec p = m.to_turned.apply(work);
@@ -196,7 +205,7 @@ double programmed_on(const BlockContext& in, unsigned axis, double work) {
 
 uint32_t moved_axes(const BlockContext& in, uint32_t axes) {
   const PlaneAxes p = plane(in);
-  if ((in_figure(in) || in.state.rotated) && p.h >= 0 && p.v >= 0) {
+  if ((in_figure(in) || in.state.rotated || in.state.map_begins) && p.h >= 0 && p.v >= 0) {
     const uint32_t both = (1u << p.h) | (1u << p.v);
     if ((axes & both) != 0) axes |= both;
   }
@@ -206,6 +215,8 @@ uint32_t moved_axes(const BlockContext& in, uint32_t axes) {
 uint32_t begin_mapped_move(BlockContext& in, uint32_t commanded) {
   commanded = moved_axes(in, commanded);
   figure_has_moved(in);
+  const PlaneAxes axes = plane(in);
+  if (in.state.map_begins && axes.h >= 0 && (commanded >> axes.h & 1) != 0) in.state.map_begins = false;
   if (in.state.work_turn_pending) work_rotation_reached(in, commanded);
   return commanded;
 }

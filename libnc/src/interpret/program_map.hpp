@@ -15,6 +15,8 @@ inline bool program_mapped(const BlockContext& in) { return in.state.mapped; }
 
 AxisVec to_program(const BlockContext& in, const AxisVec& work);
 AxisVec from_program(const BlockContext& in, const AxisVec& programmed);
+/// to_program() of a place that is not where the program stands.
+AxisVec as_programmed_end(const BlockContext& in, const AxisVec& work);
 /// A point in workpiece coordinates, in the coordinates after coordinate rotation and before mirror image: in these the centre of G68 is given.
 AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work);
 /// The programmed coordinate of an axis that no rotation concerns, scaled and mirrored; and the way back.

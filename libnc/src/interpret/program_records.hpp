@@ -63,6 +63,7 @@ struct ProgramMaps {
   AxisVec scaling_factor;
   double rotation_center[2] = {0, 0};   ///< 13.20: workpiece coordinates
   double rotation_deg = 0;
+  double start[2] = {0, 0};             ///< programmed position in the plane when the newest map about the zero point began
   bool operator==(const ProgramMaps&) const = default;
 };
 

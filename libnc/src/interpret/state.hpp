@@ -90,7 +90,7 @@ struct Loop {
 };
 
 /// What a block still has to do after its first items. At a mark that ends a block it is always Step::none.
-enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, after_motion };
+enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, cavity, loop, after_motion };
 
 /// What cylindrical and polar coordinate interpolation restore when they end (M700 6.9, 6.10).
 struct MillReturn {
@@ -130,6 +130,7 @@ struct MeetingFirst {
 struct SpindleControl {
   double surface = 0;          ///< S of G96, m/min
   uint8_t axis = 0;            ///< number of the axis of G96, from 1; 0 = G97
+  bool held = false;           ///< the speed stays as it is, whatever the axis and S do (Series 8 M59)
 };
 
 /// The mode of fine segments in force. It decides which codes may be commanded (M700 13.17; functions/fine_mode.cpp).
@@ -208,6 +209,8 @@ struct ModalLife {
   double polar_angle = 0;       ///< G16: angle of the block before, deg
   double thread_lead = 0;       ///< G33: mm along the long axis
   double last_feed = 0;         ///< G93: feed of the last cutting block, mm/min; a block that only displaces the tool uses it
+  double arc_radius = 0;        ///< last R of an arc, mm as programmed; 0 = none yet (ArcRules::radius_is_modal)
+  bool map_begins = false;      ///< a map about the zero point has come into force and the plane has not moved: ProgramMaps::start is programmed
   AxisMap map;
   MillReturn mill;
   SpindleControl spindle;

@@ -59,18 +59,18 @@ class Hash {
     add(feed, plane, feed_mode, plane_axis, letter, moved);
   }
   void add_one(const SpindleControl& spindle) {
-    const auto& [surface, axis] = spindle;
-    add(surface, axis);
+    const auto& [surface, axis, held] = spindle;
+    add(surface, axis, held);
   }
   void add_one(const Compensation& compensation) {
-    const auto& [side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, radius, vector] = compensation;
-    add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, radius, vector);
+    const auto& [side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector] = compensation;
+    add(side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector);
   }
   void add_one(const CycleState& cycle) {
     const auto& [kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
-                 initial_level, tap, synchronous, pitch, return_speed] = cycle;
+                 initial_level, tap, synchronous, has_first, pitch, return_speed, first] = cycle;
     add(kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
-        initial_level, tap, synchronous, pitch, return_speed);
+        initial_level, tap, synchronous, has_first, pitch, return_speed, first);
   }
   void add_one(const NurbsState& nurbs) {
     const auto& [first, knots, points, order, axes] = nurbs;
@@ -116,8 +116,8 @@ class Hash {
     add(program, begin, begin_line);
   }
   void add_one(const ProgramMaps& maps) {
-    const auto& [mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg] = maps;
-    add(mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg);
+    const auto& [mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg, start] = maps;
+    add(mirror_center, scaling_center, scaling_factor, rotation_center, rotation_deg, start);
   }
   void add_one(const Selection& selection) {
     const auto& [parameter, device, tool_group] = selection;
@@ -153,9 +153,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
-                 rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, map, mill, spindle] = static_cast<const ModalLife&>(values);
+                 rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
     hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated,
-             spline, polar_angle, thread_lead, last_feed, map, mill, spindle);
+             spline, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle);
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
     if (stroke_box != 0) {

@@ -111,6 +111,10 @@ inline constexpr ModeRow kModeRows[] = {
     {Mode::arc_centre, Function::centre_absolute},
     {Mode::cycle, Function::cycle_rigid_tap},
     {Mode::cycle, Function::cycle_rigid_reverse_tap},
+    {Mode::cycle, Function::cycle_bore_restart},
+    {Mode::cycle, Function::cycle_case_bore},
+    {Mode::cycle, Function::cycle_bore_oriented},
+    {Mode::cycle, Function::cycle_face_upwards},
     {Mode::high_speed, Function::high_speed_off},
     {Mode::high_speed, Function::high_speed_on},
 };

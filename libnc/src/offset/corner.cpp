@@ -177,6 +177,16 @@ ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offse
   return joint;
 }
 
+bool joint_of_outer_corner(const Leg& before, const Leg& behind, double offset, double arc_cos, ContourJoint* joint) {
+  const Turn turn = classify(before.u, behind.u, offset);
+  if (offset == 0 || (turn != Turn::obtuse && turn != Turn::acute)) return false;
+  Vec2 w;
+  const bool sharp = dot(before.u, behind.u) < arc_cos;
+  const bool meets = !sharp && offset_exists(before, offset) && offset_exists(behind, offset) && intersection(before, offset, behind, offset, &w);
+  *joint = meets ? ContourJoint::single(w) : joint_corner_arc(before, behind, offset);
+  return true;
+}
+
 Vec2 commanded_vector(const Compensation& comp) {
   const Vec2 direction = unit({comp.vector[0], comp.vector[1]});
   if (comp.hold_vector) return comp.radius * direction;  // M700 12.4.2, G38 I J: along the words

@@ -91,6 +91,9 @@ ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double of
 /// The joint of G39: an arc about the programmed point from one perpendicular to the other.
 ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offset);
 
+/// The joint at an outer corner: an arc where the cosine of the turn is below `arc_cos`, else the intersection (Series 8 G41). False: it is no such corner.
+bool joint_of_outer_corner(const Leg& before, const Leg& behind, double offset, double arc_cos, ContourJoint* joint);
+
 /// End vector that the words of the block itself give (G41/G42/G38 with I J K).
 Vec2 commanded_vector(const Compensation& comp);
 

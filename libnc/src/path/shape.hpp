@@ -57,7 +57,8 @@ struct SplineSpan {
   uint8_t axis[3];
 };
 
-enum class ShapeKind : uint8_t { plain, space_arc, exponential, rational, spline };
+/// `sine`: a SpaceArc without e2, which goes to and fro on a line. Its length is that of the arc, so that at an even speed along it the axes move as a sine.
+enum class ShapeKind : uint8_t { plain, space_arc, exponential, rational, spline, sine };
 
 /// The shape of a move as the program says it. `plain`: it is the line or circle of the move itself, mapped by `map`.
 struct MoveShape {

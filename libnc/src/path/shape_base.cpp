@@ -164,6 +164,7 @@ double exponential_speed(const CurveShape& shape, double u) {
 
 void by_parameter(const CurveShape& shape, double u, unsigned axis_count, ByParameter* q) {
   switch (shape.what.kind) {
+    case ShapeKind::sine:
     case ShapeKind::space_arc: space_arc_at(shape, u, axis_count, q); break;
     case ShapeKind::exponential: exponential_at(shape, u, axis_count, q); break;
     case ShapeKind::spline: spline_at(shape, u, axis_count, q); break;
@@ -185,6 +186,10 @@ struct ByLength {
 
 ByLength by_length(const CurveShape& shape, const ByParameter& q, unsigned axis_count) {
   ByLength out;
+  if (shape.what.kind == ShapeKind::sine) {
+    out.u1 = 1 / shape.base.length;
+    return out;
+  }
   const double sigma = std::sqrt(dot(shape, q.d1, q.d1, axis_count));
   if (!(sigma > 0)) return out;
   const double s1 = dot(shape, q.d1, q.d2, axis_count) / sigma;
@@ -430,6 +435,10 @@ void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, ui
     base.length = sigma_at(*shape, 0, axis_count);
     return;
   }
+  if (shape->what.kind == ShapeKind::sine) {
+    base.length = shape->what.arc.radius * std::fabs(shape->what.arc.sweep);
+    return;
+  }
   make_table(axis_count, shape);
 }
 
@@ -437,7 +446,7 @@ double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
   const double length = shape.base.length;
   if (!(s > 0)) return 0;
   if (s >= length) return last_parameter(shape);
-  if (shape.what.kind == ShapeKind::space_arc) return s / length;
+  if (shape.what.kind == ShapeKind::space_arc || shape.what.kind == ShapeKind::sine) return s / length;
   constexpr unsigned kSteps = ParameterTable::kSteps;
   const double place = s / length * kSteps;
   const unsigned k = std::min(kSteps - 1, static_cast<unsigned>(place));

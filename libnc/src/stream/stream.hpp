@@ -76,6 +76,7 @@ struct Compensation {
   bool walls = false;      ///< with `check`: the path keeps off the blocks around it as well (offset/walls.hpp)
   bool avoid = false;      ///< with `check`: go round instead of the alarm (M700 #8102 ON)
   uint8_t axis[2] = {0, 1};  ///< plane: first (h) and second (v) axis, right-handed
+  float arc_cos = 0;       ///< not 0: an outer corner with a turn whose cosine is below this is gone round on an arc, any other to the intersection
   double radius = 0;       ///< mm, signed as in the table
   double vector[2] = {0, 0};
 };

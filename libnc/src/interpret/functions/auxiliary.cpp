@@ -42,6 +42,7 @@ void note_spindle(BlockContext& in, MiscFunction function) {
     in.state.spindle_reverse = reverse;
   }
   if (function == MiscFunction::spindle_stop) in.state.spindle_on = false;
+  if (function == MiscFunction::surface_hold || function == MiscFunction::surface_resume) hold_surface(in, function == MiscFunction::surface_hold);
 }
 
 }  // namespace
@@ -70,6 +71,7 @@ Execution spindle_word(BlockContext& in) {
   }
   const double speed = in.dialect->rules.spindle.speed_of_word(s);
   in.state.modal.spindle = speed;
+  if (in.state.spindle.axis != 0 && in.state.spindle.held) return Execution::done;  // it counts from M58 on
   if (!tap) emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
   return Execution::done;
 }
@@ -164,9 +166,10 @@ Execution auxiliary_before(BlockContext& in) {
   if (did != Execution::done) return did;
   bool waiting = false;
   if (w.has(Role::spindle_speed) && !is_clamp_command(in)) {
+    const unsigned before = in.queue.size();
     did = spindle_word(in);
     if (did != Execution::done) return did;
-    waiting = true;
+    waiting = in.queue.size() != before;
   }
   if (w.has(Role::tool)) {
     if (!whole_number(w.get(Role::tool), &in.state.modal.tool) || in.state.modal.tool > 99999999) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));

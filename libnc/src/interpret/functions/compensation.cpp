@@ -2,6 +2,7 @@
 // G40-G42 and G43/G44/G49: what the words ask for. The geometry of radius compensation is offset/.
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -140,11 +141,43 @@ Execution set_compensation(BlockContext& in, Function function) {
   comp.check = in.settings.interference_check;
   comp.walls = in.settings.contour_check;
   comp.avoid = in.settings.interference_avoid;
+  if (rules.arc_below_deg > 0) comp.arc_cos = static_cast<float>(std::cos((180 - rules.arc_below_deg) * std::numbers::pi / 180));
   comp.radius = radius_amount(in, state.modal.d);
   comp.side = state.modal.d == 0 ? int8_t{0} : side;
   comp.has_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
   // M700 12.4.3: the vector is gone to at once, even when the block names no axis; cutting takes a feed (3.2, P62).
   if (comp.has_vector && comp.side != 0 && motion != Function::rapid) return check_feed(in, motion);
+  return Execution::done;
+}
+
+Execution go_beside_start(BlockContext& in) {
+  const BlockWords& w = in.words;
+  const Compensation& comp = in.state.comp;
+  const bool pending = comp.side != 0 && in.state.moved_side == 0;
+  const bool of_plane = (w.axes >> comp.axis[0] & 1) != 0 || (w.axes >> comp.axis[1] & 1) != 0;
+  if (w.comp_entry && !(pending && of_plane)) return in.raise_function(Condition::not_accepted, Function::comp_entry);
+  if (pending && of_plane && !w.comp_entry && w.one_shot == nullptr && w.cycle == nullptr) {
+    move_nowhere(in);
+    in.state.moved_side = comp.side;  // the first move may be an arc: it begins beside its start
+  }
+  return Execution::done;
+}
+
+bool gives_length_in_cycle(const BlockContext& in) {
+  const BlockWords& w = in.words;
+  if (!in.dialect->rules.cycle.takes_length_number || w.motion != nullptr || w.one_shot != nullptr) return false;
+  return w.cycle != nullptr ? w.cycle->function != Function::cycle_off : in.state.cycle.kind != CycleKind::none;
+}
+
+Execution take_length_in_cycle(BlockContext& in) {
+  const Execution did = offset_number(in, Role::offset_number, &in.state.modal.h);
+  if (did != Execution::done) return did;
+  const int axis = in.axis_called(Role::basic_z);
+  if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
+  in.state.modal.h_given = 1;
+  in.state.length_axis = static_cast<uint8_t>(axis);
+  in.state.modal.set(Function::length_plus);
+  in.state.length_value = amount(in, in.state.modal.h, false);
   return Execution::done;
 }
 

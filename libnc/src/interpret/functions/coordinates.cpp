@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work coordinate systems G54-G59, G54.1; local system G52; coordinate system setting G92, preset G92.1.
 #include "interpret/functions/functions.hpp"
+#include "interpret/program_map.hpp"
 
 namespace nc {
 
@@ -39,6 +40,21 @@ Execution do_local_system(BlockContext& in) {
   return Execution::done;
 }
 
+/// Series 8 G92 while the plane is rotated or scaled about the zero point: the programmed position becomes that of the words, and the zero point goes
+/// where the map then leads from it to the machine.
+static void set_zero_under_map(BlockContext& in) {
+  const BlockWords& w = in.words;
+  const AxisVec work = in.position();
+  AxisVec programmed = to_program(in, work);
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((w.axes >> i) & 1) != 0) programmed[i] = w.axis[i];
+  const AxisVec behind = from_program(in, programmed);
+  const uint32_t axes = moved_axes(in, w.axes);
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0) in.set_table(Frames::shift_key(i), in.frames.get(Frames::shift_key(i)) + work[i] - behind[i]);
+  in.state.map_begins = false;
+}
+
 Execution do_coordinate_set(BlockContext& in) {
   const BlockWords& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
@@ -46,7 +62,15 @@ Execution do_coordinate_set(BlockContext& in) {
     const Execution did = set_spindle_clamp(in);
     if (did != Execution::done) return did;
   }
+  if (w.has(Role::surface_radius) && in.dialect->rules.spindle.radius_by_coordinate_setting) {
+    const Execution did = set_surface_radius(in);
+    if (did != Execution::done) return did;
+  }
   const AxisVec zero_before = in.zero();
+  if (in.dialect->rules.rotation.about_zero && program_mapped(in)) {
+    set_zero_under_map(in);
+    return Execution::done;
+  }
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     // M700 14.5: the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a tool length

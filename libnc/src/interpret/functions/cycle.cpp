@@ -35,6 +35,10 @@ constexpr CycleOfFunction kCycles[] = {
     {Function::cycle_back_bore, CycleKind::back_bore, CycleKind::back_bore_to_level},
     {Function::cycle_bore_stop_dwell, CycleKind::bore_by_hand, CycleKind::bore_left_by_hand},
     {Function::cycle_bore_dwell, CycleKind::bore_dwell, CycleKind::bore_dwell},
+    {Function::cycle_bore_restart, CycleKind::bore_stop_as_before, CycleKind::bore_stop_as_before},
+    {Function::cycle_case_bore, CycleKind::case_bore, CycleKind::case_bore},
+    {Function::cycle_bore_oriented, CycleKind::bore_oriented, CycleKind::bore_oriented},
+    {Function::cycle_face_upwards, CycleKind::face_upwards, CycleKind::face_upwards},
 };
 
 /// The pair of axes, I J or K (0, 1, 2), that is normal to the plane in force.
@@ -79,10 +83,10 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
   if (state.compensated()) return in.raise_code(Condition::cycle_in_compensation, row);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
   const bool begins = state.cycle.kind == CycleKind::none;
-  if (begins) {
+  if (begins || rules.ends_at_r) {  // without a level to return to, that of each code is the one from which it begins
     const int axis = drilling_axis(in);
     if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
-    state.cycle = CycleState{};
+    if (begins && !rules.levels_outlive_mode) state.cycle = CycleState{};
     begin_mode(in, static_cast<unsigned>(axis));
   } else if (!rules.axis_follows_plane) {
     const Execution did = check_axis_stays(in);
@@ -123,7 +127,7 @@ void take_shift_words(BlockContext& in) {
   if (c.kind != CycleKind::back_bore_to_level || !in.words.has(Role::vector_z)) return;
   c.third = length_of(in, Role::vector_z);
   c.has_third = true;
-  c.third_incremental = in.state.modal.is(Function::incremental);
+  c.third_incremental = is_incremental(in);
 }
 
 /// P: milliseconds, or the number of an offset.
@@ -152,10 +156,14 @@ Execution take_hole_data(BlockContext& in) {
   if (w.has(Role::cycle_level)) {
     c.has_r = true;
     c.r = axis_value(in, c.drill_axis, w.get(Role::cycle_level), w.flag(Role::cycle_level), false);  // M700 2.1: a position of that axis
-    c.r_incremental = in.state.modal.is(Function::incremental);
+    c.r_incremental = is_incremental(in);
   }
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
-  if (w.has(Role::cycle_depth_step)) {
+  if (w.has(Role::cycle_first_depth) && strokes_of(c.kind).pecks) {
+    c.has_first = true;
+    c.first = axis_value(in, c.drill_axis, w.get(Role::cycle_first_depth), w.flag(Role::cycle_first_depth), false);
+  }
+  if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step)) {
     const double q = length_of(in, Role::cycle_depth_step);
     (is_tap(c.kind) ? c.tap_q : c.q) = is_tap(c.kind) ? std::fabs(q) : q;
   }
@@ -180,8 +188,12 @@ Execution check_spindle(BlockContext& in) {
   const CycleRules& rules = in.dialect->rules.cycle;
   bool by_codes = false;
   const CycleTable& table = strokes_of(kind);
-  for (unsigned i = 0; i < table.count; ++i) by_codes = by_codes || table.stroke[i].kind == StrokeKind::spindle;
-  const bool wanted = rules.needs_turning_spindle || (rules.keeps_spindle_direction && by_codes);
+  bool restarts = false;  // which direction that is must be known
+  for (unsigned i = 0; i < table.count; ++i) {
+    by_codes = by_codes || table.stroke[i].kind == StrokeKind::spindle;
+    restarts = restarts || table.stroke[i].spindle == CycleSpindle::as_before;
+  }
+  const bool wanted = rules.needs_turning_spindle || restarts || (rules.keeps_spindle_direction && by_codes);
   const bool wrong = rules.keeps_spindle_direction && is_tap(kind) && in.state.spindle_reverse != taps_left_hand(kind);
   return wanted && (!in.state.spindle_on || wrong) ? in.raise_mode(Condition::spindle_not_turning, Mode::cycle) : Execution::done;
 }
@@ -232,6 +244,8 @@ Execution check_hole(BlockContext& in) {
   if (did != Execution::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
   if (strokes_of(c.kind).pecks && !(std::fabs(c.q) >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
+  if (c.has_first && strokes_of(c.kind).pecks && c.has_r && !c.r_incremental && c.has_z && !c.z_incremental && !((c.first - c.r) * (c.z - c.r) > 0))
+    return in.raise(Condition::value_range, Role::cycle_first_depth, c.first);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
 }
@@ -239,7 +253,15 @@ Execution check_hole(BlockContext& in) {
 void cancel_cycle(BlockContext& in) {
   if (in.state.cycle.kind == CycleKind::none) return;
   const bool tapped = is_tap(in.state.cycle.kind);
-  in.state.cycle = CycleState{};
+  CycleState left;
+  if (in.dialect->rules.cycle.levels_outlive_mode) {
+    const CycleState& c = in.state.cycle;
+    left.has_z = c.has_z && !c.z_incremental;
+    left.has_r = c.has_r && !c.r_incremental;
+    left.z = left.has_z ? c.z : 0;
+    left.r = left.has_r ? c.r : 0;
+  }
+  in.state.cycle = left;
   in.state.modal.set(Function::cycle_off);
   if (!tapped) return;
   in.state.tap_code = false;
@@ -261,7 +283,8 @@ Execution do_cycle(BlockContext& in) {
   uint32_t count = 1;
   if (did == Execution::done) did = hole_count(in, &count);
   if (did != Execution::done) return did;
-  const CycleState& c = in.state.cycle;
+  CycleState& c = in.state.cycle;
+  if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
   if (count == 0) return Execution::done;  // data only
   in.holes = HolesOfBlock{};
   in.holes.axes = w.axes;

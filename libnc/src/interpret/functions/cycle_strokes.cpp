@@ -55,6 +55,8 @@ void resolve_levels(BlockContext& in) {
   const CycleRules& rules = in.dialect->rules.cycle;
   Hole& h = in.holes.hole;
   h.kind = tap_in_cuts(in, c.kind);
+  h.has_first = c.has_first;
+  h.first = mapped_on(in, c.drill_axis, c.first);
   h.synchronous = c.synchronous;
   // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
   // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
@@ -69,7 +71,7 @@ void resolve_levels(BlockContext& in) {
   const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
   if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
   for (double* level : {&h.initial, &h.r, &h.bottom, &h.third}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
-  h.return_to = in.state.modal.is(Function::return_r) ? h.r : h.initial;
+  h.return_to = rules.ends_at_r || in.state.modal.is(Function::return_r) ? h.r : h.initial;
 }
 
 /// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87).

@@ -15,6 +15,8 @@ Execution do_data_input(BlockContext& in);         // data_input.cpp
 Execution do_mirror(BlockContext& in);             // mirror.cpp
 Execution do_scaling(BlockContext& in);            // scaling.cpp: G51
 Execution do_rotation(BlockContext& in);           // scaling.cpp: G68
+/// A map about the zero point comes into force: what has been programmed before stays the programmed position. Then words that remain are a move.
+Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockContext& in, ProgramMaps* maps));
 void end_scaling(BlockContext& in);          ///< G50
 void end_rotation(BlockContext& in);         ///< G69
 /// The zero point has moved, or another one is in force: the centre of rotation keeps its machine coordinates (M700 13.20 (5), (6)).
@@ -54,6 +56,11 @@ Execution do_unidirectional(BlockContext& in);     // unidirectional.cpp
 Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
 Execution do_hole_pattern(BlockContext& in);       // hole_pattern.cpp: G34 G35 G36 G37.1
+
+Execution do_cavity(BlockContext& in);             // cavity.cpp: G34 G35 G36 of the Series 8
+Execution continue_cavity(BlockContext& in);       // cavity.cpp
+Execution do_sine_loop(BlockContext& in);          // sine_loop.cpp: G06 of the Series 8
+Execution continue_sine_loop(BlockContext& in);    // sine_loop.cpp
 
 Execution do_comp_vector(BlockContext& in);        // offset_vector.cpp: G38
 Execution do_corner_arc(BlockContext& in);         // offset_vector.cpp: G39 beside a movement
@@ -117,6 +124,10 @@ Execution set_length(BlockContext& in, Function function);                // com
 /// number 0.
 Execution offset_number(BlockContext& in, Role word, uint32_t* number);   // compensation.cpp
 double radius_amount(const BlockContext& in, uint32_t number);      // compensation.cpp
+/// Series 8 G41, G81: compensation.cpp.
+Execution go_beside_start(BlockContext& in);             ///< the line before the first move with compensation
+bool gives_length_in_cycle(const BlockContext& in);      ///< the D of the block is of the length of a tool that makes holes
+Execution take_length_in_cycle(BlockContext& in);
 Execution change_length(BlockContext& in);                                // compensation.cpp: an H without G43, G44, G49
 
 /// Fixed cycles (cycle.cpp): do_cycle() takes the cycle code and the words of the block, continue_cycle() makes the holes.
@@ -139,6 +150,8 @@ void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code);
 /// Constant surface speed and clamp speeds (spindle.cpp).
 void announce_surface(BlockContext& in);                ///< tells the scan which of G96 and G97 is in force
 Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the block
+void hold_surface(BlockContext& in, bool held);              ///< M59, M58 of the Series 8
+Execution set_surface_radius(BlockContext& in);              ///< G92 R of the Series 8
 Execution surface_word(BlockContext& in);                    ///< S while G96 is in force
 bool is_clamp_command(const BlockContext& in);         ///< the S of this block belongs to a G92
 Execution set_spindle_clamp(BlockContext& in);               ///< G92 S Q

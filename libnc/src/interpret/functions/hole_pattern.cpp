@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Special fixed cycles: holes on a circle, a line, an arc, a grid (M700 13.2). The cycle in force makes each of them; without one the axes of the
+// Special fixed cycles: holes on a circle, a line, an arc, a grid (M700 13.2), a frame (Series 8 G49, G50). The cycle in force makes each of them; without one the axes of the
 // plane go to each of them.
 #include <cmath>
 
@@ -16,6 +16,8 @@ PatternKind kind_of(Function function) {
     case Function::holes_on_circle: return PatternKind::circle;
     case Function::holes_on_line: return PatternKind::line;
     case Function::holes_on_arc: return PatternKind::arc;
+    case Function::holes_on_frame_ccw: return PatternKind::frame_ccw;
+    case Function::holes_on_frame_cw: return PatternKind::frame_cw;
     default: return PatternKind::grid;
   }
 }
@@ -23,7 +25,7 @@ PatternKind kind_of(Function function) {
 /// Note 1: axes of the plane, G N I J K H O P F M S and the second auxiliary function; any other address is an alarm.
 Execution check_addresses(BlockContext& in, const PlaneAxes& plane) {
   const BlockWords& w = in.words;
-  uint32_t allowed = in.code_addresses | in.addresses({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::feed,
+  uint32_t allowed = in.code_addresses | in.addresses({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::hole_count, Role::feed,
                                                        Role::spindle_speed, Role::second_function, Role::second_function_2, Role::second_function_3,
                                                        Role::sequence_number, Role::program_number});
   allowed &= ~in.axis_letters;
@@ -80,8 +82,29 @@ Execution read_grid(BlockContext& in, HolePattern* p) {
   return Execution::done;
 }
 
+/// Series 8 G49, G50 (docs/series8.md): the sides, and how many places lie on each; two where it is not said.
+Execution read_frame(BlockContext& in, HolePattern* p) {
+  const BlockWords& w = in.words;
+  p->columns = p->rows = 2;
+  for (const Role word : {Role::hole_interval, Role::hole_interval_2}) {
+    if (!w.has(word)) return in.raise(Condition::words_missing, word);
+    const double side = length_of(in, word);
+    if (!(side > 0)) return in.raise(Condition::value_range, word, w.get(word));
+    (word == Role::hole_interval ? p->interval : p->interval_2) = side;
+  }
+  for (const Role word : {Role::hole_columns, Role::hole_count}) {
+    uint32_t* const places = word == Role::hole_columns ? &p->columns : &p->rows;
+    const Execution did = w.has(word) ? take_count(in, word, false, places) : Execution::done;
+    if (did != Execution::done) return did;
+    if (*places < 2) return in.raise(Condition::value_range, word, w.get(word));
+  }
+  p->closed = in.state.cycle.kind == CycleKind::none;  // without holes it is a path
+  return Execution::done;
+}
+
 Execution read_pattern(BlockContext& in, HolePattern* p) {
   const BlockWords& w = in.words;
+  if (p->is_frame()) return read_frame(in, p);
   if (p->kind != PatternKind::grid && !w.has(Role::hole_interval)) return in.raise(Condition::words_missing, Role::hole_interval);
   p->interval = w.has(Role::hole_interval) ? length_of(in, Role::hole_interval) : 0;
   // The radius "is given with a positive number".

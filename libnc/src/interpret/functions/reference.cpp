@@ -195,7 +195,9 @@ Execution do_machine_move(BlockContext& in) {
   const BlockWords& w = in.words;
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
-  const bool incremental = w.incremental != 0 || in.state.modal.is(Function::incremental);
+  const bool absolute_here = in.dialect->rules.coordinate.machine_move_is_absolute;
+  const bool incremental = !absolute_here && (w.incremental != 0 || in.state.modal.is(Function::incremental));
+  in.state.map_begins = false;
   if (incremental && in.dialect->rules.coordinate.incremental_machine_move_rests) return Execution::done;
   if (incremental && !in.dialect->rules.coordinate.machine_move_may_be_incremental) return in.raise_code(Condition::code_in_incremental, *w.one_shot);
   AxisVec machine = in.state.machine;
@@ -203,7 +205,7 @@ Execution do_machine_move(BlockContext& in) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const uint32_t bit = 1u << i;
     if ((w.axes & bit) == 0) continue;
-    if ((w.incremental & bit) != 0) {  // M700 14.4 (4): in G91 it is a plain incremental rapid, on which mirror image does not act (13.6 (7))
+    if ((w.incremental & bit) != 0 && !absolute_here) {  // M700 14.4 (4): in G91 it is a plain incremental rapid, on which mirror image does not act (13.6 (7))
       machine[i] += w.axis[i];
       continue;
     }

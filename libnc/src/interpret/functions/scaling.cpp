@@ -38,9 +38,58 @@ bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
 
 }  // namespace
 
+Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockContext& in, ProgramMaps* maps)) {
+  BlockWords& w = in.words;
+  const FunctionRow& row = *w.one_shot;
+  const PlaneAxes plane = plane_axes(in);
+  if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
+  if (in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);
+  if (!w.has(word)) return in.raise(Condition::words_missing, word);
+  const AxisVec programmed = program_mapped(in) ? to_program(in, in.position()) : in.position();
+  ProgramMaps maps = in.records->maps;
+  maps.start[0] = programmed[static_cast<unsigned>(plane.h)];
+  maps.start[1] = programmed[static_cast<unsigned>(plane.v)];
+  if (!set(in, &maps)) return in.raise(Condition::value_range, word, w.get(word));
+  in.change(&ProgramRecords::maps, maps);
+  in.state.map_begins = true;
+  in.program_changed();
+  w.present &= ~in.addresses({word});
+  if (w.axes == 0) return Execution::done;
+  const Function motion = in.state.modal.of(Mode::motion);
+  return is_line(motion) ? move_by_words(in) : in.raise_code(Condition::not_accepted, row);
+}
+
+namespace {
+
+bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
+  const BlockWords& w = in.words;
+  double factor = 1;
+  if (!in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), &factor)) return false;
+  const PlaneAxes plane = plane_axes(in);
+  in.state.scaled = static_cast<uint8_t>(1u << plane.h | 1u << plane.v);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    maps->scaling_factor[i] = factor;
+    maps->scaling_center[i] = 0;
+  }
+  in.state.modal.set(Function::scaling_on);
+  return true;
+}
+
+bool set_turn_of_plane(BlockContext& in, ProgramMaps* maps) {
+  const BlockWords& w = in.words;
+  maps->rotation_deg = std::fmod(length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true), 360);
+  maps->rotation_center[0] = maps->rotation_center[1] = 0;
+  in.state.rotated = true;
+  in.state.modal.set(Function::rotation_on);
+  return true;
+}
+
+}  // namespace
+
 Execution do_scaling(BlockContext& in) {
   const BlockWords& w = in.words;
   const ScalingRules& rules = in.dialect->rules.scaling;
+  if (rules.about_zero) return begin_map_about_zero(in, Role::scaling_factor, set_factor_of_plane);
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
   AxisVec factors;
   Role word = Role::scaling_factor;
@@ -67,12 +116,14 @@ Execution do_scaling(BlockContext& in) {
 
 void end_scaling(BlockContext& in) {
   in.state.scaled = 0;
+  in.state.map_begins = false;
   in.program_changed();
   in.state.modal.set(Function::scaling_off);
 }
 
 Execution do_rotation(BlockContext& in) {
   const BlockWords& w = in.words;
+  if (in.dialect->rules.rotation.about_zero) return begin_map_about_zero(in, Role::rotation_angle, set_turn_of_plane);
   if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) {
     for (const FunctionRow* row : w.g)  // 12.3, interference with other functions (1)
       if (row->function == Function::length_along_tool) return in.raise_code(Condition::space_conversion_block, *row);
@@ -106,12 +157,13 @@ Execution do_rotation(BlockContext& in) {
 
 void end_rotation(BlockContext& in) {
   in.state.rotated = false;
+  in.state.map_begins = false;
   in.program_changed();
   in.state.modal.set(Function::rotation_off);
 }
 
 void keep_rotation_center(BlockContext& in, const AxisVec& zero_before) {
-  if (!in.state.rotated) return;
+  if (!in.state.rotated || in.dialect->rules.rotation.about_zero) return;
   ProgramMaps maps = in.records->maps;
   const PlaneAxes plane = plane_axes(in);
   const int axes[2] = {plane.h, plane.v};

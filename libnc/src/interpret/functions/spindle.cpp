@@ -27,6 +27,7 @@ Execution speed_word(BlockContext& in, Role word, uint32_t* speed) {
 
 void announce_surface(BlockContext& in) {
   const SpindleControl& spindle = in.state.spindle;
+  if (spindle.held) return;  // it follows neither the axis nor S
   emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis != 0 ? 1u << (spindle.axis - 1) : 0);
 }
 
@@ -58,6 +59,27 @@ Execution set_surface_speed(BlockContext& in) {
     state.spindle.axis = static_cast<uint8_t>(axis);
     if (!in.words.has(Role::spindle_speed)) announce_surface(in);  // otherwise surface_word() does it
   }
+  return Execution::done;
+}
+
+/// Series 8 M58, M59.
+void hold_surface(BlockContext& in, bool held) {
+  SpindleControl& spindle = in.state.spindle;
+  if (spindle.held == held) return;
+  spindle.held = held;
+  if (spindle.axis == 0) return;
+  if (held) {
+    emit_control(in, NC_CONTROL_SURFACE_SPEED, 0, 0, 0);  // a spindle that turns keeps its speed
+  } else {
+    announce_surface(in);
+  }
+}
+
+/// Series 8 G92 R: the radius at the present position of the axis.
+Execution set_surface_radius(BlockContext& in) {
+  const double radius = length_of(in, Role::surface_radius);
+  if (!(radius >= 0)) return in.raise(Condition::value_range, Role::surface_radius, in.words.get(Role::surface_radius));
+  emit_control(in, NC_CONTROL_SURFACE_RADIUS, radius, 0, 1u << (in.settings.surface_axis == 0 ? 0 : in.settings.surface_axis - 1));
   return Execution::done;
 }
 

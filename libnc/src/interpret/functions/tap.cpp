@@ -10,8 +10,12 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 
+/// Series 8 G84: each tap goes with the spindle, and its lead has a word of its own.
+bool lead_has_word(const BlockContext& in) { return in.dialect->addresses.letter(Role::tap_lead) != 0; }
+
 /// HX 12.3.5: synchronous taps have codes of their own. Their F is a feed like any other, and with the speed in force it makes the lead.
 bool rigid_by_code(const BlockContext& in) {
+  if (lead_has_word(in)) return true;
   const Function function = in.words.cycle != nullptr ? in.words.cycle->function : in.state.modal.of(Mode::cycle);
   return function == Function::cycle_rigid_tap || function == Function::cycle_rigid_reverse_tap;
 }
@@ -37,6 +41,14 @@ Execution take_pitch(BlockContext& in) {
   const double value = w.get(word), unit = inch ? kMillimetresPerInch : 1.0;
   const double pitch = !ridges ? value * unit : value > 0 ? kMillimetresPerInch / value : 0;
   if (!(pitch > 0 && pitch < (inch ? 100 * kMillimetresPerInch : 1000))) return in.raise(Condition::tap_pitch, word, value);
+  in.state.cycle.pitch = pitch;
+  return Execution::done;
+}
+
+Execution take_lead_word(BlockContext& in) {
+  if (!in.words.has(Role::tap_lead)) return Execution::done;
+  const double pitch = length_of(in, Role::tap_lead);
+  if (!(pitch > 0 && pitch < 1000)) return in.raise(Condition::tap_pitch, Role::tap_lead, in.words.get(Role::tap_lead));
   in.state.cycle.pitch = pitch;
   return Execution::done;
 }
@@ -82,6 +94,7 @@ Execution take_tap_words(BlockContext& in) {
     c.return_speed = speed;
   }
   c.synchronous = synchronous(in);
+  if (lead_has_word(in)) return take_lead_word(in);
   if (rigid_by_code(in)) return take_pitch_of_feed(in);
   return c.synchronous ? take_pitch(in) : Execution::done;
 }
@@ -93,7 +106,7 @@ Execution check_tap(BlockContext& in) {
   if (missing || !(in.state.modal.spindle > 0)) {
     if (!in.dialect->rules.cycle.keeps_spindle_direction) return in.raise(Condition::tap_no_speed, Role::spindle_speed);
   }
-  if (c.synchronous && !(c.pitch > 0)) return in.raise(Condition::tap_no_pitch, Role::feed);
+  if (c.synchronous && !(c.pitch > 0)) return in.raise(Condition::tap_no_pitch, lead_has_word(in) ? Role::tap_lead : Role::feed);
   return Execution::done;
 }
 

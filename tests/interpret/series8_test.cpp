@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Series 8: where its manual differs from the other families, a test for each rule; and what docs/series8.md says of the codes of which the manual has
+// the title alone.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+Outcome series8(const std::string& text) { return Bench(NC_DIALECT_SERIES8).run(text); }
+std::string alarm_of(const std::string& text) { return series8(text).alarm; }
+Path path_of(const std::string& text) {
+  const Outcome run = series8(text);
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  return run.path();
+}
+
+TEST(Series8, WordsAreWholeUnitsAndMayHaveNoNumber) {  // G00, G01
+  EXPECT_EQ(path_of("G00X5Y4.5Z-3;G01 X99\nG00XY ; X0 Y0"), (Path{"rapid 5 4.5 -3", "rapid 0 0 -3"}));
+  EXPECT_EQ(path_of("G70\nF50\nG01X2.5"), (Path{"line 63.5 0 0 F1270"}));
+  EXPECT_EQ(alarm_of("M\nX1"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G00 H1"), "NC-ADDRESS");
+}
+
+// ---- arcs
+
+TEST(Series8Arc, TheLastRadiusHolds) {  // G02
+  EXPECT_EQ(path_of("F10\nG02X2.Y0R1.\nG03X1.Y1.\nX0Y0\nX1.Y1.R-1.\nG01X1.Y1."),
+            (Path{"cw 2 0 0 c1,0 F10", "ccw 1 1 0 c1,0 F10", "ccw 0 0 0 c1,0 F10", "ccw 1 1 0 c1,0 F10"}));
+  EXPECT_EQ(path_of("F10\nG02X2Y0R1\nG00X0\nG02X2"), (Path{"cw 2 0 0 c1,0 F10", "rapid 0 0 0", "cw 2 0 0 c1,0 F10"}));
+  // R of another function is not the radius of an arc.
+  EXPECT_EQ(path_of("F10\nG02X2Y0R1\nG81X2Z-1R3\nG80\nG02X4"), (Path{"cw 2 0 0 c1,0 F10", "rapid 2 0 3", "line 2 0 -1 F10", "rapid 2 0 3", "cw 4 0 3 c3,0 F10"}));
+}
+
+TEST(Series8Arc, AShortRadiusIsHalfTheChord) {
+  EXPECT_EQ(path_of("F10\nG02X10R3"), (Path{"cw 10 0 0 c5,0 F10"}));
+  EXPECT_EQ(path_of("F10\nG03X10R-3"), (Path{"ccw 10 0 0 c5,0 F10"}));
+}
+
+TEST(Series8Arc, CentreWordsHaveNoSign) {
+  const struct {
+    const char *start, *block, *path;
+  } arcs[] = {
+      {"X20Y30", "G02X30Y20J10", "cw 30 20 0 c20,20 F10"},    {"X5Y12", "G03X-0Y13I5J12", "ccw 0 13 0 c0,0 F10"}, {"X5Y12", "G02X13Y0I5J12", "cw 13 0 0 c0,0 F10"},
+      {"X-5Y12", "G03X-13Y0I5J12", "ccw -13 0 0 c0,0 F10"},   {"X-5Y12", "G02XY13I5J12", "cw 0 13 0 c0,0 F10"},   {"X-5Y-12", "G03XY-13I5J12", "ccw 0 -13 0 c0,0 F10"},
+      {"X-5Y-12", "G02X-13YI5J12", "cw -13 0 0 c0,0 F10"},    {"X5Y-12", "G03X13YI5J12", "ccw 13 0 0 c0,0 F10"},  {"X5Y-12", "G02XY-13I5J12", "cw 0 -13 0 c0,0 F10"},
+      {"X10Y0", "G03X0Y10I10", "ccw 0 10 0 c0,0 F10"},        {"X10Y0", "G02X0Y-10I10", "cw 0 -10 0 c0,0 F10"},
+  };
+  for (const auto& arc : arcs) EXPECT_EQ(path_of(std::string("F10\nG00") + arc.start + "\n" + arc.block).back(), arc.path) << arc.block;
+  EXPECT_EQ(series8("F10\nG18\nG00X10Z0\nG02X0Z10I10").moves().back().plane, NC_PLANE_ZX);
+}
+
+TEST(Series8Arc, OneThatCannotBeMadeIsInvalid) {
+  for (const char* block : {"G03X0Y13I10J0",     // not on the arc
+                            "G02X0Y10I10",       // three quadrants in this direction
+                            "G03X-8Y6I10",       // over a boundary
+                            "G03X10Y0I10",       // a full circle
+                            "G03X0Y10I0J0", "G03X0Y10", "G03X0Y10I-10"})
+    EXPECT_EQ(alarm_of(std::string("F10\nG00X10Y0\n") + block), "INVALIDARC") << block;
+}
+
+TEST(Series8Arc, QuadrantsAreThoseOfTheProgram) {  // of a rotated arc, too
+  const auto moves = series8("F10\nG55R45\nG00X10Y0\nG03X0Y10I10").moves();
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_NEAR(moves[1].machine_center[0], 0, 1e-9);
+  EXPECT_NEAR(moves[1].machine.v[0], -std::sqrt(50), 1e-9);
+}
+
+// ---- G04, G06, G10
+
+TEST(Series8, ADwellIsInSecondsOrRevolutions) {  // G04
+  const Outcome run = series8("F100\nG04X5.\nG04F2.5\nG04X.75\nG01X1");
+  EXPECT_EQ(run.dwells(), (std::vector<double>{5, 2.5, 0.75}));
+  EXPECT_EQ(run.path(), (Path{"line 1 0 0 F100"}));  // F of the dwell is no feed
+  EXPECT_EQ(alarm_of("G04"), "NC-WORDS");
+}
+
+TEST(Series8, ALoopGoesThereAndBackWhileTheInputIsOn) {  // G06
+  const Outcome once = series8("F600\nG00X10\nG06X30Y10\nG00X0");
+  ASSERT_EQ(once.alarm, "") << once.alarm_detail;
+  const auto moves = once.moves();
+  ASSERT_EQ(moves.size(), 3u);
+  EXPECT_EQ(moves[1].kind, NC_MOVE_SPLINE);
+  EXPECT_NEAR(moves[1].machine.v[0], 10, 1e-9);  // it ends where it has begun
+  EXPECT_NEAR(moves[1].length, std::hypot(20, 10) * 3.14159265358979, 1e-6);
+  for (const char* block : {"G06", "G06X10", "G41D1G06X5"}) EXPECT_NE(alarm_of(std::string("F600\nG00X10\n") + block), "") << block;
+  EXPECT_EQ(alarm_of("G06X10"), "NC-FEED");
+}
+
+TEST(Series8, ACornerIsPutBetweenTwoLines) {  // G10
+  const Path printed = path_of("G70\nG00X0Y0\nG01F50G10Y5R.5\nG10X10Y0L.25\nG10Y5R.5\nX5");
+  ASSERT_EQ(printed.size(), 7u);
+  EXPECT_EQ(printed[0].substr(0, 6), "line 0");
+  EXPECT_EQ(path_of("F10\nG01G10X10L2\nY10"), (Path{"line 8 0 0 F10", "line 10 2 0 F10", "line 10 10 0 F10"}));
+  EXPECT_EQ(alarm_of("F10\nG01G10X10\nY10"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F10\nG01G10X10L1R1\nY10"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F10\nG00G10X10L1\nY10"), "NC-CORNER");
+  EXPECT_EQ(alarm_of("F10\nG01G10X10L1\nG02X20R5"), "NC-CORNER");
+}
+
+TEST(Series8, SharpCornersEndAtRest) {  // G21 to G23
+  const auto stops = [](const std::string& text) {
+    std::vector<bool> stop;
+    for (const nc_move& move : series8(text).moves()) stop.push_back(move.exact_stop);
+    return stop;
+  };
+  EXPECT_EQ(stops("F10\nG21X10\nY10\nG01X0\nG22X10Y0R10\nG23X0R10\nG03X10R10"), (std::vector<bool>{true, true, false, true, true, false}));
+  EXPECT_EQ(path_of("G70\nF10\nG21X1"), (Path{"line 25.4 0 0 F254"}));  // not millimetres
+}
+
+// ---- compensation
+
+TEST(Series8Compensation, BeginsBesideTheStart) {  // G41
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 2, NC_TOOL_RADIUS);
+  EXPECT_EQ(bench.run("F10\nT01D01\nG41\nG01X10\nY10\nX0\nY0\nG40\nX-5").path(),
+            (Path{"line 0 2 0 F10", "line 8 2 0 F10", "line 8 8 0 F10", "line 2 8 0 F10", "line 2 0 0 F10", "line -5 0 0 F10"}));
+  Bench straight(NC_DIALECT_SERIES8);
+  straight.tool(1, 2, NC_TOOL_RADIUS);
+  EXPECT_EQ(straight.run("F10\nT01D01\nG41G43G01X10\nX20\nG40\nX30").path()[0], "line 10 2 0 F10");  // G43: docs/series8.md
+  EXPECT_EQ(straight.run("F10\nG43G01X10").alarm, "NC-MODE");
+}
+
+TEST(Series8Compensation, GoesRoundSharpCornersOnAnArc) {
+  const auto kinds = [](const std::string& corner) {
+    Bench bench(NC_DIALECT_SERIES8);
+    bench.tool(1, 2, NC_TOOL_RADIUS);
+    std::string all;
+    for (const nc_move& move : bench.run("F10\nD1\nG42\nG01X20\n" + corner + "\nG40\nX-50").moves()) all += move.kind == NC_MOVE_ARC ? 'a' : 'l';
+    return all;
+  };
+  EXPECT_EQ(kinds("X10Y20").find('a'), 2u) << "63 degrees";  // 180 - 116.6
+  EXPECT_EQ(kinds("X15Y20").find('a'), std::string::npos) << "76 degrees";
+  EXPECT_EQ(kinds("Y20").find('a'), std::string::npos) << "90 degrees";
+}
+
+// ---- maps
+
+TEST(Series8Map, TurnsAboutProgramZero) {  // G55
+  const Outcome run = series8("G00X5Y5\nG55R45\nG01F50X10\nY10\nG56\nG00X0Y0");
+  const auto moves = run.moves();
+  ASSERT_EQ(moves.size(), 4u);
+  const double r = std::sqrt(0.5);
+  EXPECT_NEAR(moves[1].machine.v[0], 5 * r, 1e-9);  // X10, and Y5 from before
+  EXPECT_NEAR(moves[1].machine.v[1], 15 * r, 1e-9);
+  EXPECT_NEAR(moves[2].machine.v[0], 0, 1e-9);
+  EXPECT_NEAR(moves[2].machine.v[1], 20 * r, 1e-9);
+  EXPECT_EQ(path_of("G92X-10Y-20\nG55R-90\nG00X5Y3"), (Path{"rapid 13 15 0"}));
+  EXPECT_EQ(path_of("G55R90\nG00X10Y0\nG91X5Y0\nX0Y7"), (Path{"rapid 0 10 0", "rapid 0 15 0", "rapid -7 15 0"}));
+  EXPECT_EQ(path_of("G91\nG55R90\nG55R90\nG90G00X10Y0"), (Path{"rapid 0 10 0"}));  // angles are never added
+  EXPECT_EQ(path_of("G55R90X10Y0"), (Path{"rapid 0 10 0"}));  // beside a move
+  EXPECT_EQ(alarm_of("G55\nX1"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F10\nG02X2Y0R1\nG55R90X5"), "NC-MODE");  // R of which of the two?
+}
+
+TEST(Series8Map, ScalesThePlane) {  // G57
+  EXPECT_EQ(path_of("G00X5Y5\nG57R.5\nG01F50X6\nY10\nX8Y12Z4\nG58\nX1"),
+            (Path{"rapid 5 5 0", "line 3 2.5 0 F50", "line 3 5 0 F50", "line 4 6 4 F50", "line 1 6 4 F50"}));
+  EXPECT_EQ(path_of("F100\nG57R2.5\nG00X4Y0\nG03X0Y4R4"), (Path{"rapid 10 0 0", "ccw 0 10 0 c0,0 F100"}));
+  for (const char* block : {"G57R0", "G57R-1", "G57R1000"}) EXPECT_EQ(alarm_of(std::string(block) + "\nX1"), "NC-RANGE") << block;
+  EXPECT_EQ(alarm_of("G57\nX1"), "NC-WORDS");
+}
+
+TEST(Series8Map, ProgramZeroIsSetInProgramCoordinates) {  // G92 while G55 or G57 is in force
+  EXPECT_EQ(path_of("G57R2\nG00X10Y20\nG92X0\nX5"), (Path{"rapid 20 40 0", "rapid 30 40 0"}));
+  EXPECT_EQ(path_of("G55R90\nG00X10Y20\nG92X0Y0\nX5"), (Path{"rapid -20 10 0", "rapid -20 15 0"}));
+}
+
+TEST(Series8, ACodeOfOneBlockHoldsForIt) {  // G67 to G69
+  EXPECT_EQ(path_of("F100\nG01X2\nG68X2\nG69Y3\nG67X1\nG91\nG67X5\nX1\nG69X2"),
+            (Path{"line 2 0 0 F100", "line 4 0 0 F100", "line 4 3 0 F100", "line 1 3 0 F100", "line 5 3 0 F100", "line 6 3 0 F100", "line 2 3 0 F100"}));
+  EXPECT_EQ(path_of("G92X-10\nG00X0\nG69X3\nX0"), (Path{"rapid 10 0 0", "rapid 3 0 0", "rapid 10 0 0"}));
+  EXPECT_EQ(path_of("F10\nG00Z10\nG91\nG67G81X5Z-3R2"), (Path{"rapid 0 0 10", "rapid 5 0 10", "rapid 5 0 2", "line 5 0 -3 F10", "rapid 5 0 2"}));
+}
+
+TEST(Series8, ProgramZeroEndsWithTheProgram) {  // G92, G98
+  EXPECT_EQ(path_of("G00X20Y30\nG92X0\nG98Y100\nG00X-3Y90"), (Path{"rapid 20 30 0", "rapid 17 20 0"}));
+  Bench bench(NC_DIALECT_SERIES8);
+  EXPECT_EQ(bench.run("G92X5\nG00X6\nM30").path(), (Path{"rapid 1 0 0"}));
+  EXPECT_EQ(bench.run("G00X6\nM30").path().back(), "rapid 6 0 0");
+}
+
+TEST(Series8, InverseTimeHoldsUntilTheNextF) {  // G93
+  const auto moves = series8("G70\nG00X0\nG93F2\nG01X10.\nX15").moves();
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_NEAR(moves[0].feed_mm_min, 20 * 25.4, 1e-6);
+  EXPECT_NEAR(moves[1].feed_mm_min, 10 * 25.4, 1e-6);
+}
+
+// ---- cycles
+
+TEST(Series8Cycle, EndsAtRAndItsLevelsStay) {  // G80, G81
+  EXPECT_EQ(path_of("F10\nG00Z10\nG81X1Y2Z-3R4\nX5\nG80\nG82Y9P.5\nG80\nG00X0"),
+            (Path{"rapid 0 0 10", "rapid 1 2 10", "rapid 1 2 4", "line 1 2 -3 F10", "rapid 1 2 4", "rapid 5 2 4", "line 5 2 -3 F10", "rapid 5 2 4", "rapid 5 9 4",
+                  "line 5 9 -3 F10", "rapid 5 9 4", "rapid 0 9 4"}));
+  EXPECT_EQ(series8("F10\nG82X1Z-3R4P1.25").dwells(), (std::vector<double>{1.25}));
+  EXPECT_EQ(alarm_of("F10\nG81X1Z-3"), "NC-WORDS");
+}
+
+TEST(Series8Cycle, PecksFromAFirstDepth) {  // G83
+  EXPECT_EQ(path_of("F10\nG83X2R1Z-10I-4J4"), (Path{"rapid 2 0 0", "rapid 2 0 1", "line 2 0 -4 F10", "rapid 2 0 1", "rapid 2 0 -2.73", "line 2 0 -8 F10", "rapid 2 0 1",
+                                                    "rapid 2 0 -6.73", "line 2 0 -10 F10", "rapid 2 0 1"}));
+  EXPECT_EQ(alarm_of("F10\nG83X2R1Z-10I4J4"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("F10\nG83X2R1Z-10I-4"), "NC-WORDS");
+}
+
+TEST(Series8Cycle, TapsWithTheSpindleByItsLead) {  // G84
+  const Outcome run = series8("M03S600\nG00Z5\nG84X1Z-6R2K1.25");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  const auto moves = run.moves();
+  ASSERT_EQ(moves.size(), 5u);
+  EXPECT_EQ(moves[3].kind, NC_MOVE_TAP);
+  EXPECT_NEAR(moves[3].feed_mm_rev, 1.25, 1e-9);
+  EXPECT_NEAR(moves[3].feed_mm_min, 750, 1e-9);
+  EXPECT_EQ(alarm_of("M03S600\nG84X1Z-6R2"), "NC-FEED");
+  EXPECT_EQ(alarm_of("M73"), "NC-NOT-BUILT");
+}
+
+TEST(Series8Cycle, BoresInTheWayOfEachCode) {  // G85 to G89
+  const std::string begin = "M04S600\nF10\nG00Z10\n";
+  EXPECT_EQ(path_of(begin + "G85X1Z-3R4P.2").back(), "line 1 0 4 F10");
+  const Outcome stopped = series8(begin + "G86X1Z-3R4P.2");
+  EXPECT_EQ(stopped.path().back(), "rapid 1 0 4");
+  EXPECT_EQ(stopped.aux(), "S600 M4 M5 M4");
+  EXPECT_EQ(path_of(begin + "G87X5Y6R3.5Z3\nR2Z1\nG80"),
+            (Path{"rapid 0 0 10", "rapid 5 6 10", "rapid 5 6 3.5", "line 5 6 3 F10", "rapid 5 6 2", "line 5 6 1 F10"}));
+  const Outcome oriented = series8(begin + "G88X5Z-3R4I.5J-.25P1");
+  EXPECT_EQ(oriented.path(), (Path{"rapid 0 0 10", "rapid 5 0 10", "rapid 5 0 4", "line 5 0 -3 F10", "rapid 5.5 -0.25 -3", "rapid 5.5 -0.25 4", "rapid 5 0 4"}));
+  EXPECT_EQ(oriented.aux(), "S600 M4 M5 M19 M4");
+  const Outcome upwards = series8(begin + "G89X5R-20Z-15I2P1");
+  EXPECT_EQ(upwards.path(), (Path{"rapid 0 0 10", "rapid 5 0 10", "rapid 7 0 10", "rapid 7 0 -20", "rapid 5 0 -20", "line 5 0 -15 F10", "line 5 0 -20 F10", "rapid 7 0 -20",
+                                  "rapid 7 0 10", "rapid 5 0 10"}));
+  EXPECT_EQ(upwards.aux(), "S600 M4 M5 M19 M4 M5 M19 M4");
+  EXPECT_EQ(alarm_of("F10\nG86X1Z-3R4"), "NC-SPINDLE");  // which way would it turn again?
+}
+
+TEST(Series8Cycle, TakesTheLengthOfItsTool) {  // G81 D
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(3, 50, NC_TOOL_LENGTH);
+  EXPECT_EQ(bench.run("F10\nG00Z100\nG81X1Z-3R4D3M03S500").path(), (Path{"rapid 0 0 100", "rapid 1 0 100", "rapid 1 0 54", "line 1 0 47 F10", "rapid 1 0 54"}));
+}
+
+// ---- docs/series8.md
+
+TEST(Series8Pattern, LiesOnTheSidesOfARectangle) {  // G49, G50
+  EXPECT_EQ(path_of("F10\nG81Z-1R1\nG49X10Y20I30J10K3L2\nG80").size(), 3u + 3 * 6);
+  const auto places = [](const std::string& block) {
+    Path found;
+    for (const std::string& move : path_of("F100\nG00X10Y20\nG01\n" + block))
+      if (move.substr(0, 4) == "line") found.push_back(move);
+    return found;
+  };
+  EXPECT_EQ(places("G49I30J10"), (Path{"line 40 20 0 F100", "line 40 30 0 F100", "line 10 30 0 F100", "line 10 20 0 F100"}));
+  EXPECT_EQ(places("G50I30J10"), (Path{"line 10 30 0 F100", "line 40 30 0 F100", "line 40 20 0 F100", "line 10 20 0 F100"}));
+  EXPECT_EQ(places("G49I30J10K4")[0], "line 20 20 0 F100");
+  for (const char* block : {"G49I30", "G49J30"}) EXPECT_EQ(alarm_of(block), "NC-WORDS") << block;
+  for (const char* block : {"G49I30J-1", "G49I30J10K1"}) EXPECT_EQ(alarm_of(block), "NC-RANGE") << block;
+}
+
+TEST(Series8Cavity, IsMilledInRingsAndDepths) {  // G34 to G36
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 5, NC_TOOL_RADIUS);
+  const Outcome run = bench.run("F300\nG00Z20\nG34X100Y50Z-8R2I60J40K5D1");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  const Path path = run.path();
+  // Down in two cuts, each from the centre; the last ring leaves the radius of the cutter to the walls.
+  EXPECT_EQ(path[1], "rapid 100 50 20");
+  EXPECT_EQ(path[2], "rapid 100 50 2");
+  EXPECT_EQ(path[3], "line 100 50 -3 F300");
+  double least[2] = {1e9, 1e9}, most[2] = {-1e9, -1e9};
+  for (const nc_move& move : run.moves())
+    for (unsigned i = 0; i < 2; ++i) {
+      if (move.machine.v[2] > 0) continue;
+      least[i] = std::fmin(least[i], move.machine.v[i]);
+      most[i] = std::fmax(most[i], move.machine.v[i]);
+    }
+  EXPECT_EQ(least[0], 75);
+  EXPECT_EQ(most[0], 125);
+  EXPECT_EQ(least[1], 35);
+  EXPECT_EQ(most[1], 65);
+  EXPECT_EQ(path.back(), "rapid 100 50 2");
+  EXPECT_EQ(bench.run("F300\nG34X0Y0Z-1R1I12J20D1").path()[3], "line 0 4 -1 F300");  // the line between the long walls
+  const auto first_turn = [&](const char* code) { return bench.run(std::string("F300\n") + code + "X0Y0Z-1R1I60J40Q15D1").moves(); };
+  EXPECT_GT(first_turn("G34")[6].machine.v[1], 0);  // from the middle of the right side upwards ...
+  EXPECT_LT(first_turn("G35")[6].machine.v[1], 0);  // ... and downwards
+  const Outcome circle = bench.run("F300\nG36X0Y0Z-1R1I15D1Q5");
+  unsigned rings = 0;
+  for (const nc_move& move : circle.moves()) rings += move.kind == NC_MOVE_ARC ? 1u : 0u;
+  EXPECT_EQ(rings, 2u);
+}
+
+TEST(Series8Cavity, RefusesWhatCannotBeMilled) {
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 5, NC_TOOL_RADIUS);
+  const auto alarm = [&](const std::string& block) { return bench.run("F300\n" + block).alarm; };
+  for (const char* block : {"G34X0Z-1R1I60D1", "G34X0Z-1I60J40D1", "G34X0R1I60J40D1", "G34X0Z-1R1I60J40D0"}) EXPECT_EQ(alarm(block), "NC-WORDS") << block;
+  for (const char* block : {"G34X0Z-1R1I8J40D1", "G36X0Z-1R1I5D1", "G34X0Z2R1I60J40D1", "G34X0Z-1R1I60J40P30D1", "G34X0Z-1R1I60J40K-1D1", "G34X0Z-1R1I60J40Q0D1"})
+    EXPECT_EQ(alarm(block), "NC-RANGE") << block;
+}
+
+TEST(Series8, AProbeWithoutContactIsAnAlarm) {  // G51
+  EXPECT_EQ(alarm_of("F100\nG51Z-5"), "NC-PROBE");
+  EXPECT_EQ(alarm_of("G51Z-5"), "NC-FEED");
+}
+
+// ---- constant surface speed
+
+TEST(Series8Spindle, HoldsAndResumesTheSurfaceSpeed) {  // M59, M58
+  std::string controls;
+  for (const nc_item& item : series8("G96S100\nM59\nS200\nM58\nG97").of(NC_ITEM_ACTION)) {
+    const nc_action& a = item.u.action;
+    if (a.kind == NC_ACTION_CONTROL && a.index == NC_CONTROL_SURFACE_SPEED) controls += (a.bits == 0 ? "off " : brief(a.value) + " ");
+    if (a.kind == NC_ACTION_S) controls += "S" + brief(a.value) + " ";
+  }
+  EXPECT_EQ(controls, "100 S100 off 200 off ");
+}
+
+}  // namespace
+}  // namespace nc::test
