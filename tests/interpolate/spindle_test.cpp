@@ -114,5 +114,25 @@ TEST_F(Speeds, AResetTakesEveryClampBack) {
   EXPECT_EQ(now(1), 3000);
 }
 
+// The example of the Series 8 reference, G92: 300 feet per minute at X8 with a radius of 4 inches, at most 600 r/min; X is a diameter from then on.
+TEST_F(Speeds, FollowsTheRadiusThatWasGivenForAPosition) {
+  constexpr double kInch = 25.4;
+  radius = 8 * kInch;
+  speeds.surface_radius(4 * kInch, 1);
+  speeds.clamp(600, 0, NC_CLAMP_S);
+  speeds.surface(300 * 0.3048, 1);
+  EXPECT_NEAR(now(0), 143, 0.5);
+  radius = 1.9099 * kInch;
+  EXPECT_NEAR(now(0), 600, 0.1);
+  radius = 2 * kInch;
+  EXPECT_NEAR(now(0), 573, 0.5);
+  radius = -0.01 * kInch;
+  EXPECT_EQ(now(0), 600);
+  speeds.reset();
+  speeds.surface(300 * 0.3048, 1);
+  radius = 4 * kInch;
+  EXPECT_NEAR(now(0), 143, 0.5) << "behind a reset the coordinate is the radius again";
+}
+
 }  // namespace
 }  // namespace nc

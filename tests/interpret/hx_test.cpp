@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dialect/dialect.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -405,10 +406,42 @@ TEST(Hx, ACycleGoesOnWithItsDataUntilAMotionEndsIt) {  // 12.2.1
   EXPECT_EQ(hx("S300 M03\nG00 Z20.\nG99 G84 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M3 M4 M3 M30");
   EXPECT_EQ(hx("S300 M04\nG00 Z20.\nG99 G74 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M4 M3 M4 M30");
   EXPECT_EQ(hx("S300 M03\nG00 Z20.\nG99 G86 X1. Z-5. R2. F450.\nG80\nM30").aux(), "S300 M3 M5 M3 M30");
-  for (const char* code : {"G76", "G87"}) EXPECT_EQ(alarm_of(std::string(code) + " X1. Z-5. R2. Q1. F450.\nM30"), "NC-NOT-BUILT") << code;
+  // 12.3.9, 12.3.10: the shift has I J, for which way Q goes by PI 70 and PI 71 is not known.
+  for (const char* code : {"G76", "G87"}) EXPECT_EQ(alarm_of(std::string("M03\n") + code + " X1. Z-5. R2. Q1. F450.\nM30"), "NC-WORDS") << code;
+  const Outcome fine = hx("M03 S500\nG00 Z20.\nG98 G76 X1. Z-5. R2. I.5 J0 F450.\nG80\nM30");
+  EXPECT_EQ(fine.path(), (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -5 F450", "line 1.5 0 -5 F450", "rapid 1.5 0 20", "rapid 1 0 20"}));
+  EXPECT_EQ(fine.aux(), "S500 M3 M19 M3 M30");
   // 12.1.3: in G91 R counts from the initial level, Z from R, each with its own sign.
   EXPECT_EQ(hx("G00 Z20.\nG91 G99 G81 X1. Z-5. R-18. F100. K2\nG80\nM30").path(),
             (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -3 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -3 F100", "rapid 2 0 2"}));
+}
+
+TEST(Hx, G39LeadsOnFromTheCornerOnAnArc) {  // 13.2.1, N3 to N5 of the printed program
+  for (const char* words : {"X40. Y20.", "I40. J20."}) {
+    Bench bench(NC_DIALECT_HX);
+    bench.tool(8, 5, NC_TOOL_RADIUS);
+    const Outcome run = bench.run(std::string("G91 G17 G00 G41 X20. Y20. D08\nG01 Z-25. F100\nY40. F250\nG39 ") + words + "\nX40. Y20.\nG40 X10. Y-20.\nM30");
+    ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+    unsigned arcs = 0;
+    for (const nc_move& move : run.moves()) {
+      if (move.kind != NC_MOVE_ARC) continue;
+      ++arcs;
+      EXPECT_NEAR(move.machine_center[0], 20, 1e-9);
+      EXPECT_NEAR(move.machine_center[1], 60, 1e-9);
+      EXPECT_NEAR(move.machine.v[0], 20 - std::sqrt(5.0), 1e-9);
+      EXPECT_NEAR(move.machine.v[1], 60 + 2 * std::sqrt(5.0), 1e-9);
+    }
+    EXPECT_EQ(arcs, 1u) << words;
+  }
+}
+
+TEST(Hx, WhatIsNotBuiltOfAParameterIsRefused) {
+  ParameterKey key;
+  for (const char* text : {"3126", "3131", "3132", "3133", "3134", "3149", "3150", "3153"}) {
+    ASSERT_TRUE(parse_parameter_key(text, &key));
+    EXPECT_TRUE(parameter_takes(dialect(NC_DIALECT_HX), key, 0)) << text;
+    EXPECT_FALSE(parameter_takes(dialect(NC_DIALECT_HX), key, 1)) << text;
+  }
 }
 
 }  // namespace

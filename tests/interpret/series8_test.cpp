@@ -38,6 +38,7 @@ TEST(Series8Arc, TheLastRadiusHolds) {  // G02
 TEST(Series8Arc, AShortRadiusIsHalfTheChord) {
   EXPECT_EQ(path_of("F10\nG02X10R3"), (Path{"cw 10 0 0 c5,0 F10"}));
   EXPECT_EQ(path_of("F10\nG03X10R-3"), (Path{"ccw 10 0 0 c5,0 F10"}));
+  EXPECT_EQ(path_of("F10\nG03X10R"), (Path{"ccw 10 0 0 c5,0 F10"}));
 }
 
 TEST(Series8Arc, CentreWordsHaveNoSign) {
@@ -198,6 +199,17 @@ TEST(Series8Cycle, EndsAtRAndItsLevelsStay) {  // G80, G81
                   "line 5 9 -3 F10", "rapid 5 9 4", "rapid 0 9 4"}));
   EXPECT_EQ(series8("F10\nG82X1Z-3R4P1.25").dwells(), (std::vector<double>{1.25}));
   EXPECT_EQ(alarm_of("F10\nG81X1Z-3"), "NC-WORDS");
+}
+
+TEST(Series8Cycle, PositionsARotaryAxisTogetherWithXY) {
+  const auto with_a = [](nc_config& config) {
+    config.system[0].axis_count = 4;
+    config.system[0].axis[3] = config.system[0].axis[0];
+    config.system[0].axis[3].name = 'A';
+    config.system[0].axis[3].rotary = true;
+  };
+  EXPECT_EQ(Bench(NC_DIALECT_SERIES8, with_a).run("F10\nG00Z10\nG81X1Y2A90Z-3R4").path(),
+            (Path{"rapid 0 0 10 0", "rapid 1 2 10 90", "rapid 1 2 4 90", "line 1 2 -3 90 F10", "rapid 1 2 4 90"}));
 }
 
 TEST(Series8Cycle, PecksFromAFirstDepth) {  // G83

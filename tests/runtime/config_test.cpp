@@ -543,6 +543,22 @@ TEST(Config, EveryInterfaceNumberHasItsPlace) {
   }
 }
 
+// The Series 8 has a name for its input, and HX has numbers of its own.
+TEST(Config, TheMacroInterfaceGoesByTheNamesOfTheFamily) {
+  const auto parse = [](const std::string& dialect, const std::string& key, Config* config) {
+    return nc::rt::parse_config("[machine]\ndialect=\"" + dialect + "\"\n[[axis]]\nname=\"X\"\nmax_velocity=1\nmax_acceleration=1\n[[point]]\nname=\"p\"\ndirection=\"input\"\n"
+                                    "[macro_interface]\n\"" + key + "\"=\"p\"\n", "m.toml", config);
+  };
+  Config named, numbered, wrong;
+  EXPECT_TRUE(parse("series8", "@RUNG6", &named).empty());
+  EXPECT_EQ(named.macro.input_bit[0][0], 0);
+  EXPECT_TRUE(parse("hx", "#7001", &numbered).empty());
+  EXPECT_EQ(numbered.macro.input_bit[0][1], 0);
+  EXPECT_FALSE(parse("series8", "@RUNG7", &wrong).empty());
+  EXPECT_FALSE(parse("series8", "@", &wrong).empty());
+  EXPECT_FALSE(parse("m700", "@RUNG6", &wrong).empty());
+}
+
 TEST(Config, ADialectWithoutVariablesHasNoMacroInterface) {
   Config config;
   const std::vector<ConfigError> errors = nc::rt::parse_config(

@@ -240,6 +240,8 @@ struct CycleRules {
   bool tap_follows_spindle = false;
   /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
   bool takes_length_number = false;
+  /// A cycle that goes beside the hole has the words of the shift (HX 12.3.9: the direction of Q is lost). Otherwise parameters may give it (M700 13.1.1).
+  bool shift_needs_words = false;
 };
 
 /// Reference positions.

@@ -21,7 +21,7 @@ Condition center_from_radius(const double start[2], const double end[2], double 
   if (half - r > tolerance && !may_be_short) return Condition::arc_center;  // M700 6.5: L/2 - r > #1084 is P71
   const double height = std::sqrt(std::fmax(0.0, r * r - half * half));
   // Left of the chord for a short ccw arc; the side changes with the direction and with the sign of R.
-  const double side = (ccw == (radius > 0)) ? 1.0 : -1.0;
+  const double side = (ccw == (radius >= 0)) ? 1.0 : -1.0;
   center[0] = (start[0] + end[0]) / 2 - side * height * dv / (2 * half);
   center[1] = (start[1] + end[1]) / 2 + side * height * dh / (2 * half);
   return Condition::none;
@@ -57,7 +57,7 @@ Condition make_circle(const double start[2], const double end[2], const ArcWords
   const bool closed = std::fabs(end[0] - start[0]) < kSamePoint && std::fabs(end[1] - start[1]) < kSamePoint;
   Circle c;
   if (words.has_radius) {
-    if (closed || words.radius == 0) {  // M700 6.5: with R an arc to its start is a circle that is finished already
+    if (closed || (words.radius == 0 && !words.may_be_short)) {  // M700 6.5: with R an arc to its start is a circle that is finished already
       *straight = closed;
       return closed ? Condition::none : Condition::arc_center;
     }

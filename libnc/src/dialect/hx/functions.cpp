@@ -51,7 +51,7 @@ const FunctionRow kFunctions[] = {
     {372, 0, F::measure_length, nullptr, "automatic tool length measurement 2", "4.10", nullptr, 2},
     {373, 0, F::measure_length, nullptr, "automatic tool length measurement 3", "4.10", nullptr, 3},
     {374, 0, F::measure_length, nullptr, "automatic tool length measurement 4", "4.10", nullptr, 4},
-    {390, 0, F::comp_corner_arc, kNotBuilt, "corner arc of tool diameter compensation", "13.2.1"},
+    {390, 0, F::comp_corner_turn, nullptr, "corner arc of tool diameter compensation", "13.2.1"},
     {400, 7, F::comp_off, nullptr, "tool diameter compensation off", "13.2.1"},
     {410, 7, F::comp_left, nullptr, "tool diameter compensation left", "13.2.1, 13.2.2"},
     {420, 7, F::comp_right, nullptr, "tool diameter compensation right", "13.2.1, 13.2.2"},
@@ -87,7 +87,7 @@ const FunctionRow kFunctions[] = {
     {690, 18, F::rotation_off, nullptr, "coordinate rotation off", "15.4"},
     {730, 10, F::cycle_step, nullptr, "high-speed peck drilling cycle", "12.3.4"},
     {740, 10, F::cycle_reverse_tap, nullptr, "counter tapping cycle", "12.3.6"},
-    {760, 10, F::cycle_fine_bore, kNotBuilt, "fine boring cycle", "12.3.9"},
+    {760, 10, F::cycle_fine_bore, nullptr, "fine boring cycle", "12.3.9", "Q by PI 70 and PI 71: the shift has I J"},
     {800, 10, F::cycle_off, nullptr, "canned cycle off", "12.2.1"},
     {810, 10, F::cycle_drill, nullptr, "drilling cycle", "12.3.1"},
     {820, 10, F::cycle_spot, nullptr, "drilling cycle with dwell", "12.3.2"},
@@ -97,7 +97,7 @@ const FunctionRow kFunctions[] = {
     {843, 10, F::cycle_rigid_reverse_tap, nullptr, "counter rigid tapping cycle", "12.3.6"},
     {850, 10, F::cycle_bore_feed, nullptr, "boring cycle", "12.3.7"},
     {860, 10, F::cycle_bore_stop, nullptr, "boring cycle, back with the spindle stopped", "12.3.8"},
-    {870, 10, F::cycle_back_bore, kNotBuilt, "back boring cycle", "12.3.10"},
+    {870, 10, F::cycle_back_bore, nullptr, "back boring cycle", "12.3.10", "Q by PI 70 and PI 71: the shift has I J"},
     {880, 10, F::cycle_bore_stop_dwell, nullptr, "boring cycle, back by hand", "12.3.11"},
     {890, 10, F::cycle_bore_dwell, nullptr, "boring cycle with dwell", "12.3.12"},
     {900, 3, F::absolute, nullptr, "absolute command", "8.1"},
@@ -128,6 +128,7 @@ const OutputRow kOutputs[] = {
     {4, M::spindle_reverse},
     {5, M::spindle_stop},
     {6, M::tool_change},
+    {19, M::spindle_oriented},  // 12.3.9
 };
 
 }  // namespace nc::hx

@@ -29,6 +29,9 @@ double plane_number(double value) { return value + 1; }
 /// 0 means that it is on.
 double unless(double value) { return value == 0 ? 1 : 0; }
 
+/// What the manual has and is not built: only the value that leaves it off is accepted.
+constexpr bool (*kOffOnly)(double) = whole<0, 0>;
+
 // clang-format off
 constexpr ParameterRow kNumbers[] = {
     {3061, 3069, 1, kAll, false,    P::creep,                   any,               "mm", "G60: overrun of the axes; its sign is the direction", "4.2", 1},
@@ -42,9 +45,11 @@ constexpr ParameterRow kNumbers[] = {
     {3120, 3120, 1, kAll, false,    P::dwell_in_revolutions,    whole<0, 1>,       kOffOn, "G04 counts revolutions in G95", "5.4"},
     {3124, 3124, 1, kAll, false,    P::corner_override,         between<0, 100>,   "0-100 %", "G62: feed in corners", "5.3.5"},
     {3125, 3125, 1, kAll, false,    P::corner_override_zone,    at_least_0,        "mm", "G62: way in front of the corner", "5.3.5"},
+    {3126, 3126, 1, kAll, false,    P::none,                    kOffOnly,          "0", "G62: way behind the corner; only 0 is taken", "5.3.5"},
     {3128, 3128, 1, kAll, false,    P::comp_type_b,             whole<0, 1>,       "0 A, 1 B", "radius compensation starts and ends by type B", "13.2.2"},
     {3129, 3129, 1, kAll, false,    P::peck_clearance,          at_least_0,        "0; mm", "G73, G83: distance d", "12.3.3"},
     {3130, 3130, 1, kAll, false,    P::corner_override_angle,   between<2, 178>,   "2-178 deg", "G62: largest inner angle", "5.3.5"},
+    {3131, 3134, 1, kAll, false,    P::none,                    kOffOnly,          "0", "G62, program restart, search of sequence numbers; only 0 is taken", "5.3.5, 2.3.4, 2.3.3"},
     {3141, 3141, 1, kAll, false,    P::measure_deceleration,    at_least_0,        "mm", "G37: distance from which on the measuring feed is in force", "4.10"},
     {3142, 3142, 1, kAll, false,    P::measure_range,           at_least_0,        "mm", "G37: range around the point where the signal may come", "4.10"},
     {3143, 3143, 1, kAll, false,    P::measure_feed,            at_least_0,        "mm/min", "G37: measuring feed", "4.10"},
@@ -53,7 +58,9 @@ constexpr ParameterRow kNumbers[] = {
     {3146, 3146, 1, kAll, false,    P::start_absolute,          whole<0, 1>,       "0 G90, 1 G91", "absolute or incremental at power on", "3.2", 0, 0, unless},
     {3147, 3147, 1, kAll, false,    P::start_inch,              whole<0, 1>,       "0 G21, 1 G20", "inch at power on", "3.2"},
     {3148, 3148, 1, kAll, false,    P::start_stroke_check,      whole<0, 1>,       "1 G23; 0 G22", "stored stroke check at power on", "3.2", 0, 0, unless},
+    {3149, 3150, 1, kAll, false,    P::none,                    kOffOnly,          "0", "G51 and G68 at power on; only 0 is taken", "3.2"},
     {3151, 3151, 1, kAll, false,    P::arc_tolerance,           at_least_0,        "0.01 mm", "how far the end of an arc may lie beside its circle", "4.4"},
+    {3153, 3153, 1, kAll, false,    P::none,                    kOffOnly,          "0", "G62; only 0 is taken", "5.3.5"},
     {3155, 3155, 1, kAll, false,    P::cylinder_second_axis,    whole<0, 1>,       "0 X (G17, G18) Y (G19), 1 Y (G17) Z (G18, G19)", "G107: axis of the plane that the rotary axis stands for", "4.7"},
     {22097, 22192, 32, kAll, false, P::reference_position,      any,               "mm", "reference positions 2 to 4, 32 numbers each, by axis", "6.2", 1, 1},
     {23474, 23474, 1, kAll, false,  P::box_outside,             whole<0, 1>,       "0 inside, 1 outside", "G22: where no axis may go", "15.5.3"},

@@ -72,7 +72,8 @@ inline constexpr Rules kRules = {
               .dwell_in_seconds = false,
               .begins_with_both_levels = false,
               .rises_before_positioning = false,
-              .longest_dwell_ms = 99999999},
+              .longest_dwell_ms = 99999999,
+              .shift_needs_words = true},  // 12.3.9, 12.3.10
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,

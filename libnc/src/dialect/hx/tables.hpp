@@ -8,7 +8,7 @@ namespace nc::hx {
 
 inline constexpr unsigned kFunctionRows = 93;
 inline constexpr unsigned kMiscRows = 6;
-inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kOutputRows = 5;
 inline constexpr unsigned kAlarmRows = 22;
 inline constexpr unsigned kConditionRows = 24;
 

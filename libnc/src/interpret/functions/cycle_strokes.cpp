@@ -272,10 +272,10 @@ void position_over_hole(BlockContext& in) {
   const AxisVec start = in.position(), target = target_of(in, start, axes, in.holes.increment);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  LinearStyle other = style;
-  if (in.dialect->rules.cycle.others_keep_motion_mode) other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
-  move_linear(in, target, axes & ~over_hole, other);
   if (strokes_of(in.state.cycle.kind).takes_widths) style.in_position = in.words.in_position;
+  if (!in.dialect->rules.cycle.others_keep_motion_mode) return move_linear(in, target, axes, style);  // all of them together (Series 8 G81: X Y A)
+  const LinearStyle other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
+  move_linear(in, target, axes & ~over_hole, other);
   move_linear(in, target, axes & over_hole, style);
 }
 

@@ -5,6 +5,7 @@
 
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
+#include "interpret/program_map.hpp"
 
 namespace nc {
 namespace {
@@ -67,17 +68,26 @@ Execution do_corner_arc(BlockContext& in) {
   return move_with_vector(in);
 }
 
-/// DGSHAPE G39: X and Y lead on from the corner, as those of the block behind do; nothing goes there.
+/// DGSHAPE G39, HX 13.2.1: X and Y lead on from the corner, as those of the block behind do; nothing goes there. I and J of HX are the same way as increments.
 Execution do_corner_turn(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Compensation& comp = in.state.comp;
   if (comp.side == 0) return in.raise_code(Condition::outside_compensation, row);
   const uint32_t plane = 1u << comp.axis[0] | 1u << comp.axis[1], others = in.words.axes & ~plane;
   if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
-  if (in.words.axes == 0) return in.raise_code(Condition::words_missing, row);
-  const AxisVec position = in.position(), target = target_of_words(in);
+  const PlaneAxes words = plane_axes(in);
+  const bool by_vector = in.words.axes == 0 && in.words.any({words.center[0], words.center[1]});
+  if (in.words.axes == 0 && !by_vector) return in.raise_code(Condition::words_missing, row);
+  AxisVec position = in.position(), target = target_of_words(in);
+  if (program_mapped(in)) {  // the vector of the move is mapped as the move is
+    position = to_program(in, position);
+    target = as_programmed_end(in, target);
+  }
   const OfThisBlock scope(in);
-  for (unsigned i = 0; i < 2; ++i) comp.vector[i] = target[comp.axis[i]] - position[comp.axis[i]];
+  for (unsigned i = 0; i < 2; ++i) {
+    const bool given = by_vector && in.words.has(words.center[i]);
+    comp.vector[i] = given ? length_of(in, words.center[i]) : by_vector ? 0 : target[comp.axis[i]] - position[comp.axis[i]];
+  }
   if (std::hypot(comp.vector[0], comp.vector[1]) < kNoRadius_mm) return in.raise_code(Condition::words_missing, row);
   in.words.axes = 0;
   comp.has_vector = comp.corner_arc = true;
