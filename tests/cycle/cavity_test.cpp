@@ -32,7 +32,9 @@ Ring ring_of(const Cavity& cavity, uint32_t number) {
     for (unsigned i = 0; i < 2 && ring.pieces == 0; ++i) ring.first[i] = piece.to[i];
     if (ring.pieces != 0) ring.area += (at[0] * piece.to[1] - at[1] * piece.to[0]) / 2;
     ring.arcs += piece.arc ? 1u : 0u;
-    if (piece.arc) EXPECT_NEAR(std::hypot(at[0] - piece.center[0], at[1] - piece.center[1]), std::hypot(piece.to[0] - piece.center[0], piece.to[1] - piece.center[1]), 1e-9);
+    if (piece.arc) {
+      EXPECT_NEAR(std::hypot(at[0] - piece.center[0], at[1] - piece.center[1]), std::hypot(piece.to[0] - piece.center[0], piece.to[1] - piece.center[1]), 1e-9);
+    }
     for (unsigned i = 0; i < 2; ++i) {
       at[i] = ring.last[i] = piece.to[i];
       ring.most[i] = std::fmax(ring.most[i], std::fabs(piece.to[i]));

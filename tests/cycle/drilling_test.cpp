@@ -340,7 +340,10 @@ TEST(DgshapeCycle, Alarms) {  // DGSHAPE 5
   EXPECT_EQ(dgshape_at_ten("M03\nG18G81Z-8000R2000F60000\nM02").alarm, "NC-PLANE");
   EXPECT_EQ(dgshape_at_ten("M03\nG81Z-8000R2000F60000K10000\nM02").alarm, "NC-RANGE");
   EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE, axes("XYZa")).at(0, 0, 10).run("%\nM03\nG81A1000Z-8000R2000F60000\nM02").alarm, "NC-AXIS");
-  EXPECT_EQ(dgshape_at_ten("G86Z-8000\nM02").alarm, "NC-NOT-BUILT");
+  const Outcome stopped = dgshape_at_ten("M03\nG99G86X1000Z-8000R2000F60000\nM02");  // docs/decisions.md
+  EXPECT_EQ(stopped.alarm, "");
+  EXPECT_EQ(stopped.aux(), "M3 M5 M3 M2");
+  EXPECT_EQ(stopped.path().back(), "rapid 1 0 2");
   EXPECT_EQ(dgshape_at_ten("G73Z-8000\nM02").alarm, "NC-NO-SUCH-CODE");
 }
 

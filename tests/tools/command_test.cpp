@@ -93,6 +93,11 @@ TEST_F(CommandTest, CheckSaysWhichOtherDialectReadsTheProgram) {
   file("m700.nc", "#500=1\nWHILE [#500 LE 3] DO1\nG0 X#500\n#500=#500+1\nEND1\nM30\n");
   EXPECT_EQ(ncsim("check m700.nc").err, "");
   EXPECT_NE(ncsim("check --dialect iso m700.nc").err.find("as a program of m700 or hx it ends"), std::string::npos);
+  file("s8.nc", "G71G90G94\nF100\nG00X10Y0Z5\nG01Z-1\nG03X0Y10I10\nG00XYZ5 ; BACK\nM30\n");
+  for (const char* other : {"m700", "dgshape", "iso", "hx"})
+    EXPECT_NE(ncsim(std::string("check --dialect ") + other + " s8.nc").err.find("as a program of series8 it ends"), std::string::npos) << other;
+  EXPECT_EQ(ncsim("check --dialect series8 s8.nc").err, "");
+  EXPECT_NE(ncsim("check --dialect series8 ngc.nc").err.find("as a program of iso it ends"), std::string::npos);
   // What no family reads, and what a setup of one family belongs to, has no such note.
   file("none.nc", "G0 X1.\nG1 X2.\nM30\n");
   EXPECT_EQ(ncsim("check none.nc").err.find("as a program of"), std::string::npos);
