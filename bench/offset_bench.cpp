@@ -40,7 +40,7 @@ std::vector<Item> contour(unsigned blocks, bool arcs, bool walls) {
       item.move.circle = {{center[0], center[1]}, radius, radius, from, sweep};
       heading += sweep;
     } else {
-      heading += i % 4 == 0 ? 0.3 : -0.3;
+      heading += i % 4 < (arcs ? 1 : 2) ? 0.3 : -0.3;
       to[0] += 10 * std::cos(heading);
       to[1] += 10 * std::sin(heading);
       item.move = Move(at, to, comp);
@@ -55,9 +55,15 @@ std::vector<Item> contour(unsigned blocks, bool arcs, bool walls) {
   return items;
 }
 
-void compensate(benchmark::State& state, bool arcs, bool walls) {
-  const std::vector<Item> items = contour(1000, arcs, walls);
+void compensate(benchmark::State& state, bool arcs, bool walls, unsigned blocks = 1000) {
+  const std::vector<Item> items = contour(blocks, arcs, walls);
   const auto stage = std::make_unique<OffsetStage>();
+  constexpr unsigned kContour = 100010;
+  Arena measure;
+  stage->create(kContour, measure);
+  const auto memory = std::make_unique_for_overwrite<std::max_align_t[]>(measure.used() / sizeof(std::max_align_t) + 64);
+  Arena arena(memory.get(), measure.used());
+  stage->create(kContour, arena);
   Item out;
   for (auto _ : state) {
     stage->reset();
@@ -68,16 +74,18 @@ void compensate(benchmark::State& state, bool arcs, bool walls) {
       }
       while (stage->pop(out)) moves += out.kind == ItemKind::move;
     }
-    if (moves < 900) state.SkipWithError("the contour has ended in an alarm");
+    if (moves < blocks * 9 / 10) state.SkipWithError("the contour has ended in an alarm");
     benchmark::DoNotOptimize(moves);
   }
-  state.SetItemsProcessed(static_cast<int64_t>(state.iterations()) * 1000);
+  state.SetItemsProcessed(static_cast<int64_t>(state.iterations()) * blocks);
 }
 
 void lines(benchmark::State& state) { compensate(state, false, false); }
 void lines_and_arcs(benchmark::State& state) { compensate(state, true, false); }
 void lines_with_walls(benchmark::State& state) { compensate(state, false, true); }
 void lines_and_arcs_with_walls(benchmark::State& state) { compensate(state, true, true); }
+void a_long_contour_with_walls(benchmark::State& state) { compensate(state, true, true, 100000); }
+BENCHMARK(a_long_contour_with_walls);
 BENCHMARK(lines);
 BENCHMARK(lines_and_arcs);
 BENCHMARK(lines_with_walls);

@@ -207,6 +207,7 @@ void read_machine(TableReader* root, Config* config) {
     reader.integer("program_entries", &nc.programs, 1, 4096);
     reader.integer("tool_offset_sets", &nc.tool_offsets, 1, 999);
     reader.integer("work_offset_sets", &nc.work_offsets, 1, 300);
+    reader.integer("contour_blocks", &nc.contour_blocks, 16, 1000000);
     if (reader.integer("variable_sets", &nc.variable_sets, 100, 600) && nc.variable_sets != 100 &&
         nc.variable_sets != 200 && nc.variable_sets != 300 && nc.variable_sets != 600)
       reader.error("variable_sets", "must be 100, 200, 300 or 600");  // M700 13.4

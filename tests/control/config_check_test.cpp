@@ -59,6 +59,7 @@ const Row kRows[] = {
     {"programs", [](nc_config& c, double v) { c.programs = static_cast<uint32_t>(v); }, {0, 65536, 4294967295}, {1, 65535}},
     {"tool_offsets", [](nc_config& c, double v) { c.tool_offsets = static_cast<uint32_t>(v); }, {0, 1000}, {1, 999}},
     {"work_offsets", [](nc_config& c, double v) { c.work_offsets = static_cast<uint32_t>(v); }, {301}, {0, 300}},
+    {"contour_blocks", [](nc_config& c, double v) { c.contour_blocks = static_cast<uint32_t>(v); }, {0, 15, 1000001}, {16, 1000000}},
     {"window_bytes", [](nc_config& c, double v) { c.window_bytes = static_cast<uint32_t>(v); }, {0, 511, 16777217}, {512, 16777216}},
     {"variable_sets", [](nc_config& c, double v) { c.variable_sets = static_cast<uint32_t>(v); }, {0, 99, 400, 601}, {100, 200, 300, 600}},
     {"max_feed_override", [](nc_config& c, double v) { c.max_feed_override = v; }, {kNan, kInf, 0, -1, 0.99, 10.1}, {1, 10}},

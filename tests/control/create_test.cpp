@@ -177,6 +177,7 @@ TEST(Create, SmallestAndLargest) {
     c.work_offsets = 0;
     c.variable_sets = 100;
     c.window_bytes = 512;
+    c.contour_blocks = 16;
   });
   const nc_config large = config_of([](nc_config& c) {
     axes("XYZABCUV")(c);
@@ -184,6 +185,7 @@ TEST(Create, SmallestAndLargest) {
     c.work_offsets = 300;
     c.extended_variables = true;
     c.look_ahead = 4096;
+    c.contour_blocks = 100000;
   });
   for (const nc_config& config : {small, large}) {
     const size_t size = nc_memory_required(&config);

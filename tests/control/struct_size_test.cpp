@@ -160,6 +160,7 @@ TEST(StructSize, AnOlderConfigurationHasTheDefaultsBehindItsEnd) {
   nc_config_init(&same);
   same.look_ahead = 64;
   same.programs = 8;
+  EXPECT_EQ(same.contour_blocks, 3800u);
   EXPECT_NE(nc_memory_required(&same), 0u);
   EXPECT_EQ(nc_memory_required(as<const nc_config>(&older.old)), nc_memory_required(&same));
 }

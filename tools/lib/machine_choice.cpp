@@ -27,6 +27,7 @@ bool take_number(const char** at, double* value) {
 
 // Chooses the law of motion: the one of the command line, or else of the machine, or else the one that the limits allow.
 bool set_motion(const MachineOptions& options, const rt::Config* machine, nc_config* config, std::string* error) {
+  if (machine == nullptr) config->contour_blocks = kContourBlocksDesk;
   const bool by_machine = machine != nullptr && machine->motion_given;
   if (options.tolerance) config->path_tolerance = *options.tolerance;
   if (options.motion) config->motion_mode = static_cast<std::uint8_t>(*options.motion);

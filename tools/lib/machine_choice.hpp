@@ -37,6 +37,8 @@ std::unique_ptr<rt::Config> load_machine(const std::string& path, std::string* e
 
 /** Records between feeder and scan when no machine is named: a desk computer has the memory for lines of 1 um at full speed. */
 inline constexpr std::uint32_t kLookAheadDesk = 16384;
+/// The longest contour that CONTOUR_CHECK takes where no machine is named, blocks.
+inline constexpr std::uint32_t kContourBlocksDesk = 100000;
 
 /** The servos of the machine's first part system, as the runtime simulates them. */
 ServoModel servo_of(const rt::Config& machine, double cycle_s);

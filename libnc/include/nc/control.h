@@ -85,6 +85,9 @@ typedef struct nc_config {
   void* alarm_text_user;              /**< handed to `alarm_text` */
   const nc_kinematics* kinematics[NC_MAX_SYSTEMS]; /**< for each part system the joints that its axes are turned into; copied by nc_create().
                                 NULL = the part system has no joints, its axes themselves are driven */
+  uint32_t contour_blocks;            /**< blocks of the longest contour that the check of its walls takes (the parameter CONTOUR_CHECK of m700), 16 to 1000000;
+                                default 3800 (1.5 MB for each part system; memory that no contour has needed is never written). A longer contour is an
+                                alarm where the check is on */
 } nc_config;
 
 /**

@@ -34,6 +34,16 @@ class Arena {
     return first;
   }
 
+  /// The same without a value: each is written before it is read. A large table costs nothing as long as it is not used.
+  template <class T>
+  T* make_blank(size_t count) {
+    static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
+    used_ = (used_ + kAlign - 1) / kAlign * kAlign;
+    const size_t at = used_;
+    used_ += sizeof(T) * count;
+    return begin_ == nullptr || used_ > size_ ? nullptr : reinterpret_cast<T*>(begin_ + at);
+  }
+
   size_t used() const { return used_; }
   bool measuring() const { return begin_ == nullptr; }
   bool overflowed() const { return begin_ != nullptr && used_ > size_; }

@@ -120,6 +120,7 @@ constexpr SizeRule kSizeRules[] = {
     {"tool_offsets", &nc_config::tool_offsets, 1, 999, "must be 1 to 999"},
     {"work_offsets", &nc_config::work_offsets, 0, 300, "must be 0 to 300"},
     {"window_bytes", &nc_config::window_bytes, 512, 1u << 24, "must be 512 to 16777216"},
+    {"contour_blocks", &nc_config::contour_blocks, 16, 1000000, "must be 16 to 1000000"},
 };
 
 bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
@@ -254,6 +255,7 @@ void set_defaults(nc_config* config) {
   config->window_bytes = 65536;
   config->max_feed_override = 2.0;
   config->path_tolerance = 0.01;
+  config->contour_blocks = 3800;
 }
 
 }  // namespace

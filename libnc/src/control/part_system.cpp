@@ -86,6 +86,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   const AddressTable& addresses = dialect.addresses;
   stages_.stage<ContourStage>().create(axis_count_, rotary_, addresses.letter(Role::option_chamfer),
                                        addresses.letter(Role::option_corner_radius), arena);
+  stages_.stage<OffsetStage>().create(config.contour_blocks, arena);
   stages_.stage<FairingStage>().create(axis_count_, rotary_, arena);
   if (!arena.measuring() && !arena.overflowed()) stages_.reset();
 }

@@ -156,6 +156,7 @@ constexpr Sentence kSentences[] = {
      nullptr},
     {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
      nullptr},
+    {C::contour_too_long, "The contour is longer than its check can hold: cancel compensation earlier ({comp_off}), or allow more contour_blocks.", nullptr},
     {C::corner_option, "Corner chamfering and rounding (,{chamfer} ,{rounding}) are not fitted for this motion.", nullptr},
     {C::corner_arc, "A corner (,{chamfer} ,{rounding}) lies between two lines; the block before or behind it is an arc.", nullptr},
     {C::corner_no_move, "The block behind a corner (,{chamfer} ,{rounding}) must be a straight cut.", nullptr},

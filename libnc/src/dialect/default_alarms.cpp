@@ -94,6 +94,7 @@ constexpr AlarmRow kRows[] = {
     {C::tool_pair, "NC-TOOL", nullptr},
     {C::comp_no_intersection, "NC-OFFSET-PATH", nullptr},
     {C::comp_interference, "NC-OFFSET-PATH", nullptr},
+    {C::contour_too_long, "NC-OFFSET-PATH", nullptr},
     {C::corner_option, "NC-CORNER", nullptr},
     {C::corner_arc, "NC-CORNER", nullptr},
     {C::corner_no_move, "NC-CORNER", nullptr},

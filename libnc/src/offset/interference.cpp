@@ -78,7 +78,7 @@ unsigned curves_meet(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
 // From the joint of section i to that of section j, programmed.
 Vec2 joint_distance(const Chain& chain, unsigned i, unsigned j) {
   Vec2 d;
-  for (unsigned k = i + 1; k <= j; ++k) d = d + chain[k].delta;
+  for (unsigned k = i + 1; k <= j; ++k) d = d + chain[k].approach + chain[k].delta;
   return d;
 }
 
@@ -112,7 +112,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   const Section& behind = (*chain)[j];
   if (before.start || before.vanished || behind.vanished || behind.cancel) return false;
   if (!offset_exists(before.end, before.offset) || !offset_exists(behind.begin, behind.offset)) return false;
-  const Vec2 d = joint_distance(*chain, i, j - 1);
+  const Vec2 d = joint_distance(*chain, i, j - 1) + behind.approach;
   const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, d, behind.offset);
   Vec2 hit[2];
   const unsigned hits = curves_meet(a, b, hit);

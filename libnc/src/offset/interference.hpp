@@ -15,6 +15,7 @@ struct Section {
   uint32_t index = 0;  ///< of its item
   uint32_t block = 0;  ///< count of blocks when it came
   Leg begin, end;
+  Vec2 approach;             ///< its start - the joint before: lines between them that have no direction (kNoDirection_mm)
   Vec2 delta;                ///< programmed end - programmed start
   double offset = 0;         ///< signed, mm
   double sweep = 0;          ///< of an arc, rad, counter-clockwise positive
@@ -28,6 +29,15 @@ struct Section {
   bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, walls = false, avoid = false;
+
+  // For the memory of the contour (contour_memory.hpp), which `walls` asks for.
+  uint64_t number = 0;        ///< in that memory
+  Vec2 contour_start;         ///< programmed start, counted from the start of the contour
+  double level = 0, level_end = 0;  ///< across the plane
+  bool transparent = false;   ///< `cancel`, but compensation goes on behind it
+  bool cuts = false;          ///< not a rapid
+  bool led = false;           ///< a displacement from the programmed start to the first vector goes before it
+  bool settled = false;       ///< its path has been looked at
 };
 
 /// The blocks under consideration, in order. Only the last one may not be jointed yet.

@@ -25,6 +25,13 @@ Vec2 plane_delta(const Move& move) {
   return {move.end[h] - move.start[h], move.end[v] - move.start[v]};
 }
 
+/// How far the move leads across the plane of compensation, along the third of the basic axes.
+double rise(const Move& move) {
+  const unsigned h = move.comp.axis[0], v = move.comp.axis[1];
+  if (h == v || h > 2 || v > 2) return 0;
+  return move.end[3 - h - v] - move.start[3 - h - v];
+}
+
 bool without_length(const Move& move) {
   return !move.circular && move.start == move.end;
 }
@@ -68,12 +75,16 @@ bool OffsetStage::push(const Item& item, NoRule) {
     intake_move(&held);
   } else {
     if (inhibits_read_ahead(item)) close();
+    if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) fail(next_index(), Condition::comp_interference, item.source);
     if (!failed_) ++count_;
   }
   if (!failed_ && item.block_end) count_block_end();
   if (failed_) return true;
   held.mode = mode_;
   held.idle_blocks = idle_blocks_;
+  held.level = level_end_;
+  held.in_contour = memory_.state().open;
+  if (held.in_contour) contour_at(held) = memory_.state();
   settle();
   // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never
   // changes the geometry.
@@ -98,9 +109,10 @@ void OffsetStage::reset() {
   idle_blocks_ = connecting_ = 0;
   moved_ = failed_ = lead_done_ = false;
   comp_ = out_comp_ = Compensation{};
-  tail_ = chain_start_ = vector_ = direction_ = Vec2{};
+  tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = true;
-  for (Wall& wall : wall_) wall = Wall{};
+  memory_.reset();
+  level_ = level_end_ = 0;
   feed_scale_ = 0;
   axis_[0] = 0;
   axis_[1] = 1;
@@ -123,6 +135,8 @@ void OffsetStage::restore(const OffsetResume& resume) {
   comp_ = out_comp_ = resume_.comp;
   if (!resume.active) return;
   idle_blocks_ = resume.idle_blocks;
+  memory_.restore(resume.contour);
+  level_ = level_end_ = resume.level;
   mode_ = resume.pending ? Mode::pending : Mode::on;
   vector_ = {compensated_[axis_[0]] - programmed_[axis_[0]], compensated_[axis_[1]] - programmed_[axis_[1]]};
   tail_ = vector_;
@@ -158,6 +172,8 @@ void OffsetStage::close() {
 void OffsetStage::intake_move(Held* held) {
   Move& move = held->item.move;
   for (uint8_t& axis : move.comp.axis) axis %= kMaxAxes;
+  level_ = level_end_;
+  level_end_ += rise(move);
   if (mode_ == Mode::off && move.comp.side == 0) {
     if (without_length(move)) held->role = Role::command;
     ++count_;
@@ -174,6 +190,7 @@ void OffsetStage::intake_move(Held* held) {
     held->has_lead = true;
     tail_ = {};
   }
+  const double offset_before = signed_offset(comp_);
   if (move.comp.side != 0) comp_ = move.comp;
   Leg begin, end;
   const bool moves = make_legs(move, &begin, &end);
@@ -186,11 +203,13 @@ void OffsetStage::intake_move(Held* held) {
   }
   const bool commands = without_length(move) || move.comp.has_vector || move.comp.corner_arc;
   if (!moves) return commands ? intake_command(held) : intake_carried(held);
+  if (!starts && !commands && intake_without_direction(held, offset_before, &begin, &end)) return;
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
     // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next
     // moving block.
     held->has_lead = true;
     held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
+    start_commanded_ = false;
     mode_ = Mode::on;
   }
   moved_ = true;
@@ -210,6 +229,25 @@ void OffsetStage::intake_carried(Held* held) {
     tail_ = {};
   }
   ++count_;
+}
+
+// A line without a direction of its own goes along. False: it is a block, with the direction of all such lines since the joint.
+bool OffsetStage::intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end) {
+  const Move& move = held->item.move;
+  const Vec2 delta = plane_delta(move);
+  const bool ordinary = move.comp.side == 0 || move.comp.transparent || move.comp.hold_vector || signed_offset(move.comp) != offset_before;
+  if (ordinary || begin->curvature != 0 || norm(delta) >= kNoDirection_mm) return false;
+  const Vec2 since_joint = approach_ + delta;
+  if (norm(since_joint) >= kNoDirection_mm) {
+    begin->u = end->u = unit(since_joint);
+    return false;
+  }
+  approach_ = since_joint;
+  moved_ = true;
+  idle_blocks_ = 0;
+  held->role = Role::carried;
+  ++count_;
+  return true;
 }
 
 // G40 where nothing moves in the plane, or before anything was compensated.
@@ -269,17 +307,25 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.block = blocks_;
   section.begin = begin;
   section.end = end;
+  section.approach = approach_;
   section.delta = plane_delta(move);
   section.offset = signed_offset(comp);
   section.sweep = begin.curvature != 0 ? move.circle.sweep : 0;
   section.start = mode_ == Mode::pending && !comp.transparent;
   section.cancel = comp.side == 0 || comp.transparent;
   section.check = comp.check;
-  section.walls = comp.check && comp.walls;
+  section.walls = comp_.check && comp_.walls;  // a cancel goes by what it cancels
+  section.level = level_;
+  section.level_end = level_end_;
+  section.transparent = comp.transparent;
+  section.cuts = move.kind != NC_MOVE_RAPID;
+  section.led = held->has_lead && !held->lead_arc;
   section.avoid = comp.avoid;
   section.vanished = !section.cancel && !section.start && vanishes(begin, end, section.offset);
   if (section.start) mode_ = Mode::on;
   join(section, held);
+  if (failed_) return;
+  if (section.walls) read_wall(&section, held->item.source);
   if (failed_) return;
   if (chain_.empty()) chain_start_ = tail_;
   if (section.cancel) {
@@ -296,6 +342,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (section.jointed) tail_ = section.joint.v[0];
   if (comp.side == 0) mode_ = Mode::off;
   chain_.push_back(section);
+  approach_ = {};
   ++count_;
   check_joints(0);
 }
@@ -358,90 +405,39 @@ ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& 
 // Interference check of what is held; sections below `last_call` are about to be released. False: the program
 // stops.
 bool OffsetStage::check_joints(unsigned last_call) {
-  if (chain_.size() < 2) return true;
+  if (chain_.size() < 2) return look_at_walls(last_call);
   unsigned at = 0;
   if (check_interference(&chain_, last_call, chain_start_, &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
-  for (unsigned i = 0; i < last_call && i < chain_.size(); ++i) {
-    if (!chain_[i].walls || keeps_clear(i)) continue;
-    fail(chain_[i].index, Condition::comp_interference, held_at(chain_[i].index).item.source);
-    return false;
-  }
+  if (!look_at_walls(last_call)) return false;
   const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
   tail_ = joint.v[joint.n - 1];
   return true;
 }
 
-// The path along section `number` and round its end stays off the blocks around it: those that the check sees, two before and two behind.
-bool OffsetStage::keeps_clear(unsigned number) const {
-  const Section& section = chain_[number];
-  const bool along_contour = section.walls && section.jointed && !section.start && !section.cancel && !section.dead && !section.vanished;
-  const bool commanded = section.commanded || (number == 0 ? start_commanded_ : chain_[number - 1].commanded);
-  if (!along_contour || commanded || section.offset == 0 || section.joint.n == 0) return true;
-  const Vec2 from = number == 0 ? chain_start_ : chain_[number - 1].joint.v[chain_[number - 1].joint.n - 1];
-  Piece pieces[ContourJoint::kMax];
-  if (!path_of(section, {}, from, section.joint.v[0], &pieces[0])) return true;
-  unsigned count = 1;
-  for (unsigned k = 1; k < section.joint.n; ++k, ++count) {
-    pieces[count].from = section.delta + section.joint.v[k - 1];
-    pieces[count].to = section.delta + section.joint.v[k];
-  }
-  return clear_of(section, pieces, section.joint.corner_arc ? 1 : count, number);
-}
-
-bool OffsetStage::clear_of(const Section& section, const Piece* pieces, unsigned count, unsigned number) const {
-  const double least = std::abs(section.offset) - kEnters_mm;
-  const auto clear = [&](const Piece& wall) {
-    for (unsigned i = 0; i < count; ++i)
-      if (distance(pieces[i], wall) < least) return false;
-    return true;
-  };
-  Vec2 start;  // seen from the start of `section`
-  for (unsigned k = 1; k <= 2 && k <= number; ++k) {
-    const Section& before = chain_[number - k];
-    start = start - before.delta;
-    Piece wall;
-    const bool straight_on = k == 1 && before.begin.curvature == 0 && section.begin.curvature == 0;  // their joint sees to it
-    if (straight_on || before.start || before.cancel || before.offset != section.offset || !wall_of(before, start, &wall)) continue;
-    if (!clear(wall)) return false;
-  }
-  for (unsigned k = number + 1; k <= 2; ++k) {
-    const Wall& before = wall_[k - number - 1];
-    if (before.offset != section.offset) continue;
-    Piece wall = before.piece;
-    wall.from = wall.from + start;
-    wall.to = wall.to + start;
-    wall.center = wall.center + start;
-    if (!clear(wall)) return false;
-  }
-  start = section.delta;
-  for (unsigned k = 1; k <= 2 && number + k < chain_.size(); ++k) {
-    const Section& behind = chain_[number + k];
-    Piece wall;
-    const bool straight_on = k == 1 && behind.begin.curvature == 0 && section.begin.curvature == 0 && count == 1;
-    const bool counts = !straight_on && !behind.start && !behind.cancel && behind.offset == section.offset && wall_of(behind, start, &wall);
-    if (counts && !clear(wall)) return false;
-    start = start + behind.delta;
+// The paths of these sections, which have their joints for good, against all blocks of the contour that have been read.
+bool OffsetStage::look_at_walls(unsigned sections) {
+  for (unsigned i = 0; i < sections && i < chain_.size(); ++i) {
+    Section& section = chain_[i];
+    if (!section.walls || section.settled || section.joint.n == 0) continue;
+    section.settled = true;
+    const ContourJoint* before = i == 0 ? nullptr : &chain_[i - 1].joint;
+    const bool commanded = section.commanded || (!section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded));
+    const Clearance found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], commanded);
+    if (found == Clearance::fits) continue;
+    fail(section.index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, held_at(section.index).item.source);
+    return false;
   }
   return true;
 }
 
-// What is released is a wall for the blocks behind it.
-void OffsetStage::note_wall(const Section& section) {
-  wall_[1] = wall_[0];
-  wall_[0].offset = 0;
-  if (section.cancel) wall_[1].offset = 0;  // the contour ends here
-  for (Wall& wall : wall_) {
-    wall.piece.from = wall.piece.from - section.delta;
-    wall.piece.to = wall.piece.to - section.delta;
-    wall.piece.center = wall.piece.center - section.delta;
-  }
-  Piece piece;
-  if (section.start || section.cancel || !wall_of(section, -section.delta, &piece)) return;
-  wall_[0].piece = piece;
-  wall_[0].offset = section.offset;
+// The section as a wall, against the paths in front of it.
+void OffsetStage::read_wall(Section* section, const nc_source& source) {
+  const Clearance found = memory_.read(section);
+  if (found == Clearance::fits || !check_joints(chain_.size())) return;
+  fail(section->index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, source);
 }
 
 // ---- letting go ----
@@ -478,7 +474,6 @@ void OffsetStage::release(unsigned sections) {
     held_at(section.index).dead = section.dead;
     chain_start_ = joint.v[joint.n - 1];
     start_commanded_ = section.commanded;
-    if (section.walls || wall_[0].offset != 0 || wall_[1].offset != 0) note_wall(section);
   }
   for (unsigned i = sections; i < chain_.size(); ++i) chain_[i - sections] = chain_[i];
   chain_.resize(chain_.size() - sections);

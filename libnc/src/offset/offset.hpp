@@ -27,9 +27,9 @@
 #pragma once
 
 #include "base/fixed.hpp"
+#include "offset/contour_memory.hpp"
 #include "offset/corner.hpp"
 #include "offset/interference.hpp"
-#include "offset/walls.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
@@ -44,9 +44,16 @@ struct OffsetResume {
   AxisVec programmed;            ///< end of the last block, compensation frame
   AxisVec compensated;           ///< where the tool centre really is
   double direction[2] = {0, 0};  ///< tangent of the last block at its end, unit
+  ContourMemory::State contour;  ///< what the check of the whole contour has seen
+  double level = 0;  ///< its level across the plane
 };
 
 inline bool in_force(const OffsetResume& resume) { return resume.active; }
+
+/// A line shorter than this has no direction: the last digit of its words decides where it leads, and a corner beside it would take the tool
+/// anywhere. It goes along with the vector of the joint before it, which is that of the blocks around it, so the path is off by less than this,
+/// half of what the check of walls allows (kEnters_mm). Several in a row are a block as soon as they lead this far.
+inline constexpr double kNoDirection_mm = 5e-4;
 
 class OffsetStage {
  public:
@@ -54,6 +61,8 @@ class OffsetStage {
   static constexpr unsigned kHeld = 32;
   using Rule = NoRule;
   using Resume = OffsetResume;
+  /// `contour_blocks`: the longest contour that the check of its walls can take. Without this call it takes none.
+  void create(unsigned contour_blocks, Arena& arena) { memory_.create(contour_blocks, arena); }
   /// A move that is compensated.
   bool takes(const Item& item, NoRule, bool) const { return item.move.comp.side != 0; }
   /// Room for one more push (a push may make several items ready).
@@ -95,6 +104,8 @@ class OffsetStage {
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
+    bool in_contour = false;  ///< marks: contour_ has what the check of the walls has seen
+    double level = 0;  ///< marks
     Vec2 lead;
     ContourJoint joint;  ///< section: at its end
   };
@@ -102,6 +113,7 @@ class OffsetStage {
   // Intake: push() and what it decides (offset.cpp).
   void intake_move(Held* held);
   void intake_carried(Held* held);
+  bool intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end);
   void intake_uncompensated(Held* held);
   void intake_command(Held* held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
@@ -109,9 +121,8 @@ class OffsetStage {
   ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
                           const Compensation& comp_behind, bool* found) const;
   bool check_joints(unsigned last_call);
-  bool keeps_clear(unsigned number) const;
-  bool clear_of(const Section& section, const Piece* pieces, unsigned count, unsigned number) const;
-  void note_wall(const Section& section);
+  bool look_at_walls(unsigned sections);
+  void read_wall(Section* section, const nc_source& source);
   void count_block_end();
   void close();
   void settle();
@@ -121,6 +132,7 @@ class OffsetStage {
   uint32_t next_index() const { return first_ + count_; }
   Held& held_at(uint32_t index) { return held_[index % kHeld]; }
   Held& new_slot(const Item& item);
+  ContourMemory::State& contour_at(const Held& held) { return contour_[&held - held_]; }
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 
   // Outlet: pop() (outlet.cpp).
@@ -133,6 +145,7 @@ class OffsetStage {
   void note_mark(const Held& held);
 
   Held held_[kHeld];       ///< item number i lies in held_[i % kHeld]
+  ContourMemory::State contour_[kHeld];
   uint32_t count_ = 0;     ///< of items held
   Chain chain_;            ///< sections whose items are not released
   uint32_t first_ = 0;     ///< index of the front of held_
@@ -145,8 +158,10 @@ class OffsetStage {
   Compensation comp_;    ///< of the last section
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
+  Vec2 approach_;        ///< of the next section
   bool start_commanded_ = true;  ///< it may lie anywhere
-  Wall wall_[2];         ///< of the blocks released last, the newest first
+  ContourMemory memory_;
+  double level_ = 0, level_end_ = 0;  ///< of the last move, across the plane
 
   bool lead_done_ = false;    ///< of the front item
   uint8_t connecting_ = 0;    ///< connecting moves of the front item given, 0 = the move itself not yet

@@ -28,6 +28,13 @@ AxisVec joined(const AxisVec& start, const AxisVec& last_end) {
   return last_end;
 }
 
+void make_line(Move* move) {
+  move->circular = false;
+  move->kind = NC_MOVE_LINE;
+  move->plane = Plane::none;
+  move->circle = Circle{};
+}
+
 bool has_length(const Move& move) {
   if (move.circular && std::abs(move.circle.sweep) * move.circle.radius_start > kNoLength) return true;
   for (unsigned i = 0; i < kMaxAxes; ++i) {
@@ -197,14 +204,13 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   move.end = shifted(programmed.end, axis_, end_vector);
   const bool in_plane = move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1];
   if (in_plane && (held.dead || !goes_round(programmed))) {  // only axes off the plane still move; a straight line
-    move.circular = false;
-    move.kind = NC_MOVE_LINE;
-    move.plane = Plane::none;
-    move.circle = Circle{};
+    make_line(&move);
   } else if (in_plane) {
     const Vec2 start{programmed.start[axis_[0]], programmed.start[axis_[1]]};
     const Vec2 end{programmed.end[axis_[0]], programmed.end[axis_[1]]};
     shift_circle(&move.circle, start, end, vector_, end_vector, held.trim);
+    // An arc whose radius is that of the tool: what is left of it is rounding, which would stop the machine as the bend that it is.
+    if (move.circle.radius_start < kNoDirection_mm && move.circle.radius_end < kNoDirection_mm) make_line(&move);
   } else if (move.circular) {  // an arc in another plane goes along as a whole
     for (unsigned i = 0; i < 2; ++i) {
       if (move.plane_axis[i] == axis_[0]) move.circle.center[i] += vector_.h;
@@ -271,6 +277,9 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.active = held.mode != Mode::off;
   resume_.pending = held.mode == Mode::pending;
   resume_.idle_blocks = held.idle_blocks;
+  resume_.level = held.level;
+  resume_.contour.open = false;
+  if (held.in_contour) resume_.contour = contour_at(held);
   resume_.comp = out_comp_;
   resume_.programmed = programmed_;
   resume_.compensated = compensated_;

@@ -11,30 +11,36 @@
 namespace nc {
 namespace {
 
-constexpr double kFull = 2 * 3.14159265358979323846;
-constexpr double kSameRadius_mm = 1e-6;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kFull = 2 * kPi;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+/// Radii that differ by less count as one.
+constexpr double kOneRadius_mm = 1e-4;
 
 double turned(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+double mean_radius(const Piece& arc) { return 0.5 * (arc.radius + arc.radius_end); }
 
 /// The ray from the centre to this point goes through the arc.
 bool faces(const Piece& arc, Vec2 point) {
-  if (std::abs(arc.sweep) >= kFull) return true;
-  const double along = turned(arc.from - arc.center, point - arc.center);
-  if (arc.sweep >= 0) return (along < 0 ? along + kFull : along) <= arc.sweep;
-  return (along > 0 ? along - kFull : along) >= arc.sweep;
+  const double sweep = std::abs(arc.sweep);
+  if (sweep >= kFull) return true;
+  const Vec2 p = point - arc.center;
+  const Vec2 a = (arc.sweep >= 0 ? arc.from : arc.to) - arc.center, b = (arc.sweep >= 0 ? arc.to : arc.from) - arc.center;  // counter-clockwise from a to b
+  if (sweep <= kPi) return cross(a, p) >= 0 && cross(p, b) >= 0 && (sweep > 1 || dot(p, a) >= 0);
+  return !(cross(b, p) > 0 && cross(p, a) > 0);
 }
 
-double to_line(Vec2 from, Vec2 to, Vec2 point) {
-  const Vec2 way = to - from;
-  const double squares = dot(way, way);
-  const double part = squares > 0 ? std::clamp(dot(point - from, way) / squares, 0.0, 1.0) : 0;
-  return norm(point - from - part * way);
+/// Distance from the inside of the line, its ends aside.
+double to_line(const Piece& line, Vec2 point) {
+  const Vec2 way = line.to - line.from;
+  const double squares = dot(way, way), foot = dot(point - line.from, way);
+  if (!(squares > 0) || foot < 0 || foot > squares) return kInfinite;
+  return std::abs(cross(way, point - line.from)) / std::sqrt(squares);
 }
 
-double to_point(const Piece& piece, Vec2 point) {
-  if (!piece.round) return to_line(piece.from, piece.to, point);
-  const double ends = std::min(norm(point - piece.from), norm(point - piece.to));
-  return faces(piece, point) ? std::min(ends, std::abs(norm(point - piece.center) - piece.radius)) : ends;
+double to_inside(const Piece& piece, Vec2 point) {
+  if (!piece.round) return to_line(piece, point);
+  return faces(piece, point) ? std::abs(norm(point - piece.center) - mean_radius(piece)) : kInfinite;
 }
 
 bool lines_cross(const Piece& a, const Piece& b) {
@@ -48,14 +54,16 @@ bool lines_cross(const Piece& a, const Piece& b) {
 /// Where the line passes the centre nearest, and where it crosses the circle.
 double line_to_arc(const Piece& line, const Piece& arc) {
   const Vec2 way = line.to - line.from;
-  const double length = norm(way);
-  double best = std::numeric_limits<double>::infinity();
+  const double length = norm(way), radius = mean_radius(arc);
+  double best = kInfinite;
   if (!(length > kNoLength)) return best;
   const Vec2 u = (1 / length) * way;
   const double foot = dot(arc.center - line.from, u), away = cross(u, arc.center - line.from);
-  const Vec2 nearest = line.from + std::clamp(foot, 0.0, length) * u;
-  if (faces(arc, nearest)) best = std::abs(norm(nearest - arc.center) - arc.radius);
-  const double squares = arc.radius * arc.radius - away * away;
+  if (foot >= 0 && foot <= length) {
+    const Vec2 nearest = line.from + foot * u;
+    if (faces(arc, nearest)) best = std::abs(norm(nearest - arc.center) - radius);
+  }
+  const double squares = radius * radius - away * away;
   if (squares < 0) return best;
   const double half = std::sqrt(squares);
   for (const double t : {foot - half, foot + half})
@@ -65,18 +73,18 @@ double line_to_arc(const Piece& line, const Piece& arc) {
 
 double arc_to_arc(const Piece& a, const Piece& b) {
   const Vec2 d = b.center - a.center;
-  const double apart = norm(d);
+  const double apart = norm(d), ra = mean_radius(a), rb = mean_radius(b);
   if (!(apart > kNoLength)) {  // about one centre: side by side where they face each other
-    return faces(a, b.from) || faces(a, b.to) || faces(b, a.from) ? std::abs(a.radius - b.radius) : std::numeric_limits<double>::infinity();
+    return faces(a, b.from) || faces(a, b.to) || faces(b, a.from) ? std::abs(ra - rb) : kInfinite;
   }
   const Vec2 e = (1 / apart) * d;
-  double best = std::numeric_limits<double>::infinity();
+  double best = kInfinite;
   for (const double s : {1.0, -1.0})
     for (const double t : {1.0, -1.0}) {
-      const Vec2 p = a.center + s * a.radius * e, q = b.center + t * b.radius * e;
+      const Vec2 p = a.center + s * ra * e, q = b.center + t * rb * e;
       if (faces(a, p) && faces(b, q)) best = std::min(best, norm(p - q));
     }
-  const double x = (a.radius * a.radius - b.radius * b.radius + apart * apart) / (2 * apart), squares = a.radius * a.radius - x * x;
+  const double x = (ra * ra - rb * rb + apart * apart) / (2 * apart), squares = ra * ra - x * x;
   if (squares < 0) return best;
   for (const double h : {std::sqrt(squares), -std::sqrt(squares)}) {
     const Vec2 hit = a.center + x * e + h * left_of(e);
@@ -85,46 +93,104 @@ double arc_to_arc(const Piece& a, const Piece& b) {
   return best;
 }
 
-bool arc_of(const Section& section, Vec2 start, Piece* piece) {
-  const double radius = std::abs(1 / section.begin.curvature);
-  if (std::abs(radius - std::abs(1 / section.end.curvature)) > kSameRadius_mm) return false;
+void arc_of(const Section& section, Vec2 start, Piece* piece) {
   piece->round = true;
   piece->center = start + (1 / section.begin.curvature) * left_of(section.begin.u);
-  piece->radius = radius;
+  piece->radius = std::abs(1 / section.begin.curvature);
+  piece->radius_end = std::abs(1 / section.end.curvature);
   piece->sweep = section.sweep;
-  return true;
 }
+
+/// The two halves of an arc.
+void halve(const Piece& arc, Piece half[2]) {
+  const double c = std::cos(arc.sweep / 2), s = std::sin(arc.sweep / 2), middle = mean_radius(arc);
+  const Vec2 out = unit(arc.from - arc.center);
+  const Vec2 point = arc.center + middle * Vec2{c * out.h - s * out.v, s * out.h + c * out.v};
+  half[0] = half[1] = arc;
+  half[0].sweep = half[1].sweep = arc.sweep / 2;
+  half[0].to = half[1].from = point;
+  half[0].radius_end = half[1].radius = middle;
+}
+
+/// How far its points may lie beside the arc of its mean radius.
+double slack(const Piece& piece) { return piece.round ? 0.5 * std::abs(piece.radius - piece.radius_end) : 0; }
 
 }  // namespace
 
-bool wall_of(const Section& section, Vec2 start, Piece* wall) {
-  wall->from = start;
-  wall->to = start + section.delta;
-  return section.begin.curvature == 0 || arc_of(section, start, wall);
+Piece wall_of(const Section& section, Vec2 start) {
+  Piece wall;
+  wall.from = start;
+  wall.to = start + section.delta;
+  if (section.begin.curvature != 0) arc_of(section, start, &wall);
+  return wall;
 }
 
-bool path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to, Piece* path) {
-  path->from = start + from;
-  path->to = start + section.delta + to;
-  if (section.begin.curvature == 0) return true;
-  if (!arc_of(section, start, path)) return false;
-  const Vec2 center = path->center;
-  const double radius = norm(path->from - center);
-  if (std::abs(radius - norm(path->to - center)) > kSameRadius_mm) return false;
-  if (!(radius > kSameRadius_mm)) {  // the tool turns in one place
-    path->round = false;
-    return true;
+Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to) {
+  Piece path;
+  path.from = start + from;
+  path.to = start + section.delta + to;
+  if (section.begin.curvature == 0 || section.dead) return path;
+  arc_of(section, start, &path);
+  const Vec2 center = path.center;
+  path.radius = norm(path.from - center);
+  path.radius_end = norm(path.to - center);
+  if (!(path.radius > kNoLength) || !(path.radius_end > kNoLength)) {  // the tool turns in one place, or comes to the centre
+    path.round = false;
+    return path;
   }
-  path->radius = radius;
-  path->sweep += turned(start + section.delta - center, path->to - center) - turned(start - center, path->from - center);
-  return true;
+  path.sweep += turned(start + section.delta - center, path.to - center) - turned(start - center, path.from - center);
+  return path;
 }
 
-double distance(const Piece& a, const Piece& b) {
-  double best = std::min(std::min(to_point(a, b.from), to_point(a, b.to)), std::min(to_point(b, a.from), to_point(b, a.to)));
-  if (a.round && b.round) return std::min(best, arc_to_arc(a, b));
-  if (a.round || b.round) return std::min(best, a.round ? line_to_arc(b, a) : line_to_arc(a, b));
-  return lines_cross(a, b) ? 0 : best;
+Piece arc_about(Vec2 center, Vec2 from, Vec2 to) {
+  Piece arc;
+  arc.from = from;
+  arc.to = to;
+  arc.round = true;
+  arc.center = center;
+  arc.radius = norm(from - center);
+  arc.radius_end = norm(to - center);
+  arc.sweep = turned(from - center, to - center);
+  return arc;
+}
+
+Box box_of(const Piece& piece) {
+  Box box;
+  box.take(piece.from);
+  box.take(piece.to);
+  if (!piece.round) return box;
+  const double radius = std::max(piece.radius, piece.radius_end);
+  for (const Vec2 way : {Vec2{1, 0}, Vec2{-1, 0}, Vec2{0, 1}, Vec2{0, -1}}) {
+    const Vec2 point = piece.center + radius * way;
+    if (faces(piece, point)) box.take(point);
+  }
+  return box;
+}
+
+double distance(const Piece& path, const Piece& wall, OpenEnds open) {
+  double best = std::min(to_inside(wall, path.from), to_inside(wall, path.to));
+  for (const Vec2 end : {path.from, path.to}) {
+    if (!open.from) best = std::min(best, norm(end - wall.from));
+    if (!open.to) best = std::min(best, norm(end - wall.to));
+  }
+  if (!open.from) best = std::min(best, to_inside(path, wall.from));
+  if (!open.to) best = std::min(best, to_inside(path, wall.to));
+  if (path.round && wall.round) return std::min(best, arc_to_arc(path, wall));
+  if (path.round || wall.round) return std::min(best, path.round ? line_to_arc(wall, path) : line_to_arc(path, wall));
+  return lines_cross(path, wall) ? 0 : best;
+}
+
+bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds open) {
+  const double slack_path = slack(path), slack_wall = slack(wall), d = distance(path, wall, open);
+  if (slack_path + slack_wall <= kOneRadius_mm) return d < least;
+  if (d - slack_path - slack_wall >= least) return false;
+  Piece half[2];
+  if (slack_path >= slack_wall) {
+    halve(path, half);
+    return comes_nearer(half[0], wall, least, open) || comes_nearer(half[1], wall, least, open);
+  }
+  halve(wall, half);
+  return comes_nearer(path, half[0], least, {open.from, false}) || comes_nearer(path, half[1], least, {false, open.to});
 }
 
 }  // namespace nc

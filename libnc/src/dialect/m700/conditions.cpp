@@ -56,6 +56,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "P33", nullptr},            // does not occur: M06 is put out like any other M code
     {C::comp_no_intersection, "P152", nullptr},
     {C::comp_interference, "P153", nullptr},
+    {C::contour_too_long, "P990", nullptr},    // CONTOUR_CHECK; appendix 1: more than can be read ahead
     {C::corner_option, "P380", nullptr},       // 13.7; in a fixed cycle, and while programmed coordinates are not those of the axes
     {C::corner_arc, "P381", nullptr},          // 13.7
     {C::corner_no_move, "P382", nullptr},

@@ -214,29 +214,23 @@ Second second_block(const BlockContext& in, const InPlane& plane) {
   return second;
 }
 
-/// An arc behind a whole circle, or behind nothing, that is one by itself: by 6.4 and 6.5 such blocks mean something without 13.9. Where both
-/// readings are possible the older one counts, but for a pair as 13.9 prints it, with a radius and the other sense, that does not begin along
-/// the circle before.
-bool stands_without_pair(const BlockContext& in, const MeetingFirst& first, const Second& second) {
+/// Whether the second block is an arc by itself, from where the first one began: by 6.4 and 6.5 an arc without an end and the arc behind it mean
+/// something without 13.9. Where both readings are possible the older one counts, but for a pair as 13.9 prints it, with a radius and the other
+/// sense, that does not begin along the circle before. `meet` false: the two blocks do not meet, so there is no other reading.
+bool stands_by_itself(const BlockContext& in, const MeetingFirst& first, const Second& second, bool meet) {
   const PlanePoint start{first.start[0], first.start[1]};
   const double tolerance = in.settings.arc_tolerance;
   if (!second.circle.by_radius) {  // its centre counts from the start there
     const double h = second.circle.center.h - second.end.h, v = second.circle.center.v - second.end.v;
     return std::fabs(std::hypot(h, v) - std::hypot(start.h + h - second.end.h, start.v + v - second.end.v)) <= tolerance + 1e-9;
   }
-  if (first.by_radius || first.ccw == second.circle.ccw) return true;
+  if (meet && (first.by_radius || first.ccw == second.circle.ccw)) return true;
   const double chord = std::hypot(second.end.h - start.h, second.end.v - start.v);
   if (chord > 2 * std::fabs(second.circle.radius) || chord == 0) return false;
+  if (!meet) return true;
   const PlanePoint center = center_of_radius(start, second.end, second.circle.radius, second.circle.ccw);
   const double a[2] = {first.center[0] - start.h, first.center[1] - start.v}, b[2] = {center.h - start.h, center.v - start.v};
   return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
-}
-
-/// The second block is an arc from where the first one began, whatever the sense of the first.
-bool arc_by_itself(const MeetingFirst& first, const Second& second) {
-  if (!second.circle.by_radius) return false;  // stands_without_pair() has looked at its centre
-  const double chord = std::hypot(second.end.h - first.start[0], second.end.v - first.start[1]);
-  return chord > 0 && chord <= 2 * std::fabs(second.circle.radius);
 }
 
 Meeting solve(const BlockContext& in, const MeetingFirst& first, const Second& second) {
@@ -317,7 +311,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
     if (!second.line && !second.arc) return in.raise(Condition::geometric_address);
   }
   const bool both_by_radius = first.kind == Kind::arc && first.by_radius && second.arc && second.circle.by_radius;
-  const bool pair = (second.line || second.arc) && !both_by_radius && !(first.kind == Kind::arc && second.arc && stands_without_pair(in, first, second));
+  const bool pair = (second.line || second.arc) && !both_by_radius && !(first.kind == Kind::arc && second.arc && stands_by_itself(in, first, second, true));
   if (!pair) return needs_second ? in.raise(Condition::geometric_address) : Execution::later;
   if (second.incremental) return in.raise(Condition::geometric_incremental);
   if (!choice_of_block(in, &second.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
@@ -327,7 +321,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   const Meeting meeting = solve(in, first, second);
   if (meeting.bad != Condition::none) {
     // Two arcs that do not meet, and each of which means something by itself (6.4, 6.5), are no pair.
-    if (!needs_second && second.arc && arc_by_itself(first, second)) return Execution::later;
+    if (!needs_second && second.arc && stands_by_itself(in, first, second, false)) return Execution::later;
     return in.raise(meeting.bad);
   }
   return make_second(in, plane, second, meeting);

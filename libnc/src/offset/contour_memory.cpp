@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "offset/contour_memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace nc {
+
+static_assert(std::is_trivially_copyable_v<ContourMemory>);
+
+namespace {
+
+/// A contour that comes back to a point this near has closed there.
+constexpr double kCloses_mm = 1e-3;
+/// ... once it has been this far away.
+constexpr double kAway_mm = 0.01;
+/// Ends of walls this near to where the tool comes to the contour belong to that joint.
+constexpr double kSameJoint_mm = 0.01;
+/// Levels that differ by less are one.
+constexpr double kLevel_mm = 1e-3;
+constexpr double kHalfTurn = 3.14159265358979323846;
+
+/// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
+double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
+
+uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
+
+}  // namespace
+
+void ContourMemory::begin(bool with_start) {
+  state_ = State{};
+  state_.first = state_.end = walls_.end();
+  state_.first_path = paths_.end();
+  state_.with_start = with_start;
+  state_.open = true;
+}
+
+void ContourMemory::restore(const State& state) {
+  const State seen = state_;
+  state_ = state;
+  if (!state.open) return;
+  // Where the contour is not in this memory, another control has read it, or too much has been read since: it cannot be checked any more.
+  state_.overlong = state.overlong || walls_.end() < state.end || !walls_.keeps(state.first);
+  if (state_.overlong) return;
+  walls_.cut(state.end);
+  while (paths_.end() > 0 && paths_.keeps(paths_.end() - 1) && paths_[paths_.end() - 1].number >= state.end) paths_.cut(paths_.end() - 1);
+  if (seen.open && seen.first == state.first) {  // paths in front of the mark were settled behind it
+    state_.suspects = static_cast<uint8_t>(state.suspects | seen.suspects);
+    if (seen.out != 0 && seen.out < state.end) state_.out = seen.out;
+  }
+}
+
+/// The joint at the end of a block: where the contour is, and whether it has closed.
+void ContourMemory::follow(const Section& section, uint64_t number) {
+  const Vec2 start = state_.at + section.approach;
+  state_.at = start + section.delta;
+  const uint64_t place = behind_start(number);
+  const bool round = std::abs(section.sweep) > kHalfTurn && norm(start - wall_of(section, start).center) > kAway_mm;
+  for (unsigned i = 0; i < state_.joints; ++i) {
+    const double from_joint = norm(state_.at - state_.joint[i]);
+    if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
+    if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm) continue;
+    state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
+    if (state_.closure == 0) state_.closure = number;
+    for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
+  }
+  if (place > kWay) return;
+  for (uint64_t i = state_.joints; i <= place; ++i) state_.joint[i] = i < place ? start : state_.at;
+  state_.joints = static_cast<uint8_t>(place + 1);
+}
+
+bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(number) <= kWay && state_.closed >> behind_start(number) != 0; }
+
+/// A path comes too near to this block. True: it is a wall; else that shows later.
+bool ContourMemory::blame(uint64_t number) {
+  if (is_way_in(number)) return false;
+  if (state_.closure != 0 && number > state_.closure) {
+    if (state_.out == 0 || number < state_.out) state_.out = number;
+    return false;
+  }
+  const uint64_t place = behind_start(number);
+  if (place > kWay) return true;
+  state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
+  return false;
+}
+
+bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
+  if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
+  const uint64_t between = apart(path.number, number);
+  if (between == 0) return false;
+  if (between <= kPreRead && (path.commanded || path.offset * wall.offset < 0)) return false;
+  OpenEnds open;
+  if (between <= kPreRead && (path.starts ? number > path.number : path.cancels && number < path.number)) {
+    open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
+    open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
+    if (open.from && open.to && !wall.piece.round) return false;
+  }
+  return comes_nearer(path.piece, wall.piece, std::min(std::abs(path.offset), std::abs(wall.offset)) - kEnters_mm - path.slop - wall.slop, open);
+}
+
+Clearance ContourMemory::read(Section* section) {
+  const bool ends = section->cancel && !section->transparent;
+  if (!state_.open || section->start) begin(section->start);
+  section->number = walls_.end();
+  if (state_.overlong || !walls_.keeps(state_.first)) {
+    state_.overlong = true;
+    return Clearance::full;
+  }
+  if (state_.out != 0 && !ends && section->number - state_.out >= kWay) return Clearance::enters;  // it leads on: no way out
+  const Vec2 start = state_.at + section->approach;
+  section->contour_start = start;
+  follow(*section, section->number);
+  state_.end = section->number + 1;
+  Wall wall;
+  wall.piece = wall_of(*section, start);
+  wall.low = std::min(section->level, section->level_end);
+  wall.high = std::max(section->level, section->level_end);
+  if (section->offset != 0 && !section->cancel) state_.offset = section->offset;
+  if (!section->start && !section->cancel && section->cuts) wall.offset = section->offset;
+  wall.slop = slop_of(wall.piece);
+  const Box box = box_of(wall.piece);
+  walls_.push(wall, box);
+  if (wall.offset == 0) return Clearance::fits;
+  const bool near = paths_.any(state_.first_path, box.grown(std::abs(wall.offset)), [&](uint64_t, const Path& path) { return enters(path, section->number, wall); });
+  return near && blame(section->number) ? Clearance::enters : Clearance::fits;
+}
+
+Clearance ContourMemory::settle(const Section& section, Vec2 from, bool commanded) {
+  Path path;
+  path.number = section.number;
+  path.offset = section.cancel ? state_.offset : section.offset;
+  path.low = std::min(section.level, section.level_end);
+  path.high = std::max(section.level, section.level_end);
+  path.starts = section.start;
+  path.cancels = section.cancel;
+  path.commanded = commanded && !section.cancel;
+  const Vec2 start = section.contour_start, end = start + section.delta;
+  path.slop = slop_of(wall_of(section, start));
+  path.contour = section.start ? end : start;
+  Clearance found = Clearance::fits;
+  const auto add = [&](const Piece& piece) {
+    path.piece = piece;
+    const Clearance next = take(path);
+    if (next != Clearance::fits && found != Clearance::full) found = next;
+  };
+  if (section.led) {
+    Piece lead;
+    lead.from = start;
+    lead.to = start + from;
+    path.starts = true;
+    path.contour = start;
+    add(lead);
+    path.starts = section.start;
+    path.contour = section.start ? end : start;
+  }
+  add(path_of(section, start, from, section.joint.v[0]));
+  for (unsigned k = 1; k < section.joint.n; ++k) {
+    Piece piece;
+    piece.from = end + section.joint.v[k - 1];
+    piece.to = end + section.joint.v[k];
+    add(section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
+  }
+  if (!section.cancel || section.transparent) return found;
+  const bool no_way_in = state_.suspects != 0, no_way_out = state_.out != 0 && section.number - state_.out > kWay;
+  state_.open = false;
+  return found == Clearance::fits && (no_way_in || no_way_out) ? Clearance::enters : found;
+}
+
+/// A piece of a path: all walls that have been read.
+Clearance ContourMemory::take(const Path& path) {
+  if (!paths_.keeps(state_.first_path)) return Clearance::full;
+  const Box box = box_of(path.piece);
+  if (path.offset == 0) return Clearance::fits;
+  paths_.push(path, box);
+  const bool near = walls_.any(state_.first, box.grown(std::abs(path.offset)), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && blame(number); });
+  return near ? Clearance::enters : Clearance::fits;
+}
+
+}  // namespace nc

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole contour between the start of radius compensation and its end: does the path of the tool anywhere come nearer than the radius to any of
+// the blocks (m700: CONTOUR_CHECK)? It is asked when a block is read, of the paths before it, and when the path of a block is settled, of all blocks
+// that have been read; so each pair is looked at once, those of the pre-read before the machine moves.
+//
+// What is a wall. Every cutting block between the start and the end of compensation, but for the way in and the way out, which the path of the
+// contour crosses: up to three blocks behind the start, if the contour later comes back to where they end (then it is closed there), and up to
+// three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
+// near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
+//
+// What is not compared: a path with its own wall, blocks on other levels (the axis across the plane), and of vectors that the program gives itself
+// (I J K, G38, what stops the pre-read, a change of side) the two blocks before and behind.
+//
+// Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
+// is not looked at.
+#pragma once
+
+#include "offset/box_row.hpp"
+#include "offset/walls.hpp"
+
+namespace nc {
+
+/// fits: nothing comes too near. enters: something does. full: the contour is longer than the memory.
+enum class Clearance : uint8_t { fits, enters, full };
+
+class ContourMemory {
+ public:
+  static constexpr unsigned kWay = 3;  ///< the most blocks of a way in, or out
+  static constexpr unsigned kPreRead = 2;  ///< blocks beside a vector that the program gives, which are not compared
+
+  /// What a checkpoint keeps: the contour as far as it has been read.
+  struct State {
+    bool open = false;       ///< between the start and the end of compensation
+    bool overlong = false;
+    uint64_t first = 0;      ///< number of its first block
+    uint64_t first_path = 0; ///< ... and of its first path
+    bool with_start = true;  ///< the first block is that of a start
+    uint64_t end = 0;        ///< ... of the next block
+    uint64_t closure = 0;    ///< of the block in which the contour has first closed; 0: not yet
+    uint64_t out = 0;        ///< of a block behind it that a path comes too near to: it has to be a way out; 0: none
+    uint8_t joints = 0;      ///< how many of `joint` are there
+    uint8_t away = 0;        ///< bit i: the contour has left joint i
+    uint8_t closed = 0;      ///< bit i: ... and has come back to it
+    uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in
+    double offset = 0;       ///< of the last block that has one
+    Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
+    Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
+  };
+
+  void create(unsigned blocks, Arena& arena) {
+    walls_.create(blocks, arena);
+    paths_.create(blocks, arena);
+  }
+  /// What comes next is another program.
+  void reset() { state_.open = state_.overlong = false; }
+  const State& state() const { return state_; }
+  void restore(const State& state);
+  /// A path has come too near to blocks that have to be a way in or out, which is not known yet.
+  bool suspects() const { return state_.open && (state_.suspects != 0 || state_.out != 0); }
+
+  /// A block has been read; `section->number` becomes its number. Its path comes later.
+  Clearance read(Section* section);
+  /// The path of the block is settled: it begins with this vector.
+  Clearance settle(const Section& section, Vec2 from, bool commanded);
+
+ private:
+  struct Wall {
+    Piece piece;
+    double offset = 0;  ///< 0: it is none
+    double slop = 0;
+    double low = 0, high = 0;
+  };
+  struct Path {
+    Piece piece;
+    uint64_t number = 0;  ///< of its block
+    double offset = 0, slop = 0;
+    double low = 0, high = 0;
+    bool commanded = false, starts = false, cancels = false;
+    Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
+  };
+
+  void begin(bool with_start);
+  uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
+  void follow(const Section& section, uint64_t number);
+  bool is_way_in(uint64_t number) const;
+  bool enters(const Path& path, uint64_t number, const Wall& wall) const;
+  bool blame(uint64_t number);
+  Clearance take(const Path& path);
+
+  BoxRow<Wall> walls_;
+  BoxRow<Path> paths_;
+  State state_;
+};
+
+}  // namespace nc

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// The check of the whole contour (CONTOUR_CHECK): walls that are far apart in the program, ways in and out, levels, arcs whose radii differ, what is
+// longer than its memory, and going back behind a mark.
+#include "offset/contour_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include "alarm/condition.hpp"
+#include "path_builder.hpp"
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// A stage with room for a contour of so many blocks.
+class WithMemory {
+ public:
+  explicit WithMemory(unsigned blocks) {
+    Arena measure;
+    stage.create(blocks, measure);
+    memory_ = std::make_unique_for_overwrite<std::max_align_t[]>(measure.used() / sizeof(std::max_align_t) + 1);
+    Arena arena(memory_.get(), measure.used());
+    stage.create(blocks, arena);
+  }
+  OffsetStage stage;
+
+ private:
+  std::unique_ptr<std::max_align_t[]> memory_;
+};
+
+void ask(PathBuilder* path) { path->comp.check = path->comp.walls = true; }
+
+/// Line of the alarm, 0 without one.
+unsigned line_of_alarm(const PathBuilder& path, unsigned blocks = 200) {
+  WithMemory with(blocks);
+  const std::vector<Item> out = run_stage(with.stage, path.items);
+  const Item* alarm = alarm_of(out);
+  return alarm == nullptr ? 0 : alarm->source.line;
+}
+
+TEST(BoxRow, FindsWhatASearchThroughAllFinds) {
+  std::mt19937 random(3);
+  const auto number = [&] { return std::uniform_real_distribution<double>(-50, 50)(random); };
+  std::vector<unsigned char> memory(1u << 20);
+  void* at = memory.data();
+  size_t room = memory.size();
+  Arena arena(std::align(64, 64, at, room), room);
+  BoxRow<unsigned> row;
+  row.create(100, arena);
+  std::vector<Box> boxes;
+  uint64_t first = 0;
+  unsigned found_in_all = 0;
+  for (unsigned i = 0; i < 3000; ++i) {
+    if (i % 50 == 17) {  // back behind a mark
+      row.cut(boxes.size() - 5);
+      boxes.resize(boxes.size() - 5);
+    }
+    Box box;
+    const Vec2 low{number(), number()};
+    box.take(low);
+    box.take(low + Vec2{3, 2});
+    first = boxes.size() > 90 ? boxes.size() - 90 : 0;
+    ASSERT_TRUE(row.keeps(first));
+    row.push(static_cast<unsigned>(boxes.size()), box);
+    boxes.push_back(box);
+    std::vector<unsigned> expected, found;
+    for (uint64_t k = first; k < boxes.size(); ++k)
+      if (boxes[k].touches(box)) expected.push_back(static_cast<unsigned>(k));
+    row.any(first, box, [&](uint64_t place, unsigned record) {
+      EXPECT_EQ(place, record);
+      found.push_back(record);
+      return false;
+    });
+    ASSERT_EQ(found, expected) << i;
+    found_in_all += static_cast<unsigned>(found.size());
+  }
+  EXPECT_GT(found_in_all, 3100u);
+  EXPECT_FALSE(row.keeps(boxes.size() - 200));
+}
+
+/// A plate with a chamber in it that a slot of this width leads to: the walls of the slot are far apart in the program.
+PathBuilder keyhole(double width) {
+  PathBuilder path(-70, -50);
+  path.side(1, 5);  // outside, clockwise
+  ask(&path);
+  path.line(-60, -40).line(-60, 20).line(-width / 2, 20).line(-width / 2, 0).line(-20, 0).line(-20, -20);
+  for (const double h : {-10, -5, 0, 5, 10, 20}) path.line(h, -20);
+  path.line(20, 0).line(width / 2, 0).line(width / 2, 20).line(60, 20).line(60, -40).line(-60, -40);
+  path.cancel().line(-80, -50);
+  path.end();
+  return path;
+}
+constexpr unsigned kSecondWall = 14;  ///< block that leads to the slot's other side
+
+TEST(ContourCheck, WallsThatAreFarApartInTheProgram) {
+  EXPECT_EQ(line_of_alarm(keyhole(10.01)), 0u);
+  EXPECT_EQ(line_of_alarm(keyhole(9.99)), kSecondWall);
+  PathBuilder open = keyhole(9.9);
+  for (Item& item : open.items) item.move.comp.walls = false;
+  EXPECT_EQ(line_of_alarm(open), 0u);  // the manual's check does not look so far
+}
+
+/// A rectangular pocket, in and out on quarter circles in the middle of a side, and a millimetre too far round before the way out.
+PathBuilder pocket(bool closes) {
+  PathBuilder path(0, 0);
+  path.side(1, 3);
+  ask(&path);
+  path.line(-10, -10).arc_by(true, 10, -10, 10, 0);
+  path.line(30, -20).line(30, 20).line(-30, 20).line(-30, -20);
+  if (closes) path.line(0, -20).line(1, -20).arc_by(true, 10, 10, 0, 10);
+  else path.line(-1, -20).line(-1, -10);
+  path.cancel().line(0, 0);
+  path.end();
+  return path;
+}
+
+TEST(ContourCheck, TheWayInAndTheWayOutAreNoWalls) {
+  EXPECT_EQ(line_of_alarm(pocket(true)), 0u);
+  EXPECT_NE(line_of_alarm(pocket(false)), 0u);  // it never closes: the arc is a wall that the path has cut
+}
+
+TEST(ContourCheck, AWayOutIsShort) {  // behind the closing point the contour goes on for too long: that is a wall which the first side has cut
+  PathBuilder path(0, 0);
+  path.side(1, 3);
+  ask(&path);
+  path.line(0, -20).line(30, -20).line(30, 20).line(-30, 20).line(-30, -20).line(0, -20);
+  path.line(20, -20).line(20, -15).line(15, -10).line(10, -5).line(0, -5);
+  path.cancel().line(0, 0);
+  path.end();
+  EXPECT_NE(line_of_alarm(path), 0u);
+}
+
+TEST(ContourCheck, StartAndEndOfCompensationCutNoWall) {
+  const auto square = [](double h, double v) {  // from outside of a square to its corner (20, 0), and back
+    PathBuilder path(h, v);
+    path.side(-1, 5);
+    ask(&path);
+    path.line(20, 0).line(20, 20).line(-20, 20).line(-20, -20).line(20, -20).line(20, 0);
+    path.cancel().line(h, v);
+    path.end();
+    return line_of_alarm(path);
+  };
+  EXPECT_EQ(square(40, 0), 0u);
+  EXPECT_EQ(square(26, -10), 0u);
+  EXPECT_NE(square(22, -10), 0u);  // along the side, nearer than the radius
+  EXPECT_NE(square(0, 0), 0u);     // from within the part
+}
+
+TEST(ContourCheck, OtherLevelsAreNotCompared) {
+  const auto crossing = [](double down) {
+    PathBuilder path(-40, 0);
+    path.side(1, 3);
+    ask(&path);
+    path.line(-30, 0).line(30, 0).line(30, 30).line(0, 30);
+    path.off_plane(down);
+    path.line(0, -30).line(-30, -30);
+    path.cancel().line(-60, -30);
+    path.end();
+    return line_of_alarm(path);
+  };
+  EXPECT_NE(crossing(0), 0u);
+  EXPECT_EQ(crossing(10), 0u);
+}
+
+TEST(ContourCheck, ArcsWhoseRadiiDiffer) {  // within #1084; the far side of the slot is such an arc
+  const auto narrow = [](double gap) {
+    PathBuilder path(-60, 0);
+    path.side(1, 5);
+    ask(&path);
+    path.line(-50, 0).line(20, 0).line(20, -40).line(60, -40).line(60, 40).line(25, gap);
+    // About (0, gap + 100), radius 103.08 at its start and 103.13 at its end: nearest to the first line in the middle.
+    path.arc(false, -25, gap - 0.05, -25, 100);
+    path.line(-50, 40);
+    path.cancel().line(-80, 40);
+    path.end();
+    return line_of_alarm(path);
+  };
+  EXPECT_EQ(narrow(14), 0u);  // it ends 2 um beside its circle, which is how it is programmed
+  EXPECT_NE(narrow(7), 0u);
+}
+
+TEST(ContourCheck, ALongerContourThanItsMemoryIsAnAlarm) {
+  PathBuilder path(kTurn, -10);
+  path.side(1, 0.5);
+  ask(&path);
+  for (unsigned i = 0; i < 60; ++i) path.by(1, i % 2 == 0 ? 0.1 : -0.1);
+  path.cancel().by(1, 1);
+  path.end();
+  EXPECT_EQ(line_of_alarm(path, 61), 0u);
+  WithMemory with(16);
+  const std::vector<Item> out = run_stage(with.stage, path.items);
+  ASSERT_NE(alarm_of(out), nullptr);
+  EXPECT_EQ(alarm_of(out)->alarm.condition, Condition::contour_too_long);
+  EXPECT_GT(alarm_of(out)->source.line, 16u);
+  EXPECT_LE(alarm_of(out)->source.line, 32u);
+  OffsetStage without;  // no memory at all
+  const std::vector<Item> none = run_stage(without, path.items);
+  ASSERT_NE(alarm_of(none), nullptr);
+  EXPECT_EQ(alarm_of(none)->source.line, 1u);
+}
+
+TEST(ContourCheck, AHundredThousandBlocks) {  // a spiral whose turns are 4 mm apart, and at its end a line back to the inside
+  for (const bool back : {false, true}) {
+    constexpr unsigned kLines = 100000;
+    PathBuilder path(0, 0);
+    path.side(1, 1.5);  // inside of the last turn
+    ask(&path);
+    for (unsigned i = 0; i < kLines; ++i) {
+      const double turn = 0.002 * kTurn * i, radius = 10 + 4 * turn / kTurn;
+      path.line(radius * std::cos(turn), radius * std::sin(turn));
+    }
+    if (back) path.line(0, 0).line(0, 1);
+    path.cancel().by(-1.5, 3);
+    path.end();
+    EXPECT_EQ(line_of_alarm(path, kLines + 10) != 0, back);
+  }
+}
+
+TEST(ContourCheck, GoesOnBehindAnyMark) {
+  for (const double width : {9.9, 10.2}) {
+    const PathBuilder path = keyhole(width);
+    const unsigned expected = line_of_alarm(path);
+    for (uint32_t mark = 1; mark < 16; ++mark) {
+      WithMemory with(200);
+      OffsetResume resume;
+      bool kept = false;
+      size_t behind = 0;
+      Item item;
+      for (size_t i = 0; i < path.items.size(); ++i) {
+        with.stage.push(path.items[i]);
+        while (with.stage.pop(item)) {
+          if (item.kind != ItemKind::mark || item.source.line != mark) continue;
+          resume = with.stage.resume_point();
+          kept = true;
+        }
+        if (path.items[i].kind == ItemKind::mark && path.items[i].source.line == mark) behind = i + 1;
+      }
+      if (!kept) continue;
+      with.stage.restore(resume);
+      const std::vector<Item> rest(path.items.begin() + static_cast<std::ptrdiff_t>(behind), path.items.end());
+      const std::vector<Item> out = run_stage(with.stage, rest);
+      ASSERT_EQ(alarm_of(out) != nullptr, expected != 0) << width << " " << mark;
+      if (expected != 0) {
+        EXPECT_EQ(alarm_of(out)->source.line, expected) << width << " " << mark;
+      }
+    }
+  }
+}
+
+TEST(ContourCheck, AnotherControlDoesNotKnowTheContour) {  // a contour that was begun elsewhere cannot be checked: never a silent gouge
+  const PathBuilder path = keyhole(10.2);
+  WithMemory with(200), other(200);
+  Item item;
+  for (const Item& in : path.items) {
+    with.stage.push(in);
+    while (with.stage.pop(item)) {
+      if (item.kind != ItemKind::mark || item.source.line != 4) continue;
+      other.stage.restore(with.stage.resume_point());
+    }
+  }
+  size_t behind = 0;
+  while (path.items[behind].kind != ItemKind::mark || path.items[behind].source.line != 4) ++behind;
+  const std::vector<Item> rest(path.items.begin() + static_cast<std::ptrdiff_t>(behind + 1), path.items.end());
+  const std::vector<Item> out = run_stage(other.stage, rest);
+  ASSERT_NE(alarm_of(out), nullptr);
+  EXPECT_EQ(alarm_of(out)->alarm.condition, Condition::contour_too_long);
+}
+
+// ---- what the manual lets pass, by programs ----
+
+std::string alarm_of_program(const std::string& text, double radius, const std::map<std::string, std::string>& parameters) {
+  Bench bench;
+  bench.tool(1, radius);
+  for (const auto& [name, value] : parameters) bench.param(name.c_str(), value.c_str());
+  const Outcome run = bench.run(text);
+  return run.alarm;
+}
+
+/// A step that the tool does not fit into.
+constexpr char kStep[] = "G0 X-40. Y-20.\nG41 D1 G1 X-30. Y0 F500\nX0\n%sY-2.\nX2.\nY0\nX30.\nG40 X50. Y20.\nM30\n";
+
+std::string step(const char* between) {
+  std::string text = kStep;
+  return text.replace(text.find("%s"), 2, between);
+}
+
+TEST(ContourCheck, TheManualsExceptions) {
+  EXPECT_EQ(alarm_of_program(step(""), 5, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(step(""), 5, {}), "P153");
+  EXPECT_EQ(alarm_of_program(step(""), 5, {{"CONTOUR_CHECK", "1"}, {"8103", "1"}}), "");  // the check is off as a whole
+}
+
+TEST(ContourCheck, BlocksWithoutMovementBeyondThePreRead) {
+  // Four of them close the contour: the vectors at their joint stand at right angles, which cuts into the wall. The manual's check does not see that;
+  // the vectors are what the program asks for, so the two blocks beside them are not compared with CONTOUR_CHECK either.
+  const std::string corner = "G0 X-40. Y20.\nG41 D1 G1 X-30. Y0 F500\nX0\nM20\nM21\nM22\nM23\nM24\nY30.\nX-40.\nG40 X-50. Y50.\nM30\n";
+  EXPECT_EQ(alarm_of_program(corner, 5, {}), "");
+  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
+}
+
+TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is computed for G41 I J, and nothing is checked beside it
+  const std::string corner = "G0 X-40. Y20.\nG41 D1 G1 X-30. Y0 F500\nG41 X0 I1. J0\nY30.\nX-40.\nG40 X-50. Y50.\nM30\n";
+  EXPECT_EQ(alarm_of_program(corner, 5, {}), "");
+  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
+}
+
+}  // namespace
+}  // namespace nc::test

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines of a nanometre: the last digit of their words says where they lead, so they have no direction of their own. The tool's path is that of the
+// contour without them, and a contour of nothing else is followed all the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "path_builder.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kNanometre = 1e-6;
+
+double apart(const AxisVec& a, const AxisVec& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// A corner of `turn_deg` at the origin, the tool on the left; with a line of a nanometre in it, where `facet_deg` is a direction.
+std::vector<Item> corner(double turn_deg, double facet_deg, bool facet) {
+  const double turn = turn_deg * std::numbers::pi / 180, way = facet_deg * std::numbers::pi / 180;
+  PathBuilder path(-80, 10);
+  path.side(1, 8.653);
+  path.comp.check = true;
+  path.line(-60, 0);
+  path.line(0, 0);
+  if (facet) {
+    path.by(kNanometre * std::cos(way), kNanometre * std::sin(way));
+  } else {
+    path.idle();
+  }
+  path.by(60 * std::cos(turn), 60 * std::sin(turn));
+  path.cancel().by(20, 20);
+  path.end();
+  return run_stage(path);
+}
+
+TEST(WithoutDirection, AFacetOfANanometreLeavesTheCornerAsItIs) {
+  for (double turn = -165; turn <= 150; turn += 15) {
+    if (turn == 0) continue;
+    const std::vector<Item> plain = corner(turn, 0, false);
+    ASSERT_EQ(alarm_of(plain), nullptr) << turn;
+    for (double way = 0; way < 360; way += 22.5) {
+      const std::vector<Item> out = corner(turn, way, true);
+      ASSERT_EQ(alarm_of(out), nullptr) << turn << " " << way;
+      AxisVec start;
+      start[0] = -80;
+      start[1] = 10;
+      for (const uint32_t block : {1u, 2u, 3u, 4u}) EXPECT_LE(apart(at_block(out, start, block), at_block(plain, start, block)), 2 * kNanometre) << turn << " " << way << " block " << block;
+    }
+  }
+}
+
+TEST(WithoutDirection, ACircleOfNothingElseIsFollowed) {
+  constexpr double kRadius = 0.5, kAmount = 2;
+  constexpr unsigned kLines = 12000;  // a quarter of a micrometre each
+  PathBuilder path(kRadius, -10);
+  path.side(-1, kAmount);  // counter-clockwise, the tool outside
+  path.comp.check = true;
+  path.line(kRadius, 0);
+  for (unsigned i = 1; i <= kLines; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kLines;
+    path.line(kRadius * std::cos(angle), kRadius * std::sin(angle));
+  }
+  path.cancel().line(10, 0);
+  path.end();
+  const std::vector<Item> out = run_stage(path);
+  ASSERT_EQ(alarm_of(out), nullptr);
+  double least = INFINITY, most = 0;
+  const std::vector<Move> moves = moves_of(out);
+  ASSERT_GT(moves.size(), kLines / 2);
+  for (size_t i = 1; i + 1 < moves.size(); ++i) {  // without the way in and the way out
+    EXPECT_EQ(moves[i].start, moves[i - 1].end);
+    const double from_center = std::hypot(moves[i].end[0], moves[i].end[1]);
+    least = std::min(least, from_center);
+    most = std::max(most, from_center);
+  }
+  EXPECT_GT(least, kRadius + kAmount - 1e-3);
+  EXPECT_LT(most, kRadius + kAmount + 1e-3);
+}
+
+TEST(WithoutDirection, WhatIsLeftOfAnArcOfTheToolsRadiusIsALine) {  // rounding, which would stop the machine as the bend that it is
+  PathBuilder path(-20, 20);
+  path.side(1, 5 - 2e-8);
+  path.line(0, 0).line(50, 0).arc_by(true, 5, 5, 0, 5).line(55, 60);
+  path.cancel().line(40, 80);
+  path.end();
+  const std::vector<Item> out = run_stage(path);
+  ASSERT_EQ(alarm_of(out), nullptr);
+  for (const Move& move : moves_of(out)) EXPECT_FALSE(move.circular);
+  const AxisVec at = at_block(out, path.start(), 3);
+  EXPECT_NEAR(at[0], 50, 1e-6);
+  EXPECT_NEAR(at[1], 5, 1e-6);
+}
+
+TEST(WithoutDirection, OneThatOpensTheContourWaitsForABlockWithADirection) {
+  PathBuilder path(-20, -5);
+  path.side(1, 3);
+  path.line(0, 0);
+  path.by(0, -kNanometre);  // straight back
+  path.line(40, 0);
+  path.cancel().by(5, 5);
+  path.end();
+  const std::vector<Item> out = run_stage(path);
+  ASSERT_EQ(alarm_of(out), nullptr);
+  const AxisVec at = at_block(out, path.start(), 1);
+  EXPECT_NEAR(at[0], 0, 2 * kNanometre);
+  EXPECT_NEAR(at[1], 3, 2 * kNanometre);
+}
+
+}  // namespace
+}  // namespace nc::test
