@@ -289,8 +289,8 @@ TEST(Misuse, NullPointers) {
   EXPECT_EQ(nc_text_get(c, 0, 0, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(nc_event_poll(c, 0, nullptr, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(nc_parameter_get(c, 0, nullptr, 0, nullptr), NC_E_ARGUMENT);
-  EXPECT_LT(nc_parameter_set(c, 0, nullptr, 0, "1"), NC_OK);
-  EXPECT_LT(nc_parameter_set(c, 0, "1078", 0, nullptr), NC_OK);
+  EXPECT_EQ(nc_parameter_set(c, 0, nullptr, 0, "1"), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_set(c, 0, "1078", 0, nullptr), NC_E_ARGUMENT);
   const nc_inputs in{};
   nc_outputs out{};
   out.state = 77;  // nothing is written
@@ -374,6 +374,11 @@ TEST(Parameters, KeysOfBothDialects) {
   double value = 0;
   EXPECT_EQ(nc_parameter_get(c, 0, "8999", 0, &value), NC_OK);
   EXPECT_EQ(value, 5);
+  EXPECT_EQ(nc_parameter_get(c, 0, "interpretation", 0, &value), NC_E_NOT_FOUND);
+  EXPECT_EQ(nc_parameter_get(c, 0, "8999", 'Q', &value), NC_E_ARGUMENT);
+  EXPECT_EQ(value, 5);
+  EXPECT_EQ(nc_parameter_set(c, 0, "1078/bit9", 0, "1"), NC_E_ARGUMENT);  // #1078 is 0 or 1
+  EXPECT_EQ(nc_parameter_set(c, 0, "1078/bit0", 0, "1"), NC_OK);
   EXPECT_EQ(nc_parameter_set(c, 0, "interpretation", 0, "calculator"), NC_E_NOT_FOUND);
   for (const char* key : {"", "x", "12a", "1267/", "1267/bit", "1267/bit32", "1267/bit1x", "1267/bit123", "1234567", "1267/bat1"})
     EXPECT_EQ(nc_parameter_set(c, 0, key, 0, "1"), NC_E_NOT_FOUND) << key;

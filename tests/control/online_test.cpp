@@ -437,6 +437,60 @@ TEST(Online, ResetsAtRandomPoints) {
   EXPECT_GT(inside, kPrograms / 4);
 }
 
+/// Runs a program with pulses of the recalculation signal in motion, or without; returns where the program's blocks have ended.
+std::vector<AxisVec> ends_with_recalculation(const std::string& text, bool optimal, uint32_t seed, bool recalculate, AxisVec* last) {
+  Bench bench(NC_DIALECT_M700, [optimal](nc_config& c) {
+    machine(64)(c);
+    if (!optimal) return;
+    c.motion_mode = NC_MOTION_OPTIMAL;
+    c.path_tolerance = 0.01;
+    for (unsigned i = 0; i < 3; ++i) c.system[0].axis[i].max_jerk = 1e6;
+  });
+  Drive drive(bench, text);
+  std::mt19937 random(seed);
+  for (unsigned n = 0; n < 100000 && !drive.ended; ++n) {
+    nc_feed(bench.control(), 200);
+    drive.in.cycle_start = n == 2;
+    drive.in.recalculate = recalculate && random() % 4 == 0;
+    drive.step(0);
+  }
+  EXPECT_TRUE(drive.ended);
+  std::vector<AxisVec> ends;
+  for (const nc_event& event : drive.events) {
+    if (event.kind != NC_ITEM_MARK) continue;
+    ends.emplace_back();
+    for (unsigned axis = 0; axis < 3; ++axis) ends.back()[axis] = event.machine.v[axis];
+  }
+  for (unsigned axis = 0; axis < 3; ++axis) (*last)[axis] = drive.out.command.v[axis];
+  return ends;
+}
+
+/// A recalculation alone moves nothing by hand: angles, ways of curves and places of the program stay, also where a smoothed corner has led the axes
+/// beside the end of a block.
+TEST(Online, ARecalculationInMotionMovesNoPlace) {
+  std::string stairs = "G90 G54 G94 F3000\nG1 X0 Y0\nG91\n";
+  for (unsigned i = 0; i < 60; ++i) stairs += i % 2 == 0 ? "X1.\n" : "Y1.\n";
+  const std::string programs[] = {
+      "G90 G54 F1000\nG0 X0 Y0\nG16\nG1 X10. Y30.\nG91\nG1 X10. Y30.\nG1 X10. Y30.\nG15\nG90 G1 X0\nM30",
+      stairs + "G90\nM30",
+      "G90 G54 F3000\nG0 X0 Y0\nG1 X50.\nY20.\nX60.\nG91 X5.\nX5. Y5.\nG2 X10. I5.\nX-5.\nG90 Y0\nM30",
+  };
+  for (const bool optimal : {false, true}) {
+    for (const std::string& text : programs) {
+      AxisVec expected_last, last;
+      const std::vector<AxisVec> expected = ends_with_recalculation(text, optimal, 0, false, &expected_last);
+      for (uint32_t seed = 1; seed <= 5; ++seed) {
+        SCOPED_TRACE(text.substr(0, 60) + (optimal ? " optimal " : " trapezoid ") + std::to_string(seed));
+        const std::vector<AxisVec> ends = ends_with_recalculation(text, optimal, seed, true, &last);
+        ASSERT_EQ(ends.size(), expected.size());
+        for (size_t i = 0; i < ends.size(); ++i)
+          for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(ends[i][axis], expected[i][axis], optimal ? 0.0101 : 1e-9) << i;
+        for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(last[axis], expected_last[axis], 1e-9);
+      }
+    }
+  }
+}
+
 TEST(Online, ChangedDataActAfterARecalculation) {  // M700 4.2: from the next block
   Bench bench(NC_DIALECT_M700, machine(64));
   bench.var(100, 3);

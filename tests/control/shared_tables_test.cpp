@@ -380,6 +380,40 @@ TEST(SharedTables, ProgramsThatWaitForOneAnother) {
   }
 }
 
+/// Reading a shared variable and writing it in one block is one step for the other part systems, whatever the rhythm of both and of the feeder.
+TEST(SharedTables, NoCountIsLost) {
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 dice(seed);
+    const auto any = [&](unsigned least, unsigned most) { return std::uniform_int_distribution<unsigned>(least, most)(dice); };
+    Pair pair;
+    for (unsigned system = 0; system < 2; ++system) {
+      const std::string wait = any(0, 3) == 0 ? "" : "G4 X0.00" + std::to_string(any(1, 9)) + "\n";
+      pair.select(system, "#1=0\nWHILE [#1 LT 15] DO1\n" + wait + "#500=#500+1\nG65 P7 A#500\n#1=#1+1\nEND1\nM30\n");
+    }
+    pair.bench.add("O7", "#2007=#2007+1\nM99\n");
+    ASSERT_EQ(nc_variable_set(pair.control(), 0, 500, 0, false), NC_OK);
+    nc_inputs in[2] = {};
+    nc_outputs out[2] = {};
+    bool running = true;
+    for (unsigned cycle = 0; running && cycle < 20000; ++cycle) {
+      for (unsigned system = 0; system < 2; ++system) {
+        in[system].cycle_start = cycle == 2;
+        in[system].fin = out[system].strobe != 0;
+      }
+      if (any(0, 3) != 0) nc_feed(pair.control(), any(1, 60));
+      nc_cycle(pair.control(), in, out);
+      running = cycle < 10 || out[0].state != NC_STATE_IDLE || out[1].state != NC_STATE_IDLE;
+    }
+    ASSERT_FALSE(running);
+    while (nc_feed(pair.control(), 1000) == NC_BUDGET) {}
+    pair.expect(500, 30);
+    double length = 0;
+    EXPECT_EQ(nc_tool_offset_get(pair.control(), 7, NC_TOOL_LENGTH, &length), NC_OK);
+    EXPECT_EQ(length, 30);
+  }
+}
+
 TEST(SharedTables, TheHostWritesForAll) {
   Pair pair;
   nc_variable_set(pair.control(), 1, 500, 3, false);

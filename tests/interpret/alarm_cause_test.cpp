@@ -201,6 +201,11 @@ TEST(AlarmCause, CodesOfOtherControls) {
   for (const char* program : {"G1 X10. F#<feed>\nM30", "#<feed>=100\nM30", "G90\nN5 X[#<_global> + 1]\nM30", "#1=# <x>\nM30", "IF [#<a> GT 1] GOTO 5\nM30",
                               "WHILE [#<a> LT 1] DO1\nM30", "G1 X1. (#2) Y#<y>\nM30"})
     EXPECT_TRUE(says(detail(program), "Named parameters of LinuxCNC")) << program << ": " << detail(program);
+  // What the family has in place of it is said in its own codes, and only where it has it.
+  const char* const call = "O1\no100 call [1]\nM30";
+  EXPECT_TRUE(says(detail(call), "do not exist here: M98 and G65 call, M99 returns, IF [ ] GOTO and WHILE [ ] DO branch."));
+  EXPECT_TRUE(says(detail("%\nO1\nG90 G54\no100 call [1]\nM30\n%", Bench(NC_DIALECT_DGSHAPE)), "O-words of LinuxCNC do not exist here."));
+  EXPECT_TRUE(says(detail("%\nO1\nG90 G54\nX#<a>\nM30\n%", Bench(NC_DIALECT_DGSHAPE)), "do not exist here, nor do variables."));
   EXPECT_FALSE(says(detail("G90\nX1. & (#<x>)\nM30"), "LinuxCNC"));
   EXPECT_FALSE(says(detail("G90\nO100 (call)\nM30"), "LinuxCNC"));
   EXPECT_FALSE(says(detail("G90\nX1. & (o100 call)\nM30"), "LinuxCNC"));

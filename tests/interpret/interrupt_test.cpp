@@ -95,6 +95,24 @@ TEST(MacroInterrupt, BehindTheReturnOfASubProgramTheCallingBlockEndsFirst) {
   }
 }
 
+/// The axes stand beside the programmed corner, where an interrupt program would lead them into it.
+TEST(MacroInterrupt, ACutCornerIsLeftFirst) {
+  for (const char* corner : {",C2.", ",R2."}) {
+    for (const char* type_2 : {"0", "1"}) {
+      Bench bench;
+      bench.add("O1000", "G91 G0 Z5.\nZ-5.\nM99\n");
+      bench.param("1113", type_2);
+      const Outcome run = interrupted(bench, std::string("M96 P1000\nG1 X10. F500\nX20. ") + corner + "\nY10.\nX30.\nM97\nM30", 3, is_move);
+      const Path path = run.path();
+      EXPECT_EQ(run.alarm, "");
+      ASSERT_EQ(path.size(), 7u) << corner << type_2;
+      EXPECT_EQ(path[3], "line 20 10 0 F500");
+      EXPECT_EQ(path[4], "rapid 20 10 5");
+      EXPECT_EQ(path[5], "rapid 20 10 0");
+    }
+  }
+}
+
 TEST(MacroInterrupt, ReturnToASequenceNumber) {  // M99 P: from the block behind the interrupted one
   Bench bench;
   bench.add("O1000", "G91 G0\nM99 P9\n");

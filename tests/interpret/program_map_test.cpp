@@ -25,6 +25,23 @@ TEST(FigureRotation, QuarterTurnsInAbsoluteAndIncremental) {  // (2), (5)
   EXPECT_EQ(bench.at(0, 0, 0).run("G90 G0 X10.\nM98 P2 L2 I-10.\nM30").path(), expected);
 }
 
+TEST(FigureRotation, ACallBehindAnArcMakesNoArc) {  // P, I and J are words of the call, also where an arc would take them
+  const Path expected{"rapid 10 0 0", "cw 12 0 0 c11,0 F100", "line 10 10 0 F100", "line 0 10 0 F100", "line -10 10 0 F100", "line -10 0 0 F100"};
+  for (const char* call : {"M98 P1 L2 I-12.", "G90 M98 P1 L2 I-12. J0"}) {
+    Bench bench;
+    bench.add("O1", "G90 G1 X10. Y10. F100\nX0 Y10.\nM99\n");
+    const Outcome run = bench.run(std::string("G90 G0 X10.\nG2 X12. I1. F100\n") + call + "\nM30");
+    EXPECT_EQ(run.alarm, "");
+    unsigned arcs = 0;
+    for (const std::string& step : run.path()) arcs += step.find("cw") != std::string::npos;
+    EXPECT_EQ(arcs, 1u) << call;
+    EXPECT_EQ(run.path().size(), expected.size()) << call;
+  }
+  Bench bench;
+  bench.add("O1", "M99\n");
+  EXPECT_EQ(bench.run("G90 G3 X2. Y0 I1. F100\nM96 P1 I1.\nM97\nM98 P1 K1.\nM30").path(), Path{"ccw 2 0 0 c1,0 F100"});
+}
+
 TEST(FigureRotation, OneWordMovesBothAxes) {
   Bench bench;
   bench.add("O1", "G90 G1 Y10. F100\nX0\nM99\n");

@@ -206,7 +206,7 @@ for command in "mdi M99" "mdi --fast M99" "run --fast $work/endless.nc"; do
   wait "$child"
   status=$?
   [ "$status" = 143 ] || { fail "M99: exit $status instead of 143: $command"; cat "$work/out" "$work/err"; }
-  [ "$(grep -c "M99 in line [13]: begins again from the head" "$work/out")" = 1 ] || { fail "M99 without a word, or with many: $command"; cat "$work/out"; }
+  [ "$(grep -c "line [13]: begins again from the head" "$work/out")" = 1 ] || { fail "M99 without a word, or with many: $command"; cat "$work/out"; }
 done
 
 # The same on virtual time, with the other signal and a plot of what was executed. (An interactive shell ignores

@@ -184,7 +184,7 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainIsCheckedAndDrawnOnce) {
   file("p.nc", "G90 G0 X10. (NOT YET: M99)\nM98 P5 L2\n/M99\nG0 X0\nM99\n\nO5\nG91 G0 Y1.\nM99\n");
   Outcome run = ncsim("check p.nc");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("no alarm in one pass (M99 begins it again); 9 blocks"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("no alarm in one pass (it begins again by itself); 9 blocks"), std::string::npos) << run.out;
   EXPECT_EQ(ncsim("plot p.nc -o once").code, 0);
   // In a sub program it is a return.
   file("p.nc", "M98 P5\nM30\nO5\nG0 X1.\nM99\n");
@@ -204,7 +204,7 @@ TEST_F(CommandTest, AProgramThatM99BeginsAgainRunsOnce) {
   EXPECT_EQ(run.events().back()["work"]["X"], 10);
   run = ncsim("time p.nc");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("of one pass (M99 begins it again)"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("of one pass (it begins again by itself)"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("path length  10."), std::string::npos) << run.out;  // and in the last cycle a little of the next pass
   file("p.nc", "#500=#500+1\nIF[#500GT4]GOTO9\nG91 G1 X10. F6000\nM99\nN9 M30\n");
   run = ncsim("trace p.nc");

@@ -282,7 +282,7 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   else
     std::fprintf(out, "%s: no alarm%s; %llu blocks, %llu moves, %s mm\n", options.program.c_str(),
                  result.how == RunResult::How::kEndless ? " until it was given up"
-                 : result.one_pass                      ? " in one pass (M99 begins it again)"
+                 : result.one_pass                      ? " in one pass (it begins again by itself)"
                                                         : "",
                  static_cast<unsigned long long>(result.blocks),
                  static_cast<unsigned long long>(result.moves), decimals(result.length, 3).c_str());

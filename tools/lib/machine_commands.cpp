@@ -113,7 +113,7 @@ int time_command(const SessionOptions& options, const MachineOptions& machine, c
                static_cast<unsigned long long>(whole / 3600),
                static_cast<unsigned long long>(whole / 60 % 60), static_cast<unsigned long long>(whole % 60),
                result.how == MachineResult::How::kEndless ? " until it was given up"
-               : result.one_pass                          ? " of one pass (M99 begins it again)"
+               : result.one_pass                          ? " of one pass (it begins again by itself)"
                                                           : "");
   std::fprintf(out, "path length  %s mm\n", decimals(result.path_length, 3).c_str());
   std::fprintf(out, "blocks       %llu\n", static_cast<unsigned long long>(result.blocks));

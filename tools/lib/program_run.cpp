@@ -150,7 +150,7 @@ void ProgramRun::show_message(const FeederInfo& info) {
 void ProgramRun::show_again(const FeederInfo& info) {
   if (info.system[0].begun_again == 0 || said_again_) return;
   said_again_ = true;
-  note("M99 in line " + std::to_string(info.system[0].again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
+  note("line " + std::to_string(info.system[0].again_line) + ": begins again from the head, until a reset or a signal (Ctrl-C) ends it");
 }
 
 // M700 13.5.8: shows what programs print when the configuration names no file for it.

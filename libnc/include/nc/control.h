@@ -5,6 +5,8 @@
  *
  * Threads: unless a function says otherwise it belongs to the *feeder* thread (one thread, the one that calls nc_feed() or
  * nc_pull()). Only functions marked NC_RT belong to the scan thread. Two different controls never share anything.
+ * Errors: a control that is NULL is NC_E_ARGUMENT, as is NULL for a pointer that a function needs. Functions without a status do nothing then, nor for a
+ * part system that does not exist.
  * Ownership: everything lives in the memory given to nc_create(); pointers returned are valid as long as the control.
  */
 #ifndef NC_CONTROL_H
@@ -158,7 +160,7 @@ NC_API nc_control* nc_create(const nc_config* config, void* memory, size_t size,
  *             is accepted and kept
  * @param axis name of the axis for a parameter that each axis has for itself, 0 = all axes
  * @param text value as text, in the manual's units: a number, or a word of the manual ("B" for #1003)
- * @return NC_OK; NC_E_NOT_FOUND: no such key; NC_E_ARGUMENT: no such part system or axis, or the value is out of the parameter's range;
+ * @return NC_OK; NC_E_NOT_FOUND: no such key; NC_E_ARGUMENT: no such part system or axis, a pointer is NULL, or the value is out of the parameter's range;
  *         NC_E_MEMORY: too many parameters are set
  */
 NC_API nc_status nc_parameter_set(nc_control* control, unsigned system, const char* key, char axis, const char* text);
@@ -170,7 +172,7 @@ NC_API nc_status nc_parameter_set(nc_control* control, unsigned system, const ch
  * @param key  as for nc_parameter_set()
  * @param axis name of the axis, 0 = the value for all axes
  * @param value receives the value, in the manual's units; 0 when it was never set
- * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL
+ * @return NC_OK; NC_E_NOT_FOUND: no such key; NC_E_ARGUMENT: no such part system or axis, or a pointer is NULL
  */
 NC_API nc_status nc_parameter_get(const nc_control* control, unsigned system, const char* key, char axis, double* value);
 

@@ -68,7 +68,7 @@ NC_API nc_status nc_answer(nc_control* control, unsigned system, const nc_world*
  * then act from the next block on. Feeder thread.
  * @param control the control
  * @param system part system, from 0
- * @param serial serial of one of the last `look_ahead` marks; 0 = the start of the program
+ * @param serial serial of one of the last `look_ahead` marks that end a block (nc_mark::report); 0 = the start of the program
  * @return NC_OK; NC_E_NOT_FOUND: there is no such mark, or it is too old; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system
  */
 NC_API nc_status nc_rewind(nc_control* control, unsigned system, uint64_t serial);
@@ -78,8 +78,8 @@ NC_API nc_status nc_rewind(nc_control* control, unsigned system, uint64_t serial
  * "recalculation request"). Feeder thread.
  * @param control the control
  * @param system part system, from 0
- * @return NC_OK: it is done, or no program runs; NC_WAITING: the scan has not agreed yet, which it does only at rest (call again);
- *         NC_E_STATE: a vendor's function has called; NC_E_ARGUMENT: no such part system
+ * @return NC_OK: it is done, or no program runs; NC_ALARMED: the blocks cannot be read again, which has stopped the program with an alarm;
+ *         NC_WAITING: the scan has not agreed yet, which it does only at rest (call again); NC_E_STATE: a vendor's function has called; NC_E_ARGUMENT: no such part system
  */
 NC_API nc_status nc_recalculate(nc_control* control, unsigned system);
 

@@ -201,6 +201,7 @@ bool ContourStage::pop(Item& out) {
     if (front.vacant) continue;
     out = front.item;
     if (out.kind == ItemKind::move && (front.cut || !without_length(out.move))) state_ = {front.cut, front.meets, front.lead};
+    if (out.kind == ItemKind::mark) out.mark.beside = state_.displaced;
     return true;
   }
   return false;

@@ -94,7 +94,7 @@ nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsign
 // ---- parameters -------------------------------------------------------------------------------------------------------------
 
 nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char axis, const char* text) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!known(c, system) || key == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::HostTables in = c->system[system].interpreter.tables();
   const int index = in.axis_named(axis);
   if (axis != 0 && index < 0) return NC_E_ARGUMENT;
@@ -106,8 +106,9 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
 nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
   if (!known(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
   const nc::HostTables in = c->system[system].interpreter.tables();
-  *value = in.parameter(key, in.axis_named(axis));
-  return NC_OK;
+  const int index = in.axis_named(axis);
+  if (axis != 0 && index < 0) return NC_E_ARGUMENT;
+  return in.parameter(key, index, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_parameter_key_get(const nc_control* c, nc_parameter_role role, char key[24]) {

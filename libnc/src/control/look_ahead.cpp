@@ -104,6 +104,7 @@ nc_status PartSystem::gather_block(uint32_t& budget) {
     }
     Item* front = nullptr;
     const nc_status status = interpreter.next(budget, &front);
+    if (answered_block_ != 0) [[unlikely]] publish_answered();
     if (status != NC_OK) return status;
     const Stages::Intake intake = stages_.push(*front);
     if (intake == Stages::Intake::later) continue;

@@ -118,6 +118,7 @@ void PartSystem::count_from(uint32_t first) {
     }
     Item* front = nullptr;
     const nc_status status = interpreter.next(budget, &front);
+    if (answered_block_ != 0) [[unlikely]] publish_answered();
     if (status != NC_OK) return status;
     if (!stages_.idle() || may_be_held(*front)) {
       const Stages::Intake intake = stages_.push(*front);
@@ -411,7 +412,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     if (watched_) [[unlikely]] {
       if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
       const bool wanted = uit_pending_ || (uit_ && interpreter.interrupts().by_level && uit_rest_.over());
-      if (wanted && pulled_ == ItemKind::mark && interruptible()) begin_interrupt();
+      if (wanted && pulled_ == ItemKind::mark && !beside_ && interruptible()) begin_interrupt();
     }
     const Item* item = nullptr;
     const nc_status status = pump(budget, &item);
@@ -421,6 +422,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     if (item->kind == ItemKind::mark) {
       commit_.mark_to_public(*item, out);
       if (watched_ && item->mark.report) [[unlikely]] uit_rest_.block_ended();
+      beside_ = item->mark.beside;
       note_mark(*item);
     } else {
       commit_.to_public(*item, out);
@@ -488,6 +490,18 @@ void PartSystem::publish_all() {
   }
 }
 
+/// The machine stands at the block that has waited for it, and at those behind it up to the next block end. What they write counts for the other part
+/// systems as soon as it has been read, though the scan has still to come past the mark: so a block that reads a shared value and writes it is one step,
+/// and no part system's count is lost.
+void PartSystem::publish_answered() {
+  const BlockSeq newest = interpreter.newest_block();
+  if (newest < answered_block_) return;
+  if (interpreter.shares()) interpreter.publish(newest);
+  note_answered();
+}
+
+void PartSystem::note_answered() { answered_block_ = interpreter.stands_at_machine() ? interpreter.newest_block() + 1 : 0; }
+
 nc_status PartSystem::answer(const nc_world& world) {
   if (open_sync_ == 0) return NC_E_STATE;
   open_sync_ = 0;
@@ -496,6 +510,7 @@ nc_status PartSystem::answer(const nc_world& world) {
     interpreter.publish(interpreter.newest_block());
   }
   interpreter.answer(world);
+  note_answered();
   if ((sync_what_ & NC_SYNC_SKIP) != 0 && world.skipped) {
     AxisVec machine;
     std::memcpy(machine.v, world.machine.v, sizeof(machine.v));
@@ -513,6 +528,8 @@ nc_status PartSystem::rewind(Serial serial) {
   if (stop_ == Stop::committed) stop_ = Stop::none;  // the block of the stop is read again; where it is `passed` the machine has still to execute it
   clear_staged();
   open_sync_ = 0;
+  beside_ = false;
+  note_answered();
   finished_ = false;
   alarm_given_ = false;
   uit_mode_ = interpreter.interrupts().mode;
@@ -539,6 +556,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   stages_.reset();
   clear_staged();
   open_sync_ = 0;
+  answered_block_ = 0;
   finished_ = false;
   alarm_given_ = false;
   commit_.set_machine(machine);
@@ -740,7 +758,7 @@ nc_status PartSystem::feed(uint32_t budget) {
     } else if (interrupt) {
       interrupt_online();
     } else {
-      displace(executor.commanded(), executor.shift_asked());
+      displace(executor.commanded(), executor.left_at(), executor.shift_asked());
     }
     executor.reread_done();
   }
@@ -765,8 +783,7 @@ nc_status PartSystem::recalculate() {
   if (!occupied()) return NC_OK;
   Serial last = 0;
   if (!executor.truncate(&last)) return NC_WAITING;
-  read_again(last);
-  return NC_OK;
+  return read_again(last) ? NC_OK : NC_ALARMED;
 }
 
 bool PartSystem::read_again(Serial last) {
@@ -781,20 +798,22 @@ bool PartSystem::read_again(Serial last) {
 /// The axes were moved by hand in a block stop, and what follows starts where the machine is. An axis that the next block does not name stays
 /// there, and an incremental word counts from there; under radius compensation the vector in force is kept.
 /// M700 12.4.4, 14.12: with manual absolute on, the coordinate systems stay, and an absolute word goes to its programmed position. With it off they
-/// are moved along by `shift`, so the rest of the program is shifted until G92.1. `shift` is only the movement by hand: where a stop has left the
-/// axes beside a smoothed line, that distance is not in it.
-void PartSystem::displace(const AxisVec& machine, const AxisVec& shift) {
+/// are moved along by `shift`, so the rest of the program is shifted until G92.1. `left_at` is where the program had left the axes. In the time-optimal
+/// mode that may be beside the end of the block, within the tolerance: the program knows nothing of it, only the next move begins there.
+void PartSystem::displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift) {
   AxisVec programmed = interpreter.machine();
   bool any = false;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
-    const double moved = machine[i] - commit_.machine()[i];
+    const double moved = machine[i] - left_at[i], beside = left_at[i] - commit_.machine()[i];
     if (moved == 0) continue;
     any = true;
-    programmed[i] = stages_.idle() ? machine[i] : programmed[i] + moved;
+    programmed[i] = stages_.idle() ? machine[i] - beside : programmed[i] + moved;
   }
-  if (any) commit_.forget_stages(stages_.displaced());
-  interpreter.move_to(programmed);
+  if (any) {
+    commit_.forget_stages(stages_.displaced());
+    interpreter.move_to(programmed);
+  }
   commit_.displace(machine);
 }
 

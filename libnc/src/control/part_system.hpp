@@ -79,6 +79,8 @@ class PartSystem {
 
  private:
   PartSystem* first_executed(uint32_t until, BlockSeq* seq);
+  void publish_answered();
+  void note_answered();
   /// Next item in stream order behind the stages; NC_OK, or why there is none. take() removes it.
   nc_status next(uint32_t& budget, const Item** item);
   /// Takes the next item, commits it and gives it to the caller, nc_pull() or nc_feed(). NC_OK with nullptr: work was done but gave no item; call again.
@@ -131,7 +133,7 @@ class PartSystem {
   bool put_off(const Item& item);
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
-  void displace(const AxisVec& machine, const AxisVec& shift);
+  void displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   /// Offline: an interrupt signal would be accepted after the items that have been given out; what has been read beyond them does not count.
@@ -155,6 +157,8 @@ class PartSystem {
   uint32_t rotary_ = 0;            ///< bit i: axis i is rotary
   PartSystem* systems_ = nullptr;  ///< all of them, where there are several
   unsigned system_count_ = 0;
+  bool beside_ = false;            ///< offline: of the newest mark (Mark::beside)
+  BlockSeq answered_block_ = 0;    ///< the next block acts where the machine stands, and has this number; 0 = it does not
   BlockSeq published_ = 0;         ///< online: newest block of this run that is known to the other part systems
   Stages stages_;
   Commit commit_;

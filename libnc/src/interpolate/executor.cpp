@@ -224,6 +224,8 @@ bool Executor::interrupt_asked() const {
   return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
 }
 
+AxisVec Executor::left_at() const { return state_->shared.reread_from; }
+
 AxisVec Executor::shift_asked() const {
   return state_->shared.reread_shift;
 }

@@ -97,6 +97,8 @@ class Executor {
   Serial give_up_ahead();
   /// The ways by which axes were moved by hand, where the coordinate systems are to be moved along; else 0.
   AxisVec shift_asked() const;
+  /// With reread_asked(): where the program has left the axes, before they were moved by hand or turned as a spindle.
+  AxisVec left_at() const;
   void reread_done();
   /// Next executed record for the host; *dropped: how many have been dropped in all.
   bool poll_event(nc_event* event, uint64_t* dropped);

@@ -197,12 +197,25 @@ void Interpolator::cut_block() {
   rereading_ = reread_reached_ = reread_interrupt_ = true;
 }
 
+/// Something other than the program is about to move the axes, which stand at `place`.
+void Interpolator::leave_at(const AxisVec& place) {
+  if (!elsewhere_) left_at_ = place;
+  elsewhere_ = true;
+}
+
+/// Tells the feeder where the program has left the axes: what they are beside that place, they were moved by hand, or turned as a spindle.
+void Interpolator::tell_where_left() {
+  shared_->reread_from = elsewhere_ ? left_at_ : wanted_;
+  elsewhere_ = false;
+}
+
 /// Asks the feeder to read again. It does so one cycle after the mark, so that the place which the scan has published is that of the mark.
 void Interpolator::ask_for_interrupt() {
   if (!reread_reached_) return;
   reread_reached_ = false;
   shared_->block_begun.store(0, std::memory_order_relaxed);
   shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
+  tell_where_left();
   shared_->reread_shift = {};
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
@@ -269,7 +282,11 @@ void Interpolator::states(const nc_inputs& in) {
       rereading_ = true;
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
-      for (unsigned i = 0; i < config_.axis_count; ++i) shared_->reread_shift[i] = in.manual_absolute_off ? wanted_[i] - hand_from_[i] : 0;
+      tell_where_left();
+      for (unsigned i = 0; i < config_.axis_count; ++i) {
+        const bool shifts = in.manual_absolute_off && (by_hand_ >> i & 1) != 0;
+        shared_->reread_shift[i] = shifts ? wanted_[i] - shared_->reread_from[i] : 0;
+      }
       if (in.manual_absolute_off) by_hand_ = 0;
       shared_->reread_request.store(++reread_, std::memory_order_release);
       return;
@@ -320,7 +337,7 @@ void Interpolator::give_up() {
   skip_behind_ = 0;
   follower_.give_up();
   moving_ = passing_ = gate_begun_ = skip_braking_ = hold_ = block_begun_ = displaced_ = false;
-  hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = false;
+  hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = elsewhere_ = false;
   tapping_ = 0;
   by_hand_ = 0;
   fin1_groups_ = 0;
@@ -441,7 +458,7 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
   manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     if (state_ != NC_STATE_STOPPED || wanted_[i] == before[i]) continue;
-    if (!displaced_) hand_from_ = before;
+    leave_at(before);
     displaced_ = true;
     by_hand_ |= 1u << i;
   }

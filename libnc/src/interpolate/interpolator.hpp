@@ -67,6 +67,7 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> run_taken{0};  ///< by the feeder: the newest run word that it has acted upon
   std::atomic<uint32_t> reread_request{0};  ///< by the scan: number of its newest request to read again from where the axes are; it waits for the answer
   std::atomic<uint32_t> reread_interrupt{0};  ///< by the scan: 1: the feeder is to begin with the interrupt program
+  AxisVec reread_from;                      ///< by the scan, with the request: where the program has left the axes, before they were moved by hand
   AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
   std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
   Latest<ScanStatus> status;
@@ -113,6 +114,8 @@ class Interpolator {
   void follow_spindles(const nc_inputs& in) NC_RT;
   void take_position(unsigned axis, const nc_inputs& in) NC_RT;
   void settle_axes() NC_RT;
+  void leave_at(const AxisVec& place) NC_RT;
+  void tell_where_left() NC_RT;
   bool moves_any(const Segment& segment, uint8_t axes) const NC_RT;
   bool lost_move(const Record& record, Done* done) NC_RT;
   bool may_read_again() const NC_RT;
@@ -227,7 +230,8 @@ class Interpolator {
   bool frozen_ = false;    ///< the feeder may be truncating
   bool block_begun_ = false;  ///< a part of the block in execution has been executed
   bool displaced_ = false;  ///< axes were moved by hand since the block stop
-  AxisVec hand_from_;       ///< where the axes stood in the block stop before they were moved by hand
+  AxisVec left_at_;         ///< where the program has left the axes, if something else has moved them since (elsewhere_)
+  bool elsewhere_ = false;
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
   uint32_t reread_ = 0;     ///< number of requests to read again so far

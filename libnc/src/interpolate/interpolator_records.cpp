@@ -107,6 +107,7 @@ bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
     if (std::fabs(s.curve.delta[i]) > kAddingUp) by_hand_ &= ~(1u << i);
   law_.s = s.begun;
   moving_ = true;
+  elsewhere_ = false;
   block_begun_ = true;
   thread_locked_ = false;
   skip_braking_ = false;
@@ -458,7 +459,7 @@ Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
 
 Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
   if (!in_position(in)) return wait(NC_CAUSE_IN_POSITION);
-  if (stale_ != 0) settle_axes();  // nothing is committed beyond a sync, and its answer tells the interpreter where the axes are
+  if (stale_ != 0) settle_axes(), elsewhere_ = false;  // nothing is committed beyond a sync, and its answer tells the interpreter where the axes are
   recalculate_ = false;
   ScanWorld w;
   w.serial = r.serial;
@@ -485,7 +486,7 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
   const bool thread = block_has_thread_;
   if (m.report) block_has_thread_ = false;
-  if (m.report && m.stop && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
+  if (m.report && m.stop && !m.beside && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
     // The records behind this block are given up, and the feeder goes on with the interrupt program.
     interrupt_wanted_ = false;
     cut_.inside = false;

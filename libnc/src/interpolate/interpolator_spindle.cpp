@@ -73,6 +73,7 @@ void Interpolator::take_position(unsigned axis, const nc_inputs& in) {
 void Interpolator::settle_axes() {
   dropping_ = false;
   if (stale_ == 0) return;
+  leave_at(wanted_);
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     wanted_[i] += turned_[i];
     target_[i] += turned_[i];

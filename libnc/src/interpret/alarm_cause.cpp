@@ -84,9 +84,37 @@ bool put_option(const Interpreter& in, TextWriter& out, bool* instead) {
 constexpr const char* kOWords[] = {"SUB",   "ENDSUB", "CALL",     "RETURN", "IF",       "ELSEIF",   "ELSE",
                                    "ENDIF", "WHILE",  "ENDWHILE", "DO",     "CONTINUE", "BREAK",    "REPEAT",
                                    "ENDREPEAT"};
-constexpr char kOWordHint[] = "O-words of LinuxCNC do not exist here: M98 P_ and M99 or G65 call, IF [ ] GOTO and WHILE [ ] DO branch.";
 
-constexpr char kNamedParameterHint[] = "Named parameters of LinuxCNC do not exist here: a variable has a number behind #, not a name in < >.";
+/// What a line of LinuxCNC has and this family has not.
+enum class LinuxcncWord : uint8_t { none, o_word, named_parameter };
+
+/// Says what the family has in place of it.
+void put_linuxcnc_hint(const Dialect& family, LinuxcncWord word, TextWriter& out) {
+  const bool macros = family.argument_of != nullptr;
+  if (word == LinuxcncWord::named_parameter) {
+    out.put("Named parameters of LinuxCNC do not exist here");
+    out.put(macros ? ": a variable has a number behind #, not a name in < >." : ", nor do variables.");
+    return;
+  }
+  out.put("O-words of LinuxCNC do not exist here");
+  const auto put_misc = [&](MiscFunction function) { out.put(family.addresses.letter(Role::misc_code)).put_integer(misc_code(family, function), 2); };
+  const bool calls = family.call_depth != 0;
+  const FunctionRow* const macro_call = find_function(family, Function::macro_call);
+  if (calls || macro_call != nullptr) {
+    out.put(": ");
+    if (calls) put_misc(MiscFunction::call_sub);
+    if (calls && macro_call != nullptr) out.put(" and ");
+    if (macro_call != nullptr) out.put(family.addresses.letter(Role::code)).put_integer(static_cast<unsigned>(macro_call->code / 10));
+    out.put(calls && macro_call != nullptr ? " call" : " calls");
+  }
+  if (calls) {
+    out.put(", ");
+    put_misc(MiscFunction::return_sub);
+    out.put(" returns");
+  }
+  if (macros) out.put(calls ? ", IF [ ] GOTO and WHILE [ ] DO branch" : ": IF [ ] GOTO and WHILE [ ] DO branch");
+  out.put(".");
+}
 
 char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
@@ -125,20 +153,19 @@ bool is_named_parameter(const char* at) {
   return *at == '<';
 }
 
-/// A sentence about what a line of LinuxCNC has and this family has not; nullptr = nothing is found. It is searched for in the whole line except comments:
-/// an O-word at its beginning, or behind N, '/' or another word; an O behind a letter is a part of a name.
-const char* linuxcnc_hint(const char* line) {
-  const char* hint = nullptr;
+/// Searches the whole line except comments: for an O-word at its beginning, or behind N, '/' or another word; an O behind a letter is a part of a name.
+LinuxcncWord linuxcnc_word(const char* line) {
+  LinuxcncWord found = LinuxcncWord::none;
   bool comment = false;
   for (const char* at = line; *at != 0; ++at) {
     if (*at == '(') comment = true;
     if (*at == ')') comment = false;
     if (comment) continue;
     const char before = at == line ? ' ' : capital(at[-1]);
-    if (capital(*at) == 'O' && !(before >= 'A' && before <= 'Z') && is_o_word(at)) return kOWordHint;
-    if (*at == '#' && is_named_parameter(at)) hint = kNamedParameterHint;
+    if (capital(*at) == 'O' && !(before >= 'A' && before <= 'Z') && is_o_word(at)) return LinuxcncWord::o_word;
+    if (*at == '#' && is_named_parameter(at)) found = LinuxcncWord::named_parameter;
   }
-  return hint;
+  return found;
 }
 
 bool put_foreign(const Interpreter& in, TextWriter& out) {
@@ -159,9 +186,9 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
   if (entry == nullptr || TextWindow::read(*entry, in.block->begin, text, sizeof text - 1) <= 0) return false;
   for (char& c : text)
     if (c == '\n' || c == '\r') c = 0;
-  const char* const hint = linuxcnc_hint(text);
-  if (hint == nullptr) return false;
-  out.put(hint);
+  const LinuxcncWord word = linuxcnc_word(text);
+  if (word == LinuxcncWord::none) return false;
+  put_linuxcnc_hint(*in.dialect, word, out);
   return true;
 }
 

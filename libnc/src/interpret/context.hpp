@@ -292,6 +292,8 @@ struct BlockContext {
 /// M700 12.1: an offset amount that is changed while it is in force acts from the next block on; a length acts with the next command of its axis.
 void take_changed_amounts(BlockContext& in);
 /// interpret/interrupt.cpp, macro_call.cpp: what other functions need of program control.
+/// A code of the block calls a program, or names one (M96): then P, H and I J K are words of that code (M700 13.3.1, 13.3.3, 13.12).
+bool has_words_of_call(const BlockContext& in);
 bool is_interrupt_on(const BlockContext& in, uint32_t m);   ///< M96, or the M code that a parameter gives in its place
 bool is_interrupt_off(const BlockContext& in, uint32_t m);  ///< M97, or the M code that a parameter gives in its place
 bool has_modal_call(const BlockContext& in);   ///< something that G67 can cancel

@@ -18,12 +18,13 @@ nc_status HostTables::set_parameter(const char* key, int axis, const char* text)
   if (in_->shared != nullptr) in_->shared->parameter_changed(*in_, changed);
   return NC_OK;
 }
-double HostTables::parameter(const char* key, int axis) const {
-  double value = 0;
+bool HostTables::parameter(const char* key, int axis, double* value) const {
   ParameterId id;
   int bit = -1;
-  if (parse_parameter(*in_->dialect, key, &id, &bit)) in_->parameters.get(id, bit, axis, &value);
-  return value;
+  if (!parse_parameter(*in_->dialect, key, &id, &bit)) return false;
+  *value = 0;
+  in_->parameters.get(id, bit, axis, value);
+  return true;
 }
 double HostTables::parameter(ParameterOf parameter, int axis) const {
   double value = 0;

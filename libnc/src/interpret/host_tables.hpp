@@ -19,7 +19,7 @@ class HostTables {
   explicit HostTables(Interpreter& in) : in_(&in) {}
 
   nc_status set_parameter(const char* key, int axis, const char* text) const;
-  double parameter(const char* key, int axis) const;  ///< 0 where it is not set
+  bool parameter(const char* key, int axis, double* value) const;  ///< 0 where it is not set; false: there is no such key
   double parameter(ParameterOf parameter, int axis = -1) const;
   /// The first parameter that is set, from *place on; false: there is none. Gives its key, its axis (-1 = for all axes), and its value: a number, or a text.
   bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;

@@ -377,7 +377,7 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
       if (did != Execution::done) return did;
     }
   }
-  if (w.has(Role::arc_turns) && (!words.has_radius || rules.turns_count_last)) {
+  if (w.has(Role::arc_turns) && (!words.has_radius || rules.turns_count_last) && !has_words_of_call(in)) {
     const double turns = w.get(Role::arc_turns);
     words.turns_count_last = rules.turns_count_last;
     if (!whole_number(turns, &words.turns) || words.turns > 9999 || (words.turns == 0 && rules.turns_count_last)) return in.raise(Condition::value_range, Role::arc_turns, turns);
@@ -553,6 +553,7 @@ Execution move_by_words(BlockContext& in) {
   }
   if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);
   if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Execution::done;
+  if (w.axes == 0 && !w.m.empty() && has_words_of_call(in)) return Execution::done;  // the words are those of the call, and no arc
   if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
     const Execution did = check_mill_move(in, w.axes);
     if (did != Execution::done) return did;

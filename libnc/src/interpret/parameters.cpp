@@ -115,17 +115,21 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
   const ParameterRow* const row = find_parameter(dialect, key);
   if (bit < 0 && (!parameter_takes(dialect, key, number) || (row != nullptr && !machine_takes(row->what, number)))) return NC_E_ARGUMENT;
   if (bit >= 0 && number != 0 && number != 1) return NC_E_ARGUMENT;
+  if (bit >= 0 && !parameter_takes(dialect, ParameterKey{id.value, 0, -1}, with_bit(id, bit, axis, number != 0))) return NC_E_ARGUMENT;
   return put(id, bit, axis, row != nullptr && nc::is_common(row->what), ParameterValue{number}, index, old);
+}
+
+/// What the whole parameter is when one of its bits becomes `on`.
+double Parameters::with_bit(ParameterId id, int bit, int axis, bool on) const {
+  double before = 0;
+  get(id, -1, axis, &before);
+  const uint32_t mask = uint32_t{1} << bit;
+  return on ? bits_of(before) | mask : bits_of(before) & ~mask;
 }
 
 /// Stores a value that has been checked. Where it is one bit of a parameter the other bits stay.
 nc_status Parameters::put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old) {
-  if (bit >= 0) {
-    double before = 0;
-    get(id, -1, axis, &before);
-    const uint32_t mask = uint32_t{1} << bit;
-    value.number = *value.number != 0 ? bits_of(before) | mask : bits_of(before) & ~mask;
-  }
+  if (bit >= 0) value.number = with_bit(id, bit, axis, *value.number != 0);
   Entry* entry = find(id, axis);
   if (entry == nullptr) {
     if (count_ >= capacity_) return NC_E_MEMORY;

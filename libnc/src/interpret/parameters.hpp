@@ -231,6 +231,7 @@ class Parameters {
   /// The entry for the axis, otherwise the one for all axes; nullptr = it is not set.
   const Entry* in_force(ParameterId id, int axis) const;
   Entry* add(ParameterId id, int axis, bool common);
+  double with_bit(ParameterId id, int bit, int axis, bool on) const;
   nc_status put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old);
   bool machine_takes(Parameter parameter, double value) const;
   uint8_t keep_text(const char* text);

@@ -95,6 +95,7 @@ void PartInterpreter::forget_vendor_call() { in_->forget_vendor_call(); }
 const nc_source& PartInterpreter::source() const { return in_->source; }
 uint32_t PartInterpreter::main_line() const { return in_->state.frame[0].call_line; }
 BlockSeq PartInterpreter::newest_block() const { return in_->state.seq; }
+bool PartInterpreter::stands_at_machine() const { return in_->world_fresh; }
 
 bool PartInterpreter::rewind(BlockSeq seq) { return in_->rewind(seq); }
 bool PartInterpreter::remembers(BlockSeq seq) const { return in_->remembers(seq); }

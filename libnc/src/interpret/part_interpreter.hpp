@@ -130,6 +130,8 @@ class PartInterpreter {
   const nc_source& source() const;
   uint32_t main_line() const;
   BlockSeq newest_block() const;
+  /// The answer to a sync is the newest thing that has happened: the next block acts where the machine stands.
+  bool stands_at_machine() const;
 
   // ---- going back
   /// Back to right behind the block `seq`; false when it is too old.

@@ -138,7 +138,7 @@ void OffsetStage::restore(const OffsetResume& resume) {
   memory_.restore(resume.contour);
   level_ = level_end_ = resume.level;
   mode_ = resume.pending ? Mode::pending : Mode::on;
-  vector_ = {compensated_[axis_[0]] - programmed_[axis_[0]], compensated_[axis_[1]] - programmed_[axis_[1]]};
+  vector_ = {resume.vector[0], resume.vector[1]};
   tail_ = vector_;
 }
 

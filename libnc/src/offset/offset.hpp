@@ -43,6 +43,7 @@ struct OffsetResume {
   Compensation comp;
   AxisVec programmed;            ///< end of the last block, compensation frame
   AxisVec compensated;           ///< where the tool centre really is
+  double vector[2] = {0, 0};     ///< from the programmed to the compensated end, as the stage goes on with it: a difference of the two is rounded
   double direction[2] = {0, 0};  ///< tangent of the last block at its end, unit
   ContourMemory::State contour;  ///< what the check of the whole contour has seen
   double level = 0;  ///< its level across the plane

@@ -283,6 +283,8 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.comp = out_comp_;
   resume_.programmed = programmed_;
   resume_.compensated = compensated_;
+  resume_.vector[0] = vector_.h;
+  resume_.vector[1] = vector_.v;
   resume_.direction[0] = direction_.h;
   resume_.direction[1] = direction_.v;
 }

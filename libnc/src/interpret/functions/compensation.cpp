@@ -194,9 +194,7 @@ Execution change_radius(BlockContext& in) {
 }
 
 Execution change_length(BlockContext& in) {
-  for (const uint32_t m : in.words.m) {  // a sequence number (M700 13.3.1, 13.12)
-    if (is_interrupt_on(in, m) || calls_program(misc_function(*in.dialect, m))) return Execution::done;
-  }
+  if (has_words_of_call(in)) return Execution::done;  // H is a sequence number (M700 13.3.1, 13.12)
   const Execution did = take_length_number(in);
   // Like a changed amount it acts from the next command of the axis on (12.1).
   if (did == Execution::done && length_in_force(in.state.modal)) in.state.length_value = length_amount(in);
