@@ -7,7 +7,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kAtSpeed = 1.001;  // of the creep speed: the rounding of a ramp
+constexpr double kAtSpeed = 1.001;  // multiple of the creep speed up to which an axis counts as slow, because the end of a ramp is rounded
 
 }  // namespace
 

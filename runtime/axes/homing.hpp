@@ -47,7 +47,7 @@ class AxisHoming {
     bool request = false;     // of the drive
     bool set = false;         // its position is to be set: the mark was at `mark`
     double mark = 0;          // in the coordinates of Seen::actual
-    bool done = false;        // all of it
+    bool done = false;        // the axis is homed: nothing of its homing is left to do
     HomingFault fault = HomingFault::kNone;
   };
 

@@ -14,9 +14,9 @@ namespace nc {
 struct CornerCut {
   bool any = false;  ///< the lines go straight on: a rounding of nothing
   bool round = false;
-  AxisVec before;    ///< K - ...: where the first line ends now
-  AxisVec behind;    ///< K + ...: where the cut ends, in the coordinates of `first`
-  AxisVec lead;      ///< behind - K: the next line begins by this later
+  AxisVec before;    ///< where the first line ends now: by the corner before K
+  AxisVec behind;    ///< where the cut ends: by the corner behind K, in the coordinates of `first`
+  AxisVec lead;      ///< behind - K, by which the next line begins later
   Circle circle;     ///< of a rounding
 };
 

@@ -155,7 +155,7 @@ class PartSystem {
   const nc_system_config* system_ = nullptr;
   unsigned axis_count_ = 0;
   uint32_t rotary_ = 0;            ///< bit i: axis i is rotary
-  PartSystem* systems_ = nullptr;  ///< all of them, where there are several
+  PartSystem* systems_ = nullptr;  ///< the array of all part systems of the control; null where this is the only one
   unsigned system_count_ = 0;
   bool beside_ = false;            ///< offline: of the newest mark (Mark::beside)
   BlockSeq answered_block_ = 0;    ///< the next block acts where the machine stands, and has this number; 0 = it does not

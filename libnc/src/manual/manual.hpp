@@ -23,11 +23,12 @@ class Manual {
   void create(const ManualConfig& config) { config_ = config; }
   struct Rules {
     bool stop = false;       ///< every axis brakes to rest and its target is given up
-    uint32_t held = 0;       ///< these come to rest and keep their targets until they may move
-    uint32_t dropped = 0;    ///< these stand at once, and what was wanted of them is given up: they are no axes now
-    uint32_t turning = 0;    ///< the positions of these count within one turn (M700 14.13) ...
-    uint32_t short_cut = 0;  ///< ... and they go to one by the shorter way
-    uint32_t unlimited = 0;  ///< the soft limits of these do not hold: where they stand is not known
+    // Bit i of each stands for axis i.
+    uint32_t held = 0;       ///< axes that come to rest and keep their targets until they may move
+    uint32_t dropped = 0;    ///< axes that stand at once, and whose targets are given up: they are no axes now
+    uint32_t turning = 0;    ///< axes whose positions count within one turn (M700 14.13)
+    uint32_t short_cut = 0;  ///< axes among those that go to a position by the shorter way
+    uint32_t unlimited = 0;  ///< axes without soft limits, because it is not known where they stand
   };
   /// One cycle, in which `position` is moved. To be called only while no program moves.
   void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;
