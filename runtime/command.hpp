@@ -23,6 +23,7 @@ enum class CommandKind : std::uint8_t {
   kStep,           // axis, value: distance
   kReference,      // axis: go to the first reference position
   kHome,           // axis: find its reference mark; kAllSystems: every axis that can be homed, in order
+  kTapRetract,     // a synchronous tap that stands in its hole is drawn out, in mode MANUAL; number: 0 or 1, at 0 it stands where it is
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
   kRelease,        // number: the same, kAllForces
   kEnd,            // the control is being ended: to rest, and nothing starts any more, whatever the ladder asks for

@@ -213,6 +213,8 @@ Answer Scan::apply(const Command& command) noexcept {
       return manual(command);
     case CommandKind::kHome:
       return home_command(command);
+    case CommandKind::kTapRetract:
+      return draw_tap(command.system, command.number != 0);
     case CommandKind::kForce:
       return ladder_->force(command.number, static_cast<std::int32_t>(command.value));
     case CommandKind::kRelease:
@@ -322,6 +324,8 @@ void Scan::build_nc_inputs() noexcept {
     in.fin2 = false;
     in.interlock = false;
     in.macro_interrupt = false;
+    in.tap_retract = taps_drawn_ >> s & 1u;
+    in.tool_broken = false;
     in.manual_absolute_off = false;
     // The level tells the NC of alarms of the machine. A program alarm does not set it, because it is a state of libnc itself.
     in.alarm = false;

@@ -213,6 +213,7 @@ class Scan {
   Answer search_hindrance(unsigned system, unsigned axis) const noexcept;
   Answer begin_homing(unsigned system, unsigned axis) noexcept;
   Answer home_command(const Command& command) noexcept;
+  Answer draw_tap(unsigned system, bool on) noexcept;
   void begin_next_homing() noexcept;
   void forget_order() noexcept;
   AxisHoming::Seen homing_sight(unsigned system, unsigned axis) const noexcept;
@@ -288,6 +289,7 @@ class Scan {
   std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on in this scan
   Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for the last start
   std::uint32_t hold_request_ = 0;  // bit per part system: its program is to be held, until it stands
+  std::uint32_t taps_drawn_ = 0;    // bit per part system: a command draws its tap out of the hole
   std::uint32_t held_now_ = 0;      // bit per part system: a command of this scan has held it
   bool ending_ = false;  // the control is being ended, and nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];

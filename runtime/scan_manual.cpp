@@ -174,6 +174,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
 
 void Scan::watch_manual() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
+    if (mode_ != Mode::kManual || (!out_[s].tap_retract_possible && out_[s].state != NC_STATE_MANUAL)) taps_drawn_ &= ~(1u << s);
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       watch_jog(s, a);
       watch_way(s, a);
@@ -242,6 +243,19 @@ void Scan::watch_handle(unsigned s, unsigned a) noexcept {
   if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, sign(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
   if (why != noted) refuse(s, Asked::kHandle, why, static_cast<int>(a), given.kind != NC_MANUAL_HANDLE && !ignored);
   noted = why;
+}
+
+// A command draws out the tap that a reset or a power cut has left in its hole.
+Answer Scan::draw_tap(unsigned system, bool on) noexcept {
+  if (system >= systems_) return Answer::kAxisUnknown;
+  if (!on) {
+    taps_drawn_ &= ~(1u << system);
+    return Answer::kDone;
+  }
+  if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
+  if (!out_[system].tap_retract_possible) return Answer::kRefusedByControl;
+  taps_drawn_ |= 1u << system;
+  return Answer::kDone;
 }
 
 }  // namespace nc::rt

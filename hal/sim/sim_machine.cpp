@@ -104,6 +104,7 @@ void SimMachine::write(const Command& command, const PointImage& image) noexcept
     return;
   }
   for (unsigned s = 0; s < config_.system_count; ++s) switch_servos(s, command.system[s]);
+  plant_.follow(command.system[0].spindle_synchronous, command.system[0].spindle_turns);
   plant_.step(config_.cycle_s, image, &input_);
   for (unsigned s = 0; s < config_.system_count; ++s) {
     if (!plant_.present()) handshake(&system_[s], command.system[s]);

@@ -83,6 +83,7 @@ class SimMachine final : public Hal {
   double place(unsigned system, unsigned axis) const {  // where the axis really is on the machine
     return system_[system].actual.v[axis] + config_.axis[system][axis].switches.offset;
   }
+  double spindle_turns(unsigned system, unsigned number = 0) const { return spindle(system, number).turns(); }  // signed, since the beginning
   double spindle_rpm(unsigned system, unsigned number = 0) const { return spindle(system, number).rpm(); }
   unsigned tool(unsigned system) const {
     return system == 0 && plant_.present() ? plant_.tool() : system_[system].tool;

@@ -31,7 +31,12 @@ void SimPlant::turn(unsigned number, double cycle_s, const PointImage& outputs, 
   const double speed = points.speed < 0 ? 0 : outputs.value[points.speed];
   const double direction = forward == reverse ? 0 : forward ? 1 : -1;
   const double wanted = direction * std::min(speed, config_.max_rpm);
-  spindle_[number].step(cycle_s, wanted, config_.ramp_rpm_per_s);
+  if ((followers_ >> number & 1) != 0) {
+    spindle_[number].follow(turns_, cycle_s, config_.ramp_rpm_per_s);
+  } else {
+    spindle_[number].let_go();
+    spindle_[number].step(cycle_s, wanted, config_.ramp_rpm_per_s);
+  }
   const double rpm = spindle_[number].rpm();
   set(inputs, points.at_speed, wanted != 0 && std::abs(wanted - rpm) <= kAtSpeed * std::abs(wanted));
   set(inputs, points.stopped, std::abs(rpm) < kStanding);

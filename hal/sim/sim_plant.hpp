@@ -9,6 +9,8 @@
 //    A change while the spindle turns, or of a tool that was not prepared, jams: there is no answer.
 #pragma once
 
+#include <cstdint>
+
 #include "hal/points.hpp"
 #include "hal/sim/sim_spindle.hpp"
 #include "nc/types.h"
@@ -45,6 +47,11 @@ class SimPlant {
   const SimSpindle& spindle(unsigned number) const { return spindle_[number]; }
   double rpm(unsigned number = 0) const { return spindle_[number].rpm(); }  // signed, + is forward
   unsigned tool() const { return tool_; }
+  // From now on bit n: spindle n+1 follows the angle of a synchronous tap, whatever its points say.
+  void follow(std::uint8_t spindles, double turns) noexcept {
+    followers_ = spindles;
+    turns_ = turns;
+  }
   // Simulates one cycle: takes the outputs of the control and sets its inputs.
   void step(double cycle_s, const PointImage& outputs, PointImage* inputs) noexcept;
 
@@ -56,6 +63,8 @@ class SimPlant {
   SimSpindle spindle_[NC_MAX_SPINDLES];
   unsigned tool_ = 0, waiting_tool_ = 0;
   bool waiting_ = false, was_preparing_ = false, was_changing_ = false, exchanged_ = false;
+  std::uint8_t followers_ = 0;
+  double turns_ = 0;
   double prepare_left_s_ = 0, change_left_s_ = 0;
 };
 

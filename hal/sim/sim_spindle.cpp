@@ -41,10 +41,18 @@ void SimSpindle::follow(double turns, double cycle_s, double ramp_rpm_per_s) noe
     step(cycle_s, 0, ramp_rpm_per_s);
     following_ = rpm_ == 0;
     taken_at_ = turns_ - turns;
+    last_turns_ = turns;
     return;
   }
-  rpm_ = (taken_at_ + turns - turns_) / cycle_s * 60;
-  turns_ = taken_at_ + turns;
+  // Its drive takes the speed of the command, and what is missing of the angle is made good as fast as it can accelerate.
+  const double commanded = (turns - last_turns_) / cycle_s, behind = taken_at_ + turns - turns_ - commanded * cycle_s;
+  last_turns_ = turns;
+  const double ramp = ramp_rpm_per_s / 60;  // rev/s^2
+  const double most = std::sqrt(ramp * std::abs(behind));  // half of it is for braking again
+  const double wanted = commanded + std::clamp(behind / cycle_s, -most, most);
+  const double now = rpm_ / 60, speed = std::clamp(wanted, now - ramp * cycle_s, now + ramp * cycle_s);
+  rpm_ = speed * 60;
+  turns_ += speed * cycle_s;
 }
 
 void SimSpindle::turn_axis(double degrees, double cycle_s) noexcept {

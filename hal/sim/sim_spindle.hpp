@@ -10,7 +10,7 @@ class SimSpindle {
   void set_servo(bool on) noexcept;
   // Simulates one cycle: the speed goes towards `wanted_rpm` (signed), or to what the servo asks for.
   void step(double cycle_s, double wanted_rpm, double ramp_rpm_per_s) noexcept;
-  // Of a synchronous tap: it comes to rest, and then its angle follows so many revolutions from there on.
+  // Of a synchronous tap: it comes to rest, and then its angle follows so many revolutions from there on, as far as the ramp lets it.
   void follow(double turns, double cycle_s, double ramp_rpm_per_s) noexcept;
   void let_go() noexcept { following_ = false; }
   // The axis that it is has turned it by so many degrees.
@@ -28,6 +28,7 @@ class SimSpindle {
   double mark_ = 0;  // turns at which it is oriented
   bool following_ = false;
   double taken_at_ = 0;  // turns at which it was taken over, less those of the command
+  double last_turns_ = 0;  // of the command in the cycle before
 };
 
 }  // namespace nc::hal

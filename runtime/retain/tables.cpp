@@ -15,7 +15,8 @@ namespace nc::rt {
 namespace {
 
 constexpr char kHead[] = "nc tables 1", kEnd[] = "end";
-constexpr unsigned kColumns = 4;
+constexpr unsigned kColumns = 4, kLifeColumns = NC_LIFE_AUXILIARY + 1;
+constexpr unsigned kTapNumbers = 5;  // axis, entry, turns per mm, speed, acceleration
 constexpr unsigned kPlainSets = 6, kExtended = 100;  // indices as nc_work_offset_set() counts: G54 to G59 are 1 to 6, G54.1P<n> is 100 + n
 constexpr char kAllAxes = '-';
 
@@ -60,6 +61,24 @@ void read_parameters(const nc_control* control, const nc_config& config, TableRo
         (*rows)["parameter " + std::to_string(s) + " " + (axis != 0 ? axis : kAllAxes) + " " + key] = text[0] != '\0' ? text : plain(value);
 }
 
+void read_tool_lives(const nc_control* control, TableRows* rows) {
+  double value = 0;
+  for (unsigned number = 1; number <= NC_TOOL_LIVES; ++number)
+    for (unsigned c = 0; c < kLifeColumns; ++c)
+      if (nc_tool_life_get(control, number, static_cast<nc_life_column>(c), &value) == NC_OK && value != 0 && std::isfinite(value))
+        (*rows)["life " + std::to_string(number) + " " + std::to_string(c)] = plain(value);
+}
+
+// The tap that stands in a hole, or could.
+void read_taps(const nc_control* control, const nc_config& config, TableRows* rows) {
+  for (unsigned s = 0; s < config.system_count; ++s) {
+    nc_tap tap = NC_INIT(nc_tap);
+    if (nc_tap_get(control, api_system(s), &tap) != NC_OK || tap.axis == 0) continue;
+    const double numbers[kTapNumbers] = {static_cast<double>(tap.axis), tap.entry, tap.turns_per_mm, tap.speed, tap.acceleration};
+    for (unsigned n = 0; n < kTapNumbers; ++n) (*rows)["tap " + std::to_string(s) + " " + std::to_string(n)] = plain(numbers[n]);
+  }
+}
+
 std::string value_of(const TableRows& rows, const std::string& key) {
   const auto found = rows.find(key);
   if (found != rows.end()) return found->second;
@@ -79,6 +98,8 @@ void apply(nc_control* control, const nc_config& config, const std::string& key,
       if (config.system[first].axis[a].name == axis) (void)nc_work_offset_set(control, api_system(first), second, a, value);
   } else if (kind == "tool" && words >> second && second < kColumns && parse(text, &value)) {
     (void)nc_tool_offset_set(control, first, static_cast<nc_tool_column>(second), value);
+  } else if (kind == "life" && words >> second && second < kLifeColumns && parse(text, &value)) {
+    (void)nc_tool_life_set(control, first, static_cast<nc_life_column>(second), value);
   } else if (kind == "parameter" && words >> axis >> number) {
     (void)nc_parameter_set(control, api_system(first), number.c_str(), axis == kAllAxes ? '\0' : axis, text.c_str());
   }
@@ -99,10 +120,28 @@ bool decode(const std::string& bytes, std::vector<Change>* changes) {
     double number = 0;
     if (!std::getline(lines, change.configured) || !std::getline(lines, change.value)) return false;
     const bool parameter = line.rfind("parameter ", 0) == 0;
-    if (!parameter && (line.rfind("work ", 0) != 0 && line.rfind("tool ", 0) != 0)) return false;
+    if (!parameter && (line.rfind("work ", 0) != 0 && line.rfind("tool ", 0) != 0 && line.rfind("life ", 0) != 0 && line.rfind("tap ", 0) != 0)) return false;
     if (!parameter && !parse(change.value, &number)) return false;
   }
   return false;
+}
+
+// Gives back the taps, whose numbers belong together.
+void apply_taps(nc_control* control, const nc_config& config, const std::vector<Change>& changes) {
+  for (unsigned s = 0; s < config.system_count; ++s) {
+    double numbers[kTapNumbers] = {};
+    for (const Change& change : changes)
+      for (unsigned n = 0; n < kTapNumbers; ++n)
+        if (change.key == "tap " + std::to_string(s) + " " + std::to_string(n)) (void)parse(change.value, &numbers[n]);
+    if (!(numbers[0] >= 1 && numbers[0] <= NC_MAX_AXES)) continue;
+    nc_tap tap = NC_INIT(nc_tap);
+    tap.axis = static_cast<std::uint8_t>(numbers[0]);
+    tap.entry = numbers[1];
+    tap.turns_per_mm = numbers[2];
+    tap.speed = numbers[3];
+    tap.acceleration = numbers[4];
+    (void)nc_tap_set(control, api_system(s), &tap);  // one that this machine cannot have is dropped
+  }
 }
 
 }  // namespace
@@ -111,6 +150,8 @@ TableRows read_tables(const nc_control* control, const nc_config& config) {
   TableRows rows;
   read_work_offsets(control, config, &rows);
   read_tool_offsets(control, &rows);
+  read_tool_lives(control, &rows);
+  read_taps(control, config, &rows);
   read_parameters(control, config, &rows);
   return rows;
 }
@@ -162,6 +203,7 @@ bool restore_changes(nc_control* control, const nc_config& config, const TableRo
   if (!decode(bytes, &changes)) return false;
   for (const Change& change : changes)
     if (change.configured == value_of(configured, change.key)) apply(control, config, change.key, change.value);
+  apply_taps(control, config, changes);
   return true;
 }
 

@@ -292,6 +292,18 @@ const SignalRow kSignals[] = {
     {"servo_off", kBit, kTo, kAxis, 0, 0, "the drive of the axis is off, behind its brake if it has one; its position is followed meanwhile (SVF)",
      "level; acts at rest when no program is in execution or interrupted", nullptr,
      NC_WRITE { image->requests->system[s].servo_off |= static_cast<std::uint32_t>(value != 0) << i; }},
+    {"tap_retract_possible", kBit, kFrom, kSystem, 0, 0, "a tap was given up in its hole and stands there: plc.tap_retract draws it out", "level",
+     NC_READ { return out(image, s).tap_retract_possible; }, nullptr},
+    {"tool_life_ended", kBit, kFrom, kSystem, 0, 0, "the life of the tool in the spindle has ended: the next T of its group takes another one", "level",
+     NC_READ { return (out(image, s).tool_life & NC_TOOL_LIFE_ENDED) != 0; }, nullptr},
+    {"tool_group_ended", kBit, kFrom, kSystem, 0, 0, "no tool of the group of the tool in the spindle is left", "level",
+     NC_READ { return (out(image, s).tool_life & NC_TOOL_GROUP_ENDED) != 0; }, nullptr},
+    {"tool_group", kWord32, kFrom, kSystem, 0, 0, "group of tool life management of the tool in the spindle; 0: none", "level",
+     NC_READ { return static_cast<std::int32_t>(out(image, s).tool_group); }, nullptr},
+    {"tap_retract", kBit, kTo, kSystem, 0, 0, "the tap that stands in a hole is drawn out, the spindle with it, as long as it is on", "begins when it rises, in manual mode",
+     nullptr, NC_WRITE { image->nc_in[s].tap_retract |= value != 0; }},
+    {"tool_broken", kBit, kTo, kSystem, 0, 0, "the tool in the spindle is not to be used any more (tool life management)", "acts when it rises", nullptr,
+     NC_WRITE { image->nc_in[s].tool_broken |= value != 0; }},
 };
 
 const unsigned kSignalCount = sizeof(kSignals) / sizeof(kSignals[0]);

@@ -40,7 +40,7 @@ static_assert(offsetof(OldOutputs, cause) == offsetof(nc_outputs, cause));
 
 /// The whole struct of the first version with this SONAME.
 struct alignas(nc_outputs) FirstOutputs {
-  unsigned char bytes[offsetof(nc_outputs, spindle_synchronous) + sizeof(nc_outputs::spindle_synchronous)];
+  unsigned char bytes[offsetof(nc_outputs, tool_group) + sizeof(nc_outputs::tool_group)];
 };
 
 struct OldWorld {
@@ -127,6 +127,29 @@ nc_config small(uint8_t systems = 1) {
     for (unsigned k = 0; k < 3; ++k) c.system[i].axis[k].max_velocity = 100;
   }
   return c;
+}
+
+TEST(StructSize, ATapOfAnotherVersionIsTakenAndGiven) {
+  Control c(small());
+  nc_tap tap = NC_INIT(nc_tap);
+  tap.axis = 1;
+  tap.turns_per_mm = 1;
+  tap.speed = -5;
+  tap.struct_size = 2;
+  EXPECT_EQ(nc_tap_set(c.control, 0, &tap), NC_E_ARGUMENT) << "no size";
+  EXPECT_EQ(nc_tap_get(c.control, 0, &tap), NC_E_ARGUMENT);
+  tap.struct_size = offsetof(nc_tap, acceleration);
+  tap.acceleration = 77;
+  EXPECT_EQ(nc_tap_set(c.control, 0, &tap), NC_OK);
+  tap.axis = 0;
+  nc_inputs in;
+  nc_inputs_init(&in);
+  nc_outputs out;
+  nc_outputs_init(&out);
+  EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+  EXPECT_EQ(nc_tap_get(c.control, 0, &tap), NC_OK);
+  EXPECT_EQ(tap.axis, 1);
+  EXPECT_EQ(tap.acceleration, 77) << "is not touched";
 }
 
 TEST(StructSize, InitSetsIt) {

@@ -39,7 +39,7 @@ class Tap : public testing::TestWithParam<bool> {
       speed = out.spindle_rev_min[0] / 60;
       taken = false;
     } else if (!taken) {
-      speed = std::max(0.0, speed - 50 * kCycle_s);
+      speed = speed > 50.5 * kCycle_s ? speed - 50 * kCycle_s : 0;
       taken = speed == 0;
       taken_at = turns - out.spindle_turns;
     } else {
@@ -187,6 +187,352 @@ TEST_P(Tap, WithoutAnEncoderItWaits) {  // appendix 1, P182
   drive->in.spindle[0].unmeasured = true;
   ASSERT_TRUE(until([&] { return drive->out.cause == NC_CAUSE_SPINDLE_UNMEASURED; }));
   EXPECT_NEAR(z(), 2, 1e-6);
+}
+
+// ---- the spindle as it really turns --------------------------------------------------------------------------------------------
+
+/// A spindle that accelerates no faster than its motor can, and is behind its command by a time constant.
+class RealSpindle {
+ public:
+  explicit RealSpindle(double ramp_rev_s2, double lag_s) : ramp_(ramp_rev_s2), lag_(lag_s) {}
+  void step(const nc_outputs& out, double cycle_s) {
+    const bool follows = (out.spindle_synchronous & 1) != 0;
+    double wanted = follows ? 0 : out.spindle_rev_min[0] / 60;
+    if (follows && !taken_ && speed_ == 0) {
+      taken_ = true;
+      taken_at_ = turns_ - out.spindle_turns;
+    }
+    if (!follows) taken_ = false;
+    if (taken_) wanted = (taken_at_ + out.spindle_turns - turns_) / lag_;
+    speed_ += std::clamp(wanted - speed_, -ramp_ * cycle_s, ramp_ * cycle_s);
+    turns_ += speed_ * cycle_s;
+  }
+  double turns() const { return turns_; }
+  double speed() const { return speed_; }
+  double since_taken() const { return taken_ ? turns_ - taken_at_ : 0; }
+
+ private:
+  double ramp_, lag_, turns_ = 0.3, speed_ = 0, taken_at_ = 0;
+  bool taken_ = false;
+};
+
+class RealTap : public testing::TestWithParam<bool> {
+ protected:
+  static constexpr double kRamp = 25, kLag = 0.02;  // rev/s^2, s
+  RealTap() : bench(NC_DIALECT_M700, tapping_machine(GetParam())) {
+    // 600 r/min in 0.5 s: 20 rev/s^2, what the motor can do and a reserve.
+    bench.param("3005", "3000").param("3013", "600").param("3017", "500").param("3037", "1200").param("3041", "500").param("3045", "1500");
+  }
+  void start(const std::string& block) {
+    bench.at(0, 0, 10);
+    drive = std::make_unique<Drive>(bench, "G0 X0\n" + block + "\nG80\nM30");
+    read();
+  }
+  void read() {
+    drive->in.spindle[0].rev_per_s = spindle.speed();
+    drive->in.spindle[0].turns = spindle.turns();
+    drive->in.spindle[0].turns_valid = true;
+  }
+  void step() {
+    drive->press_start();
+    drive->step(50);
+    spindle.step(drive->out, kCycle_s);
+    read();
+  }
+  template <class Done>
+  bool until(Done done, unsigned most = 20000) {
+    for (unsigned n = 0; n < most; ++n) {
+      if (done()) return true;
+      step();
+    }
+    return false;
+  }
+  double z() const { return drive->out.command.v[2]; }
+
+  Bench bench;
+  RealSpindle spindle{kRamp, kLag};
+  std::unique_ptr<Drive> drive;
+};
+
+INSTANTIATE_TEST_SUITE_P(BothLaws, RealTap, testing::Bool(), [](const auto& law) { return law.param ? "Optimal" : "Trapezoid"; });
+
+// The axis is where the spindle is, but for what the lag changes in one cycle, and at the bottom the spindle has turned as far as commanded to a quarter
+// of a turn.
+TEST_P(RealTap, TheAxisFollowsTheAngleThatTheSpindleHas) {
+  for (const double hand : {1.0, -1.0}) {
+    start(std::string(hand > 0 ? "G84" : "G74") + " Z-8. R2. S600 F1.5 P200 ,R1");
+    double worst = 0, behind = 0, deepest = 0, lowest = 10;
+    ASSERT_TRUE(until([&] {
+      if ((drive->out.spindle_synchronous & 1) != 0 && drive->out.tapping) {
+        worst = std::max(worst, std::fabs(2 - z() - hand * kLead * spindle.since_taken()));
+        behind = std::max(behind, std::fabs(drive->out.spindle_turns - spindle.since_taken()));
+        deepest = std::max(deepest, hand * spindle.since_taken());
+        lowest = std::min(lowest, z());
+      }
+      return drive->ended;
+    }));
+    EXPECT_EQ(drive->alarm(), "");
+    // The lag is kLag times the speed, so one cycle changes it by kLag times the acceleration: 1.5 mm x 25 x 0.02 s x 4 ms; and 1 um.
+    EXPECT_LT(worst, 1e-3 + kLead * kRamp * kLag * kCycle_s) << "mm";
+    EXPECT_GT(behind, 0.1) << "turns: the spindle is a real one";
+    EXPECT_NEAR(deepest, 10 / kLead, 0.25) << "turns";
+    EXPECT_NEAR(lowest, -8, 0.25 * kLead);
+    EXPECT_NEAR(z(), 10, 1e-9) << "behind it the axis is on its path";
+  }
+}
+
+TEST_P(RealTap, WithoutMeasuredTurnsTheAxisGoesByItsPath) {
+  start("G84 Z-8. R2. S600 F1.5 P200 ,R1");
+  double worst = 0;
+  ASSERT_TRUE(until([&] {
+    drive->in.spindle[0].turns_valid = false;
+    if ((drive->out.spindle_synchronous & 1) != 0) worst = std::max(worst, std::fabs(2 - z() - kLead * drive->out.spindle_turns));
+    return drive->ended;
+  }));
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST_P(RealTap, TheAxisKeepsItsLimitsAsItFollows) {
+  start("G84 Z-8. R2. S600 F1.5 P200 ,R1");
+  double last = 0, worst = 0;
+  unsigned n = 0;
+  ASSERT_TRUE(until([&] {
+    const double now = drive->out.velocity.v[2];
+    if (n++ > 2) worst = std::max(worst, std::fabs(now - last) / kCycle_s);
+    last = now;
+    return drive->ended;
+  }));
+  EXPECT_LE(worst, 1000 * 1.001);
+}
+
+// #1172 and ,S of the way back.
+TEST_P(RealTap, TheWayBackGoesByTheReturnOverride) {
+  const auto fastest_out = [&](const char* percent, const char* words) {
+    bench.param("1172", percent);
+    start(std::string("G84 Z-8. R2. S300 F1.5 ,R1") + words);
+    double most = 0;
+    EXPECT_TRUE(until([&] {
+      if ((drive->out.spindle_synchronous & 1) != 0) most = std::max(most, -drive->out.spindle_rev_min[0]);
+      return drive->ended;
+    }));
+    return most;
+  };
+  EXPECT_NEAR(fastest_out("0", ""), 300, 1) << "0 means 100 %";
+  EXPECT_NEAR(fastest_out("150", ""), 450, 1);
+  EXPECT_NEAR(fastest_out("50", ""), 150, 1);
+  EXPECT_NEAR(fastest_out("150", " ,S400"), 400, 1) << "precaution (15): ,S switches it off";
+  EXPECT_NEAR(fastest_out("50", " ,S200"), 300, 1) << "(12): not below S";
+}
+
+// ---- a tap that is left in its hole -----------------------------------------------------------------------------------------------
+
+class Retract : public RealTap {
+ protected:
+  void into_the_hole() {
+    start("G84 Z-8. R2. S600 F1.5 ,R1");
+    ASSERT_TRUE(until([&] { return drive->out.tapping && z() < -3; }));
+    drive->in.reset = true;
+    ASSERT_TRUE(until([&] { return drive->out.state == NC_STATE_IDLE; }));
+    drive->in.reset = false;
+    rest();
+    ASSERT_TRUE(drive->out.tap_retract_possible);
+    ASSERT_LT(z(), -2);
+  }
+  void rest() {
+    for (unsigned n = 0; n < 200; ++n) step();
+  }
+  double apart() const { return std::fabs(2 - z() - kLead * spindle.since_taken()); }
+};
+INSTANTIATE_TEST_SUITE_P(BothLaws, Retract, testing::Bool(), [](const auto& law) { return law.param ? "Optimal" : "Trapezoid"; });
+
+TEST_P(Retract, TheSignalDrawsItOut) {
+  into_the_hole();
+  drive->in.tap_retract = true;
+  double worst = 0, fastest = 0;
+  ASSERT_TRUE(until([&] {
+    worst = std::max(worst, apart());
+    fastest = std::max(fastest, drive->out.velocity.v[2]);
+    return !drive->out.tap_retract_possible && drive->out.state == NC_STATE_IDLE;
+  }));
+  rest();
+  EXPECT_NEAR(z(), 2, 1e-3) << "R";
+  EXPECT_LT(worst, 1e-3 + kLead * kRamp * kLag * kCycle_s) << "the spindle has turned back with it";
+  EXPECT_NEAR(fastest, 15, 1) << "S times the lead";
+  EXPECT_FALSE(drive->out.tap_retract_possible);
+  drive->in.tap_retract = false;
+  rest();
+  drive->in.tap_retract = true;
+  rest();
+  EXPECT_NEAR(z(), 2, 1e-3) << "there is nothing left to be drawn out";
+}
+
+TEST_P(Retract, ItStandsWhileTheSignalIsOff) {
+  into_the_hole();
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return z() > -6; }));
+  drive->in.tap_retract = false;
+  rest();
+  const double stands = z();
+  EXPECT_LT(stands, -3);
+  rest();
+  EXPECT_NEAR(z(), stands, 1e-3);
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return z() > 1.99; }));
+}
+
+TEST_P(Retract, AFeedHoldGivesTheWayUp) {
+  into_the_hole();
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return z() > -6; }));
+  drive->in.feed_hold = true;
+  rest();
+  const double stands = z();
+  drive->in.feed_hold = false;
+  rest();
+  EXPECT_NEAR(z(), stands, 1e-3) << "the signal has to rise again";
+  drive->in.tap_retract = false;
+  rest();
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return z() > 1.99; }));
+}
+
+TEST_P(Retract, NothingIsDrawnOutWhereNoTapStands) {
+  start("G1 Z-3. F3000");
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return drive->ended; }));
+  EXPECT_FALSE(drive->out.tap_retract_possible);
+  rest();
+  EXPECT_NEAR(z(), -3, 1e-9);
+}
+
+// What nc_tap_get() has given is kept by the host; another control, as behind a power cut, draws the tap out with it.
+TEST_P(Retract, BehindAPowerCutItIsDrawnOut) {
+  start("G84 Z-8. R2. S600 F1.5 ,R1");
+  ASSERT_TRUE(until([&] { return drive->out.tapping && z() < -3; }));
+  nc_tap tap = NC_INIT(nc_tap);
+  ASSERT_EQ(nc_tap_get(bench.control(), 0, &tap), NC_OK);
+  EXPECT_EQ(tap.axis, 3);
+  EXPECT_NEAR(tap.entry, 2, 1e-9);
+  EXPECT_NEAR(tap.turns_per_mm, -1 / kLead, 1e-9);
+  const double stands = -4.2;
+
+  Bench after(NC_DIALECT_M700, tapping_machine(GetParam()));
+  after.at(0, 0, stands);
+  ASSERT_EQ(nc_tap_set(after.control(), 0, &tap), NC_OK);
+  drive = std::make_unique<Drive>(after, "M30");
+  spindle = RealSpindle{kRamp, kLag};
+  const double before = spindle.turns();
+  const auto cycle = [&] {
+    read();
+    drive->step(50);
+    spindle.step(drive->out, kCycle_s);
+  };
+  for (unsigned n = 0; n < 100; ++n) cycle();
+  EXPECT_TRUE(drive->out.tap_retract_possible);
+  EXPECT_NEAR(spindle.turns(), before, 1e-9) << "nothing moves by itself";
+  drive->in.tap_retract = true;
+  double worst = 0;
+  for (unsigned n = 0; n < 2000; ++n) {
+    cycle();
+    worst = std::max(worst, std::fabs(z() - stands + kLead * (spindle.turns() - before)));
+  }
+  EXPECT_NEAR(z(), 2, 1e-3);
+  EXPECT_LT(worst, 1e-3 + kLead * kRamp * kLag * kCycle_s);
+  EXPECT_FALSE(drive->out.tap_retract_possible);
+}
+
+TEST(TapData, OnlyATapThatCanBeIsTaken) {
+  Bench bench(NC_DIALECT_M700, tapping_machine(false));
+  nc_tap tap = NC_INIT(nc_tap);
+  tap.axis = 3;
+  tap.turns_per_mm = 0.5;
+  tap.speed = -10;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_OK);
+  for (double nc_tap::*number : {&nc_tap::turns_per_mm, &nc_tap::speed}) {
+    nc_tap bad = tap;
+    for (const double value : {0.0, 1e12, static_cast<double>(NAN)}) {
+      bad.*number = value;
+      EXPECT_EQ(nc_tap_set(bench.control(), 0, &bad), NC_E_ARGUMENT) << value;
+    }
+  }
+  tap.axis = 4;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_E_ARGUMENT) << "there is no such axis";
+  tap.axis = 0;
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_OK) << "no tap";
+  EXPECT_EQ(nc_tap_set(bench.control(), 7, &tap), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_tap_get(bench.control(), 0, nullptr), NC_E_ARGUMENT);
+  nc_inputs in;
+  nc_inputs_init(&in);
+  nc_outputs out;
+  nc_outputs_init(&out);
+  ASSERT_EQ(nc_cycle(bench.control(), &in, &out), NC_OK);
+  EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_E_STATE) << "the scan runs";
+}
+
+// ---- several spindles, and one that is an axis -------------------------------------------------------------------------------------
+
+TEST(TapSpindles, EverySelectedSpindleTurnsWithTheTap) {  // 10.6
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    tapping_machine(false)(c);
+    c.system[0].spindle_count = 3;
+  });
+  bench.at(0, 0, 10);
+  Drive drive(bench, "G84 Z-8. R2. S600 F1.5 ,R1\nG80\nM30");
+  double turns[3] = {}, deepest[3] = {};
+  uint8_t seen = 0;
+  drive.in.spindle_select = 6;
+  for (nc_spindle_inputs& spindle : drive.in.spindle) spindle = {};
+  for (unsigned n = 0; n < 20000 && !drive.ended; ++n) {
+    drive.press_start();
+    for (unsigned i = 0; i < 3; ++i) {
+      drive.in.spindle[i].turns_valid = true;
+      drive.in.spindle[i].turns = turns[i];
+    }
+    drive.step(50);
+    seen = static_cast<uint8_t>(seen | drive.out.spindle_synchronous);
+    for (unsigned i = 0; i < 3; ++i)
+      if ((drive.out.spindle_synchronous >> i & 1) != 0) deepest[i] = std::max(deepest[i], turns[i] = drive.out.spindle_turns);
+  }
+  ASSERT_TRUE(drive.ended) << drive.alarm() << unsigned{drive.out.cause};
+  EXPECT_EQ(seen, 6);
+  EXPECT_EQ(deepest[0], 0);
+  EXPECT_NEAR(deepest[1], 10 / kLead, 0.01);
+  EXPECT_NEAR(deepest[2], 10 / kLead, 0.01);
+}
+
+TEST(TapSpindles, ASpindleThatIsACAxisTurnsAsTheAxis) {  // 10.5
+  Bench bench(NC_DIALECT_M700, [](nc_config& c) {
+    tapping_machine(false)(c);
+    nc_system_config& system = c.system[0];
+    system.axis_count = 4;
+    system.axis[3] = system.axis[2];
+    system.axis[3].name = 'C';
+    system.axis[3].rotary = true;
+    system.axis[3].spindle = 1;
+    system.axis[3].rapid = system.axis[3].max_velocity = 36000;
+    system.axis[3].max_acceleration = 360000;
+  });
+  bench.at(0, 0, 10);
+  Drive drive(bench, "G84 Z-8. R2. S600 F1.5 ,R1\nG80\nM30");
+  drive.in.servo_on = 8;
+  drive.in.spindle[0] = {};
+  drive.in.spindle[0].servo_ready = true;
+  double worst = 0, most = 0, from = NAN;
+  for (unsigned n = 0; n < 20000 && !drive.ended; ++n) {
+    drive.in.cycle_start = n == 5;
+    drive.step(50);
+    if (n == 4) from = drive.out.command.v[3];
+    EXPECT_EQ(drive.out.spindle_synchronous, 0);
+    const double z = drive.out.command.v[2];
+    if (z < 2 && drive.out.tapping) {
+      worst = std::max(worst, std::fabs(2 - z - kLead * (drive.out.command.v[3] - from) / 360));
+      most = std::max(most, drive.out.command.v[3] - from);
+    }
+  }
+  ASSERT_TRUE(drive.ended) << drive.alarm() << unsigned{drive.out.cause};
+  EXPECT_LT(worst, 1e-6);
+  EXPECT_NEAR(most, 360 * 10 / kLead, 5);
+  EXPECT_NEAR(drive.out.command.v[3], from, 1e-9) << "it has turned back";
 }
 
 }  // namespace

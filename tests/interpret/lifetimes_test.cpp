@@ -76,6 +76,7 @@ NC_PARTS(SpindleControl, surface, axis, held)
 NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector)
 NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
          initial_level, tap, synchronous, has_first, pitch, return_speed, first)
+NC_PARTS(LifeInput, kind, flags, group, life)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
 NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)
@@ -114,7 +115,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle)
   NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
-            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space)
+            figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)
   NC_FIELDS(UntilOperatorReset, left_by_end)
@@ -336,7 +337,7 @@ TEST(StateGroups, AnInterruptProgramBeginsWithWhatIsInForce) {  // M700 13.12
   std::set<std::string> all;
   for (const auto& [group, fields] : groups_of_state()) all.insert(group);
   all.erase("MachinePosition");
-  expect_kept([&](State& state) { begin_interrupt_program(state, place); }, all, {"repeat", "interrupt_moved", "parameter_input"});
+  expect_kept([&](State& state) { begin_interrupt_program(state, place); }, all, {"repeat", "interrupt_moved", "parameter_input", "life_input"});
 }
 
 // Exceptions, tested below: `modal` holds the M code that was given out; `moves_since_comp_off` and `spline_way` change with a move of the interrupt
@@ -354,12 +355,16 @@ TEST(StateGroups, AnInterruptGivesTheModesBackAndLeavesTheRest) {  // M700 13.12
 }
 
 TEST(StateGroups, AnInterruptThatLosesTheBlockGivesNothingBackButParameterInput) {  // M700 13.12: type 1 with a move, M99 P
-  expect_returned([](State& now, const State& before) { go_on_behind_interrupt(now, before); }, {}, {"parameter_input"});
+  expect_returned([](State& now, const State& before) { go_on_behind_interrupt(now, before); }, {}, {"parameter_input", "life_input"});
   State now, before;
   before.parameter_input = true;
   begin_interrupt_program(now, AxisVec{});
   go_on_behind_interrupt(now, before);
   EXPECT_TRUE(now.parameter_input);
+  before.life_input.group = 7;
+  begin_interrupt_program(now, AxisVec{});
+  go_on_behind_interrupt(now, before);
+  EXPECT_EQ(now.life_input.group, 7U);
 }
 
 TEST(StateGroups, WhatAnInterruptGivesBackInItsOwnWay) {

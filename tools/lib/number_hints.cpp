@@ -3,8 +3,9 @@
 #include "tools/lib/number_hints.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <string_view>
 #include <vector>
 
 namespace nc::tools {
@@ -13,40 +14,61 @@ namespace {
 struct PlainWord {
   char letter;
   bool comma;
-  std::string number;  // sign, digits and point; "" = not a plain number
-  bool point() const { return number.find('.') != std::string::npos; }
-  std::string text() const { return (comma ? "," : "") + std::string(1, letter) + number; }
-  double value() const { return std::strtod(number.c_str(), nullptr); }
+  std::size_t begin, end;  // of its number in LineWords::digits: sign, digits and point
 };
 
-/** The words of a line; none when it has a macro statement. */
-std::vector<PlainWord> words_of(const std::string& line) {
-  std::vector<PlainWord> words;
-  bool comment = false, comma = false;
-  int depth = 0;
-  for (const char raw : line) {
-    const char c = raw >= 'a' && raw <= 'z' ? static_cast<char>(raw - 32) : raw;
-    if (comment || c == '(') {
-      comment = c != ')';
-      continue;
-    }
-    depth += c == '[' ? 1 : c == ']' ? -1 : 0;
-    if (depth > 0 || c == ' ' || c == '\t' || c == '\r') continue;
-    if (c == '=') return {};
-    if (c == ';') break;
-    if (c >= 'A' && c <= 'Z') {
-      if (!words.empty() && words.back().number.empty()) return {};  // two letters in a row are a keyword of a macro statement
-      words.push_back({c, comma, ""});
-    } else if (c != ',' && !words.empty()) {
-      words.back().number += c;
-    }
-    comma = c == ',';
+/** The words of one line. It is used again for each line, so that a long program costs no memory for each. */
+class LineWords {
+ public:
+  /** Takes the words of a line; none when it has a macro statement. */
+  void read(std::string_view line) {
+    words_.clear();
+    digits_.clear();
+    if (!gather(line)) words_.clear();
+    std::erase_if(words_, [this](const PlainWord& word) { return !is_number(number(word)); });
   }
-  std::erase_if(words, [](const PlainWord& word) {
-    return word.number.empty() || word.number.find_first_not_of("+-.0123456789") != std::string::npos;
-  });
-  return words;
-}
+  const std::vector<PlainWord>& words() const { return words_; }
+  std::string_view number(const PlainWord& word) const { return std::string_view(digits_).substr(word.begin, word.end - word.begin); }
+  bool point(const PlainWord& word) const { return number(word).find('.') != std::string_view::npos; }
+  std::string text(const PlainWord& word) const { return (word.comma ? "," : "") + std::string(1, word.letter) + std::string(number(word)); }
+  double value(const PlainWord& word) const {
+    std::string_view text = number(word);
+    if (text.front() == '+') text.remove_prefix(1);
+    double value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+  }
+
+ private:
+  static bool is_number(std::string_view text) { return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string_view::npos; }
+  bool gather(std::string_view line) {
+    bool comment = false, comma = false;
+    int depth = 0;
+    for (const char raw : line) {
+      const char c = raw >= 'a' && raw <= 'z' ? static_cast<char>(raw - 32) : raw;
+      if (comment || c == '(') {
+        comment = c != ')';
+        continue;
+      }
+      depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+      if (depth > 0 || c == ' ' || c == '\t' || c == '\r') continue;
+      if (c == '=') return false;
+      if (c == ';') break;
+      if (c >= 'A' && c <= 'Z') {
+        if (!words_.empty() && words_.back().end == words_.back().begin) return false;  // two letters in a row are a keyword of a macro statement
+        words_.push_back({c, comma, digits_.size(), digits_.size()});
+      } else if (c != ',' && !words_.empty()) {
+        digits_ += c;
+        words_.back().end = digits_.size();
+      }
+      comma = c == ',';
+    }
+    return true;
+  }
+
+  std::vector<PlainWord> words_;
+  std::string digits_;
+};
 
 /// A text such as "1 more number" or "2 more numbers".
 std::string more(uint64_t count, const char* noun) { return std::to_string(count) + " more " + noun + (count == 1 ? "" : "s"); }
@@ -61,11 +83,7 @@ std::string switched_off(const Session& session, nc_parameter_role role) {
 
 }  // namespace
 
-void NumberHints::count_length(const std::string& word, bool point, double value, uint32_t line) {
-  if (point) {
-    ++with_point;
-    return;
-  }
+void NumberHints::count_without_point(const std::string& word, double value, uint32_t line) {
   if (without_point++ == 0) {
     first_without = line;
     first_word = word;
@@ -80,29 +98,38 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
   NumberHints hints;
   uint32_t line = 0;
   bool data = false;
+  LineWords of_line;
+  std::vector<nc_plain_word> plain;
+  std::vector<uint8_t> kinds;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    const std::vector<PlainWord> words = words_of(text.substr(begin, end - begin));
+    of_line.read(std::string_view(text).substr(begin, end - begin));
+    const std::vector<PlainWord>& words = of_line.words();
     ++line;
     begin = end + 1;
-    std::vector<nc_plain_word> plain;
-    plain.reserve(words.size());
-    for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, word.value()});
-    std::vector<uint8_t> kinds(words.size());
+    plain.clear();
+    for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, of_line.value(word)});
+    kinds.assign(words.size(), 0);
     if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};
     for (size_t i = 0; i < words.size(); ++i) {
       const PlainWord& word = words[i];
-      if (word.value() == 0) continue;  // 0 is the same in every unit
-      if (kinds[i] == NC_NUMBER_LENGTH) hints.count_length(word.text(), word.point(), std::fabs(word.value()), line);
-      if (kinds[i] != NC_NUMBER_DWELL || !word.point() || hints.dwells++ != 0) continue;
+      if (plain[i].value == 0) continue;  // 0 is the same in every unit
+      if (kinds[i] == NC_NUMBER_LENGTH) {
+        if (of_line.point(word)) ++hints.with_point;
+        else hints.count_without_point(of_line.text(word), std::fabs(plain[i].value), line);
+      }
+      if (kinds[i] != NC_NUMBER_DWELL || !of_line.point(word) || hints.dwells++ != 0) continue;
       hints.first_dwell = line;
-      hints.dwell_word = word.text();
+      hints.dwell_word = of_line.text(word);
     }
   }
   return hints;
 }
 
 void note_numbers(const Session& session, std::FILE* err) {
+  // M700 5.3: in type II a number without a point is in mm. 8.1: P is in ms, with a point or without, unless a parameter makes the point count.
+  const std::string type_2 = switched_off(session, NC_PARAMETER_DECIMAL_TYPE_2), dwell_point = switched_off(session, NC_PARAMETER_DWELL_POINT);
+  if (type_2.empty() && dwell_point.empty()) return;
   const std::string text = session.main_text();
   const nc_config& config = session.config();
   std::string letters;
@@ -112,8 +139,6 @@ void note_numbers(const Session& session, std::FILE* err) {
   source.file = session.main_file();
   const std::string file = rt::valid_utf8(session.file_name(source));
   constexpr const char* kUnit = "read in the least command unit (0.001 mm, 0.0001 inch or 0.001 deg unless parameters say otherwise)";
-  // M700 5.3: in type II a number without a point is in mm.
-  const std::string type_2 = switched_off(session, NC_PARAMETER_DECIMAL_TYPE_2);
   const auto without = static_cast<unsigned long long>(hints.without_point);
   if (!type_2.empty() && hints.doubtful())
     std::fprintf(err, "note: %s:%u: %s%s without a decimal point %s %s; with #%s = 1 %s mm\n", file.c_str(), hints.first_without, hints.first_word.c_str(),
@@ -122,10 +147,9 @@ void note_numbers(const Session& session, std::FILE* err) {
   else if (!type_2.empty() && without != 0)
     std::fprintf(err, "note: %s: all numbers are without a decimal point, %llu from line %u on, and %s; the largest is %s\n", file.c_str(), without,
                  hints.first_without, kUnit, hints.largest_word.c_str());
-  // M700 8.1: P is in ms, with a point or without, unless a parameter makes the point count.
-  if (const std::string key = switched_off(session, NC_PARAMETER_DWELL_POINT); !key.empty() && hints.dwells != 0)
+  if (!dwell_point.empty() && hints.dwells != 0)
     std::fprintf(err, "note: %s:%u: %s of a dwell counts milliseconds, and the point does not count (#%s)%s\n", file.c_str(), hints.first_dwell,
-                 hints.dwell_word.c_str(), key.c_str(), hints.dwells == 1 ? "" : ("; " + more(hints.dwells - 1, "dwell")).c_str());
+                 hints.dwell_word.c_str(), dwell_point.c_str(), hints.dwells == 1 ? "" : ("; " + more(hints.dwells - 1, "dwell")).c_str());
 }
 
 }  // namespace nc::tools

@@ -21,7 +21,7 @@ struct NumberHints {
   uint32_t first_dwell = 0;
   std::string dwell_word;  // "P1.00000"
 
-  void count_length(const std::string& word, bool point, double value, uint32_t line);
+  void count_without_point(const std::string& word, double value, uint32_t line);
 
   /**
    * True when the numbers without a point were probably not meant in thousandths: other numbers have a point, or all of them are less than a millimetre. A

@@ -134,7 +134,9 @@ class VirtualMachine {
     const bool tap = last.spindle_synchronous != 0;  // it stands at once, and turns with the path
     in.spindle[0].rev_per_s = (tap ? last.spindle_rev_min[0] : direction_ * last.s) / 60.0;
     in.spindle[0].turns_valid = true;
-    in.spindle[0].turns += in.spindle[0].rev_per_s * config_.cycle_s;
+    if (tap && !tapped_) tap_from_ = in.spindle[0].turns - last.spindle_turns;
+    in.spindle[0].turns = tap ? tap_from_ + last.spindle_turns : in.spindle[0].turns + in.spindle[0].rev_per_s * config_.cycle_s;
+    tapped_ = tap;
     // The events of the setup come with their blocks, or at their time on the clock of the machine.
     world_.set_seconds(static_cast<double>(cycle) * config_.cycle_s);
     in.reset = started_ && foresight_.fire(last.serial);
@@ -224,6 +226,8 @@ class VirtualMachine {
   const Setup& setup_;
   const ServoModel* servo_;
   double direction_ = 1.0;  // direction of the spindle
+  bool tapped_ = false;     // a synchronous tap had it in the cycle before
+  double tap_from_ = 0;     // its turns when the tap took it over
   Passes passes_;
   VirtualWorld world_;
   Foresight foresight_;

@@ -240,6 +240,42 @@ NC_API nc_status nc_tool_offset_set(nc_control* control, unsigned number, nc_too
  */
 NC_API nc_status nc_tool_offset_get(const nc_control* control, unsigned number, nc_tool_column column, double* value);
 
+/** Number of tools whose life can be managed. */
+#define NC_TOOL_LIVES 200
+
+/** Columns of the table of tool life (M700 13.5.5, #60501 to #64700). */
+typedef enum nc_life_column {
+  NC_LIFE_GROUP = 0,     /**< number of its group, 1 to 99999999; 0 = no tool is registered here */
+  NC_LIFE_TOOL = 1,      /**< number of the tool, 0 to 99999999 */
+  NC_LIFE_FLAGS = 2,     /**< bits 4, 5: what is counted: 0 minutes of cutting, 1 mounts, 2 uses; the others are given back as they are; 0 to 255 */
+  NC_LIFE_STATUS = 3,    /**< 0 not used, 1 in use, 2 its life has ended, 3 and 4 not to be used */
+  NC_LIFE_LIFE = 4,      /**< its life in minutes (0 to 4000) or times (0 to 9999); 0 = without end */
+  NC_LIFE_USED = 5,      /**< what of it has been used */
+  NC_LIFE_LENGTH = 6,    /**< number of its offset for the length */
+  NC_LIFE_RADIUS = 7,    /**< number of its offset for the radius */
+  NC_LIFE_AUXILIARY = 8  /**< for the machine's own use */
+} nc_life_column;
+
+/**
+ * Set one entry of the table of tool life, which all part systems share. Feeder thread.
+ * @param control the control
+ * @param number of the tool in the table, 1 to NC_TOOL_LIVES: the tools of a group are used in this order
+ * @param column nc_life_column
+ * @param value in the range of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY
+ * @return NC_OK; NC_E_ARGUMENT: no such number or column, or the value is out of range
+ */
+NC_API nc_status nc_tool_life_set(nc_control* control, unsigned number, nc_life_column column, double value);
+
+/**
+ * Read one entry of the table of tool life, as nc_tool_offset_get() does. Feeder thread.
+ * @param control the control
+ * @param number of the tool in the table, 1 to NC_TOOL_LIVES
+ * @param column nc_life_column
+ * @param value receives it
+ * @return NC_OK; NC_E_ARGUMENT: no such number or column, or `value` is NULL
+ */
+NC_API nc_status nc_tool_life_get(const nc_control* control, unsigned number, nc_life_column column, double* value);
+
 /**
  * Set a local or common variable. Feeder thread.
  * @param control the control

@@ -66,6 +66,7 @@ typedef enum nc_control_index {
                                        are diameters */
   NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` bit n = by axis n, 0 = G97 */
   NC_CONTROL_SPINDLE_CLAMP = 92, /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
+  NC_CONTROL_TOOL_LIFE = 3,      /**< a tool has come into the spindle: `value` its number in the table of tool life, 0 = its life is not managed */
   NC_CONTROL_INTERRUPT = 96      /**< macro interrupt: `value` nc_interrupt_bits */
 } nc_control_index;
 

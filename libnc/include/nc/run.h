@@ -286,6 +286,9 @@ typedef struct nc_inputs {
   int64_t clock_ms;      /**< wall clock (see nc_world) */
   uint64_t unlimited;    /**< bit n: axis n does not know where it stands yet, and its soft limits do not hold for motion by hand. It counts where a motion begins
                               and while it goes on: a motion that goes on when the bit goes off ends where it was to end */
+  bool tap_retract;      /**< rising edge while nc_outputs::tap_retract_possible: a synchronous tap is drawn out of its hole, up to R. While it is off the
+                              tap stands there and goes on when it is on again; a reset, a feed hold and an interlock give the way up */
+  bool tool_broken;      /**< rising edge: the tool in the spindle is not used any more: its status in the table of tool life becomes 3 */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.
@@ -346,6 +349,12 @@ typedef enum nc_override_source {
   NC_OVERRIDE_PROGRAM = 1 /**< the program has switched overrides off: by #3004 bit 1 (M700 13.5.10), a thread (6.7.1), the tapping mode (7.11) or a skip
                                move (15.2) */
 } nc_override_source;
+
+/** Bits of nc_outputs::tool_life. */
+typedef enum nc_tool_life_bits {
+  NC_TOOL_LIFE_ENDED = 1, /**< the life of the tool in the spindle has ended */
+  NC_TOOL_GROUP_ENDED = 2 /**< and so have those of all tools of its group */
+} nc_tool_life_bits;
 
 /** What one part system gives out in one cycle. */
 typedef struct nc_outputs {
@@ -410,6 +419,9 @@ typedef struct nc_outputs {
                                  `spindle_rev_min` of it is then their change, signed */
   uint8_t spindle_synchronous; /**< bit n: spindle n+1 follows `spindle_turns`, standing first. Until R is reached again; behind a reset in the hole
                                     it goes with the axis by hand until the next M or S that turns it */
+  bool tap_retract_possible; /**< a tap was given up in its hole and stands there: nc_inputs::tap_retract draws it out, by hand it turns with its axis */
+  uint8_t tool_life;        /**< nc_tool_life_bits of the tool in the spindle */
+  uint32_t tool_group;      /**< its group of tool life management, 0 = none */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.
@@ -419,6 +431,38 @@ static inline void nc_outputs_init(nc_outputs* outputs) {
   const nc_outputs cleared = NC_INIT(nc_outputs);
   *outputs = cleared;
 }
+
+/**
+ * The synchronous tap that stands in a hole, or could (M700 13.1.1): what has to outlast a power cut so that it can be drawn out afterwards. It is there
+ * from the first stroke of a tapping cycle until the cycle ends, and behind a reset until the spindle is commanded again.
+ */
+typedef struct nc_tap {
+  NC_STRUCT_SIZE(nc_tap);   /**< see NC_STRUCT_SIZE */
+  uint8_t axis;             /**< that the tap is moved by, from 1; 0 = there is no tap */
+  double entry;             /**< machine position of R, mm: here it is out of the hole */
+  double turns_per_mm;      /**< revolutions of the spindle by the way of the axis, forward positive; not 0 */
+  double speed;             /**< of the axis, mm/s, with the sign of the way into the hole; not 0 */
+  double acceleration;      /**< highest of the axis that the spindle follows, mm/s^2; 0 = that of the axis */
+} nc_tap;
+
+/**
+ * Read the tap of a part system as the scan has left it. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param tap receives it; its `axis` is 0 where there is none
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or `tap` is NULL or has no valid struct_size
+ */
+NC_API nc_status nc_tap_get(const nc_control* control, unsigned system, nc_tap* tap);
+
+/**
+ * Give back what nc_tap_get() had read before the power was cut: nc_inputs::tap_retract can then draw the tap out. To be called before the first
+ * nc_cycle(). Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param tap what was read
+ * @return NC_OK; NC_E_ARGUMENT: no such part system or axis, or a number out of its range; NC_E_STATE: the scan runs already
+ */
+NC_API nc_status nc_tap_set(nc_control* control, unsigned system, const nc_tap* tap);
 
 /**
  * One servo cycle of every part system. Scan thread.

@@ -26,9 +26,11 @@ inline constexpr uint32_t kFirstSize<nc_config> = padded<nc_config>(NC_END_OF(nc
 template <>
 inline constexpr uint32_t kFirstSize<nc_config_fault> = padded<nc_config_fault>(NC_END_OF(nc_config_fault, reason));
 template <>
-inline constexpr uint32_t kFirstSize<nc_inputs> = padded<nc_inputs>(NC_END_OF(nc_inputs, unlimited));
+inline constexpr uint32_t kFirstSize<nc_inputs> = padded<nc_inputs>(NC_END_OF(nc_inputs, tool_broken));
 template <>
-inline constexpr uint32_t kFirstSize<nc_outputs> = padded<nc_outputs>(NC_END_OF(nc_outputs, spindle_synchronous));
+inline constexpr uint32_t kFirstSize<nc_outputs> = padded<nc_outputs>(NC_END_OF(nc_outputs, tool_group));
+template <>
+inline constexpr uint32_t kFirstSize<nc_tap> = padded<nc_tap>(NC_END_OF(nc_tap, acceleration));
 template <>
 inline constexpr uint32_t kFirstSize<nc_world> = padded<nc_world>(NC_END_OF(nc_world, run_ms));
 template <>

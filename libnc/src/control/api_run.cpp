@@ -151,6 +151,22 @@ nc_status nc_commit_watch_set(nc_control* c, unsigned system, nc_commit_watch wa
   return NC_OK;
 }
 
+nc_status nc_tap_get(const nc_control* c, unsigned system, nc_tap* tap) {
+  if (!known(c, system) || tap == nullptr || nc::caller_bytes(tap) == 0) return NC_E_ARGUMENT;
+  nc::give_struct(c->system[system].executor.tap(), tap);
+  return NC_OK;
+}
+
+nc_status nc_tap_set(nc_control* c, unsigned system, const nc_tap* given) {
+  nc_tap tap = NC_INIT(nc_tap);
+  if (!known(c, system) || given == nullptr || !nc::take_struct(given, &tap)) return NC_E_ARGUMENT;
+  const auto sane = [](double value) { return std::fabs(value) < 1e9; };
+  const bool moves = tap.turns_per_mm != 0 && sane(tap.turns_per_mm) && tap.speed != 0 && sane(tap.speed);
+  const bool good = moves && sane(tap.entry) && tap.acceleration >= 0 && sane(tap.acceleration);
+  if (tap.axis > c->config.system[system].axis_count || (tap.axis != 0 && !good)) return NC_E_ARGUMENT;
+  return c->system[system].executor.set_tap(tap) ? NC_OK : NC_E_STATE;
+}
+
 nc_status nc_cycle(nc_control* c, const nc_inputs* in, nc_outputs* out) {
   if (c == nullptr || in == nullptr || out == nullptr) return NC_E_ARGUMENT;
   const unsigned count = c->config.system_count;

@@ -194,6 +194,43 @@ nc_status nc_tool_offset_get(const nc_control* c, unsigned number, nc_tool_colum
   return NC_OK;
 }
 
+namespace {
+
+bool life_place(const nc_control* c, unsigned number, nc_life_column column) {
+  return c != nullptr && number >= 1 && number <= NC_TOOL_LIVES && column <= NC_LIFE_AUXILIARY;
+}
+
+/// The value is in the range of its column (M700 10.15).
+bool life_value(const nc_control* c, nc_life_column column, double value) {
+  constexpr double kLastNumber = 99999999, kMost = 9999, kFlags = 255, kStates = 4;
+  const double most = column <= NC_LIFE_TOOL      ? kLastNumber
+                      : column == NC_LIFE_FLAGS   ? kFlags
+                      : column == NC_LIFE_STATUS  ? kStates
+                      : column <= NC_LIFE_USED    ? kMost
+                      : column <= NC_LIFE_RADIUS  ? c->config.tool_offsets
+                                                  : 0;
+  if (column == NC_LIFE_AUXILIARY) return sane(value);
+  return value >= 0 && value <= most && (column == NC_LIFE_USED || value == std::trunc(value));
+}
+
+}  // namespace
+
+static_assert(NC_TOOL_LIVES == nc::kLifeTools && NC_LIFE_AUXILIARY + 1 == nc::kLifeColumns);
+
+nc_status nc_tool_life_set(nc_control* c, unsigned number, nc_life_column column, double value) {
+  if (!life_place(c, number, column) || !life_value(c, column, value)) return NC_E_ARGUMENT;
+  const nc::HostTables tables = c->system[0].interpreter.tables();
+  tables.set_shared(tables.frames().life_key(number - 1, column), value);
+  return NC_OK;
+}
+
+nc_status nc_tool_life_get(const nc_control* c, unsigned number, nc_life_column column, double* value) {
+  if (value == nullptr || !life_place(c, number, column)) return NC_E_ARGUMENT;
+  const Frames& frames = c->system[0].interpreter.tables().frames();
+  *value = frames.get(frames.life_key(number - 1, column));
+  return NC_OK;
+}
+
 // ---- variables --------------------------------------------------------------------------------------------------------------
 
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {

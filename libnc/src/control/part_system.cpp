@@ -742,6 +742,7 @@ nc_status PartSystem::feed_program(int64_t left) {
 nc_status PartSystem::feed(uint32_t budget) {
   online_ = true;
   tell_axis_parameters();  // a program may have changed the parameters
+  count_tool_life();
   follow_run();
   int64_t left = int64_t{budget} * kUnit;
   if (!run_.active() || !interpreter.is_selected()) {

@@ -43,6 +43,7 @@ class PartSystem {
   /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
   static constexpr int64_t kUnit = 20000, kItem = 2500;
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
+  void count_tool_life();  // life_count.cpp
   void tell_axis_parameters();
   nc_status recalculate();
   /// For tests of counters that have run for years (docs/counters.md). To be called right after create().

@@ -183,6 +183,8 @@ constexpr AlarmRow kRows[] = {
     {C::tap_no_pitch, "NC-FEED", nullptr},
     {C::tap_pitch, "NC-RANGE", nullptr},
     {C::tap_speed_word, "NC-SPINDLE", nullptr},
+    {C::life_full, "NC-RANGE", nullptr},
+    {C::life_group, "NC-RANGE", nullptr},
     {C::no_holes, "NC-RANGE", nullptr},
     {C::hole_angle_zero, "NC-RANGE", nullptr},
     {C::drilling_axis_changed, "NC-PLANE", nullptr},

@@ -40,7 +40,8 @@ enum class DataInput : uint8_t {
   work_offset_here,  ///< the same offset, chosen such that the axis shows the given value where it stands
   extended_offset,   ///< the offset of an extended workpiece coordinate system
   tool_length, tool_length_wear, tool_radius, tool_radius_wear,
-  current_limit, parameters
+  current_limit, parameters,
+  tool_life          ///< groups of tools whose life is managed: blocks with them follow
 };
 
 /// Which value of L sets what.

@@ -22,6 +22,7 @@ BlockKind kind_of(DataInput input) {
     case DataInput::tool_radius:
     case DataInput::tool_radius_wear: return BlockKind::tool_data;
     case DataInput::parameters: return BlockKind::parameters_begin;
+    case DataInput::tool_life:
     case DataInput::missing:
     case DataInput::current_limit: break;
   }

@@ -158,6 +158,9 @@ enum class Parameter : uint8_t {
   spindle_most,                ///< [2] highest speed, time of the third stage of a tap up to it
   tap_speed,                   ///< [2] to which the first and the second stage go
   tap_time,                    ///< [2] of these
+  tap_return_override,
+  life_managed,
+  life_by_tool,
   // of machines and later models, which the manuals only mention
   tenfold,
   print_blanks,

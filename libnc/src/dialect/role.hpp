@@ -61,6 +61,8 @@ enum class Role : uint8_t {
   cycle_first_depth, tap_lead,                  ///< end of the first cut; way of a tap in one turn of the spindle
   cavity_length, cavity_width, cavity_cut, cavity_step, cavity_corner,   ///< of a circle the length is its radius
   surface_radius,                               ///< radius at the present position, for constant surface speed
+  // ---- tool life: of a group its number, the life of each tool and what is counted; of a tool its number and those of its offsets
+  life_group, life_span, life_method, life_tool, life_length, life_radius,
   count_
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);

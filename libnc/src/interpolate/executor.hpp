@@ -129,6 +129,14 @@ class Executor {
   void count_from(uint32_t first);
   /// Sets the position; only while idle, before the scan runs.
   void set_position(const AxisVec& machine);
+  // ---- tool life management: the scan counts for how long a tool of the table cuts
+  /// A tool, its number in the table from 1, has cut for so many ms, LifeRing::kBroken = it is broken. False: there is nothing new.
+  bool tool_cut(uint8_t* tool, uint32_t* ms);
+  uint8_t tool_in_spindle() const;  ///< its number in the table, 0 = its life is not managed
+  void tell_tool_life(uint32_t bits, uint32_t group);
+  /// The tap of this part system as the scan has left it; and before the first cycle the one that a power cut has left (nc_tap_set()). False: the scan runs.
+  nc_tap tap() const;
+  bool set_tap(const nc_tap& tap);
 
   // ---- scan thread
   // --------------------------------------------------------------------------------------------------

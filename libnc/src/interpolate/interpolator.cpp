@@ -95,7 +95,9 @@ void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   if (stale_ != 0) [[unlikely]] {
     for (unsigned i = 0; i < config_.axis_count; ++i) command_[i] += turned_[i];
   }
+  follow_tap(in);
   follow(in);
+  count_cutting(in);
   if (state_ == NC_STATE_RUNNING) {
     ++run_cycles_;
     ++start_cycles_;
@@ -472,11 +474,15 @@ void Interpolator::follow(const nc_inputs& in) {
     if ((spindles_now() >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
   filter_.reset(wanted_);
+  tap_follower_.drop();
 }
 
 void Interpolator::publish(const nc_inputs& in) {
   ScanStatus status;
   status.command = command_;
+  status.command[tap_.axis] -= tap_follower_.beside();
+  status.tap = tap();
+  status.tool = tool_;
   status.feed_override = feed_override(in);
   // The plan also comes to rest at the end of a block when an interrupt waits for it, a hold was pressed in a thread, or blocks are to be read again.
   status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
@@ -510,6 +516,16 @@ double Interpolator::override_in_force(const nc_inputs& in, nc_override_source* 
   const bool fixed = s != nullptr && (s->thread || s->fixed_override || (s->skip && feed_override(in) > 0));
   *source = (disable_ & 2) != 0 || fixed ? NC_OVERRIDE_PROGRAM : NC_OVERRIDE_INPUT;
   return *source == NC_OVERRIDE_PROGRAM ? 1 : in.feed_override;
+}
+
+/// Counts how long the tool in the spindle cuts, and tells it to the feeder by the second.
+void Interpolator::count_cutting(const nc_inputs& in) {
+  constexpr double kTell_s = 1, kMillis = 1000;
+  const bool breaks = in.tool_broken && !broken_last_;
+  broken_last_ = in.tool_broken && (broken_last_ || tool_ == 0 || shared_->lives.push(tool_, LifeRing::kBroken));
+  if (tool_ == 0 || breaks) return;
+  if (moving_ && !current().segment.rapid && law_.v > 0) cut_s_ += config_.cycle_s;
+  if (cut_s_ >= kTell_s && shared_->lives.push(tool_, static_cast<uint32_t>(std::lround(cut_s_ * kMillis)))) cut_s_ = 0;
 }
 
 void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
@@ -567,6 +583,8 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   for (unsigned i = 0; c_axes_ != 0 && i < config_.axis_count; ++i)
     if ((servo_on_ >> i & 1) != 0) out.spindle_rev_min[config_.axis_spindle[i] - 1] = 0;  // M700 10.5 (1): spindle control is not possible
   turn_tap_spindle(out);
+  out.tool_life = static_cast<uint8_t>(shared_->tool_life.load(std::memory_order_relaxed));
+  out.tool_group = shared_->tool_group.load(std::memory_order_relaxed);
   out.spindle_selected = spindles_.selected();
   out.spindle_encoder = static_cast<uint8_t>(encoder_);
   out.servo_on = servo_on_;

@@ -13,9 +13,11 @@
 #include "interpolate/follower.hpp"
 #include "interpolate/index_clamp.hpp"
 #include "interpolate/input_border.hpp"
+#include "interpolate/life_ring.hpp"
 #include "interpolate/run_word.hpp"
 #include "interpolate/spindle.hpp"
 #include "interpolate/spindle_sync.hpp"
+#include "interpolate/tap_follower.hpp"
 #include "interpolate/truncation.hpp"
 #include "manual/manual.hpp"
 #include "motion/law.hpp"
@@ -40,6 +42,8 @@ struct ScanStatus {
   bool faulted = false;     ///< it is one of the scan itself: the move in execution cannot begin, or cannot go on
   nc_source stopped_at{};   ///< block in execution at that moment
   BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
+  nc_tap tap{};  ///< nc_tap_get()
+  uint8_t tool = 0;  ///< number of the tool in the spindle in the table of tool life, 0 = none
 };
 
 /// What has become of a record that the scan has gone past.
@@ -73,6 +77,9 @@ struct ScanShared {
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
   Latest<AxisParameters> axes;  ///< by the feeder
+  LifeRing lives;
+  std::atomic<uint32_t> tool_life{0};   ///< by the feeder: nc_tool_life_bits of the tool in the spindle
+  std::atomic<uint32_t> tool_group{0};  ///< by the feeder
   EventRing events;
 };
 
@@ -81,6 +88,7 @@ class Interpolator {
   void create(const ExecutorConfig& config, const Record* ring, LeftRecord* left, Planner* planner, optimal::OptimalPlanner* optimal, ScanShared* shared,
               double* filters = nullptr);
   void set_position(const AxisVec& machine);
+  void set_tap(const nc_tap& tap);  ///< before the first cycle
   void count_from(uint32_t first);  ///< for tests
   void cycle(const nc_inputs& in, nc_outputs& out) NC_RT;
 
@@ -119,8 +127,24 @@ class Interpolator {
   bool moves_any(const Segment& segment, uint8_t axes) const NC_RT;
   bool lost_move(const Record& record, Done* done) NC_RT;
   bool may_read_again() const NC_RT;
-  bool tap_disturbed(const nc_inputs& in) const NC_RT;
   const nc_spindle_inputs& encoder(const nc_inputs& in) const NC_RT;
+
+  void count_cutting(const nc_inputs& in) NC_RT;
+
+  // interpolator_tap.cpp: taps that go with the spindle
+  int tap_as_axis() const NC_RT;
+  bool tap_disturbed(const nc_inputs& in) const NC_RT;
+  bool tap_spindle_ready(const nc_inputs& in) NC_RT;
+  void note_tap(const Segment& s, const nc_inputs& in) NC_RT;
+  Done take_tapping(uint8_t bits) NC_RT;
+  void hold_tap() NC_RT;
+  void release_tap() NC_RT;
+  double tap_turns() const NC_RT;
+  void follow_tap(const nc_inputs& in) NC_RT;
+  bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
+  bool tap_in_hole() const NC_RT;
+  void turn_tap_spindle(nc_outputs& out) NC_RT;
+  nc_tap tap() const NC_RT;
 
   // interpolator_records.cpp: what each kind of record does
   Done execute(const Record& record, const nc_inputs& in) NC_RT;
@@ -160,11 +184,6 @@ class Interpolator {
   double feed_of_axes() const NC_RT;
   Done wait(nc_stop_cause cause) NC_RT;
   void mark(const Mark& mark, const nc_inputs& in) NC_RT;
-  void take_tapping(uint8_t bits) NC_RT;
-  bool tap_spindle_ready(const nc_inputs& in) NC_RT;
-  void note_tap(const Segment& s) NC_RT;
-  void hold_tap() NC_RT;
-  void turn_tap_spindle(nc_outputs& out) const NC_RT;
   bool stops_at(const Mark& mark, const nc_inputs& in) const NC_RT;
   void alarm() NC_RT;
   void stop_in(const nc_source& block, BlockSeq behind) NC_RT;
@@ -322,11 +341,22 @@ class Interpolator {
 
   // ---- feed (M700 7)
   uint8_t tapping_ = 0;              ///< nc_tapping_bits in force
-  double tap_turns_ = 0;             ///< of the spindle of a synchronous tap, up to the move in execution
-  bool tap_held_ = false;            ///< a reset has left it in the hole: the spindle turns with its axis by hand, and not else
-  unsigned tap_axis_ = 0;            ///< that the tap moves ...
-  double tap_per_mm_ = 0;            ///< ... and turns of the spindle by it, forward positive
-  double tap_place_ = 0;             ///< where the reset has left the axis
+  struct TapInHand {                 ///< the synchronous tap (M700 13.1.1) in force, or left in its hole by a reset
+    bool known = false;              ///< a stroke has begun: what stands below is its
+    bool held = false;               ///< in the hole without a program: the spindle turns with its axis by hand, and not else
+    bool drawing = false;            ///< it is drawn out
+    bool pressed = false;            ///< level of the signal for that
+    int c_axis = -1;                 ///< its spindle is this axis
+    unsigned axis = 0;               ///< that the tap moves
+    double entry = 0;                ///< place of the axis where the tap has begun
+    double per_mm = 0;               ///< turns of the spindle by the way of the axis, forward positive
+    double speed = 0, acceleration = 0;  ///< of the axis, mm/s with the sign of the way in, and mm/s^2
+    double turns = 0;                ///< of the spindle since it was taken over, up to the move in execution
+    double shown = 0;                ///< turns of the cycle before
+    double added = 0;                ///< to the commands of c_axis, deg
+  };
+  TapInHand tap_;
+  TapFollower tap_follower_;         ///< keeps the axis with the measured angle
   bool hold_behind_tap_ = false;     ///< feed hold was pressed between R and R again of a tap
   double digit_pulses_[5] = {};      ///< what the handle has made of F1 to F5
 
@@ -339,6 +369,11 @@ class Interpolator {
   uint8_t stale_ = 0;          ///< bit i: axis i stands beside that path: what is committed is read again before it moves
   bool losing_ = false;        ///< the move in execution has lost its C axis, and comes to rest
   bool dropping_ = false;      ///< the rest of the block is not executed
+
+  // ---- tool life
+  uint8_t tool_ = 0;             ///< ScanStatus::tool
+  double cut_s_ = 0;             ///< it has cut for so long since the feeder was told
+  bool broken_last_ = false;     ///< level of the signal
 
   // ---- skip
   bool skipped_ = false;       ///< the last skip move ended by its signal

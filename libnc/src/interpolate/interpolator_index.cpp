@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Index tables in the scan (M700 9.3). A segment says which tables it moves, and it begins when they are unclamped. After it they stay unclamped until
 // it is known what follows: another move of the same axes goes on without clamping (7); before anything else they are clamped.
+#include <algorithm>
 #include <cmath>
 
 #include "interpolate/interpolator.hpp"
@@ -97,13 +98,19 @@ void Interpolator::manual_cycle(const nc_inputs& in) {
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   rules.unlimited = static_cast<uint32_t>(in.unlimited);
+  const nc_manual* wish = in.manual;
+  nc_manual with_tap[kMaxAxes];
+  if (tap_.held) {
+    std::copy_n(in.manual, kMaxAxes, with_tap);
+    if (draw_tap_out(in, with_tap, &rules)) wish = with_tap;
+  }
   if (parameters.index == 0 && !index_.busy()) {
-    manual_.cycle(in.manual, rules, &wanted_);
+    manual_.cycle(wish, rules, &wanted_);
     return;
   }
   const AxisVec before = wanted_;
-  rules.held = parameters.index & ~(index_.unclamp() & in.unclamped);
-  manual_.cycle(in.manual, rules, &wanted_);
+  rules.held |= parameters.index & ~(index_.unclamp() & in.unclamped);
+  manual_.cycle(wish, rules, &wanted_);
   const uint32_t wanted = manual_.active_axes() & parameters.index;
   uint32_t moved = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) moved |= wanted_[i] != before[i] ? 1u << i : 0;

@@ -51,6 +51,7 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       interrupt_rest_.forget();
       interrupt_wanted_ = hold_behind_tap_ = false;
       tapping_ = 0;
+      if (!tap_.held) release_tap();
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
       block_begun_ = false;
       run_.end();
@@ -125,7 +126,7 @@ void Interpolator::end_move(const Record& r) {
     passing_ = false;
   }
   law_.s = 0;
-  tap_turns_ += r.segment.curve.length * r.segment.tap_rev_per_mm;
+  tap_.turns += r.segment.curve.length * r.segment.tap_rev_per_mm;
   moving_ = skip_braking_ = rounding_ = false;
   rapid_behind_ = r.segment.rapid;
   check_ = r.segment.rapid || r.segment.exact_stop || r.segment.skip;
@@ -280,7 +281,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   }
   if (begins && s.tap_rev_per_mm != 0) {
     if (at_rest() && !tap_spindle_ready(in)) return Done::no;
-    note_tap(s);
+    note_tap(s, in);
   }
   if (begins && s.thread && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) return fault(r);
@@ -340,7 +341,13 @@ Interpolator::Done Interpolator::action(const Action& a) {
         interrupt_mode_ = mode;
         block_waits_ = true;  // a block that changes the state of the interrupt is finished first
       }
-      if (a.index == NC_CONTROL_TAPPING) take_tapping(static_cast<uint8_t>(code_number(a.value)));
+      if (a.index == NC_CONTROL_TOOL_LIFE) {
+        const auto cut_ms = static_cast<uint32_t>(std::lround(cut_s_ * 1000));
+        if (tool_ != 0 && cut_ms != 0 && !shared_->lives.push(tool_, cut_ms)) return wait(NC_CAUSE_NONE);
+        tool_ = static_cast<uint8_t>(code_number(a.value));
+        cut_s_ = 0;
+      }
+      if (a.index == NC_CONTROL_TAPPING) return take_tapping(static_cast<uint8_t>(code_number(a.value)));
       return Done::yes;
     case NC_ACTION_CURRENT_LIMIT:  // M700 15.6
       if (a.index < kMaxAxes) current_limit_[a.index] = static_cast<uint16_t>(code_number(a.value));
@@ -363,10 +370,10 @@ Interpolator::Done Interpolator::strobe(const Action& a) {
     case NC_ACTION_M:
       m_ = code_number(a.value);
       spindles_.turn(a.turn);
-      if (a.turn != SpindleTurn::as_it_is) tap_held_ = false;
+      if (a.turn != SpindleTurn::as_it_is) release_tap();
       break;
     case NC_ACTION_S:
-      tap_held_ = false;
+      release_tap();
       spindles_.command(a.value);
       break;
     case NC_ACTION_T:
@@ -509,20 +516,6 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;
   }
-}
-
-/// M700 13.1.1, G84: a hold that came between R and R again acts now.
-void Interpolator::take_tapping(uint8_t bits) {
-  if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
-    tap_turns_ = 0;
-    tap_held_ = false;
-  }
-  tapping_ = bits;
-  if (!hold_behind_tap_ || (bits & NC_TAPPING_STROKES) != 0) return;
-  hold_behind_tap_ = false;
-  if (state_ != NC_STATE_RUNNING) return;
-  hold_ = true;
-  state_ = NC_STATE_HOLD;
 }
 
 /// But behind a thread.

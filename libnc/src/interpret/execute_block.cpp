@@ -312,6 +312,10 @@ Execution execute_words(Interpreter& in) {
     const Execution read = gather_words(in);
     return read == Execution::done ? parameter_block(in) : read;
   }
+  if (in.state.life_input.kind != LifeInput::Kind::none) {
+    const Execution read = gather_words(in);
+    return read == Execution::done ? tool_life_block(in) : read;
+  }
   if (in.codes_call) {
     bool taken = false;
     const Execution did = dispatch_block(in, &taken);

@@ -57,8 +57,9 @@ uint32_t HostTables::interface_output(unsigned word) const { return in_->records
 void HostTables::set_interface_output(unsigned word, uint32_t mask, uint32_t bits) const {
   in_->records.change_bits_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}, InterfaceOutput{mask});
 }
-void HostTables::set_tool(unsigned number, nc_tool_column column, double value) const {
-  const unsigned key = in_->frames.tool_key(number, column);
+void HostTables::set_tool(unsigned number, nc_tool_column column, double value) const { set_shared(in_->frames.tool_key(number, column), value); }
+
+void HostTables::set_shared(unsigned key, double value) const {
   if (in_->shared != nullptr) {
     in_->shared->set_tool(key, value);
   } else {

@@ -31,6 +31,8 @@ class HostTables {
   uint32_t interface_output(unsigned word) const;
   void set_interface_output(unsigned word, uint32_t mask, uint32_t bits) const;
   void set_tool(unsigned number, nc_tool_column column, double value) const;
+  /// An entry of the table of frames that all part systems share (Frames::is_tool_key).
+  void set_shared(unsigned key, double value) const;
   /// False: there is no such variable.
   bool variable(uint32_t number, Value* value) const;
   bool set_variable(uint32_t number, Value value) const;

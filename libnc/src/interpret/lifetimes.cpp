@@ -67,6 +67,7 @@ void begin_interrupt_program(State& state, const AxisVec& machine) {
   state.repeat = {};  // it concerned the block that is interrupted
   state.interrupt_moved = false;
   state.parameter_input = false;  // a G10 L70 of the interrupted program does not make the blocks to come parameters
+  state.life_input = {};
 }
 
 void return_from_interrupt(State& state, const StateValues& before, bool inside_block) {
@@ -83,6 +84,9 @@ void return_from_interrupt(State& state, const StateValues& before, bool inside_
   if (state.interrupt_moved) state.spline_way = {};  // the curve begins again where the axes are
 }
 
-void go_on_behind_interrupt(State& state, const StateValues& before) { state.parameter_input = before.parameter_input; }
+void go_on_behind_interrupt(State& state, const StateValues& before) {
+  state.parameter_input = before.parameter_input;
+  state.life_input = before.life_input;
+}
 
 }  // namespace nc

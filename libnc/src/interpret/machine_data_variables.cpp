@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "frame/tool_life.hpp"
 #include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/system_variable_table.hpp"
@@ -47,6 +48,13 @@ uint64_t device_bits(const Interpreter& in, const DeviceRow& device, uint32_t nu
   return bits;
 }
 
+/// The first tool of a group that may be used, which has one.
+unsigned first_alive(const ToolLife& lives, uint32_t group) {
+  unsigned number = 1;
+  while (!lives.lives(lives.nth(group, number))) ++number;
+  return lives.nth(group, number);
+}
+
 }  // namespace
 
 // ---- coordinate rotation by program (M700 10.14) ----------------------------------------------------------------
@@ -68,7 +76,7 @@ Eval read_rotation(Access& a) {
   }
 }
 
-// ---- tool life (10.15): no group is registered ------------------------------------------------------------------------------
+// ---- tool life (10.15) ---------------------------------------------------------------------------------------------------------
 
 Execution select_tool_group(Access& a) {
   if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, '#', a.written);
@@ -76,10 +84,45 @@ Execution select_tool_group(Access& a) {
   return Execution::done;
 }
 
-Eval read_tool_group(Access& a) { return give(a, -1); }
+/// Lives end as the machine cuts, so what is read has to wait for it.
+bool lives_known(Access& a) { return shared_known(a) && (!a.in.settings.life_managed || world_known(a, NC_SYNC_CLOCK)); }
 
-/// Tool life data, which has a variable for each registration number; no tool is registered.
-Eval read_tool_life(Access& a) { return give(a, -1); }
+/// The group that is read: the one of #60000, else the first one registered.
+uint32_t group_read(const Access& a) {
+  const uint32_t chosen = a.in.records->selection.tool_group;
+  return chosen != 0 ? chosen : ToolLife(a.in.frames).first_group();
+}
+
+/// #60001 to #60008; -1 where the group is not registered.
+Eval read_tool_group(Access& a) {
+  if (!lives_known(a)) return Eval::need_sync;
+  const ToolLife lives(a.in.frames);
+  const uint32_t group = group_read(a);
+  const unsigned tools = lives.registered(group);
+  if (tools == 0) return give(a, -1);
+  const unsigned now = lives.current_of(group), next = lives.next_of(group);
+  switch (a.index) {
+    case 0: return give(a, tools);
+    case 1: return give(a, std::trunc(lives.get(now, LifeColumn::used)));
+    case 2: return give(a, lives.number_in_group(now));
+    case 3: return give(a, lives.all_ended(group) ? 0 : lives.number_in_group(first_alive(lives, group)));
+    case 4: return give(a, lives.in_spindle() == now ? 1 : 0);
+    case 5: return give(a, 0);  // "not used"
+    case 6: return give(a, lives.all_ended(group) ? 1 : 0);
+    default: return give(a, lives.status(next) == LifeStatus::unused ? 1 : 0);
+  }
+}
+
+/// #60501 to #64700, which have a variable for each registration number; -1 where no tool is registered.
+Eval read_tool_life(Access& a) {
+  if (!lives_known(a)) return Eval::need_sync;
+  const ToolLife lives(a.in.frames);
+  const unsigned slot = lives.nth(group_read(a), a.index + 1);
+  if (slot == ToolLife::kNone) return give(a, -1);
+  const auto column = static_cast<LifeColumn>(a.part);
+  const double value = lives.get(slot, column);
+  return give(a, column == LifeColumn::used ? std::trunc(value) : value);
+}
 
 // ---- parameters (10.16) ---------------------------------------------------------------------------------------------------------
 

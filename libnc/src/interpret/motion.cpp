@@ -193,6 +193,7 @@ inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width
 }
 
 inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
+  if (in.settings.life_managed) [[unlikely]] count_tool_use(in, style.kind != NC_MOVE_RAPID);
   move.kind = style.kind;
   move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
@@ -279,6 +280,7 @@ void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, 
 
 void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
   const AxisVec before = in.state.machine;
+  if (in.settings.life_managed) [[unlikely]] count_tool_use(in, true);
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   move.kind = kind;
   move.circular = true;

@@ -68,6 +68,8 @@ struct Settings {
   double tap_dwell_s = 0;             ///< #1313 TapDwl
   TapStage tap_stage[3];              ///< #3013 #3017, #3037 #3041, and #3045 up to the highest speed
   double tap_most_rev_min = 0;        ///< #3005, 0 = none
+  double tap_return = 0;              ///< #1172: speed of the way back as a share of S, 0 = the same
+  bool life_managed = false, life_by_tool = false;  ///< #1103, #1104
   uint32_t shift_ignored = 0, shift_minus = 0;  ///< #8207, #8208, bit = axis
   uint32_t reading_stops[8] = {};     ///< PREREAD_STOP_M1 to _M8: M codes behind which nothing is read ahead, 0 = none
   bool any_reading_stop = false;

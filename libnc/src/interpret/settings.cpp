@@ -208,6 +208,9 @@ void SettingsReader::cycles() {
   s_.tap_check_bottom = flag(P::tap_check_bottom);
   s_.tap_check_r = flag(P::tap_check_r);
   s_.tap_dwell_s = value(P::tap_dwell, 0) / 1000;
+  s_.tap_return = value(P::tap_return_override, 0) / 100;
+  s_.life_managed = flag(P::life_managed);
+  s_.life_by_tool = flag(P::life_by_tool);
   s_.tap_most_rev_min = value({P::spindle_most, 0}, 0);
   for (unsigned i = 0; i < 2; ++i) s_.tap_stage[i].rev_min = value({P::tap_speed, i}, 0);
   for (unsigned i = 0; i < 3; ++i) s_.tap_stage[i].seconds = value(i < 2 ? ParameterOf{P::tap_time, i} : ParameterOf{P::spindle_most, 1}, 0) / 1000;

@@ -147,6 +147,14 @@ struct SplineState {
   uint8_t axes = 0;          ///< bit i: axis i was named with G05.1 Q2
 };
 
+/// Between G10 of tool life and its end.
+struct LifeInput {
+  enum class Kind : uint8_t { none, anew, add, remove } kind = Kind::none;
+  uint8_t flags = 0;           ///< LifeColumn::flags of the tools that follow
+  uint32_t group = 0;          ///< their group, 0 = not said yet
+  double life = 0;
+};
+
 /// What a spline has to know of the block before.
 struct SplineWay {
   bool joined = false;       ///< the block before ended so that the next one goes on smoothly
@@ -238,6 +246,7 @@ struct ModalInProgram {
   SplineWay spline_way;
   MeetingFirst meeting;         ///< of the block before
   SpaceVector space;            ///< three-dimensional radius compensation in force (M700 12.5)
+  LifeInput life_input;
   SpaceVector moved_space;      ///< Move::space of the last movement, without a vector where it had taken it away
 };
 

@@ -76,6 +76,10 @@ class Hash {
     const auto& [first, knots, points, order, axes] = nurbs;
     add(first, knots, points, order, axes);
   }
+  void add_one(const LifeInput& input) {
+    const auto& [kind, flags, group, life] = input;
+    add(kind, flags, group, life);
+  }
   void add_one(const SplineWay& way) {
     const auto& [joined, moved, back] = way;
     add(joined, moved, back);
@@ -165,9 +169,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror,
-                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space] = static_cast<const ModalInProgram&>(values);
+                 vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space] = static_cast<const ModalInProgram&>(values);
     hash.add(comp, cycle, moves_since_comp_off, moved_side, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled, figure_mirror, vacant_feed_file,
-             vacant_feed, vacant_feed_line, spline_way, meeting, space, moved_space);
+             vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space);
     // Inside a curve that is given block by block its points have numbers of their own: two such states count as different.
     if (arc_step != ArcStep::none) hash.add(arc_points);
     if (nurbs.active()) hash.add(nurbs);

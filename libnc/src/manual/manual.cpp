@@ -91,9 +91,10 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
 }
 
 /// One cycle towards the target, or to rest. When the target lies behind the axis, it brakes to rest first and then goes back.
-double Manual::move(unsigned i, bool held, double position) {
+double Manual::move(unsigned i, const Rules& rules, double position) {
   Axis& a = axis_[i];
-  const double accel = acceleration(i);
+  const bool held = (rules.held >> i & 1) != 0;
+  const double accel = (rules.gentle >> i & 1) != 0 ? std::min(acceleration(i), rules.gentle_acceleration) : acceleration(i);
   double time = config_.cycle_s;
   for (int leg = 0; leg < 3 && time > 0; ++leg) {
     const double ahead = a.going ? a.target - position : 0;
@@ -162,7 +163,7 @@ void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* positio
     if (dropped) axis_[i].velocity = 0;
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;
     const double before = (*position)[i];
-    (*position)[i] = move(i, (rules.held >> i & 1) != 0, before);
+    (*position)[i] = move(i, rules, before);
     if ((*position)[i] != before) moved_ |= 1u << i;
     if (axis_[i].velocity != 0 || axis_[i].going) active_ |= 1u << i;
   }

@@ -28,6 +28,8 @@ class Manual {
     uint32_t dropped = 0;    ///< axes that stand at once, and whose targets are given up: they are no axes now
     uint32_t turning = 0;    ///< axes whose positions count within one turn (M700 14.13)
     uint32_t short_cut = 0;  ///< axes among those that go to a position by the shorter way
+    uint32_t gentle = 0;     ///< axes that accelerate no faster than `gentle_acceleration`
+    double gentle_acceleration = 0;  ///< mm/s^2
     uint32_t unlimited = 0;  ///< axes without soft limits, because it is not known where they stand
   };
   /// One cycle, in which `position` is moved. To be called only while no program moves.
@@ -56,7 +58,7 @@ class Manual {
   void refuse(unsigned axis, const nc_manual& wish) NC_RT;
   bool let_go(unsigned axis, const nc_manual& wish) NC_RT;
   void wish(unsigned axis, const nc_manual& wish, const Rules& rules, double position) NC_RT;
-  double move(unsigned axis, bool held, double position) NC_RT;
+  double move(unsigned axis, const Rules& rules, double position) NC_RT;
   double top_speed(unsigned axis) const NC_RT;
   double acceleration(unsigned axis) const NC_RT;
   double within(unsigned axis, const Rules& rules, double target, double position) const NC_RT;

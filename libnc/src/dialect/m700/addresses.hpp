@@ -102,6 +102,12 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::hole_columns, 'P'},
     {Role::hole_interval_2, 'J'},
     {Role::hole_count, 'K'},
+    {Role::life_group, 'P'},         // field practice (docs/decisions.md)
+    {Role::life_span, 'L'},
+    {Role::life_method, 'Q'},
+    {Role::life_tool, 'T'},
+    {Role::life_length, 'H'},
+    {Role::life_radius, 'D'},
 };
 inline constexpr AddressTable kAddressTable(kRoleRows);
 

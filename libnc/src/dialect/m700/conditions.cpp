@@ -161,6 +161,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tap_no_pitch, "P183", nullptr},
     {C::tap_pitch, "P184", nullptr},
     {C::tap_speed_word, "P186", nullptr},
+    {C::life_full, "P178", nullptr},       // appendix 1
+    {C::life_group, "P179", nullptr},
     {C::no_holes, "P221", nullptr},        // 13.2
     {C::hole_angle_zero, "P222", nullptr}, // appendix 1
     {C::drilling_axis_changed, "P33", nullptr},  // 13.1.1 note 2 has no code: a block that may not be written so

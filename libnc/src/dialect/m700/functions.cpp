@@ -31,7 +31,7 @@ constexpr FunctionRow kListed[] = {
     {80, 0, F::high_accuracy, nullptr, "high-accuracy control on and off", "13.15",
      "feed forward is the drive's; #8107 without #8108 does nothing"},
     {90, 0, F::exact_stop_once, nullptr, "exact stop check in this block", "7.7"},
-    {100, 0, F::data_input, nullptr, "data input by program, rotation of the workpiece coordinates", "12.7, 13.21", "L3 (tool life): P39"},
+    {100, 0, F::data_input, nullptr, "data input by program, rotation of the workpiece coordinates", "12.7, 13.21"},
     {110, 0, F::data_input_end, nullptr, "data input end", "12.7, 13.11"},
     {111, 0, F::parameter_input_end, nullptr, "parameter input end", "13.11"},
     {120, 0, F::circle_cut_cw, nullptr, "circle cutting clockwise", "13.10"},

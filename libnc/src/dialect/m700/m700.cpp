@@ -13,7 +13,7 @@ namespace {
 constexpr DataInputRow kDataInput[] = {
     {DataInputRow::kWithoutL, DataInput::work_offset},  // the same as L2
     {2, DataInput::work_offset},
-    {3, DataInput::missing},  // tool life
+    {3, DataInput::tool_life},
     {10, DataInput::tool_length},
     {11, DataInput::tool_length_wear},
     {12, DataInput::tool_radius},

@@ -173,7 +173,12 @@ Execution auxiliary_before(BlockContext& in) {
   }
   if (w.has(Role::tool)) {
     if (!whole_number(w.get(Role::tool), &in.state.modal.tool) || in.state.modal.tool > 99999999) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
-    emit_action(in, NC_ACTION_T, Role::tool, in.state.modal.tool);
+    uint32_t tool = in.state.modal.tool;
+    if (in.settings.life_managed) {
+      did = select_managed_tool(in, &tool);
+      if (did != Execution::done) return did;
+    }
+    emit_action(in, NC_ACTION_T, Role::tool, tool);
     waiting = true;
   }
   if (second != 0 && w.has(second)) {
@@ -194,6 +199,7 @@ Execution auxiliary_before(BlockContext& in) {
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
     in.state.modal.m = m;
     emit_misc(in, function, m);
+    if (function == MiscFunction::tool_change && in.settings.life_managed) take_managed_tool(in);
     waiting = true;
   }
   if (!waiting) return Execution::done;

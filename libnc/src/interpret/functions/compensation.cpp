@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "frame/tool_life.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
@@ -80,9 +81,17 @@ bool take_vector(const BlockContext& in, const Role words[2], double vector[2]) 
   return any && (vector[0] != 0 || vector[1] != 0);
 }
 
+/// Field practice of tool life management: this number means the offset that is registered with the tool in the spindle.
+constexpr uint32_t kOfManagedTool = 99;
+
 }  // namespace
 
 Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
+  if (in.settings.life_managed && in.words.get(word) == kOfManagedTool && ToolLife(in.frames).in_spindle() != ToolLife::kNone) {
+    const LifeColumn column = word == Role::length_number ? LifeColumn::length : LifeColumn::radius;
+    *number = static_cast<uint32_t>(ToolLife(in.frames).get(ToolLife(in.frames).in_spindle(), column));
+    return Execution::done;
+  }
   if (!whole_number(in.words.get(word), number) || *number > in.frames.tool_offsets())
     return in.raise(Condition::no_offset_number, word, in.words.get(word));
   return Execution::done;

@@ -178,7 +178,9 @@ void move_in_plane(BlockContext& in, const CycleStep& step) {
 void set_tap(const BlockContext& in, const CycleStep& step, LinearStyle* style) {
   const CycleState& c = in.state.cycle;
   const bool back = step.level != Level::bottom && step.level != Level::peck;
-  const double speed = back ? std::fmax(c.return_speed, in.state.modal.spindle) : in.state.modal.spindle;
+  // #1172 is the return override of the family; precaution (15): ,S switches it off.
+  const double s = in.state.modal.spindle, by_override = in.settings.tap_return > 0 ? in.settings.tap_return * s : s;
+  const double speed = !back ? s : c.return_speed > 0 ? std::fmax(c.return_speed, s) : by_override;
   const double hand = taps_left_hand(c.kind) != back ? -1.0 : 1.0;
   style->kind = NC_MOVE_TAP;
   style->special_feed = false;

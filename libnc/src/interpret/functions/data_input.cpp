@@ -158,6 +158,7 @@ Execution do_data_input(BlockContext& in) {
       return tool_offset(in, column_of(row->input));
     case DataInput::current_limit: return set_current_limit(in);
     case DataInput::parameters: return begin_parameter_input(in);
+    case DataInput::tool_life: return begin_tool_life_input(in);
   }
   return Execution::done;
 }

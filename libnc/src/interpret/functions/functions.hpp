@@ -24,6 +24,11 @@ void keep_rotation_center(BlockContext& in, const AxisVec& zero_before);
 Execution do_work_rotation(BlockContext& in);      // work_rotation.cpp: G10 I J K
 Execution begin_parameter_input(BlockContext& in); // parameter_input.cpp: G10 L70
 Execution parameter_block(BlockContext& in);       // parameter_input.cpp: the words of a block between G10 L70 and G11
+Execution begin_tool_life_input(BlockContext& in); // tool_life.cpp: G10 L3
+Execution tool_life_block(BlockContext& in);       // tool_life.cpp: the words of a block between G10 L3 and G11
+Execution select_managed_tool(BlockContext& in, uint32_t* tool);  // tool_life.cpp: T; *tool receives the number that goes out
+void take_managed_tool(BlockContext& in);          // tool_life.cpp: M06
+void count_tool_use(BlockContext& in, bool cuts);  // tool_life.cpp: a move
 Execution do_reference_return(BlockContext& in);   // reference.cpp
 Execution do_second_reference(BlockContext& in);   // reference.cpp: G30
 Execution do_start_return(BlockContext& in);       // reference.cpp: G29

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Synchronous taps (M700 13.1.1): the path turns the spindle, and the axis follows the angle that the spindle really has (interpolate/tap_follower.hpp). Also the
+// tap that a reset or a power cut has left in its hole: its spindle turns with its axis by hand, and a signal draws it out.
+//
+// Where the spindle is a C axis as the tap begins (M700 10.5) the turns are added to the commands of that axis, behind interpolation.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/same_place.hpp"
+#include "interpolate/interpolator.hpp"
+
+namespace nc {
+namespace {
+
+constexpr double kStands_rev_s = 1e-3;
+constexpr double kDegrees = 360;  // of a turn
+
+}  // namespace
+
+/// The C axis that the spindle of the tap is now, -1 = it is a spindle.
+int Interpolator::tap_as_axis() const {
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if ((servo_ready_ >> i & 1) != 0 && config_.axis_spindle[i] == spindles_.lead() + 1) return static_cast<int>(i);
+  return -1;
+}
+
+/// A synchronous tap takes its spindles over where they stand.
+bool Interpolator::tap_spindle_ready(const nc_inputs& in) {
+  if (tap_.turns != 0) return true;
+  tap_.c_axis = tap_as_axis();
+  if (tap_.c_axis >= 0) return true;
+  const nc_spindle_inputs& spindle = encoder(in);
+  if (encoder_ == 0 || spindle.unmeasured) {  // appendix 1, P182: there is no connection to the spindle
+    wait(NC_CAUSE_SPINDLE_UNMEASURED);
+    return false;
+  }
+  bool stand = std::fabs(spindle.rev_per_s) <= kStands_rev_s;
+  for (unsigned n = 0; n < spindles_.count(); ++n)
+    stand = stand && ((spindles_.selected() >> n & 1) == 0 || std::fabs(in.spindle[n].rev_per_s) <= kStands_rev_s);
+  if (stand) return true;
+  wait(NC_CAUSE_SPINDLE_ANGLE);
+  return false;
+}
+
+/// The move that begins is a stroke of a tap: what a retract needs to know of it.
+void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
+  if (tap_.turns != 0) return;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    const double way = s.curve.delta[i];
+    if (std::fabs(way) <= kAddingUp) continue;
+    tap_.axis = i;
+    tap_.per_mm = s.tap_rev_per_mm * s.curve.length / way;
+    tap_.entry = s.curve.start[i];
+    const double share = std::fabs(way) / s.curve.length;
+    tap_.speed = std::copysign(s.feed_mm_s * share, way);
+    tap_.acceleration = s.tap_acceleration * share;
+  }
+  tap_.known = true;
+  if (tap_.c_axis < 0 && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, 0);
+}
+
+/// M700 13.1.1, G84: a hold that came between R and R again acts now. Before the tap lets its spindle go, both have come to their places.
+Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
+  if ((bits & NC_TAPPING_STROKES) == 0 && !tap_follower_.arrived()) return wait(NC_CAUSE_SPINDLE_ANGLE);
+  if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
+    tap_.turns = 0;
+    tap_.held = false;
+  }
+  if ((bits & NC_TAPPING_STROKES) == 0) tap_follower_.end();
+  if ((bits & (NC_TAPPING_CYCLE | NC_TAPPING_SYNCHRONOUS)) == 0) tap_.known = false;
+  tapping_ = bits;
+  if (!hold_behind_tap_ || (bits & NC_TAPPING_STROKES) != 0) return Done::yes;
+  hold_behind_tap_ = false;
+  if (state_ != NC_STATE_RUNNING) return Done::yes;
+  hold_ = true;
+  state_ = NC_STATE_HOLD;
+  return Done::yes;
+}
+
+/// What is committed is given up between R and R again: from here on the spindle goes with the axis by hand, so that the tap can be drawn out.
+void Interpolator::hold_tap() {
+  if ((tapping_ & NC_TAPPING_SYNCHRONOUS) == 0 || !tap_.known) return;
+  if (tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += tap_.added;
+  tap_.added = 0;
+  tap_.held = true;
+}
+
+/// The next code for the spindle ends it.
+void Interpolator::release_tap() {
+  tap_.held = tap_.known = tap_.drawing = false;
+  tap_follower_.end();
+}
+
+/// Revolutions since the tap has taken its spindle over.
+double Interpolator::tap_turns() const {
+  if (tap_.held) return (wanted_[tap_.axis] - tap_.entry) * tap_.per_mm;
+  return tap_.turns + (moving_ ? law_.s * current().segment.tap_rev_per_mm : 0);
+}
+
+/// Adds to the commanded places what the tap makes of them: the axis follows the measured angle, a C axis turns.
+void Interpolator::follow_tap(const nc_inputs& in) {
+  const bool taps = tap_.held || ((tapping_ & NC_TAPPING_SYNCHRONOUS) != 0 && tap_.known);
+  const unsigned a = tap_.axis;
+  if (taps && tap_.c_axis >= 0) {
+    tap_.added = tap_.held ? 0 : kDegrees * tap_turns();
+    command_[static_cast<unsigned>(tap_.c_axis)] += tap_.added;
+  }
+  const bool stands = tap_.held && tap_.c_axis < 0 && !tap_follower_.active() && encoder(in).rev_per_s == 0;
+  if (stands && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, tap_turns());  // behind a power cut, or with drives that were off
+  if (!tap_follower_.active()) return;
+  const bool measured = taps && encoder(in).turns_valid && !encoder(in).unmeasured;
+  const TapFollower::Limits limits{config_.limits[a].velocity, config_.limits[a].acceleration, config_.cycle_s};
+  command_[a] += tap_follower_.step(measured, encoder(in).turns, taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
+}
+
+/// A tap that stands in its hole: the signal draws it out, with the speed and the acceleration with which it has gone in. True: `wish` says how.
+bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) {
+  if (!tap_.held) return false;
+  const uint32_t bit = 1u << tap_.axis;
+  const double way = tap_.entry - wanted_[tap_.axis];
+  if (tap_.acceleration > 0) {
+    rules->gentle = bit;
+    rules->gentle_acceleration = tap_.acceleration;
+  }
+  const bool there = !(way * tap_.speed < 0) || std::fabs(way) <= kAddingUp;
+  const bool rises = in.tap_retract && !tap_.pressed;
+  tap_.pressed = in.tap_retract;
+  if (there || rules->stop || (in.unlimited >> tap_.axis & 1) != 0) tap_.drawing = false;
+  else if (rises) tap_.drawing = true;
+  if (!tap_.drawing) return false;
+  if (!in.tap_retract) rules->held |= bit;
+  wish[tap_.axis] = {NC_MANUAL_STEP, std::fabs(tap_.speed), way};
+  return true;
+}
+
+/// The tap stands in the hole and could be drawn out.
+bool Interpolator::tap_in_hole() const {
+  return tap_.held && manual_allowed_ && (tap_.entry - wanted_[tap_.axis]) * tap_.speed < 0 && std::fabs(tap_.entry - wanted_[tap_.axis]) > kAddingUp;
+}
+
+/// The angle that belongs to the place on the path, or of the axis that is moved by hand.
+void Interpolator::turn_tap_spindle(nc_outputs& out) {
+  out.tap_retract_possible = tap_in_hole();
+  const bool taps = (tapping_ & NC_TAPPING_SYNCHRONOUS) != 0;
+  const double turns = taps || tap_.held ? tap_turns() : 0;
+  const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : law_.v * (moving_ ? current().segment.tap_rev_per_mm : 0);
+  if (tap_.held && tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += kDegrees * (turns - tap_.shown);
+  tap_.shown = turns;
+  if ((!taps && !tap_.held) || tap_.c_axis >= 0) return;
+  out.spindle_turns = turns;
+  out.spindle_synchronous = spindles_.selected() != 0 ? spindles_.selected() : static_cast<uint8_t>(1u << spindles_.lead());
+  for (unsigned n = 0; n < spindles_.count(); ++n)
+    if ((out.spindle_synchronous >> n & 1) != 0) out.spindle_rev_min[n] = 60 * speed;
+}
+
+nc_tap Interpolator::tap() const {
+  nc_tap tap = NC_INIT(nc_tap);
+  if (!tap_.known) return tap;
+  tap.axis = static_cast<uint8_t>(tap_.axis + 1);
+  tap.entry = tap_.entry;
+  tap.turns_per_mm = tap_.per_mm;
+  tap.speed = tap_.speed;
+  tap.acceleration = tap_.acceleration;
+  return tap;
+}
+
+/// Before the first cycle: the tap that stood in a hole when the power was cut.
+void Interpolator::set_tap(const nc_tap& tap) {
+  tap_ = {};
+  if (tap.axis == 0) return;
+  tap_.axis = tap.axis - 1u;
+  tap_.entry = tap.entry;
+  tap_.per_mm = tap.turns_per_mm;
+  tap_.speed = tap.speed;
+  tap_.acceleration = tap.acceleration;
+  tap_.known = tap_.held = true;
+}
+
+/// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that
+/// is taken back (operation error M01 1026).
+bool Interpolator::tap_disturbed(const nc_inputs& in) const {
+  const unsigned count = spindles_.count();
+  if (count > 1 && (in.spindle_select & ((1u << count) - 1)) != spindles_.selected()) return true;
+  for (unsigned i = 0; i < config_.axis_count; ++i) {
+    if ((c_axes_ & in.servo_on & ~servo_on_) >> i & 1) return true;
+  }
+  return false;
+}
+
+}  // namespace nc

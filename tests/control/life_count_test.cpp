@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tool life management on a machine: minutes of cutting, the signals for the ladder, a tool that breaks.
+#include <gtest/gtest.h>
+
+#include "online_helpers.hpp"
+
+namespace nc::test {
+namespace {
+
+class LifeCount : public testing::Test {
+ protected:
+  LifeCount() : bench(NC_DIALECT_M700, machine(256)) { bench.param("1103", "1"); }
+  double life(unsigned number, nc_life_column column) {
+    double value = NAN;
+    EXPECT_EQ(nc_tool_life_get(bench.control(), number, column, &value), NC_OK);
+    return value;
+  }
+  void run(const std::string& text) {
+    drive = std::make_unique<Drive>(bench, text);
+    for (unsigned n = 0; n < 100000 && !drive->ended; ++n) {
+      drive->press_start();
+      drive->step(50);
+    }
+    ASSERT_TRUE(drive->ended) << drive->alarm();
+    for (unsigned n = 0; n < 5; ++n) drive->step(50);
+  }
+  Bench bench;
+  std::unique_ptr<Drive> drive;
+};
+
+TEST_F(LifeCount, MinutesAreThoseInWhichItCuts) {
+  bench.at(0, 0, 0);
+  // 60 mm at 600 mm/min are 6 s; rapid traverse, the dwell and the tool of another group do not count.
+  run("G10 L3\nP1 L1 Q2\nT11\nP2 L1 Q2\nT21\nG11\nT1 M6\nG1 X60. F600\nG0 X0\nG4 X3.\nT2 M6\nG1 X20.\nT0 M6\nG1 X0\nM30");
+  EXPECT_NEAR(life(1, NC_LIFE_USED) * 60, 6, 0.05) << "s";
+  EXPECT_NEAR(life(2, NC_LIFE_USED) * 60, 2, 0.05);
+  EXPECT_EQ(life(1, NC_LIFE_STATUS), 1);
+}
+
+TEST_F(LifeCount, ALifeThatEndsIsTold) {
+  bench.at(0, 0, 0);
+  run("G10 L3\nP7 L1 Q2\nT11\nT12\nG11\nT7 M6\nG1 X590. F600\nM30");
+  EXPECT_EQ(drive->out.tool_group, 7U);
+  EXPECT_EQ(drive->out.tool_life, 0);
+  run("G1 X550. F600\nM30");  // one minute is full within it
+  EXPECT_EQ(life(1, NC_LIFE_STATUS), 2);
+  EXPECT_EQ(drive->out.tool_life, NC_TOOL_LIFE_ENDED) << "a spare tool is left";
+  run("T7 M6\nM30");
+  EXPECT_EQ(drive->out.t, 12U);
+  EXPECT_EQ(drive->out.tool_life, 0);
+  run("G1 X-100. F600\nM30");
+  EXPECT_EQ(drive->out.tool_life, NC_TOOL_LIFE_ENDED | NC_TOOL_GROUP_ENDED);
+}
+
+TEST_F(LifeCount, AToolThatBreaksIsNotUsedAnyMore) {
+  run("G10 L3\nP7 L100\nT11\nT12\nG11\nT7 M6\nM30");
+  EXPECT_EQ(drive->out.t, 11U);
+  drive->in.tool_broken = true;
+  for (unsigned n = 0; n < 5; ++n) drive->step(50);
+  EXPECT_EQ(life(1, NC_LIFE_STATUS), 3);
+  EXPECT_EQ(drive->out.tool_life, NC_TOOL_LIFE_ENDED);
+  run("T7 M6\nM30");
+  EXPECT_EQ(drive->out.t, 12U);
+}
+
+}  // namespace
+}  // namespace nc::test
