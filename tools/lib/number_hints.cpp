@@ -94,8 +94,10 @@ void NumberHints::count_without_point(const std::string& word, double value, uin
   }
 }
 
-NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes) {
+NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes, bool lengths) {
   NumberHints hints;
+  bool plain_place[256] = {};  // a line of nothing but these characters commands places: no dwell
+  for (const unsigned char c : axes + "0123456789+-. \t\r") plain_place[c] = true;
   uint32_t line = 0;
   bool data = false;
   LineWords of_line;
@@ -103,10 +105,12 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
   std::vector<uint8_t> kinds;
   for (size_t begin = 0; begin < text.size();) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    of_line.read(std::string_view(text).substr(begin, end - begin));
-    const std::vector<PlainWord>& words = of_line.words();
+    const std::string_view of_text = std::string_view(text).substr(begin, end - begin);
     ++line;
     begin = end + 1;
+    if (!lengths && std::all_of(of_text.begin(), of_text.end(), [&](unsigned char c) { return plain_place[c]; })) continue;
+    of_line.read(of_text);
+    const std::vector<PlainWord>& words = of_line.words();
     plain.clear();
     for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, of_line.value(word)});
     kinds.assign(words.size(), 0);
@@ -134,7 +138,7 @@ void note_numbers(const Session& session, std::FILE* err) {
   const nc_config& config = session.config();
   std::string letters;
   for (unsigned i = 0; i < config.system[kPartSystem].axis_count; ++i) letters += config.system[kPartSystem].axis[i].name;
-  const NumberHints hints = number_hints(text, session.dialect(), letters);
+  const NumberHints hints = number_hints(text, session.dialect(), letters, !type_2.empty());
   nc_source source = {};
   source.file = session.main_file();
   const std::string file = rt::valid_utf8(session.file_name(source));

@@ -30,8 +30,11 @@ struct NumberHints {
   bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
 };
 
-/** @param axes letters of the axes */
-NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes);
+/**
+ * @param axes letters of the axes
+ * @param lengths true: all hints; false: only those of dwells, which is much faster
+ */
+NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes, bool lengths);
 
 /** Prints on `err` the hints that apply with the parameters of this control. */
 void note_numbers(const Session& session, std::FILE* err);

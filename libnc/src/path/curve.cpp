@@ -122,11 +122,11 @@ void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, ui
   curve->start = start;
   curve->end = end;
   double linear = 0, turned = 0;
-  for (unsigned i = 0; i < kMaxAxes; ++i) curve->delta[i] = i < axis_count ? end[i] - start[i] : 0;
-  if (rotary == 0) {
-    for (unsigned i = 0; i < axis_count; ++i) linear += squared(curve->delta[i]);
-  } else {
-    for (unsigned i = 0; i < axis_count; ++i) ((rotary >> i & 1) ? turned : linear) += squared(curve->delta[i]);
+  // Each way is squared where it is made: to read it back from the curve would wait for its store.
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    const double way = i < axis_count ? end[i] - start[i] : 0;
+    curve->delta[i] = way;
+    ((rotary >> i & 1) != 0 ? turned : linear) += squared(way);
   }
   curve->length = std::sqrt(linear > 0 ? linear : turned);
 }
