@@ -387,7 +387,7 @@ TEST(Macro, NothingMovesAndNothingGoesOut) {
   EXPECT_EQ(run.aux(), "M30");
 }
 
-TEST(Macro, CodesBeforeItAct) {  // M700 10.9 example: G91 G65
+TEST(Macro, CodesBeforeItAct) {  // M700 13.5.5 (10.9) example: G91 G65
   Bench bench;
   bench.add("O300", "#100=#4003\nG#1 X#24 Y#25\nM99\n");
   const Outcome run = bench.run("G90 G1 X100. F1000\nG91 G65 P300 A1. X100. Y100.\nM30");

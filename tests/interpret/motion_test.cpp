@@ -115,7 +115,7 @@ TEST(Skip, TheSignalEndsTheMove) {
   EXPECT_DOUBLE_EQ(run.var(101), -5);
 }
 
-TEST(Skip, AxesThatAreNotNamedKeepTheirValue) {  // M700 10.11, the printed example 2
+TEST(Skip, AxesThatAreNotNamedKeepTheirValue) {  // M700 13.5.5 (10.11), the printed example 2
   const Outcome run = m700("G31 X-10. F100\nG31 Z-5. F100\n#100=#5061 #101=#5063\nM30");
   EXPECT_EQ(run.var(100), -10);
   EXPECT_EQ(run.var(101), -5);

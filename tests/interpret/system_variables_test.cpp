@@ -225,7 +225,7 @@ TEST(SystemVariables, Alarm3000) {  // M700 10.3
   EXPECT_EQ(read_alarm(3000), "P243");
 }
 
-TEST(SystemVariables, Message3006) {  // M700 10.7
+TEST(SystemVariables, Message3006) {  // M700 13.5.5 (10.7)
   const Outcome run = m700("G0 X1.\n#3006=1(TAKE FIVE)\nG0 X2.\nM30");
   EXPECT_TRUE(run.ended_ok);
   std::string shown;
@@ -293,7 +293,7 @@ TEST(SystemVariables, TheTableSaysWhatIsTrue) {
   EXPECT_EQ(nc_system_variable_row(NC_DIALECT_M700, index, &row), NC_E_NOT_FOUND);
 }
 
-TEST(SystemVariables, ParametersByNumber) {  // 10.16
+TEST(SystemVariables, ParametersByNumber) {  // 13.5.5 (10.16)
   Bench bench;
   bench.param("2037", "12.5", 'Y').param("1003", "C");
   const Outcome run = bench.run("#100000=2037 #100001=0 #100002=2\n#100=#100010\n#100000=1003\n#101=#100010\n#100000=1999\n#102=#100010\nM30");
@@ -311,7 +311,7 @@ TEST(SystemVariables, ParametersByNumber) {  // 10.16
   EXPECT_EQ(write_alarm(100002, "4"), "P39");
 }
 
-TEST(SystemVariables, DevicesOfThePlc) {  // 10.17: widths, signs, and what lies beyond the last device
+TEST(SystemVariables, DevicesOfThePlc) {  // 13.5.5 (10.17): widths, signs, and what lies beyond the last device
   struct Devices {
     static void read(void*, unsigned code, uint32_t number, uint32_t* value) {
       if (code == 1) *value = number == 0 ? 0xFFFE : number == 1 ? 0xFFFF : number == 2 ? 0x0102 : number == 2047 ? 0x8001 : 0;
@@ -340,7 +340,7 @@ TEST(SystemVariables, DevicesOfThePlc) {  // 10.17: widths, signs, and what lies
   EXPECT_EQ(bench.run("#100100=1 #100101=2048 #100102=2\n#100=#100110\nM30").alarm, "P39");  // D0 to D2047
 }
 
-TEST(SystemVariables, ToolLifeWithoutAGroup) {  // 10.15
+TEST(SystemVariables, ToolLifeWithoutAGroup) {  // 13.5.5 (10.15)
   const Outcome run = m700("#60000=5\n#100=#60001\n#101=#62002\n#102=#60700\nM30");
   EXPECT_EQ(run.var(100), -1);
   EXPECT_EQ(run.var(101), -1);
@@ -381,7 +381,7 @@ TEST(SystemVariables, RunTimes) {  // M700 10.4
   EXPECT_TRUE(Bench().param("1273/bit1", "1").run("#3002=5\n#100=#3002\nM30").ended_ok);  // in hours
 }
 
-TEST(SystemVariables, DateAndTime) {  // M700 10.18
+TEST(SystemVariables, DateAndTime) {  // M700 13.5.5 (10.18)
   Bench bench;
   bench.clock_ms = 1767225600000 + (13 * 3600 + 14 * 60 + 15) * 1000;  // 2026-01-01 13:14:15
   const Outcome run = bench.run("#100=#3011 #101=#3012\n#3011=20010214\n#3012=235959\n#102=#3011 #103=#3012\nM30");
@@ -393,7 +393,7 @@ TEST(SystemVariables, DateAndTime) {  // M700 10.18
   for (const char* time : {"240000", "126000", "120060", "-1"}) EXPECT_EQ(write_alarm(3012, time), "P35") << time;
 }
 
-TEST(SystemVariables, Counters) {  // M700 10.13
+TEST(SystemVariables, Counters) {  // M700 13.5.5 (10.13)
   Bench bench;
   EXPECT_EQ(bench.run("#3901=#3901+1\n#3902=999999\n#100=#3901 #101=#3902\nM30").var(100), 1);
   EXPECT_EQ(bench.run("#3901=#3901+1\n#100=#3901\nM30").var(100), 2);
@@ -507,7 +507,7 @@ TEST(CommonVariables, FurtherRangesAreSharedByAllPartSystems) {
 
 // ---- modal state ---------------------------------------------------------------------------------------------------------------------
 
-TEST(SystemVariables, ModalCodesReadAhead) {  // M700 10.9
+TEST(SystemVariables, ModalCodesReadAhead) {  // M700 13.5.5 (10.9)
   EXPECT_EQ(m700("G95 G62\n#101=#4005 #102=#4013\nG93\n#103=#4005\nM30").var(101), 95);
   const Outcome codes = m700(
       "G0 G19 G91 G20 G43 H1 G99 G57 G61\n"
@@ -519,7 +519,7 @@ TEST(SystemVariables, ModalCodesReadAhead) {  // M700 10.9
   for (const auto& [number, value] : expected) EXPECT_DOUBLE_EQ(codes.var(number), value) << number;
 }
 
-TEST(SystemVariables, ModalCodesInExecution) {  // M700 10.9: #42xx belongs to the block in execution
+TEST(SystemVariables, ModalCodesInExecution) {  // M700 13.5.5 (10.9): #42xx belongs to the block in execution
   const Outcome run = m700("G91 G0\nG90\n#100=#4203 #101=#4003\nM30");
   EXPECT_EQ(run.var(100), 90);
   EXPECT_EQ(run.var(101), 90);
@@ -536,7 +536,7 @@ TEST(SystemVariables, CodesBesideACallArePreRead) {  // M700 13.5.5, the example
   EXPECT_EQ(run.path(), (Path{"line 100 0 0 F1000", "line 200 100 0 F1000", "line 201 100 0 F1000"}));
 }
 
-TEST(SystemVariables, ProgramNumberOfANameIsBlank) {  // M700 10.10 note 1
+TEST(SystemVariables, ProgramNumberOfANameIsBlank) {  // M700 13.5.5 (10.10) note 1
   Bench bench;
   bench.add("12AB", "#100=#4115\nM99");
   bench.add("0123", "#101=#4115\nM99");
@@ -545,7 +545,7 @@ TEST(SystemVariables, ProgramNumberOfANameIsBlank) {  // M700 10.10 note 1
   EXPECT_EQ(run.var(101), 123);
 }
 
-TEST(SystemVariables, OtherModals) {  // M700 10.10
+TEST(SystemVariables, OtherModals) {  // M700 13.5.5 (10.10)
   const Outcome run = m700("O5\nN7 S800 T4 D3 F250 M8 G43 H2\n#107=#4107 #109=#4109 #111=#4111 #113=#4113 #114=#4114\n#115=#4115 #119=#4119 #120=#4120\nM30");
   EXPECT_EQ(run.var(107), 3);
   EXPECT_EQ(run.var(109), 250);
@@ -562,7 +562,7 @@ TEST(SystemVariables, OtherModals) {  // M700 10.10
 
 // ---- positions -----------------------------------------------------------------------------------------------------------------------
 
-TEST(SystemVariables, Positions) {  // M700 10.11
+TEST(SystemVariables, Positions) {  // M700 13.5.5 (10.11)
   Bench bench;
   bench.work_offset(1, {10, 20, 30}).tool(1, 5);
   const Outcome run = bench.run("G43 H1 G0 X1. Y2. Z3.\n#101=#5001 #103=#5003\n#104=#5021 #106=#5023\n#109=#5043\n#110=#5083 #111=#5081\n#112=#5103\nM30");

@@ -57,7 +57,7 @@ unsigned first_alive(const ToolLife& lives, uint32_t group) {
 
 }  // namespace
 
-// ---- coordinate rotation by program (M700 10.14) ----------------------------------------------------------------
+// ---- coordinate rotation by program (M700 13.5.5 (10.14)) ----------------------------------------------------------------
 
 Eval read_rotation(Access& a) {
   const PlanePair plane = pair_of(a.in.state.modal.of(Mode::plane));
@@ -76,7 +76,7 @@ Eval read_rotation(Access& a) {
   }
 }
 
-// ---- tool life (10.15) ---------------------------------------------------------------------------------------------------------
+// ---- tool life (13.5.5, 10.15) ---------------------------------------------------------------------------------------------------------
 
 Execution select_tool_group(Access& a) {
   if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, '#', a.written);
@@ -124,7 +124,7 @@ Eval read_tool_life(Access& a) {
   return give(a, column == LifeColumn::used ? std::trunc(value) : value);
 }
 
-// ---- parameters (10.16) ---------------------------------------------------------------------------------------------------------
+// ---- parameters (13.5.5, 10.16) ---------------------------------------------------------------------------------------------------------
 
 Execution select_parameter(Access& a) {
   constexpr double kLast[3] = {99999, 1, NC_MAX_AXES};
@@ -177,7 +177,7 @@ Execution write_parameter_itself(Access& a) {
   return a.in.raise(Condition::value_range, '#', a.written);
 }
 
-// ---- devices (10.17) ---------------------------------------------------------------------------------------------------------
+// ---- devices (13.5.5, 10.17) ---------------------------------------------------------------------------------------------------------
 
 Execution select_device(Access& a) {
   const bool good = a.index == 0   ? a.in.devices.read != nullptr && find_device(a.in, a.written) != nullptr

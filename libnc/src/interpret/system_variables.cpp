@@ -202,7 +202,7 @@ Execution set_clock(Access& a, int64_t day, int64_t second_of_day) {
   return Execution::done;
 }
 
-/// A number of six or eight digits, split into pairs from the right (M700 10.18).
+/// A number of six or eight digits, split into pairs from the right (M700 13.5.5 (10.18)).
 struct Digits {
   unsigned high, middle, low;
 };
@@ -244,7 +244,7 @@ Eval read_time_of_day(Access& a) {
   return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
 }
 
-/// Number of machined workpieces, and its maximum (M700 10.13: positive). Macros of machine makers write -1 as the first, which an option allows.
+/// Number of machined workpieces, and its maximum (M700 13.5.5 (10.13): positive). Macros of machine makers write -1 as the first, which an option allows.
 Eval read_count(Access& a) { return give(a, a.in.records->workpieces.count[a.index]); }
 Execution write_count(Access& a) {
   constexpr double kMost = 999999;
@@ -291,7 +291,7 @@ Eval give_group(Access& a, const ModalState& modal) {
 Eval read_group_ahead(Access& a) { return give_group(a, a.in.state.modal); }
 Eval read_group_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_group(a, a.in.finished_modal) : Eval::need_sync; }
 
-/// M700 10.10: the number that the name of the file stands for; where it is no number the variable is vacant ("blank").
+/// M700 13.5.5 (10.10): the number that the name of the file stands for; where it is no number the variable is vacant ("blank").
 Eval give_program(Access& a, uint32_t number) {
   if (number != 0) return give(a, number);
   *a.value = Value{};
@@ -357,7 +357,7 @@ Eval read_machine(Access& a) {
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   return give(a, shown_position(a.in, a.index, axes_of(a.in.world.machine), machine_shown));
 }
-Eval read_work_position(Access& a) {  // it includes tool compensation (M700 10.11)
+Eval read_work_position(Access& a) {  // it includes tool compensation (M700 13.5.5 (10.11))
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);

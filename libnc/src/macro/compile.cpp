@@ -143,7 +143,7 @@ Condition ExpressionCompiler::unclosed(Condition otherwise) const {
   return Condition::bracket_pair;
 }
 
-/// #NAME] of SETVN (M700 10.12 of chapter 13.5.5); the cursor is on '#'.
+/// #NAME] of SETVN (M700 13.5.5 (10.12)); the cursor is on '#'.
 bool ExpressionCompiler::name() {
   ++at_.p;
   const unsigned begin = block_.text.size();

@@ -65,12 +65,12 @@ constexpr VariableRow kRows[] = {
 };
 // clang-format on
 
-// 10.10: the words of #41nn by nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T.
+// 13.5.5 (10.10): the words of #41nn by nn: 2 B, 7 D, 9 F, 11 H, 13 M, 14 N, 15 O, 19 S, 20 T.
 constexpr ModalWord kWords[] = {W::none,          W::second_auxiliary, W::none,     W::none,    W::none, W::none, W::radius_number,
                                 W::none,          W::feed,             W::none,     W::length_number, W::none, W::misc, W::sequence,
                                 W::program,       W::none,             W::none,     W::none,    W::spindle, W::tool};
 
-// 10.17: code, width and number of the devices.
+// 13.5.5 (10.17): code, width and number of the devices.
 // M700 13.5.5 (10.17), #100102
 constexpr DeviceWidth kDeviceWidths[] = {
     {0, 0, false}, {1, 1, false}, {101, 1, true}, {2, 2, false}, {102, 2, true}, {4, 4, false}, {104, 4, true},

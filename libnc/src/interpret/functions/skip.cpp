@@ -8,7 +8,7 @@
 namespace nc {
 namespace {
 
-/// Stores #5061...: the skip position in workpiece coordinates, including tool compensation (M700 10.11). Axes that are not named keep their values.
+/// Stores #5061...: the skip position in workpiece coordinates, including tool compensation (M700 13.5.5 (10.11)). Axes that are not named keep their values.
 void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
