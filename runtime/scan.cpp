@@ -466,4 +466,6 @@ void Scan::publish() noexcept {
   snapshot_.store(out);
 }
 
+template class SeqLock<Snapshot>;
+
 }  // namespace nc::rt

@@ -53,6 +53,9 @@ struct PositionSample {
   nc_axes work{};  // the same position in workpiece coordinates, without the tool length
 };
 
+// Compiled in scan.cpp only: whoever reads a snapshot in each scan, as tests do, gets the optimized code.
+extern template class SeqLock<Snapshot>;
+
 class Scan {
  public:
   Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder, NcPort* nc);
