@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "online_helpers.hpp"
 #include "support/seeds.hpp"
@@ -437,8 +438,10 @@ TEST(Online, ResetsAtRandomPoints) {
   EXPECT_GT(inside, kPrograms / 4);
 }
 
+using Place = std::array<double, 3>;
+
 /// Runs a program with pulses of the recalculation signal in motion, or without; returns where the program's blocks have ended.
-std::vector<AxisVec> ends_with_recalculation(const std::string& text, bool optimal, uint32_t seed, bool recalculate, AxisVec* last) {
+std::vector<Place> ends_with_recalculation(const std::string& text, bool optimal, uint32_t seed, bool recalculate, Place* last) {
   Bench bench(NC_DIALECT_M700, [optimal](nc_config& c) {
     machine(64)(c);
     if (!optimal) return;
@@ -455,7 +458,7 @@ std::vector<AxisVec> ends_with_recalculation(const std::string& text, bool optim
     drive.step(0);
   }
   EXPECT_TRUE(drive.ended);
-  std::vector<AxisVec> ends;
+  std::vector<Place> ends;
   for (const nc_event& event : drive.events) {
     if (event.kind != NC_ITEM_MARK) continue;
     ends.emplace_back();
@@ -477,11 +480,11 @@ TEST(Online, ARecalculationInMotionMovesNoPlace) {
   };
   for (const bool optimal : {false, true}) {
     for (const std::string& text : programs) {
-      AxisVec expected_last, last;
-      const std::vector<AxisVec> expected = ends_with_recalculation(text, optimal, 0, false, &expected_last);
+      Place expected_last, last;
+      const std::vector<Place> expected = ends_with_recalculation(text, optimal, 0, false, &expected_last);
       for (uint32_t seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(text.substr(0, 60) + (optimal ? " optimal " : " trapezoid ") + std::to_string(seed));
-        const std::vector<AxisVec> ends = ends_with_recalculation(text, optimal, seed, true, &last);
+        const std::vector<Place> ends = ends_with_recalculation(text, optimal, seed, true, &last);
         ASSERT_EQ(ends.size(), expected.size());
         for (size_t i = 0; i < ends.size(); ++i)
           for (unsigned axis = 0; axis < 3; ++axis) ASSERT_NEAR(ends[i][axis], expected[i][axis], optimal ? 0.0101 : 1e-9) << i;

@@ -146,7 +146,7 @@ Task<bool> StopLaw::brake(Work& work, const Pace& from, const Place& place, cons
   co_await release(work, from, place, bend);
   if (!may.some()) co_return true;
   double none = may.low;
-  for (unsigned n = 0; n<kHalvings&& * bend> none; ++n) {
+  for (unsigned n = 0; n < kHalvings && none < *bend; ++n) {
     const double x = 0.5 * (none + *bend);
     const bool on = co_await goes_on(work, from.after(x, step_), place);
     (on ? *bend : none) = x;
