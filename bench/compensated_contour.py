@@ -44,7 +44,7 @@ def path_of(folder, blocks):
         if event["t"] != "move":
             continue
         to, center = event["machine"], event.get("machine_center")
-        words = f"X{to['X']:.9f} Y{to['Y']:.9f}"
+        words = f"X{to['X']:.9f} Y{to['Y']:.9f} Z{to['Z']:.9f}"
         feed = "" if event["feed"] is None else f" F{event['feed']}"
         if event["kind"] == "rapid":
             path.append(f"G0 {words}")

@@ -12,6 +12,9 @@ namespace {
 /// M700 13.7: between two straight cuts and nothing else.
 bool is_line(const Move& m) { return m.kind == NC_MOVE_LINE && !m.circular && m.shape == 0 && !m.comp.transparent; }
 
+/// The same, or an arc.
+bool is_cut(const Move& m) { return is_line(m) || (m.circular && m.shape == 0 && (m.kind == NC_MOVE_ARC || m.kind == NC_MOVE_HELIX) && !m.comp.transparent); }
+
 bool meets_later(const Move& m) { return m.corner == Corner::meet || m.corner == Corner::meet_by_radius; }
 
 /// A command of radius compensation without a movement (offset/offset.hpp).
@@ -32,10 +35,10 @@ ContourStage::Held& ContourStage::append(const Item& item) {
   return place;
 }
 
-bool ContourStage::push(const Item& item, NoRule) {
+bool ContourStage::push(const Item& item, ContourRule rule) {
   if (failed_) return true;  // nothing is read behind an alarm
   if (item.kind == ItemKind::move && !without_length(item.move)) {
-    push_move(item);
+    push_move(item, rule);
     return true;
   }
   Item& taken = append(item).item;
@@ -59,13 +62,17 @@ bool ContourStage::push(const Item& item, NoRule) {
   return true;
 }
 
-void ContourStage::push_move(const Item& item) {
-  if (pending_) settle(item);
+void ContourStage::push_move(const Item& item, ContourRule rule) {
+  if (pending_) settle(item, rule);
   if (failed_) return;
   Held& place = append(item);
   Move& move = place.item.move;
-  if (entry_.displaced && !move.meets)
-    for (unsigned i = 0; i < axis_count_; ++i) move.start[i] += entry_.lead[i];
+  if (entry_.displaced && !move.meets) {
+    AxisVec start = move.start;
+    for (unsigned i = 0; i < axis_count_; ++i) start[i] += entry_.lead[i];
+    if (move.circular && move.shape == 0) begin_arc_at(&move, start);
+    move.start = start;
+  }
   entry_ = {};
   if (move.corner == Corner::none) {
     ready_ = count_;
@@ -75,21 +82,24 @@ void ContourStage::push_move(const Item& item) {
   pending_ = true;
   behind_mark_ = false;
   append(item).vacant = true;
-  if (meets_later(move)) return;
+  if (meets_later(move) || move.circular) return;
   if (corner_travel(move, move, rotary_, axis_count_) < move.corner_mm - kCornerSlack_mm) fail(Condition::corner_short, item.source, move.corner_mm);
 }
 
 /// The movement that the pending line has waited for.
-void ContourStage::settle(const Item& next) {
+void ContourStage::settle(const Item& next, ContourRule rule) {
   Held& first = held(ready_);
   if (meets_later(first.item.move)) return settle_meeting(next.move);
   Held& place = held(ready_ + 1);
   Move& line = first.item.move;
   const double amount = line.corner_mm;
-  if (!is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
+  const bool arcs = line.circular || (next.move.circular && rule.arcs && is_cut(next.move));
+  if (!arcs && !is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
+  if (arcs && !is_cut(next.move)) return fail(Condition::corner_no_move, next.source, amount);
   CornerCut cut;
-  const Condition bad = cut_corner(line, next.move, rotary_, axis_count_, &cut);
-  if (bad != Condition::none) return fail(bad, bad == Condition::corner_next_short ? next.source : first.item.source, amount);
+  const Condition bad = arcs ? cut_arc_corner(line, next.move, axis_count_, &cut) : cut_corner(line, next.move, rotary_, axis_count_, &cut);
+  const bool at_next = bad == Condition::corner_next_short || bad == Condition::corner_arc;
+  if (bad != Condition::none) return fail(bad, at_next ? next.source : first.item.source, amount);
   pending_ = false;
   line.corner = Corner::none;
   if (!cut.any) return;
@@ -99,6 +109,13 @@ void ContourStage::settle(const Item& next) {
   place.lead = cut.lead;
   entry_ = {true, false, cut.lead};
   Move& corner = place.item.move;
+  if (line.circular) end_arc_at(&line, cut.before);
+  if (corner.circular) {
+    corner.kind = NC_MOVE_LINE;
+    corner.circular = false;
+    corner.circle = Circle{};
+    if (!cut.round) corner.plane = Plane::none;
+  }
   corner.start = line.end = line.work = cut.before;
   corner.end = corner.work = cut.behind;
   corner.connecting = true;

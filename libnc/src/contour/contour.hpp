@@ -12,7 +12,8 @@
 // blocks when it makes that movement, and says so (Move::meets). An arc that may stand alone (a whole circle) goes as it is where no movement
 // meets it, and one by its radius alone is nothing then.
 //
-// What cannot be waited for is an alarm in the place of the pending move: a block without a movement (M700 P382), an arc (P381), a stop, a
+// What cannot be waited for is an alarm in the place of the pending move: a block without a movement (M700 P382), an arc (P381, but for a machine that
+// cuts corners beside arcs), a stop, a
 // sync and the end of the program, and more items than the stage holds.
 #pragma once
 
@@ -29,10 +30,15 @@ struct ContourResume {
 };
 inline bool in_force(const ContourResume& resume) { return resume.displaced; }
 
+/// Corners beside arcs are cut, too (corner_ii).
+struct ContourRule {
+  bool arcs = false;
+};
+
 class ContourStage {
  public:
   static constexpr unsigned kHeld = 32;  ///< items; a power of two, so that their numbers may wrap
-  using Rule = NoRule;
+  using Rule = ContourRule;
   using Resume = ContourResume;
   /// `rotary`: bit i: axis i turns. A degree is no length, such an axis goes along. The letters are what alarms call a chamfer and a rounding.
   void create(unsigned axis_count, uint32_t rotary, char chamfer_letter, char rounding_letter, Arena& arena) {
@@ -42,9 +48,9 @@ class ContourStage {
     rotary_ = rotary;
     held_ = arena.make<Held>(kHeld);
   }
-  bool takes(const Item& item, NoRule, bool) const { return item.move.corner != Corner::none; }
+  bool takes(const Item& item, ContourRule, bool) const { return item.move.corner != Corner::none; }
   /// Never refuses: what can be given out is to be fetched before more is pushed.
-  bool push(const Item& item, NoRule = {});
+  bool push(const Item& item, ContourRule rule = {});
   bool pop(Item& out);
   void reset();
   ContourResume resume_point() const { return state_; }
@@ -66,8 +72,8 @@ class ContourStage {
   };
   Held& held(unsigned number) { return held_[(first_ + number) % kHeld]; }
   Held& append(const Item& item);
-  void push_move(const Item& item);
-  void settle(const Item& next);
+  void push_move(const Item& item, ContourRule rule);
+  void settle(const Item& next, ContourRule rule);
   void settle_meeting(const Move& next);
   void stand_alone();
   void push_behind_meeting(const Item& item);

@@ -4,14 +4,136 @@
 #include <cmath>
 
 #include "alarm/condition.hpp"
+#include "offset/corner.hpp"
 
 namespace nc {
 namespace {
 
 /// 1 + cosine of a turn that is a way back: no circle touches both lines.
 constexpr double kWayBack = 1e-12;
+constexpr double kPi = 3.14159265358979323846;
+/// Longer than any block.
+constexpr double kBeyond_mm = 1e9;
+
+/// Turns that are none: the blocks go on in one direction, or straight back.
+constexpr double kNoTurn = 1e-6;
+
+Vec2 in_plane(const AxisVec& point, const uint8_t axis[2]) { return {point[axis[0]], point[axis[1]]}; }
+double turned(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+
+/// A block as seen from the corner.
+struct Side {
+  Leg leg;
+  double length = 0;  ///< in the plane
+};
+
+bool side_of(const Move& move, const uint8_t plane[2], bool ends, Side* side) {
+  if (move.circular && (move.plane_axis[0] != plane[0] || move.plane_axis[1] != plane[1])) return false;
+  const Vec2 start = in_plane(move.start, plane), end = in_plane(move.end, plane);
+  if (!move.circular || !goes_round(move)) {
+    side->length = norm(end - start);
+    side->leg = {unit(end - start), 0};
+    return side->length > kCornerSlack_mm;
+  }
+  const Vec2 radius = (ends ? end : start) - Vec2{move.circle.center[0], move.circle.center[1]};
+  const double turning = move.circle.sweep < 0 ? -1 : 1;
+  side->leg = {(turning / norm(radius)) * left_of(radius), turning / norm(radius)};
+  side->length = std::abs(move.circle.sweep) * norm(radius);
+  return true;
+}
+
+/// Where a point of the block lies that is this far along it from the corner; seen from the corner.
+Vec2 point_along(const Leg& leg, double way) {
+  if (leg.curvature == 0) return way * leg.u;
+  const double angle = way * leg.curvature, c = std::cos(angle), s = std::sin(angle);
+  return (s / leg.curvature) * leg.u + ((1 - c) / leg.curvature) * left_of(leg.u);
+}
+
+/// How far along the block from the corner the foot of a point beside it lies.
+double way_to(const Leg& leg, Vec2 point) {
+  if (leg.curvature == 0) return dot(point, leg.u);
+  const Vec2 center = (1 / leg.curvature) * left_of(leg.u);
+  return turned(-center, point - center) / leg.curvature;
+}
+
+/// How far along the block a circle of this radius about the corner crosses it; beyond any length where it does not.
+double way_to_circle(const Leg& leg, double radius) {
+  if (leg.curvature == 0) return radius;
+  const double half = 0.5 * radius * std::abs(leg.curvature);
+  return half <= 1 ? 2 * std::asin(half) / std::abs(leg.curvature) : kBeyond_mm;
+}
 
 }  // namespace
+
+void end_arc_at(Move* arc, const AxisVec& end) {
+  const Vec2 center{arc->circle.center[0], arc->circle.center[1]};
+  const Vec2 old_radius = in_plane(arc->end, arc->plane_axis) - center, radius = in_plane(end, arc->plane_axis) - center;
+  const double sense = arc->circle.sweep < 0 ? -1 : 1;
+  double back = sense * turned(radius, old_radius);
+  if (back < -kNoTurn) back += 2 * kPi;
+  arc->circle.sweep -= sense * back;
+  arc->circle.radius_end = norm(radius);
+  arc->end = arc->work = end;
+}
+
+void begin_arc_at(Move* arc, const AxisVec& start) {
+  const Vec2 center{arc->circle.center[0], arc->circle.center[1]};
+  const Vec2 old_radius = in_plane(arc->start, arc->plane_axis) - center, radius = in_plane(start, arc->plane_axis) - center;
+  const double sense = arc->circle.sweep < 0 ? -1 : 1;
+  double on = sense * turned(old_radius, radius);
+  if (on < -kNoTurn) on += 2 * kPi;
+  arc->circle.sweep -= sense * on;
+  arc->circle.angle_start += sense * on;
+  arc->circle.radius_start = norm(radius);
+  arc->start = start;
+}
+
+Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_count, CornerCut* cut) {
+  *cut = {};
+  Side before, behind;
+  if (!side_of(first, first.plane_axis, true, &before)) return Condition::corner_short;
+  if (next.circular && (next.plane_axis[0] != first.plane_axis[0] || next.plane_axis[1] != first.plane_axis[1])) return Condition::corner_arc;
+  if (!side_of(next, first.plane_axis, false, &behind)) return Condition::corner_next_short;
+  double taken[2] = {way_to_circle(before.leg, first.corner_mm), way_to_circle(behind.leg, first.corner_mm)};
+  Vec2 center;
+  const double sine = cross(before.leg.u, behind.leg.u), left = sine > 0 ? 1 : -1;
+  if (first.corner == Corner::rounding) {
+    const double beside = left * first.corner_mm;
+    if (std::abs(sine) < kNoTurn) return dot(before.leg.u, behind.leg.u) > 0 ? Condition::none : Condition::corner_reversal;
+    if (!offset_exists(before.leg, beside)) return Condition::corner_short;  // an arc that turns to that side, and is smaller
+    if (!offset_exists(behind.leg, beside)) return Condition::corner_next_short;
+    if (!intersection(before.leg, beside, behind.leg, beside, &center)) return Condition::corner_short;
+    taken[0] = -way_to(before.leg, center);
+    taken[1] = way_to(behind.leg, center);
+    if (taken[0] < 0) return Condition::corner_short;
+    if (taken[1] < 0) return Condition::corner_next_short;
+  }
+  if (before.length < taken[0] - kCornerSlack_mm) return Condition::corner_short;
+  if (behind.length < taken[1] - kCornerSlack_mm) return Condition::corner_next_short;
+  const Vec2 from = point_along(before.leg, -taken[0]), to = point_along(behind.leg, taken[1]);
+  const unsigned h = first.plane_axis[0], v = first.plane_axis[1];
+  for (unsigned i = 0; i < axis_count; ++i) {
+    cut->before[i] = first.end[i] - (first.end[i] - first.start[i]) * (taken[0] / before.length);
+    cut->lead[i] = (next.end[i] - next.start[i]) * (taken[1] / behind.length);
+  }
+  cut->before[h] = first.end[h] + from.h;
+  cut->before[v] = first.end[v] + from.v;
+  cut->lead[h] = to.h;
+  cut->lead[v] = to.v;
+  for (unsigned i = 0; i < axis_count; ++i) cut->behind[i] = first.end[i] + cut->lead[i];
+  cut->any = true;
+  if (first.corner != Corner::rounding) return Condition::none;
+  cut->round = true;
+  const Vec2 begin = from - center;
+  cut->circle.center[0] = first.end[h] + center.h;
+  cut->circle.center[1] = first.end[v] + center.v;
+  cut->circle.radius_start = cut->circle.radius_end = first.corner_mm;
+  cut->circle.angle_start = std::atan2(begin.v, begin.h);
+  double sweep = left * turned(begin, to - center);
+  if (sweep < -kNoTurn) sweep += 2 * kPi;
+  cut->circle.sweep = left * sweep;
+  return Condition::none;
+}
 
 double corner_travel(const Move& line, const Move& first, uint32_t rotary, unsigned axis_count) {
   double squares = 0;

@@ -11,7 +11,7 @@
 namespace nc {
 
 inline const FairingRule& rule_of(const FairingStage&, const MotionSettings& settings) { return settings.fairing; }
-inline NoRule rule_of(const ContourStage&, const MotionSettings&) { return {}; }
+inline ContourRule rule_of(const ContourStage&, const MotionSettings& settings) { return {settings.corner_arcs}; }
 inline NoRule rule_of(const OffsetStage&, const MotionSettings&) { return {}; }
 inline NoRule rule_of(const SpaceStage&, const MotionSettings&) { return {}; }
 

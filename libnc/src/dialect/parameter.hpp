@@ -168,6 +168,7 @@ enum class Parameter : uint8_t {
   semicolon_comments,
   negative_count,
   codes_after_motion,
+  corner_arcs,                 ///< chamfers and roundings beside arcs, too
   contour_checked,             ///< radius compensation: the path stays off the blocks around it, or it is an alarm
   reading_stop,               ///< [8] M codes behind which nothing is read ahead
   calculator,

@@ -530,7 +530,7 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
   const BlockWords& w = in.words;
   const Role word = corner_word(w);
   if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_raw);
-  if (motion != Function::linear) return in.raise(Condition::corner_arc, word, w.corner_raw);
+  if (motion != Function::linear && !(in.settings.corner_arcs && is_arc(motion))) return in.raise(Condition::corner_arc, word, w.corner_raw);
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   double amount = length_value(in, w.corner_raw, w.corner_flags, false, true);
@@ -540,6 +540,21 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
   style->corner = w.corner;
   style->corner_mm = amount;
   return Execution::done;
+}
+
+/// An arc with ,C or ,R, on a machine that cuts corners beside arcs.
+static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, bool ccw, const LinearStyle& style) {
+  const BlockWords& w = in.words;
+  const unsigned before = in.queue.size();
+  const Execution did = move_arc(in, target, w.axes, ccw);
+  if (did != Execution::done) return did;
+  for (unsigned i = in.queue.size(); i > before; --i) {
+    Item& item = in.queue[i - 1];
+    if (item.kind != ItemKind::move || !item.move.circular) continue;
+    set_corner(in, item.move, style);
+    return did;
+  }
+  return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);  // an arc of no radius
 }
 
 Execution move_by_words(BlockContext& in) {
@@ -580,6 +595,7 @@ Execution move_by_words(BlockContext& in) {
   const Execution fed = check_feed(in, motion);
   if (fed != Execution::done) return fed;
   if (!plain) return move_by_function(in, motion, target, w.axes);
+  if (arc && style.corner != Corner::none) return move_arc_to_corner(in, target, ccw, style);
   if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, ccw);
   if (arc) {
     const Execution did = move_arc(in, target, w.axes, ccw);

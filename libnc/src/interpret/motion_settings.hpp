@@ -15,6 +15,7 @@ struct MotionSettings {
   FilterParameters filters;     ///< filters behind interpolation (M700 7.7, 13.15)
   uint32_t index_axes = 0;      ///< bit i: axis i is an index table (M700 9.3)
   uint32_t machine_turn = 0;    ///< bit i: the machine coordinate of axis i is shown within one turn (M700 14.13)
+  bool corner_arcs = false;     ///< ,C and ,R beside arcs are cut (corner_ii)
   bool operator==(const MotionSettings&) const = default;
 };
 

@@ -40,6 +40,7 @@ struct Settings {
   bool diameter_offsets = false;      ///< #8117
   bool comp_type_b = false;           ///< #1229 bit 2
   bool contour_check = false;         ///< CONTOUR_CHECK
+  bool corner_arcs = false;           ///< corner_ii
   double space_divisor = 0;           ///< #8071 3-D CMP, mm
   bool interference_check = false;    ///< #8103 OFF (M700; DGSHAPE checks nothing)
   bool interference_avoid = false;    ///< #8102 ON

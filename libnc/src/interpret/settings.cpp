@@ -139,6 +139,7 @@ void SettingsReader::words() {
   s_.interference_check = dialect_.parameters->checks_interference && !flag(P::interference_ignored);
   s_.interference_avoid = flag(P::interference_avoided);
   s_.contour_check = s_.interference_check && flag(P::contour_checked);
+  s_.corner_arcs = flag(P::corner_arcs);
   s_.space_divisor = value(P::space_divisor, 0);
   for (unsigned i = 0; i < 3; ++i) {
     s_.plane_basic[i] = axis_name({P::plane_axis, i}, dialect_.addresses.letter(basic_along(i)));

@@ -203,6 +203,7 @@ constexpr ParameterName kNames[] = {
     {"macro_extensions", P::macro_extensions, 0, 0, nullptr, "0, 1", "IF ... THEN of later models", "13.5.7"},
     {"semicolon_comments", P::semicolon_comments, 0, 0, nullptr, "0, 1", "what stands behind ';' in a line is a comment, not P33", "3.2"},
     {"negative_count", P::negative_count, 0, 0, nullptr, "0, 1", "#3901 can be set below 0", "13.5.5"},
+    {"corner_ii", P::corner_arcs, 0, 0, nullptr, "0, 1", "option: ,C and ,R beside arcs are cut, not P381", "13.7"},
     {"CONTOUR_CHECK", P::contour_checked, 0, 0, nullptr, "0, 1", "radius compensation that would cut into any block of the contour is P153 (#8103 off)", "12.4.8"},
     {"MSTB_AFTER_MOTION", P::codes_after_motion, 0, 0, nullptr, "0, 1", "M S T B of a block come after its movement", "9.1"},
     {"PREREAD_STOP_M1", P::reading_stop, 0, 0, nullptr, "0; 1-99999999", "M code that prohibits reading ahead", "4.2"},
