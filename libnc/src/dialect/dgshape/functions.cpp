@@ -46,7 +46,7 @@ const FunctionRow kFunctions[] = {
     {820, 9, F::cycle_spot, nullptr, "drilling cycle with dwell", "G82"},
     {830, 9, F::cycle_peck, nullptr, "deep hole drilling cycle", "G83"},
     {850, 9, F::cycle_bore_feed, nullptr, "boring cycle, return at feed", "G85"},
-    {860, 9, F::cycle_bore_restart, nullptr, "boring cycle, return with the spindle stopped", "G86"},
+    {860, 9, F::cycle_bore_stop, nullptr, "boring cycle, return with the spindle stopped", "G86"},
     {890, 9, F::cycle_bore_dwell, nullptr, "boring cycle with dwell, return at feed", "G89"},
     {900, 3, F::absolute, nullptr, "absolute values", "G90"},
     {910, 3, F::incremental, nullptr, "incremental values", "G91"},
