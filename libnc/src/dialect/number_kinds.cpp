@@ -10,7 +10,7 @@ namespace nc {
 namespace {
 
 /// What the words of a block are, which its codes decide.
-enum class BlockKind : uint8_t { motion, dwell, arguments, work_data, tool_data, other_data, parameters_begin, data_end };
+enum class BlockKind : uint8_t { motion, holes, tap, dwell, arguments, work_data, tool_data, other_data, parameters_begin, data_end };
 
 BlockKind kind_of(DataInput input) {
   switch (input) {
@@ -42,6 +42,8 @@ class Words {
       const FunctionRow* const row = find_function(dialect_, static_cast<int>(std::lround(word.value * 10)));
       if (row == nullptr) continue;
       if (row->function == Function::dwell) return BlockKind::dwell;
+      if (row->function >= Function::holes_on_circle && row->function <= Function::holes_on_grid) return BlockKind::holes;
+      if (row->function == Function::cycle_tap || row->function == Function::cycle_reverse_tap) return BlockKind::tap;
       if (row->function == Function::data_input) return kind_of(input());
       if (ends_data_input(row->function)) return BlockKind::data_end;
       if (is_macro_call(row->function)) return BlockKind::arguments;
@@ -56,6 +58,12 @@ class Words {
     switch (block) {
       case BlockKind::work_data: return axis;
       case BlockKind::tool_data: return is(word, Role::input_amount);
+      case BlockKind::holes:  // M700 13.2: K of a pattern counts
+        if (is(word, Role::hole_count)) return false;
+        break;
+      case BlockKind::tap:  // 13.1.1: ,R and ,S choose how the tap is made
+        if (word.comma) return false;
+        break;
       case BlockKind::motion: break;
       default: return false;
     }
