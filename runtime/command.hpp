@@ -31,6 +31,8 @@ enum class CommandKind : std::uint8_t {
   kSelectProgram,  // number: index of the file in the program store; in mode AUTO
   kLoadMdi,        // loads the text given to Runtime::load_mdi(); in mode MDI
   kSwitches,       // number: optional skip switches (bit n = switch n)
+  kLook,           // calls the function given to Runtime::look()
+  kChange,         // calls the function given to Runtime::change(), while no program is in execution
 };
 
 constexpr bool for_feeder(CommandKind kind) {

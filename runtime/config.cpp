@@ -91,6 +91,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
   read_share(&reader, &read);
+  read_services(&reader, &read);
   reader.finish();
   nc_config_fault fault;
   if (errors.empty() && nc_config_check(&read.nc, &fault) != NC_OK)

@@ -155,6 +155,18 @@ struct ShareConfig {
   bool group = false;          // readers of the same group are admitted, not only those of the same user
 };
 
+// The socket of the services for programs on this computer (runtime/services/).
+struct ServicesConfig {
+  bool enabled = true;
+  std::string socket;          // path of the socket; empty = see services::socket_path()
+  ConfigPlace socket_place;
+  // Names of the groups that may view, operate, set up and maintain, in the order of services::Right.
+  std::array<std::vector<std::string>, 4> holders = {{{"nc-view"}, {"nc-operate"}, {"nc-setup"}, {"nc-maintain"}}};
+  std::string changes;         // file of the changes, relative like Config::print; empty = see Config::changes_path()
+  unsigned program_mb = 4096;  // size that one program may have
+  unsigned programs_mb = 16384;  // size that all programs in the folder may have together
+};
+
 // A signal that is connected directly to a point of the machine, without a ladder program between them.
 struct SignalWire {
   unsigned signal = 0;  // index in machine_signals()
@@ -208,6 +220,7 @@ struct Config {
   hal::SimConfig sim;
   hal::canopen::BusMap canopen;
   ShareConfig share;
+  ServicesConfig services;
 
   Config();
   // Folder of programs as a path that can be opened; external_folder() is the same for the programs that M198 calls.
@@ -224,6 +237,8 @@ struct Config {
   std::string variables_path() const;
   // File of the changed offsets and parameters in the same way.
   std::string offsets_path() const;
+  // File in which the services write who has changed what, in the same way.
+  std::string changes_path() const;
   // True when the point is an output that a wire connects with a signal of the NC.
   bool is_wired_output(unsigned point) const;
 };

@@ -75,4 +75,9 @@ std::string Config::offsets_path() const {
   return state_file(name, ".offsets");
 }
 
+std::string Config::changes_path() const {
+  if (!services.changes.empty()) return (std::filesystem::path(file).parent_path() / services.changes).string();
+  return state_file(name, ".changes");
+}
+
 }  // namespace nc::rt

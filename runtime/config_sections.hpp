@@ -24,6 +24,7 @@ void read_signals(TableReader* root, Config* config);  // after points, macro in
 void read_sim(TableReader* root, Config* config);
 void read_spindle_feedback(TableReader* root, Config* config);  // after [sim] and the points; in runtime/config_spindles.cpp
 void read_share(TableReader* root, Config* config);  // runtime/share/config_share.cpp
+void read_services(TableReader* root, Config* config);  // runtime/services/config_services.cpp
 // [sim.spindle], [sim.spindle2] ... and [sim.tool_changer]; called by read_sim() with the reader of [sim].
 void read_sim_plant(TableReader* sim, Config* config);
 

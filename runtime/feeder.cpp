@@ -51,6 +51,11 @@ void Feeder::set_program_name(const std::string& name) {
   program_name_ = name;
 }
 
+void Feeder::set_job(ControlJob job) {
+  const std::lock_guard lock(mutex_);
+  job_ = std::move(job);
+}
+
 void Feeder::step() {
   seen_ = scan_->snapshot();
   take_events();
@@ -137,17 +142,24 @@ void Feeder::follow_outputs() {
     any |= found_[w] |= mask;
   }
   if (any == 0 || seen_.program_active() || scan_->reset_waits()) return;
-  for (unsigned s = 0; s < systems_; ++s) {
-    System& system = system_[s];
+  for (unsigned s = 0; s < systems_; ++s)
     for (unsigned w = 0; w < NC_WORDS; ++w)
       if (found_[w] != 0) nc_->outputs(s, w, found_[w], found_bits_[w]);
-    if (!system.selected || system.ended) continue;
+  if (read_again() != NC_E_STATE) std::fill_n(found_, NC_WORDS, 0u);  // otherwise not yet: the next step tries again
+}
+
+// Programs that are ready to start are read again from their heads, because they may have been read ahead with values that are no longer those of the
+// control. Nothing can be started until the end of this step. A program that stands in an alarm is left: a reset comes first, which reads it again.
+nc_status Feeder::read_again() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    System& system = system_[s];
+    if (!system.selected || system.ended || seen_.system[s].nc.state == NC_STATE_ALARM) continue;
     scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded() at the end of this step
     const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
-    if (status == NC_E_STATE) return;  // not yet: the next step tries again
+    if (status == NC_E_STATE) return status;
     if (status < 0) system = {};
   }
-  std::fill_n(found_, NC_WORDS, 0u);
+  return NC_OK;
 }
 
 // ---- retained data ----
@@ -193,8 +205,10 @@ Answer Feeder::apply(const Command& command) {
     follow_ladder();
     return Answer::kDone;
   }
+  if (command.kind == CommandKind::kLook) return look(command);
   if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
   if (seen_.program_active()) return Answer::kNotWhileRunning;
+  if (command.kind == CommandKind::kChange) return change(command);
   if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
   if (seen_.alarms.waits_for_reset()) return Answer::kWarningActive;
   if (command.kind == CommandKind::kSelectProgram) return select(command);
@@ -253,6 +267,27 @@ Answer Feeder::load_mdi(const Command& command) {
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);
   return Answer::kDone;
+}
+
+Answer Feeder::look(const Command& command) {
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  ControlJob job;
+  {
+    const std::lock_guard lock(mutex_);
+    job = std::move(job_);
+    job_ = nullptr;
+  }
+  return job && nc_->with_control(job) ? Answer::kDone : Answer::kRefusedByControl;
+}
+
+// Changes tables while no program is in execution. A start that the scan has taken since the last snapshot shows when the programs are read again, so that is
+// tried before the change as well; after it they are read with the new values.
+Answer Feeder::change(const Command& command) {
+  scan_->set_loaded(Scan::kNothingLoaded);
+  if (read_again() == NC_E_STATE) return Answer::kNotWhileRunning;
+  const Answer answer = look(command);
+  (void)read_again();  // cannot be refused now: nothing could be started since the first time
+  return answer;
 }
 
 void Feeder::nothing_has_run(unsigned system) {

@@ -87,6 +87,9 @@ using ChangedPrograms = std::function<std::string()>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine reaches that block; called in the feeder thread. Returns the reason why a line
 // could not be written, "" when it was written.
 using Printer = std::function<std::string(const nc_text& text)>;
+// Reads the tables of the control, or writes into them; called in the feeder thread. It may be called after the one who gave it has stopped waiting, so it
+// owns what it needs.
+using ControlJob = std::function<void(nc_control* control)>;
 // kSelectProgram with this number selects the program given by name.
 inline constexpr std::uint32_t kProgramByName = ~0u;
 
@@ -104,6 +107,7 @@ class Feeder {
   bool take_back(std::uint64_t ticket) { return claim(ticket); }
   void set_mdi_text(const std::string& text);  // the text for the next kLoadMdi
   void set_program_name(const std::string& name);  // the name for the next kSelectProgram with kProgramByName
+  void set_job(ControlJob job);                    // the function for the next kLook or kChange
 
   // ---- feeder thread ----
   bool remembers(unsigned file) const;
@@ -134,6 +138,9 @@ class Feeder {
   Answer apply(const Command& command);
   Answer select(const Command& command);
   Answer load_mdi(const Command& command);
+  Answer look(const Command& command);
+  Answer change(const Command& command);
+  nc_status read_again();
   bool claim(std::uint64_t ticket);
   Answer refuse(Answer answer, std::string why);
   void leave_kept();
@@ -182,9 +189,10 @@ class Feeder {
   SpscQueue<Command, kCommands> commands_;
   SpscQueue<CommandAnswer, 2 * kCommands> answers_;
   std::atomic<std::uint64_t> claimed_{0};  // ticket of the newest command that was executed or given up; tickets rise from 1
-  mutable std::mutex mutex_;  // guards info_, mdi_text_, program_name_, refusal_ and the copies in kept_; never taken by the scan
+  mutable std::mutex mutex_;  // guards info_, mdi_text_, program_name_, job_, refusal_ and the copies in kept_; never taken by the scan
   FeederInfo info_;
   std::string mdi_text_, program_name_;  // for the next kLoadMdi or kSelectProgram
+  ControlJob job_;                       // for the next kLook or kChange
   ProgramLoader loader_;
   ProgramRefresh refresh_;
   ChangedPrograms changed_;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "nc/nc.h"
@@ -42,6 +43,11 @@ class NcPort {
   // (runtime/retain/variables.hpp); offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
   virtual std::string tables() { return {}; }
+  // Calls `job` with the control, to read its tables or to write into them. False when there is no control behind this port.
+  virtual bool with_control(const std::function<void(nc_control*)>& job) {
+    (void)job;
+    return false;
+  }
 };
 
 // The port implemented by libnc; `system` counts from 0.
@@ -64,6 +70,10 @@ class LibNc final : public NcPort {
   void shown(unsigned system, nc_axes* machine, nc_axes* work) override;
   std::string variables() override;
   std::string tables() override;
+  bool with_control(const std::function<void(nc_control*)>& job) override {
+    job(control_);
+    return true;
+  }
 
  private:
   nc_control* control_;

@@ -328,6 +328,22 @@ Answer Runtime::select_program(unsigned system, const std::string& name) {
   return execute_alone(command);
 }
 
+Answer Runtime::with_job(CommandKind kind, ControlJob job) {
+  const std::lock_guard lock(operator_);
+  feeder_->set_job(std::move(job));
+  Command command;
+  command.kind = kind;
+  return execute_alone(command);
+}
+
+Answer Runtime::look(ControlJob job) {
+  return with_job(CommandKind::kLook, std::move(job));
+}
+
+Answer Runtime::change(ControlJob job) {
+  return with_job(CommandKind::kChange, std::move(job));
+}
+
 Answer Runtime::force(const std::string& device, std::int64_t value) {
   const std::lock_guard lock(operator_);
   refused_.clear();

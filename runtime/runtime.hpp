@@ -86,6 +86,11 @@ class Runtime {
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
   Answer load_mdi(const std::string& text, unsigned system = 0);
   Answer select_program(unsigned system, const std::string& name);  // the program loader finds the program
+  // Calls `job` in the feeder thread, to read the tables of the control. It may be called even when the answer is kNoAnswer, so it owns what it needs.
+  Answer look(ControlJob job);
+  // The same for a job that changes tables: offsets, variables, parameters. Refused while a program is in execution or interrupted, and during a reset, because
+  // the blocks that were read ahead have used the old values. Programs that are ready to start are read again with the new ones.
+  Answer change(ControlJob job);
   // A device of the ladder is held at a value until it is released; "" releases all of them.
   Answer force(const std::string& device, std::int64_t value);
   Answer release(const std::string& device);
@@ -108,6 +113,7 @@ class Runtime {
   void scan_thread();
   void feeder_thread();
   Answer execute_alone(Command command);
+  Answer with_job(CommandKind kind, ControlJob job);
   std::string retain_text(const ActiveAlarm& alarm) const;
   std::string ladder_fault(const ActiveAlarm& alarm) const;
   static void read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value);

@@ -222,6 +222,8 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
     case CommandKind::kSwitches:
+    case CommandKind::kLook:
+    case CommandKind::kChange:
       break;  // these are commands for the feeder
   }
   return Answer::kOutOfRange;

@@ -99,6 +99,10 @@ std::string executed_variables(nc_control* control) {
   return bytes;
 }
 
+bool is_local_variable(std::uint32_t number) {
+  return number <= kLastLocal;
+}
+
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {
   std::vector<Variable> variables;
   std::vector<Name> names;
@@ -111,7 +115,7 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
     const unsigned system = variable.number >> kSystemShift;
     const std::uint32_t number = variable.number & kNumber;
     const auto holds_number = [number](const VariableRangeSetting& range) { return number >= range.first && number <= range.last; };
-    if (number <= kLastLocal || (cleared != 0 && number >= kFirstCleared && number <= kLastCleared)) continue;
+    if (is_local_variable(number) || (cleared != 0 && number >= kFirstCleared && number <= kLastCleared)) continue;
     if (std::any_of(not_kept.begin(), not_kept.end(), holds_number)) continue;
     (void)nc_variable_set(control, api_system(system), number, variable.value, false);
   }

@@ -22,6 +22,9 @@ std::string executed_variables(nc_control* control);
 // more) are skipped, and so are those of `not_kept`, and #100 to #199 when #1129 PwrVC1 is on.
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
 
+// M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
+bool is_local_variable(std::uint32_t number);
+
 class VariableData final : public RetainedData {
  public:
   VariableData(nc_control* control, Feeder* feeder, std::vector<VariableRangeSetting> not_kept)

@@ -65,13 +65,14 @@ const Row* row_of(RequestKind kind) {
   return nullptr;
 }
 
-Ack make_ack(const Request& request, std::int64_t now_ns) {
+Ack make_ack(const Request& request, Way way, std::int64_t now_ns) {
   Ack ack{};
   set_text(&ack.client, text_of(request.client));
   ack.sequence = request.sequence;
   ack.writer = request.writer;
   ack.kind = request.kind;
   ack.time_ns = now_ns;
+  ack.way = static_cast<std::uint32_t>(way);
   return ack;
 }
 
@@ -204,16 +205,17 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
 // ---- clients ----
 
 // The client that a command comes from. A new client takes a free place, or that of a client that has been silent for a long time. Null = there is no place.
-Intake::Client* Intake::client_of(const Request& request, std::int64_t now_ns) {
+Intake::Client* Intake::client_of(const Request& request, Way way, std::int64_t now_ns) {
   Client* place = nullptr;
   for (Client& client : client_) {
-    if (client.used && text_of(client.name) == text_of(request.client)) return &client;
+    if (client.used && client.way == way && text_of(client.name) == text_of(request.client)) return &client;
     if (!client.used) place = place == nullptr || place->used ? &client : place;
     else if (&client != control_ && now_ns - client.heard_ns > kForgetNs && place == nullptr) place = &client;
   }
   if (place == nullptr) return nullptr;
   *place = {};
   place->used = true;
+  place->way = way;
   set_text(&place->name, text_of(request.client));
   place->writer = request.writer;
   place->heard_ns = now_ns;
@@ -242,18 +244,18 @@ void Intake::lose_control() {
 
 // Removes the clients of a participant that is gone. A participant may have several clients: only the named one is removed, or all of them when none is
 // named.
-void Intake::gone(const Request& request, bool everyone) {
+void Intake::gone(const Request& request, Way way, bool everyone) {
   const bool named = is_ended(request.client) && !text_of(request.client).empty();
-  const auto is_meant = [&](const Text<32>& name, std::uint64_t writer) {
-    return everyone || (writer == request.writer && (!named || text_of(name) == text_of(request.client)));
+  const auto is_meant = [&](const Text<32>& name, Way of, std::uint64_t writer) {
+    return of == way && (everyone || (writer == request.writer && (!named || text_of(name) == text_of(request.client))));
   };
   for (Client& client : client_) {
-    if (!client.used || !is_meant(client.name, client.writer)) continue;
+    if (!client.used || !is_meant(client.name, client.way, client.writer)) continue;
     if (&client == control_) lose_control();
     client = {};
   }
   for (Pending& pending : pending_)  // their answers would reach nobody
-    if (pending.used && is_meant(pending.request.client, pending.request.writer)) pending.used = false;
+    if (pending.used && is_meant(pending.request.client, pending.way, pending.request.writer)) pending.used = false;
 }
 
 // ---- rules 5 to 7 ----
@@ -342,21 +344,21 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
   if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
   Verdict verdict = execute(request);
   if (verdict.state != AckState::kRejected && verdict.text.empty()) verdict.text = scope_text(request, state.system_count);
-  if (verdict.state == AckState::kAccepted && !wait_for(request, now.steady_ns, state)) verdict.state = AckState::kDone;
+  if (verdict.state == AckState::kAccepted && !wait_for(request, client->way, now.steady_ns, state)) verdict.state = AckState::kDone;
   return verdict;
 }
 
 // ---- one command ----
 
-void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks) {
+void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way) {
   const auto kind = static_cast<RequestKind>(request.kind);
   if (is_from_gateway(kind)) {
-    gone(request, kind == RequestKind::kGatewayBegan);
+    gone(request, way, kind == RequestKind::kGatewayBegan);
     return;
   }
   // A request without a valid name of a client can neither be answered nor remembered.
   if (!is_ended(request.client) || text_of(request.client).empty() || !is_graphic(text_of(request.client))) return;
-  Ack ack = make_ack(request, now.wall_ns);
+  Ack ack = make_ack(request, way, now.wall_ns);
   const auto answer = [&](const Verdict& verdict) {
     ack.state = static_cast<std::uint32_t>(verdict.state);
     ack.reason = static_cast<std::uint32_t>(verdict.reason);
@@ -364,7 +366,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     set_text(&ack.text, verdict.text);
     acks->push_back(ack);
   };
-  Client* client = client_of(request, now.steady_ns);
+  Client* client = client_of(request, way, now.steady_ns);
   if (client == nullptr) {
     answer({AckState::kRejected, AckReason::kTooManyClients, "too many clients"});
     return;
@@ -405,17 +407,17 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
 // ---- what comes with time ----
 
 // Notes a command whose state comes later. False when the list is full: then the command has been executed all the same, and its answer is `done` at once.
-bool Intake::wait_for(const Request& request, std::int64_t now_ns, const Machine::State& before) {
+bool Intake::wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before) {
   for (Pending& pending : pending_) {
     if (pending.used) continue;
-    pending = {true, request, now_ns, before.runs};
+    pending = {true, way, request, now_ns, before.runs};
     return true;
   }
   return false;
 }
 
 void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks) {
-  Ack ack = make_ack(pending->request, now_ns);
+  Ack ack = make_ack(pending->request, pending->way, now_ns);
   ack.state = static_cast<std::uint32_t>(verdict.state);
   ack.reason = static_cast<std::uint32_t>(verdict.reason);
   ack.refusal = static_cast<std::uint32_t>(verdict.refusal);
@@ -423,7 +425,7 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   acks->push_back(ack);
   pending->used = false;
   for (Client& client : client_) {
-    if (!client.used || text_of(client.name) != text_of(ack.client)) continue;
+    if (!client.used || client.way != pending->way || text_of(client.name) != text_of(ack.client)) continue;
     for (Ack& answered : client.answered)
       if (answered.sequence == ack.sequence) answered = ack;  // a duplicate gets this answer from now on
   }

@@ -69,7 +69,7 @@ class Intake {
   explicit Intake(Machine* machine) : machine_(*machine) {}
 
   // Takes one command and adds its acknowledgement to *acks.
-  void take(const Request& request, const Now& now, std::vector<Ack>* acks);
+  void take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way = Way::kGateway);
   // Ends leases, and answers accepted commands whose state has been reached. To be called every few ms.
   void tick(const Now& now, std::vector<Ack>* acks);
 
@@ -87,6 +87,7 @@ class Intake {
  private:
   struct Client {
     bool used = false;
+    Way way = Way::kGateway;
     Text<32> name{};
     std::uint64_t writer = 0, last_sequence = 0;
     std::int64_t heard_ns = 0;
@@ -95,6 +96,7 @@ class Intake {
   };
   struct Pending {
     bool used = false;
+    Way way = Way::kGateway;
     Request request{};
     std::int64_t since_ns = 0;
     std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // State::runs before the command
@@ -111,12 +113,12 @@ class Intake {
   Verdict execute(const Request& request);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;
-  Client* client_of(const Request& request, std::int64_t now_ns);
+  Client* client_of(const Request& request, Way way, std::int64_t now_ns);
   void remember(Client* client, const Ack& ack);
   void lose_control();
-  void gone(const Request& request, bool everyone);
+  void gone(const Request& request, Way way, bool everyone);
   void settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks);
-  bool wait_for(const Request& request, std::int64_t now_ns, const Machine::State& before);
+  bool wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before);
 
   Machine& machine_;
   std::array<Client, kClients> client_;

@@ -203,6 +203,12 @@ enum class RequestKind : std::uint32_t {
 inline constexpr std::int32_t kAny = -1;
 inline constexpr std::uint32_t kEverySystem = ~0u;  // all part systems, in place of an index
 
+// On which way commands come in. Clients of different ways are different ones, even with the same name and writer.
+enum class Way : std::uint32_t {
+  kGateway = 0,  // through the segment
+  kLocal = 1     // through the socket of the services (runtime/services/)
+};
+
 // One command. Everything in it comes from the network, so nothing is trusted before Intake has checked it.
 struct Request {
   Text<32> client;  // printable ASCII
@@ -247,7 +253,8 @@ struct Ack {
   std::uint32_t reason;  // AckReason
   std::uint32_t repeated;  // 1 = answer to a duplicate: nothing was executed
   std::int64_t time_ns;
-  std::uint32_t refusal, reserved;  // nc::rt::RefusalCause: with kRefused the cause for which the runtime refuses
+  std::uint32_t refusal;  // nc::rt::RefusalCause: with kRefused the cause for which the runtime refuses
+  std::uint32_t way;      // nc::rt::share::Way of the command
   Text<128> text;
 };
 

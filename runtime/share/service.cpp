@@ -50,7 +50,7 @@ Service::Service(Runtime* runtime, ProgramTable* programs, PointTap* tap, const 
     : runtime_(*runtime),
       options_(options),
       machine_(runtime, programs),
-      intake_(&machine_),
+      desk_(&machine_),
       programs_(*programs),
       tap_(tap) {}
 
@@ -65,7 +65,7 @@ bool Service::start(std::string* error) {
   started_ = true;
   publisher_->publish();
   if (!publisher_thread_.start([this] { publisher_thread(); }, error)) return false;
-  return !options_.commands || intake_thread_.start([this] { intake_thread(); }, error);
+  return !(options_.commands || options_.local) || intake_thread_.start([this] { intake_thread(); }, error);
 }
 
 void Service::stop() {
@@ -97,14 +97,14 @@ void Service::intake_thread() {
     const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
     Request request;
     // Answers are never lost: while some of them wait for room in the ring, no more commands are taken.
-    for (unsigned i = 0; acks.size() < kCommandsPerTurn && i < kCommandsPerTurn && segment.commands.pop(&request); ++i)
-      intake_.take(request, {wall_ns(), RealClock().now_ns()}, &acks);
-    intake_.tick({wall_ns(), RealClock().now_ns()}, &acks);
+    for (unsigned i = 0; acks.size() < kCommandsPerTurn && i < kCommandsPerTurn && options_.commands && segment.commands.pop(&request); ++i)
+      desk_.take(request, {wall_ns(), RealClock().now_ns()}, Way::kGateway, &acks);
+    desk_.tick({wall_ns(), RealClock().now_ns()}, &acks);
     std::size_t given = 0;
     while (given < acks.size() && segment.acks.push(acks[given])) ++given;
     if (given != 0) wake(&segment.wake_reader);
     acks.erase(acks.begin(), acks.begin() + static_cast<std::ptrdiff_t>(given));
-    if (segment.commands.size() == 0 || !acks.empty()) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
+    if (segment.commands.size() == 0 || !options_.commands || !acks.empty()) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
   }
 }
 

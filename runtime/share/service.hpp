@@ -9,7 +9,7 @@
 
 #include "runtime/rt_thread.hpp"
 #include "runtime/runtime.hpp"
-#include "runtime/share/intake.hpp"
+#include "runtime/share/intake_desk.hpp"
 #include "runtime/share/point_tap.hpp"
 #include "runtime/share/program_table.hpp"
 #include "runtime/share/publisher.hpp"
@@ -20,6 +20,7 @@ namespace nc::rt::share {
 struct ServiceOptions {
   std::string name;
   bool commands = false, group = false, virtual_time = false;
+  bool local = false;  // local services bring commands in, too
 };
 
 // A running Runtime as the intake sees it.
@@ -52,6 +53,9 @@ class Service {
   bool start(std::string* error);
   // Publishes the last state, then tells the readers that this is the end.
   void stop();
+  // For the local services. The segment exists after create().
+  IntakeDesk* desk() { return &desk_; }
+  Segment* segment() { return segment_.get(); }
 
  private:
   void publisher_thread();
@@ -60,7 +64,7 @@ class Service {
   Runtime& runtime_;
   const ServiceOptions options_;
   RuntimeMachine machine_;
-  Intake intake_;
+  IntakeDesk desk_;
   SegmentOwner segment_;
   ProgramTable& programs_;
   PointTap* tap_;

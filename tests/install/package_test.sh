@@ -76,6 +76,8 @@ holds nc-tools -rw-r--r-- 'usr/share/man/man1/ncsim.1.gz'
 field ncrtd Depends 'adduser, .*libc6 \(.*'
 field ncrtd Recommends nc-tools
 holds ncrtd -rwxr-xr-x usr/bin/ncrtd
+holds ncrtd -rwxr-xr-x usr/bin/ncctl
+holds ncrtd -rw-r--r-- usr/share/man/man1/ncctl.1.gz usr/share/bash-completion/completions/ncctl
 holds ncrtd -rw-r--r-- lib/systemd/system/ncrtd.service usr/share/man/man8/ncrtd.8.gz usr/share/man/man5/ncrtd.toml.5.gz usr/share/nc/parts/flange.nc
 for name in packaging ladder signals modbus gpio dds macros parameters system-variables functions; do holds ncrtd -rw-r--r-- "usr/share/doc/ncrtd/$name.md"; done
 if [ -x "$NC_BINARY_DIR/bin/ncdds" ]; then

@@ -2,12 +2,16 @@
 // See daemon_sharing.hpp.
 #include "tools/lib/daemon_sharing.hpp"
 
+#include <unistd.h>
+
 #include <cstdio>
+#include <vector>
 
 namespace nc::tools {
 
 DaemonSharing::DaemonSharing(const DaemonOptions& options, const rt::Config& config, hal::Hal* machine)
-    : asked_(config.share.enabled || !options.share.empty()),
+    : config_(config),
+      asked_(config.share.enabled || !options.share.empty()),
       wanted_(asked_ || options.command == DaemonOptions::Command::kServe),
       tap_(machine, config.points.size()),
       programs_(static_cast<nc_dialect>(config.nc.dialect)) {
@@ -17,6 +21,7 @@ DaemonSharing::DaemonSharing(const DaemonOptions& options, const rt::Config& con
   share_.commands = options.commands;
   share_.group = config.share.group;
   share_.virtual_time = options.fast;
+  share_.local = config.services.enabled && options.command == DaemonOptions::Command::kServe;
 }
 
 bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std::string& folder, std::string* error) {
@@ -34,14 +39,46 @@ bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std
     return true;
   });
   service_ = std::make_unique<rt::share::Service>(runtime, &programs_, &tap_, share_);
-  if (service_->create(error)) return true;
+  if (service_->create(error)) return open_services(runtime, error);
   service_.reset();
   if (asked_) return false;
   std::fprintf(stderr, "warning: no shared memory, nothing for ncdds: %s\n", error->c_str());
   return true;
 }
 
+// A socket that the configuration does not name may be missing; the services are then not there, which is said.
+bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
+  if (!share_.local) return true;
+  const std::string path = rt::services::socket_path(config_.services, share_.name);
+  std::vector<std::string> unknown;
+  const rt::services::RightGroups groups = rt::services::find_groups(config_.services, &unknown);
+  for (const std::string& name : unknown) std::fprintf(stderr, "warning: [services]: there is no group \"%s\": nobody has a right by it\n", name.c_str());
+  services_ = std::make_unique<rt::services::Services>(runtime, &programs_, service_->desk(), service_->segment());
+  server_ = std::make_unique<rt::services::LocalServer>(services_.get(), share_.name, [groups, owner = geteuid()](const rt::services::Credentials& peer) {
+    return rt::services::rights_of(peer, groups, owner);
+  });
+  std::string why = "neither RUNTIME_DIRECTORY nor XDG_RUNTIME_DIR says where, and [services] socket does not";
+  if (!path.empty() && server_->open(path, &why)) {
+    service_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
+    why.clear();
+    services_->open(&why);
+    if (!why.empty()) std::fprintf(stderr, "warning: %s\n", why.c_str());
+    return true;
+  }
+  server_.reset();
+  *error = "no services on a socket, nothing for ncctl: " + why;
+  if (!config_.services.socket.empty()) return false;
+  std::fprintf(stderr, "warning: %s\n", error->c_str());
+  return true;
+}
+
+bool DaemonSharing::start(std::string* error) {
+  if (service_ == nullptr) return true;
+  return service_->start(error) && (server_ == nullptr || server_->start(error));
+}
+
 void DaemonSharing::stop() {
+  if (server_ != nullptr) server_->stop();
   if (service_ != nullptr) service_->stop();
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared memory of ncrtd, if it is wanted, and the programs that it shows.
+// The shared memory of ncrtd, if it is wanted, the programs that it shows, and the socket of the services, which need it.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "runtime/runtime.hpp"
+#include "runtime/services/local_server.hpp"
 #include "runtime/share/service.hpp"
 #include "tools/lib/daemon_options.hpp"
 #include "tools/lib/program_files.hpp"
@@ -22,7 +23,7 @@ class DaemonSharing final : public rt::EventSink {
   /** To be called before the start of the runtime. When the shared memory was not asked for, a failure is only a warning. */
   bool prepare(rt::Runtime* runtime, ProgramFiles* files, const std::string& folder, std::string* error);
   /** To be called after the start of the runtime. */
-  bool start(std::string* error) { return service_ == nullptr || service_->start(error); }
+  bool start(std::string* error);
   void stop();
   rt::share::ProgramTable& programs() { return programs_; }
 
@@ -30,6 +31,9 @@ class DaemonSharing final : public rt::EventSink {
   void executed(unsigned system, const nc_event& event) override;
 
  private:
+  bool open_services(rt::Runtime* runtime, std::string* error);
+
+  const rt::Config& config_;
   const bool asked_, wanted_;  // asked for by option or configuration; a service wants it even without
   rt::share::PointTap tap_;
   rt::share::ServiceOptions share_;
@@ -38,6 +42,8 @@ class DaemonSharing final : public rt::EventSink {
   unsigned last_file_ = ~0u;
   std::uint64_t last_entered_ = 0;
   std::unique_ptr<rt::share::Service> service_;
+  std::unique_ptr<rt::services::Services> services_;
+  std::unique_ptr<rt::services::LocalServer> server_;
 };
 
 }  // namespace nc::tools

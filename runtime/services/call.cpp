@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// See call.hpp.
+#include "runtime/services/call.hpp"
+
+#include <cmath>
+
+#include "runtime/programs/encoding.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+constexpr int kDeepest = 4;  // of a request: itself, its arguments, and what could be wrong in them
+constexpr double kMostId = 9007199254740991.0;
+constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+// Parses without exceptions, and refuses a key that stands twice in one object: of two values nobody knows which one is meant.
+bool parse(std::string_view text, Json* out, std::string* why) {
+  std::vector<std::vector<std::string>> keys;
+  bool deep = false, twice = false;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kDeepest) deep = true;
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.empty()) {
+      const std::string& key = value.get_ref<const std::string&>();
+      for (const std::string& other : keys.back()) twice = twice || other == key;
+      if (keys.back().size() < kFields) keys.back().push_back(key);
+      else deep = true;
+    }
+    return !deep;
+  };
+  *out = Json::parse(text.begin(), text.end(), watch, false);
+  *why = deep ? "has too many members, or is nested too deep" : twice ? "has a member twice" : out->is_discarded() ? "is no JSON in UTF-8" : "";
+  return why->empty();
+}
+
+std::string range_text(const FieldInfo& row) {
+  const auto shown = [](double value) { return Json(value == std::floor(value) ? Json(static_cast<std::int64_t>(value)) : Json(value)).dump(); };
+  return shown(row.least) + " to " + shown(row.most);
+}
+
+bool is_printable(std::string_view text, bool lines) {
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < ' ' && !(lines && (c == '\n' || c == '\r' || c == '\t'))) return false;
+  return true;
+}
+
+// Takes one value. "" = it is good, else what is wrong with it.
+std::string take(const FieldInfo& row, const Json& value, Call* call) {
+  const auto at = static_cast<unsigned>(row.field);
+  switch (row.kind) {
+    case Kind::kFlag:
+      if (!value.is_boolean()) return "must be true or false";
+      call->number[at] = value.get<bool>() ? 1 : 0;
+      return "";
+    case Kind::kNumber:
+    case Kind::kWhole: {
+      if (!value.is_number()) return "must be a number";
+      const double number = value.get<double>();
+      if (!std::isfinite(number) || number < row.least || number > row.most) return "must be " + range_text(row);
+      if (row.kind == Kind::kWhole && number != std::floor(number)) return "must be a whole number";
+      call->number[at] = number;
+      return "";
+    }
+    case Kind::kText:
+    case Kind::kName: {
+      if (!value.is_string()) return "must be a text";
+      const auto& text = value.get_ref<const std::string&>();
+      if (static_cast<double>(text.size()) < row.least || static_cast<double>(text.size()) > row.most) return "must have " + range_text(row) + " bytes";
+      if (row.kind == Kind::kName && !is_program_name(text)) return "must be a name in the folder of programs, without a path";
+      if (!is_printable(text, row.field == Field::kBlocks)) return "must not have control characters";
+      call->text[at] = text;
+      return "";
+    }
+    case Kind::kData: {
+      if (!value.is_string() || !from_base64(value.get_ref<const std::string&>(), &call->text[at])) return "must be bytes in base64";
+      const auto size = static_cast<double>(call->text[at].size());
+      return size < row.least || size > row.most ? "must be " + range_text(row) + " bytes" : "";
+    }
+  }
+  return "?";
+}
+
+const FieldInfo* field_of(const ServiceRow& row, std::string_view name) {
+  for (const Wanted& wanted : row.request)
+    if (name == row_of(wanted.field).name) return &row_of(wanted.field);
+  return nullptr;
+}
+
+}  // namespace
+
+const char* refused_name(Refused why) {
+  switch (why) {
+    case Refused::kMalformed: return "malformed";
+    case Refused::kUnknownService: return "unknown service";
+    case Refused::kNoRight: return "no right";
+    case Refused::kNoControl: return "no control";
+    case Refused::kLate: return "late";
+    case Refused::kState: return "refused";
+    case Refused::kBusy: return "busy";
+    case Refused::kNotFound: return "not found";
+    case Refused::kProtected: return "protected";
+    case Refused::kNoSpace: return "no space";
+    case Refused::kNotReached: return "not reached";
+    case Refused::kFailed: return "failed";
+    case Refused::kCount: break;
+  }
+  return "?";
+}
+
+bool is_program_name(std::string_view name) {
+  if (name.empty() || name[0] == '.') return false;
+  if (name.find('/') != std::string_view::npos || name.find('\\') != std::string_view::npos || name.find('\x7f') != std::string_view::npos) return false;
+  return is_printable(name, false) && valid_utf8(name) == name;
+}
+
+bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
+  const auto bad = [&](Refused why, std::string text) {
+    *outcome = Outcome::refused(why, std::move(text));
+    return false;
+  };
+  Json root;
+  std::string why;
+  if (!parse(frame, &root, &why)) return bad(Refused::kMalformed, "the request " + why);
+  if (!root.is_object()) return bad(Refused::kMalformed, "the request is no object");
+  const auto id = root.find("id");
+  if (id == root.end() || !id->is_number_unsigned() || id->get<double>() > kMostId) return bad(Refused::kMalformed, "id must be a whole number from 0");
+  call->id = id->get<std::uint64_t>();
+  for (const auto& [key, value] : root.items())
+    if (key != "id" && key != "service" && key != "args") return bad(Refused::kMalformed, "the request has no member \"" + key + "\"");
+  const auto name = root.find("service");
+  if (name == root.end() || !name->is_string()) return bad(Refused::kMalformed, "service must be the name of a service");
+  call->row = find_service(name->get_ref<const std::string&>());
+  if (call->row == nullptr) return bad(Refused::kUnknownService, "there is no such service");
+  const auto args = root.find("args");
+  if (args != root.end() && !args->is_object()) return bad(Refused::kMalformed, "args must be an object");
+  if (args != root.end()) {
+    for (const auto& [key, value] : args->items()) {
+      const FieldInfo* field = field_of(*call->row, key);
+      if (field == nullptr) return bad(Refused::kMalformed, std::string(call->row->name) + " has no member \"" + key + "\"");
+      if (const std::string wrong = take(*field, value, call); !wrong.empty()) return bad(Refused::kMalformed, key + " " + wrong);
+      call->given.set(static_cast<unsigned>(field->field));
+    }
+  }
+  for (const Wanted& wanted : call->row->request)
+    if (wanted.required && !call->has(wanted.field)) return bad(Refused::kMalformed, std::string(call->row->name) + " needs " + row_of(wanted.field).name);
+  return true;
+}
+
+std::string encode_reply(std::uint64_t id, const Outcome& outcome) {
+  Json root = {{"id", id}, {"ok", outcome.ok}};
+  if (outcome.ok) {
+    root["reply"] = outcome.reply;
+  } else {
+    root["error"] = refused_name(outcome.why);
+    root["text"] = outcome.text;
+  }
+  // Texts come from programs and files, too: bytes that are no character are replaced.
+  std::string text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() <= kMostFrameBytes) return text;
+  return encode_reply(id, Outcome::refused(Refused::kFailed, "the reply is too long: ask for fewer entries"));
+}
+
+std::string to_base64(std::string_view bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t group = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    for (std::size_t i = 0; i < 3; ++i) group = group << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0u);
+    for (std::size_t i = 0; i < 4; ++i) text += i <= count ? kDigits[group >> (18 - 6 * i) & 63u] : '=';
+  }
+  return text;
+}
+
+bool from_base64(std::string_view text, std::string* bytes) {
+  static constexpr std::array<std::int8_t, 256> kValues = [] {
+    std::array<std::int8_t, 256> values{};
+    values.fill(-1);
+    for (int i = 0; i < 64; ++i) values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
+    return values;
+  }();
+  bytes->clear();
+  if (text.size() % 4 != 0) return false;
+  std::size_t padding = 0;
+  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
+  bytes->reserve(text.size() / 4 * 3);
+  for (std::size_t at = 0; at < text.size(); at += 4) {
+    const std::size_t digits = at + 4 == text.size() ? 4 - padding : 4;
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const int value = i < digits ? kValues[static_cast<unsigned char>(text[at + i])] : 0;
+      if (value < 0) return false;
+      group = group << 6 | static_cast<std::uint32_t>(value);
+    }
+    for (std::size_t i = 0; i + 1 < digits; ++i) *bytes += static_cast<char>(group >> (16 - 8 * i) & 0xffu);
+    // Bits behind the last byte must be 0: otherwise two texts would stand for the same bytes.
+    if ((digits == 2 && (group & 0xffffu) != 0) || (digits == 3 && (group & 0xffu) != 0)) return false;
+  }
+  return true;
+}
+
+}  // namespace nc::rt::services

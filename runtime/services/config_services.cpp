@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration section [services].
+#include "runtime/config_sections.hpp"
+#include "runtime/services/local_server.hpp"
+#include "runtime/services/rights.hpp"
+
+namespace nc::rt {
+namespace {
+
+constexpr std::size_t kMostGroups = 16, kLongestName = 32;
+
+void read_groups(TableReader* reader, const char* key, std::vector<std::string>* groups) {
+  std::vector<std::pair<std::string, unsigned>> names;
+  if (!reader->strings(key, &names)) return;
+  groups->clear();
+  if (names.size() > kMostGroups) reader->error(key, "must be at most " + std::to_string(kMostGroups) + " groups");
+  for (const auto& [name, line] : names) {
+    bool good = !name.empty() && name.size() <= kLongestName;
+    for (const char c : name) good = good && c > ' ' && c <= '~' && c != ':';
+    if (good) groups->push_back(name);
+    else reader->errors()->add(line, reader->path(key), "\"" + name + "\" cannot be the name of a group");
+  }
+}
+
+}  // namespace
+
+void read_services(TableReader* root, Config* config) {
+  root->table("services", [&](TableReader& reader) {
+    ServicesConfig& services = config->services;
+    reader.boolean("enabled", &services.enabled);
+    if (reader.string("socket", &services.socket)) services.socket_place = {reader.line("socket"), reader.path("socket")};
+    if (services.socket.size() > services::kLongestSocketPath || services.socket.find('\0') != std::string::npos)
+      reader.error("socket", "must have at most " + std::to_string(services::kLongestSocketPath) + " bytes");
+    else if (!services.socket.empty() && services.socket[0] != '/')
+      reader.error("socket", "must begin with /, because clients look for it from any folder");
+    constexpr const char* kKeys[services::kRightCount] = {"view", "operate", "setup", "maintain"};
+    for (unsigned right = 0; right < services::kRightCount; ++right) read_groups(&reader, kKeys[right], &services.holders[right]);
+    reader.string("changes", &services.changes);
+    reader.integer("program_mb", &services.program_mb, 1, 1'000'000);
+    reader.integer("programs_mb", &services.programs_mb, 1, 100'000'000);
+  });
+}
+
+}  // namespace nc::rt

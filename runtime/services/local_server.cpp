@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: Apache-2.0
+// See local_server.hpp.
+#include "runtime/services/local_server.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace nc::rt::services {
+namespace {
+
+constexpr int kWaiting = 16;                // peers that may connect at the same time
+constexpr int kLookMs = 500;                // interval at which clients that do not go on are looked for
+constexpr std::size_t kReadBytes = 65536;
+
+std::string system_error(const std::string& what) { return what + ": " + std::strerror(errno); }
+
+bool address_of(const std::string& path, sockaddr_un* address) {
+  *address = {};
+  address->sun_family = AF_UNIX;
+  if (path.empty() || path.size() > kLongestSocketPath) return false;
+  std::memcpy(address->sun_path, path.data(), path.size());
+  return true;
+}
+
+// Whether a process listens there.
+bool answers(const sockaddr_un& address) {
+  const int probe = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (probe < 0) return false;
+  const bool connected = connect(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+  close(probe);
+  return connected;
+}
+
+std::int64_t now_ns() { return RealClock().now_ns(); }
+
+}  // namespace
+
+std::string socket_path(const ServicesConfig& config, const std::string& share) {
+  if (!config.socket.empty()) return config.socket;
+  // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing in this process changes its environment
+  if (const char* folder = std::getenv("RUNTIME_DIRECTORY"); folder != nullptr && folder[0] == '/') {
+    const std::string first = std::string(folder).substr(0, std::string(folder).find(':'));
+    return first + "/" + share + ".sock";
+  }
+  // NOLINTNEXTLINE(concurrency-mt-unsafe)
+  if (const char* folder = std::getenv("XDG_RUNTIME_DIR"); folder != nullptr && folder[0] == '/') return std::string(folder) + "/ncrtd/" + share + ".sock";
+  return "";
+}
+
+LocalServer::LocalServer(Services* services, std::string control, Judge judge)
+    : services_(*services), control_(std::move(control)), judge_(std::move(judge)) {}
+
+bool LocalServer::open(const std::string& path, std::string* error) {
+  sockaddr_un address;
+  if (!address_of(path, &address)) {
+    *error = "the path of the socket is empty or too long: \"" + path + "\"";
+    return false;
+  }
+  (void)mkdir(path.substr(0, path.rfind('/')).c_str(), 0755);  // it is there already, or bind() says why not
+  struct stat info {};
+  if (lstat(path.c_str(), &info) == 0) {
+    if (!S_ISSOCK(info.st_mode) || answers(address)) {
+      *error = path + (S_ISSOCK(info.st_mode) ? " belongs to another process that runs" : " is there and is no socket");
+      return false;
+    }
+    (void)unlink(path.c_str());  // of a process that has ended without removing it
+  }
+  listen_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  // Everybody may connect: who may do what is asked of the kernel for each peer, and the file cannot say it for four groups.
+  const bool good = listen_ >= 0 && wake_ >= 0 && bind(listen_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  if (good) path_ = path;
+  if (good && chmod(path.c_str(), 0666) == 0 && listen(listen_, kWaiting) == 0) return true;
+  *error = system_error(path);
+  stop();
+  return false;
+}
+
+bool LocalServer::start(std::string* error) {
+  started_ = true;
+  return command_.thread.start([this] { work(&command_, Lane::kCommand); }, error) && data_.thread.start([this] { work(&data_, Lane::kData); }, error) &&
+         thread_.start([this] { serve(); }, error);
+}
+
+void LocalServer::stop() {
+  if (started_) {
+    {
+      const std::lock_guard lock(mutex_);
+      stop_ = true;
+    }
+    wake_up();
+    thread_.join();
+    for (Worker* worker : {&command_, &data_}) {
+      {
+        const std::lock_guard lock(worker->mutex);
+        worker->stop = true;
+      }
+      worker->wake.notify_all();
+      worker->thread.join();
+    }
+    started_ = false;
+  }
+  if (listen_ >= 0) close(listen_);
+  if (wake_ >= 0) close(wake_);
+  if (!path_.empty()) (void)unlink(path_.c_str());
+  listen_ = wake_ = -1;
+  path_.clear();
+}
+
+void LocalServer::wake_up() {
+  const std::uint64_t one = 1;
+  while (wake_ >= 0 && write(wake_, &one, sizeof one) < 0 && errno == EINTR) continue;  // a full counter wakes as well
+}
+
+// ---- the thread of the sockets ----
+
+void LocalServer::serve() {
+  std::vector<pollfd> ready;
+  for (;;) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (stop_) break;
+    }
+    ready.assign({{wake_, POLLIN, 0}, {full_ ? -1 : listen_, POLLIN, 0}});
+    for (const auto& connection : connections_) {
+      const bool reads = !connection->closing && connection->outstanding < kOutstanding && connection->out.size() - connection->sent < kMostOut;
+      const bool writes = connection->sent < connection->out.size();
+      ready.push_back({connection->socket, static_cast<short>((reads ? POLLIN : 0) | (writes ? POLLOUT : 0)), 0});
+    }
+    const int count = poll(ready.data(), ready.size(), full_ ? 100 : kLookMs);
+    full_ = false;
+    if (count < 0) continue;
+    std::uint64_t woken = 0;
+    if ((ready[0].revents & POLLIN) != 0 && read(wake_, &woken, sizeof woken) > 0) deliver();
+    for (std::size_t i = 0; i + 2 < ready.size(); ++i) turn(connections_[i].get(), ready[i + 2].revents);
+    if ((ready[1].revents & POLLIN) != 0) greet();
+    const std::int64_t now = now_ns();
+    for (const auto& connection : connections_)
+      if (connection->socket >= 0 && late(*connection, now)) close_connection(connection.get());
+    std::erase_if(connections_, [](const auto& connection) { return connection->socket < 0; });
+  }
+  for (const auto& connection : connections_) close_connection(connection.get());
+  connections_.clear();
+}
+
+bool LocalServer::late(const Connection& connection, std::int64_t now) const {
+  const bool frame = connection.in.waits() && connection.outstanding == 0 && now - connection.read_ns > kPatienceNs;
+  const bool reader = connection.sent < connection.out.size() && now - connection.written_ns > kPatienceNs;
+  return frame || reader;
+}
+
+// Lets in one peer.
+void LocalServer::greet() {
+  const int client = accept4(listen_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (client < 0) {
+    full_ = errno == EMFILE || errno == ENFILE || errno == ENOMEM;
+    return;
+  }
+  Credentials peer;
+  auto connection = std::make_unique<Connection>();
+  connection->socket = client;
+  connection->session = std::make_shared<Session>();
+  Session& session = *connection->session;
+  std::string why;
+  if (!credentials_of(client, &peer)) why = "the system does not say who you are";
+  session.number = next_session_++;
+  session.user = peer.user;
+  session.client = "uid" + std::to_string(peer.user) + "/" + std::to_string(peer.process) + "." + std::to_string(session.number % 1'000'000);
+  if (why.empty()) session.rights = judge_(peer);
+  if (why.empty() && session.rights.none()) why = "this user has none of the rights to view, operate, set up and maintain";
+  unsigned same = 0;
+  for (const auto& other : connections_) same += other->session->user == peer.user;
+  Refused refused = Refused::kNoRight;
+  if (why.empty() && (connections_.size() >= kConnections || same >= kPerUser)) {
+    why = "too many clients";
+    refused = Refused::kBusy;
+  }
+  Json rights = Json::array();
+  for (unsigned right = 0; right < kRightCount; ++right)
+    if (session.rights.has(static_cast<Right>(right))) rights.push_back(right_name(static_cast<Right>(right)));
+  Json greeting = {{"ncrtd", kProtocol}, {"control", control_}, {"client", session.client}, {"rights", std::move(rights)}, {"ok", why.empty()}};
+  if (!why.empty()) {
+    greeting["error"] = refused_name(refused);
+    greeting["text"] = why;
+    connection->closing = true;
+  }
+  put(connection.get(), greeting.dump());
+  send_out(connection.get());
+  if (connection->socket >= 0 && connections_.size() < 2 * kConnections) connections_.push_back(std::move(connection));
+  else close_connection(connection.get());
+}
+
+void LocalServer::turn(Connection* connection, short events) {
+  if (connection->socket < 0 || events == 0) return;
+  if ((events & POLLIN) != 0) receive(connection);
+  else if ((events & (POLLERR | POLLHUP | POLLNVAL)) != 0) close_connection(connection);
+  if (connection->socket >= 0 && (events & POLLOUT) != 0) send_out(connection);
+}
+
+void LocalServer::receive(Connection* connection) {
+  char bytes[kReadBytes];
+  const ssize_t count = recv(connection->socket, bytes, sizeof bytes, 0);
+  if (count < 0 && (errno == EAGAIN || errno == EINTR)) return;
+  if (count <= 0) return close_connection(connection);
+  connection->in.add({bytes, static_cast<std::size_t>(count)});
+  connection->read_ns = now_ns();
+  take_frames(connection);
+}
+
+// Takes the frames that have come, as long as the client may have more requests.
+void LocalServer::take_frames(Connection* connection) {
+  std::string frame;
+  while (connection->socket >= 0 && !connection->closing && connection->outstanding < kOutstanding) {
+    const FrameReader::Next next = connection->in.next(&frame);
+    if (next == FrameReader::Next::kNone) break;
+    if (next == FrameReader::Next::kTooLong) {
+      put(connection, encode_reply(0, Outcome::refused(Refused::kMalformed, "a frame has at most " + std::to_string(kMostFrameBytes) + " bytes")));
+      connection->closing = true;
+      break;
+    }
+    take(connection, frame);
+  }
+  if (connection->socket >= 0) send_out(connection);
+}
+
+void LocalServer::take(Connection* connection, const std::string& frame) {
+  Job job;
+  Outcome outcome;
+  if (!decode_call(frame, &job.call, &outcome)) return put(connection, encode_reply(job.call.id, outcome));
+  const Session& session = *connection->session;
+  if (const std::string lacks = Services::lack(session, *job.call.row); !lacks.empty())
+    return put(connection, encode_reply(job.call.id, Outcome::refused(Refused::kNoRight, lacks)));
+  if (job.call.row->lane == Lane::kNow) return put(connection, encode_reply(job.call.id, services_.show(session, job.call)));
+  ++connection->outstanding;
+  job.session = connection->session;
+  const Lane lane = job.call.row->lane;
+  post(lane, std::move(job));
+}
+
+void LocalServer::put(Connection* connection, const std::string& text) {
+  if (connection->sent == connection->out.size()) {
+    connection->out.clear();
+    connection->sent = 0;
+    connection->written_ns = now_ns();
+  }
+  connection->out += frame_of(text);
+}
+
+void LocalServer::send_out(Connection* connection) {
+  while (connection->sent < connection->out.size()) {
+    const ssize_t count = send(connection->socket, connection->out.data() + connection->sent, connection->out.size() - connection->sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EAGAIN) return;
+    if (count <= 0) return close_connection(connection);
+    connection->sent += static_cast<std::size_t>(count);
+    connection->written_ns = now_ns();
+  }
+  connection->out.clear();
+  connection->sent = 0;
+  if (connection->closing) close_connection(connection);
+}
+
+void LocalServer::close_connection(Connection* connection) {
+  if (connection->socket < 0) return;
+  close(connection->socket);
+  connection->socket = -1;
+  connection->session->open = false;
+  for (const Lane lane : {Lane::kCommand, Lane::kData}) {
+    Job job;
+    job.session = connection->session;
+    job.gone = true;
+    post(lane, std::move(job));
+  }
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [&](const auto& entry) { return entry.first.first == connection->session->number; });
+}
+
+// Gives the answers of the other threads to their connections.
+void LocalServer::deliver() {
+  std::deque<Answer> answers;
+  {
+    const std::lock_guard lock(mutex_);
+    answers.swap(answers_);
+  }
+  for (const Answer& answer : answers)
+    for (const auto& connection : connections_) {
+      if (connection->socket < 0 || connection->session->number != answer.session) continue;
+      --connection->outstanding;
+      put(connection.get(), answer.frame);
+    }
+  for (const auto& connection : connections_)
+    if (connection->socket >= 0) take_frames(connection.get());
+}
+
+// ---- the threads that execute ----
+
+void LocalServer::post(Lane lane, Job job) {
+  Worker& worker = lane == Lane::kCommand ? command_ : data_;
+  {
+    const std::lock_guard lock(worker.mutex);
+    worker.jobs.push_back(std::move(job));
+  }
+  worker.wake.notify_one();
+}
+
+void LocalServer::work(Worker* worker, Lane lane) {
+  for (;;) {
+    Job job;
+    {
+      std::unique_lock lock(worker->mutex);
+      worker->wake.wait(lock, [&] { return worker->stop || !worker->jobs.empty(); });
+      if (worker->jobs.empty()) return;  // it stops only when everything was executed, so that uploads are removed
+      job = std::move(worker->jobs.front());
+      worker->jobs.pop_front();
+    }
+    execute(job, lane);
+  }
+}
+
+void LocalServer::execute(const Job& job, Lane lane) {
+  if (job.gone) return lane == Lane::kCommand ? services_.command_gone(*job.session) : services_.data_gone(*job.session);
+  if (!job.session->open) return;  // its client has gone before its turn came
+  if (lane == Lane::kCommand) return execute_command(job);
+  answer(job.session->number, job.call.id, services_.data(*job.session, job.call));
+}
+
+void LocalServer::execute_command(const Job& job) {
+  Session* session = job.session.get();
+  std::uint64_t sequence = 0;
+  const auto expect = [&](std::uint64_t number) {
+    sequence = number;
+    const std::lock_guard lock(mutex_);
+    waiting_[{session->number, number}] = job.call.id;
+  };
+  Outcome outcome;
+  if (!services_.command(session, job.call, expect, &outcome)) return;
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.erase({session->number, sequence});
+  }
+  answer(session->number, job.call.id, outcome);
+}
+
+void LocalServer::settled(const share::Ack& ack) {
+  std::uint64_t id = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = waiting_.find({ack.writer, ack.sequence});
+    if (found == waiting_.end()) return;  // its client has gone
+    id = found->second;
+    waiting_.erase(found);
+  }
+  answer(ack.writer, id, Services::outcome_of(ack));
+}
+
+void LocalServer::answer(std::uint64_t session, std::uint64_t id, const Outcome& outcome) {
+  {
+    const std::lock_guard lock(mutex_);
+    answers_.push_back({session, encode_reply(id, outcome)});
+  }
+  wake_up();
+}
+
+}  // namespace nc::rt::services

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The services on a local socket. Each connection has the rights of its peer (rights.hpp) until it ends; a peer without any right is told so and put out.
+//
+// Nothing here waits for a client. One thread moves the bytes of all connections, two others execute what takes time (Lane). A connection has at most kOutstanding
+// requests without an answer, and at most kMostOut bytes of answers that it has not read; above that nothing more is read from it. One that does not read its
+// answers, or does not end a frame that it has begun, is closed after kPatienceNs. A frame that is too long ends the connection. What a client has begun ends
+// with it: control, jogs, uploads.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "runtime/rt_thread.hpp"
+#include "runtime/services/frames.hpp"
+#include "runtime/services/services.hpp"
+
+namespace nc::rt::services {
+
+inline constexpr std::size_t kLongestSocketPath = 107;  // of sockaddr_un
+
+// The path of the socket of a control: as configured; else in the folder that the service manager gives (RUNTIME_DIRECTORY) or that the user's session has
+// (XDG_RUNTIME_DIR); "" = there is none. `share`: name of the control.
+std::string socket_path(const ServicesConfig& config, const std::string& share);
+
+class LocalServer {
+ public:
+  // What rights a peer has.
+  using Judge = std::function<RightSet(const Credentials&)>;
+
+  static constexpr unsigned kConnections = 64, kPerUser = 24, kOutstanding = 8;
+  static constexpr std::size_t kMostOut = 1u << 20;
+  static constexpr std::int64_t kPatienceNs = 10'000'000'000;
+
+  // `services` must outlive the server. `control`: name of the control, for the greeting.
+  LocalServer(Services* services, std::string control, Judge judge);
+  ~LocalServer() { stop(); }
+  LocalServer(const LocalServer&) = delete;
+  LocalServer& operator=(const LocalServer&) = delete;
+
+  // Makes the socket. A path at which a living process listens is refused. False with a sentence in *error.
+  bool open(const std::string& path, std::string* error);
+  // Starts the threads. False with a sentence in *error.
+  bool start(std::string* error);
+  void stop();
+  // The commands of local clients that were answered later. Any thread.
+  void settled(const share::Ack& ack);
+
+ private:
+  struct Connection {
+    int socket = -1;
+    std::shared_ptr<Session> session;
+    FrameReader in;
+    std::string out;
+    std::size_t sent = 0;      // bytes of `out` that were sent
+    unsigned outstanding = 0;  // requests without an answer
+    std::int64_t read_ns = 0, written_ns = 0;  // since when the rest of a frame, or a reader, is waited for
+    bool closing = false;      // nothing more is read; the connection ends when everything was sent
+  };
+  struct Job {
+    std::shared_ptr<Session> session;
+    Call call;
+    bool gone = false;  // the client has gone, and there is no call
+  };
+  // A thread with a queue. It is bounded, because each connection has a bounded number of requests.
+  struct Worker {
+    RtThread thread;
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::deque<Job> jobs;
+    bool stop = false;
+  };
+  struct Answer {
+    std::uint64_t session;
+    std::string frame;
+  };
+
+  void serve();
+  void greet();
+  void turn(Connection* connection, short events);
+  void receive(Connection* connection);
+  void take_frames(Connection* connection);
+  void take(Connection* connection, const std::string& frame);
+  void send_out(Connection* connection);
+  void put(Connection* connection, const std::string& text);
+  void close_connection(Connection* connection);
+  void deliver();
+  bool late(const Connection& connection, std::int64_t now_ns) const;
+  void work(Worker* worker, Lane lane);
+  void execute(const Job& job, Lane lane);
+  void execute_command(const Job& job);
+  void answer(std::uint64_t session, std::uint64_t id, const Outcome& outcome);
+  void post(Lane lane, Job job);
+  void wake_up();
+
+  Services& services_;
+  const std::string control_;
+  const Judge judge_;
+  std::string path_;
+  int listen_ = -1, wake_ = -1;
+  bool started_ = false;
+  RtThread thread_;
+  Worker command_, data_;
+  std::vector<std::unique_ptr<Connection>> connections_;
+  std::uint64_t next_session_ = 1;
+  bool full_ = false;  // no descriptors are left: nobody is let in for a while
+
+  std::mutex mutex_;  // guards what follows
+  bool stop_ = false;
+  std::deque<Answer> answers_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> waiting_;  // (session, sequence) of a command -> id of its request
+};
+
+}  // namespace nc::rt::services

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of services. See service_table.hpp.
+#include "runtime/services/service_table.hpp"
+
+#include <array>
+
+#include "runtime/share/intake.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+using share::Intake;
+using share::RequestKind;
+
+constexpr double kMost32 = 2147483647.0;
+constexpr double kMostPercent = 10.0 * 100;  // nc_config::max_feed_override
+constexpr double kMostOffset = 1e6;  // mm, as in the configuration
+constexpr double kMostSize = 9007199254740992.0;  // bytes; whole numbers up to here are exact
+
+// In the order of Field.
+constexpr FieldInfo kFieldTable[] = {
+    {Field::kSystem, "system", Kind::kWhole, 0, NC_MAX_SYSTEMS, "", "part system, from 1; 0 = all of them, where that is possible"},
+    {Field::kLease, "lease_ms", Kind::kWhole, Intake::kMinLeaseMs, Intake::kMaxLeaseMs, "ms", "control ends when nothing has come from the client for this time; 2000 when it is not given"},
+    {Field::kLifespan, "lifespan_ms", Kind::kWhole, 1, Intake::kMaxLifespanMs, "ms", "a command that is older than this when its turn comes is not executed; 2000 when it is not given"},
+    {Field::kMode, "mode", Kind::kText, 1, 8, "", "auto, mdi or manual"},
+    {Field::kPercent, "percent", Kind::kNumber, 0, kMostPercent, "%", "override; the machine's configuration has the largest one"},
+    {Field::kOn, "on", Kind::kFlag, 0, 1, "", "on or off"},
+    {Field::kAxis, "axis", Kind::kText, 1, 1, "", "name of an axis of the part system"},
+    {Field::kVelocity, "velocity", Kind::kNumber, -1e6, 1e6, "mm/s, deg/s", "velocity with its sign; 0 stops. To be repeated within 200 scans, else the axis stops"},
+    {Field::kBlocks, "blocks", Kind::kText, 1, share::kMdiText - 2, "", "blocks of a program, separated by line ends"},
+    {Field::kFile, "name", Kind::kName, 1, 127, "", "name of a program in the folder of programs"},
+    {Field::kDevice, "device", Kind::kText, 1, 64, "", "device of the ladder, or a signal's name"},
+    {Field::kDeviceValue, "value", Kind::kWhole, -2147483648.0, 4294967295.0, "", "value at which the device is held"},
+    {Field::kFrom, "from", Kind::kWhole, 0, kMost32, "", "the list begins with this number, or behind so many entries; 0 when it is not given"},
+    {Field::kCount, "count", Kind::kWhole, 1, 500, "", "entries of the list at most; 500 when it is not given"},
+    {Field::kTool, "number", Kind::kWhole, 1, 999, "", "number of a tool offset set"},
+    {Field::kLength, "length", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "tool length"},
+    {Field::kLengthWear, "length_wear", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "wear of the length"},
+    {Field::kRadius, "radius", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "tool radius"},
+    {Field::kRadiusWear, "radius_wear", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "wear of the radius"},
+    {Field::kOffset, "index", Kind::kWhole, 0, 400, "", "set of work offsets: 0 the external one, 1 to 6 the six of every control, 100 + n the nth of the further ones"},
+    {Field::kValue, "value", Kind::kNumber, -kMostOffset, kMostOffset, "mm, deg", "value of the offset"},
+    {Field::kVariable, "number", Kind::kWhole, 1, kMost32, "", "number of a common variable"},
+    {Field::kVariableValue, "value", Kind::kNumber, -1e15, 1e15, "", "value of the variable"},
+    {Field::kVacant, "vacant", Kind::kFlag, 0, 1, "", "true: the variable becomes vacant, and there is no value"},
+    {Field::kParameter, "key", Kind::kText, 1, 23, "", "number or name of a parameter in the manual"},
+    {Field::kText, "value", Kind::kText, 1, 63, "", "value in the manual's units: a number, or a word of the manual"},
+    {Field::kNewName, "new_name", Kind::kName, 1, 127, "", "new name, in the same folder"},
+    {Field::kBegin, "begin", Kind::kWhole, 0, kMostSize, "bytes", "place of the first byte, from 0"},
+    {Field::kBytes, "bytes", Kind::kWhole, 1, kChunkBytes, "bytes", "number of bytes at most"},
+    {Field::kSize, "size", Kind::kWhole, 0, kMostSize, "bytes", "bytes of the whole program"},
+    {Field::kHash, "sha256", Kind::kText, 64, 64, "", "SHA-256 of the whole program, 64 hexadecimal digits"},
+    {Field::kReplace, "replace", Kind::kFlag, 0, 1, "", "true: a program of this name is replaced; otherwise it is refused"},
+    {Field::kUpload, "upload", Kind::kWhole, 1, kMost32, "", "number that programs.begin gave"},
+    {Field::kData, "data", Kind::kData, 1, kChunkBytes, "bytes", "bytes in base64"},
+};
+static_assert(std::size(kFieldTable) == kFields);
+
+constexpr Wanted must(Field field) { return {field, true}; }
+constexpr Wanted may(Field field) { return {field, false}; }
+
+// ---- requests ----
+constexpr Wanted kPage[] = {may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kSystemPage[] = {may(Field::kSystem), may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kReadArguments[] = {must(Field::kFile), must(Field::kBegin), must(Field::kBytes)};
+constexpr Wanted kLeaseOnly[] = {may(Field::kLease)};
+constexpr Wanted kCommandOnly[] = {may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kLifespanOnly[] = {may(Field::kLifespan)};
+constexpr Wanted kModeArguments[] = {must(Field::kMode), may(Field::kLifespan)};
+constexpr Wanted kPercentArguments[] = {must(Field::kPercent), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kOnArguments[] = {must(Field::kOn), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kJogArguments[] = {must(Field::kAxis), must(Field::kVelocity), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kMdiArguments[] = {must(Field::kBlocks), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kSelectArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear)};
+constexpr Wanted kOffsetArguments[] = {must(Field::kOffset), must(Field::kAxis), must(Field::kValue), may(Field::kSystem)};
+constexpr Wanted kVariableArguments[] = {must(Field::kVariable), may(Field::kVariableValue), may(Field::kVacant), may(Field::kSystem)};
+constexpr Wanted kBeginArguments[] = {must(Field::kFile), must(Field::kSize), must(Field::kHash), may(Field::kReplace)};
+constexpr Wanted kDataArguments[] = {must(Field::kUpload), must(Field::kBegin), must(Field::kData)};
+constexpr Wanted kUploadOnly[] = {must(Field::kUpload)};
+constexpr Wanted kRenameArguments[] = {must(Field::kFile), must(Field::kNewName)};
+constexpr Wanted kFileOnly[] = {must(Field::kFile)};
+constexpr Wanted kForceArguments[] = {must(Field::kDevice), must(Field::kDeviceValue), may(Field::kLifespan)};
+constexpr Wanted kReleaseArguments[] = {may(Field::kDevice), may(Field::kLifespan)};
+constexpr Wanted kParameterArguments[] = {must(Field::kParameter), must(Field::kText), may(Field::kAxis), may(Field::kSystem)};
+constexpr Wanted kProtectArguments[] = {must(Field::kFile), must(Field::kOn)};
+
+// ---- replies ----
+constexpr ReplyRow kDoneReply[] = {{"text", "text", "what there is to say about it, often nothing: \"of all part systems\""}};
+constexpr ReplyRow kRightsReply[] = {{"client", "text", "the name under which this connection may have control"},
+                                     {"rights[]", "text", "view, operate, set up, maintain"},
+                                     {"control", "text", "the client that has control, empty = nobody"}};
+constexpr ReplyRow kServicesReply[] = {{"services[].name", "text", "name of the service"},
+                                       {"services[].right", "text", "the right that it needs"},
+                                       {"services[].meaning", "text", "what it does"},
+                                       {"services[].request[].name", "text", "member of `args`"},
+                                       {"services[].request[].type", "text", "number, whole, flag, text, name or data"},
+                                       {"services[].request[].required", "flag", "the member must be there"}};
+constexpr ReplyRow kMachineReply[] = {{"machine", "text", "name of the machine in its configuration"},
+                                      {"control", "text", "name of the control, as in DDS"},
+                                      {"version", "text", "of libnc"},
+                                      {"cycle_us", "whole", "period of the scan"},
+                                      {"max_feed_override_percent", "number", "largest feed override"},
+                                      {"systems[].axes[].name", "text", "name of the axis"},
+                                      {"systems[].axes[].rotary", "flag", "in degrees, otherwise in mm"},
+                                      {"systems[].axes[].max_velocity", "number", "mm/s or deg/s"},
+                                      {"systems[].axes[].soft_limits[]", "number", "lower and upper limit in machine coordinates; no member = none"}};
+constexpr ReplyRow kStatusReply[] = {{"scan", "whole", "number of the scan that is shown"},
+                                     {"time_ns", "whole", "time of day at its start, ns since 1970"},
+                                     {"mode", "text", "auto, mdi or manual"},
+                                     {"resetting", "flag", "a reset is going on"},
+                                     {"alarms", "whole", "number of active alarms; warnings do not count"},
+                                     {"warnings", "whole", "number of active warnings"},
+                                     {"control", "text", "the client that has control, empty = nobody"},
+                                     {"forced[].device", "text", "device of the ladder that is held"},
+                                     {"forced[].value", "whole", "value at which it is held"},
+                                     {"systems[].system", "whole", "part system, from 1"},
+                                     {"systems[].state", "text", "idle, running, hold, stopped, alarm or manual"},
+                                     {"systems[].state_text", "text", "the same in words, with the reason when nothing moves"},
+                                     {"systems[].program", "text", "main program, \"MDI\", empty = none"},
+                                     {"systems[].ready", "flag", "a program is selected, at its head or running"},
+                                     {"systems[].file", "text", "file of the block in execution"},
+                                     {"systems[].line", "whole", "its line"},
+                                     {"systems[].block", "text", "its text"},
+                                     {"systems[].main_line", "whole", "line of the main program that is in execution or was finished last"},
+                                     {"systems[].lines", "whole", "lines of the main program, 0 = not known"},
+                                     {"systems[].percent", "whole", "part of the main program that is done"},
+                                     {"systems[].runs", "whole", "number of programs that came to their end"},
+                                     {"systems[].run_s", "number", "time in execution since the start, s"},
+                                     {"systems[].modal", "text", "codes in force after the last finished block"},
+                                     {"systems[].m", "whole", "last M code"},
+                                     {"systems[].t", "whole", "last T code"},
+                                     {"systems[].s", "number", "commanded speed of the spindle, 1/min"},
+                                     {"systems[].spindle", "number", "measured speed, 1/min; no member = nothing measures it"},
+                                     {"systems[].feed", "number", "feed, mm/min"},
+                                     {"systems[].feed_commanded", "number", "commanded feed, mm/min"},
+                                     {"systems[].feed_override_percent", "number", "override in force"},
+                                     {"systems[].rapid_override_percent", "number", "override in force"},
+                                     {"systems[].single_block", "flag", "single block is on"},
+                                     {"systems[].optional_stop", "flag", "optional stop is on"},
+                                     {"systems[].message", "text", "last message of a program"},
+                                     {"systems[].refusal", "text", "why something that was asked for at the panel did not happen, empty = nothing"},
+                                     {"systems[].axes[].name", "text", "name of the axis"},
+                                     {"systems[].axes[].machine", "number", "commanded position in machine coordinates, mm or deg"},
+                                     {"systems[].axes[].actual", "number", "measured position in machine coordinates"},
+                                     {"systems[].axes[].work", "number", "commanded position in workpiece coordinates"},
+                                     {"systems[].axes[].to_go", "number", "distance to go"},
+                                     {"systems[].axes[].velocity", "number", "mm/s or deg/s"}};
+#define NC_ENTRY_ROWS                                                                                  \
+  {"alarms[].sequence", "whole", "number of this occurrence, from 1"},                                 \
+      {"alarms[].code", "text", "the manual's code"},                                                  \
+      {"alarms[].text", "text", "what is wrong"},                                                      \
+      {"alarms[].axis", "text", "axis, empty = none"},                                                 \
+      {"alarms[].system", "whole", "part system, from 1"},                                             \
+      {"alarms[].line", "whole", "line of the block that was in execution, 0 = none"},                 \
+      {"alarms[].warning", "flag", "lets a program go on to its end"},                                 \
+      {"alarms[].message", "flag", "a message and no alarm"},                                          \
+      {"alarms[].raised_ns", "whole", "time of day, ns since 1970"},                                   \
+      {"alarms[].cleared_ns", "whole", "time of day at its end, 0 = active"}
+constexpr ReplyRow kAlarmsReply[] = {NC_ENTRY_ROWS, {"left_out", "whole", "active alarms that are not in the list, which holds 16"}};
+constexpr ReplyRow kHistoryReply[] = {NC_ENTRY_ROWS, {"last", "whole", "number of the newest occurrence"}};
+#undef NC_ENTRY_ROWS
+constexpr ReplyRow kChangesReply[] = {{"changes[].time_ns", "whole", "time of day, ns since 1970"},
+                                      {"changes[].user", "text", "name of the user, or his number when it has no name"},
+                                      {"changes[].client", "text", "name of the client"},
+                                      {"changes[].service", "text", "service that was used"},
+                                      {"changes[].what", "text", "what was changed"},
+                                      {"changes[].before", "text", "its value before, empty = none"},
+                                      {"changes[].after", "text", "its value after it, empty = none"}};
+constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
+                                    {"tools[].length", "number", "mm"},
+                                    {"tools[].length_wear", "number", "mm"},
+                                    {"tools[].radius", "number", "mm"},
+                                    {"tools[].radius_wear", "number", "mm"},
+                                    {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kOffsetsReply[] = {{"offsets[].system", "whole", "part system, from 1"},
+                                      {"offsets[].index", "whole", "set of work offsets"},
+                                      {"offsets[].axes[].name", "text", "name of the axis"},
+                                      {"offsets[].axes[].value", "number", "mm or deg"},
+                                      {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kVariablesReply[] = {{"variables[].number", "whole", "number of the variable; those that are vacant are not in the list"},
+                                        {"variables[].value", "number", "its value"},
+                                        {"variables[].name", "text", "its name, empty = none"},
+                                        {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kParametersReply[] = {{"parameters[].key", "text", "number or name in the manual; those that are not set are not in the list"},
+                                         {"parameters[].system", "whole", "part system, from 1"},
+                                         {"parameters[].axis", "text", "name of the axis, empty = all axes"},
+                                         {"parameters[].value", "text", "in the manual's units"},
+                                         {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the file"},
+                                       {"programs[].size", "whole", "bytes"},
+                                       {"programs[].modified_ns", "whole", "time of day of the last change, ns since 1970"},
+                                       {"programs[].protected", "flag", "cannot be changed before its protection is taken away"},
+                                       {"programs[].selected", "flag", "selected in a part system"},
+                                       {"bytes", "whole", "of all programs together"},
+                                       {"most_bytes", "whole", "that all programs may have together"},
+                                       {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kReadReply[] = {{"data", "data", "bytes in base64"},
+                                   {"size", "whole", "bytes of the whole program"},
+                                   {"modified_ns", "whole", "time of its last change; when it differs between two pieces, the program was changed meanwhile"}};
+constexpr ReplyRow kBeginReply[] = {{"upload", "whole", "number of the upload, for this connection"}, {"bytes", "whole", "of one piece at most"}};
+constexpr ReplyRow kDataReply[] = {{"begin", "whole", "place of the next byte"}};
+
+constexpr RequestKind kNo = RequestKind::kCount;
+
+// In the order of Service.
+constexpr ServiceRow kRows[] = {
+    {Service::kRights, "rights", Right::kView, Lane::kNow, kNo, {}, kRightsReply, "who the client is, and what it may do"},
+    {Service::kServices, "services", Right::kView, Lane::kNow, kNo, {}, kServicesReply, "this table"},
+    {Service::kMachine, "machine", Right::kView, Lane::kNow, kNo, {}, kMachineReply, "what does not change while ncrtd runs: axes, limits, period"},
+    {Service::kStatus, "status", Right::kView, Lane::kNow, kNo, {}, kStatusReply, "one consistent picture of the machine, at most 10 ms old"},
+    {Service::kAlarms, "alarms", Right::kView, Lane::kNow, kNo, {}, kAlarmsReply, "the active alarms and warnings"},
+    {Service::kHistory, "history", Right::kView, Lane::kNow, kNo, kPage, kHistoryReply, "the last alarms and messages, the newest first; at most 256 are kept"},
+    {Service::kChanges, "changes", Right::kView, Lane::kData, kNo, kPage, kChangesReply, "who has changed what through the services, the newest first"},
+    {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them"},
+    {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
+    {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
+    {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kSystemPage, kParametersReply, "the parameters that are set"},
+    {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
+    {Service::kProgramRead, "programs.read", Right::kView, Lane::kData, kNo, kReadArguments, kReadReply, "a piece of a program"},
+
+    {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
+     "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
+    {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end"},
+    {Service::kStart, "start", Right::kOperate, Lane::kCommand, RequestKind::kCycleStart, kCommandOnly, kDoneReply, "cycle start; the reply comes when the program runs"},
+    {Service::kHold, "hold", Right::kOperate, Lane::kCommand, RequestKind::kFeedHold, kCommandOnly, kDoneReply, "feed hold; the reply comes when the axes stand. It needs no control"},
+    {Service::kReset, "reset", Right::kOperate, Lane::kCommand, RequestKind::kReset, kLifespanOnly, kDoneReply, "reset of all part systems; the reply comes when it is done"},
+    {Service::kSetMode, "mode", Right::kOperate, Lane::kCommand, RequestKind::kSetMode, kModeArguments, kDoneReply, "mode of the control"},
+    {Service::kFeedOverride, "override.feed", Right::kOperate, Lane::kCommand, RequestKind::kFeedOverride, kPercentArguments, kDoneReply, "feed override of the operator"},
+    {Service::kRapidOverride, "override.rapid", Right::kOperate, Lane::kCommand, RequestKind::kRapidOverride, kPercentArguments, kDoneReply, "rapid override of the operator, at most 100"},
+    {Service::kSingleBlock, "single", Right::kOperate, Lane::kCommand, RequestKind::kSingleBlock, kOnArguments, kDoneReply, "single block"},
+    {Service::kOptionalStop, "optional", Right::kOperate, Lane::kCommand, RequestKind::kOptionalStop, kOnArguments, kDoneReply, "optional stop"},
+    {Service::kJog, "jog", Right::kOperate, Lane::kCommand, RequestKind::kJog, kJogArguments, kDoneReply, "moves an axis by hand, in mode manual"},
+    {Service::kMdi, "mdi", Right::kOperate, Lane::kCommand, RequestKind::kMdi, kMdiArguments, kDoneReply, "loads blocks, in mode mdi; a start executes them"},
+    {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto"},
+
+    {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
+    {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},
+    {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable, or makes it vacant"},
+    {Service::kProgramBegin, "programs.begin", Right::kSetUp, Lane::kData, kNo, kBeginArguments, kBeginReply, "begins to write a program; nobody sees it before programs.finish"},
+    {Service::kProgramData, "programs.data", Right::kSetUp, Lane::kData, kNo, kDataArguments, kDataReply, "the next piece; pieces come in their order"},
+    {Service::kProgramFinish, "programs.finish", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "compares size and SHA-256, brings the program to the disk and puts it in its place"},
+    {Service::kProgramAbandon, "programs.abandon", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "drops what was written; the end of the connection does that as well"},
+    {Service::kProgramRename, "programs.rename", Right::kSetUp, Lane::kData, kNo, kRenameArguments, kDoneReply, "gives a program another name that is free"},
+    {Service::kProgramDelete, "programs.delete", Right::kSetUp, Lane::kData, kNo, kFileOnly, kDoneReply, "deletes a program"},
+
+    {Service::kForce, "force", Right::kMaintain, Lane::kCommand, RequestKind::kForce, kForceArguments, kDoneReply, "holds a device of the ladder at a value until it is released"},
+    {Service::kRelease, "release", Right::kMaintain, Lane::kCommand, RequestKind::kReleaseForce, kReleaseArguments, kDoneReply, "lets a device go; without one, all of them"},
+    {Service::kSetParameter, "parameters.set", Right::kMaintain, Lane::kData, kNo, kParameterArguments, kDoneReply, "sets a parameter"},
+    {Service::kProgramProtect, "programs.protect", Right::kMaintain, Lane::kData, kNo, kProtectArguments, kDoneReply, "protects a program against every change, or takes its protection away"},
+};
+static_assert(std::size(kRows) == kServiceRows);
+
+constexpr bool in_order() {
+  for (unsigned i = 0; i < kFields; ++i)
+    if (static_cast<unsigned>(kFieldTable[i].field) != i) return false;
+  for (unsigned i = 0; i < kServiceRows; ++i)
+    if (static_cast<unsigned>(kRows[i].service) != i || (kRows[i].lane == Lane::kCommand) != (kRows[i].command != kNo)) return false;
+  return true;
+}
+static_assert(in_order());
+
+}  // namespace
+
+const char* kind_name(Kind kind) {
+  switch (kind) {
+    case Kind::kNumber: return "number";
+    case Kind::kWhole: return "whole";
+    case Kind::kFlag: return "flag";
+    case Kind::kText: return "text";
+    case Kind::kName: return "name";
+    case Kind::kData: return "data";
+  }
+  return "?";
+}
+
+std::span<const ServiceRow> service_table() { return kRows; }
+
+const ServiceRow* find_service(std::string_view name) {
+  for (const ServiceRow& row : kRows)
+    if (name == row.name) return &row;
+  return nullptr;
+}
+
+const ServiceRow& row_of(Service service) { return kRows[static_cast<unsigned>(service)]; }
+const FieldInfo& row_of(Field field) { return kFieldTable[static_cast<unsigned>(field)]; }
+
+}  // namespace nc::rt::services

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one table of services: the name of each, the right that it needs, what a request holds, what a reply holds, and what it means. The decoder of requests,
+// ncctl with its manual page and its completion, and docs/services.md come from it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "runtime/services/rights.hpp"
+#include "runtime/share/layout.hpp"
+
+namespace nc::rt::services {
+
+// A field of requests. It has the same meaning and the same limits in each of them.
+enum class Field : std::uint8_t {
+  kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
+  kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kFields
+};
+inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
+
+enum class Kind : std::uint8_t { kNumber, kWhole, kFlag, kText, kName, kData };
+const char* kind_name(Kind kind);
+
+struct FieldInfo {
+  Field field;
+  const char* name;
+  Kind kind;
+  double least, most;  // numbers: the range; texts: the number of bytes; data: the number of bytes before their encoding
+  const char* unit;
+  const char* meaning;
+};
+
+struct Wanted {
+  Field field;
+  bool required;
+};
+
+// A member of a reply. "tools[].number" is the member `number` of each element of the array `tools`.
+struct ReplyRow {
+  const char* path;
+  const char* type;
+  const char* meaning;
+};
+
+enum class Service : std::uint8_t {
+  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kChanges, kTools, kOffsets, kVariables, kParameters, kPrograms, kProgramRead,
+  kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
+  kSetTool, kSetOffset, kSetVariable, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
+  kForce, kRelease, kSetParameter, kProgramProtect, kServiceCount
+};
+inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);
+
+// Where a service is executed: kNow in the thread of the sockets, because it only copies what is there; the other ones in a thread each, so that a command does
+// not wait for the data of a program.
+enum class Lane : std::uint8_t { kNow, kCommand, kData };
+
+struct ServiceRow {
+  Service service;
+  const char* name;  // with a point between two words: "programs.list"
+  Right right;
+  Lane lane;
+  share::RequestKind command;  // of the intake, for Lane::kCommand
+  std::span<const Wanted> request;
+  std::span<const ReplyRow> reply;
+  const char* meaning;
+};
+
+std::span<const ServiceRow> service_table();
+const ServiceRow* find_service(std::string_view name);
+const ServiceRow& row_of(Service service);
+const FieldInfo& row_of(Field field);
+
+// Bounds of the protocol.
+inline constexpr std::size_t kChunkBytes = 256 * 1024;            // of a program, in one request or reply
+inline constexpr std::size_t kMostFrameBytes = 512 * 1024;        // of one request or reply, without its length
+inline constexpr std::uint32_t kProtocol = 1;
+
+}  // namespace nc::rt::services

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// See services.hpp.
+#include "runtime/services/services.hpp"
+
+#include <algorithm>
+
+#include "runtime/services/shown.hpp"
+#include "runtime/services/tables.hpp"
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+constexpr std::uint32_t kDefaultLifespanMs = 2000;
+constexpr std::uint64_t kMega = 1u << 20;
+
+StoreLimits limits_of(const Config& config) {
+  return {config.services.program_mb * kMega, config.services.programs_mb * kMega, config.program_text.copy_bytes};
+}
+
+Refused refused_of(const share::Ack& ack) {
+  using share::AckReason;
+  switch (static_cast<AckReason>(ack.reason)) {
+    case AckReason::kMalformed:
+    case AckReason::kUnknownKind:
+    case AckReason::kOutOfOrder:
+      return Refused::kMalformed;
+    case AckReason::kLate:
+      return Refused::kLate;
+    case AckReason::kNoControl:
+      return Refused::kNoControl;
+    case AckReason::kOverflow:
+    case AckReason::kTooManyClients:
+    case AckReason::kClientInUse:
+      return Refused::kBusy;
+    case AckReason::kNotReached:
+      return Refused::kNotReached;
+    default:
+      return Refused::kState;
+  }
+}
+
+}  // namespace
+
+Services::Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment)
+    : runtime_(*runtime),
+      programs_(*programs),
+      desk_(*desk),
+      segment_(*segment),
+      store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this] { return use(); }),
+      log_(runtime->config().changes_path()) {}
+
+void Services::open(std::string* warning) {
+  store_.clean();
+  std::string error;
+  if (!log_.open(&error)) *warning = "changes through the services are not written down: " + error;
+}
+
+std::string Services::lack(const Session& session, const ServiceRow& row) {
+  return session.rights.has(row.right) ? "" : std::string(row.name) + " needs the right to " + right_name(row.right);
+}
+
+Outcome Services::show(const Session& session, const Call& call) const {
+  if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
+  const auto hung = Outcome::refused(Refused::kFailed, "the state cannot be read");
+  switch (call.row->service) {
+    case Service::kRights: {
+      Json rights = Json::array();
+      for (unsigned right = 0; right < kRightCount; ++right)
+        if (session.rights.has(static_cast<Right>(right))) rights.push_back(right_name(static_cast<Right>(right)));
+      return Outcome::with({{"client", session.client}, {"rights", std::move(rights)}, {"control", desk_.controlling()}});
+    }
+    case Service::kServices:
+      return Outcome::with(services_json());
+    case Service::kMachine:
+      return Outcome::with(machine_json(segment_.machine));
+    case Service::kHistory: {
+      const auto block = std::make_unique<share::HistoryBlock>();
+      if (!segment_.history.load(block.get())) return hung;
+      return Outcome::with(history_json(*block, static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, share::kHistory))));
+    }
+    default: {
+      const auto block = std::make_unique<share::StatusBlock>();
+      if (!segment_.status.load(block.get())) return hung;
+      return Outcome::with(call.row->service == Service::kAlarms ? alarms_json(*block) : status_json(*block, segment_.machine, desk_.controlling()));
+    }
+  }
+}
+
+// ---- commands ----
+
+// The command as the intake takes it. Its rules check what it holds; here only names become numbers.
+bool Services::fill(const Call& call, share::Request* request, Outcome* outcome) const {
+  const Config& config = runtime_.config();
+  const share::RequestKind kind = call.row->command;
+  const bool one = kind == share::RequestKind::kJog || kind == share::RequestKind::kMdi || kind == share::RequestKind::kSelectProgram;
+  const auto system = static_cast<unsigned>(call.value_or(Field::kSystem, one ? 1 : 0));
+  request->kind = static_cast<std::uint32_t>(kind);
+  request->system = system == 0 ? share::kEverySystem : system - 1;
+  request->lifespan_ms = static_cast<std::uint32_t>(call.value_or(Field::kLifespan, kDefaultLifespanMs));
+  request->lease_ms = static_cast<std::uint32_t>(call.value_or(Field::kLease, 0));
+  request->expected_mode = request->expected_run_state = share::kAny;
+  if (call.has(Field::kMode)) {
+    constexpr const char* kModes[] = {"auto", "mdi", "manual"};  // in the order of Mode
+    const auto mode = std::find(std::begin(kModes), std::end(kModes), call.words(Field::kMode));
+    if (mode == std::end(kModes)) {
+      *outcome = Outcome::refused(Refused::kMalformed, "mode must be auto, mdi or manual");
+      return false;
+    }
+    request->number = static_cast<std::uint32_t>(mode - std::begin(kModes));
+  }
+  if (call.has(Field::kOn)) request->number = call.flag(Field::kOn) ? 1 : 0;
+  if (call.has(Field::kPercent)) request->value = call.value(Field::kPercent) / 100;
+  if (call.has(Field::kVelocity)) request->value = call.value(Field::kVelocity);
+  if (call.has(Field::kDeviceValue)) request->value = call.value(Field::kDeviceValue);
+  if (call.has(Field::kAxis) && request->system < config.nc.system_count) {
+    const nc_system_config& axes = config.nc.system[request->system];
+    while (request->axis < axes.axis_count && axes.axis[request->axis].name != call.words(Field::kAxis)[0]) ++request->axis;
+  }
+  for (const Field field : {Field::kBlocks, Field::kFile, Field::kDevice})
+    if (call.has(field)) share::set_text(&request->text, call.words(field));
+  return true;
+}
+
+bool Services::command(Session* session, const Call& call, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome) {
+  if (const std::string lacks = lack(*session, *call.row); !lacks.empty()) {
+    *outcome = Outcome::refused(Refused::kNoRight, lacks);
+    return true;
+  }
+  const auto request = std::make_unique<share::Request>();
+  if (!fill(call, request.get(), outcome)) return true;
+  share::set_text(&request->client, session->client);
+  request->writer = session->number;
+  request->sequence = ++session->sequence;
+  request->issued_ns = share::wall_ns();
+  expect(request->sequence);
+  std::vector<share::Ack> acks;
+  desk_.take(*request, {share::wall_ns(), RealClock().now_ns()}, share::Way::kLocal, &acks);
+  if (acks.empty()) {
+    *outcome = Outcome::refused(Refused::kFailed, "the intake does not answer");
+    return true;
+  }
+  if (static_cast<share::AckState>(acks.back().state) == share::AckState::kAccepted) return false;
+  *outcome = outcome_of(acks.back());
+  return true;
+}
+
+Outcome Services::outcome_of(const share::Ack& ack) {
+  const std::string text(share::text_of(ack.text));
+  if (static_cast<share::AckState>(ack.state) == share::AckState::kDone) return Outcome::done(text);
+  return Outcome::refused(refused_of(ack), text);
+}
+
+void Services::command_gone(const Session& session) {
+  const auto request = std::make_unique<share::Request>();
+  request->kind = static_cast<std::uint32_t>(share::RequestKind::kClientGone);
+  request->writer = session.number;
+  share::set_text(&request->client, session.client);
+  std::vector<share::Ack> none;
+  desk_.take(*request, {share::wall_ns(), RealClock().now_ns()}, share::Way::kLocal, &none);
+}
+
+// ---- data ----
+
+ProgramStore::Use Services::use() const {
+  ProgramStore::Use use;
+  const FeederInfo info = runtime_.info();
+  use.active = runtime_.snapshot().program_active();
+  for (unsigned s = 0; s < runtime_.config().nc.system_count; ++s) {
+    const FeederInfo::Selected& selected = info.system[s].selected;
+    if (selected.any && !selected.mdi) use.selected.push_back(share::file_name(programs_.at(selected.file).path));
+  }
+  struct Found {
+    std::vector<std::string> locked;
+  };
+  const auto found = std::make_shared<Found>();
+  const Answer answer = runtime_.look([found, count = runtime_.config().nc.programs](nc_control* control) {
+    for (unsigned file = 0; file < count; ++file) {
+      nc_program_info entry;
+      nc_program_info_init(&entry);
+      if (nc_program_get(control, file, &entry) == NC_OK && entry.is_protected) found->locked.emplace_back(entry.name);
+    }
+  });
+  if (answer == Answer::kDone) use.locked = std::move(found->locked);
+  return use;
+}
+
+Outcome Services::data(const Session& session, const Call& call) {
+  if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
+  switch (call.row->service) {
+    case Service::kChanges:
+      return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500))));
+    case Service::kTools: return list_tools(&runtime_, call);
+    case Service::kOffsets: return list_offsets(&runtime_, call);
+    case Service::kVariables: return list_variables(&runtime_, call);
+    case Service::kParameters: return list_parameters(&runtime_, call);
+    case Service::kSetTool:
+    case Service::kSetOffset:
+    case Service::kSetVariable:
+    case Service::kSetParameter:
+      return change(session, call);
+    default:
+      return program(session, call);
+  }
+}
+
+Outcome Services::change(const Session& session, const Call& call) {
+  Changes changes;
+  Outcome outcome;
+  if (call.row->service == Service::kSetTool) outcome = set_tool(&runtime_, call, &changes);
+  else if (call.row->service == Service::kSetOffset) outcome = set_offset(&runtime_, call, &changes);
+  else if (call.row->service == Service::kSetVariable) outcome = set_variable(&runtime_, call, &changes);
+  else outcome = set_parameter(&runtime_, call, &changes);
+  note(session, call, changes, &outcome);
+  return outcome;
+}
+
+Outcome Services::program(const Session& session, const Call& call) {
+  Change done;
+  const auto noted = [&](Outcome outcome) {
+    if (outcome.ok) note(session, call, {done}, &outcome);
+    return outcome;
+  };
+  done.what = "program " + call.words(Field::kFile);
+  switch (call.row->service) {
+    case Service::kPrograms: return store_.list(call);
+    case Service::kProgramRead: return store_.read(call);
+    case Service::kProgramBegin: return store_.begin(session.number, call);
+    case Service::kProgramData: return store_.data(session.number, call);
+    case Service::kProgramAbandon: return store_.abandon(session.number, call);
+    case Service::kProgramFinish: {
+      std::string name;
+      const Outcome outcome = store_.finish(session.number, call, &name);
+      done.what = "program " + name;
+      return noted(outcome);
+    }
+    case Service::kProgramRename:
+      done.before = call.words(Field::kFile);
+      done.after = call.words(Field::kNewName);
+      return noted(store_.rename(call));
+    case Service::kProgramDelete: return noted(store_.remove(call));
+    case Service::kProgramProtect:
+      done.after = call.flag(Field::kOn) ? "protected" : "not protected";
+      return noted(store_.protect(call));
+    default: return Outcome::refused(Refused::kUnknownService, "there is no such service");
+  }
+}
+
+// Writes down who has changed what. A change that cannot be written down is done all the same, and its answer says that.
+void Services::note(const Session& session, const Call& call, const Changes& changes, Outcome* outcome) {
+  for (Change change : changes) {
+    change.time_ns = share::wall_ns();
+    change.user = user_name(session.user);
+    change.client = session.client;
+    change.service = call.row->name;
+    std::string error;
+    if (!log_.add(change, &error) && outcome->ok) outcome->reply["text"] = "done, but not written down: " + error;
+  }
+}
+
+}  // namespace nc::rt::services

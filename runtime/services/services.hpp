@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Executes calls of the services on a running Runtime. Whether the client has the right is asked here, before anything else, for every way in.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/runtime.hpp"
+#include "runtime/services/call.hpp"
+#include "runtime/services/change_log.hpp"
+#include "runtime/services/program_store.hpp"
+#include "runtime/share/intake_desk.hpp"
+#include "runtime/share/program_table.hpp"
+
+namespace nc::rt::services {
+
+// A client of the services, from its connection to its end.
+struct Session {
+  std::uint64_t number = 0;  // no other session of this process has it
+  std::string client;        // name in the intake: printable ASCII, at most 31 characters
+  uid_t user = 0;
+  RightSet rights;
+  std::atomic<bool> open{true};
+  std::uint64_t sequence = 0;  // of its commands; in the thread of Lane::kCommand
+};
+
+class Services {
+ public:
+  // All must outlive the services. The segment shows the state, and must exist before the first call.
+  Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment);
+  // Prepares the files of the services. A sentence in *warning when changes cannot be written down.
+  void open(std::string* warning);
+
+  // "" = the client may use the service, else what it lacks. Any thread.
+  static std::string lack(const Session& session, const ServiceRow& row);
+
+  // One function for each lane, each to be called in one thread of its own.
+  Outcome show(const Session& session, const Call& call) const;
+  Outcome data(const Session& session, const Call& call);
+  // False: the answer comes later, to IntakeDesk::set_local(), with the session's number as writer and the sequence *sequence. `expect` is called with the sequence
+  // before the command is given, because that answer may come before this function returns.
+  bool command(Session* session, const Call& call, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome);
+
+  // The client is gone. In the thread of the lane.
+  void command_gone(const Session& session);
+  void data_gone(const Session& session) { store_.abandon_all(session.number); }
+
+  static Outcome outcome_of(const share::Ack& ack);
+
+ private:
+  bool fill(const Call& call, share::Request* request, Outcome* outcome) const;
+  ProgramStore::Use use() const;
+  Outcome change(const Session& session, const Call& call);
+  Outcome program(const Session& session, const Call& call);
+  void note(const Session& session, const Call& call, const std::vector<Change>& changes, Outcome* outcome);
+
+  Runtime& runtime_;
+  const share::ProgramTable& programs_;
+  share::IntakeDesk& desk_;
+  const share::Segment& segment_;
+  ProgramStore store_;
+  ChangeLog log_;
+};
+
+}  // namespace nc::rt::services

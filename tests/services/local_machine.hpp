@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated machine in real time with the services on a socket in a folder of its own, and a client.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "hal/sim/sim_machine.hpp"
+#include "runtime/services/local_server.hpp"
+#include "runtime/share/service.hpp"
+#include "runtime/test_config.hpp"
+
+namespace nc::test {
+
+using rt::services::Json;
+
+class ServiceClient {
+ public:
+  explicit ServiceClient(const std::string& path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.data(), std::min(path.size(), sizeof address.sun_path - 1));
+    socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const timeval patience{60, 0};
+    (void)setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) greeting = receive();
+  }
+  ~ServiceClient() { leave(); }
+  ServiceClient(const ServiceClient&) = delete;
+  ServiceClient& operator=(const ServiceClient&) = delete;
+
+  void leave() {
+    if (socket_ >= 0) close(socket_);
+    socket_ = -1;
+  }
+  // False when the server has closed the connection.
+  bool send_bytes(const std::string& bytes) {
+    for (std::size_t sent = 0; sent < bytes.size();) {
+      const ssize_t count = send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      if (count <= 0) return false;
+      sent += static_cast<std::size_t>(count);
+    }
+    return true;
+  }
+  bool ask(std::uint64_t id, const std::string& service, const Json& args = Json::object()) {
+    return send_bytes(rt::services::frame_of(Json{{"id", id}, {"service", service}, {"args", args}}.dump()));
+  }
+  // Sends a request without waiting. False when the server does not take any more.
+  bool offer(std::uint64_t id, const std::string& service) {
+    const std::string frame = rt::services::frame_of(Json{{"id", id}, {"service", service}}.dump());
+    return send(socket_, frame.data(), frame.size(), MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(frame.size());
+  }
+  // The next message; null when the connection has ended.
+  Json receive() {
+    std::string text;
+    char bytes[4096];
+    while (in_.next(&text) != rt::services::FrameReader::Next::kFrame) {
+      const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return nullptr;
+      in_.add({bytes, static_cast<std::size_t>(count)});
+    }
+    return Json::parse(text);
+  }
+  Json call(const std::string& service, const Json& args = Json::object()) {
+    if (!ask(++id_, service, args)) return nullptr;
+    return receive();
+  }
+  // "" = done, else the name of the refusal.
+  std::string outcome(const std::string& service, const Json& args = Json::object()) {
+    const Json message = call(service, args);
+    return message.is_null() ? "no connection" : message["ok"] == true ? "" : message["error"].get<std::string>();
+  }
+
+  Json greeting;
+
+ private:
+  int socket_ = -1;
+  std::uint64_t id_ = 0;
+  rt::services::FrameReader in_;
+};
+
+class LocalMachine : public testing::Test {
+ protected:
+  void SetUp() override {
+    char pattern[] = "/tmp/nc-services-XXXXXX";
+    ASSERT_NE(mkdtemp(pattern), nullptr);
+    folder_ = pattern;
+    std::filesystem::create_directory(folder_ + "/programs");
+    path_ = folder_ + "/control.sock";
+    start();
+  }
+  void TearDown() override {
+    stop();
+    if (!folder_.empty()) std::filesystem::remove_all(folder_);
+  }
+
+  virtual std::string machine_text() {
+    return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nprogram_mb = 4\nprograms_mb = 8\n";
+  }
+  void start() {
+    std::string text = machine_text();
+    text.replace(text.find("name = \"test\"\n"), 0, "programs = \"programs\"\nvariables = \"variables\"\noffsets = \"offsets\"\n");
+    config_ = rt::Config();
+    for (const rt::ConfigError& error : rt::parse_config(text, folder_ + "/machine.toml", &config_)) FAIL() << error.text();
+    sim_ = std::make_unique<hal::SimMachine>(config_.sim, config_.points);
+    std::vector<rt::ConfigError> refused;
+    runtime_ = rt::Runtime::create(config_, {&clock_, sim_.get(), nullptr, nullptr}, &refused);
+    ASSERT_NE(runtime_, nullptr);
+    programs_ = std::make_unique<rt::share::ProgramTable>(static_cast<nc_dialect>(config_.nc.dialect));
+    rt::share::ServiceOptions options;
+    options.name = "unit-s" + std::to_string(getpid());
+    options.local = true;
+    share_ = std::make_unique<rt::share::Service>(runtime_.get(), programs_.get(), nullptr, options);
+    std::string error;
+    ASSERT_TRUE(share_->create(&error)) << error;
+    services_ = std::make_unique<rt::services::Services>(runtime_.get(), programs_.get(), share_->desk(), share_->segment());
+    services_->open(&error);
+    ASSERT_EQ(error, "");
+    server_ = std::make_unique<rt::services::LocalServer>(services_.get(), options.name, [this](const rt::services::Credentials&) {
+      const std::lock_guard lock(mutex_);
+      return rights_;
+    });
+    ASSERT_TRUE(server_->open(path_, &error)) << error;
+    share_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
+    ASSERT_TRUE(runtime_->start(&error)) << error;
+    ASSERT_TRUE(share_->start(&error)) << error;
+    ASSERT_TRUE(server_->start(&error)) << error;
+  }
+  void stop() {
+    if (server_ != nullptr) server_->stop();
+    if (share_ != nullptr) share_->stop();
+    if (runtime_ != nullptr) runtime_->stop();
+    server_.reset();
+    services_.reset();
+    share_.reset();
+    runtime_.reset();
+  }
+  // The rights of clients that connect from now on.
+  void give(std::initializer_list<rt::services::Right> rights) {
+    const std::lock_guard lock(mutex_);
+    rights_ = {};
+    for (const auto right : rights) rights_.add(right);
+  }
+  // Calls the service until its reply fulfils the condition.
+  template <class Condition>
+  Json until(ServiceClient* client, const std::string& service, Condition condition) {
+    for (;;) {
+      const Json reply = client->call(service);
+      if (reply.is_null() || condition(reply["reply"])) return reply.is_null() ? reply : reply["reply"];
+      usleep(5000);
+    }
+  }
+  std::string in_programs(const std::string& name) const { return folder_ + "/programs/" + name; }
+  void write_program(const std::string& name, const std::string& text) const { std::ofstream(in_programs(name), std::ios::binary) << text; }
+
+  std::string folder_, path_;
+  rt::Config config_;
+  rt::RealClock clock_;
+  std::unique_ptr<hal::SimMachine> sim_;
+  std::unique_ptr<rt::Runtime> runtime_;
+  std::unique_ptr<rt::share::ProgramTable> programs_;
+  std::unique_ptr<rt::share::Service> share_;
+  std::unique_ptr<rt::services::Services> services_;
+  std::unique_ptr<rt::services::LocalServer> server_;
+  std::mutex mutex_;
+  rt::services::RightSet rights_ = rt::services::RightSet::all();
+};
+
+}  // namespace nc::test

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// The socket: rights of each service, two that want control, clients that are killed, slow, or send garbage.
+#include "runtime/services/local_server.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <set>
+
+#include "services/local_machine.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+using test::LocalMachine;
+using test::ServiceClient;
+
+// A value for each member that a request must have, so that only the right decides.
+Json arguments_of(const ServiceRow& row) {
+  Json args = Json::object();
+  for (const Wanted& wanted : row.request) {
+    if (!wanted.required) continue;
+    const FieldInfo& field = row_of(wanted.field);
+    switch (field.kind) {
+      case Kind::kNumber:
+      case Kind::kWhole: args[field.name] = std::max(field.least, std::min(1.0, field.most)); break;
+      case Kind::kFlag: args[field.name] = true; break;
+      case Kind::kText: args[field.name] = field.field == Field::kMode ? "auto" : std::string(static_cast<std::size_t>(field.least), 'X'); break;
+      case Kind::kName: args[field.name] = "none.nc"; break;
+      case Kind::kData: args[field.name] = "AAAA"; break;
+    }
+  }
+  if (row.service == Service::kSetTool) args["length"] = 1;
+  if (row.service == Service::kSetVariable) args["value"] = 1;
+  return args;
+}
+
+class LocalServices : public LocalMachine {};
+
+TEST_F(LocalServices, EveryServiceIsRefusedToEveryOneWithoutItsRight) {
+  unsigned refused = 0, let = 0;
+  for (unsigned bits = 1; bits < 1u << kRightCount; ++bits) {
+    RightSet rights;
+    for (unsigned right = 0; right < kRightCount; ++right)
+      if ((bits >> right & 1u) != 0) rights.add(static_cast<Right>(right));
+    {
+      const std::lock_guard lock(mutex_);
+      rights_ = rights;
+    }
+    ServiceClient client(path_);
+    ASSERT_EQ(client.greeting["ok"], true);
+    for (const ServiceRow& row : service_table()) {
+      SCOPED_TRACE(std::string(row.name) + " with " + client.greeting["rights"].dump());
+      const Json reply = client.call(row.name, arguments_of(row));
+      ASSERT_FALSE(reply.is_null());
+      const bool lacks = reply["ok"] == false && reply["error"] == "no right";
+      EXPECT_EQ(lacks, !rights.has(row.right)) << reply;
+      // The pieces of a program that was begun before it are not right, which is asked for after the right.
+      const bool piece = row.service == Service::kProgramData || row.service == Service::kProgramFinish;
+      EXPECT_TRUE(piece || reply.value("error", "") != "malformed") << reply;
+      if (lacks) {
+        EXPECT_NE(reply["text"].get<std::string>().find(right_name(row.right)), std::string::npos);
+      }
+      lacks ? ++refused : ++let;
+    }
+  }
+  EXPECT_EQ(refused + let, 15 * kServiceRows);
+  EXPECT_GT(refused, 100u);
+}
+
+TEST_F(LocalServices, WithoutAnyRightThePeerIsPutOut) {
+  give({});
+  ServiceClient client(path_);
+  EXPECT_EQ(client.greeting["ok"], false);
+  EXPECT_EQ(client.greeting["error"], "no right");
+  EXPECT_TRUE(client.receive().is_null());
+}
+
+TEST_F(LocalServices, ShowsTheMachine) {
+  ServiceClient client(path_);
+  const Json status = until(&client, "status", [](const Json& now) { return now["scan"] > 0; });
+  EXPECT_EQ(status["mode"], "auto");
+  EXPECT_EQ(status["systems"][0]["state"], "idle");
+  EXPECT_EQ(status["systems"][0]["axes"][2]["name"], "Z");
+  const Json machine = client.call("machine")["reply"];
+  EXPECT_EQ(machine["systems"][0]["axes"][0]["soft_limits"], Json::array({-500.0, 500.0}));
+  EXPECT_EQ(client.call("services")["reply"]["services"].size(), kServiceRows);
+  EXPECT_EQ(client.call("rights")["reply"]["rights"].size(), kRightCount);
+}
+
+// What a reply holds must stand in the table, and the members that are always there must be in the reply.
+void collect(const Json& value, const std::string& path, std::set<std::string>* paths) {
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) collect(member, path.empty() ? key : path + "." + key, paths);
+  else if (value.is_array())
+    for (const Json& element : value) collect(element, path + "[]", paths);
+  else
+    paths->insert(path);
+}
+
+TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
+  ServiceClient client(path_);
+  until(&client, "status", [](const Json& now) { return now["scan"] > 0; });
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 500}, {"value", 1.5}}), "");
+  ASSERT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");
+  write_program("part.nc", "M30\n");
+  for (const ServiceRow& row : service_table()) {
+    if (row.right != Right::kView) continue;
+    SCOPED_TRACE(row.name);
+    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : Json::object());
+    ASSERT_EQ(reply["ok"], true) << reply;
+    std::set<std::string> known, found;
+    for (const ReplyRow& member : row.reply) known.insert(member.path);
+    collect(reply["reply"], "", &found);
+    for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
+    if (row.service == Service::kTools || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
+        row.service == Service::kPrograms || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kMachine) {
+      EXPECT_EQ(found, known);
+    }
+  }
+}
+
+TEST_F(LocalServices, OnlyTheOneWithControlCommands) {
+  ServiceClient one(path_), two(path_);
+  EXPECT_EQ(one.outcome("mode", {{"mode", "manual"}}), "no control");
+  EXPECT_EQ(one.outcome("control.take"), "");
+  EXPECT_EQ(two.outcome("control.take"), "no control");
+  EXPECT_EQ(two.call("rights")["reply"]["control"], one.greeting["client"]);
+  EXPECT_EQ(one.outcome("mode", {{"mode", "manual"}}), "");
+  EXPECT_EQ(two.outcome("mode", {{"mode", "auto"}}), "no control");
+  EXPECT_NE(two.outcome("hold"), "no control") << "a hold is taken from everyone who may operate";
+  EXPECT_EQ(one.outcome("control.release"), "");
+  EXPECT_EQ(two.outcome("control.take"), "");
+}
+
+TEST_F(LocalServices, ACommandThatTakesTimeIsAnsweredWhenItsStateIsThere) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take"), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "");
+  EXPECT_EQ(runtime_->snapshot().mode, Mode::kMdi);
+  ASSERT_EQ(client.outcome("mdi", {{"blocks", "G0 X20."}}), "");
+  ASSERT_EQ(client.outcome("start"), "");
+  until(&client, "status", [](const Json& now) { return now["systems"][0]["state"] == "idle" && now["systems"][0]["runs"] == 1; });
+  EXPECT_NEAR(runtime_->snapshot().system[0].nc.command.v[0], 20, 1e-6);
+  const Json refused = client.call("mdi", {{"blocks", "G0 X1."}, {"system", 0}});
+  EXPECT_EQ(refused["error"], "malformed") << refused;
+  EXPECT_EQ(client.outcome("override.feed", {{"percent", 50}}), "");
+  EXPECT_EQ(client.outcome("override.feed", {{"percent", 900}}), "malformed");
+}
+
+TEST_F(LocalServices, TheJogOfAClientEndsWithIt) {
+  ServiceClient watcher(path_);
+  {
+    ServiceClient client(path_);
+    ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+    ASSERT_EQ(client.outcome("mode", {{"mode", "manual"}}), "");
+    ASSERT_EQ(client.outcome("jog", {{"axis", "X"}, {"velocity", 20}}), "");
+    EXPECT_EQ(client.outcome("jog", {{"axis", "Q"}, {"velocity", 20}}), "malformed");
+    until(&watcher, "status", [&](const Json& now) {
+      (void)client.outcome("jog", {{"axis", "X"}, {"velocity", 20}});
+      return now["systems"][0]["axes"][0]["work"] > 0.5;
+    });
+  }
+  until(&watcher, "status", [](const Json& now) { return now["control"] == "" && now["systems"][0]["axes"][0]["velocity"] == 0; });
+  EXPECT_EQ(watcher.outcome("control.take"), "");
+}
+
+TEST_F(LocalServices, GarbageEndsInARefusal) {
+  ServiceClient client(path_);
+  for (const char* text : {"", "x", "{}", "[1]", "null", "{\"id\": 1, \"service\": \"status\", \"args\": {\"x\": 1}}"}) {
+    ASSERT_TRUE(client.send_bytes(frame_of(text)));
+    const Json reply = client.receive();
+    EXPECT_EQ(reply["ok"], false) << text;
+    EXPECT_EQ(reply["error"], "malformed") << text;
+  }
+  EXPECT_EQ(client.outcome("status"), "") << "the connection goes on";
+  ASSERT_TRUE(client.send_bytes("GET / HTTP/1.1\r\n\r\n"));  // its first bytes are a length beyond every frame
+  EXPECT_EQ(client.receive()["error"], "malformed");
+  EXPECT_TRUE(client.receive().is_null());
+  ServiceClient next(path_);
+  EXPECT_EQ(next.outcome("status"), "");
+}
+
+TEST_F(LocalServices, AClientThatLeavesInTheMiddleOfAFrameHarmsNobody) {
+  ServiceClient other(path_);
+  const std::string frame = frame_of(Json{{"id", 1}, {"service", "control.take"}}.dump());
+  for (std::size_t length = 0; length < frame.size(); length += 5) {
+    ServiceClient client(path_);
+    ASSERT_TRUE(client.send_bytes(frame.substr(0, length)));
+    client.leave();
+    EXPECT_EQ(other.outcome("status"), "");
+  }
+  for (unsigned i = 0; i < 50; ++i) {  // gone before the answer comes
+    ServiceClient client(path_);
+    ASSERT_TRUE(client.ask(1, "tools.list"));
+  }
+  until(&other, "status", [](const Json& now) { return now["control"] == ""; });
+}
+
+TEST_F(LocalServices, WhoDoesNotReadIsNotReadFromAndHoldsUpNobody) {
+  ServiceClient slow(path_), other(path_);
+  unsigned sent = 0;
+  while (sent < 100'000 && slow.offer(sent, "status"))
+    if (++sent % 100 == 0) {
+      EXPECT_EQ(other.outcome("status"), "");
+    }
+  ASSERT_LT(sent, 100'000u) << "the server goes on reading although its answers are not read";
+  EXPECT_EQ(other.outcome("tools.list"), "");
+  for (unsigned i = 0; i < sent; ++i) {
+    const Json reply = slow.receive();
+    ASSERT_FALSE(reply.is_null()) << i;
+    ASSERT_EQ(reply["id"], i) << "answers come in the order of their requests, and none is lost";
+  }
+}
+
+TEST_F(LocalServices, ManyRequestsAtOnceAreAllAnswered) {
+  ServiceClient client(path_);
+  std::set<std::uint64_t> answered;
+  for (std::uint64_t id = 1; id <= 200; ++id) ASSERT_TRUE(client.ask(id, id % 3 == 0 ? "tools.list" : id % 3 == 1 ? "status" : "override.feed", id % 3 == 2 ? Json{{"percent", 100}} : id % 3 == 0 ? Json{{"count", 2}} : Json::object()));
+  for (unsigned i = 0; i < 200; ++i) answered.insert(client.receive()["id"].get<std::uint64_t>());
+  EXPECT_EQ(answered.size(), 200u);
+}
+
+TEST_F(LocalServices, OneUserCannotTakeAllPlaces) {
+  std::vector<std::unique_ptr<ServiceClient>> clients;
+  for (unsigned i = 0; i < LocalServer::kPerUser; ++i) {
+    clients.push_back(std::make_unique<ServiceClient>(path_));
+    ASSERT_EQ(clients.back()->greeting["ok"], true);
+  }
+  ServiceClient more(path_);
+  EXPECT_EQ(more.greeting["error"], "busy");
+  clients.clear();
+  for (;;) {
+    ServiceClient again(path_);
+    if (again.greeting["ok"] == true) break;
+    usleep(5000);
+  }
+}
+
+TEST_F(LocalServices, ThePathOfAnotherIsNotTaken) {
+  std::string error;
+  LocalServer second(services_.get(), "second", [](const Credentials&) { return RightSet::all(); });
+  EXPECT_FALSE(second.open(path_, &error));
+  EXPECT_NE(error.find("another process"), std::string::npos) << error;
+  const std::string file = folder_ + "/file";
+  std::ofstream(file) << "x";
+  EXPECT_FALSE(second.open(file, &error));
+  EXPECT_TRUE(std::filesystem::exists(file)) << "what is no socket is not removed";
+  EXPECT_FALSE(second.open(folder_ + "/" + std::string(200, 'x'), &error));
+  EXPECT_FALSE(second.open("/nowhere-at-all/x/y.sock", &error));
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("status"), "");
+}
+
+TEST_F(LocalServices, ASocketThatWasLeftBehindIsReplaced) {
+  const std::string left = folder_ + "/left.sock";
+  {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, left.data(), left.size());
+    const int dead = socket(AF_UNIX, SOCK_STREAM, 0);
+    ASSERT_EQ(bind(dead, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    close(dead);
+  }
+  std::string error;
+  LocalServer second(services_.get(), "second", [](const Credentials&) { return RightSet::all(); });
+  EXPECT_TRUE(second.open(left, &error)) << error;
+  struct stat info {};
+  ASSERT_EQ(stat(left.c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0666u);
+  second.stop();
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
+}  // namespace
+}  // namespace nc::rt::services

@@ -1,0 +1,149 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# ncctl against ncrtd serve, as processes: a part from its file to its end, tables, exit statuses, rights of other users, a client that is killed.
+set -u
+ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
+ncctl=${NC_BINARY_DIR:?}/bin/ncctl
+source=${NC_SOURCE_DIR:?}
+[ -x "$ncrtd" ] && [ -x "$ncctl" ] || { echo "ncrtd or ncctl is not built: skipped"; exit 77; }
+work=$(mktemp -d)
+chmod 755 "$work"
+server=
+trap '[ -n "$server" ] && kill "$server" 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
+failures=0
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+# expect STATUS COMMAND...: runs the command, whose output is then in $work/out and $work/err.
+expect() {
+  local wanted=$1; shift
+  "$@" >"$work/out" 2>"$work/err" </dev/null
+  local got=$?
+  [ "$got" = "$wanted" ] || { fail "exit $got instead of $wanted: $*"; cat "$work/out" "$work/err"; }
+}
+said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
+# until_true COMMAND...: waits for it, as long as it takes; the time limit is that of the test.
+until_true() { until "$@" >/dev/null 2>&1; do kill -0 "$server" 2>/dev/null || { fail "ncrtd has ended"; return; }; sleep 0.05; done; }
+
+mkdir "$work/programs"
+# The machine has no ladder, so that nothing but the services operates it; group 0 stands for one that a peer may have.
+sed -e "s#^programs = .*#programs = \"$work/programs\"#" -e "s#^socket = \"\"#socket = \"$work/mill.sock\"#" -e "s#^changes = \"\"#changes = \"$work/changes\"#" \
+  -e 's#^policy = "fifo"#policy = "other"#' -e 's#^lock_memory = true#lock_memory = false#' -e 's#^operate = .*#operate = ["daemon"]#' -e 's#^view = .*#view = ["games"]#' \
+  "$source/etc/machine.toml" >"$work/machine.toml"
+cp "$source/etc/mill.il" "$work/"
+export NC_SOCKET=$work/mill.sock
+expect 6 "$ncctl" status
+said err "no control runs there"
+"$ncrtd" --machine "$work/machine.toml" serve --share "ncctl-$$" >"$work/serve.out" 2>"$work/serve.err" &
+server=$!
+until_true "$ncctl" status
+expect 0 "$ncctl" rights
+said out "maintain"
+expect 0 "$ncctl" --json status
+python3 -c 'import json, sys; s = json.load(open(sys.argv[1])); assert s["mode"] == "auto" and s["systems"][0]["axes"]' "$work/out" || fail "the status is no JSON"
+expect 0 "$ncctl" watch --rate 50 --for 0.1
+[ "$(wc -l <"$work/out")" -ge 2 ] || fail "watch has printed $(wc -l <"$work/out") lines"
+
+# Tables.
+expect 0 "$ncctl" tools set 3 --length 81.25 --radius-wear -0.02
+expect 0 "$ncctl" tools list
+grep -qE '^3 +81\.25 +0 +0 +-0\.02$' "$work/out" || { fail "tool 3 is not in the list"; cat "$work/out"; }
+[ "$(wc -l <"$work/out")" -ge 100 ] || fail "the list of tools is not whole"
+expect 0 "$ncctl" offsets set 1 X -- -12.5
+expect 0 "$ncctl" offsets list
+said out "X -12.5"
+expect 0 "$ncctl" variables set 501 --value 2.5
+expect 0 "$ncctl" variables list
+said out "501"
+expect 0 "$ncctl" parameters list
+expect 0 "$ncctl" changes
+said out "tool 3 length"
+said out "$(id -un)"
+expect 2 "$ncctl" tools set 999 --length 1
+expect 1 "$ncctl" tools set 3
+expect 1 "$ncctl" tools set three --length 1
+expect 1 "$ncctl" nonsense
+
+# A part, from its file to its end.
+expect 0 "$ncctl" programs put "$source/examples/parts/flange.nc"
+cmp -s "$source/examples/parts/flange.nc" "$work/programs/flange.nc" || fail "the program is another one after put"
+expect 2 "$ncctl" programs put "$source/examples/parts/flange.nc"
+expect 0 "$ncctl" programs put "$source/examples/parts/flange.nc" --replace
+expect 0 "$ncctl" programs get flange.nc "$work/back.nc"
+cmp -s "$source/examples/parts/flange.nc" "$work/back.nc" || fail "the program is another one after get"
+expect 2 "$ncctl" programs get none.nc "$work/none.nc"
+[ ! -e "$work/none.nc" ] || fail "a program that is not there has left a file"
+expect 0 "$ncctl" programs list
+said out "flange.nc"
+expect 1 "$ncctl" programs rename flange.nc ../flange.nc
+expect 1 "$ncctl" programs delete $'M\xfcller.nc'
+expect 0 "$ncctl" programs protect flange.nc on
+expect 2 "$ncctl" programs delete flange.nc
+said err "protected"
+expect 0 "$ncctl" programs protect flange.nc off
+expect 2 "$ncctl" start
+expect 0 "$ncctl" select flange.nc
+printf 'G54 G90 G1 X-50. F3000.\nG4 X60.\nM30\n' >"$work/long.nc"
+expect 0 "$ncctl" programs put "$work/long.nc"
+expect 0 "$ncctl" select long.nc
+expect 0 "$ncctl" start
+expect 2 "$ncctl" tools set 3 --length 1
+said err "a program is in execution"
+expect 2 "$ncctl" programs delete long.nc
+expect 2 "$ncctl" mode manual
+expect 0 "$ncctl" hold
+expect 0 "$ncctl" reset
+expect 0 "$ncctl" mode manual
+expect 0 "$ncctl" jog --for 0.2 -- X -5
+expect 2 "$ncctl" mdi "G0 X1."
+expect 0 "$ncctl" mode mdi
+expect 0 "$ncctl" mdi --start "G90 G53 G0 X-1."
+expect 0 "$ncctl" override feed 50
+expect 1 "$ncctl" override feed 100000
+expect 0 "$ncctl" force M100 1
+until_true sh -c "'$ncctl' status | grep -qxF 'forced M100 = 1'"  # the status is up to 10 ms old
+expect 0 "$ncctl" release
+expect 0 "$ncctl" alarms
+expect 0 "$ncctl" history
+
+# Two that want control, over connections that stay.
+mkfifo "$work/one"
+"$ncctl" pipe <"$work/one" >"$work/one.out" &
+pipe=$!
+exec 7>"$work/one"
+echo '{"service": "control.take", "args": {"lease_ms": 60000}}' >&7
+until_true grep -q '"ok":true' "$work/one.out"
+expect 4 "$ncctl" mode auto
+said err "has control"
+kill -KILL "$pipe"
+wait "$pipe" 2>/dev/null
+exec 7>&-
+until_true "$ncctl" mode auto
+expect 0 "$ncctl" pipe
+
+# Other users: one of the group that views, one of the group that operates, one of none.
+if [ "$(id -u)" = 0 ] && command -v setpriv >/dev/null && getent group games >/dev/null && getent group daemon >/dev/null; then
+  as() { local groups=$1; shift; setpriv --reuid 65534 --regid 65534 $groups "$@"; }
+  chmod 755 "$NC_BINARY_DIR" 2>/dev/null || true
+  if as --clear-groups "$ncctl" --version >/dev/null 2>&1; then
+    expect 3 as --clear-groups "$ncctl" status
+    said err "none of the rights"
+    expect 0 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" status
+    expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" start
+    expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" tools set 3 --length 1
+    expect 0 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" mode mdi
+    expect 3 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" force M100 1
+    expect 3 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" programs put "$work/long.nc" --replace
+  else
+    echo "note: another user cannot run $ncctl here: the rights of other users are not tried"
+  fi
+else
+  echo "note: not root: the rights of other users are not tried"
+fi
+
+kill "$server"
+wait "$server"
+[ $? = 0 ] || { fail "ncrtd ended with an error"; cat "$work/serve.err"; }
+server=
+[ ! -e "$work/mill.sock" ] || fail "the socket is still there"
+[ "$(ls -A "$work/programs" | grep -c '^\.nc-upload')" = 0 ] || fail "an upload was left behind"
+[ "$failures" = 0 ] || { cat "$work/serve.out" "$work/serve.err"; exit 1; }
+echo "all good"

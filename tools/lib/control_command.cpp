@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// See control_command.hpp.
+#include "tools/lib/control_command.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "runtime/end_signal.hpp"
+#include "runtime/services/call.hpp"
+#include "runtime/services/sha256.hpp"
+#include "tools/lib/control_print.hpp"
+#include "tools/lib/control_words.hpp"
+
+namespace nc::tools {
+namespace {
+
+using rt::services::Lane;
+using rt::services::ServiceRow;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kJogPeriod = std::chrono::milliseconds(40);  // a jog has to be repeated within 200 scans
+constexpr std::size_t kChunk = rt::services::kChunkBytes;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const {
+    if (file != nullptr) std::fclose(file);
+  }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+class Command {
+ public:
+  Command(const ControlCommand& command, std::FILE* in, std::FILE* out, std::FILE* err) : command_(command), in_(in), out_(out), err_(err) {}
+
+  int run() {
+    using What = ControlCommand::What;
+    if (command_.what == What::kDocument) return document();
+    rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP});
+    if (!connect()) return status_;
+    switch (command_.what) {
+      case What::kWatch: return watch();
+      case What::kJog: return jog();
+      case What::kMdi: return mdi();
+      case What::kPut: return put();
+      case What::kGet: return get();
+      case What::kPipe: return pipe();
+      default: return service();
+    }
+  }
+
+ private:
+  int failed(const ServiceRefusal& refusal) {
+    if (command_.json) std::fprintf(out_, "%s\n", Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}}.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+    else std::fprintf(err_, "ncctl: %s\n", refusal.text.empty() ? refusal.error.c_str() : refusal.text.c_str());
+    return status_ = refusal.status;
+  }
+  int failed(int status, const std::string& text) { return failed({status, status == kControlUsage ? "usage" : "failed", text}); }
+
+  bool connect() {
+    std::string path = command_.socket;
+    if (path.empty()) {
+      std::vector<std::string> found = find_sockets();
+      if (!command_.control.empty()) std::erase_if(found, [&](const std::string& one) { return one.substr(one.rfind('/') + 1) != command_.control + ".sock"; });
+      std::string names;
+      for (const std::string& one : found) names += " " + one;
+      if (found.empty()) return failed({kControlNobody, "no connection", "no control has a socket in /run/ncrtd or in the user's folder: is ncrtd serve running?"}) == 0;
+      if (found.size() > 1) return failed({kControlUsage, "usage", "several controls run, choose one with --control or --socket:" + names}) == 0;
+      path = found.front();
+    }
+    ServiceRefusal refusal;
+    return client_.open(path, &refusal) || failed(refusal) == 0;
+  }
+
+  bool call(const std::string& service, const Json& args, Json* reply) {
+    ServiceRefusal refusal;
+    return client_.call(service, args, reply, &refusal) || failed(refusal) == 0;
+  }
+  bool take_control() {
+    Json reply;
+    return call("control.take", Json::object(), &reply);
+  }
+
+  void print(const ServiceRow& row, const Json& reply) {
+    const std::string text = command_.json ? reply.dump() + "\n" : reply_text(row, reply);
+    std::fwrite(text.data(), 1, text.size(), out_);
+    std::fflush(out_);
+  }
+
+  // A command needs control, which ends with this connection. A hold does not: it is taken from everyone.
+  int service() {
+    const ServiceRow& row = *rt::services::find_service(command_.service);
+    if (row.lane == Lane::kCommand && row.service != rt::services::Service::kHold && !take_control()) return status_;
+    Json whole;
+    Json args = command_.args;
+    for (;;) {
+      Json reply;
+      if (!call(command_.service, args, &reply)) return status_;
+      const std::uint64_t next = reply.value("next", std::uint64_t{0});
+      add_page(&whole, std::move(reply));
+      if (next == 0 || command_.args.contains("count")) break;
+      args["from"] = next;
+    }
+    print(row, whole);
+    return 0;
+  }
+
+  // Joins the pages of a list.
+  static void add_page(Json* whole, Json page) {
+    if (whole->is_null()) {
+      *whole = std::move(page);
+      return;
+    }
+    for (auto& [key, value] : page.items()) {
+      if (!value.is_array()) (*whole)[key] = value;
+      else for (Json& element : value) (*whole)[key].push_back(std::move(element));
+    }
+  }
+
+  int watch() {
+    const ServiceRow& row = rt::services::row_of(rt::services::Service::kStatus);
+    const auto begin = Clock::now();
+    for (std::uint64_t line = 0; rt::end_signal() == 0; ++line) {
+      Json reply;
+      if (!call(row.name, Json::object(), &reply)) return status_;
+      if (command_.json) print(row, reply);
+      else std::fprintf(out_, "%s\n", status_line(reply).c_str());
+      if (std::fflush(out_) != 0) return failed(kControlFailed, "the output cannot be written");
+      const auto next = begin + std::chrono::duration<double>(static_cast<double>(line + 1) / command_.rate);
+      if (command_.seconds > 0 && next - begin > std::chrono::duration<double>(command_.seconds)) return 0;
+      std::this_thread::sleep_until(std::chrono::time_point_cast<Clock::duration>(next));
+    }
+    return 0;
+  }
+
+  // The axis stops at the end, after a signal, and when this process is killed: a jog that is not repeated ends.
+  int jog() {
+    if (!take_control()) return status_;
+    const auto end = Clock::now() + std::chrono::duration<double>(command_.seconds);
+    Json reply;
+    while (rt::end_signal() == 0 && Clock::now() < end) {
+      if (!call("jog", command_.args, &reply)) return status_;
+      std::this_thread::sleep_for(kJogPeriod);
+    }
+    Json stop = command_.args;
+    stop["velocity"] = 0;
+    return call("jog", stop, &reply) ? 0 : status_;
+  }
+
+  int mdi() {
+    Json reply;
+    if (!take_control() || !call("mdi", command_.args, &reply)) return status_;
+    Json system = Json::object();
+    if (command_.args.contains("system")) system["system"] = command_.args["system"];
+    if (command_.start && !call("start", system, &reply)) return status_;
+    print(rt::services::row_of(rt::services::Service::kMdi), reply);
+    return 0;
+  }
+
+  // ---- programs ----
+
+  static bool hash_of(std::FILE* file, std::uint64_t* size, std::string* hash) {
+    rt::services::Sha256 sum;
+    std::string bytes(kChunk, '\0');
+    *size = 0;
+    for (;;) {
+      const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file);
+      sum.add({bytes.data(), count});
+      *size += count;
+      if (count < bytes.size()) break;
+    }
+    *hash = sum.finish();
+    return std::ferror(file) == 0 && std::fseek(file, 0, SEEK_SET) == 0;
+  }
+
+  int put() {
+    const File file(std::fopen(command_.file.c_str(), "rbe"));
+    std::uint64_t size = 0;
+    std::string hash;
+    if (file == nullptr || !hash_of(file.get(), &size, &hash)) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
+    Json begin = command_.args, reply;
+    if (!begin.contains("name")) begin["name"] = command_.file.substr(command_.file.rfind('/') + 1);
+    if (!rt::services::is_program_name(begin["name"].get_ref<const std::string&>())) return failed(kControlUsage, "the name cannot be that of a program: --name gives another one");
+    begin["size"] = size;
+    begin["sha256"] = hash;
+    if (!call("programs.begin", begin, &reply)) return status_;
+    const Json upload = reply["upload"];
+    std::string bytes(kChunk, '\0');
+    for (std::uint64_t at = 0; at < size && rt::end_signal() == 0;) {
+      const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
+      if (count == 0) return failed(kControlFailed, command_.file + ": it has become shorter meanwhile");
+      if (!call("programs.data", {{"upload", upload}, {"begin", at}, {"data", rt::services::to_base64({bytes.data(), count})}}, &reply)) return status_;
+      at += count;
+    }
+    return call("programs.finish", {{"upload", upload}}, &reply) ? 0 : status_;
+  }
+
+  int get() {
+    File file;
+    const bool named = !command_.file.empty() && command_.file != "-";
+    std::uint64_t at = 0;
+    Json modified;
+    for (;;) {
+      Json reply;
+      std::string bytes;
+      if (!call("programs.read", {{"name", command_.args["name"]}, {"begin", at}, {"bytes", kChunk}}, &reply)) return status_;
+      if (at != 0 && reply["modified_ns"] != modified) return failed(kControlFailed, "the program was changed meanwhile: what was read is half of the old one");
+      modified = reply["modified_ns"];
+      if (named && file == nullptr) file.reset(std::fopen(command_.file.c_str(), "wbe"));
+      if (named && file == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
+      std::FILE* to = named ? file.get() : out_;
+      if (!rt::services::from_base64(reply.value("data", ""), &bytes)) return failed(kControlFailed, "the control sends what are no bytes");
+      at += bytes.size();
+      if (std::fwrite(bytes.data(), 1, bytes.size(), to) != bytes.size() || std::fflush(to) != 0) return failed(kControlFailed, std::string("the output cannot be written: ") + std::strerror(errno));
+      if (bytes.empty() || at >= reply.value("size", std::uint64_t{0})) return 0;
+    }
+  }
+
+  // One request in a line, one reply in a line. The exit status is that of the first refusal.
+  int pipe() {
+    int first = 0;
+    std::string line;
+    for (int c = std::fgetc(in_); rt::end_signal() == 0; c = std::fgetc(in_)) {
+      if (c != '\n' && c != EOF) {
+        line += static_cast<char>(c);
+        continue;
+      }
+      if (line.find_first_not_of(" \t\r") != std::string::npos) {
+        const int status = answer(line);
+        if (first == 0) first = status;
+        if (status == kControlNobody) return first;
+      }
+      line.clear();
+      if (c == EOF) break;
+    }
+    return first;
+  }
+
+  int answer(const std::string& line) {
+    const Json request = Json::parse(line, nullptr, false);
+    ServiceRefusal refusal{kControlUsage, "malformed", "a line must be an object with the member service"};
+    Json reply;
+    const bool good = request.is_object() && request.contains("service") && request["service"].is_string();
+    const Json message = good && client_.call(request["service"], request.value("args", Json::object()), &reply, &refusal)
+                             ? Json{{"ok", true}, {"reply", std::move(reply)}}
+                             : Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}};
+    std::fprintf(out_, "%s\n", message.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+    std::fflush(out_);
+    return message["ok"] ? 0 : refusal.status;
+  }
+
+  int document() {
+    const std::string text = command_.document == "markdown" ? services_markdown() : command_.document == "man" ? services_man() : services_bash();
+    std::fwrite(text.data(), 1, text.size(), out_);
+    return 0;
+  }
+
+  const ControlCommand& command_;
+  std::FILE *in_, *out_, *err_;
+  ServiceClient client_;
+  int status_ = 0;
+};
+
+}  // namespace
+
+int control_command(const ControlCommand& command, std::FILE* in, std::FILE* out, std::FILE* err) { return Command(command, in, out, err).run(); }
+
+}  // namespace nc::tools

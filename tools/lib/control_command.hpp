@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The commands of ncctl. Most of them are rows of the table of services: the words of the command are the name of the service, the members that a request must
+// have are arguments in the order of the table, the others are options.
+#pragma once
+
+#include <cstdio>
+#include <string>
+
+#include "tools/lib/service_client.hpp"
+
+namespace nc::tools {
+
+struct ControlCommand {
+  std::string socket, control;  ///< where the control is: path of the socket, or its name; both "" = the only one that runs
+  bool json = false;            ///< replies are printed as JSON, one in a line
+  std::string service;          ///< service to be used
+  Json args = Json::object();
+  enum class What { kService, kWatch, kJog, kMdi, kPut, kGet, kPipe, kDocument } what = What::kService;
+  double seconds = 0;           ///< kJog: how long; kWatch: how long, 0 = until a signal
+  double rate = 5;              ///< kWatch: lines per second
+  bool start = false;           ///< kMdi: the blocks are started as well
+  std::string file;             ///< kPut, kGet: file on this side, "-" = standard input or output
+  std::string document;         ///< kDocument: markdown, man or bash
+};
+
+/** Reads the command line. @return -1 when *command says what to do, else the exit status. */
+int parse_control_command(int argc, const char* const* argv, ControlCommand* command);
+
+/** @return the exit status of ncctl. */
+int control_command(const ControlCommand& command, std::FILE* in, std::FILE* out, std::FILE* err);
+
+}  // namespace nc::tools

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of ncctl, from the table of services. See control_command.hpp.
+#include <CLI/CLI.hpp>
+
+#include "nc/control.h"
+#include "runtime/programs/encoding.hpp"
+#include "runtime/services/service_table.hpp"
+#include "tools/lib/control_command.hpp"
+#include "tools/lib/control_words.hpp"
+#include "tools/lib/option_values.hpp"
+
+namespace nc::tools {
+namespace {
+
+using rt::services::FieldInfo;
+using rt::services::Kind;
+using rt::services::ServiceRow;
+using rt::services::Wanted;
+using What = ControlCommand::What;
+
+// Takes one value of the command line as the kind that the table says. What is out of range the control refuses.
+std::string take(const FieldInfo& row, const std::string& text, Json* args) {
+  if (rt::valid_utf8(text) != text) return "must be UTF-8";
+  switch (row.kind) {
+    case Kind::kNumber:
+    case Kind::kWhole: {
+      const Json number = Json::parse(text, nullptr, false);
+      const Json plain = Json::parse(!text.empty() && text[0] == '+' ? text.substr(1) : text, nullptr, false);
+      const Json& value = number.is_number() ? number : plain;
+      if (!value.is_number()) return "must be a number, is " + (text.empty() ? "empty" : text);
+      (*args)[row.name] = value;
+      return "";
+    }
+    case Kind::kFlag:
+      if (text != "on" && text != "off") return "must be on or off, is " + (text.empty() ? "empty" : text);
+      (*args)[row.name] = text == "on";
+      return "";
+    default:
+      (*args)[row.name] = text;
+      return "";
+  }
+}
+
+void add_field(CLI::App* app, const Wanted& wanted, ControlCommand* command) {
+  const FieldInfo& row = row_of(wanted.field);
+  const std::string name = wanted.required ? argument_name(row) : option_name(row);
+  const std::string meaning = std::string(row.meaning) + (row.unit[0] != '\0' ? ", " + std::string(row.unit) : "");
+  if (row.kind == Kind::kFlag && !wanted.required) {
+    app->add_flag_function(name, [command, &row](std::int64_t) { command->args[row.name] = true; }, meaning);
+    return;
+  }
+  CLI::Option* option = app->add_option_function<std::string>(
+      name,
+      [command, &row, name](const std::string& text) {
+        if (const std::string wrong = take(row, text, &command->args); !wrong.empty()) throw CLI::ValidationError(name, wrong);
+      },
+      meaning);
+  option->required(wanted.required);
+}
+
+// The subcommand of these words, separated by points; it is made where it is not there yet.
+CLI::App* subcommand(CLI::App* app, const std::string& words, const std::string& meaning) {
+  const std::size_t point = words.find('.');
+  const std::string first = words.substr(0, point);
+  CLI::App* sub = nullptr;
+  for (CLI::App* there : app->get_subcommands([](CLI::App*) { return true; }))
+    if (there->get_name() == first) sub = there;
+  if (sub == nullptr) sub = app->add_subcommand(first, point == std::string::npos ? meaning : group_meaning(first));
+  if (point == std::string::npos) return sub;
+  sub->require_subcommand(1);
+  return subcommand(sub, words.substr(point + 1), meaning);
+}
+
+void add_service(CLI::App* app, const ServiceRow& row, ControlCommand* command) {
+  CLI::App* sub = subcommand(app, row.name, std::string(row.meaning) + " (" + right_name(row.right) + ")");
+  for (const Wanted& wanted : row.request)
+    if (wanted.required) add_field(sub, wanted, command);
+  for (const Wanted& wanted : row.request)
+    if (!wanted.required) add_field(sub, wanted, command);
+  sub->callback([command, &row] { command->service = row.name; });
+  if (row.service == rt::services::Service::kJog) {
+    sub->add_option("--for", command->seconds, "how long the axis moves, at most 60")->required()->check(seconds(false, "60"));
+    sub->callback([command, &row] { command->service = row.name, command->what = What::kJog; });
+  }
+  if (row.service == rt::services::Service::kMdi) {
+    sub->add_flag("--start", command->start, "start them as well");
+    sub->callback([command, &row] { command->service = row.name, command->what = What::kMdi; });
+  }
+}
+
+void add_own_commands(CLI::App* app, ControlCommand* command) {
+  CLI::App* watch = app->add_subcommand("watch", "the status again and again, until Ctrl-C (view)");
+  watch->add_option("--rate", command->rate, "lines per second, at most 50")->check(CLI::Range(0.1, 50.0));
+  watch->add_option("--for", command->seconds, "seconds, then end")->check(CLI::Range(0.01, 1e6));
+  watch->callback([command] { command->what = What::kWatch; });
+
+  CLI::App* put = subcommand(app, "programs.put", "writes a file into the folder of programs (set up)");
+  put->add_option("FILE", command->file, "file on this side")->required()->check(given());
+  put->add_option_function<std::string>("--name", [command](const std::string& name) { command->args["name"] = name; }, "its name there; without it, that of the file");
+  put->add_flag_function("--replace", [command](std::int64_t) { command->args["replace"] = true; }, "a program of this name is replaced");
+  put->callback([command] { command->what = What::kPut; });
+
+  CLI::App* get = subcommand(app, "programs.get", "reads a program (view)");
+  get->add_option_function<std::string>("NAME", [command](const std::string& name) { command->args["name"] = name; }, "name of a program")->required();
+  get->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
+  get->callback([command] { command->what = What::kGet; });
+
+  CLI::App* pipe = app->add_subcommand("pipe", "requests from standard input over one connection, one object of JSON in a line: {\"service\": \"mode\", \"args\": {...}}");
+  pipe->callback([command] { command->what = What::kPipe; });
+
+  CLI::App* document = app->add_subcommand("document", "prints what is made from the table of services: markdown, man or bash")->group("");
+  document->add_option("FORM", command->document, "markdown, man or bash")->required()->check(CLI::IsMember({"markdown", "man", "bash"}));
+  document->callback([command] { command->what = What::kDocument; });
+}
+
+}  // namespace
+
+int parse_control_command(int argc, const char* const* argv, ControlCommand* command) {
+  CLI::App app{"ncctl: shows and operates a control that runs on this computer"};
+  app.set_version_flag("--version", std::string("ncctl ") + nc_version());
+  CLI::Option* socket = app.add_option("--socket", command->socket, "path of the socket of the control")->envname("NC_SOCKET")->check(given());
+  app.add_option("--control", command->control, "name of the control, as in DDS; default: the only one that runs")->check(given())->excludes(socket);
+  app.add_flag("--json", command->json, "replies as JSON, one object in a line");
+  app.require_subcommand(1);
+  app.fallthrough();
+  for (const ServiceRow& row : rt::services::service_table())
+    if (is_command(row)) add_service(&app, row, command);
+  add_own_commands(&app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kControlUsage;
+  }
+  return -1;
+}
+
+}  // namespace nc::tools

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// See control_print.hpp.
+#include "tools/lib/control_print.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <string_view>
+#include <vector>
+
+namespace nc::tools {
+namespace {
+
+using Json = nlohmann::json;
+using rt::services::ReplyRow;
+using rt::services::Service;
+using rt::services::ServiceRow;
+
+// A terminal must not obey what stands in a program or in the name of a file.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  return text;
+}
+
+std::string number_text(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string time_text(std::int64_t ns) {
+  if (ns == 0) return "-";
+  const std::time_t seconds = static_cast<std::time_t>(ns / 1'000'000'000);
+  std::tm local{};
+  char text[32];
+  if (localtime_r(&seconds, &local) == nullptr || std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local) == 0) return std::to_string(seconds);
+  return text;
+}
+
+bool is_time(std::string_view key) { return key.size() > 3 && key.substr(key.size() - 3) == "_ns"; }
+
+std::string value_text(std::string_view key, const Json& value) {
+  if (value.is_string()) return printable(value.get<std::string>());
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_integer()) return is_time(key) ? time_text(value.get<std::int64_t>()) : value.dump();
+  if (value.is_number()) return number_text(value.get<double>());
+  std::string text;
+  if (value.is_array())
+    for (const Json& element : value) {
+      const bool pair = element.is_object() && element.contains("name") && element.contains("value");
+      text += (text.empty() ? "" : " ") + (pair ? value_text("", element["name"]) + " " + value_text("", element["value"]) : value_text("", element));
+    }
+  if (value.is_object())
+    for (const auto& [name, member] : value.items()) text += (text.empty() ? "" : " ") + name + "=" + value_text(name, member);
+  return text;
+}
+
+// The columns of a list: the members of its elements, in the order of the table of services.
+std::vector<std::string> columns_of(const ServiceRow& row, std::string_view list) {
+  std::vector<std::string> columns;
+  const std::string prefix = std::string(list) + "[].";
+  for (const ReplyRow& member : row.reply) {
+    const std::string_view path = member.path;
+    if (path.substr(0, prefix.size()) != prefix) continue;
+    std::string name(path.substr(prefix.size()));
+    name = name.substr(0, name.find("[]"));
+    if (columns.empty() || columns.back() != name) columns.push_back(name);
+  }
+  return columns;
+}
+
+// The number of places that a text takes on a terminal: characters and not bytes.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+std::string table_text(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c == widths.size()) widths.push_back(0);
+      widths[c] = std::max(widths[c], width(row[c]));
+    }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) text += row[c] + (c + 1 < row.size() ? std::string(widths[c] - width(row[c]) + 2, ' ') : "");
+    text += "\n";
+  }
+  return text;
+}
+
+std::string list_text(const ServiceRow& row, const std::string& name, const Json& list) {
+  const std::vector<std::string> columns = columns_of(row, name);
+  if (columns.empty()) return name + "  " + value_text("", list) + "\n";
+  std::vector<std::vector<std::string>> rows = {columns};
+  for (const Json& element : list) {
+    auto& cells = rows.emplace_back();
+    for (const std::string& column : columns) cells.push_back(element.contains(column) ? value_text(column, element[column]) : "");
+  }
+  return table_text(rows);
+}
+
+std::string text_at(const Json& json, const char* key) { return json.contains(key) ? value_text(key, json[key]) : ""; }
+
+std::string status_text(const Json& status) {
+  std::string text = "mode " + text_at(status, "mode") + ", alarms " + text_at(status, "alarms") + ", warnings " + text_at(status, "warnings");
+  const std::string control = text_at(status, "control");
+  text += control.empty() ? ", nobody has control\n" : ", control: " + control + "\n";
+  for (const Json& forced : status.value("forced", Json::array())) text += "forced " + text_at(forced, "device") + " = " + text_at(forced, "value") + "\n";
+  const Json systems = status.value("systems", Json::array());
+  for (const Json& system : systems) {
+    if (systems.size() > 1) text += "part system " + text_at(system, "system") + "\n";
+    text += text_at(system, "state_text") + "\n";
+    const std::string program = text_at(system, "program");
+    text += program.empty() ? "no program\n" : program + " line " + text_at(system, "line") + " (" + text_at(system, "percent") + " %): " + text_at(system, "block") + "\n";
+    text += "feed " + text_at(system, "feed") + " mm/min, override " + text_at(system, "feed_override_percent") + " %, rapid " +
+            text_at(system, "rapid_override_percent") + " %, S" + text_at(system, "s") + "\n";
+    if (const std::string refusal = text_at(system, "refusal"); !refusal.empty()) text += refusal + "\n";
+    std::vector<std::vector<std::string>> rows = {{"axis", "work", "machine", "to go"}};
+    for (const Json& axis : system.value("axes", Json::array()))
+      rows.push_back({text_at(axis, "name"), text_at(axis, "work"), text_at(axis, "machine"), text_at(axis, "to_go")});
+    text += table_text(rows);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string status_line(const Json& status) {
+  std::string text = text_at(status, "mode");
+  for (const Json& system : status.value("systems", Json::array())) {
+    text += "  " + text_at(system, "state") + " " + text_at(system, "program") + ":" + text_at(system, "line");
+    for (const Json& axis : system.value("axes", Json::array())) text += " " + text_at(axis, "name") + text_at(axis, "work");
+  }
+  return text + "  alarms " + text_at(status, "alarms");
+}
+
+std::string reply_text(const ServiceRow& row, const Json& reply) {
+  if (row.service == Service::kStatus) return status_text(reply);
+  std::string text;
+  for (const auto& [key, value] : reply.items()) {
+    if (key == "next") continue;  // ncctl has fetched the rest already
+    if (value.is_array()) text += list_text(row, key, value);
+    else if (key == "text" && value.is_string()) text += value.get<std::string>().empty() ? "" : value_text(key, value) + "\n";
+    else text += key + "  " + value_text(key, value) + "\n";
+  }
+  return text;
+}
+
+}  // namespace nc::tools

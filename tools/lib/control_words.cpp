@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// See control_words.hpp.
+#include "tools/lib/control_words.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+namespace nc::tools {
+namespace {
+
+using namespace rt::services;
+
+struct OwnCommand {
+  const char* words;
+  const char* arguments;
+  Right right;
+  const char* meaning;
+};
+// Commands that are no single service.
+constexpr OwnCommand kOwn[] = {
+    {"watch", "[--rate N] [--for SECONDS]", Right::kView, "the status again and again, until Ctrl-C"},
+    {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
+    {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},
+    {"pipe", "", Right::kView, "requests from standard input over one connection, one object of JSON in a line; replies likewise. Control stays from line to line"},
+};
+
+std::string replaced(std::string text, char from, char to) {
+  std::replace(text.begin(), text.end(), from, to);
+  return text;
+}
+
+std::string arguments_of(const ServiceRow& row) {
+  std::string text;
+  for (const Wanted& wanted : row.request)
+    if (wanted.required) text += " " + argument_name(row_of(wanted.field));
+  for (const Wanted& wanted : row.request) {
+    if (wanted.required) continue;
+    const FieldInfo& field = row_of(wanted.field);
+    text += " [" + option_name(field) + (field.kind == Kind::kFlag ? "" : " " + argument_name(field)) + "]";
+  }
+  if (row.service == Service::kJog) text += " --for SECONDS";
+  if (row.service == Service::kMdi) text += " [--start]";
+  return text.empty() ? text : text.substr(1);
+}
+
+std::string number_text(double value) {
+  if (value == std::floor(value) && std::fabs(value) < 1e16) return std::to_string(static_cast<long long>(value));
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+std::string range_text(const FieldInfo& row) {
+  if (row.kind == Kind::kFlag) return "";
+  const std::string range = row.least == row.most ? number_text(row.least) : number_text(row.least) + " to " + number_text(row.most);
+  return row.kind == Kind::kNumber || row.kind == Kind::kWhole ? range + (row.unit[0] != '\0' ? std::string(" ") + row.unit : "") : range + " bytes";
+}
+
+std::string request_text(const ServiceRow& row) {
+  std::string text;
+  for (const Wanted& wanted : row.request) text += (text.empty() ? "`" : ", `") + std::string(row_of(wanted.field).name) + "`" + (wanted.required ? "" : " (may)");
+  return text.empty() ? "-" : text;
+}
+
+std::string reply_list(const ServiceRow& row) {
+  std::string text;
+  for (const ReplyRow& member : row.reply) text += "| `" + std::string(member.path) + "` | " + member.type + " | " + member.meaning + " |\n";
+  return text;
+}
+
+// A word in the source of a manual page.
+std::string man(std::string text) {
+  std::string safe;
+  for (const char c : text) safe += c == '-' ? std::string("\\-") : c == '\\' ? "\\e" : std::string(1, c);
+  return safe;
+}
+
+// The next words of each beginning of a command: "" -> status, programs ...; "programs" -> list, put ...
+std::map<std::string, std::set<std::string>> word_tree() {
+  std::map<std::string, std::set<std::string>> tree;
+  const auto add = [&](const std::string& words) {
+    const std::size_t space = words.find(' ');
+    tree[""].insert(words.substr(0, space));
+    if (space != std::string::npos) tree[words.substr(0, space)].insert(words.substr(space + 1));
+  };
+  for (const ServiceRow& row : service_table())
+    if (is_command(row)) add(replaced(row.name, '.', ' '));
+  for (const OwnCommand& own : kOwn) add(own.words);
+  return tree;
+}
+
+std::string joined(const std::set<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+}  // namespace
+
+bool is_command(const ServiceRow& row) {
+  constexpr Service kOthers[] = {Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
+}
+
+std::string argument_name(const FieldInfo& row) {
+  std::string name = replaced(row.name, '_', '-');
+  for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return name;
+}
+
+std::string option_name(const FieldInfo& row) { return "--" + replaced(row.name, '_', '-'); }
+
+std::string group_meaning(const std::string& word) {
+  return "services whose names begin with " + word;
+}
+
+std::string services_markdown() {
+  std::string text;
+  for (unsigned right = 0; right < kRightCount; ++right) {
+    text += "## Services that need the right to " + std::string(right_name(static_cast<Right>(right))) + "\n\n| service | request | meaning |\n|---|---|---|\n";
+    for (const ServiceRow& row : service_table())
+      if (row.right == static_cast<Right>(right)) text += "| `" + std::string(row.name) + "` | " + request_text(row) + " | " + row.meaning + " |\n";
+    text += "\n";
+  }
+  text += "## Members of requests\n\n| member | type | range | meaning |\n|---|---|---|---|\n";
+  for (unsigned i = 0; i < kFields; ++i) {
+    const FieldInfo& row = row_of(static_cast<Field>(i));
+    text += "| `" + std::string(row.name) + "` | " + kind_name(row.kind) + " | " + range_text(row) + " | " + row.meaning + " |\n";
+  }
+  text += "\n## Replies\n\nA service that is not here replies with `text`: what there is to say about it, often nothing.\n";
+  for (const ServiceRow& row : service_table())
+    if (row.reply.size() > 1 || std::string(row.reply[0].path) != "text")
+      text += "\n### `" + std::string(row.name) + "`\n\n| member | type | meaning |\n|---|---|---|\n" + reply_list(row);
+  return text;
+}
+
+std::string services_man() {
+  std::string text;
+  std::set<std::string> groups;
+  const auto add = [&](Right right, const std::string& words, const std::string& arguments, const std::string& meaning) {
+    const std::size_t space = words.find(' ');
+    if (space != std::string::npos && groups.insert(words.substr(0, space)).second)
+      text += ".TP\n.B " + words.substr(0, space) + "\nIs followed by one of these words:\n";
+    text += ".TP\n.B " + man(words) + (arguments.empty() ? "" : "\n.RI \"" + man(arguments) + "\"") + "\n" + man(meaning) + ". Needs the right to " + right_name(right) + ".\n";
+  };
+  for (const ServiceRow& row : service_table())
+    if (is_command(row)) add(row.right, replaced(row.name, '.', ' '), arguments_of(row), row.meaning);
+  for (const OwnCommand& own : kOwn) add(own.right, own.words, own.arguments, own.meaning);
+  return text;
+}
+
+std::string services_bash() {
+  const auto tree = word_tree();
+  std::string text =
+      "# SPDX-License-Identifier: Apache-2.0\n# Completion of ncctl for bash, made by scripts/service-tables from the table of services.\n_ncctl() {\n"
+      "  local word=${COMP_WORDS[COMP_CWORD]} words=() i\n"
+      "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
+      "    case ${COMP_WORDS[i]} in\n"
+      "      --socket | --control) ((i++)) ;;\n"
+      "      -*) ;;\n"
+      "      *) words+=(\"${COMP_WORDS[i]}\") ;;\n"
+      "    esac\n"
+      "  done\n"
+      "  case ${#words[@]} in\n"
+      "    0) COMPREPLY=($(compgen -W '--socket --control --json --help --version " + joined(tree.at("")) + "' -- \"$word\")) ;;\n"
+      "    1)\n      case ${words[0]} in\n";
+  for (const auto& [first, next] : tree)
+    if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next) + "' -- \"$word\")) ;;\n";
+  text += "        mode) COMPREPLY=($(compgen -W 'auto mdi manual' -- \"$word\")) ;;\n        single | optional) COMPREPLY=($(compgen -W 'on off' -- \"$word\")) ;;\n      esac\n      ;;\n"
+      "    *) [ \"${words[0]} ${words[1]}\" = 'programs put' ] && COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+      "  esac\n}\ncomplete -F _ncctl ncctl\n";
+  return text;
+}
+
+}  // namespace nc::tools
