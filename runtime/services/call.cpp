@@ -119,22 +119,22 @@ bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
     *outcome = Outcome::refused(why, std::move(text));
     return false;
   };
-  Json root;
+  Json message;
   std::string why;
-  if (!parse(frame, &root, &why)) return bad(Refused::kMalformed, "the request " + why);
-  if (!root.is_object()) return bad(Refused::kMalformed, "the request is no object");
-  const auto id = root.find("id");
-  if (id == root.end() || !id->is_number_unsigned() || id->get<double>() > kMostId) return bad(Refused::kMalformed, "id must be a whole number from 0");
+  if (!parse(frame, &message, &why)) return bad(Refused::kMalformed, "the request " + why);
+  if (!message.is_object()) return bad(Refused::kMalformed, "the request is no object");
+  const auto id = message.find("id");
+  if (id == message.end() || !id->is_number_unsigned() || id->get<double>() > kMostId) return bad(Refused::kMalformed, "id must be a whole number from 0");
   call->id = id->get<std::uint64_t>();
-  for (const auto& [key, value] : root.items())
+  for (const auto& [key, value] : message.items())
     if (key != "id" && key != "service" && key != "args") return bad(Refused::kMalformed, "the request has no member \"" + key + "\"");
-  const auto name = root.find("service");
-  if (name == root.end() || !name->is_string()) return bad(Refused::kMalformed, "service must be the name of a service");
+  const auto name = message.find("service");
+  if (name == message.end() || !name->is_string()) return bad(Refused::kMalformed, "service must be the name of a service");
   call->row = find_service(name->get_ref<const std::string&>());
   if (call->row == nullptr) return bad(Refused::kUnknownService, "there is no such service");
-  const auto args = root.find("args");
-  if (args != root.end() && !args->is_object()) return bad(Refused::kMalformed, "args must be an object");
-  if (args != root.end()) {
+  const auto args = message.find("args");
+  if (args != message.end() && !args->is_object()) return bad(Refused::kMalformed, "args must be an object");
+  if (args != message.end()) {
     for (const auto& [key, value] : args->items()) {
       const FieldInfo* field = field_of(*call->row, key);
       if (field == nullptr) return bad(Refused::kMalformed, std::string(call->row->name) + " has no member \"" + key + "\"");
@@ -148,15 +148,15 @@ bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
 }
 
 std::string encode_reply(std::uint64_t id, const Outcome& outcome) {
-  Json root = {{"id", id}, {"ok", outcome.ok}};
+  Json message = {{"id", id}, {"ok", outcome.ok}};
   if (outcome.ok) {
-    root["reply"] = outcome.reply;
+    message["reply"] = outcome.reply;
   } else {
-    root["error"] = refused_name(outcome.why);
-    root["text"] = outcome.text;
+    message["error"] = refused_name(outcome.why);
+    message["text"] = outcome.text;
   }
   // Texts come from programs and files, too: bytes that are no character are replaced.
-  std::string text = root.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() <= kMostFrameBytes) return text;
   return encode_reply(id, Outcome::refused(Refused::kFailed, "the reply is too long: ask for fewer entries"));
 }

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ class IntakeDesk {
   void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks) {
     const std::lock_guard lock(mutex_);
     intake_.take(request, now, acks, way);
+    show();
   }
   // As Intake::tick(). *acks gets the answers for the gateway.
   void tick(const Now& now, std::vector<Ack>* acks) {
@@ -29,19 +31,29 @@ class IntakeDesk {
     {
       const std::lock_guard lock(mutex_);
       intake_.tick(now, &late_);
+      show();
     }
     for (const Ack& ack : late_) {
       if (static_cast<Way>(ack.way) == Way::kGateway) acks->push_back(ack);
       else if (local_) local_(ack);
     }
   }
+  // The client that has control, "" = nobody. It does not wait for a command that takes long.
   std::string controlling() const {
-    const std::lock_guard lock(mutex_);
-    return intake_.controlling();
+    const std::lock_guard lock(shown_mutex_);
+    return shown_;
   }
 
  private:
-  mutable std::mutex mutex_;
+  void show() {
+    std::string now = intake_.controlling();
+    const std::lock_guard lock(shown_mutex_);
+    shown_ = std::move(now);
+  }
+
+  std::mutex mutex_;
+  mutable std::mutex shown_mutex_;
+  std::string shown_;  // guarded by shown_mutex_
   Intake intake_;
   std::vector<Ack> late_;  // of the thread of tick()
   std::function<void(const Ack&)> local_;
