@@ -345,7 +345,7 @@ TEST(Online, InterruptsWithMovesExecuteAsTheyTrace) {
     const std::string text = "M96 P1000\n" + program.main;
     const auto prepare = [&](Bench& bench) {
       set_up(bench, program);
-      bench.add("O1000", "#199=#199+1\nG90 G49 G80 G40 G0 X[#199] Y5. Z30.\nM7\nM99\n");
+      bench.add("O1000", "#199=#199+1\nG90 G49 G80 G40 G0 X[#199+0.37] Y5.3 Z30.\nM7\nM99\n");
       bench.param("1229/bit0", "1");
     };
     Bench online(NC_DIALECT_M700, machine(seed % 2 == 0 ? 64 : 256));
@@ -457,6 +457,8 @@ std::vector<Place> ends_with_recalculation(const std::string& text, bool optimal
     drive.in.recalculate = recalculate && random() % 4 == 0;
     drive.step(0);
   }
+  nc_alarm alarm = NC_INIT(nc_alarm);
+  EXPECT_NE(nc_alarm_get(bench.control(), 0, &alarm), NC_OK) << alarm.code << " " << alarm.message << ", line " << alarm.source.line;
   EXPECT_TRUE(drive.ended);
   std::vector<Place> ends;
   for (const nc_event& event : drive.events) {
@@ -476,7 +478,7 @@ TEST(Online, ARecalculationInMotionMovesNoPlace) {
   const std::string programs[] = {
       "G90 G54 F1000\nG0 X0 Y0\nG16\nG1 X10. Y30.\nG91\nG1 X10. Y30.\nG1 X10. Y30.\nG15\nG90 G1 X0\nM30",
       stairs + "G90\nM30",
-      "G90 G54 F3000\nG0 X0 Y0\nG1 X50.\nY20.\nX60.\nG91 X5.\nX5. Y5.\nG2 X10. I5.\nX-5.\nG90 Y0\nM30",
+      "G90 G54 F3000\nG0 X0 Y0\nG1 X50.\nY20.\nX60.\nG91 X5.\nX5. Y5.\nG2 X10. I5.\nG1 X-5.\nG90 Y0\nM30",
   };
   for (const bool optimal : {false, true}) {
     for (const std::string& text : programs) {

@@ -124,6 +124,8 @@ class Interpolator {
   void settle_axes() NC_RT;
   void leave_at(const AxisVec& place) NC_RT;
   void tell_where_left() NC_RT;
+  void drop(const Segment& s) NC_RT;
+  bool beside_path_end() const NC_RT;
   bool moves_any(const Segment& segment, uint8_t axes) const NC_RT;
   bool lost_move(const Record& record, Done* done) NC_RT;
   bool may_read_again() const NC_RT;
@@ -251,6 +253,7 @@ class Interpolator {
   bool displaced_ = false;  ///< axes were moved by hand since the block stop
   AxisVec left_at_;         ///< where the program has left the axes, if something else has moved them since (elsewhere_)
   bool elsewhere_ = false;
+  AxisVec path_end_;  ///< end of the newest move that has been executed
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
   uint32_t reread_ = 0;     ///< number of requests to read again so far

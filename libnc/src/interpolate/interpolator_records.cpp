@@ -125,6 +125,7 @@ void Interpolator::end_move(const Record& r) {
     follower_.give_up();
     passing_ = false;
   }
+  path_end_ = skip_braking_ ? wanted_ : r.segment.curve.end;
   law_.s = 0;
   tap_.turns += r.segment.curve.length * r.segment.tap_rev_per_mm;
   moving_ = skip_braking_ = rounding_ = false;
@@ -137,6 +138,13 @@ void Interpolator::end_move(const Record& r) {
     skip_position_ = wanted_;
     skip_behind_ = filter_.active() ? r.segment.skip_mask : uint8_t{0};
   }
+}
+
+/// A smoothed corner has led the axes beside the end of the newest move.
+bool Interpolator::beside_path_end() const {
+  for (unsigned i = 0; optimal_ != nullptr && i < config_.axis_count; ++i)
+    if (std::fabs(wanted_[i] - path_end_[i]) > kReached) return true;
+  return false;
 }
 
 /// Feed of the segment at an override of 100 %. M700 6.11: on an exponential curve the feed changes evenly with its linear axis from F to Q. 7.3: the
@@ -501,7 +509,8 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
     rereading_ = reread_reached_ = reread_interrupt_ = true;
     return;
   }
-  if (m.resume && at_rest() && (recalculate_ || (stale_ != 0 && may_read_again()))) {
+  // Blocks that are read again begin at the end of this one. Where the axes stand beside it, the next block end serves, which the plan comes to exactly.
+  if (m.resume && at_rest() && ((recalculate_ && !beside_path_end()) || (stale_ != 0 && may_read_again()))) {
     settle_axes();
     recalculate_ = false;
     rereading_ = reread_reached_ = true;

@@ -99,7 +99,10 @@ bool Interpolator::moves_any(const Segment& s, uint8_t axes) const {
 /// rest of the block is dropped, because the other axes move together with it. True: *done says what becomes of the move.
 bool Interpolator::lost_move(const Record& r, Done* done) {
   *done = Done::yes;
-  if (dropping_) return true;
+  if (dropping_) {
+    drop(r.segment);
+    return true;
+  }
   if (stale_ != 0 && !moving_ && at_rest()) {  // the move may have been read when the axis had its present position already
     bool known = true;
     for (unsigned i = 0; i < config_.axis_count; ++i)
@@ -119,7 +122,14 @@ bool Interpolator::lost_move(const Record& r, Done* done) {
   dropping_ = true;
   law_.s = 0;
   follower_.give_up();
+  drop(r.segment);
   return true;
+}
+
+/// For the program the axes are at the end of a dropped move; that they are not there counts like a movement by hand.
+void Interpolator::drop(const Segment& s) {
+  left_at_ = s.curve.end;
+  elsewhere_ = true;
 }
 
 /// At the end of a block, while a C axis stands beside the committed path: whether the next blocks may be read again. They may not when an alarm has
