@@ -396,7 +396,7 @@ ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& 
     return joint_corner_arc(before.end, behind.begin, before.offset);
   }
   ContourJoint joint;
-  if (comp_before.arc_cos != 0 && offset_behind == before.offset && joint_of_outer_corner(before.end, behind.begin, before.offset, double{comp_before.arc_cos}, &joint)) return joint;
+  if (comp_before.arc_cos != 0 && offset_behind == before.offset && joint_of_outer_corner(before.end, behind.begin, before.offset, static_cast<double>(comp_before.arc_cos), &joint)) return joint;
   *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin,
                          offset_behind, reach(behind.begin, behind.delta), &joint);
   return joint;
