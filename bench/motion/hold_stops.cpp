@@ -22,7 +22,6 @@
 #include <string>
 #include <vector>
 
-#include "ideal_stop.hpp"
 #include "nc/nc.h"
 
 namespace {
@@ -32,6 +31,7 @@ constexpr uint32_t kBudget = 1000;      // blocks per call of nc_feed
 constexpr long kMostCycles = 5000;      // after a hold the axes must stand within so many
 constexpr long kMostProgram = 2000000;  // a program must end within so many cycles
 constexpr double kLate = 20;            // ms: the table gives the share of the holds that are later than this
+constexpr double kMoves = 1e-3;         // mm/s: below that the axes as good as stand, and a hold says nothing
 
 struct Options {
   long every = 10;
@@ -54,6 +54,18 @@ struct Hold {
 struct FreeAligned {
   void operator()(void* p) const { std::free(p); }
 };
+
+// The shortest time in which speed v and acceleration a come to 0, wherever that is: the acceleration goes with the full jerk to a peak,
+// stays there for a while if the peak is its limit, `most`, and goes back to 0 with the full jerk.
+double to_rest(double v, double a, double most, double jerk) {
+  const double sign = v + a * std::fabs(a) / (2 * jerk) > 0 ? -1 : 1, from = sign * a, change = -sign * v;  // the speed that is to be gained
+  double peak = std::sqrt(std::max(0.0, jerk * change + 0.5 * from * from)), stays = 0;
+  if (peak > most) {
+    peak = std::max(most, from);
+    stays = std::max(0.0, change / peak - (2 * peak * peak - from * from) / (2 * jerk * peak));
+  }
+  return (2 * peak - from) / jerk + stays;
+}
 
 // A control in memory of its own, in the time-optimal mode, with drives that follow at once.
 class Machine {
@@ -101,8 +113,31 @@ class Machine {
   bool cuts() const { return out_.state == NC_STATE_RUNNING; }
   double cycle_s() const { return config_.cycle_s; }
 
-  nc::ideal::Stop ideal(const Options& options) const {
-    return nc::ideal::stop_from(place_[2], place_[1], place_[0], kAxes, cycle_s(), options.acceleration, options.jerk);
+  // Duration of the ideal stop along the tangent, in s. Beside it the present speed in mm/s, and in *axes_s the time in s that the slowest axis
+  // needs to come to rest, whatever the path.
+  double ideal(const Options& options, double* speed, double* axes_s) const {
+    const double dt = cycle_s();
+    double v[kAxes], size = 0, along = 0;
+    for (unsigned i = 0; i < kAxes; ++i) {
+      v[i] = (place_[0][i] - place_[1][i]) / dt;
+      size += v[i] * v[i];
+    }
+    *speed = size = std::sqrt(size);
+    if (!(size > kMoves)) return 0;
+    struct {
+      double acceleration = HUGE_VAL, jerk = HUGE_VAL;
+    } limits;
+    for (unsigned i = 0; i < kAxes; ++i) {
+      const double d = v[i] / size, a = (place_[0][i] - 2 * place_[1][i] + place_[2][i]) / (dt * dt);
+      along += a * d;
+      if (limits.acceleration * std::fabs(d) > options.acceleration) limits.acceleration = options.acceleration / std::fabs(d);
+      if (limits.jerk * std::fabs(d) > options.jerk) limits.jerk = options.jerk / std::fabs(d);
+    }
+    double least = 0;
+    for (unsigned i = 0; i < kAxes; ++i)
+      least = std::max(least, to_rest(v[i], (place_[0][i] - 2 * place_[1][i] + place_[2][i]) / (dt * dt), options.acceleration, options.jerk));
+    *axes_s = least;
+    return to_rest(size, along, limits.acceleration, limits.jerk);
   }
 
  private:
@@ -172,11 +207,8 @@ bool measure(const Options& options, const std::string& program, std::vector<Hol
     Hold h;
     h.program = short_name(program);
     h.cycle = n;
-    const nc::ideal::Stop ideal = m.ideal(options);
-    if (!(ideal.speed > nc::ideal::kMoves)) continue;
-    h.speed = ideal.speed;
-    h.ideal_s = ideal.line_s;
-    h.axes_s = ideal.axes_s;
+    h.ideal_s = m.ideal(options, &h.speed, &h.axes_s);
+    if (!(h.speed > kMoves)) continue;
     long cycles = 0;
     if (!hold_in_a_copy(m, &cycles)) return complain("a copy of the process could not be made") == 0;
     h.stood = cycles >= 0;

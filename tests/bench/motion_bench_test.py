@@ -1,7 +1,7 @@
-#SPDX - License - Identifier : Apache - 2.0
+# SPDX-License-Identifier: Apache-2.0
 """The tools of the motion benchmark: the reference solver is compared with closed forms, the checker gets recordings that are spoiled on purpose.
 
-    Runs in the environment that bench /motion / setup makes; skipped where it cannot be made.
+Runs in the environment that bench/motion/setup makes; skipped where it cannot be made.
 """
 import math
 import os
@@ -24,7 +24,7 @@ if os.environ.get("NC_MOTION_INSIDE") is None:
         sys.exit(77)
     sys.exit(subprocess.run([made.stdout.strip(), os.path.abspath(__file__)] + sys.argv[1:], env={**os.environ, "NC_MOTION_INSIDE": "1"}).returncode)
 
-#-- -- inside the environment -- --
+# ---- inside the environment ----
 
 sys.path.insert(0, BENCH)
 import numpy as np  # noqa: E402
@@ -37,7 +37,6 @@ import programs  # noqa: E402
 import reference  # noqa: E402
 import runner  # noqa: E402
 import shop_programs  # noqa: E402
-import tube_optimum  # noqa: E402
 
 V, A, J = LIMITS = (250.0, 2000.0, 50000.0)
 CYCLE = 0.001
@@ -66,6 +65,7 @@ def seven_phases(length, feed):
         middle = (low + high) / 2
         low, high = (middle, high) if ramp(middle) * middle < length else (low, middle)
     return 2 * ramp(low)
+
 
 def program(folder, text, name="p.nc"):
     path = os.path.join(folder, name)
@@ -259,7 +259,7 @@ class Programs(unittest.TestCase):
         path = path_from_program.path_of(file, self.ncsim, 0.01, "parabola", LIMITS)
         self.assertAlmostEqual(solve(path, jerk=False, step_s=0.002).seconds / seconds, 1, delta=share)
 
-#Time - optimal path parametrization of others, the same corners :../ shared / bench / README.md.
+    # Time-optimal path parametrization of others, the same corners: ../shared/bench/README.md.
     def test_without_a_jerk_limit_the_square_is_that_of_others(self):
         self.check_against_facts("a_square_g64", 4.084, 1e-3)
         self.check_against_facts("a_square_g61", 4.100, 1e-3)
@@ -298,7 +298,7 @@ class Checker(unittest.TestCase):
         return float(text.split("t = ")[1].split(" s")[0])
 
     def test_the_reference_keeps_its_limits_the_path_and_the_feed(self):
-#an exact stop of the reference falls between two cycles
+        # an exact stop of the reference falls between two cycles
         self.assertEqual([s for s in self.said(self.rows) if not s.startswith("stop")], [])
 
     def test_one_sample_moved_is_a_jerk_of_its_axis_at_its_time(self):
@@ -387,53 +387,6 @@ class Checker(unittest.TestCase):
         self.assertEqual(axes, ["X", "Y", "Z"])
         self.assertAlmostEqual(cycle_s, 0.0005)
         self.assertEqual(list(rows[-1]), [20, 0, 0])
-
-
-class TheTube(unittest.TestCase):
-    """bench/motion/tube on a corner of two lines of 3 mm, from a motion that rests in it."""
-
-    LENGTH, ROW_S, TOLERANCE, FEED = 3.0, 0.004, 0.01, 100.0
-
-    def motion(self):
-        share = np.linspace(0, 1, 51)
-        way = self.LENGTH * (10 * share ** 3 - 15 * share ** 4 + 6 * share ** 5)
-        ends = np.full(50, self.LENGTH)
-        return np.stack([np.concatenate([way, ends]), np.concatenate([np.zeros(51), way[1:]])], axis=1)
-
-    def solved(self, rows):
-        line = path_from_program.Polyline([[0.0, 0.0], [self.LENGTH, 0.0], [self.LENGTH, self.LENGTH]], [self.FEED, self.FEED])
-        tube = tube_optimum.Tube(line, rows, self.ROW_S, LIMITS, self.TOLERANCE)
-        return tube, tube.solve()
-
-    def test_its_motion_keeps_what_it_promises_and_is_shorter(self):
-        rows = self.motion()
-        tube, seconds = self.solved(rows)
-        self.assertLess(seconds, 0.8 * (len(rows) - 1) * self.ROW_S)
-#An axis alone, over what the tolerance leaves of its way, needs as long.
-        self.assertGreater(seconds, seven_phases(self.LENGTH - 2 * self.TOLERANCE, 1e9))
-        self.assertAlmostEqual(seconds, (len(rows) - 1) * tube.h)
-        self.assertLess(np.abs(tube.rows[[0, -1]] - rows[[0, -1]]).max(), 1e-6)
-        for order, most in enumerate(LIMITS, 1):
-            for axis in range(2):
-                used = np.abs(tube_optimum.differences(len(rows), order) @ tube.rows[:, axis]).max() / (most * tube.h ** order)
-                self.assertLess(used, 1.001, f"difference {order} of axis {axis}")
-        self.assertLess(np.linalg.norm(np.diff(tube.rows, axis=0), axis=1).max() / tube.h, 1.001 * self.FEED)
-        off = tube.line.distance(tube.rows, np.full(len(rows), self.LENGTH), 2 * self.LENGTH)
-        self.assertLess(off.max(), tube_optimum.WITHIN * self.TOLERANCE + 1e-9)
-        self.assertGreater(off.max(), 0.5 * self.TOLERANCE)  # it uses the tube
-
-    def test_its_result_is_as_good_as_final(self):
-        tube, seconds = self.solved(self.motion())
-        again = tube_optimum.Tube(tube.line, tube.rows, tube.h, LIMITS, self.TOLERANCE)
-        self.assertLessEqual(again.solve(), seconds * (1 + 1e-9))
-        self.assertGreater(again.seconds(), 0.99 * seconds)
-
-    def test_the_pieces_are_programs(self):
-        import tube_set
-        for name, make in tube_set.PROGRAMS.items():
-            text = make()
-            self.assertTrue(text.endswith("M30\n"), name)
-            self.assertGreater(text.count("\n"), 5, name)
 
 
 if __name__ == "__main__":

@@ -7,11 +7,16 @@
 #include <cmath>
 
 #include "motion/optimal/peaks.hpp"
-#include "motion/optimal/plan_cell.hpp"
+#include "motion/optimal/piece.hpp"
 
 namespace nc {
 
-using optimal::PlanMoment;
+/// The plan at one moment of its time: the path, and the derivatives of the path length u by time.
+struct PlanMoment {
+  CurvePoint path;
+  double v = 0, a = 0, j = 0;  ///< mm/s, mm/s^2, mm/s^3
+  bool rests = false;  ///< the moment lies behind the end of the plan
+};
 
 /// How fast the time of the plan goes: sigma, and its derivative (1/s).
 struct PlanPace {
@@ -45,17 +50,6 @@ class Brake {
     return false;
   }
 
-  /// A way to rest from a pace of 1 that the planner has found.
-  void take(const optimal::PacedStop& stop) NC_RT {
-    for (unsigned k = 0; k < stop.count; ++k) bend_[k] = stop.bend[k];
-    count_ = stop.count;
-    step_ = stop.step;
-    last_ = stop.last;
-    from_ = {};
-    begin();
-    lands_ = true;
-  }
-
   /// Goes on for `time` seconds. @return by how many seconds the time of the plan goes on.
   double advance(double time) NC_RT {
     const double from = now_.tau;
@@ -78,7 +72,7 @@ class Brake {
   double sigma() const { return std::fmax(0, now_.sigma); }
 
  private:
-  static constexpr unsigned kSteps = optimal::PacedStop::kMost;
+  static constexpr unsigned kSteps = 512;
   static constexpr unsigned kLooks = 16;    ///< the most moments that are looked at in a step
   static constexpr double kLongest = 0.00125, kShortest = 0.00025;  ///< longest and shortest step, s
   static constexpr double kOfRise = 0.25;   ///< a step takes this share of the time in which the acceleration rises to its limit

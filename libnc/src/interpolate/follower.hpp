@@ -29,14 +29,10 @@ class Follower {
       at_end_ = true;
       begins_ = false;
     }
-    taken_ = (offer.first != optimal::kNoCell || offer.paced) && offer.generation == generation_ && fits(offer);
+    taken_ = offer.first != optimal::kNoCell && offer.generation == generation_ && fits(offer);
     if (!taken_) return;
     stops_ = offer.stops;
-    if (offer.paced) {
-      brake_.take(*store_->stop);
-      pace_cell_ = offer.after;
-      pace_t_ = offer.leave;
-    } else if (offer.fresh) {
+    if (offer.fresh) {
       cell_ = offer.first;
       t_ = 0;
       begins_ = true;
@@ -44,10 +40,6 @@ class Follower {
       u_ = store_->at(cell_).u;
     } else {
       next(offer.after) = offer.first;
-      if (offer.leave < HUGE_VAL) {
-        left_cell_ = offer.after;
-        left_s_ = offer.leave;
-      }
     }
   }
 
@@ -79,7 +71,7 @@ class Follower {
 
   /// Looks for a way to rest along the plan ahead that keeps the limits, and takes it. To be called in each cycle until stops().
   void brake(PlanPace pace = {}) NC_RT {
-    if (braking_ || pace_cell_ != optimal::kNoCell || at_rest()) return;
+    if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
     braking_ = brake_.find(PlanAhead{this, cell_, -t_}, *limits_, use, pace);
   }
@@ -87,10 +79,6 @@ class Follower {
 
   /// Goes on for `time` seconds or to the next rest. @return what is left of the time.
   double advance(double time) NC_RT {
-    if (pace_cell_ != optimal::kNoCell) {
-      time = follow(time);  // what is left of it lies behind the place where the chain goes slower
-      if (!(time > 0) || !braking_) return time;
-    }
     if (!braking_) return follow(time);
     follow(brake_.advance(time));
     v_ *= brake_.sigma();
@@ -128,7 +116,6 @@ class Follower {
     out->t = t_;
     out->at_end = at_end_;
     out->waits = begins_;
-    out->paced = braking_ || pace_cell_ != optimal::kNoCell;
     out->halted = halted_;
     out->piece = halt_piece_;
     out->x = halt_x_;
@@ -149,18 +136,13 @@ class Follower {
     begins_ = false;
     for (;;) {
       const optimal::PlanCell& c = store_->at(cell_);
-      const bool paces = cell_ == pace_cell_;
-      const double left = (paces ? pace_t_ : seconds_of(cell_)) - t_;
-      if (paces && !(time < left)) {
-        pace_cell_ = optimal::kNoCell;
-        braking_ = true;
-        t_ = pace_t_;
-        place(c);
-        return time - left;
-      }
+      const double left = c.seconds - t_;
       if (time < left) {
         t_ += time;
-        place(c);
+        const optimal::CellState q = optimal::state_in(c, t_);
+        x_ = std::fmin(c.h, std::fmax(0, q.x));
+        u_ = c.u + x_;
+        v_ = planned_v_ = q.v;
         return 0;
       }
       time -= left;
@@ -176,15 +158,9 @@ class Follower {
       t_ = 0;
     }
   }
-  void place(const optimal::PlanCell& c) NC_RT {
-    const optimal::CellState q = optimal::state_in(c, t_);
-    x_ = std::fmin(c.h, std::fmax(0, q.x));
-    u_ = c.u + x_;
-    v_ = planned_v_ = q.v;
-  }
   void let_go() {
     ++generation_;
-    cell_ = left_cell_ = pace_cell_ = optimal::kNoCell;
+    cell_ = optimal::kNoCell;
     at_end_ = true;
     begins_ = braking_ = stops_ = false;
     v_ = planned_v_ = 0;
@@ -204,13 +180,13 @@ class Follower {
     optimal::CellIndex cell;
     double begun;
 
-    double cell_end() const NC_RT { return begun + of->seconds_of(cell); }
+    double cell_end() const NC_RT { return begun + of->store_->at(cell).seconds; }
     PlanMoment at(double tau) NC_RT {
       while (tau >= cell_end())
         if (!enter()) return rest();
       return of->moment(of->store_->at(cell), std::fmax(0, tau - begun));
     }
-    PlanMoment at_cell_end() const NC_RT { return of->moment(of->store_->at(cell), of->seconds_of(cell)); }
+    PlanMoment at_cell_end() const NC_RT { return of->moment(of->store_->at(cell), of->store_->at(cell).seconds); }
     PlanMoment at_next_cell() NC_RT { return enter() ? of->moment(of->store_->at(cell), 0) : rest(); }
 
    private:
@@ -226,16 +202,23 @@ class Follower {
       return m;
     }
   };
-  PlanMoment moment(const optimal::PlanCell& c, double t) const NC_RT { return optimal::moment_in(*store_, c, t, axis_count_); }
+  PlanMoment moment(const optimal::PlanCell& c, double t) const NC_RT {
+    PlanMoment m;
+    const optimal::CellState q = optimal::state_in(c, t);
+    const optimal::Piece& p = store_->piece_at(c.piece);
+    m.path = evaluate(p, std::fmin(p.length, c.x + std::fmin(c.h, std::fmax(0, q.x))), axis_count_);
+    m.v = q.v;
+    m.a = q.a;
+    using Kind = optimal::PlanCell::Kind;
+    m.j = c.kind == Kind::level ? c.w * q.v : c.kind == Kind::ramp ? c.w : 2 * c.v / (c.seconds * c.seconds);
+    return m;
+  }
 
-  /// How long the path stays in a cell: one that is left inside of it, for a stop, not to its end.
-  double seconds_of(optimal::CellIndex k) const NC_RT { return k == left_cell_ ? left_s_ : store_->at(k).seconds; }
   optimal::CellIndex& next(optimal::CellIndex k) { return store_->next[k & store_->cell_mask]; }
   bool fits(const optimal::Proposal& offer) const NC_RT {
-    if (braking_ || pace_cell_ != optimal::kNoCell) return false;
+    if (braking_) return false;
     if (offer.fresh) return at_rest();
     if (cell_ == optimal::kNoCell || offer.after < cell_) return false;
-    if (offer.after == cell_ && offer.leave < t_) return false;
     // The offer goes on behind the end of the plan, where it rests, or behind a cell that has not been left yet.
     return true;
   }
@@ -257,10 +240,6 @@ class Follower {
   optimal::PlanStore* store_ = nullptr;
   unsigned axis_count_ = 3;
   optimal::CellIndex cell_ = optimal::kNoCell;
-  optimal::CellIndex left_cell_ = optimal::kNoCell;
-  double left_s_ = 0;
-  optimal::CellIndex pace_cell_ = optimal::kNoCell;  ///< here the chain begins to be gone more slowly, at pace_t_
-  double pace_t_ = 0;
   uint32_t generation_ = 0, answered_ = 0;
   uint32_t taken_to_ = 0;
   double t_ = 0, x_ = 0, u_ = 0, v_ = 0, planned_v_ = 0;

@@ -54,7 +54,6 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   store_.cell = arena.make<PlanCell>(kCells);
   store_.next = arena.make<CellIndex>(kCells);
   store_.cell_mask = kCells - 1;
-  store_.stop = arena.make<PacedStop>();
   store_.passed = arena.make<double>(setup.capacity);
   store_.record_mask = setup.capacity - 1;
   builder_.create(setup_.limits, setup.tolerance, kPeriod, records, &store_, arena);
@@ -65,7 +64,6 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   down_b_ = arena.make<double>(kMaxCells + 1);
   records_ = records;
   lead_ = least_lead();
-  stop_lead_ = setup.cycle_s;
 }
 
 void OptimalPlanner::count_from(uint64_t first) {
@@ -98,9 +96,9 @@ void OptimalPlanner::begin_again(const Following& f) {
   open_ = false;
   chain_ = {};
   lead_ = least_lead();
-  left_cell_ = tried_at_ = kNoCell;
+  tried_at_ = kNoCell;
   offer_.first = offer_.last = offer_.after = offer_.rests = kNoCell;
-  offer_.failed = offer_.paced = false;
+  offer_.failed = false;
 }
 
 /// It has given everything up: the path begins anew with its records.
@@ -116,21 +114,14 @@ bool OptimalPlanner::answered(const Following& f) {
   if (!open_) return true;
   if (f.answered != offer_.number) return false;
   open_ = false;
-  const bool inside = offer_.leave < HUGE_VAL;
-  double& lead = inside ? stop_lead_ : lead_;
   if (f.taken) {
-    if (!offer_.fresh && !offer_.paced) chain_next_[offer_.after & store_.cell_mask] = offer_.first;
-    if (inside && !offer_.paced) {
-      chain_end_[offer_.after & store_.cell_mask] -= seconds_of(offer_.after) - offer_.leave;
-      left_cell_ = offer_.after;
-      left_s_ = offer_.leave;
-    }
+    if (!offer_.fresh) chain_next_[offer_.after & store_.cell_mask] = offer_.first;
     chain_ = next_chain_;
     fresh_ = false;
-    lead = std::max(0.9 * lead, inside ? setup_.cycle_s : least_lead());
+    lead_ = std::max(0.9 * lead_, least_lead());
   } else {
-    if (!offer_.paced) write_ = offer_.first;
-    lead = std::min(2 * lead, kLongestLead);
+    write_ = offer_.first;
+    lead_ = std::min(2 * lead_, kLongestLead);
   }
   return true;
 }
@@ -186,7 +177,6 @@ void OptimalPlanner::begin_law(bool answer) {
 /// All that is to be done for what the scan has said. `answer`: no more than that.
 Task<bool> OptimalPlanner::law(Work& work, bool answer) {
   const Following& f = law_for_;
-  if (f.paced) co_return true;  // until it rests
   co_await change(work, f);
   if (!answer && !open_ && !f.brake) co_await go_on(work, f, idle_);
   co_return true;
@@ -307,7 +297,6 @@ OptimalPlanner::Start OptimalPlanner::behind(CellIndex cell) const {
   const PlanCell& next = store_.at(chain_next_[cell & store_.cell_mask]);
   Start s;
   s.after = cell;
-  if (cell == left_cell_) s.leave = left_s_;
   s.piece = next.piece;
   s.x = next.x;
   s.u = next.u;
@@ -317,22 +306,10 @@ OptimalPlanner::Start OptimalPlanner::behind(CellIndex cell) const {
   return s;
 }
 
-/// How long the scan is in a cell of the chain.
-double OptimalPlanner::seconds_of(CellIndex cell) const {
-  return cell == left_cell_ ? left_s_ : store_.at(cell).seconds;
-}
-
-/// Seconds from the start of the chain.
-double OptimalPlanner::begins_at(const Start& start) const {
-  if (start.fresh) return 0;
-  const double end = chain_end_[start.after & store_.cell_mask];
-  return start.leave < HUGE_VAL ? end - (seconds_of(start.after) - start.leave) : end;
-}
-
 /// Seconds until the scan leaves the cell of the chain; 0 when it has.
 double OptimalPlanner::ahead(const Following& f, CellIndex cell) const {
   if (f.cell == kNoCell || cell < f.cell) return 0;
-  const double time = f.at_end ? 0 : seconds_of(f.cell) - f.t;
+  const double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
   return time + chain_end_[cell & store_.cell_mask] - chain_end_[f.cell & store_.cell_mask];
 }
 
@@ -340,7 +317,7 @@ double OptimalPlanner::ahead(const Following& f, CellIndex cell) const {
 bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) const {
   if (!moving(f)) return false;
   CellIndex k = f.cell;
-  double time = f.at_end ? 0 : seconds_of(k) - f.t;
+  double time = f.at_end ? 0 : store_.at(k).seconds - f.t;
   while (k != chain_.last) {
     const bool rests = store_.at(k).kind == PlanCell::Kind::land;
     if (time >= lead || (rests && (time > 0 || f.at_end))) {
@@ -348,34 +325,9 @@ bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) c
       return true;
     }
     k = chain_next_[k & store_.cell_mask];
-    time += seconds_of(k);
+    time += store_.at(k).seconds;
   }
   return false;
-}
-
-/// The place `lead` seconds ahead, wherever in a cell that is. False where the chain comes to rest before, or in that cell.
-bool OptimalPlanner::find_inside(const Following& f, double lead, Start* start) const {
-  if (!moving(f) || f.at_end) return false;
-  CellIndex k = f.cell;
-  double t = f.t + lead;
-  for (; t > seconds_of(k); k = chain_next_[k & store_.cell_mask]) {
-    if (k == chain_.last || store_.at(k).kind == PlanCell::Kind::land) return false;
-    t -= seconds_of(k);
-  }
-  const PlanCell& c = store_.at(k);
-  if (c.kind == PlanCell::Kind::land) return false;
-  const CellState q = state_in(c, t);
-  const double x = std::clamp(q.x, 0.0, c.h);
-  *start = {};
-  start->after = k;
-  start->leave = t;
-  start->from_rest = false;
-  start->piece = c.piece;
-  start->x = c.x + x;
-  start->u = c.u + x;
-  start->v = q.v;
-  start->a = q.a;
-  return q.v > 0;
 }
 
 /// The cell of the chain that lies `count` cells before another one, not before the one in execution.
@@ -492,12 +444,7 @@ bool OptimalPlanner::whole() const {
 
 /// Of the law found last.
 double OptimalPlanner::law_seconds() const {
-  switch (found_) {
-    case Found::line: return line_.seconds();
-    case Found::phases: return windows_->phases().seconds();
-    case Found::cells: break;
-  }
-  return windows_->law().seconds;
+  return found_ == Found::cells ? windows_->law().seconds : found_ == Found::line ? line_.seconds() : windows_->phases().seconds();
 }
 
 /// The law that was found last ends where the path rests.
@@ -537,7 +484,7 @@ Task<bool> OptimalPlanner::copy_law(Work& work, const Start& start, Start* end) 
   const Law& law = windows_->law();
   if (write_ + law.cells - free_from_ >= kCells) co_return false;
   const bool ends = path_ends();
-  double time = begins_at(start);
+  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   for (unsigned k = 0; k < law.cells; ++k) {
     copy_cell(start, k, ends && k + 1 == law.cells, &time);
     co_await work.pause(kCopyCost);
@@ -617,7 +564,7 @@ Task<bool> OptimalPlanner::extend(Work& work, const Following& f, const Start& s
     co_return false;
   }
   next_chain_.block_rests = f.block_rests;
-  next_chain_.enough_s = whole() ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - begins_at(start));
+  next_chain_.enough_s = whole() ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
   offer(start, false);
   work.spend(kChainCost * static_cast<int64_t>(write_ - offer_first_));
   co_return true;
@@ -663,11 +610,10 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
   next_chain_.stops = stops;
   ++offer_.number;
   offer_.after = start.after;
-  offer_.leave = start.leave;
   offer_.fresh = start.fresh;
   offer_.first = offer_first_;
   offer_.last = write_ - 1;
-  offer_.failed = offer_.paced = false;
+  offer_.failed = false;
   offer_.stops = stops;
   offer_.rests = kNoCell;
   open_ = true;
@@ -703,10 +649,6 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
     start.u = store_.at(f.cell).u;
     co_await extend(work, f, start, block_most(f, start), nullptr);
     co_return true;
-  }
-  if (f.brake && !chain_.stops) {
-    const bool stopped = co_await stop_soon(work, f);
-    if (stopped) co_return true;
   }
   if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
     if (f.brake) offer_.rests = chain_.last;

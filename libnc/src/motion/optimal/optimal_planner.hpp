@@ -7,7 +7,6 @@
 #include "base/triple_buffer.hpp"
 #include "motion/optimal/line_law.hpp"
 #include "motion/optimal/path_builder.hpp"
-#include "motion/optimal/stop_law.hpp"
 #include "motion/optimal/windows.hpp"
 
 namespace nc::optimal {
@@ -44,10 +43,9 @@ class OptimalPlanner {
 
  private:
   static constexpr uint32_t kCells = 8192;  ///< in the ring
-  /// A place where a law may begin: behind a cell of the chain or inside of it, or at rest without one.
+  /// A place where a law may begin: behind a cell of the chain, or at rest without one.
   struct Start {
     CellIndex after = kNoCell;
-    double leave = HUGE_VAL;  ///< s in that cell, or at its end
     bool fresh = false, from_rest = true;
     uint32_t piece = 0;
     double x = 0, u = 0, v = 0, a = 0;
@@ -79,9 +77,6 @@ class OptimalPlanner {
   Task<bool> change_from(Work& work, const Following& f, const Start& start);
   CellIndex before(const Following& f, CellIndex cell, unsigned count) const;
   bool find_ahead(const Following& f, double lead, Start* start) const;
-  bool find_inside(const Following& f, double lead, Start* start) const;
-  double seconds_of(CellIndex cell) const;
-  double begins_at(const Start& start) const;
   Start at_end() const;
   Start behind(CellIndex cell) const;
   double ahead(const Following& f, CellIndex cell) const;
@@ -125,12 +120,6 @@ class OptimalPlanner {
   Task<bool> copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
   Task<bool> stop_there(Work& work, const Start& start, bool closed);
-  Task<bool> offer_stop(Work& work, const Start& start);
-  void offer_pace(const Start& start);
-  double seconds_to_rest(const Start& start, double most, CellIndex* rest) const;
-  Task<bool> find_stop_inside(Work& work, const Start& start, double seconds);
-  bool has_left(const Start& start);
-  Task<bool> stop_soon(Work& work, const Following& f);
   Task<bool> stop_later(Work& work, const Start& from);
   void reuse_cells(const Following& f);
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
@@ -147,9 +136,7 @@ class OptimalPlanner {
   PathBuilder builder_;
   Windows* windows_ = nullptr;
   LineLaw line_;
-  StopLaw stop_law_;
   enum class Found : uint8_t { cells, line, phases };
-  bool on_a_line_ = false;        ///< the stop found last is that of line_, and not that along the chain
   Found found_ = Found::cells;    ///< what the law found last is: that of windows_, line_, or the phases of windows_
   CellIndex line_keep_ = kNoCell;  ///< cell of it behind which a law to a farther end would be another one
   CellIndex* chain_next_ = nullptr;
@@ -175,9 +162,6 @@ class OptimalPlanner {
   uint32_t fresh_piece_ = 0;    ///< where it begins then
   double fresh_x_ = 0;
   double lead_ = 0.004;
-  double stop_lead_ = 0.001;    ///< the same for a stop, of which each cycle counts
-  CellIndex left_cell_ = kNoCell;  ///< of the chain, that is left inside, so many seconds behind its start
-  double left_s_ = 0;
   uint32_t head_ = 0;
   unsigned failed_ = 0;          ///< laws from the chain on that were not found
   CellIndex tried_at_ = kNoCell; ///< cell of the scan when no law was found

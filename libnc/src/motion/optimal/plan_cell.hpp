@@ -68,53 +68,22 @@ inline PlanCell plan_cell(const Law& law, const Mesh& mesh, unsigned k) {
   return c;
 }
 
-/// A way to rest along the chain, whose time goes ever more slowly: tau' = sigma from 1 to 0, in steps of constant sigma''.
-struct PacedStop {
-  static constexpr unsigned kMost = 512;
-  double bend[kMost] = {};     ///< sigma'', 1/s^2
-  unsigned count = 0;
-  double step = 0, last = 0;   ///< s, of a step; of the last one
-};
-
 /// Cells and pieces, written by the planner, read by the scan once a proposal has shown them.
 struct PlanStore {
   PlanCell* cell = nullptr;
   CellIndex* next = nullptr;  ///< per cell: where the chain goes on; written with the cells, and by the scan where it takes an offer
   Piece* piece = nullptr;
-  PacedStop* stop = nullptr;  ///< of the offer that says so; the scan copies it where it takes that
   double* passed = nullptr;  ///< per record: u at its end
   uint32_t cell_mask = 0, piece_mask = 0, record_mask = 0;
   const PlanCell& at(CellIndex k) const { return cell[k & cell_mask]; }
   const Piece& piece_at(uint32_t k) const { return piece[k & piece_mask]; }
 };
 
-/// The chain at one moment: the path, and the derivatives of the path length u by time.
-struct PlanMoment {
-  CurvePoint path;
-  double v = 0, a = 0, j = 0;  ///< mm/s, mm/s^2, mm/s^3
-  bool rests = false;  ///< the moment lies behind the end of the plan
-};
-
-/// `t` seconds after a cell was entered.
-inline PlanMoment moment_in(const PlanStore& store, const PlanCell& c, double t, unsigned axis_count) NC_RT {
-  PlanMoment m;
-  const CellState q = state_in(c, t);
-  const Piece& p = store.piece_at(c.piece);
-  m.path = evaluate(p, std::fmin(p.length, c.x + std::fmin(c.h, std::fmax(0, q.x))), axis_count);
-  m.v = q.v;
-  m.a = q.a;
-  using Kind = PlanCell::Kind;
-  m.j = c.kind == Kind::level ? c.w * q.v : c.kind == Kind::ramp ? c.w : 2 * c.v / (c.seconds * c.seconds);
-  return m;
-}
-
 /// What the planner offers: cells [first, last] behind cell `after`, or for an axis at rest and without a plan (fresh).
 struct Proposal {
   uint32_t number = 0;      ///< counts offers
   uint32_t generation = 0;  ///< for a scan that has given up so often
   CellIndex after = kNoCell, first = kNoCell, last = kNoCell;
-  double leave = HUGE_VAL;  ///< s in cell `after`, where the chain is left; or at its end
-  bool paced = false;       ///< no new cells: the chain goes on from there as the stop in the store says
   bool fresh = false;
   bool failed = false;      ///< no law was found for what follows
   bool stops = false;       ///< the way to rest that was asked for
@@ -132,7 +101,6 @@ struct Following {
   double t = 0;             ///< s in it
   bool at_end = true;       ///< it has been gone to its end
   bool waits = false;       ///< at the start of its first cell, for the spindle
-  bool paced = false;       ///< it is on a way to rest along the chain, and takes no other offer until it rests
   bool brake = false;       ///< to rest as soon as the limits allow
   Scales scale;
   bool block_rests = false;  ///< at the ends of blocks

@@ -171,7 +171,7 @@ template <class PhasesOf>
 Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end) {
   const CellIndex first = write_;
   const double period = std::max(kPeriod, law.seconds() / kMostCells);
-  double time = begins_at(start);
+  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   uint32_t piece = start.piece;
   double begun = -start.x;  // where the piece begins on the line
   LineState from = law.start();

@@ -16,13 +16,9 @@ constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
 constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
-constexpr double kAsGood = 1.02;      ///< times the stop on a line: no other one is looked for
-constexpr double kLongestStop = 16;   ///< times that one, within which the chain itself may come to rest about as soon
-constexpr unsigned kStopTries = 6;    ///< places inside of the chain from which one is looked for
 constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
 constexpr unsigned kStopSteps = 18;    ///< of the solver, after which there is none so short
 constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
-constexpr double kLongestLead = 0.1;  ///< s
 constexpr double kCloseStops = 1.02;   ///< within that distances are not worth one
 // Instructions: of a stop on a straight line, and of a record that is looked at.
 constexpr int64_t kLineCost = 15000, kRecordCost = 20;
@@ -170,12 +166,6 @@ Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, bool close
     no_room_ = true;
     co_return false;
   }
-  const bool offered = co_await offer_stop(work, start);
-  co_return offered;
-}
-
-/// Offers the way to rest that was found last.
-Task<bool> OptimalPlanner::offer_stop(Work& work, const Start& start) {
   offer_first_ = write_;
   next_chain_ = {};
   Start end;
@@ -187,84 +177,6 @@ Task<bool> OptimalPlanner::offer_stop(Work& work, const Start& start) {
   next_chain_.u = end.u;
   offer(start, true);
   co_return true;
-}
-
-/// Offers the stop along the chain that was found last.
-void OptimalPlanner::offer_pace(const Start& start) {
-  *store_.stop = stop_law_.stop();
-  next_chain_ = chain_;
-  next_chain_.stops = true;
-  ++offer_.number;
-  offer_.after = start.after;
-  offer_.leave = start.leave;
-  offer_.first = offer_.last = kNoCell;
-  offer_.fresh = offer_.failed = false;
-  offer_.paced = offer_.stops = true;
-  offer_.rests = kNoCell;
-  open_ = true;
-}
-
-/// The cell at whose end the chain rests behind a place, and how long it takes until then; no farther than `most` seconds.
-double OptimalPlanner::seconds_to_rest(const Start& start, double most, CellIndex* rest) const {
-  double seconds = -start.leave;
-  for (*rest = start.after;; *rest = chain_next_[*rest & store_.cell_mask]) {
-    seconds += seconds_of(*rest);
-    if (*rest == chain_.last || store_.at(*rest).kind == PlanCell::Kind::land || seconds > most) return seconds;
-  }
-}
-
-/// The scan has left a place while a way to rest from there was looked for.
-bool OptimalPlanner::has_left(const Start& start) {
-  const Following f = following_.read();
-  return f.generation != generation_ || f.cell == kNoCell || f.cell > start.after || (f.cell == start.after && f.t > start.leave);
-}
-
-/// A way to rest from a place inside of the chain is found: on a line in closed form, else along the chain.
-Task<bool> OptimalPlanner::find_stop_inside(Work& work, const Start& start, double seconds) {
-  const Limits now = limits_;
-  limits_ = unbound(start);
-  on_a_line_ = find_line_stop(start, 0.99 * (chain_.u - start.u));
-  co_await work.pause(kLineCost);
-  bool found = on_a_line_;
-  if (!on_a_line_) found = co_await stop_law_.find(work, {&store_, chain_next_, left_cell_, left_s_}, start.after, start.leave, limits_, seconds);
-  limits_ = now;
-  found_ = Found::line;
-  co_return found;
-}
-
-/// From the first place ahead from which there is a way to rest, wherever in a cell it lies. Where the scan has come by that place meanwhile, it is
-/// looked for again, farther ahead.
-Task<bool> OptimalPlanner::stop_soon(Work& work, const Following& f) {
-  Following from = f;
-  for (unsigned n = 0; n < kStopTries; ++n) {
-    Start start;
-    double seconds = 0;
-    if (!find_inside(from, stop_lead_, &start) || stands(store_.piece_at(start.piece), limits_)) co_return false;
-    if (!(stopping_distance(start, &seconds) > 0)) co_return false;
-    CellIndex rest = kNoCell;
-    const double chain = seconds_to_rest(start, kLongestStop * seconds, &rest);
-    if (chain < kAsGood * seconds) {
-      offer_.rests = rest;
-      co_return true;
-    }
-    bool found = co_await find_stop_inside(work, start, seconds);
-    if (found && !on_a_line_ && !(stop_law_.seconds() < chain)) {
-      offer_.rests = rest;
-      co_return true;
-    }
-    if (found && !has_left(start)) {
-      if (!on_a_line_) {
-        offer_pace(start);
-        co_return true;
-      }
-      found = co_await offer_stop(work, start);
-      co_return found;
-    }
-    stop_lead_ = std::min(2 * stop_lead_, kLongestLead);
-    from = following_.read();
-    if (from.generation != generation_) co_return false;
-  }
-  co_return false;
 }
 
 /// Single block has been switched on: to the first end of a block that can be reached at rest.
