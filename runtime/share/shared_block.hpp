@@ -4,6 +4,7 @@
 #pragma once
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -34,10 +35,13 @@ class SharedBlock {
     sequence_.store(sequence + 1, std::memory_order_release);
   }
 
-  // False when no consistent value was found, because the writer has stopped in the middle of writing.
+  // False when no consistent value was found for a second, because the writer has stopped in the middle of writing. A writer without a real-time
+  // priority may be put aside there for many milliseconds by others, so that counting attempts alone would give up too early. Not for a real-time
+  // thread: it may sleep.
   bool load(T* value, std::uint64_t* sequence = nullptr) const noexcept {
-    for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
-      if (attempt != 0) sched_yield();
+    for (unsigned attempt = 0; attempt < kQuickAttempts + kSlowAttempts; ++attempt) {
+      if (attempt >= kQuickAttempts) usleep(kPauseUs);
+      else if (attempt != 0) sched_yield();
       const std::uint64_t before = sequence_.load(std::memory_order_acquire);
       if ((before & 1) != 0) continue;
       auto* bytes = reinterpret_cast<unsigned char*>(value);
@@ -54,7 +58,7 @@ class SharedBlock {
   std::uint64_t sequence() const noexcept { return sequence_.load(std::memory_order_acquire); }
 
  private:
-  static constexpr unsigned kAttempts = 2000;
+  static constexpr unsigned kQuickAttempts = 100, kSlowAttempts = 1000, kPauseUs = 1000;
   std::atomic<std::uint64_t> sequence_;
   std::array<std::atomic<std::uint64_t>, kWords> words_;
 };
