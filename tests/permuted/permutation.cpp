@@ -173,15 +173,14 @@ PermutedDialect::PermutedDialect(const Dialect& family, const Permutation& permu
     lex_.word[to] = family.lex->word[i];
     argument_of_[to] = family.argument_of[i];
     if ((family.length_addresses >> i & 1) != 0) dialect_.length_addresses |= 1u << to;
+    if ((family.calling_words >> i & 1) != 0) dialect_.calling_words |= 1u << to;
   }
   for (unsigned role = 0; role < kRoles; ++role) {
     const char letter = family.addresses.letter(static_cast<Role>(role));
     if (letter != 0) dialect_.addresses.bind(static_cast<Role>(role), permutation.letter(letter));
   }
-  for (const char* at = family.calling_letters; *at != 0; ++at) calling_letters_ += permutation.letter(*at);
   dialect_.lex = &lex_;
   dialect_.argument_of = argument_of_;
-  dialect_.calling_letters = calling_letters_.c_str();
   dialect_.functions = table(functions_);
   dialect_.parameters = &parameters_;
   dialect_.variables = &variables_;

@@ -61,7 +61,6 @@ class PermutedDialect {
   Dialect dialect_;
   LexRules lex_;
   uint8_t argument_of_[26] = {};
-  std::string calling_letters_;
   FamilyParameters parameters_;
   FamilyVariables variables_;
   ParameterPlaces places_;

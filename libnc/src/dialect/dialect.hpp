@@ -91,7 +91,7 @@ struct Dialect {
   uint32_t axis_addresses;           ///< bit n: address n is for axes; if no axis has it, the word is a fault (or the second auxiliary function)
   uint32_t length_addresses;         ///< bit n: the words of address n, which are not those of axes, have the range of lengths
   const uint8_t* argument_of = nullptr;  ///< by address: local variable that takes its word in a macro call, 0 = none; nullptr = no macros
-  const char* calling_letters = "";  ///< letters that a parameter may register to call a program
+  WordSet calling_words = 0;         ///< words that a parameter may register to call a program
   char device_letter = 0;            ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
   Table<FunctionRow> functions;      ///< G codes, sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code

@@ -67,8 +67,34 @@ enum class Role : uint8_t {
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);
 
+/// The number of addresses. An address is the number of its letter, from 0 = A.
+inline constexpr unsigned kAddresses = 26;
 /// The address of a meaning that has no letter. No word ever has this address.
-inline constexpr uint8_t kNoAddress = 26;
+inline constexpr uint8_t kNoAddress = kAddresses;
+
+/// A word of a family as the rooms that execute programs know it: a handle by which it can be compared, looked for and shown in an alarm. Which letter it has
+/// is known to dialect/ and command/ only.
+enum class WordSlot : uint8_t {};
+/// No word.
+inline constexpr WordSlot kNoWord{kNoAddress};
+/// A set of words, one bit for each.
+using WordSet = uint32_t;
+constexpr unsigned index_of(WordSlot word) { return static_cast<unsigned>(word); }
+/// The set of one word; of kNoWord it is empty.
+constexpr WordSet set_of(WordSlot word) { return (1u << index_of(word)) & ((1u << kNoAddress) - 1); }
+constexpr bool holds(WordSet words, WordSlot word) { return (words >> index_of(word) & 1) != 0; }
+/// The word with this capital letter, kNoWord for any other character.
+constexpr WordSlot word_named(char letter) { return letter >= 'A' && letter <= 'Z' ? WordSlot{static_cast<uint8_t>(letter - 'A')} : kNoWord; }
+/// The capital letter of a word, 0 for kNoWord.
+constexpr char letter_of(WordSlot word) { return word == kNoWord ? char{0} : static_cast<char>('A' + index_of(word)); }
+/// The word whose capital letter has this code of a character, kNoWord for any other number.
+constexpr WordSlot word_of_capital(uint32_t code) { return code <= 'Z' ? word_named(static_cast<char>(code)) : kNoWord; }
+/// The word whose letter, small or capital, has this code of a character, as parameters give it; kNoWord for any other number.
+constexpr WordSlot word_of_character(double code) {
+  if (!(code >= 'A' && code <= 'z')) return kNoWord;
+  const char letter = static_cast<char>(code);
+  return word_named(letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : letter);
+}
 
 /// vector_along() is the vector component along basic axis 0, 1 or 2; basic_along() is the name of this axis.
 constexpr Role vector_along(unsigned axis) { return static_cast<Role>(static_cast<unsigned>(Role::vector_x) + axis); }
@@ -101,6 +127,11 @@ class AddressTable {
   /// The letter of a meaning for the text of alarms, 0 = it has none.
   constexpr char letter(Role role) const { return at(role) == kNoAddress ? char{0} : static_cast<char>('A' + at(role)); }
   constexpr bool is(char letter_of_word, Role role) const { return static_cast<unsigned>(letter_of_word - 'A') == at(role); }
+  /// The word with a meaning, kNoWord = the family has none.
+  constexpr WordSlot word(Role role) const { return WordSlot{at_[static_cast<unsigned>(role)]}; }
+  constexpr bool has(Role role) const { return at(role) != kNoAddress; }
+  /// Two meanings have the same word, or none has one.
+  constexpr bool same(Role a, Role b) const { return at(a) == at(b); }
   /// The set of the addresses of these meanings, bit n = address n. A meaning without an address adds nothing.
   constexpr uint32_t set(std::initializer_list<Role> roles) const {
     uint32_t set = 0;

@@ -3,6 +3,7 @@
 // found when the block is given up; while programs run nothing is noted for it, except a vacant F.
 #include <cstring>
 
+#include "command/foreign_words.hpp"
 #include "dialect/alarms.hpp"
 #include "dialect/foreign_codes.hpp"
 #include "dialect/text.hpp"
@@ -80,97 +81,9 @@ bool put_option(const Interpreter& in, TextWriter& out, bool* instead) {
 
 // ---- codes of other controls ------------------------------------------------------------------------------------------------
 
-/// The words that may follow the number or name of an O-word of LinuxCNC.
-constexpr const char* kOWords[] = {"SUB",   "ENDSUB", "CALL",     "RETURN", "IF",       "ELSEIF",   "ELSE",
-                                   "ENDIF", "WHILE",  "ENDWHILE", "DO",     "CONTINUE", "BREAK",    "REPEAT",
-                                   "ENDREPEAT"};
-
-/// What a line of LinuxCNC has and this family has not.
-enum class LinuxcncWord : uint8_t { none, o_word, named_parameter };
-
-/// Says what the family has in place of it.
-void put_linuxcnc_hint(const Dialect& family, LinuxcncWord word, TextWriter& out) {
-  const bool macros = family.argument_of != nullptr;
-  if (word == LinuxcncWord::named_parameter) {
-    out.put("Named parameters of LinuxCNC do not exist here");
-    out.put(macros ? ": a variable has a number behind #, not a name in < >." : ", nor do variables.");
-    return;
-  }
-  out.put("O-words of LinuxCNC do not exist here");
-  const auto put_misc = [&](MiscFunction function) { out.put(family.addresses.letter(Role::misc_code)).put_integer(misc_code(family, function), 2); };
-  const bool calls = family.call_depth != 0;
-  const FunctionRow* const macro_call = find_function(family, Function::macro_call);
-  if (calls || macro_call != nullptr) {
-    out.put(": ");
-    if (calls) put_misc(MiscFunction::call_sub);
-    if (calls && macro_call != nullptr) out.put(" and ");
-    if (macro_call != nullptr) out.put(family.addresses.letter(Role::code)).put_integer(static_cast<unsigned>(macro_call->code / 10));
-    out.put(calls && macro_call != nullptr ? " call" : " calls");
-  }
-  if (calls) {
-    out.put(", ");
-    put_misc(MiscFunction::return_sub);
-    out.put(" returns");
-  }
-  if (macros) out.put(calls ? ", IF [ ] GOTO and WHILE [ ] DO branch" : ": IF [ ] GOTO and WHILE [ ] DO branch");
-  out.put(".");
-}
-
-char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-void skip_blanks(const char** at) {
-  while (**at == ' ' || **at == '\t') ++*at;
-}
-void skip_digits(const char** at) {
-  while (**at >= '0' && **at <= '9') ++*at;
-}
-
-/// `at` is at an O: whether an O-word follows, like "o100 sub", "O<name> call [1]", "o[#1] if [...]", "o#1 call".
-bool is_o_word(const char* at) {
-  ++at;
-  skip_blanks(&at);
-  const char close = *at == '<' ? '>' : *at == '[' ? ']' : '\0';
-  if (close != 0) {
-    at = std::strchr(at, close);
-    if (at == nullptr) return false;
-    ++at;
-  } else {
-    while (*at == '#') ++at;
-    skip_digits(&at);
-  }
-  skip_blanks(&at);
-  char word[12] = {};
-  for (unsigned n = 0; n + 1 < sizeof word && capital(*at) >= 'A' && capital(*at) <= 'Z'; ++at) word[n++] = capital(*at);
-  for (const char* known : kOWords)
-    if (std::strcmp(word, known) == 0) return true;
-  return false;
-}
-
-/// `at` is at a #: whether a named parameter follows, like "#<feed>", "# <_global>".
-bool is_named_parameter(const char* at) {
-  ++at;
-  skip_blanks(&at);
-  return *at == '<';
-}
-
-/// Searches the whole line except comments: for an O-word at its beginning, or behind N, '/' or another word; an O behind a letter is a part of a name.
-LinuxcncWord linuxcnc_word(const char* line) {
-  LinuxcncWord found = LinuxcncWord::none;
-  bool comment = false;
-  for (const char* at = line; *at != 0; ++at) {
-    if (*at == '(') comment = true;
-    if (*at == ')') comment = false;
-    if (comment) continue;
-    const char before = at == line ? ' ' : capital(at[-1]);
-    if (capital(*at) == 'O' && !(before >= 'A' && before <= 'Z') && is_o_word(at)) return LinuxcncWord::o_word;
-    if (*at == '#' && is_named_parameter(at)) found = LinuxcncWord::named_parameter;
-  }
-  return found;
-}
-
 bool put_foreign(const Interpreter& in, TextWriter& out) {
   const Fault& fault = in.fault;
-  if (fault.letter == in.dialect->addresses.letter(Role::code) && fault.has_value && (fault.condition == Condition::illegal_g || fault.condition == Condition::no_function)) {
+  if (is_about(fault, *in.dialect, Role::code) && fault.has_value && (fault.condition == Condition::illegal_g || fault.condition == Condition::no_function)) {
     const char* const hint = foreign_code_hint(fault.value);
     if (hint == nullptr) return false;
     out.put(hint);
@@ -258,34 +171,33 @@ bool vacant_in(Interpreter& in, uint16_t code, uint32_t* number) {
   return vacancy.found;
 }
 
-uint32_t suspected_addresses(const Interpreter& in, Suspected words) {
+WordSet suspected_words(const Interpreter& in, Suspected words) {
   switch (words) {
     case Suspected::any_word: return ~uint32_t{0};
-    case Suspected::named_word: {
-      const unsigned address = address_of(in.fault.letter);
-      return address < kAddresses ? 1u << address : 0;
-    }
-    case Suspected::feed: return in.addresses({Role::feed});
-    case Suspected::lead: return in.addresses({Role::thread_lead, Role::fine_thread_lead});
-    case Suspected::speed: return in.addresses({Role::spindle_speed});
-    case Suspected::offset: return in.addresses({Role::offset_number, Role::length_number});
-    case Suspected::number: return in.addresses({Role::input_number});
-    case Suspected::kind: return in.addresses({Role::input_kind});
-    case Suspected::program: return in.addresses({Role::call_program});
+    case Suspected::named_word: return set_of(word_of(in.fault));
+    case Suspected::feed: return in.set_of({Role::feed});
+    case Suspected::lead: return in.set_of({Role::thread_lead, Role::fine_thread_lead});
+    case Suspected::speed: return in.set_of({Role::spindle_speed});
+    case Suspected::offset: return in.set_of({Role::offset_number, Role::length_number});
+    case Suspected::number: return in.set_of({Role::input_number});
+    case Suspected::kind: return in.set_of({Role::input_kind});
+    case Suspected::program: return in.set_of({Role::call_program});
   }
   return 0;
 }
 
 bool put_vacant_word(Interpreter& in, Suspected words, TextWriter& out) {
-  const uint32_t suspects = suspected_addresses(in, words);
-  for (const Word& word : in.block->words) {
-    if ((word.flags & kWordExpression) == 0 || ((suspects >> address_of(word)) & 1) == 0) continue;
+  const WordSet suspects = suspected_words(in, words);
+  unsigned at = 0;
+  WordSlot word = kNoWord;
+  uint16_t code = 0;
+  while (next_expression(*in.block, suspects, &at, &word, &code)) {
     uint32_t number = 0, lone = 0;
-    if (!vacant_in(in, word.code, &number)) continue;
-    if (lone_variable(*in.block, word.code, &lone))
-      out.put(word.letter).put('#').put_integer(number).put(" is vacant.");
+    if (!vacant_in(in, code, &number)) continue;
+    if (lone_variable(*in.block, code, &lone))
+      put_word(out, word).put('#').put_integer(number).put(" is vacant.");
     else
-      out.put("In the value of ").put(word.letter).put(", #").put_integer(number).put(" is vacant.");
+      put_word(out.put("In the value of "), word).put(", #").put_integer(number).put(" is vacant.");
     return true;
   }
   return false;

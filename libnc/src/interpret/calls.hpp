@@ -3,6 +3,7 @@
 // interrupt.cpp.
 #pragma once
 
+#include "command/arguments.hpp"
 #include "interpret/interpreter.hpp"
 
 namespace nc {
@@ -39,14 +40,6 @@ struct Entry {
 Execution enter(Interpreter& in, const Entry& entry);
 /// Enters a program as a macro, with its own level of local variables, which get these 33 values.
 Execution enter_macro(Interpreter& in, const Entry& entry, const Value* arguments);
-
-struct MacroCall {
-  bool has_p = false, has_l = false;
-  double p = 0, l = 0;
-  Value argument[kLocals];
-};
-/// Takes the words of the block in hand as arguments. `every_word`: G L N O P are arguments, too (M700 13.5.1, G66.1).
-Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call);
 
 /// The modal call in a slot; slots are counted from 1.
 inline const ModalCall& modal_call(const Interpreter& in, unsigned slot) { return in.records->modal_call[slot - 1]; }

@@ -3,6 +3,7 @@
 // block itself has been executed.
 #include <cmath>
 
+#include "command/caller.hpp"
 #include "interpret/calls.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -10,111 +11,22 @@
 namespace nc {
 namespace {
 
-/// The word of the block in hand that calls.
-struct Caller {
-  unsigned at = 0;               ///< index of the word
-  const CodeCall* call = nullptr;
-  bool ascii = false;
-  double value = 0;
-};
-
-Execution word_value(Interpreter& in, const Word& word, Value* value) {
-  *value = Value::of(word.value);
-  return (word.flags & kWordExpression) != 0 ? evaluate_here(in, word.code, value) : Execution::done;
-}
-
-bool plain_number(const Word& word) { return (word.flags & (kWordComma | kWordCount | kWordNoValue)) == 0; }
-
-/// The word is the second auxiliary function; it may call where its address is not an axis (M700 9.2).
-bool second_aux(const Interpreter& in, const Word& word) { return in.is(word, Role::second_function) && in.axis_called(Role::second_function) < 0; }
-
-/// M00 M01 M02 M30, the codes of calls and of the macro interrupt keep their meaning, whatever is registered (M700 13.5.3: priority of the letter M).
-bool kept_by_control(const Interpreter& in, double value) {
-  uint32_t code = 0;
-  return whole_number(value, &code) && code == value && find_misc(*in.dialect, code) != nullptr;
-}
-
-const CodeCall* registered(const Interpreter& in, const Word& word, double value, bool ascii_allowed, bool* ascii) {
-  const CodeCalls& calls = in.code_calls;
-  *ascii = false;
-  const CodeCall* call = in.vendor->any() && (in.is(word, Role::code) || in.is(word, Role::misc_code)) ? in.vendor->find(word.letter, value) : nullptr;
-  if (call != nullptr) return call;
-  const CodeCall* of_word = nullptr;
-  if (in.is(word, Role::code)) return calls.find_g(value);
-  if (in.is(word, Role::misc_code)) {
-    if (kept_by_control(in, value)) return nullptr;
-    call = calls.find_m(value);
-  } else if (in.is(word, Role::spindle_speed)) {
-    of_word = &calls.s;
-  } else if (in.is(word, Role::tool)) {
-    of_word = &calls.t;
-  } else if (second_aux(in, word)) {
-    of_word = &calls.b;
-  }
-  if (of_word != nullptr && of_word->program != 0) call = of_word;
-  if (call != nullptr || !ascii_allowed) return call;
-  *ascii = true;
-  return calls.find_ascii(word.letter);
-}
-
-/// The word is a G code, as a plain number, with this function.
-bool is_code(const Interpreter& in, const Word& word, Function function) {
-  if (!in.is(word, Role::code) || (word.flags & kWordExpression) != 0) return false;
-  const FunctionRow* const row = in.codes.find(word.value);
-  return row != nullptr && row->function == function;
-}
-
-/// Finds the first word that calls. Behind G65, G66 or G66.1 it is an argument, behind G10 an ordinary word. `functions_only`: only codes that call functions
-/// of the vendor count.
-Execution find_caller(Interpreter& in, bool functions_only, Caller* caller) {
-  bool data_input = false;
-  for (const Word& word : in.block->words) data_input = data_input || is_code(in, word, Function::data_input);
-  for (unsigned i = 0; i < in.block->words.size(); ++i) {
-    const Word& word = in.block->words[i];
-    if (!plain_number(word)) continue;
-    const bool candidate = in.is(word, Role::code) || in.is(word, Role::misc_code) || in.code_calls.find_ascii(word.letter) != nullptr ||
-                           (in.is(word, Role::spindle_speed) && in.code_calls.s.program != 0) || (in.is(word, Role::tool) && in.code_calls.t.program != 0) ||
-                           (in.is(word, Role::second_function) && in.code_calls.b.program != 0);
-    if (!candidate) continue;
-    Value value;
-    const Execution did = word_value(in, word, &value);
-    if (did != Execution::done) return did;
-    if (value.vacant) continue;
-    if (in.is(word, Role::code)) {
-      const FunctionRow* row = in.codes.find(value.number);
-      if (row != nullptr && is_macro_call(row->function) && in.code_calls.find_g(value.number) == nullptr) return Execution::done;
-    }
-    // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is an ordinary word.
-    const bool ascii_allowed = !data_input && in.state.cycle.kind == CycleKind::none;
-    bool ascii = false;
-    const CodeCall* call = registered(in, word, value.number, ascii_allowed, &ascii);
-    if (call == nullptr || (functions_only && call->vendor == nullptr)) continue;
-    *caller = Caller{i, call, ascii, value.number};
-    return Execution::done;
-  }
-  return Execution::done;
-}
-
 /// Makes the code modal, so that it is shown as any other code although it is not given out (M700 13.5.2 (3)).
 void show_code(Interpreter& in, const Caller& caller) {
-  const Word& word = in.block->words[caller.at];
   const auto whole = static_cast<uint32_t>(caller.value > 0 && caller.value < 4294967295.0 ? caller.value : 0);
-  if (in.is(word, Role::misc_code)) in.state.modal.m = whole;
-  if (in.is(word, Role::spindle_speed)) in.state.modal.spindle = caller.value;
-  if (in.is(word, Role::tool)) in.state.modal.tool = whole;
-  if (in.is(word, Role::second_function)) in.state.modal.b = whole;
+  if (caller.word == in.word(Role::misc_code)) in.state.modal.m = whole;
+  if (caller.word == in.word(Role::spindle_speed)) in.state.modal.spindle = caller.value;
+  if (caller.word == in.word(Role::tool)) in.state.modal.tool = whole;
+  if (caller.word == in.word(Role::second_function)) in.state.modal.b = whole;
 }
 
 /// Executes the G codes before the call, which act as they do before G65: G91 G100 X10.
 Execution apply_codes_before(Interpreter& in, unsigned at) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
-  copy = *original;
-  copy.words.clear();
-  for (unsigned i = 0; i < at; ++i)
-    if (in.is(original->words[i], Role::code)) copy.words.push_back(original->words[i]);
+  copy_codes_before(*original, in.front, at, copy);
   in.block = &copy;
-  Execution did = gather_words(in);
+  Execution did = read_block_command(in);
   if (did == Execution::done) did = apply_reading_modes(in);
   in.block = original;
   return did;
@@ -124,21 +36,19 @@ Execution apply_codes_before(Interpreter& in, unsigned at) {
 void run_rest_first(Interpreter& in, const Caller& caller) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
-  copy = *original;
-  for (unsigned i = caller.at; i + 1 < copy.words.size(); ++i) copy.words[i] = copy.words[i + 1];
-  copy.words.resize(copy.words.size() - 1);
+  copy_without(*original, caller.at, copy);
   in.block = &copy;
   in.after_block = caller.call;
 }
 
 Execution set_ascii_variable(Interpreter& in, const Caller& caller) {
   if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(caller.value), in.state.seq + 1)) return Execution::done;
-  return in.raise(Condition::variable_number, '#', caller.call->variable);
+  return in.raise(Condition::variable_number, Sign::variable, caller.call->variable);
 }
 
 /// How the word calls: as its parameter says, or an M code by its place (HX 14.1.4, 14.1.5).
 CodeCallType type_of_call(const Interpreter& in, const Caller& caller) {
-  const bool by_place = in.dialect->rules.code_call.arguments_behind_m && in.is(in.block->words[caller.at], Role::misc_code);
+  const bool by_place = in.dialect->rules.code_call.arguments_behind_m && caller.word == in.word(Role::misc_code);
   if (by_place) return caller.at == 0 ? CodeCallType::macro : CodeCallType::sub;
   return caller.call->type;
 }
@@ -146,11 +56,11 @@ CodeCallType type_of_call(const Interpreter& in, const Caller& caller) {
 /// Types G65, G66, G66.1: every other word is an argument, and so is the code itself but for G.
 Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   MacroCall call;
-  Execution did = gather_arguments(in, false, call);
+  Execution did = in.executed(read_arguments(*in.block, in.front, false, call));
   if (did != Execution::done) return did;
-  if (call.has_p) return in.raise(Condition::illegal_address, Role::call_program, call.p);
+  if (call.has_program) return in.raise(Condition::illegal_address, Role::call_program, call.program);
   Entry entry;
-  did = repetitions(in, call.has_l, call.l, &entry.passes);
+  did = repetitions(in, call.has_repeats, call.repeats, &entry.passes);
   if (did != Execution::done) return did;
   did = find_number(in, caller.call->program, &entry.program);
   if (did != Execution::done) return did;
@@ -168,7 +78,7 @@ Execution call_with_arguments(Interpreter& in, const Caller& caller) {
 
 /// The words of the block are a movement command, after which G66 calls (M700 13.5.1).
 bool moves(const Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.one_shot != nullptr && cuts_circle(w.one_shot->function)) return true;
   if (w.axes == 0) return !is_line(in.state.modal.of(Mode::motion)) && w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}) && w.one_shot == nullptr;
   return w.one_shot == nullptr || goes_to_position(w.one_shot->function);
@@ -188,7 +98,7 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   const bool nested = top(in).origin == CallOrigin::code;  // M700 13.5.2: in a program that a code has called codes do not call
   if (nested && !in.vendor->any()) return Execution::done;
   Caller caller;
-  Execution did = find_caller(in, nested, &caller);
+  Execution did = in.executed(find_caller(*in.block, in.front, nested, in.state.cycle.kind != CycleKind::none, &caller));
   if (did != Execution::done || caller.call == nullptr) return did;
   if (caller.call->vendor != nullptr) {
     *taken = true;
@@ -196,11 +106,11 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
     did = apply_codes_before(in, caller.at);
     if (did != Execution::done) return did;
     show_code(in, caller);
-    return call_vendor(in, caller.at, *caller.call->vendor);
+    return call_vendor(in, caller);
   }
   // M700 App.1 P310: no such call during a fixed cycle.
-  if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, in.block->words[caller.at].letter, caller.value);
-  if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, in.block->words[caller.at].letter, caller.value);
+  if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, caller.word, caller.value);
+  if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, caller.word, caller.value);
   show_code(in, caller);
   if (type_of_call(in, caller) == CodeCallType::sub) {
     if (caller.ascii && (did = set_ascii_variable(in, caller)) != Execution::done) return did;
@@ -257,7 +167,7 @@ Execution call_behind_block(Interpreter& in) {
     if (did != Execution::done) return did;
     entry.offset = entry.program.offset;
     entry.line = entry.program.line;
-    if (!in.block->words.empty()) in.emit_stop_point();
+    if (word_count(*in.block) != 0) in.emit_stop_point();
     did = enter(in, entry);
     if (did == Execution::later) in.keep_call();
     return did;

@@ -5,21 +5,14 @@
 #include <new>
 
 #include "interpret/journal_keys.hpp"
+#include "interpret/registered_codes.hpp"
 #include "interpret/shared_tables.hpp"
 
 namespace nc {
 
-void BlockContext::refresh_axis_names() {
-  for (int8_t& a : axis_of) a = -1;
-  axis_letters = 0;
-  for (unsigned i = 0; i < axis_count; ++i) {
-    axis_of[address_of(system->axis[i].name)] = static_cast<int8_t>(i);
-    axis_letters |= 1u << address_of(system->axis[i].name);
-  }
-  const char hypothetical = state.mill.hypothetical_letter;
-  if (hypothetical == 0) return;
-  axis_of[address_of(hypothetical)] = static_cast<int8_t>(state.map.rotary);
-  axis_letters |= 1u << address_of(hypothetical);
+void BlockContext::refresh_axis_words() {
+  axis_words.name(system->axis, axis_count);
+  if (state.mill.hypothetical_word != kNoWord) axis_words.add(state.mill.hypothetical_word, state.map.rotary);
 }
 
 AxisVec BlockContext::polar_position() const {

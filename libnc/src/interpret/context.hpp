@@ -7,21 +7,20 @@
 #include <cstring>
 
 #include "base/intern_pool.hpp"
+#include "command/words_of_block.hpp"
 #include "cycle/cavity.hpp"
 #include "cycle/pattern.hpp"
 #include "dialect/code_index.hpp"
 #include "frame/affine.hpp"
 #include "frame/frames.hpp"
 #include "frame/stroke_box.hpp"
-#include "interpret/block_words.hpp"
 #include "interpret/checkpoints.hpp"
-#include "interpret/code_calls.hpp"
 #include "interpret/motion_settings.hpp"
 #include "interpret/parameters.hpp"
 #include "interpret/program_matrices.hpp"
 #include "interpret/program_records.hpp"
+#include "interpret/read_command.hpp"
 #include "interpret/state.hpp"
-#include "interpret/vendor_codes.hpp"
 #include "macro/variables.hpp"
 #include "nc/run.h"
 #include "stream/item_queue.hpp"
@@ -85,20 +84,19 @@ struct Interpreter;
 
 /// Base of the Interpreter; no other class makes one. The protected members serve to put items into the stream.
 struct BlockContext {
-  // ---- the machine and its family: fixed, except for the letters that a mode gives to axes
+  // ---- the machine and its family: fixed, except for the words that a mode gives to axes
   const Dialect* dialect = nullptr;
   const nc_system_config* system = nullptr;
   uint8_t system_index = 0;        ///< part system, from 0
   unsigned axis_count = 3;
   uint32_t rotary = 0;             ///< bit i: axis i is rotary
-  int8_t axis_of[26];              ///< axis index by letter, -1 = none
+  AxisWords axis_words;            ///< which words command axes
   uint32_t closed_axes = 0;        ///< bit i: axis i is a spindle, or a C axis without its reference (M700 10.5); no command now
-  uint32_t axis_letters = 0;       ///< bit n: address n is an axis
-  uint32_t code_addresses = 0;     ///< bit n: address n is that of a code (G, M) or of a number at the head of a block (N, O)
   CodeIndex codes;                 ///< the family's G codes
   const VendorCodes* vendor = nullptr;  ///< the codes that the vendor of the machine has added
   CodeCalls code_calls;            ///< codes that parameters have registered to call a program
   bool codes_call = false;         ///< there are such codes, or codes of the vendor
+  FrontEnd front;                  ///< what the words of a block are read with
   uint32_t optional_skip = 0;      ///< optional block skip switches, bit n = switch n
 
   // ---- what is in force, and the tables
@@ -122,7 +120,7 @@ struct BlockContext {
   // ---- the block in hand
   const Block* block = nullptr;
   nc_source source{};
-  BlockWords words;
+  Command words;
   Step next_step = Step::none;
   HolesOfBlock holes;
   CavityOfBlock cavity;
@@ -143,15 +141,12 @@ struct BlockContext {
   bool ended = false, alarmed = false;
   ModalState finished_modal;       ///< modal state after the last finished block; at a sync that is the block in execution (#4201...)
 
-  /// The word has the address of this meaning. An address may have several meanings; the function in hand decides which one it asks for.
-  bool is(const Word& word, Role role) const { return address_of(word) == dialect->addresses.at(role); }
-  uint32_t addresses(std::initializer_list<Role> roles) const { return dialect->addresses.set(roles); }
-  /// Index of the axis with a name from the configuration or a parameter; and of the axis with a meaning from a rule. -1 = the machine has no such axis.
-  int axis_named(char name) const { return name == 0 ? -1 : axis_of[address_of(name)]; }
-  int axis_called(Role role) const {
-    const unsigned address = dialect->addresses.at(role);
-    return address < kAddresses ? axis_of[address] : -1;
-  }
+  /// The word with a meaning, kNoWord = the family has none; and the set of several. A word may have several meanings; the function in hand decides which one
+  /// it asks for.
+  WordSlot word(Role role) const { return dialect->addresses.word(role); }
+  WordSet set_of(std::initializer_list<Role> roles) const { return dialect->addresses.set(roles); }
+  /// Index of the axis with a meaning from a rule. -1 = the machine has no such axis.
+  int axis_called(Role role) const { return axis_words.axis(word(role)); }
 
   // ---- positions
   /// The zero point of the active workpiece coordinates, and the position in these coordinates.
@@ -169,8 +164,8 @@ struct BlockContext {
     const double set = settings.reference[which][axis];
     return set == set ? set : system->axis[axis].reference[which];
   }
-  /// Sets the letters that command axes: their names, or the letters that a mode of the state gives them.
-  void refresh_axis_names();
+  /// Sets the words that command axes: their names, and the words that a mode of the state gives them.
+  void refresh_axis_words();
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.
@@ -204,29 +199,47 @@ struct BlockContext {
 
   // ---- alarms and questions
   /// Raises an alarm. Where the text could not be read, that is the alarm, because `condition` (something is missing) may only follow from it.
-  Execution raise(Condition condition, char letter = 0) {
+  Execution raise(Condition condition) {
     fault = Fault{};
     fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
-    fault.letter = letter;
     return Execution::fault;
   }
-  /// An alarm about a word of the block, given by its meaning.
-  Execution raise(Condition condition, Role word) { return raise(condition, dialect->addresses.letter(word)); }
-  Execution raise(Condition condition, Role word, double value) { return raise(condition, dialect->addresses.letter(word), value); }
-  Execution raise(Condition condition, char letter, double value) {
-    raise(condition, letter);
-    fault.has_value = true;
-    fault.value = value;
+  /// An alarm about a word of the block.
+  Execution raise(Condition condition, WordSlot word) {
+    raise(condition);
+    name_word(fault, word);
     return Execution::fault;
+  }
+  Execution raise(Condition condition, WordSlot word, double value) {
+    raise(condition, word);
+    return with_value(value);
+  }
+  /// The same for a word that is given by its meaning.
+  Execution raise(Condition condition, Role role) { return raise(condition, word(role)); }
+  Execution raise(Condition condition, Role role, double value) { return raise(condition, word(role), value); }
+  /// An alarm about a variable, or about a name or a character of a text.
+  Execution raise(Condition condition, Sign sign) {
+    raise(condition);
+    name_sign(fault, sign);
+    return Execution::fault;
+  }
+  Execution raise(Condition condition, Sign sign, double value) {
+    raise(condition, sign);
+    return with_value(value);
+  }
+  /// An alarm about the first word of the block that is one of `of` (not empty).
+  Execution raise_first(Condition condition, WordSet of) {
+    const WordSlot first = first_of_block(*block, of);
+    return raise(condition, first, words.get(first));
   }
   /// An alarm about an axis, given by its index.
   Execution raise_axis(Condition condition, unsigned axis) {
-    raise(condition, system->axis[axis].name);
+    raise(condition, axis_words.word(axis));
     fault.axis = static_cast<int8_t>(axis);
     return Execution::fault;
   }
   Execution raise_axis(Condition condition, unsigned axis, double value) {
-    raise(condition, system->axis[axis].name, value);
+    raise(condition, axis_words.word(axis), value);
     fault.axis = static_cast<int8_t>(axis);
     return Execution::fault;
   }
@@ -245,6 +258,11 @@ struct BlockContext {
     return row != nullptr ? raise_code(condition, *row) : raise(condition, Role::code);
   }
   Execution raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
+  /// What reading words with `front` has come to.
+  Execution executed(Reading reading) {
+    if (reading == Reading::refused) return front.refusal.has_value ? raise(front.refusal.condition, front.refusal.word, front.refusal.value) : raise(front.refusal.condition, front.refusal.word);
+    return reading == Reading::done ? Execution::done : reading == Reading::sync ? Execution::sync : Execution::fault;
+  }
   /// The data that part systems share can be read now: the machine has come to this block, or there is only one part system. False: a sync is needed
   /// (NC_SYNC_SHARED).
   bool shared_known() const { return shared == nullptr || world_fresh; }
@@ -269,6 +287,11 @@ struct BlockContext {
   void keep_call();
 
  protected:
+  Execution with_value(double value) {
+    fault.has_value = true;
+    fault.value = value;
+    return Execution::fault;
+  }
   static constexpr unsigned kReserve = 24;  ///< the most items that one step of a block makes
 
   void note_parameter(unsigned index, ParameterValue old);

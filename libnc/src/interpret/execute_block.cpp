@@ -18,14 +18,14 @@ namespace {
 
 bool has_own_feed(const BlockContext& in, Function motion) {
   const AddressTable& addresses = in.dialect->addresses;
-  const bool lead = motion == Function::thread && addresses.at(Role::thread_lead) == addresses.at(Role::feed);
+  const bool lead = motion == Function::thread && addresses.same(Role::thread_lead, Role::feed);
   return lead || is_exponential(motion);
 }
 
 /// The F of a skip block or of a measurement belongs to that block only and does not become modal (M700 15.2).
 bool keeps_its_feed(const BlockContext& in, Function one_shot) {
   const AddressTable& addresses = in.dialect->addresses;
-  if (one_shot == Function::dwell && addresses.at(Role::dwell_time) == addresses.at(Role::feed)) return true;  // Series 8 G04 F
+  if (one_shot == Function::dwell && addresses.same(Role::dwell_time, Role::feed)) return true;  // Series 8 G04 F
   return (is_skip(one_shot) && !in.dialect->rules.skip.feed_is_modal) || one_shot == Function::measure_length;
 }
 
@@ -38,11 +38,11 @@ bool keeps_its_offset_number(const FunctionRow* one_shot) {
 /// E is the lead of a thread (M700 6.7) or an argument of a macro. Elsewhere a text like X1E-05 would be X1 and a word E that is ignored, so it is an alarm.
 /// In a thread block it is one, too, when E has a sign, or is a small letter directly behind another number (Z1e1).
 Execution check_lead_word(Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.has(Role::fine_thread_lead)) return Execution::done;
   const bool thread = in.state.modal.is(Function::thread) && w.one_shot == nullptr && w.cycle == nullptr;
-  const bool exponent = (w.flag(Role::fine_thread_lead) & (kWordNegative | kWordPlus | kWordExponent)) != 0;
-  const bool ridges = in.dialect->addresses.at(Role::tap_ridges) == in.dialect->addresses.at(Role::fine_thread_lead) && taps_with_spindle(in);
+  const bool exponent = w.written(Role::fine_thread_lead).has_sign_or_exponent();
+  const bool ridges = in.dialect->addresses.same(Role::tap_ridges, Role::fine_thread_lead) && taps_with_spindle(in);
   return (thread || ridges) && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
@@ -58,14 +58,14 @@ bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && 
 
 /// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
 void drop_beside_cancel(Interpreter& in) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   for (const FunctionRow* row : w.g) {
     if (row->function != Function::macro_modal_off) continue;
     const bool one_shot = w.one_shot != nullptr && precedence_of(w.one_shot->function).macro == Precedence::loses;
     const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(row->function).cycle == Precedence::ignored;
     if (one_shot) w.one_shot = nullptr;
     if (cycle) w.cycle = nullptr;
-    if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_letters;  // the axis words belong to it and are dropped, too
+    if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_words.all();  // the axis words belong to it and are dropped, too
     return;
   }
 }
@@ -213,7 +213,7 @@ Execution update_beside_call(Interpreter& in) {
 
 /// Step 4: the one-shot function, the fixed cycle, or the motion.
 Execution execute_motion(Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if ((w.axes & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
     const Execution did = check_index_positions(in);
     if (did != Execution::done) return did;
@@ -228,7 +228,7 @@ Execution execute_motion(Interpreter& in) {
 }  // namespace
 
 Execution execute_motion_of_words(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.motion != nullptr) {
     cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
@@ -267,7 +267,7 @@ Execution execute_codes_left(Interpreter& in) {
 /// G10 of tool data in G91 adds to the values in the table (M700 12.7), so it reads what part systems share. This is asked before anything of the block
 /// is executed, because the block is read again after the answer of the sync.
 bool adds_to_shared(const Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.one_shot == nullptr || w.one_shot->function != Function::data_input || !w.has(Role::input_amount) ||
       !in.dialect->rules.data_input.incremental_adds)
     return false;
@@ -279,18 +279,18 @@ bool adds_to_shared(const Interpreter& in) {
 /// The block has only axis words, F and a code of a motion, as most blocks of a long program. For such a block everything that concerns other words is left
 /// out; the order is the same as for every block.
 bool only_moves(const Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
   if (in.state.special != 0 || in.state.work_turned || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
   if (in.dialect->rules.compensation.begins_beside_start && in.state.compensated()) return false;
   const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
-  return codes && w.m.empty() && (w.present & ~(in.axis_letters | in.addresses({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
+  return codes && w.m.empty() && (w.present & ~(in.axis_words.all() | in.set_of({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
 }
 
 Execution execute_move(Interpreter& in) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   in.distance_by_word = false;
   ModalState& modal = in.state.modal;
   const bool same = w.motion == nullptr || modal.holds(*w.motion);
@@ -309,11 +309,11 @@ Execution execute_move(Interpreter& in) {
 
 Execution execute_words(Interpreter& in) {
   if (in.state.parameter_input) {
-    const Execution read = gather_words(in);
+    const Execution read = read_block_command(in);
     return read == Execution::done ? parameter_block(in) : read;
   }
   if (in.state.life_input.kind != LifeInput::Kind::none) {
-    const Execution read = gather_words(in);
+    const Execution read = read_block_command(in);
     return read == Execution::done ? tool_life_block(in) : read;
   }
   if (in.codes_call) {
@@ -321,9 +321,9 @@ Execution execute_words(Interpreter& in) {
     const Execution did = dispatch_block(in, &taken);
     if (taken || did != Execution::done) return did;
   }
-  Execution did = gather_words(in);
+  Execution did = read_block_command(in);
   if (did != Execution::done) return did;
-  BlockWords& w = in.words;
+  Command& w = in.words;
   if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);
@@ -344,7 +344,7 @@ Execution execute_words(Interpreter& in) {
   did = check_lead_word(in);
   if (did != Execution::done) return did;
   // M700 3.2 note 9, DGSHAPE 1-1: N and O stand at the beginning of a block. Behind other words no search would find them. (N of G10 is something else.)
-  if (w.late_number != 0 && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
+  if (w.late_number != kNoWord && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
   did = check_precedence(in);
   if (did == Execution::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);

@@ -164,7 +164,7 @@ bool inverse_time_so_far(const BlockContext& in) {
 }
 
 Execution check_inverse_time_block(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (const FunctionRow* row : w.g)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
   // (5): modes that were in force before

@@ -115,12 +115,12 @@ Execution assigned(Interpreter& in, const Statement& statement, uint32_t* variab
     Value number;
     did = evaluate_here(in, statement.target, &number);
     if (did != Execution::done) return did;
-    if (!variable_number(number, &n)) return in.raise(Condition::variable_number, '#', number.or_zero());
+    if (!variable_number(number, &n)) return in.raise(Condition::variable_number, Sign::variable, number.or_zero());
   }
   did = evaluate_here(in, statement.value, value);
   if (did != Execution::done) return did;
   *variable = n;
-  return n == 0 ? in.raise(Condition::variable_use, '#', 0) : Execution::done;  // M700 13.5.4: #0 cannot be written
+  return n == 0 ? in.raise(Condition::variable_use, Sign::variable, 0) : Execution::done;  // M700 13.5.4: #0 cannot be written
 }
 
 Execution store(Interpreter& in, const Statement& statement, uint32_t n, Value value) {
@@ -174,9 +174,9 @@ Execution called_number(Interpreter& in, Role word, double value, uint32_t* numb
 
 Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {
   if (in.block->name_length > 0) {
-    if (in.block->name_length > 32) return in.raise(Condition::program_missing, '<');  // M700 13.3.1: at most 32 characters
+    if (in.block->name_length > 32) return in.raise(Condition::program_missing, Sign::file_name);  // M700 13.3.1: at most 32 characters
     *program = in.reader.find_program(in.block->text.begin() + in.block->name, in.block->name_length);
-    return program->valid() ? Execution::done : in.raise(Condition::program_missing, '<');
+    return program->valid() ? Execution::done : in.raise(Condition::program_missing, Sign::file_name);
   }
   if (!has_p) {
     if (!own_allowed) return in.raise(Condition::address_missing, Role::call_program);
@@ -203,8 +203,7 @@ Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
 }
 
 bool only_calls(const Interpreter& in) {
-  for (const Word& word : in.block->words)
-    if (!in.is(word, Role::misc_code) && !in.is(word, Role::call_program) && !in.is(word, Role::call_repeats) && !in.is(word, Role::call_sequence) && (word.flags & kWordComma) == 0) return false;
+  if (!has_only(*in.block, in.set_of({Role::misc_code, Role::call_program, Role::call_repeats, Role::call_sequence}))) return false;
   return in.words.m.size() == 1;
 }
 
@@ -307,7 +306,7 @@ Execution execute_statement(Interpreter& in, const Statement& statement) {
 }
 
 Execution find_start(Interpreter& in, const ProgramRef& program, uint64_t* offset, uint32_t* line) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   *offset = program.offset;
   *line = program.line;
   if (!w.has(Role::call_sequence)) return Execution::done;
@@ -323,15 +322,15 @@ namespace {
 
 /// M700 13.3.1: finds a sub program on one of the devices 1 to 4.
 Execution find_on_device(Interpreter& in, ProgramRef* program) {
-  const BlockWords& w = in.words;
-  const char place[] = {in.dialect->device_letter, static_cast<char>('0' + w.device), ':', 0};
+  const Command& w = in.words;
+  const DevicePlace place = place_of_device(*in.dialect, w.device);
   const unsigned length = in.block->name_length;
   uint32_t number = 0;
   if (length == 0 && !w.has(Role::call_program)) return in.raise(Condition::address_missing, Role::call_program);
   const Execution did = length == 0 ? called_number(in, Role::call_program, w.get(Role::call_program), &number) : Execution::done;
   if (did != Execution::done) return did;
-  if (length <= 32) *program = in.reader.find_external(place, in.block->text.begin() + in.block->name, length, number);
-  if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, '<') : in.raise(Condition::program_missing, Role::call_program, number);
+  if (length <= 32) *program = in.reader.find_external(place.text, in.block->text.begin() + in.block->name, length, number);
+  if (!program->valid()) return length != 0 ? in.raise(Condition::program_missing, Sign::file_name) : in.raise(Condition::program_missing, Role::call_program, number);
   if (number != 0) program->number = number;
   return Execution::done;
 }
@@ -340,7 +339,7 @@ Execution find_on_device(Interpreter& in, ProgramRef* program) {
 
 /// HX 2.4.3: R names the block of the sub program that is its last one.
 static Execution find_end(Interpreter& in, const ProgramRef& program, uint64_t offset, uint32_t line, uint32_t* number) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   *number = 0;
   if (!w.has(Role::call_end_sequence)) return Execution::done;
   const Execution did = called_number(in, Role::call_end_sequence, w.get(Role::call_end_sequence), number);
@@ -350,7 +349,7 @@ static Execution find_end(Interpreter& in, const ProgramRef& program, uint64_t o
 }
 
 Execution call_sub(Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (in.mdi && in.state.depth == 0 && in.dialect->rules.program.no_call_in_mdi) return in.raise_misc(Condition::call_in_mdi, MiscFunction::call_sub);
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
@@ -382,7 +381,7 @@ Execution call_sub(Interpreter& in) {
 
 /// M700 13.3.2: calls a program of the data server. It is one that the host has under such a name (BlockReader::find_external), or else one in the memory.
 Execution call_external(Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.has(Role::call_sequence)) return in.raise(Condition::format_error, Role::call_sequence, w.get(Role::call_sequence));  // no call of a sequence number
   for (unsigned level = 1; level <= in.state.depth; ++level)
     if (in.state.frame[level].origin == CallOrigin::external) return in.raise_misc(Condition::nesting, MiscFunction::call_external);  // only one M198 may be open
@@ -442,7 +441,7 @@ static Execution count_return(Interpreter& in, bool* goes_back) {
 
 Execution return_sub(Interpreter& in) {
   State& s = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (check_loops_closed(in) != Execution::done) return Execution::fault;
   if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to the beginning of the program
     CallFrame& frame = top(in);

@@ -48,7 +48,7 @@ bool HostTables::next_parameter(unsigned* place, char key[24], int* axis, double
   if (words != nullptr) std::memcpy(text, words, std::strlen(words) + 1);
   return true;
 }
-int HostTables::axis_named(char name) const { return name >= 'A' && name <= 'Z' ? in_->axis_of[name - 'A'] : -1; }
+int HostTables::axis_named(char name) const { return in_->axis_words.axis_named(name); }
 const FilterParameters& HostTables::filters() const { return in_->settings.filters; }
 
 const Frames& HostTables::frames() const { return in_->frames; }

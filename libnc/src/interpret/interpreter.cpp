@@ -28,7 +28,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   system = config.system;
   system_index = config.system_index;
   axis_count = config.system->axis_count;
-  refresh_axis_names();
+  refresh_axis_words();
   for (unsigned i = 0; i < axis_count; ++i) {
     if (config.system->axis[i].rotary) rotary |= 1u << i;
   }
@@ -36,7 +36,16 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   vendor = config.vendor;
   if (vendor->replaces_g(codes.linear().code)) codes.forget_linear();
   words.addresses = &dialect->addresses;
-  code_addresses = addresses({Role::code, Role::misc_code, Role::sequence_number, Role::program_number});
+  front.dialect = dialect;
+  front.codes = &codes;
+  front.axis_words = &axis_words;
+  front.vendor = vendor;
+  front.calls = &code_calls;
+  front.code_words = set_of({Role::code, Role::misc_code, Role::sequence_number, Role::program_number});
+  front.core = this;
+  front.questions = &kCoreAnswers;
+  front.fault = &fault;
+  front.sync = &sync_needed;
   store = program_store;
   common = common_variables;
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
@@ -111,7 +120,7 @@ InitialValues Interpreter::initial_values() const {
 void Interpreter::refresh_derived() {
   state.refresh_accuracy();
   state.refresh_special();
-  refresh_axis_names();
+  refresh_axis_words();
   refresh_work_rotation(*this);
 }
 
@@ -228,7 +237,7 @@ bool Interpreter::rewind(BlockSeq seq) {
   if (seq < vendor_call_.seq) forget_vendor_call();
   checkpoints_.restore(seq, &state);
   take_changed_amounts(*this);  // the host may have changed offsets since then
-  refresh_axis_names();
+  refresh_axis_words();
   forget_block();
   ended = false;
   if (state.end_seen) emit_end();  // the end item comes behind the mark, so it has been given up
@@ -381,7 +390,7 @@ void Interpreter::note_last_block(CallFrame& frame) const { frame.last_begun = b
 
 Execution Interpreter::execute_statements() {
   // M700 13.17.1 precaution (12): no variables and macro statements in high-speed high-accuracy control II.
-  if (state.fine_mode > FineMode::accuracy1) return raise(Condition::format_error, '#');
+  if (state.fine_mode > FineMode::accuracy1) return raise(Condition::format_error, Sign::variable);
   while (statement < block->statements.size()) {
     jumped = false;
     const Execution did = execute_statement(*this, block->statements[statement]);
@@ -437,7 +446,7 @@ void Interpreter::take_block_back() {
   if (!checkpoints_.holds(state.seq) || !take_back(state.seq)) return;
   checkpoints_.restore(state.seq, &state);
   newest_modal_ = kNoModal;
-  refresh_axis_names();
+  refresh_axis_words();
 }
 
 void Interpreter::stop(const Fault& what, const nc_source& where) {

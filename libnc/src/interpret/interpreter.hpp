@@ -22,6 +22,8 @@
 
 namespace nc {
 
+struct Caller;
+
 /// What led to an alarm, noted when the block is given up.
 struct AlarmStory {
   nc_text cause{};        ///< a further sentence about the alarm; "" = none
@@ -244,8 +246,8 @@ void cancel_modal_call(Interpreter& in);      ///< G67
 /// interpret/code_call.cpp
 /// Handles a block that may hold a registered code. *taken: the call has been made, and all words of the block belong to it.
 Execution dispatch_block(Interpreter& in, bool* taken);
-/// interpret/vendor_call.cpp: word `at` of the block is a code of the vendor that calls a function. Calls it when everything before has been executed.
-Execution call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code);
+/// interpret/vendor_call.cpp: a code of the vendor calls a function. Calls it when everything before has been executed.
+Execution call_vendor(Interpreter& in, const Caller& caller);
 /// G66.1 is in force, and the words of this block (in.words) are its arguments.
 bool block_is_argument(const Interpreter& in);
 /// Makes the call that comes after a block: that of a code that calls as M98 does, or the modal call after a move.

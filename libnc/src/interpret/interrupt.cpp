@@ -49,7 +49,7 @@ bool has_words_of_call(const BlockContext& in) {
 }
 
 Execution enable_interrupt(Interpreter& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   InterruptProgram called;
   Execution did = find_called(in, w.has(Role::interrupt_program), w.has(Role::interrupt_program) ? w.get(Role::interrupt_program) : 0, false, &called.program);
   if (did != Execution::done) return did;

@@ -25,7 +25,7 @@ const DeviceWidth* find_width(const Interpreter& in, double written) {
   return nullptr;
 }
 
-Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, '#', a.written); }
+Execution no_such(Access& a) { return a.in.raise(Condition::no_such_data, Sign::variable, a.written); }
 
 bool whole_between(double value, double low, double high) { return value >= low && value <= high && value == std::trunc(value); }
 
@@ -79,7 +79,7 @@ Eval read_rotation(Access& a) {
 // ---- tool life (13.5.5, 10.15) ---------------------------------------------------------------------------------------------------------
 
 Execution select_tool_group(Access& a) {
-  if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.change(&ProgramRecords::selection, &Selection::tool_group, static_cast<uint32_t>(a.written));
   return Execution::done;
 }
@@ -143,7 +143,7 @@ bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, do
     if (row.number != number) continue;
     switch (row.what) {
       case MachineDatum::axis_count: *value = in.axis_count; return true;
-      case MachineDatum::axis_name: *value = in.system->axis[axis].name; return true;
+      case MachineDatum::axis_name: *value = character_of(in.axis_words.word(axis)); return true;
       case MachineDatum::rotary: *value = (in.rotary >> axis) & 1; return true;
     }
   }
@@ -160,7 +160,7 @@ Eval read_parameter(Access& a) {
   if (parameter_is_common(*a.in.dialect, number) && !shared_known(a)) return Eval::need_sync;
   const ParameterId id = ParameterId::of_number(number);
   if (!a.in.parameters.get(id, -1, index, &value) && a.in.parameters.text(id, index) != nullptr) {  // a long text cannot be read as a number
-    a.in.raise(Condition::no_such_data, '#', a.number);
+    a.in.raise(Condition::no_such_data, Sign::variable, a.number);
     return Eval::fault;
   }
   return give(a, value);
@@ -174,7 +174,7 @@ Eval read_parameter_itself(Access& a) {
 }
 Execution write_parameter_itself(Access& a) {
   if (a.in.set_parameter(ParameterId::of_number(a.number), -1, -1, a.written)) return Execution::done;
-  return a.in.raise(Condition::value_range, '#', a.written);
+  return a.in.raise(Condition::value_range, Sign::variable, a.written);
 }
 
 // ---- devices (13.5.5, 10.17) ---------------------------------------------------------------------------------------------------------
@@ -197,11 +197,11 @@ Eval read_device(Access& a) {
   const DeviceRow* device = find_device(a.in, code);
   const DeviceWidth* width = find_width(a.in, written_width);
   if (a.in.devices.read == nullptr || device == nullptr || width == nullptr) {
-    a.in.raise(Condition::no_such_data, '#', a.number);
+    a.in.raise(Condition::no_such_data, Sign::variable, a.number);
     return Eval::fault;
   }
   if (number >= device->count) {  // (2): the device does not exist; only bits behind an existing device read as 0
-    a.in.raise(Condition::no_such_data, '#', number);
+    a.in.raise(Condition::no_such_data, Sign::variable, number);
     return Eval::fault;
   }
   if (width->bytes == 0) {  // one bit: of a word the selected bit of it

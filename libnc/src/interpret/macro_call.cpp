@@ -13,26 +13,6 @@
 namespace nc {
 namespace {
 
-/// Argument designation II: I J K up to ten times, for #(3k+1) #(3k+2) #(3k+3). A word that does not come after the previous one in the order I J K begins
-/// the next group. The first group gives the same variables as designation I.
-struct GroupCounter {
-  unsigned group = 1;
-  int last = -1;
-  /// Number of the variable for component 0, 1 or 2; 0 = there are more than ten groups.
-  unsigned variable(int component) {
-    if (component <= last) ++group;
-    last = component;
-    return group > 10 ? 0 : 3 * group + 1 + static_cast<unsigned>(component);
-  }
-};
-
-/// Which of I J K (0, 1, 2) the word is, -1 = none of them.
-int component_of(const Interpreter& in, const Word& word) {
-  for (unsigned i = 0; i < 3; ++i)
-    if (in.is(word, vector_along(i))) return static_cast<int>(i);
-  return -1;
-}
-
 /// A slot to which no open program refers; 0 = none. It is needed rarely, so it may look at all frames.
 unsigned free_slot(const Interpreter& in) {
   uint32_t used = 0;
@@ -63,32 +43,6 @@ Execution enter_modal(Interpreter& in, unsigned slot, const Value* arguments) {
 }
 
 }  // namespace
-
-Execution gather_arguments(Interpreter& in, bool every_word, MacroCall& call) {
-  GroupCounter groups;
-  for (const Word& word : in.block->words) {
-    if (in.is(word, Role::code) && !every_word) continue;
-    Value value = Value::of(word.value);
-    if ((word.flags & kWordExpression) != 0) {
-      const Execution did = evaluate_here(in, word.code, &value);
-      if (did != Execution::done) return did;
-    }
-    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
-    if (!every_word && (in.is(word, Role::call_program) || in.is(word, Role::call_repeats))) {
-      (in.is(word, Role::call_program) ? call.has_p : call.has_l) = !value.vacant;
-      (in.is(word, Role::call_program) ? call.p : call.l) = value.or_zero();
-      continue;
-    }
-    if (!every_word && (in.is(word, Role::sequence_number) || in.is(word, Role::program_number))) return in.raise(Condition::illegal_address, word.letter);
-    unsigned variable = in.dialect->argument_of[address_of(word)];
-    if (const int component = component_of(in, word); component >= 0) {
-      variable = groups.variable(component);
-      if (variable == 0) return in.raise(Condition::macro_argument, word.letter);
-    }
-    call.argument[variable - 1] = value;
-  }
-  return Execution::done;
-}
 
 Execution enter_macro(Interpreter& in, const Entry& entry, const Value* arguments) {
   if (entry.passes == 0) return Execution::done;
@@ -151,7 +105,7 @@ Execution call_with_block(Interpreter& in) {
     if (is_space_arc(row->function)) return in.raise_code(Condition::space_arc_mode, *row);  // 6.14 (b)
     if (row->function == Function::work_system && select_work_system(in, *row) != Execution::done) return Execution::fault;
   }
-  const Execution did = gather_arguments(in, true, call);
+  const Execution did = in.executed(read_arguments(*in.block, in.front, true, call));
   return did == Execution::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }
 
@@ -178,13 +132,13 @@ void cancel_modal_call(Interpreter& in) {
 
 Execution call_macro(Interpreter& in) {
   MacroCall call;
-  Execution did = gather_arguments(in, false, call);
+  Execution did = in.executed(read_arguments(*in.block, in.front, false, call));
   if (did != Execution::done) return did;
   const Function function = in.words.one_shot->function;
   Entry entry;
-  did = repetitions(in, call.has_l, call.l, &entry.passes);
+  did = repetitions(in, call.has_repeats, call.repeats, &entry.passes);
   if (did != Execution::done || (entry.passes == 0 && function == Function::macro_call)) return did;  // L0: no call is made, and no program is searched for
-  did = find_called(in, call.has_p, call.p, false, &entry.program);
+  did = find_called(in, call.has_program, call.program, false, &entry.program);
   if (did != Execution::done) return did;
   if (function == Function::macro_call) {
     entry.kind = CallKind::macro;

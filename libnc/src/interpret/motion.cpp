@@ -357,7 +357,7 @@ Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double 
 
 Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const ArcRules& rules = in.dialect->rules.arc;
   ArcWords& words = *of_block;
   words.has_radius = w.has(Role::arc_radius);
@@ -448,7 +448,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);
   // The blocks before and behind do not have this length of a degree, so neither compensation nor a map of the program can be used.
-  if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.system->axis[in.state.map.rotary].name);
+  if (scope.on() && (in.state.comp.side != 0 || program_mapped(in))) return in.raise(Condition::no_function, in.axis_words.word(in.state.map.rotary));
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
     const bool uneven = scaled_unevenly(in, h, v);
@@ -514,7 +514,7 @@ void move_rapid(BlockContext& in, const AxisVec& target, uint32_t axes) {
 }
 
 Execution check_index_positions(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     // M700 9.3 (8): a table that stands between two positions (moved by hand, after a reset) does not reach one by an increment of whole steps.
@@ -527,14 +527,14 @@ Execution check_index_positions(BlockContext& in) {
 
 /// Takes ,C or ,R of the block (M700 13.7).
 static Execution take_corner(BlockContext& in, Function motion, LinearStyle* style) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const Role word = corner_word(w);
-  if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_raw);
-  if (motion != Function::linear && !(in.settings.corner_arcs && is_arc(motion))) return in.raise(Condition::corner_arc, word, w.corner_raw);
+  if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_size.value);
+  if (motion != Function::linear && !(in.settings.corner_arcs && is_arc(motion))) return in.raise(Condition::corner_arc, word, w.corner_size.value);
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
-  double amount = length_value(in, w.corner_raw, w.corner_flags, false, true);
-  if (amount < 0) return in.raise(Condition::value_range, word, w.corner_raw);
+  double amount = length_value(in, w.corner_size, false, true);
+  if (amount < 0) return in.raise(Condition::value_range, word, w.corner_size.value);
   if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: the corner is scaled, too
   if (!(amount > 0)) return Execution::done;  // no corner is cut
   style->corner = w.corner;
@@ -544,7 +544,7 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
 
 /// An arc with ,C or ,R, on a machine that cuts corners beside arcs.
 static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, bool ccw, const LinearStyle& style) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const unsigned before = in.queue.size();
   const Execution did = move_arc(in, target, w.axes, ccw);
   if (did != Execution::done) return did;
@@ -554,11 +554,11 @@ static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, boo
     set_corner(in, item.move, style);
     return did;
   }
-  return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);  // an arc of no radius
+  return in.raise(Condition::corner_short, corner_word(w), w.corner_size.value);  // an arc of no radius
 }
 
 Execution move_by_words(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   LinearStyle style;
   const Function motion = in.state.modal.of(Mode::motion);
   const bool arc = is_arc(motion), ccw = motion == Function::arc_ccw, thread = motion == Function::thread;
@@ -568,7 +568,7 @@ Execution move_by_words(BlockContext& in) {
     const Execution did = take_corner(in, motion, &style);
     if (did != Execution::done) return did;
   }
-  if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_raw);
+  if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_size.value);
   if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Execution::done;
   if (w.axes == 0 && !w.m.empty() && has_words_of_call(in)) return Execution::done;  // the words are those of the call, and no arc
   if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
@@ -612,7 +612,7 @@ Execution move_by_words(BlockContext& in) {
   const unsigned before = in.queue.size();
   move_linear(in, target, w.axes, style);
   const bool nowhere = style.corner != Corner::none && in.queue.size() == before;  // a line of no length has no corner
-  return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_raw) : Execution::done;
+  return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_size.value) : Execution::done;
 }
 
 }  // namespace nc

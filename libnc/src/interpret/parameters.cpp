@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstring>
 
+#include "program/cursor.hpp"
+
 namespace nc {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 bool same_word(const char* word, size_t length, const char* text) {
   for (size_t i = 0; i < length; ++i)
-    if (text[i] == 0 || lower(word[i]) != lower(text[i])) return false;
+    if (text[i] == 0 || upper(word[i]) != upper(text[i])) return false;
   return text[length] == 0;
 }
 
@@ -54,7 +53,7 @@ constexpr double kTooLarge = 4503599627370496.0;
 
 /// The text has at most 63 letters, digits and signs, a letter first.
 bool is_text(const char* text) {
-  if (lower(text[0]) < 'a' || lower(text[0]) > 'z') return false;
+  if (!is_letter(text[0])) return false;
   size_t length = 0;
   for (; text[length] != 0; ++length)
     if (text[length] < ' ' || text[length] > '~') return false;

@@ -100,24 +100,24 @@ struct Settings {
   bool start_inch = false;            ///< #1152
   uint32_t parity_units = 0;          ///< #9n15: bit n: of the tapes of input device n the characters of each block are counted
   double scaling_factor = 1;          ///< #8072 SCALING P
-  char work_turn_axis[2] = {};        ///< #8621, #8622: plane of the rotation of 13.21, 0 = the first and the second axis
+  WordSlot work_turn_axis[2] = {kNoWord, kNoWord};  ///< #8621, #8622: plane of the rotation of 13.21, kNoWord = the first and the second axis
   double work_turn_center[2] = {};    ///< #8623, #8624, machine coordinates
   double work_turn_vector[2] = {};    ///< #8625, #8626
   double work_turn_deg = 0;           ///< #8627
   double index_increment[kMaxAxes] = {};  ///< #2106, deg, 0 = not checked
   bool run_time_hours = false;        ///< #1273 bit 1
   bool preset_allowed = true;         ///< #1267 bit 0: G92.1 in list 1
-  char plane_basic[3] = {};  ///< #1026-#1028: the axes of I, J, K
-  char plane_parallel[3] = {};            ///< #1029-#1031: their parallel axes, 0 = none
+  WordSlot plane_basic[3] = {kNoWord, kNoWord, kNoWord};     ///< #1026-#1028: the axes of I, J, K
+  WordSlot plane_parallel[3] = {kNoWord, kNoWord, kNoWord};  ///< #1029-#1031: their parallel axes, kNoWord = none
   Function start_plane = Function::plane_xy;  ///< #1025
   bool helix_plane_feed = false;          ///< #1235 bit 0: F of a helix is the speed in the plane of its arc
   bool precision_lead = false;            ///< #1229 bit 1: E of G33 is a lead, not ridges per inch
   bool spiral_type_2 = false;             ///< #1272 bit 2
   double spiral_tolerance = 0.1;          ///< #8075 SpiralEndErr, mm
-  char mill_axis = 0;                     ///< #1516: rotary axis of cylindrical and polar coordinate interpolation
-  char polar_linear = 0;                  ///< #1533
+  WordSlot mill_axis = kNoWord;           ///< #1516: rotary axis of cylindrical and polar coordinate interpolation
+  WordSlot polar_linear = kNoWord;        ///< #1533
   bool hypothetical_by_name = false;      ///< #1517
-  char exponential_linear = 0, exponential_rotary = 0;  ///< #1514, #1515
+  WordSlot exponential_linear = kNoWord, exponential_rotary = kNoWord;  ///< #1514, #1515
   double creep[kMaxAxes] = {};            ///< #8209 G60 shift, mm, signed
   bool start_synchronous = false;         ///< #1074 I_Sync: G95 at power on and after M02/M30
   bool feed_by_digit = false;             ///< #1079 F1digt

@@ -4,7 +4,7 @@
 namespace nc {
 namespace {
 
-int8_t index_of(const BlockContext& in, char name) { return static_cast<int8_t>(in.axis_named(name)); }
+int8_t index_of(const BlockContext& in, WordSlot name) { return static_cast<int8_t>(in.axis_words.axis(name)); }
 
 }  // namespace
 
@@ -15,8 +15,8 @@ PlanePair pair_of(Function plane) {
 }
 
 int8_t axis_of_pair(const BlockContext& in, unsigned pair) {
-  const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
-  const bool second = parallel != 0 && in.words.has(parallel) && !(basic != 0 && in.words.has(basic));
+  const WordSlot basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
+  const bool second = in.words.has(parallel) && !in.words.has(basic);
   return index_of(in, second ? parallel : basic);
 }
 
@@ -55,14 +55,14 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
   return Execution::done;
 }
 
-/// The axes are found by their names in the machine, because the letters of a mode that ends here (G12.1, M700 6.10) are not among these.
+/// The axes are found by their names in the machine, because the words of a mode that ends here (G12.1, M700 6.10) are not among these.
 void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]) {
   const PlanePair pair = pair_of(plane);
-  const char name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};
+  const WordSlot name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};
   for (unsigned i = 0; i < 2; ++i) {
     axis[i] = -1;
     for (unsigned k = 0; k < in.axis_count; ++k)
-      if (in.system->axis[k].name == name[i]) axis[i] = static_cast<int8_t>(k);
+      if (in.axis_words.word(k) == name[i]) axis[i] = static_cast<int8_t>(k);
   }
 }
 

@@ -30,15 +30,15 @@ bool begins_reserved(const char* name, size_t length) {
 Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
   char name[kNameLength];
   if (length == 0) return Execution::done;  // "[A,,C]": the second variable keeps its name
-  if (length > kNameLength) return in.raise(Condition::name_statement, '#', variable);
+  if (length > kNameLength) return in.raise(Condition::name_statement, Sign::variable, variable);
   for (size_t i = 0; i < length; ++i) {
     name[i] = upper(from[i]);
-    if (!is_letter(name[i]) && (i == 0 || !is_digit(name[i]))) return in.raise(Condition::variable_name, '#', variable);
+    if (!is_letter(name[i]) && (i == 0 || !is_digit(name[i]))) return in.raise(Condition::variable_name, Sign::variable, variable);
   }
-  if (begins_reserved(name, length)) return in.raise(Condition::variable_name, '#', variable);
+  if (begins_reserved(name, length)) return in.raise(Condition::variable_name, Sign::variable, variable);
   uint32_t other = 0;
-  if (in.variables.find_name(name, length, &other) && other != variable) return in.raise(Condition::variable_name_twice, '#', variable);
-  if (!in.variables.set_name(variable, name, length, in.state.seq + 1)) return in.raise(Condition::variable_number, '#', variable);
+  if (in.variables.find_name(name, length, &other) && other != variable) return in.raise(Condition::variable_name_twice, Sign::variable, variable);
+  if (!in.variables.set_name(variable, name, length, in.state.seq + 1)) return in.raise(Condition::variable_number, Sign::variable, variable);
   return Execution::done;
 }
 
@@ -149,7 +149,7 @@ Execution print_decimal(Interpreter& in, const Statement& statement) {
   while (p != end) {
     if (*p != '#' && *p != '[') {
       const char c = upper(*p++);
-      if (!printable(c)) return in.raise(Condition::format_error, c);
+      if (!printable(c)) return in.raise(Condition::format_error, static_cast<Sign>(c));
       out.put(c);
       continue;
     }
@@ -177,7 +177,7 @@ Execution print_binary(Interpreter& in, const Statement& statement) {
     if (text.size + 4 >= sizeof text.s) return in.raise(Condition::block_too_long, Role::binary_port);
     if (*p != '#' && *p != '[') {
       const char c = upper(*p++);
-      if (!printable(c)) return in.raise(Condition::format_error, c);
+      if (!printable(c)) return in.raise(Condition::format_error, static_cast<Sign>(c));
       text.s[text.size++] = c;
       continue;
     }

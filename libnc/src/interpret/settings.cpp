@@ -13,14 +13,6 @@ namespace {
 
 using P = Parameter;
 
-/// The name of an axis, 0 = none (blank, 0, or a number that is not the code of a letter).
-char axis_letter(double value) {
-  if (!(value >= 'A' && value <= 'z')) return 0;
-  const char letter = static_cast<char>(value);
-  if (letter >= 'A' && letter <= 'Z') return letter;
-  return letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : char{0};
-}
-
 /// One bit for each of eight signals; no bit is set when the value is negative or too large.
 uint8_t signals(double value) {
   return value >= 0 && value <= 4294967295.0 ? static_cast<uint8_t>(static_cast<uint32_t>(value) & 0xff) : uint8_t{0};
@@ -56,7 +48,11 @@ class SettingsReader {
     return found;
   }
   bool flag(ParameterOf parameter) const { return value(parameter, 0) != 0; }
-  char axis_name(ParameterOf parameter, char fallback = 0) const { return axis_letter(value(parameter, fallback)); }
+  /// The word of an axis whose name is given by a parameter, `fallback` where it is not set; kNoWord: it is blank, 0, or no letter.
+  WordSlot axis_name(ParameterOf parameter, WordSlot fallback = kNoWord) const {
+    const double code = value(parameter, std::numeric_limits<double>::quiet_NaN());
+    return std::isnan(code) ? fallback : word_of_character(code);
+  }
   /// Bit i: the parameter is on for axis i.
   uint32_t axes_with(Parameter parameter) const {
     uint32_t mask = 0;
@@ -142,7 +138,7 @@ void SettingsReader::words() {
   s_.corner_arcs = flag(P::corner_arcs);
   s_.space_divisor = value(P::space_divisor, 0);
   for (unsigned i = 0; i < 3; ++i) {
-    s_.plane_basic[i] = axis_name({P::plane_axis, i}, dialect_.addresses.letter(basic_along(i)));
+    s_.plane_basic[i] = axis_name({P::plane_axis, i}, dialect_.addresses.word(basic_along(i)));
     s_.plane_parallel[i] = axis_name({P::parallel_axis, i});
   }
   s_.scaling_factor = value(P::scaling_factor, 1);

@@ -97,7 +97,7 @@ struct MillReturn {
   double feed = 0;
   Function plane = Function::plane_xy, feed_mode = Function::feed_per_minute;
   int8_t plane_axis[2] = {0, 1};
-  char hypothetical_letter = 0;  ///< letter that commands the rotary axis in the plane; 0 = its own name
+  WordSlot hypothetical_word = kNoWord;  ///< word that commands the rotary axis in the plane; kNoWord = that of its own name
   bool moved = false;            ///< there was a movement in this mode
 };
 

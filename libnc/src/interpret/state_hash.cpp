@@ -55,8 +55,8 @@ class Hash {
     add(kind, linear, rotary, side, frozen, scale, angle);
   }
   void add_one(const MillReturn& mill) {
-    const auto& [feed, plane, feed_mode, plane_axis, letter, moved] = mill;
-    add(feed, plane, feed_mode, plane_axis, letter, moved);
+    const auto& [feed, plane, feed_mode, plane_axis, word, moved] = mill;
+    add(feed, plane, feed_mode, plane_axis, word, moved);
   }
   void add_one(const SpindleControl& spindle) {
     const auto& [surface, axis, held] = spindle;

@@ -36,7 +36,7 @@ inline Eval give(Access& a, double number) {
 }
 
 inline Eval no_variable(Access& a) {
-  a.in.raise(Condition::variable_number, '#', a.number);
+  a.in.raise(Condition::variable_number, Sign::variable, a.number);
   return Eval::fault;
 }
 

@@ -78,7 +78,7 @@ Execution write_output_bit(Access& a) {
 Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.index)); }
 Execution write_output_word(Access& a) {
   const double whole = std::trunc(a.written);
-  if (whole < -2147483648.0 || whole > 4294967295.0) return a.in.raise(Condition::value_range, '#', a.number);
+  if (whole < -2147483648.0 || whole > 4294967295.0) return a.in.raise(Condition::value_range, Sign::variable, a.number);
   return put_outputs(a, a.index, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
 }
 
@@ -99,8 +99,8 @@ Eval read_tool(Access& a) {
 }
 Execution write_tool(Access& a) {
   uint32_t key = 0;
-  if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
-  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
+  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.set_table(key, a.written);
   return Execution::done;
 }
@@ -118,8 +118,8 @@ Eval read_work(Access& a) {
 }
 Execution write_work(Access& a) {
   uint32_t key = 0;
-  if (!work_key(a, &key)) return a.in.raise(Condition::variable_number, '#', a.number);
-  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!work_key(a, &key)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
+  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.set_table(key, a.written);
   return Execution::done;
 }
@@ -136,8 +136,8 @@ uint32_t keep_text(Access& a) {
 }
 
 Execution write_alarm(Access& a) {
-  if (!(a.written >= 1) || a.written > 9999) return a.in.raise(Condition::value_range, '#', a.written);  // M700 10.3
-  a.in.raise(Condition::user_alarm, '#', a.written);
+  if (!(a.written >= 1) || a.written > 9999) return a.in.raise(Condition::value_range, Sign::variable, a.written);  // M700 10.3
+  a.in.raise(Condition::user_alarm, Sign::variable, a.written);
   a.in.user_alarm_text = keep_text(a);
   return Execution::fault;
 }
@@ -164,7 +164,7 @@ Eval read_counter(Access& a) {
 template <Counter which>
 Execution write_counter(Access& a) {
   const double unit = counter_unit(a.in, which);
-  if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, '#', a.written);  // M700 13.5.5 (24299)
+  if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, Sign::variable, a.written);  // M700 13.5.5 (24299)
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   a.in.state.clock_base[which] = counter_ms(a.in, which) - a.written * unit;
   return Execution::done;
@@ -216,11 +216,11 @@ bool digits_of(const Access& a, Digits* digits) {
 /// YYYYMMDD.
 Execution write_date(Access& a) {
   Digits d{};
-  if (!digits_of(a, &d)) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!digits_of(a, &d)) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   int64_t year = 0;
   unsigned month = 0, day = 0;
   civil(days_of(d.high, d.middle == 0 ? 1 : d.middle, d.low == 0 ? 1 : d.low), &year, &month, &day);
-  if (d.high < 2000 || d.high > 2099 || month != d.middle || day != d.low) return a.in.raise(Condition::value_range, '#', a.written);
+  if (d.high < 2000 || d.high > 2099 || month != d.middle || day != d.low) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   return set_clock(a, days_of(d.high, d.middle, d.low), clock_seconds(a.in) % 86400);
 }
 Eval read_date(Access& a) {
@@ -234,7 +234,7 @@ Eval read_date(Access& a) {
 /// HHMMSS.
 Execution write_time_of_day(Access& a) {
   Digits d{};
-  if (!digits_of(a, &d) || d.high > 23 || d.middle > 59 || d.low > 59) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!digits_of(a, &d) || d.high > 23 || d.middle > 59 || d.low > 59) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   const int64_t now = clock_seconds(a.in), midnight = now - now % 86400;
   return set_clock(a, midnight / 86400, int64_t{d.high} * 3600 + d.middle * 60 + d.low);
 }
@@ -249,7 +249,7 @@ Eval read_count(Access& a) { return give(a, a.in.records->workpieces.count[a.ind
 Execution write_count(Access& a) {
   constexpr double kMost = 999999;
   const double least = a.index == 0 && a.in.settings.negative_count ? -kMost : 0;
-  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   WorkpieceCounts workpieces = a.in.records->workpieces;
   workpieces.count[a.index] = static_cast<int32_t>(a.written);
   a.in.change(&ProgramRecords::workpieces, workpieces);
@@ -266,7 +266,7 @@ constexpr ControlBits kControlBits[] = {{&State::control_3003, 4, NC_CONTROL_SUP
 
 Execution write_control(Access& a) {
   const ControlBits& control = kControlBits[a.index];
-  if (!(a.written >= 0) || a.written >= control.end) return a.in.raise(Condition::value_range, '#', a.written);
+  if (!(a.written >= 0) || a.written >= control.end) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   const auto bits = static_cast<uint8_t>(a.written);
   a.in.state.*control.bits = bits;
   Action& action = a.in.emit(ItemKind::action).action;
@@ -464,7 +464,7 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
   const VariableRow* range = find_variable(*in.dialect->variables, number);
   const VariableGet read = range != nullptr ? handler_of(*range).read : nullptr;
   if (read == nullptr) {
-    in.raise(range == nullptr ? Condition::variable_number : Condition::variable_use, '#', number);
+    in.raise(range == nullptr ? Condition::variable_number : Condition::variable_use, Sign::variable, number);
     *fault = in.fault;
     return Eval::fault;
   }
@@ -477,9 +477,9 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
 
 Execution write_system_variable(Interpreter& in, uint32_t number, Value value, const Statement& statement) {
   const VariableRow* range = find_variable(*in.dialect->variables, number);
-  if (range == nullptr) return in.raise(Condition::variable_number, '#', number);
+  if (range == nullptr) return in.raise(Condition::variable_number, Sign::variable, number);
   const VariableSet write = handler_of(*range).write;
-  if (write == nullptr) return in.raise(Condition::variable_use, '#', number);
+  if (write == nullptr) return in.raise(Condition::variable_use, Sign::variable, number);
   const VariablePlace place = place_in(*range, number);
   Access access{in, place.part, place.index, number};
   access.written = value.or_zero();

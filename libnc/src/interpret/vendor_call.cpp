@@ -3,29 +3,13 @@
 // everything that the program has commanded before has been executed when the function is called.
 #include <cstring>
 
+#include "command/caller.hpp"
 #include "dialect/text.hpp"
 #include "interpret/calls.hpp"
 #include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {
-
-/// The words that the function gets: all except the code itself, the G codes before it, and words without a value.
-Execution gather_vendor_words(Interpreter& in, unsigned at, FixedVector<nc_word, 48>& words) {
-  const auto& all = in.block->words;
-  for (unsigned i = 0; i < all.size(); ++i) {
-    const Word& word = all[i];
-    if (i == at || (i < at && in.is(word, Role::code))) continue;
-    if ((word.flags & (kWordNoValue | kWordComma | kWordCount)) != 0) return in.raise(Condition::format_error, word.letter);
-    Value value = Value::of(word.value);
-    if ((word.flags & kWordExpression) != 0) {
-      const Execution did = evaluate_here(in, word.code, &value);
-      if (did != Execution::done) return did;
-    }
-    if (!value.vacant) words.push_back(nc_word{word.letter, value.number});  // M700 13.5.4
-  }
-  return Execution::done;
-}
 
 /// Prepares the alarm with which the program stops, unless the function gives another one.
 void prepare_alarm(Interpreter& in, const Fault& fault) {
@@ -48,23 +32,19 @@ void take_alarm(nc_alarm* alarm, const nc_alarm& prepared) {
 
 }  // namespace
 
-Execution call_vendor(Interpreter& in, unsigned at, const nc_vendor_code& code) {
-  FixedVector<nc_word, 48> words;
-  const Execution did = gather_vendor_words(in, at, words);
+Execution call_vendor(Interpreter& in, const Caller& caller) {
+  const nc_vendor_code& code = *caller.call->vendor;
+  VendorWords words;
+  const Execution did = in.executed(read_vendor_words(*in.block, in.front, caller.at, words));
   if (did != Execution::done || in.vendor_called()) return did;
-  in.raise(Condition::vendor_function, in.block->words[at].letter, in.is(in.block->words[at], Role::code) ? code.number / 10.0 : code.number);
+  in.raise(Condition::vendor_function, caller.word, caller.word == in.word(Role::code) ? code.number / 10.0 : code.number);
   prepare_alarm(in, in.fault);
   const Fault failed = in.fault;
   const nc_alarm prepared = in.vendor_alarm;
-  nc_vendor_block block{};
-  block.struct_size = sizeof block;
-  block.letter = code.letter;
-  block.number = code.number;
+  nc_vendor_block block = block_of(code, words);
   block.source = in.source;
   block.online = in.feeding;
   for (unsigned i = 0; i < in.axis_count; ++i) block.machine.v[i] = in.world.machine.v[i];
-  block.word_count = words.size();
-  block.words = words.begin();
   in.in_vendor_function = true;
   const nc_status status = code.function(code.user, in.vendor->control(), &block, &in.vendor_alarm);
   in.in_vendor_function = false;

@@ -32,8 +32,8 @@ void refresh_work_rotation(BlockContext& in) {
 
 void take_work_rotation(BlockContext& in, bool at_head) {
   const Settings& s = in.settings;
-  const auto axis = [&in](char name, unsigned standard) {
-    if (name != 0) return in.axis_named(name);
+  const auto axis = [&in](WordSlot name, unsigned standard) {
+    if (name != kNoWord) return in.axis_words.axis(name);
     return standard < in.axis_count ? static_cast<int>(standard) : -1;
   };
   WorkTurn turn;

@@ -8,15 +8,15 @@
 namespace nc {
 namespace {
 
-Action& emit_action(BlockContext& in, nc_action_kind kind, char letter, double value) {
+Action& emit_action(BlockContext& in, nc_action_kind kind, WordSlot word, double value) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = kind;
-  action.letter = letter;
+  name_word(action, word);
   action.value = value;
   return action;
 }
 
-Action& emit_action(BlockContext& in, nc_action_kind kind, Role word, double value) { return emit_action(in, kind, in.dialect->addresses.letter(word), value); }
+Action& emit_action(BlockContext& in, nc_action_kind kind, Role word, double value) { return emit_action(in, kind, in.word(word), value); }
 
 SpindleTurn turn_of(MiscFunction function) {
   switch (function) {
@@ -47,12 +47,11 @@ void note_spindle(BlockContext& in, MiscFunction function) {
 
 }  // namespace
 
-/// The second auxiliary address: B, unless an axis has that name; then A, then C (M700 9.2). 0 = the family has none.
-char second_address(const BlockContext& in) {
-  const AddressTable& addresses = in.dialect->addresses;
+/// The second auxiliary function: B, unless an axis has that name; then A, then C (M700 9.2). kNoWord = the family has none.
+WordSlot second_function(const BlockContext& in) {
   for (const Role word : {Role::second_function, Role::second_function_2, Role::second_function_3})
-    if (addresses.letter(word) != 0 && in.axis_called(word) < 0) return addresses.letter(word);
-  return 0;
+    if (in.dialect->addresses.has(word) && in.axis_called(word) < 0) return in.word(word);
+  return kNoWord;
 }
 
 namespace {
@@ -76,19 +75,17 @@ Execution spindle_word(BlockContext& in) {
   return Execution::done;
 }
 
-/// Raises an alarm for an address that is neither an axis nor has another meaning.
-Execution check_axis_letters(BlockContext& in, char second) {
+/// Raises an alarm for a word that could be one of an axis, if it is none and has no other meaning.
+Execution check_axis_words(BlockContext& in, WordSlot second) {
   const AddressTable& addresses = in.dialect->addresses;
-  const uint32_t auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
-  uint32_t known = in.axis_letters;
-  if (second != 0) known |= 1u << address_of(second);
+  const WordSet auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
+  WordSet known = in.axis_words.all() | set_of(second);
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell) known |= addresses.set({Role::dwell_seconds});
   if (has_line_angle(in)) known |= addresses.set({Role::line_angle});
-  const uint32_t unknown = in.words.present & in.dialect->axis_addresses & ~known;
+  const WordSet unknown = in.words.present & in.dialect->axis_addresses & ~known;
   if (unknown == 0) return Execution::done;
-  const char letter = first_of_block(in, unknown);
-  const bool aux = (auxiliary >> address_of(letter) & 1) != 0 && second != 0;
-  return in.raise(aux ? Condition::second_aux : Condition::illegal_axis, letter, in.words.get(letter));
+  const bool aux = holds(auxiliary, first_of_block(*in.block, unknown)) && second != kNoWord;
+  return in.raise_first(aux ? Condition::second_aux : Condition::illegal_axis, unknown);
 }
 
 bool output_code(const BlockContext& in, uint32_t code) {
@@ -98,9 +95,9 @@ bool output_code(const BlockContext& in, uint32_t code) {
 
 /// DGSHAPE M06: M06 and T come as a pair, with at most one of each in a block.
 Execution check_tool_pair(BlockContext& in) {
-  unsigned changes = 0, tools = 0;
+  const unsigned tools = count_of(*in.block, in.word(Role::tool));
+  unsigned changes = 0;
   for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
-  for (const Word& word : in.block->words) tools += in.is(word, Role::tool) ? 1u : 0u;
   if (changes == 1 && tools == 1) return Execution::done;
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
@@ -108,16 +105,15 @@ Execution check_tool_pair(BlockContext& in) {
 /// DGSHAPE 2: checks numbers "with no decimal point": codes, speeds and numbers of things; also P (except the factor of G51) and K where they are
 /// milliseconds, a number or a count.
 Execution check_whole_numbers(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
   const bool arc = w.motion != nullptr && !is_line(w.motion->function);
-  uint32_t whole = in.addresses({Role::misc_code, Role::spindle_speed, Role::tool, Role::offset_number, Role::length_number, Role::input_kind, Role::dwell_time});
-  if (w.one_shot != nullptr && w.one_shot->function == Function::scaling_on) whole &= ~in.addresses({Role::scaling_factor});
-  if (cycle && !arc) whole |= in.addresses({Role::cycle_count});
-  for (const Word& word : in.block->words)
-    if (((whole >> address_of(word)) & 1) != 0 && (word.flags & kWordPoint) != 0)
-      return in.raise(Condition::format_error, word.letter, word.value);
-  return Execution::done;
+  WordSet whole = in.set_of({Role::misc_code, Role::spindle_speed, Role::tool, Role::offset_number, Role::length_number, Role::input_kind, Role::dwell_time});
+  if (w.one_shot != nullptr && w.one_shot->function == Function::scaling_on) whole &= ~in.set_of({Role::scaling_factor});
+  if (cycle && !arc) whole |= in.set_of({Role::cycle_count});
+  double value = 0;
+  const WordSlot word = first_with_point(*in.block, whole, &value);
+  return word == kNoWord ? Execution::done : in.raise(Condition::format_error, word, value);
 }
 
 }  // namespace
@@ -135,13 +131,13 @@ void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code) {
 }
 
 Execution check_precedence(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const BlockRules& rules = in.dialect->rules.block;
   if (rules.whole_words_refuse_point) {
     const Execution did = check_whole_numbers(in);
     if (did != Execution::done) return did;
   }
-  const unsigned words = in.block->words.size();
+  const unsigned words = word_count(*in.block);
   if (rules.stops_stand_alone)
     for (const uint32_t m : w.m)
       if (!output_code(in, m) && words > 1) return in.raise(Condition::must_stand_alone, Role::misc_code, m);
@@ -157,12 +153,12 @@ Execution check_precedence(BlockContext& in) {
 bool codes_behind_motion(const BlockContext& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
 
 Execution auxiliary_before(BlockContext& in) {
-  BlockWords& w = in.words;
-  // Most blocks have none of the addresses that are looked at here.
-  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.addresses({Role::spindle_speed, Role::tool})) & ~in.axis_letters)) return Execution::done;
+  Command& w = in.words;
+  // Most blocks have none of the words that are looked at here.
+  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.set_of({Role::spindle_speed, Role::tool})) & ~in.axis_words.all())) return Execution::done;
   const Rules& rules = in.dialect->rules;
-  const char second = second_address(in);
-  Execution did = check_axis_letters(in, second);
+  const WordSlot second = second_function(in);
+  Execution did = check_axis_words(in, second);
   if (did != Execution::done) return did;
   bool waiting = false;
   if (w.has(Role::spindle_speed) && !is_clamp_command(in)) {
@@ -181,7 +177,7 @@ Execution auxiliary_before(BlockContext& in) {
     emit_action(in, NC_ACTION_T, Role::tool, tool);
     waiting = true;
   }
-  if (second != 0 && w.has(second)) {
+  if (w.has(second)) {
     if (!whole_number(w.get(second), &in.state.modal.b) || in.state.modal.b > 99999999) return in.raise(Condition::value_range, second, w.get(second));
     emit_action(in, NC_ACTION_B, second, in.state.modal.b);
     waiting = true;

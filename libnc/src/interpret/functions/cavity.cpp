@@ -19,13 +19,13 @@ Execution positive(BlockContext& in, Role word, double* value) {
 
 /// Z, and R above it: of this block, else those that an earlier cycle or cavity had.
 Execution take_levels(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   CycleState& kept = in.state.cycle;
   CavityOfBlock& c = in.cavity;
   const AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
   const bool z = (w.axes >> c.axis & 1) != 0, incremental = is_incremental(in);
   if (w.has(Role::cycle_level)) {
-    c.r = axis_value(in, c.axis, w.get(Role::cycle_level), w.flag(Role::cycle_level), false) + (incremental ? at[c.axis] : 0);
+    c.r = axis_value(in, c.axis, w.written(Role::cycle_level), false) + (incremental ? at[c.axis] : 0);
   } else if (kept.has_r && !kept.r_incremental) {
     c.r = kept.r;
   } else {
@@ -48,7 +48,7 @@ Execution take_levels(BlockContext& in) {
 
 /// The path of the centre of the cutter: the cavity without the radius of the cutter on each side.
 Execution take_shape(BlockContext& in, Function function, double scale) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   Cavity& shape = in.cavity.shape;
   shape.circle = function == Function::cavity_circle;
   shape.ccw = function != Function::cavity_cw;

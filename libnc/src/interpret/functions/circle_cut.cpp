@@ -12,11 +12,10 @@ namespace {
 
 /// M700 13.10 (4): the block may hold only the code, the radius, the offset number and the feed.
 Execution check_format(BlockContext& in) {
-  const BlockWords& w = in.words;
-  const uint32_t others = w.present & ~in.addresses({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
+  const Command& w = in.words;
+  const uint32_t others = w.present & ~in.set_of({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
   if (others != 0) {
-    const char letter = first_of_block(in, others);
-    return in.raise(Condition::illegal_address, letter, w.get(letter));
+    return in.raise_first(Condition::illegal_address, others);
   }
   return w.m.empty() ? Execution::done : in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
 }
@@ -24,7 +23,7 @@ Execution check_format(BlockContext& in) {
 /// Radius of the path in programmed coordinates: the sign of the radius word does not count; a positive offset makes the circle smaller (13.10 (1)). Scaling
 /// enlarges the circle but not the tool (13.19).
 Execution path_radius(BlockContext& in, double scale, double* radius) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
   const Execution did = offset_number(in, Role::offset_number, &number);
@@ -49,7 +48,7 @@ Execution do_circle_cut(BlockContext& in) {
   const auto h = static_cast<unsigned>(plane.h);
   const uint32_t axes = 1u << h | 1u << plane.v;
   // In inch a degree of a rotary axis has the length of a tenth of an inch (3.2 note 5); 13.10 does not say what that means here.
-  if ((in.rotary & axes) != 0 && in.state.modal.is(Function::inch)) return in.raise(Condition::no_function, in.system->axis[first_of(in.rotary & axes)].name);
+  if ((in.rotary & axes) != 0 && in.state.modal.is(Function::inch)) return in.raise(Condition::no_function, in.axis_words.word(first_of(in.rotary & axes)));
   double radius = 0;
   did = path_radius(in, std::fabs(scale_of(in, h)), &radius);
   if (did == Execution::done) did = check_feed(in, row.function);

@@ -160,7 +160,7 @@ Execution set_compensation(BlockContext& in, Function function) {
 }
 
 Execution go_beside_start(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const Compensation& comp = in.state.comp;
   const bool pending = comp.side != 0 && in.state.moved_side == 0;
   const bool of_plane = (w.axes >> comp.axis[0] & 1) != 0 || (w.axes >> comp.axis[1] & 1) != 0;
@@ -173,7 +173,7 @@ Execution go_beside_start(BlockContext& in) {
 }
 
 bool gives_length_in_cycle(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!in.dialect->rules.cycle.takes_length_number || w.motion != nullptr || w.one_shot != nullptr) return false;
   return w.cycle != nullptr ? w.cycle->function != Function::cycle_off : in.state.cycle.kind != CycleKind::none;
 }

@@ -30,7 +30,7 @@ Execution select_work_system(BlockContext& in, const FunctionRow& row) {
 
 Execution do_local_system(BlockContext& in) {
   if (in.state.work_system >= 6) return in.raise_code(Condition::local_in_extended, *in.words.one_shot);
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
     // M700 14.11: G90 replaces (measured from the workpiece zero), G91 adds to the present local zero.
@@ -43,7 +43,7 @@ Execution do_local_system(BlockContext& in) {
 /// Series 8 G92 while the plane is rotated or scaled about the zero point: the programmed position becomes that of the words, and the zero point goes
 /// where the map then leads from it to the machine.
 static void set_zero_under_map(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const AxisVec work = in.position();
   AxisVec programmed = to_program(in, work);
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -56,7 +56,7 @@ static void set_zero_under_map(BlockContext& in) {
 }
 
 Execution do_coordinate_set(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
   if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
     const Execution did = set_spindle_clamp(in);
@@ -93,13 +93,13 @@ Execution do_shift_off(BlockContext& in) {
 }
 
 Execution do_coordinate_preset(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!in.settings.preset_allowed) return in.raise_code(Condition::illegal_g, *w.one_shot);  // M700 14.12: the code exists in list 1 only, chosen by #1267 bit 0
   // 14.12: it is not allowed during scaling, coordinate rotation, or mirror image by program.
   if (in.state.modal.is(Function::scaling_on) || in.state.rotated || in.state.mirror != 0) return in.raise_code(Condition::illegal_g, *w.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
   }
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;

@@ -56,13 +56,13 @@ int drilling_axis(const BlockContext& in) {
 
 /// M700 13.1.1 note 2: the axis is changed in the cancelled state. A code in the mode may name the axis in force or none of its pair.
 Execution check_axis_stays(BlockContext& in) {
-  const char drills = in.system->axis[in.state.cycle.drill_axis].name;
+  const WordSlot drills = in.axis_words.word(in.state.cycle.drill_axis);
   if (in.settings.drilling_axis_z || in.words.has(drills)) return Execution::done;
   const unsigned pair = normal_pair(in);
-  const char basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
+  const WordSlot basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
   const bool of_pair = drills == basic || drills == parallel;
-  for (const char name : {basic, parallel})
-    if (of_pair && name != 0 && in.words.has(name)) return in.raise(Condition::drilling_axis_changed, name, in.words.get(name));
+  for (const WordSlot name : {basic, parallel})
+    if (of_pair && in.words.has(name)) return in.raise(Condition::drilling_axis_changed, name, in.words.get(name));
   return of_pair ? Execution::done : in.raise_mode(Condition::drilling_axis_changed, Mode::plane);
 }
 
@@ -114,9 +114,8 @@ bool is_shift_word(const BlockContext& in, Role word) {
   if (!strokes_of(in.state.cycle.kind).shifts) return false;
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const AddressTable& addresses = in.dialect->addresses;
-  const unsigned at = addresses.at(word);
-  return at == addresses.at(vector_along(plane.first)) || at == addresses.at(vector_along(plane.second)) ||
-         (in.state.cycle.kind == CycleKind::back_bore_to_level && at == addresses.at(Role::vector_z));
+  return addresses.same(word, vector_along(plane.first)) || addresses.same(word, vector_along(plane.second)) ||
+         (in.state.cycle.kind == CycleKind::back_bore_to_level && addresses.same(word, Role::vector_z));
 }
 
 /// I J K: the way to the place beside the hole, and of RS-274/NGC 3.5.16.7 the third level.
@@ -145,7 +144,7 @@ Execution take_p(BlockContext& in) {
 
 /// Hole data of the block (modal). M700 13.1.1: without an axis word or R they are ignored.
 Execution take_hole_data(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   CycleState& c = in.state.cycle;
   const uint32_t drill_bit = 1u << c.drill_axis;
   if ((w.axes & drill_bit) != 0) {
@@ -155,13 +154,13 @@ Execution take_hole_data(BlockContext& in) {
   }
   if (w.has(Role::cycle_level)) {
     c.has_r = true;
-    c.r = axis_value(in, c.drill_axis, w.get(Role::cycle_level), w.flag(Role::cycle_level), false);  // M700 2.1: a position of that axis
+    c.r = axis_value(in, c.drill_axis, w.written(Role::cycle_level), false);  // M700 2.1: a position of that axis
     c.r_incremental = is_incremental(in);
   }
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
   if (w.has(Role::cycle_first_depth) && strokes_of(c.kind).pecks) {
     c.has_first = true;
-    c.first = axis_value(in, c.drill_axis, w.get(Role::cycle_first_depth), w.flag(Role::cycle_first_depth), false);
+    c.first = axis_value(in, c.drill_axis, w.written(Role::cycle_first_depth), false);
   }
   if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step)) {
     const double q = length_of(in, Role::cycle_depth_step);
@@ -219,26 +218,26 @@ CycleKind cycle_kind(const Dialect& dialect, Function function) {
 }
 
 uint32_t positioning_axes(const BlockContext& in) {
-  const char drills = in.system->axis[in.state.cycle.drill_axis].name;
+  const WordSlot drills = in.axis_words.word(in.state.cycle.drill_axis);
   uint32_t axes = 0;
   for (const int axis : in.state.plane_axis)
     if (axis >= 0) axes |= 1u << axis;
   for (unsigned pair = 0; pair < 3; ++pair) {
-    const char basic = in.settings.plane_basic[pair];
-    if (basic == 0 || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_named(basic) < 0) continue;
-    axes |= 1u << in.axis_named(basic);
+    const WordSlot basic = in.settings.plane_basic[pair];
+    if (basic == kNoWord || basic == drills || in.settings.plane_parallel[pair] == drills || in.axis_words.axis(basic) < 0) continue;
+    axes |= 1u << in.axis_words.axis(basic);
   }
   return axes;
 }
 
 Execution check_hole(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
   if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
   Execution did = check_spindle(in);
   if (did != Execution::done) return did;
-  if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.system->axis[c.drill_axis].name);  // 13.21: not an axis alone
+  if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.axis_words.word(c.drill_axis));  // 13.21: not an axis alone
   if (is_tap(c.kind)) did = check_tap(in);
   if (did == Execution::done && !c.synchronous) did = check_feed(in, Function::linear);
   if (did != Execution::done) return did;
@@ -271,7 +270,7 @@ void cancel_cycle(BlockContext& in) {
 }
 
 Execution do_cycle(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const CycleRules& rules = in.dialect->rules.cycle;
   Execution did = Execution::done;
   if (w.cycle != nullptr) {

@@ -15,7 +15,7 @@ Execution write_axes(BlockContext& in, Key key) {
     if (((in.words.axes >> i) & 1) == 0) continue;
     const bool add = accumulate && ((in.words.incremental >> i) & 1) != 0;
     const double offset = (add ? in.frames.get(key(i)) : 0.0) + in.words.axis[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.system->axis[i].name, in.words.axis[i]);  // M700 14.10 (6)
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), in.words.axis[i]);  // M700 14.10 (6)
     in.set_table(key(i), offset);
   }
   return Execution::done;
@@ -30,7 +30,7 @@ uint32_t work_systems(const Dialect& dialect) {
 
 /// LinuxCNC G10 L20: sets the offset with which the axis, where it stands, reads the commanded value.
 Execution work_offset_here(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t p = 0;
   const bool given = w.has(Role::input_number);
   if (!given || !whole_number(w.get(Role::input_number), &p) || p > work_systems(*in.dialect) || p > Frames::kStandardSystems + in.frames.extended_systems())
@@ -41,7 +41,7 @@ Execution work_offset_here(BlockContext& in) {
     const unsigned key = Frames::work_key(system, i);
     const double reads = in.state.machine[i] - in.state.applied[i] - in.frames.zero(system, i);
     const double offset = in.frames.get(key) + reads - w.axis[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
     in.set_table(key, offset);
   }
   return Execution::done;
@@ -49,7 +49,7 @@ Execution work_offset_here(BlockContext& in) {
 
 /// Writes a work offset. `l`: the number of L, for alarms.
 Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
   if (w.axes == 0 && rules.axes_required)
     return w.has(Role::input_amount) ? in.raise(Condition::format_error, Role::input_amount, w.get(Role::input_amount)) : in.raise_code(Condition::format_error, *w.one_shot);
@@ -71,7 +71,7 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
 }
 
 Execution tool_offset(BlockContext& in, unsigned column) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
   if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.frames.tool_offsets())
@@ -79,7 +79,7 @@ Execution tool_offset(BlockContext& in, unsigned column) {
   const unsigned key = in.frames.tool_key(number, column);
   const bool add = in.dialect->rules.data_input.incremental_adds && in.state.modal.is(Function::incremental);
   // M700 2.2 (4): the tenfold unit does not act on the amounts of tool compensation.
-  const double input = length_value(in, w.get(Role::input_amount), w.flag(Role::input_amount), false, true, false);
+  const double input = length_value(in, w.written(Role::input_amount), false, true, false);
   const double amount = (add ? in.frames.get(key) : 0.0) + input;
   // M700 12.1: the range of an offset.
   if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, Role::input_amount, w.get(Role::input_amount));
@@ -105,26 +105,24 @@ unsigned column_of(DataInput input) {
 
 /// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10, because one of them would be ignored.
 bool two_kinds(const BlockContext& in) {
-  unsigned kinds = 0;
-  for (const Word& word : in.block->words) kinds += in.is(word, Role::input_kind) ? 1u : 0u;
-  return kinds > 1;
+  return count_of(*in.block, in.word(Role::input_kind)) > 1;
 }
 
 }  // namespace
 
 /// M700 15.6: the limit is in percent of the rated current; decimals are ignored.
 Execution set_current_limit(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    const char name = in.system->axis[i].name;
-    if (name == in.dialect->addresses.letter(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): a program cannot set the limit of this axis
+    const WordSlot name = in.axis_words.word(i);
+    if (name == in.word(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): a program cannot set the limit of this axis
     const double percent = std::trunc(w.get(name));
     if (!(percent >= 1 && percent <= 300)) return in.raise(Condition::value_range, name, w.get(name));
     Action& action = in.emit(ItemKind::action).action;
     action.kind = NC_ACTION_CURRENT_LIMIT;
-    action.letter = name;
+    name_word(action, name);
     action.index = i;
     action.value = percent;
   }
@@ -132,7 +130,7 @@ Execution set_current_limit(BlockContext& in) {
 }
 
 Execution do_data_input(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (two_kinds(in)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
   const Rules& rules = in.dialect->rules;
   if (in.state.comp.side != 0 && rules.compensation.bars_systems_and_data) return in.raise_code(Condition::not_in_compensation, *w.one_shot);

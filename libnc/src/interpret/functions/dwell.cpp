@@ -10,18 +10,13 @@ namespace {
 /// M700 8.1 note 3: an X before G04 is read as a length. In inch, which has one decimal more, the time becomes ten times as long.
 bool read_as_inch(const BlockContext& in) {
   if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
-  for (const Word& word : in.block->words) {
-    if (in.is(word, Role::dwell_seconds)) return true;
-    const FunctionRow* const row = in.is(word, Role::code) ? in.codes.find(word.value) : nullptr;
-    if (row != nullptr && row->function == Function::dwell) return false;
-  }
-  return false;
+  return stands_before(*in.block, in.front, in.word(Role::dwell_seconds), Function::dwell);
 }
 
 /// Seconds of the word X or P. M700 8.1: by the table with #1078 and #8112. DGSHAPE G04: P is always in ms; X is in seconds with a point, otherwise in ms, or
 /// in seconds where X is read by the calculator type.
 double seconds_of(const BlockContext& in, Role word) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const double raw = w.get(word);
   if (word == Role::dwell_seconds && in.dialect->rules.dwell.early_x_is_length && read_as_inch(in)) return raw * 10;
   if (word == Role::dwell_seconds && in.dialect->rules.dwell.x_is_seconds) return raw;
@@ -32,7 +27,7 @@ double seconds_of(const BlockContext& in, Role word) {
 }  // namespace
 
 Execution do_dwell(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const Role word = w.has(Role::dwell_seconds) ? Role::dwell_seconds : Role::dwell_time;
   const DwellRules& rules = in.dialect->rules.dwell;
   if (!w.has(word) && !rules.time_optional) return in.raise_code(Condition::words_missing, *w.one_shot);

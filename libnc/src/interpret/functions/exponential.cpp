@@ -18,13 +18,13 @@ struct ExponentialWords {
 };
 
 Execution angle_word(BlockContext& in, Role word, double* angle) {
-  *angle = length_value(in, in.words.get(word), in.words.flag(word), true, true);
+  *angle = length_value(in, in.words.written(word), true, true);
   if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 
 Execution take_words(BlockContext& in, ExponentialWords* words) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (const Role word : {Role::taper_angle, Role::torsion_angle, Role::exponential_radius, Role::feed})
     if (!w.has(word)) return in.raise(Condition::format_error, word);
   Execution did = angle_word(in, Role::taper_angle, &words->taper);
@@ -63,8 +63,8 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
   ExponentialWords words;
   did = take_words(in, &words);
   if (did != Execution::done) return did;
-  const char linear_name = in.settings.exponential_linear, rotary_name = in.settings.exponential_rotary;
-  const int linear = in.axis_named(linear_name), rotary = in.axis_named(rotary_name);
+  const WordSlot linear_name = in.settings.exponential_linear, rotary_name = in.settings.exponential_rotary;
+  const int linear = in.axis_words.axis(linear_name), rotary = in.axis_words.axis(rotary_name);
   if (linear < 0 || rotary < 0 || ((in.rotary >> linear) & 1) != 0 || ((in.rotary >> rotary) & 1) == 0) return in.raise(Condition::exponential_axes);
   const auto x = static_cast<unsigned>(linear), c = static_cast<unsigned>(rotary);
   MoveFrame frame = frame_of_move(in, target, commanded);

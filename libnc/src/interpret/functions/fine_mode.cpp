@@ -54,7 +54,7 @@ uint8_t bit_of(FineMode mode) { return mode == FineMode::accuracy1 ? kMode1 : mo
 
 /// The G10 is L10, or the input of parameters, which is L70 in 13.11 and L50 in 13.17.
 bool data_input_allowed(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t kind = 0;
   if (!w.has(Role::input_kind) || !whole_number(w.get(Role::input_kind), &kind)) return false;
   for (const DataInputRow& row : in.dialect->data_input)
@@ -62,30 +62,30 @@ bool data_input_allowed(const BlockContext& in) {
   return false;
 }
 
-/// Addresses that have a meaning in the block.
-uint32_t addresses(const BlockContext& in) {
-  const BlockWords& w = in.words;
-  // Axis words, F, M S T, B and the addresses in its place, I J K R of arcs, D of radius compensation. O, and N behind other words, have alarms of their own.
-  uint32_t known = in.axis_letters | in.addresses({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
+/// Words that have a meaning in the block.
+WordSet known_words(const BlockContext& in) {
+  const Command& w = in.words;
+  // Axis words, F, M S T, B and the words in its place, I J K R of arcs, D of radius compensation. O, and N behind other words, have alarms of their own.
+  WordSet known = in.axis_words.all() | in.set_of({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
                                                       Role::vector_y, Role::vector_z, Role::sequence_number, Role::program_number, Role::arc_radius,
                                                       Role::spindle_speed, Role::tool});
-  if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.addresses({Role::length_number});  // H of length compensation may stand in any block (12.1 (2))
+  if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.set_of({Role::length_number});  // H of length compensation may stand in any block (12.1 (2))
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
-  if (is_arc(motion) || is_spiral(motion) || motion == Function::nurbs) known |= in.addresses({Role::arc_turns, Role::curve_order, Role::spiral_step, Role::spiral_pitches});
+  if (is_arc(motion) || is_spiral(motion) || motion == Function::nurbs) known |= in.set_of({Role::arc_turns, Role::curve_order, Role::spiral_step, Role::spiral_pitches});
   for (const FunctionRow* row : w.g) {
     if (row->function == Function::high_speed || row->function == Function::high_speed_accuracy || row->function == Function::data_input)
       known = ~uint32_t{0};
   }
   for (const uint32_t m : w.m)
-    if (!goes_out(misc_function(*in.dialect, m))) known |= in.addresses({Role::call_program, Role::call_sequence, Role::call_repeats, Role::call_option});
+    if (!goes_out(misc_function(*in.dialect, m))) known |= in.set_of({Role::call_program, Role::call_sequence, Role::call_repeats, Role::call_option});
   return known;
 }
 
 /// 13.18 (1) (c): any block other than one of G01 ends the spline.
 bool goes_on_with_spline(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
-  return motion == Function::linear && w.one_shot == nullptr && w.any(in.axis_letters);
+  return motion == Function::linear && w.one_shot == nullptr && w.any(in.axis_words.all());
 }
 
 }  // namespace
@@ -98,15 +98,16 @@ bool allowed_in_fine_mode(FineMode mode, Function function) {
 
 Execution check_fine_block(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const FineMode mode = state.fine_mode;
-  if (mode != FineMode::accuracy1 && !in.block->code.empty())  // precaution (12): variables cannot be used in II
-    for (const Word& word : in.block->words)
-      if ((word.flags & kWordExpression) != 0) return in.raise(Condition::format_error, word.letter);
+  if (mode != FineMode::accuracy1 && !in.block->code.empty()) {  // precaution (12): variables cannot be used in II
+    const WordSlot word = first_expression(*in.block);
+    if (word != kNoWord) return in.raise(Condition::format_error, word);
+  }
   if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
   if (state.spline.on && !goes_on_with_spline(in)) state.spline_way = {};
-  if (w.has_angle) return in.raise(Condition::format_error, Role::option_angle, w.angle_raw);  // 13.8
-  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_letters | in.addresses({Role::feed})))) return Execution::done;
+  if (w.has_angle) return in.raise(Condition::format_error, Role::option_angle, w.angle.value);  // 13.8
+  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_words.all() | in.set_of({Role::feed})))) return Execution::done;
   for (const FunctionRow* row : w.g) {
     const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));
     if (!allowed) return in.raise_code(Condition::illegal_g, *row);
@@ -114,10 +115,9 @@ Execution check_fine_block(BlockContext& in) {
   if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Execution::done;  // its words are arguments
   for (const uint32_t m : w.m)  // note 1
     if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, Role::misc_code, m);
-  const uint32_t unknown = w.present & ~addresses(in);
+  const uint32_t unknown = w.present & ~known_words(in);
   if (unknown == 0) return Execution::done;
-  const char letter = first_of_block(in, unknown);
-  return in.raise(Condition::format_error, letter, w.get(letter));
+  return in.raise_first(Condition::format_error, unknown);
 }
 
 }  // namespace nc

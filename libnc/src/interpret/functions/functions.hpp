@@ -81,7 +81,7 @@ Execution change_space_vector(BlockContext& in);
 /// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
 Execution set_length_along_tool(BlockContext& in, double length);
 
-char second_address(const BlockContext& in);       ///< auxiliary.cpp: the second auxiliary address, 0 = the family has none
+WordSlot second_function(const BlockContext& in);  ///< auxiliary.cpp: the second auxiliary function, kNoWord = the family has none
 
 /// Lines by their angle and blocks without an end (M700 13.8, 13.9): meeting.cpp.
 bool has_line_angle(const BlockContext& in);       ///< the block is a line, and A or ,A in it is its angle

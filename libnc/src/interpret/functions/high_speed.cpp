@@ -9,7 +9,7 @@ namespace {
 
 bool in_mode_2(const State& state) { return state.fine_mode == FineMode::accuracy2 || state.fine_mode == FineMode::smooth; }
 
-bool other_words(const BlockWords& w, uint32_t allowed) { return w.g.size() > 1 || !w.m.empty() || (w.present & ~allowed) != 0; }
+bool other_words(const Command& w, uint32_t allowed) { return w.g.size() > 1 || !w.m.empty() || (w.present & ~allowed) != 0; }
 
 /// The row for the value of a word; nullptr = the family has no such row.
 template <class Row>
@@ -83,13 +83,13 @@ Execution high_speed_machining(BlockContext& in, SpeedMode mode) {
 bool spline_axes(const BlockContext& in, uint8_t* axes) {
   uint32_t named = 0;
   *axes = 0;
-  for (const char name : in.settings.plane_basic) {
-    const int axis = in.axis_named(name);
+  for (const WordSlot name : in.settings.plane_basic) {
+    const int axis = in.axis_words.axis(name);
     if (axis < 0 || !in.words.has(name)) continue;
-    named |= 1u << address_of(name);
+    named |= set_of(name);
     *axes = static_cast<uint8_t>(*axes | 1u << axis);
   }
-  return !other_words(in.words, named | in.addresses({Role::speed_option}));
+  return !other_words(in.words, named | in.set_of({Role::speed_option}));
 }
 
 Execution spline_on(BlockContext& in) {
@@ -111,15 +111,15 @@ Execution spline_on(BlockContext& in) {
 
 Execution do_high_speed(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.has(Role::speed_mode)) return in.raise(Condition::format_error, Role::speed_mode);
-  if ((w.flag(Role::speed_mode) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_mode, w.get(Role::speed_mode));
+  if (w.written(Role::speed_mode).has_point()) return in.raise(Condition::format_error, Role::speed_mode, w.get(Role::speed_mode));
   const SpeedModeRow* const row = row_of(in.dialect->speed_modes, w.get(Role::speed_mode));
   if (row == nullptr) return in.raise(Condition::value_range, Role::speed_mode, w.get(Role::speed_mode));
   const SpeedMode mode = row->mode;
   // By 13.17.1 precaution (5) the alarm is P33, by 13.16 restriction (8) P35.
   const bool accuracy = mode == SpeedMode::accuracy_2 || (mode == SpeedMode::off && in_mode_2(state));
-  if (other_words(w, in.addresses({Role::speed_mode}))) return in.raise_code(accuracy ? Condition::must_stand_alone : Condition::value_range, *w.one_shot);
+  if (other_words(w, in.set_of({Role::speed_mode}))) return in.raise_code(accuracy ? Condition::must_stand_alone : Condition::value_range, *w.one_shot);
   if (state.fine_mode == FineMode::accuracy1) return refuse(in);  // 13.17.1 precaution (11)
   if (mode == SpeedMode::accuracy_2 && in_mode_2(state)) return Execution::done;
   Execution did = Execution::done;
@@ -134,12 +134,12 @@ Execution do_high_speed(BlockContext& in) {
 
 Execution do_high_speed_accuracy(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
-  if (!w.has(Role::speed_option) || (w.flag(Role::speed_option) & kWordPoint) != 0) return in.raise(Condition::format_error, Role::speed_option);
+  const Command& w = in.words;
+  if (!w.has(Role::speed_option) || w.written(Role::speed_option).has_point()) return in.raise(Condition::format_error, Role::speed_option);
   const SpeedOptionRow* const row = row_of(in.dialect->speed_options, w.get(Role::speed_option));
   if (row == nullptr) return in.raise(Condition::value_range, Role::speed_option, w.get(Role::speed_option));
   if (row->option == SpeedOption::spline) return spline_on(in);
-  if (other_words(w, in.addresses({Role::speed_option}))) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);
+  if (other_words(w, in.set_of({Role::speed_option}))) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);
   if (row->option == SpeedOption::accuracy_1) {
     if (in_mode_2(state)) return refuse(in);  // 13.17.1 precaution (10)
     if (state.fine_mode == FineMode::accuracy1) return Execution::done;

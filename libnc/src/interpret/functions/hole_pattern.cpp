@@ -22,27 +22,26 @@ PatternKind kind_of(Function function) {
   }
 }
 
-/// Note 1: axes of the plane, G N I J K H O P F M S and the second auxiliary function; any other address is an alarm.
-Execution check_addresses(BlockContext& in, const PlaneAxes& plane) {
-  const BlockWords& w = in.words;
-  uint32_t allowed = in.code_addresses | in.addresses({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::hole_count, Role::feed,
+/// Note 1: axes of the plane, G N I J K H O P F M S and the second auxiliary function; any other word is an alarm.
+Execution check_words(BlockContext& in, const PlaneAxes& plane) {
+  const Command& w = in.words;
+  WordSet allowed = in.front.code_words | in.set_of({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::hole_count, Role::feed,
                                                        Role::spindle_speed, Role::second_function, Role::second_function_2, Role::second_function_3,
                                                        Role::sequence_number, Role::program_number});
-  allowed &= ~in.axis_letters;
-  const uint32_t others = w.present & ~allowed & ~in.axis_letters;
+  allowed &= ~in.axis_words.all();
+  const WordSet others = w.present & ~allowed & ~in.axis_words.all();
   if (others != 0) {
-    const char letter = first_of_block(in, others);
-    return in.raise(Condition::illegal_address, letter, w.get(letter));
+    return in.raise_first(Condition::illegal_address, others);
   }
   const uint32_t axes = w.axes & ~(1u << plane.h | 1u << plane.v);
-  return axes == 0 ? Execution::done : in.raise_axis(Condition::illegal_address, first_of(axes), w.get(in.system->axis[first_of(axes)].name));
+  return axes == 0 ? Execution::done : in.raise_axis(Condition::illegal_address, first_of(axes), w.get(in.axis_words.word(first_of(axes))));
 }
 
-double angle_of(const BlockContext& in, Role word) { return length_value(in, in.words.get(word), in.words.flag(word), true, true); }
+double angle_of(const BlockContext& in, Role word) { return length_value(in, in.words.written(word), true, true); }
 
 /// Number of holes: whole, 1 to 9999 (P221). `last_four`: of more digits the last four count (G35, G37.1, note 2).
 Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* count) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.has(word)) return in.raise(Condition::no_holes, word);
   const double raw = w.get(word);
   if (!whole_number(raw, count) || (!last_four && *count > 9999)) return in.raise(Condition::value_range, word, raw);
@@ -52,7 +51,7 @@ Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* coun
 
 /// G34: the sign of K is the way round.
 Execution read_circle(BlockContext& in, HolePattern* p) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   p->step = 1;
   if (w.has(Role::hole_count) && w.get(Role::hole_count) < 0) {
     p->step = -1;
@@ -75,7 +74,7 @@ Execution read_grid(BlockContext& in, HolePattern* p) {
   Execution did = take_count(in, Role::hole_columns, true, &p->columns);
   if (did == Execution::done) did = take_count(in, Role::hole_count, true, &p->rows);
   if (did != Execution::done) return did;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (const Role word : {Role::hole_interval, Role::hole_interval_2})
     if (!w.has(word) && (word == Role::hole_interval ? p->columns : p->rows) > 1) return in.raise(Condition::words_missing, word);
   p->interval_2 = w.has(Role::hole_interval_2) ? length_of(in, Role::hole_interval_2) : 0;
@@ -84,7 +83,7 @@ Execution read_grid(BlockContext& in, HolePattern* p) {
 
 /// Series 8 G49, G50 (docs/series8.md): the sides, and how many places lie on each; two where it is not said.
 Execution read_frame(BlockContext& in, HolePattern* p) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   p->columns = p->rows = 2;
   for (const Role word : {Role::hole_interval, Role::hole_interval_2}) {
     if (!w.has(word)) return in.raise(Condition::words_missing, word);
@@ -103,7 +102,7 @@ Execution read_frame(BlockContext& in, HolePattern* p) {
 }
 
 Execution read_pattern(BlockContext& in, HolePattern* p) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (p->is_frame()) return read_frame(in, p);
   if (p->kind != PatternKind::grid && !w.has(Role::hole_interval)) return in.raise(Condition::words_missing, Role::hole_interval);
   p->interval = w.has(Role::hole_interval) ? length_of(in, Role::hole_interval) : 0;
@@ -121,7 +120,7 @@ Execution read_pattern(BlockContext& in, HolePattern* p) {
 
 /// The reference point as programmed: the words of the plane's axes, else where the program stands.
 AxisVec reference_point(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
     if ((w.axes >> i & 1) != 0) at[i] = (w.incremental >> i & 1) != 0 ? at[i] + w.axis[i] : w.axis[i];
@@ -134,7 +133,7 @@ Execution do_hole_pattern(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
-  Execution did = check_addresses(in, plane);
+  Execution did = check_words(in, plane);
   HolePattern pattern;
   pattern.kind = kind_of(row.function);
   if (did == Execution::done) did = read_pattern(in, &pattern);

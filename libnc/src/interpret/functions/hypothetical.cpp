@@ -6,7 +6,7 @@ namespace nc {
 
 Execution do_hypothetical_axis(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   AxisVec held = state.map.frozen != 0 ? in.points[state.held_point].at : AxisVec{};
   uint8_t frozen = state.map.frozen;
@@ -14,7 +14,7 @@ Execution do_hypothetical_axis(BlockContext& in) {
     if (((w.axes >> i) & 1) == 0) continue;
     const uint8_t bit = static_cast<uint8_t>(1u << i);
     // The number 0 (or the name alone) switches it on, every other number off.
-    const bool on = w.get(in.system->axis[i].name) == 0;
+    const bool on = w.get(in.axis_words.word(i)) == 0;
     if (on && (frozen & bit) == 0) held[i] = state.machine[i];
     if (!on && (frozen & bit) != 0) state.machine[i] = held[i];  // the axis has stood there all the time
     frozen = static_cast<uint8_t>(on ? frozen | bit : frozen & ~bit);

@@ -24,7 +24,7 @@ struct Measurement {
 };
 
 Execution read_measurement(BlockContext& in, Measurement* m) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
     if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
   if (w.axes == 0 || (w.axes & (w.axes - 1)) != 0) return in.raise_code(Condition::measure_axis, *w.one_shot);
@@ -87,7 +87,7 @@ Execution do_measure_length(BlockContext& in) {
 Execution measured(BlockContext& in) {
   State& state = in.state;
   const unsigned axis = state.length_axis;
-  const char name = in.system->axis[axis].name;
+  const WordSlot name = in.axis_words.word(axis);
   if (in.measured_nothing) return in.raise(Condition::measure_signal, name, in.measured_position);
   for (unsigned i = 0; i < in.axis_count; ++i) state.machine[i] = in.world.machine.v[i];
   if (!in.world.skipped) return in.raise(Condition::measure_signal, name, in.measured_position);

@@ -39,23 +39,22 @@ InPlane in_plane(const BlockContext& in) {
 }
 
 double angle_of_block(const BlockContext& in) {
-  const BlockWords& w = in.words;
-  const double raw = w.has_angle ? w.angle_raw : w.get(Role::line_angle);
-  const double angle = length_value(in, raw, w.has_angle ? w.angle_flags : w.flag(Role::line_angle), true, true, false);
+  const Command& w = in.words;
+  const double angle = length_value(in, w.has_angle ? w.angle : w.written(Role::line_angle), true, true, false);
   return std::fmod(angle, 360);  // 13.8 (7)
 }
 
-/// The second auxiliary function keeps its letter to itself but for lines with an end coordinate by ,A (9.2, note).
-bool letter_is_taken(const BlockContext& in) {
-  const char letter = in.dialect->addresses.letter(Role::line_angle);
-  return letter == 0 || in.axis_named(letter) >= 0 || second_address(in) == letter;
+/// The second auxiliary function keeps its word to itself but for lines with an end coordinate by ,A (9.2, note).
+bool word_is_taken(const BlockContext& in) {
+  const WordSlot word = in.word(Role::line_angle);
+  return word == kNoWord || in.axis_words.axis(word) >= 0 || second_function(in) == word;
 }
 
 bool free_for_lines(const BlockContext& in) { return in.words.one_shot == nullptr && (in.state.cycle.kind == CycleKind::none || in.words.motion != nullptr) && in.words.cycle == nullptr; }
 
 /// The circle that the words of the block say, about `from` or by its radius; false: they say none.
 bool circle_of_block(const BlockContext& in, const InPlane& plane, PlanePoint from, KnownCircle* circle) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   circle->on = from;
   circle->ccw = in.state.modal.is(Function::arc_ccw);
   circle->by_radius = w.has(Role::arc_radius);
@@ -102,13 +101,13 @@ LinearStyle cutting_style(const BlockContext& in) {
 Execution check_modes_of_pair(BlockContext& in, Condition option) {
   if ((in.state.special & (kSpecialMap | kSpecialSpline)) != 0) return in.raise(option);
   if (in.state.modal.is(Function::inverse_time_feed)) return in.raise_mode(Condition::geometric_address, Mode::feed);
-  if (in.words.corner != Corner::none) return in.raise(Condition::corner_option, corner_word(in.words), in.words.corner_raw);
+  if (in.words.corner != Corner::none) return in.raise(Condition::corner_option, corner_word(in.words), in.words.corner_size.value);
   return check_feed(in, in.state.modal.of(Mode::motion));
 }
 
 /// (a), (c), (e): G01 A.
 Execution begin_with_line(BlockContext& in) {
-  if (letter_is_taken(in) && in.words.axes == 0) return in.raise(Condition::geometric_option, Role::option_angle, in.words.has_angle ? in.words.angle_raw : 0);
+  if (word_is_taken(in) && in.words.axes == 0) return in.raise(Condition::geometric_option, Role::option_angle, in.words.has_angle ? in.words.angle.value : 0);
   if (in.words.axes != 0) return in.raise_axis(Condition::geometric_address, first_of(in.words.axes));
   const Execution did = check_modes_of_pair(in, Condition::geometric_option);
   if (did != Execution::done) return did;
@@ -201,14 +200,14 @@ struct Second {
 
 Second second_block(const BlockContext& in, const InPlane& plane) {
   Second second;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const Function motion = in.state.modal.of(Mode::motion);
   second.has_end = (w.axes & plane.bits()) == plane.bits() && plane.bits() != 0;
   second.incremental = (w.incremental & plane.bits()) != 0;
   const auto place = [&](unsigned axis, double from) { return (w.incremental >> axis & 1) != 0 ? from + w.axis[axis] : w.axis[axis]; };
   second.end = {place(plane.h, plane.at.h), place(plane.v, plane.at.v)};
   if (!second.has_end || !free_for_lines(in)) return second;
-  second.line = motion == Function::linear && has_line_angle(in) && (w.has_angle || !letter_is_taken(in));
+  second.line = motion == Function::linear && has_line_angle(in) && (w.has_angle || !word_is_taken(in));
   if (second.line) second.slope = {second.end, angle_of_block(in)};
   second.arc = is_arc(motion) && !w.has(Role::arc_turns) && circle_of_block(in, plane, second.end, &second.circle);
   return second;
@@ -328,8 +327,8 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
 }
 
 bool begins_meeting(const BlockContext& in) {
-  const BlockWords& w = in.words;
-  if (in.dialect->addresses.at(Role::line_angle) == kNoAddress || !free_for_lines(in)) return false;
+  const Command& w = in.words;
+  if (!in.dialect->addresses.has(Role::line_angle) || !free_for_lines(in)) return false;
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return false;
   if (has_line_angle(in)) return (w.axes & (1u << plane.h | 1u << plane.v)) == 0;
@@ -340,14 +339,14 @@ bool begins_meeting(const BlockContext& in) {
 }  // namespace
 
 bool has_line_angle(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.has_angle && !w.has(Role::line_angle)) return false;
   if (!in.state.modal.is(Function::linear) || !free_for_lines(in)) return false;
-  return w.has_angle || !letter_is_taken(in);
+  return w.has_angle || !word_is_taken(in);
 }
 
 bool begins_or_ends_meeting(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool words = w.present != 0 || !w.g.empty() || !w.m.empty() || w.has_angle;
   if (in.state.meeting.kind != Kind::none && words) return true;
   return begins_meeting(in);
@@ -366,8 +365,8 @@ Execution move_to_meet(BlockContext& in) {
 
 /// 13.8: the end coordinate that is missing, from the one that is there.
 Execution take_line_angle(BlockContext& in) {
-  BlockWords& w = in.words;
-  if (!has_line_angle(in)) return w.has_angle ? in.raise(Condition::geometric_option, Role::option_angle, w.angle_raw) : Execution::done;
+  Command& w = in.words;
+  if (!has_line_angle(in)) return w.has_angle ? in.raise(Condition::geometric_option, Role::option_angle, w.angle.value) : Execution::done;
   const InPlane plane = in_plane(in);
   if (!plane.exists()) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   if ((in.state.special & kSpecialMap) != 0) return in.raise(Condition::geometric_option, Role::option_angle, angle_of_block(in));

@@ -36,8 +36,8 @@ int rotary_axis_of_block(const BlockContext& in) {
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
 int rotary_axis(const BlockContext& in) {
   if (in.dialect->rules.mill.rotary_in_block) return rotary_axis_of_block(in);
-  const char name = in.settings.mill_axis;
-  const int axis = in.axis_named(name);
+  const WordSlot name = in.settings.mill_axis;
+  const int axis = in.axis_words.axis(name);
   return axis >= 0 && ((in.rotary >> axis) & 1) != 0 ? axis : -1;
 }
 
@@ -45,10 +45,10 @@ int rotary_axis(const BlockContext& in) {
 unsigned polar_linear(const BlockContext& in) {
   if (const unsigned number = in.settings.polar_axis[0]; number != 0 && number <= in.axis_count) {
     for (unsigned i = 1; i < 3; ++i)
-      if (in.system->axis[number - 1].name == in.dialect->addresses.letter(basic_along(i))) return i;
+      if (in.axis_words.word(number - 1) == in.word(basic_along(i))) return i;
   }
   for (unsigned i = 2; i > 0; --i)
-    if (in.settings.polar_linear != 0 && in.settings.polar_linear == in.dialect->addresses.letter(basic_along(i))) return i;
+    if (in.settings.polar_linear != kNoWord && in.settings.polar_linear == in.word(basic_along(i))) return i;
   return 0;
 }
 
@@ -56,7 +56,7 @@ unsigned polar_linear(const BlockContext& in) {
 /// itself names.
 Execution stands_alone(BlockContext& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.system->axis[i].name, in.words.axis[i]);
+    if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.axis_words.word(i), in.words.axis[i]);
   return Execution::done;
 }
 
@@ -82,7 +82,7 @@ void begin_mode(BlockContext& in, const FunctionRow& row) {
 void end_mode(BlockContext& in) {
   State& state = in.state;
   state.map = AxisMap{.frozen = state.map.frozen};
-  state.mill.hypothetical_letter = 0;
+  state.mill.hypothetical_word = kNoWord;
   in.state.modal.set(state.mill.plane);
   state.plane_axis[0] = state.mill.plane_axis[0];
   state.plane_axis[1] = state.mill.plane_axis[1];
@@ -95,7 +95,7 @@ void end_mode(BlockContext& in) {
   in.state.modal.set(Function::cutting_mode);
   in.state.modal.set(Function::polar_off);
   change_cutting_mode(in, cutting);
-  in.refresh_axis_names();
+  in.refresh_axis_words();
   in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
@@ -147,13 +147,13 @@ bool allowed_here(const BlockContext& in, Function function) {
 
 Execution do_cylinder(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const FunctionRow& code = *w.one_shot;
   if (w.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
   const bool by_word = in.dialect->rules.mill.rotary_in_block;
   const int axis = by_word && (w.axes & in.rotary) == 0 ? -1 : rotary_axis(in);
-  const char name = by_word && axis >= 0 ? in.system->axis[axis].name : in.settings.mill_axis;
+  const WordSlot name = by_word && axis >= 0 ? in.axis_words.word(axis) : in.settings.mill_axis;
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
   if (const Execution did = stands_alone(in, 1u << axis); did != Execution::done) return did;
@@ -210,10 +210,10 @@ Execution do_polar_on(BlockContext& in) {
   in.state.modal.set(basic == 1 ? Function::plane_yz : basic == 2 ? Function::plane_zx : Function::plane_xy);
   state.plane_axis[0] = static_cast<int8_t>(linear);
   state.plane_axis[1] = static_cast<int8_t>(axis);
-  // #1517: the hypothetical axis is commanded by the letter of the second axis of the plane, or by the name of the rotary axis.
-  state.mill.hypothetical_letter = in.settings.hypothetical_by_name ? char{0} : in.dialect->addresses.letter(basic_along((basic + 1) % 3));
+  // #1517: the hypothetical axis is commanded by the word of the second axis of the plane, or by the name of the rotary axis.
+  state.mill.hypothetical_word = in.settings.hypothetical_by_name ? kNoWord : in.word(basic_along((basic + 1) % 3));
   state.refresh_special();
-  in.refresh_axis_names();
+  in.refresh_axis_words();
   return Execution::done;
 }
 
@@ -230,7 +230,7 @@ Execution do_polar_off(BlockContext& in) {
 }
 
 Execution check_mill_block(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
   for (const FunctionRow* row : w.g) {
     switch (row->function) {
@@ -264,13 +264,13 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   // App.1 P482: the cylindrical coordinate system is the basic one, with the rotary axis in the place of the axis to which it is parallel.
   uint32_t system = 1u << state.map.rotary;
   for (unsigned i = 0; i < 3; ++i) {
-    const char basic = in.settings.plane_basic[i];
+    const WordSlot basic = in.settings.plane_basic[i];
     const bool replaced = in.dialect->rules.mill.rotary_in_block ? i == cylinder_stands_for(in) : in.settings.plane_parallel[i] == in.settings.mill_axis;
-    const int axis = basic == 0 || replaced ? -1 : in.axis_named(basic);
+    const int axis = basic == kNoWord || replaced ? -1 : in.axis_words.axis(basic);
     if (axis >= 0) system |= 1u << axis;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.system->axis[i].name, in.words.axis[i]);
+    if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.axis_words.word(i), in.words.axis[i]);
   if (is_arc(motion) && in.words.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise(Condition::format_error, in.words.has(Role::vector_x) ? Role::vector_x : in.words.has(Role::vector_y) ? Role::vector_y : Role::vector_z);
   return Execution::done;
 }

@@ -6,7 +6,7 @@
 namespace nc {
 
 Execution do_mirror(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool on = w.one_shot->function == Function::mirror_on;
   if (on && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   uint32_t mirror = in.state.mirror;

@@ -14,8 +14,8 @@ namespace {
 /// The indexes of the basic axes, 0xff where the machine has no such axis.
 void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
-    const char name = in.settings.plane_basic[i];
-    const int index = in.axis_named(name);
+    const WordSlot name = in.settings.plane_basic[i];
+    const int index = in.axis_words.axis(name);
     axis[i] = index < 0 ? uint8_t{0xff} : static_cast<uint8_t>(index);
   }
 }
@@ -42,7 +42,7 @@ Execution take_weight(BlockContext& in, double* weight) {
 /// Takes the order and the axes from the first block of a curve.
 Execution begin_curve(BlockContext& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   n = NurbsState{};
   uint32_t order = n.order = in.state.nurbs_order != 0 && !w.has(Role::curve_order) && w.motion == nullptr ? in.state.nurbs_order : uint8_t{4};
   if (w.has(Role::curve_order) && (!whole_number(w.get(Role::curve_order), &order) || order < 2 || order > 4)) return in.raise(Condition::value_range, Role::curve_order, w.get(Role::curve_order));
@@ -50,7 +50,7 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   n.axes = static_cast<uint8_t>(w.axes);
   const AxisVec at = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (std::fabs(target[i] - at[i]) > kReached) return in.raise(Condition::nurbs_start, in.system->axis[i].name);
+    if (std::fabs(target[i] - at[i]) > kReached) return in.raise(Condition::nurbs_start, in.axis_words.word(i));
   uint8_t axis[3];
   basic_axes(in, axis);
   uint32_t basic = 0;
@@ -132,7 +132,7 @@ void emit_span(BlockContext& in) {
 }  // namespace
 
 Execution check_nurbs_block(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Execution::done;
   // Until the curve is closed a block may have no other codes, and no F, M, S or T.
@@ -146,7 +146,7 @@ Execution check_nurbs_block(BlockContext& in) {
 Execution move_nurbs(BlockContext& in, const AxisVec& target) {
   State& state = in.state;
   NurbsState& n = state.nurbs;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (state.high_speed != SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
   if (state.compensated()) return in.raise_mode(Condition::not_in_compensation, Mode::motion);
   PathPoint p{target};
@@ -158,7 +158,7 @@ Execution move_nurbs(BlockContext& in, const AxisVec& target) {
     if (did != Execution::done) return did;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.system->axis[i].name, w.axis[i]);
+    if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.axis_words.word(i), w.axis[i]);
   if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
   const bool closes = w.axes == 0 && n.knots > 0;
   // The first knot and the last knot are repeated as often as the order says, so that the curve begins and ends on control points.

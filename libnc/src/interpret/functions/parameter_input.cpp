@@ -30,17 +30,14 @@ bool turns_work(const BlockContext& in, uint32_t number) {
 }
 
 bool ends_input(const BlockContext& in) {
-  return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && in.block->words.size() == 1;
+  return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && word_count(*in.block) == 1;
 }
 
 /// Note 1: number, part system, axis and data stand in the order of the format; when a word comes twice the last one counts.
 bool in_sequence(const BlockContext& in) {
-  unsigned place_of[kAddresses] = {};
-  unsigned place = 0;
-  for (const Word& word : in.block->words) place_of[address_of(word)] = ++place;
   unsigned before = 0;
   for (const Role word : {Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data}) {
-    const unsigned at = place_of[in.dialect->addresses.at(word)];
+    const unsigned at = place_of(*in.block, in.word(word));
     if (at == 0) continue;
     if (at < before) return false;
     before = at;
@@ -57,7 +54,7 @@ struct ParameterData {
 };
 
 Execution read_data(BlockContext& in, ParameterData* data) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
   if (w.has(Role::parameter_bit)) {  // note 4: bit number and its value
@@ -69,7 +66,7 @@ Execution read_data(BlockContext& in, ParameterData* data) {
     if (!(std::fabs(w.get(Role::parameter_data)) < 1e9)) return refuse(in, Role::parameter_data);
     data->number = data_of(w.get(Role::parameter_data), in.settings.setting_unit_mm);
   } else {
-    if (in.block->name_length >= sizeof data->text) return in.raise(Condition::parameter_input, '<');
+    if (in.block->name_length >= sizeof data->text) return in.raise(Condition::parameter_input, Sign::file_name);
     data->is_text = true;
     TextWriter text(data->text, sizeof data->text);
     for (unsigned i = 0; i < in.block->name_length; ++i) text.put(in.block->text[in.block->name + i]);
@@ -81,21 +78,21 @@ Execution read_data(BlockContext& in, ParameterData* data) {
 
 Execution begin_parameter_input(BlockContext& in) {
   // The block has no other words ("in independent blocks"). Appendix 1, P421: it is not allowed in a fixed cycle or under radius compensation.
-  const bool alone = in.block->words.size() == 2;
+  const bool alone = word_count(*in.block) == 2;
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return refuse(in, Role::input_kind);
   in.state.parameter_input = true;
   return Execution::done;
 }
 
 Execution parameter_block(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.g.empty() || !w.m.empty()) {
     if (!ends_input(in)) return refuse(in, w.g.empty() ? Role::misc_code : Role::code);
     in.state.parameter_input = false;
     return Execution::done;
   }
   uint32_t number = 0, system = 0, axis = 1;
-  if ((w.present & ~in.addresses({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !whole_number(w.get(Role::parameter_number), &number)) return refuse(in, Role::parameter_number);
+  if ((w.present & ~in.set_of({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !whole_number(w.get(Role::parameter_number), &number)) return refuse(in, Role::parameter_number);
   if (!in_sequence(in)) return refuse(in, Role::parameter_number);
   if (w.has(Role::parameter_system) && (!whole_number(w.get(Role::parameter_system), &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
   if (w.has(Role::parameter_axis) && (!whole_number(w.get(Role::parameter_axis), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);

@@ -14,7 +14,7 @@ constexpr double kPi = std::numbers::pi;
 
 /// M700 6.12: the words of this block are not radius and angle: those of data, machine positions, returns, measurements, and codes that set up other modes.
 bool reads_plain_words(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
   for (const FunctionRow* row : w.g) {
     const Mode mode = mode_of(row->function);
@@ -37,7 +37,7 @@ Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
 }
 
 void resolve_polar_words(BlockContext& in) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   State& state = in.state;
   if (reads_plain_words(in)) {
     if (w.axes != 0) state.polar_angle_known = false;
@@ -58,8 +58,7 @@ void resolve_polar_words(BlockContext& in) {
   const double seen = std::atan2(position[v], position[h]) * 180 / kPi;
   double angle = seen;
   if (has_angle) {
-    const unsigned at = address_of(in.system->axis[v].name);
-    angle = length_value(in, w.raw[at], w.flags[at], true, false);  // in degrees, also in inch mode
+    angle = length_value(in, w.written(in.axis_words.word(v)), true, false);  // in degrees, also in inch mode
     if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
   }
   state.polar_angle = angle;

@@ -32,7 +32,7 @@ double longer(double length, double by) { return length + (std::signbit(length) 
 
 /// Makes the way of each axis of the block longer, and puts it into the block as an incremental word.
 void lengthen_ways(BlockContext& in, double amount, bool arc) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   const bool mapped = program_mapped(in);
   const AxisVec position = mapped ? to_program(in, in.position()) : in.position();
   AxisVec target = target_of_words(in);

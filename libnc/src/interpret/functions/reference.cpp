@@ -115,7 +115,7 @@ Execution do_second_reference(BlockContext& in) {
 }
 
 Execution do_start_return(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.m.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.m[0]);  // App.1 P436
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 14.7 (5), (8): the intermediate points of the newest G28 or G30 of each axis.
@@ -149,7 +149,7 @@ Execution do_start_return(BlockContext& in) {
 }
 
 Execution do_reference_check(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t place = 1;
   if (!w.m.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.m[0]);  // App.1 P435
   if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
@@ -163,7 +163,7 @@ Execution do_reference_check(BlockContext& in) {
 }
 
 Execution compare_reference(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t place = 1;
   place_of_p(in, 1, &place);
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -182,17 +182,17 @@ Execution compare_reference(BlockContext& in) {
 
 /// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away without a motion.
 Execution clear_shift(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
-    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.system->axis[i].name, w.axis[i]);
+    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
     in.set_table(Frames::shift_key(i), 0);
   }
   return Execution::done;
 }
 
 Execution do_machine_move(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   for (const FunctionRow* row : w.g)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
   const bool absolute_here = in.dialect->rules.coordinate.machine_move_is_absolute;

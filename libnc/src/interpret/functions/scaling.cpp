@@ -14,7 +14,7 @@ constexpr double kLeastFactor = 1e-6, kLargestFactor = 99.999999;
 
 /// The factor: P of G51, or else #8072; a parameter that is out of range counts as 1.
 bool factor_of(const BlockContext& in, double* factor) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), factor);
   *factor = in.settings.scaling_factor;
   if (!(*factor >= kLeastFactor && *factor <= kLargestFactor)) *factor = 1;
@@ -23,14 +23,14 @@ bool factor_of(const BlockContext& in, double* factor) {
 
 /// Factor of each axis: of I J K, else of P, else of its parameter (HX 15.2.2). False: out of range, and `word` says which one.
 bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const auto of_word = in.dialect->rules.scaling.factor_of_word;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     factors[i] = in.settings.axis_factor[i];
     if (!(std::fabs(factors[i]) >= kLeastFactor && std::fabs(factors[i]) <= kLargestFactor)) factors[i] = 1;
     *word = Role::scaling_factor;
     for (unsigned k = 0; k < 3; ++k)
-      if (in.settings.plane_basic[k] == in.system->axis[i].name && w.has(vector_along(k))) *word = vector_along(k);
+      if (in.settings.plane_basic[k] == in.axis_words.word(i) && w.has(vector_along(k))) *word = vector_along(k);
     if (w.has(*word) && !of_word(w.get(*word), w.pointed(*word), &factors[i])) return false;
   }
   return true;
@@ -39,7 +39,7 @@ bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
 }  // namespace
 
 Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockContext& in, ProgramMaps* maps)) {
-  BlockWords& w = in.words;
+  Command& w = in.words;
   const FunctionRow& row = *w.one_shot;
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
@@ -53,7 +53,7 @@ Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockCon
   in.change(&ProgramRecords::maps, maps);
   in.state.map_begins = true;
   in.program_changed();
-  w.present &= ~in.addresses({word});
+  w.present &= ~in.set_of({word});
   if (w.axes == 0) return Execution::done;
   const Function motion = in.state.modal.of(Mode::motion);
   return is_line(motion) ? move_by_words(in) : in.raise_code(Condition::not_accepted, row);
@@ -62,7 +62,7 @@ Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockCon
 namespace {
 
 bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   double factor = 1;
   if (!in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), &factor)) return false;
   const PlaneAxes plane = plane_axes(in);
@@ -76,8 +76,8 @@ bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
 }
 
 bool set_turn_of_plane(BlockContext& in, ProgramMaps* maps) {
-  const BlockWords& w = in.words;
-  maps->rotation_deg = std::fmod(length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true), 360);
+  const Command& w = in.words;
+  maps->rotation_deg = std::fmod(length_value(in, w.written(Role::rotation_angle), true, true), 360);
   maps->rotation_center[0] = maps->rotation_center[1] = 0;
   in.state.rotated = true;
   in.state.modal.set(Function::rotation_on);
@@ -87,7 +87,7 @@ bool set_turn_of_plane(BlockContext& in, ProgramMaps* maps) {
 }  // namespace
 
 Execution do_scaling(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const ScalingRules& rules = in.dialect->rules.scaling;
   if (rules.about_zero) return begin_map_about_zero(in, Role::scaling_factor, set_factor_of_plane);
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
@@ -122,7 +122,7 @@ void end_scaling(BlockContext& in) {
 }
 
 Execution do_rotation(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (in.dialect->rules.rotation.about_zero) return begin_map_about_zero(in, Role::rotation_angle, set_turn_of_plane);
   if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) {
     for (const FunctionRow* row : w.g)  // 12.3, interference with other functions (1)
@@ -137,7 +137,7 @@ Execution do_rotation(BlockContext& in) {
   ProgramMaps maps = in.records->maps;
   const bool by_parameter = !w.has(Role::rotation_angle) && in.dialect->rules.rotation.angle_by_parameter;
   if (w.has(Role::rotation_angle) || by_parameter) {                                                         // (4), (5)
-    const double r = by_parameter ? in.settings.rotation_deg : length_value(in, w.get(Role::rotation_angle), w.flag(Role::rotation_angle), true, true);
+    const double r = by_parameter ? in.settings.rotation_deg : length_value(in, w.written(Role::rotation_angle), true, true);
     const double before = in.state.modal.is(Function::incremental) ? maps.rotation_deg : 0;
     maps.rotation_deg = std::fmod(before + r, 360);
   }

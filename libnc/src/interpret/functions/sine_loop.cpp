@@ -53,7 +53,7 @@ bool make_pass(BlockContext& in) {
 
 Execution do_sine_loop(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.axes == 0) return in.raise_code(Condition::words_missing, row);
   if ((w.axes & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
   if (in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);

@@ -19,7 +19,7 @@ void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes
 
 /// M700 15.5: takes F1= to F8=, the feed after each signal; 0 ends the move. Signals that are not named do nothing.
 Execution take_speeds(BlockContext& in, uint32_t* stops) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // F1= to F8= say already which signals count
   const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
   in.skip_speeds = SkipSpeeds{};
@@ -41,11 +41,11 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
 }  // namespace
 
 Execution do_skip(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   // M700 9.3 (8): an index table that can be clamped only at certain positions (#2106) could not be clamped where the signal comes.
   for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
-    if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.system->axis[axis].name);
+    if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.axis_words.word(axis));
   }
   const unsigned step = w.one_shot->function == Function::multi_skip ? w.one_shot->number + 1u : 0u;  // 0 G31, 1 to 4 G31.1 to G31.4
   if (in.state.compensated()) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);

@@ -75,8 +75,8 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
 /// The three basic axes, #1026 to #1028.
 bool basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
-    const char name = in.settings.plane_basic[i];
-    const int index = in.axis_named(name);
+    const WordSlot name = in.settings.plane_basic[i];
+    const int index = in.axis_words.axis(name);
     if (index < 0) return false;
     axis[i] = static_cast<uint8_t>(index);
   }
@@ -128,23 +128,19 @@ void emit_first_half(BlockContext& in, const AxisVec& middle, const SpaceArc* ar
   in.source = second;
 }
 
-bool names_centre(const BlockContext& in, const Block& block) {
-  for (const Word& word : block.words)
-    if (in.is(word, Role::vector_x) || in.is(word, Role::vector_y) || in.is(word, Role::vector_z)) return true;
-  return false;
-}
+bool names_centre(const BlockContext& in) { return has_any(*in.block, in.set_of({Role::vector_x, Role::vector_y, Role::vector_z})); }
 
 }  // namespace
 
 Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
   Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
-  if (row.function == Function::rotation_on && names_centre(in, *in.block)) bad = Condition::space_conversion_code;  // with I J K it is a conversion in space
+  if (row.function == Function::rotation_on && names_centre(in)) bad = Condition::space_conversion_code;  // with I J K it is a conversion in space
   return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }
 
 Execution check_space_arc_block(BlockContext& in) {
   State& state = in.state;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.of(Mode::motion));
   if (state.arc_step == ArcStep::middle_given && !goes_on) return in.raise(Condition::space_arc_blocks);
   if (w.motion == nullptr || !is_space_arc(w.motion->function)) return Execution::done;

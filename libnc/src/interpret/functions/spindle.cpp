@@ -32,7 +32,7 @@ void announce_surface(BlockContext& in) {
 }
 
 bool is_clamp_command(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || !in.dialect->rules.spindle.limits_by_coordinate_setting) return false;
   // 10.4 (Note 1): without Sclamp an S of G92 in G97 is a spindle speed.
   return in.settings.clamp_command_always || in.state.spindle.axis != 0;
@@ -94,7 +94,7 @@ Execution surface_word(BlockContext& in) {
 }
 
 Execution set_spindle_clamp(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool s = w.has(Role::spindle_speed) && is_clamp_command(in);
   if (!s && !w.has(Role::clamp_lowest)) return Execution::done;
   uint32_t largest = 0, smallest = 0;

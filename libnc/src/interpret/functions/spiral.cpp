@@ -61,7 +61,7 @@ unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ?
 
 /// Type 2: Q counts before K, and K before L.
 Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role height_word, double* whole) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.has(Role::spiral_step)) {
     const double step = length_of(in, Role::spiral_step), change = s.circle.radius_end - s.circle.radius_start;
     if (step == 0 || step * change < 0) return in.raise(Condition::format_error, Role::spiral_step, w.get(Role::spiral_step));
@@ -95,13 +95,13 @@ Execution turns_of_type_1(BlockContext& in, double* whole) {
 }  // namespace
 
 bool means_spiral(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   return in.settings.spiral_type_2 && !w.has(Role::arc_radius) && w.any({Role::spiral_step, Role::spiral_pitches, vector_along(height_axis(plane_axes(in)))});
 }
 
 Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   const bool type_2 = in.settings.spiral_type_2;
   if (type_2) {  // G02.1 and G03.1 belong to type 1; mirror image and scaling are not possible

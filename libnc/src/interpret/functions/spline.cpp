@@ -48,8 +48,8 @@ struct Hermite {
 
 void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
-    const char name = in.settings.plane_basic[i];
-    const int index = in.axis_named(name);
+    const WordSlot name = in.settings.plane_basic[i];
+    const int index = in.axis_words.axis(name);
     axis[i] = index < 0 ? uint8_t{0xff} : static_cast<uint8_t>(index);
   }
 }
@@ -74,33 +74,6 @@ struct Place {
   uint32_t line;
 };
 
-/// Reads the words of a block that only moves spline axes; false when the block is another one.
-bool read_block(const BlockContext& in, const Block& block, uint32_t* axes, uint32_t* incremental, AxisVec* value, bool* relative) {
-  *axes = *incremental = 0;
-  for (const Word& word : block.words) {
-    if ((word.flags & (kWordExpression | kWordComma | kWordCount | kWordNoValue)) != 0) return false;
-    if (in.is(word, Role::feed) || in.is(word, Role::sequence_number) || in.is(word, Role::spindle_speed) || in.is(word, Role::tool)) continue;
-    if (in.is(word, Role::code)) {
-      const FunctionRow* const row = in.codes.find(word.value);
-      if (row == nullptr || in.vendor->find(word.letter, word.value) != nullptr || (row->function != Function::linear && mode_of(row->function) != Mode::distance)) return false;
-      if (row->function != Function::linear) *relative = row->function == Function::incremental;
-      continue;
-    }
-    if (in.is(word, Role::misc_code)) {
-      uint32_t code = 0;
-      if (in.codes_call || (whole_number(word.value, &code) && !goes_out(misc_function(*in.dialect, code)))) return false;
-      continue;
-    }
-    const int axis = in.axis_of[address_of(word)];
-    if (axis < 0 || ((in.state.spline.axes >> axis) & 1) == 0) return false;
-    const uint32_t bit = 1u << axis;
-    *axes |= bit;
-    *incremental = *relative ? *incremental | bit : *incremental & ~bit;
-    (*value)[static_cast<unsigned>(axis)] = axis_value(in, static_cast<unsigned>(axis), word.value, word.flags, false);
-  }
-  return *axes != 0;
-}
-
 /// The next block of the text that is not empty, if it only moves spline axes. *at: before the call where the block begins, after it where the block ends.
 bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
   const unsigned file = in.state.frame[in.state.depth].program.file;
@@ -112,12 +85,14 @@ bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* 
     const bool skipped = block->skip != 0 && ((in.optional_skip >> block->skip) & 1) != 0;
     if (skipped || (block->empty && !block->has_n)) continue;  // (1) (c): a block with only ";" does not count
     if (!block->statements.empty()) return false;
-    uint32_t axes = 0, incremental = 0;
+    ComingMove move;
+    if (!read_coming_move(*block, in.front, in.state.spline.axes, *relative, &move)) return false;
+    *relative = move.relative;
     AxisVec value;
-    if (!read_block(in, *block, &axes, &incremental, &value, relative)) return false;
+    for (uint32_t left = move.axes; left != 0; left &= left - 1) value[first_of(left)] = axis_value(in, first_of(left), move.value[first_of(left)], false);
     const uint32_t kept = in.words.incremental;
-    in.words.incremental = incremental;
-    const AxisVec end = target_of(in, *at, axes, value);
+    in.words.incremental = move.incremental;
+    const AxisVec end = target_of(in, *at, move.axes, value);
     in.words.incremental = kept;
     *chord = chord_between(*at, end, axis);
     *at = end;

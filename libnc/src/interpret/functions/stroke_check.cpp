@@ -8,24 +8,24 @@
 namespace nc {
 
 Execution do_stroke_check(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   StrokeBox box;
-  uint32_t taken = in.addresses({Role::vector_x, Role::vector_y, Role::vector_z});
+  uint32_t taken = in.set_of({Role::vector_x, Role::vector_y, Role::vector_z});
   bool any = false;
   for (unsigned i = 0; i < StrokeBox::kBasicAxes; ++i) {
-    const char name = in.settings.plane_basic[i];
-    const int axis = in.axis_named(name);
+    const WordSlot name = in.settings.plane_basic[i];
+    const int axis = in.axis_words.axis(name);
     const Role lower = vector_along(i);
     if (axis < 0) {
       if (w.has(lower)) return in.raise(Condition::illegal_address, lower, w.get(lower));
       continue;
     }
-    taken |= 1u << address_of(name);
+    taken |= set_of(name);
     // (2): a word that is omitted is 0. The words are machine coordinates in the unit of the program, in G90 and in G91.
     const auto index = static_cast<unsigned>(axis);
     const bool turns = ((in.rotary >> index) & 1) != 0;
     const double upper_point = w.has(name) ? w.axis[index] : 0;
-    const double lower_point = w.has(lower) ? axis_value(in, index, w.get(lower), w.flag(lower), turns) : 0;
+    const double lower_point = w.has(lower) ? axis_value(in, index, w.written(lower), turns) : 0;
     if (upper_point == lower_point) continue;  // (3)
     box.axis[i] = static_cast<int8_t>(axis);
     box.turns[i] = ((in.settings.machine_turn >> index) & 1) != 0;
@@ -34,10 +34,9 @@ Execution do_stroke_check(BlockContext& in) {
     any = true;
   }
   // (7): an address that has no meaning in this block.
-  const uint32_t other = w.present & ~taken & ~in.addresses({Role::sequence_number, Role::program_number, Role::feed, Role::spindle_speed, Role::misc_code, Role::tool});
+  const uint32_t other = w.present & ~taken & ~in.set_of({Role::sequence_number, Role::program_number, Role::feed, Role::spindle_speed, Role::misc_code, Role::tool});
   if (other != 0) {
-    const char letter = first_of_block(in, other);
-    return in.raise(Condition::illegal_address, letter, w.get(letter));
+    return in.raise_first(Condition::illegal_address, other);
   }
   box.outside = in.settings.box_outside;
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr double kMillimetresPerInch = 25.4;
 
 /// Series 8 G84: each tap goes with the spindle, and its lead has a word of its own.
-bool lead_has_word(const BlockContext& in) { return in.dialect->addresses.letter(Role::tap_lead) != 0; }
+bool lead_has_word(const BlockContext& in) { return in.dialect->addresses.has(Role::tap_lead); }
 
 /// HX 12.3.5: synchronous taps have codes of their own. Their F is a feed like any other, and with the speed in force it makes the lead.
 bool rigid_by_code(const BlockContext& in) {
@@ -23,7 +23,7 @@ bool rigid_by_code(const BlockContext& in) {
 /// Precaution (20): ,R decides; without it the parameter, or an M code.
 bool synchronous(const BlockContext& in) {
   if (rigid_by_code(in)) return true;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const TapControl modal = w.cycle != nullptr && in.state.cycle.kind == CycleKind::none ? TapControl::by_parameter : in.state.cycle.tap;
   if (w.has_tap_control) return w.tap_control == 1;
   if (modal != TapControl::by_parameter) return modal == TapControl::synchronous;
@@ -34,7 +34,7 @@ bool synchronous(const BlockContext& in) {
 
 /// The lead, mm/rev: F, or E as ridges per inch (appendix 1, P183 and P184). Ranges as of threads (6.7.1).
 Execution take_pitch(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool inch = in.state.modal.is(Function::inch), ridges = w.has(Role::tap_ridges);
   if (!ridges && !w.has(Role::feed)) return Execution::done;
   const Role word = ridges ? Role::tap_ridges : Role::feed;
@@ -68,7 +68,7 @@ Execution take_pitch_of_feed(BlockContext& in) {
 }  // namespace
 
 bool taps(const BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (w.motion != nullptr || w.one_shot != nullptr) return false;
   return is_tap(w.cycle != nullptr ? cycle_kind(*in.dialect, w.cycle->function) : in.state.cycle.kind);
 }
@@ -82,7 +82,7 @@ Execution check_tap_speed(BlockContext& in) {
 }
 
 Execution take_tap_words(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   CycleState& c = in.state.cycle;
   if (w.has_tap_control) {
     if (w.tap_control != 0 && w.tap_control != 1) return in.raise(Condition::value_range, Role::option_tap_control, w.tap_control);

@@ -14,7 +14,7 @@ bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit;
 
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
 Execution take_lead(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;
   double lead = 0, limit = 1000;
@@ -43,13 +43,13 @@ Execution take_lead(BlockContext& in) {
 }  // namespace
 
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (commanded == 0 && !w.any({Role::fine_thread_lead, Role::thread_lead})) return Execution::done;  // nothing is cut, so no lead is missing
   const Execution did = take_lead(in);
   if (did != Execution::done) return did;
   double angle = 0;  // M700 6.7.1: not modal
   if (w.has(Role::thread_start)) {
-    angle = length_value(in, w.get(Role::thread_start), w.flag(Role::thread_start), true, true);
+    angle = length_value(in, w.written(Role::thread_start), true, true);
     if (!(angle >= 0 && angle <= 360)) return in.raise(Condition::value_range, Role::thread_start, w.get(Role::thread_start));
   }
   if (commanded == 0) return Execution::done;

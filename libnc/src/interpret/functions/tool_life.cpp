@@ -32,7 +32,7 @@ Execution number_of(BlockContext& in, Role word, uint32_t least, uint32_t most, 
 /// P L Q: a group, and what its tools have in common. Q1 counts mounts, which is what holds without Q; Q2 minutes, Q3 uses.
 Execution take_group(BlockContext& in) {
   LifeInput& input = in.state.life_input;
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t group = 0, method = 1;
   Execution did = number_of(in, Role::life_group, 1, kLastNumber, &group);
   if (did != Execution::done) return did;
@@ -93,13 +93,13 @@ void count(BlockContext& in, unsigned slot) {
 
 /// Without P everything that is registered goes; P1 adds groups, or registers them anew; P2 removes them.
 Execution begin_tool_life_input(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   uint32_t how = 0;
   if (w.has(Role::input_number)) {
     const Execution did = number_of(in, Role::input_number, 1, 2, &how);
     if (did != Execution::done) return did;
   }
-  const bool alone = in.block->words.size() == (how != 0 ? 3U : 2U);
+  const bool alone = word_count(*in.block) == (how != 0 ? 3U : 2U);
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   in.state.life_input = {};
   in.state.life_input.kind = how == 0 ? LifeInput::Kind::anew : how == 1 ? LifeInput::Kind::add : LifeInput::Kind::remove;
@@ -108,21 +108,20 @@ Execution begin_tool_life_input(BlockContext& in) {
 }
 
 Execution tool_life_block(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   if (!w.g.empty() || !w.m.empty()) {
-    const bool ends = w.g.size() == 1 && ends_data_input(w.g[0]->function) && in.block->words.size() == 1;
+    const bool ends = w.g.size() == 1 && ends_data_input(w.g[0]->function) && word_count(*in.block) == 1;
     if (!ends && w.g.empty()) return in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
     if (!ends) return in.raise_code(Condition::illegal_address, *w.g[0]);
     in.state.life_input = {};
     return Execution::done;
   }
-  const uint32_t set_words = in.addresses({Role::life_group, Role::life_span, Role::life_method}), of_tool = in.addresses({Role::life_tool, Role::life_length, Role::life_radius});
+  const WordSet set_words = in.set_of({Role::life_group, Role::life_span, Role::life_method}), of_tool = in.set_of({Role::life_tool, Role::life_length, Role::life_radius});
   if (w.present == 0) return Execution::done;
   if ((w.present & ~set_words) == 0) return take_group(in);
   if ((w.present & ~of_tool) == 0) return take_tool(in);
-  const uint32_t others = w.present & ~(w.has(Role::life_group) ? set_words : of_tool);
-  const char letter = first_of_block(in, others);
-  return in.raise(Condition::illegal_address, letter, w.get(letter));
+  const WordSet others = w.present & ~(w.has(Role::life_group) ? set_words : of_tool);
+  return in.raise_first(Condition::illegal_address, others);
 }
 
 Execution select_managed_tool(BlockContext& in, uint32_t* tool) {

@@ -26,7 +26,7 @@ bool store(BlockContext& in, ParameterOf parameter, double value) {
 }  // namespace
 
 Execution do_work_rotation(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   // Axis words, P and R belong to another G10.
   if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, *w.one_shot);
@@ -41,7 +41,7 @@ Execution do_work_rotation(BlockContext& in) {
   const bool vector = w.any({Role::vector_x, Role::vector_y}) && (i != 0 || j != 0);
   bool kept = true;
   if (w.has(Role::turn_angle)) {
-    const double k = length_value(in, w.get(Role::turn_angle), w.flag(Role::turn_angle), true, true);
+    const double k = length_value(in, w.written(Role::turn_angle), true, true);
     if (!(std::fabs(k) <= kLargestAngle)) return in.raise(Condition::value_range, Role::turn_angle, w.get(Role::turn_angle));
     // "Set the vector contents to 0 when commanding coordinate rotation angle."
     if (vector) return in.raise(Condition::format_error, Role::turn_angle, w.get(Role::turn_angle));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/arena.hpp"
-#include "interpret/code_calls.hpp"
+#include "command/code_calls.hpp"
 #include "nc/control.h"
 
 namespace nc {
@@ -16,8 +16,8 @@ class VendorCodes {
   void create(const nc_vendor_code* rows, unsigned count, const Dialect& dialect, nc_control* control, Arena& arena);
   bool any() const { return count_ != 0; }
   nc_control* control() const { return control_; }
-  /// What the word with this letter and value calls; nullptr = it is no code of the vendor.
-  const CodeCall* find(char letter, double value) const;
+  /// What this word with this value calls; nullptr = it is no code of the vendor.
+  const CodeCall* find(WordSlot word, double value) const;
   /// A row replaces this G code (times 10) of the dialect.
   bool replaces_g(int code) const;
 
@@ -25,7 +25,7 @@ class VendorCodes {
   const nc_vendor_code* row_ = nullptr;
   CodeCall* call_ = nullptr;
   unsigned count_ = 0;
-  char code_letter_ = 0;  ///< letter of G codes
+  WordSlot code_word_ = kNoWord;  ///< of G codes
   nc_control* control_ = nullptr;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "interpret/vendor_codes.hpp"
+#include "command/vendor_codes.hpp"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace nc {
 
 void VendorCodes::create(const nc_vendor_code* rows, unsigned count, const Dialect& dialect, nc_control* control, Arena& arena) {
   control_ = control;
-  code_letter_ = dialect.addresses.letter(Role::code);
+  code_word_ = dialect.addresses.word(Role::code);
   if (count == 0) return;
   call_ = arena.make<CodeCall>(count);
   if (rows == nullptr || call_ == nullptr) return;
@@ -23,18 +23,18 @@ void VendorCodes::create(const nc_vendor_code* rows, unsigned count, const Diale
   count_ = count;
 }
 
-const CodeCall* VendorCodes::find(char letter, double value) const {
-  const double scaled = letter == code_letter_ ? value * 10 : value, whole = std::nearbyint(scaled);
+const CodeCall* VendorCodes::find(WordSlot word, double value) const {
+  const double scaled = word == code_word_ ? value * 10 : value, whole = std::nearbyint(scaled);
   if (!(whole >= 0 && whole < 1e9) || std::fabs(scaled - whole) > 1e-6) return nullptr;
   const auto number = static_cast<uint32_t>(whole);
   for (unsigned i = 0; i < count_; ++i)
-    if (row_[i].number == number && row_[i].letter == letter) return &call_[i];
+    if (row_[i].number == number && word_named(row_[i].letter) == word) return &call_[i];
   return nullptr;
 }
 
 bool VendorCodes::replaces_g(int code) const {
   for (unsigned i = 0; i < count_; ++i)
-    if (row_[i].letter == code_letter_ && static_cast<int>(row_[i].number) == code) return true;
+    if (word_named(row_[i].letter) == code_word_ && static_cast<int>(row_[i].number) == code) return true;
   return false;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "interpret/code_calls.hpp"
+// The codes that parameters register to call a program (docs/macros.md lists these parameters).
+#include "interpret/registered_codes.hpp"
 
 #include "interpret/parameters.hpp"
 
@@ -34,24 +35,6 @@ void read_call(const Reader& whole, ParameterOf type, ParameterOf program, CodeC
 /// M700 13.5.2 (2): M00 to M95, except M0 M1 M2 M30.
 bool m_allowed(const Dialect& dialect, uint32_t code) { return dialect.macro_misc.holds(code) && find_misc(dialect, code) == nullptr; }
 
-bool letter_allowed(const Dialect& dialect, uint32_t letter) {
-  for (const char* at = dialect.calling_letters; *at != 0; ++at)
-    if (static_cast<uint32_t>(*at) == letter) return true;
-  return false;
-}
-
-const CodeCall* find(const CodeCall* rows, unsigned count, uint32_t code) {
-  for (unsigned i = 0; i < count; ++i)
-    if (rows[i].program != 0 && rows[i].code == code) return &rows[i];
-  return nullptr;
-}
-
-bool whole_code(double value, uint32_t* code) {
-  if (!(value >= 0 && value < 1e9)) return false;
-  *code = static_cast<uint32_t>(value + 1e-6);
-  return value - *code < 1e-6;
-}
-
 /// Programs in the order of the parameters.
 void of_place(uint32_t first, unsigned place, CodeCall* call) {
   call->program = first + place;
@@ -65,18 +48,6 @@ bool of_macros(const Dialect& dialect, uint32_t number) {
 }
 
 }  // namespace
-
-const CodeCall* CodeCalls::find_g(double value) const {
-  uint32_t code = 0;
-  return whole_code(value, &code) ? find(g, kCodes, code) : nullptr;
-}
-
-const CodeCall* CodeCalls::find_m(double value) const {
-  uint32_t code = 0;
-  return whole_code(value, &code) ? find(m, kCodes, code) : nullptr;
-}
-
-const CodeCall* CodeCalls::find_ascii(char letter) const { return find(ascii, kLetters, static_cast<uint32_t>(letter)); }
 
 CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) {
   const Reader whole{parameters, dialect};
@@ -113,12 +84,12 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
   if (whole({P::words_call, kCallsBySecondAux}, 1) == 0) calls.b.program = 0;
   if (whole({P::words_call, kCallsByS}, 1) == 0) calls.s.program = 0;
   if (whole({P::words_call, kCallsByT}, 1) == 0) calls.t.program = 0;
-  for (unsigned i = 0; i < CodeCalls::kLetters; ++i) {
+  for (unsigned i = 0; i < CodeCalls::kAsciiCodes; ++i) {
     CodeCall& a = calls.ascii[i];
-    a.code = whole({P::ascii_call_letter, i}, 0);
+    a.word = word_of_capital(whole({P::ascii_call_letter, i}, 0));
     read_call(whole, {P::ascii_call_type, i}, {P::ascii_call_program, i}, &a);
     a.variable = whole({P::ascii_call_variable, i}, 0);
-    if (whole({P::ascii_call_on, i}, 0) != 1 || !letter_allowed(dialect, a.code)) a.program = 0;
+    if (whole({P::ascii_call_on, i}, 0) != 1 || !holds(dialect.calling_words, a.word)) a.program = 0;
     calls.any = calls.any || a.program != 0;
   }
   calls.any = calls.any || calls.s.program != 0 || calls.t.program != 0 || calls.b.program != 0;
