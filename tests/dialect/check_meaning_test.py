@@ -122,6 +122,31 @@ PLANTED = {
     ],
     "letter": ["if (word.letter == 'P') return;", "return in.raise(Condition::value_range, 'R');", "switch (letter) { case 'G': return; default: break; }",
                'if ("GM"[0] == letter) return;', 'if (std::strchr("IJK", letter) != nullptr) return;', 'const size_t at = "GM"sv.find(letter);'],
+    "word": [
+        "for (const Word& word : block.words) use(word);",
+        "if ((form & kWordPoint) != 0) return;",
+        "if (in.block->words.size() > 1) return;",
+        "copy.words.clear();",
+        "const double r = words.raw[at];",
+        "use(word.letter);",
+        "action.letter = name;",
+        "char second_letter = 0;",
+        "const unsigned at = address_of(name);",
+        "out.put(letter_of(word));",
+        "const int axis = in.axis_words.axis(word_named(name));",
+        "if (addresses.at(a) == addresses.at(b)) return;",
+        "raise(condition, in.dialect->addresses.letter(Role::feed));",
+        "if (dialect.addresses.is(c, Role::code)) return;",
+        "const auto name = in.system->axis[i].name;",
+        "int8_t axis_of[kAddresses];",
+        "const LexRules& lex = *dialect->lex;",
+        "if (axis >= 'A' && axis <= 'Z') return;",
+        "if (c == 'x') return;",
+        "bool f(char name) { return name == other; }",
+        "const char a = basic, b = parallel;\nbool f() { return a != b; }",
+        '#include "program/block.hpp"',
+        '#include "dialect/iso_lexer.hpp"',
+    ],
     "plain": ["if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
     "key": ['get("1078", -1, &value);', 'get("1267/bit0");', 'return number("8621");'],
     "text": ['say("no effect while #8107 is 0");', 'const char* why = R"(set #1037)";'],
@@ -192,8 +217,19 @@ class Found(unittest.TestCase):
     def test_letters_are_for_the_core_alone_to_avoid(self):
         for sample in ("if (c >= 'A' && c <= 'Z') return;", "const char digit = '0';", "const char separator = ',';"):
             with self.subTest(sample=sample):
-                self.assertEqual(kinds(sample), [])
+                self.assertEqual(kinds(sample, "libnc/src/macro/x.hpp"), [])
         self.assertEqual(kinds("if (key == 'P') return;", "tools/lib/x.cpp"), [])
+
+    def test_words_are_read_in_other_rooms_than_interpret(self):
+        for sample in PLANTED["word"]:
+            with self.subTest(sample=sample):
+                self.assertNotIn("word", kinds(sample, "libnc/src/command/x.hpp"))
+        for sample in ("if (words.has(Role::feed)) return in.raise(Condition::value_range, Role::feed, words.get(Role::feed));",
+                       "const WordSlot word = in.axis_words.word(i);", "if (second == kNoWord || holds(known, second)) return;",
+                       "const Table<ModalWord>& words = dialect->variables->words;", "a.word = word_of_capital(whole({P::ascii_call_letter, i}, 0));",
+                       "if (!is_letter(text[0])) return;", "char line[160];", "double f(double raw);", "out.put(',');"):
+            with self.subTest(sample=sample):
+                self.assertEqual(kinds(sample), [])
 
     def test_the_public_header_declares_the_ids(self):
         declared = "typedef enum nc_dialect { NC_DIALECT_M700 = 0, NC_DIALECT_COUNT = 1 } nc_dialect;"
