@@ -40,6 +40,20 @@ TEST(CornerArc, InsideItRunsTheSameWay) {  // 12.4.2: "for outer and inner corne
             (Path{"line 20 25 0", "line 60 25 0", "ccw 55 20 0 c60,20", "line 55 60 0", "line 40 60 0"}));
 }
 
+TEST(CornerArc, BehindARapidItGoesAtTheFeedOfItsOwnBlock) {
+  Bench bench;
+  bench.tool(1, 5);
+  const Outcome run = bench.run("G91 G0 G42 D1 X20. Y20.\nX40.\nG1 G39 F100\nY40.\nG40 X-20.\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 20 15 0", "rapid 60 15 0", "ccw 65 20 0 c60,20 F100", "line 65 60 0 F100", "line 40 60 0 F100"}));
+  EXPECT_EQ(alarm_of("G91 G0 G42 D1 X20. Y20.\nX40.\nG1 G39\nG40 Y40. F100\nM30"), "P62 L3");
+}
+
+TEST(CornerArc, ThereIsNoneWhereRapidsAreInForce) {
+  EXPECT_EQ(alarm_of("G91 G1 F100\nG0 G42 D1 X20. Y20.\nG39 X40.\nY40.\nM30"), "P385 L3");
+  EXPECT_EQ(alarm_of("G91 G1 F100\nG0 G42 D1 X20. Y20.\nX40.\nG39\nY40.\nM30"), "P385 L4");
+}
+
 TEST(CornerArc, AnArcBeforeItKeepsItsCentre) {
   EXPECT_EQ(path_of("G91 G1 G42 X20. Y20. D1 F100\nX20.\nG39 G3 X10. Y10. J10.\nG1 X-30.\nG40 Y-20.\nM30"),
             (Path{"line 20 15 0", "line 40 15 0", "ccw 55 30 0 c40,30", "ccw 50 35 0 c50,30", "line 20 35 0", "line 20 10 0"}));

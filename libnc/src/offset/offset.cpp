@@ -270,6 +270,17 @@ void OffsetStage::intake_uncompensated(Held* held) {
   ++count_;
 }
 
+// The block `corner` asks for an arc at the end of the move at `index`. It goes at the feed of that move, and behind a rapid, which has none, at that of its own
+// block.
+void OffsetStage::bend_behind(uint32_t index, const Item& corner) {
+  Move& last = held_at(index).item.move;
+  last.comp.corner_arc = true;
+  if (last.kind != NC_MOVE_RAPID) return;
+  last.feed_mm_min = corner.move.feed_mm_min;
+  last.feed_mm_rev = corner.move.feed_mm_rev;
+  if (last.feed_mm_min <= 0 && last.feed_mm_rev <= 0) fail(index, Condition::no_feed, nc_source(corner.source));
+}
+
 // A command that does not move in the plane: its vector, if it gives one, holds from here on (M700 12.4.3
 // (4)).
 void OffsetStage::intake_command(Held* held) {
@@ -283,7 +294,8 @@ void OffsetStage::intake_command(Held* held) {
     held->has_lead = held->lead_arc = true;
     held->lead = tail_ = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
   } else if (comp.corner_arc) {
-    if (last) held_at(last->index).item.move.comp.corner_arc = true;
+    if (last) bend_behind(last->index, held->item);
+    if (failed_) return;
   } else if (comp.has_vector) {
     mode_ = Mode::on;
     tail_ = commanded_vector(comp);

@@ -116,6 +116,7 @@ class OffsetStage {
   void intake_carried(Held* held);
   bool intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end);
   void intake_uncompensated(Held* held);
+  void bend_behind(uint32_t index, const Item& corner);
   void intake_command(Held* held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);

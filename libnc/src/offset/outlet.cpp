@@ -94,6 +94,11 @@ Plane plane_of(const Move& like) {
   return h == 1 && v == 2 ? Plane::yz : Plane::none;
 }
 
+// A rapid move has no feed. One that an arc is inserted behind has brought that of the arc with it (intake_command()).
+void drop_feed_of_rapid(Move* move) {
+  if (move->kind == NC_MOVE_RAPID) move->feed_mm_min = move->feed_mm_rev = 0;
+}
+
 // A straight displacement in the plane, in the manner of the block `like` that it belongs to (M700 7.5 (4):
 // at its feed).
 void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& start, const AxisVec& end,
@@ -111,11 +116,15 @@ void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& s
   move.end = end;
   move.work = programmed;
   move.circle = Circle{};
+  drop_feed_of_rapid(&move);
 }
 
-// Makes the displacement an arc about the programmed point (G39). Half a turn goes round the outside.
-void bend(const AxisVec& programmed, Vec2 from, Vec2 to, Plane plane, Item* out) {
+// Makes the displacement an arc about the programmed point (G39), at the feed of the move `like`. Half a turn goes round the outside.
+void bend(const Move& like, const AxisVec& programmed, Vec2 from, Vec2 to, Item* out) {
   Move& move = out->move;
+  const Plane plane = plane_of(like);
+  move.feed_mm_min = like.feed_mm_min;
+  move.feed_mm_rev = like.feed_mm_rev;
   const uint8_t* axis = move.comp.axis;
   double sweep = turned_by(from, to);
   if (kPi - std::abs(sweep) < 1e-6) sweep = signed_offset(move.comp) > 0 ? -std::abs(sweep) : std::abs(sweep);
@@ -219,6 +228,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   }
   vector_ = end_vector;
   if (!held.inner) move.rule.slow_zone = 0;
+  drop_feed_of_rapid(&move);
   scale_feed(programmed, &move);
   feed_scale_ = move.rule.scale;
   if (!has_length(move)) {
@@ -241,7 +251,7 @@ bool OffsetStage::pop_lead(const Held& held, Item& out) {
   const AxisVec end = shifted(move.start, axis_, vector_);
   make_straight(held.item, move.start, start, end, &out);
   out.move.rule.scale = feed_scale_;
-  if (held.lead_arc && bendable(from, vector_)) bend(move.start, from, vector_, plane_of(move), &out);
+  if (held.lead_arc && bendable(from, vector_)) bend(move, move.start, from, vector_, &out);
   if (!has_length(out.move)) return false;
   compensated_ = end;
   return true;
@@ -253,7 +263,7 @@ void OffsetStage::pop_connecting(const Held& held, Item& out) {
   const Vec2 from = held.joint.v[connecting_ - 1], to = held.joint.v[connecting_];
   make_straight(held.item, move.work, compensated_, shifted(move.end, axis_, to), &out);
   out.move.rule.scale = feed_scale_;
-  if (held.joint.corner_arc && bendable(from, to)) bend(move.end, from, to, plane_of(move), &out);
+  if (held.joint.corner_arc && bendable(from, to)) bend(move, move.end, from, to, &out);
   vector_ = to;
   if (has_length(out.move)) compensated_ = out.move.end;
 }

@@ -29,6 +29,11 @@ Execution check_mode(BlockContext& in) {
   return plain_motion(in.state.modal.of(Mode::motion)) ? Execution::done : in.raise_mode(Condition::illegal_g, Mode::motion);
 }
 
+/// A corner arc is a cut: it has no feed where rapids are in force. M700 13.7 (P385) has this for ,R; 12.4.2 does not say it of G39.
+Execution check_corner_motion(BlockContext& in) {
+  return in.state.modal.is(Function::rapid) ? in.raise_code(Condition::corner_motion, *in.words.one_shot) : Execution::done;
+}
+
 /// The movement of the block, or where it has none a command for the stage.
 Execution move_with_vector(BlockContext& in) {
   const AxisVec before = in.state.machine;
@@ -61,7 +66,9 @@ Execution do_comp_vector(BlockContext& in) {
 }
 
 Execution do_corner_arc(BlockContext& in) {
-  const Execution did = check_mode(in);
+  Execution did = check_mode(in);
+  if (did != Execution::done) return did;
+  did = check_corner_motion(in);
   if (did != Execution::done) return did;
   const OfThisBlock scope(in);
   in.state.comp.corner_arc = true;
@@ -73,6 +80,7 @@ Execution do_corner_turn(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Compensation& comp = in.state.comp;
   if (comp.side == 0) return in.raise_code(Condition::outside_compensation, row);
+  if (const Execution did = check_corner_motion(in); did != Execution::done) return did;
   const uint32_t plane = 1u << comp.axis[0] | 1u << comp.axis[1], others = in.words.axes & ~plane;
   if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
   const PlaneAxes words = plane_axes(in);
