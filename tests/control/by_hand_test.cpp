@@ -110,6 +110,35 @@ TEST_P(ByHand, AcrossThePoleOfG12) {
   }
 }
 
+// M700 12.4.4 (2): an absolute word leads to the programmed path at the end of the next block; an incremental one, or none, leaves the way by hand.
+TEST_P(ByHand, UnderRadiusCompensationTheToolIsOnItsPathAtTheEndOfTheNextBlock) {
+  struct {
+    const char* next;
+    double x, end;
+  } const cases[] = {{"X0 Y60.", -3, -1.5}, {"X0 Y60.", -20, -1.5}, {"X0 Y60.", 3, -1.5}, {"G91 X0 Y60.", -3, -4.5}, {"Y60.", -3, -4.5}};
+  const double beside = GetParam() ? 0.0101 : 1e-6;  // the optimal mode stops on the rounding of a corner, within the tolerance
+  for (const auto& part : cases) {
+    SCOPED_TRACE(std::string(part.next) + " moved by " + std::to_string(part.x));
+    HandMachine m(GetParam());
+    m.start("G90 G0 X0 Y-80.\nG41 D4 G1 X0 Y-60. F6000\nY-40.\nY0.\n" + std::string(part.next) + "\nG90 X-60.\nG40 X-60. Y0\nM30");
+    for (unsigned block = 0; block < 4; ++block) {
+      ASSERT_TRUE(m.until_stop());
+      if (block < 3) m.press();
+    }
+    ASSERT_NEAR(m.at(0), -1.5, 0.01);
+    ASSERT_NEAR(m.at(1), 0, 0.01);
+    m.move(0, part.x);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_NEAR(m.at(0), part.end, beside);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_NEAR(m.at(1), 58.5, beside);
+    EXPECT_EQ(m.drive->alarm(), "");
+    EXPECT_LT(m.worst, 1.001);
+  }
+}
+
 struct Program {
   const char* name;
   const char* text;

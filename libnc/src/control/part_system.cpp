@@ -802,18 +802,19 @@ bool PartSystem::read_again(Serial last) {
 /// are moved along by `shift`, so the rest of the program is shifted until G92.1. `left_at` is where the program had left the axes. In the time-optimal
 /// mode that may be beside the end of the block, within the tolerance: the program knows nothing of it, only the next move begins there.
 void PartSystem::displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift) {
-  AxisVec programmed = interpreter.machine();
+  AxisVec programmed = interpreter.machine(), beside_program;
   bool any = false;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
     const double moved = machine[i] - left_at[i], beside = left_at[i] - commit_.machine()[i];
     if (moved == 0) continue;
     any = true;
+    beside_program[i] = moved - shift[i];
     programmed[i] = stages_.idle() ? machine[i] - beside : programmed[i] + moved;
   }
   if (any) {
     commit_.forget_stages(stages_.displaced());
-    interpreter.move_to(programmed);
+    interpreter.move_to(programmed, beside_program);
   }
   commit_.displace(machine);
 }

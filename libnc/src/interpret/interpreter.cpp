@@ -170,6 +170,14 @@ void Interpreter::forget_block() {
 
 /// The axes do not stand where the program has left them. In the plane of G12.1 a point can be reached by two positions of the axes: the program goes on
 /// from the one at which they really are (M700 6.10). What a curve knew of the way before does not count any more.
+/// Notes how far the tool stands beside a path under radius compensation. In a map of programmed coordinates that is not known, and the next line leads on from
+/// where the tool is.
+void Interpreter::displace_compensated(const AxisVec& beside) {
+  Compensation& comp = state.comp;
+  if (comp.side == 0 || state.moved_side != comp.side || state.mapped || state.map.active()) return;
+  for (unsigned i = 0; i < 2; ++i) comp.by_hand[i] += beside[comp.axis[i]];
+}
+
 void Interpreter::moved_by_hand() {
   if (state.map.kind == AxisMap::Kind::polar) {
     const unsigned linear = state.map.linear;

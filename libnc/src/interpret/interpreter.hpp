@@ -68,9 +68,11 @@ struct Interpreter : BlockContext {
   bool remembers(BlockSeq seq) const { return checkpoints_.keeps(seq) && variables.keeps(seq); }
   /// Forgets the checkpoints and goes on from this position of the machine.
   void set_machine(const AxisVec& machine);
-  /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too.
-  void move_to(const AxisVec& machine) {
+  /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too. `beside`: how far that is beside the
+  /// programmed end of the block.
+  void move_to(const AxisVec& machine, const AxisVec& beside) {
     state.machine = machine;
+    displace_compensated(beside);
     moved_by_hand();
     checkpoints_.save(state);
   }
@@ -191,6 +193,7 @@ struct Interpreter : BlockContext {
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);
   void restore_modal();
   void moved_by_hand();
+  void displace_compensated(const AxisVec& beside);
 
   nc_status run_block(uint32_t& budget);
   bool enter_block(CallFrame& frame, nc_status* status);

@@ -39,9 +39,20 @@ AxisVec offset_in_force(const BlockContext& in) {
 
 Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_in_force(in)); }
 
+/// M700 12.4.4 (2): under radius compensation an absolute word leads back to the programmed path from where the axis has been moved by hand. By an incremental
+/// word, or without a word, the axis stays as far beside the path as it is.
+[[gnu::cold]] void lead_back_to_path(BlockContext& in, Move& move) {
+  const uint32_t absolute = in.words.axes & ~in.words.incremental;
+  for (unsigned i = 0; i < 2; ++i) {
+    double& still = (absolute >> move.comp.axis[i] & 1) != 0 ? in.state.comp.by_hand[i] : move.comp.by_hand[i];
+    still = 0;
+  }
+}
+
 /// Begins a move, with everything that is the same for all moves.
 Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
   Move& move = in.emit_move(start, target);
+  if (stands_beside(in.state.comp)) [[unlikely]] lead_back_to_path(in, move);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
   move.transform = transform;

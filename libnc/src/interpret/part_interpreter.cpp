@@ -106,7 +106,7 @@ void PartInterpreter::look_back(BlockSeq seq, bool back) { in_->look_back(seq, b
 const AxisVec& PartInterpreter::machine() const { return in_->state.machine; }
 void PartInterpreter::end_at(const AxisVec& machine) { in_->state.machine = machine; }
 void PartInterpreter::set_machine(const AxisVec& machine) { in_->set_machine(machine); }
-void PartInterpreter::move_to(const AxisVec& machine) { in_->move_to(machine); }
+void PartInterpreter::move_to(const AxisVec& machine, const AxisVec& beside) { in_->move_to(machine, beside); }
 void PartInterpreter::shift_coordinates(unsigned axis, double by) { in_->shift_coordinates(axis, by); }
 AxisVec PartInterpreter::work_zero() const {
   AxisVec zero = in_->zero();

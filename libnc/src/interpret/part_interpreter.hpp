@@ -149,7 +149,7 @@ class PartInterpreter {
   /// Forgets what has been read, and goes on from this position.
   void set_machine(const AxisVec& machine);
   /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too.
-  void move_to(const AxisVec& machine);
+  void move_to(const AxisVec& machine, const AxisVec& beside);
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Machine coordinates of the workpiece zero, with the tool length that is applied.

@@ -78,7 +78,8 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
     return true;
   }
   if (!(norm(finish - start) > kNoLength)) return false;
-  *begin = *end = {unit(finish - start), 0};
+  const Vec2 programmed = finish - start + Vec2{move.comp.by_hand[0], move.comp.by_hand[1]};
+  *begin = *end = {unit(norm(programmed) > kNoLength ? programmed : finish - start), 0};
   return true;
 }
 

@@ -79,7 +79,13 @@ struct Compensation {
   float arc_cos = 0;       ///< not 0: an outer corner with a turn whose cosine is below this is gone round on an arc, any other to the intersection
   double radius = 0;       ///< mm, signed as in the table
   double vector[2] = {0, 0};
+  /// How far a straight move begins beside its programmed start, mm, because the axes were moved by hand there. It has the direction of the programmed line,
+  /// so that the tool is on its path again where the line ends (M700 12.4.4).
+  double by_hand[2] = {0, 0};
 };
+
+/// The axes stand beside the programmed path because they were moved by hand.
+inline bool stands_beside(const Compensation& comp) { return comp.by_hand[0] != 0 || comp.by_hand[1] != 0; }
 
 /// How far beside its programmed end a move ends in space: the vector of three-dimensional radius compensation (M700 12.5), or of a length along
 /// the axis of the tool (12.3). offset/space.hpp adds it.

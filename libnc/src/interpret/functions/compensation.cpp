@@ -124,6 +124,7 @@ Execution set_compensation(BlockContext& in, Function function) {
     plane_of(in, comp, words);
     comp.cancel_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
     comp.side = 0;
+    comp.by_hand[0] = comp.by_hand[1] = 0;
     state.moves_since_comp_off = 0;
     return Execution::done;
   }
