@@ -107,10 +107,10 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   EXPECT_EQ(detail({Condition::spindle_not_turning}), "The cycle needs a turning spindle. Program S and M03 before it.");
   EXPECT_EQ(detail({Condition::g10_l, -1, 'L', true, 9}), "G10 does not know L9.");
   EXPECT_EQ(detail({Condition::center_missing}), "The centre is missing: the block needs I, J or K, one of the two of its plane.");
-  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a G code of this control.");
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a code of this control.");
   EXPECT_EQ(detail({Condition::words_missing, -1, 'G', true, 4}), "G04 needs a word that is not there.");
   // A number that is no code is shown as it was programmed, not rounded to one that is.
-  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 0.15}), "G0.15 is not a G code of this control.");
+  EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 0.15}), "G0.15 is not a code of this control.");
   EXPECT_EQ(detail({Condition::value_range, -1, 'M', true, 3.5}), "The value of M3.5 is outside its range.");
   // The number of a code is not a value that the sentence may quote.
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'G', true, 2}),
@@ -118,7 +118,7 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   EXPECT_EQ(detail({Condition::arc_deviation, -1, 'I', true, 0.25}),
             "Start and end of the arc are not on one circle: the radius at the end would be 0.25 mm.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 1e9}),
-            "G1000000000 is not a G code of this control.");
+            "G1000000000 is not a code of this control.");
 }
 
 TEST(AlarmDetail, CodesHaveTheLettersOfTheirFamily) {

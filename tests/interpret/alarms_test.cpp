@@ -294,7 +294,7 @@ TEST(Alarm, DetailsNameWhatTheFamilyHas) {
 
 TEST(Dgshape, SampleProgramOfSection16) {
   Bench bench(NC_DIALECT_DGSHAPE, [](nc_config& c) { c.system[0].axis[2].reference[0] = 100; });
-  bench.tool(1, 3);
+  bench.tool(1, 3, NC_TOOL_RADIUS);
   // A square of the kind the manual prints: start to (8,8), the tool 3 mm to the left of the contour, back to the start.
   const Outcome run = bench.run(
       "%\nO0001\nN1G90G54\nN2G00X0Y0Z20000\nN3G41D1X8000Y8000\nN4G01Z-2000F120000\nN5Y43000F300000\nN6X42000\nN7Y8000\nN8X8000\n"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 
 #include "support/drive.hpp"
 
@@ -210,6 +211,39 @@ TEST(DgshapeAuxiliary, ToolChangeComesAsAPair) {  // DGSHAPE 2-5
   EXPECT_EQ(dgshape("M06\nM02").alarm, "NC-TOOL");
   EXPECT_EQ(dgshape("T2\nM02").alarm, "NC-TOOL");
   EXPECT_EQ(dgshape("M06M06T2\nM02").alarm, "NC-TOOL");
+}
+
+TEST(DgshapeAuxiliary, TheToolThatIsThereIsNotFetchedAgain) {  // DGSHAPE M06
+  EXPECT_EQ(dgshape("M06T2\nM06T2\nM06T3\nM06T2\nM06T0\nM02").aux(), "T2 M6 T3 M6 T2 M6 T0 M6 M2");
+}
+
+TEST(DgshapeAuxiliary, TheListOfCodesIsComplete) {  // DGSHAPE 2-7
+  EXPECT_EQ(dgshape("M12\nM13\nM14\nM15\nM16\nM17\nM02").aux(), "M12 M13 M14 M15 M16 M17 M2");
+  for (const char* code : {"M04", "M07", "M08", "M09", "M10", "M11", "M18", "M19", "M31", "M98", "M99", "M100"})
+    EXPECT_EQ(dgshape(std::string("G0X1.\n") + code + "\nM02").alarm, "NC-NO-SUCH-CODE") << code;
+}
+
+TEST(DgshapeOffsets, LengthsAndDiametersAreApart) {  // DGSHAPE G10, G43: a program sets diameters alone
+  Bench bench(NC_DIALECT_DGSHAPE);
+  bench.tool(1, 10, NC_TOOL_LENGTH);
+  EXPECT_EQ(bench.run("%\nG10P1R4.\nG43H1Z1.\nG49Z0\nG41D1G00X10.\nX20.\nM02").path(),
+            (Path{"rapid 0 0 11", "rapid 0 0 0", "rapid 10 4 0", "rapid 20 4 0"}));
+}
+
+// DGSHAPE 1-4: a circle through the tool about the origin of Y and Z is passed at F, from where the block begins.
+TEST(DgshapeFeed, OfTheRotaryAxisGoesByTheRadius) {
+  const auto feeds = [](const std::string& text) {
+    std::string all;
+    for (const std::string& move : Bench(NC_DIALECT_DGSHAPE, axes("XYZa")).run("%\nG21G90F100.\n" + text + "\nM02").path())
+      if (const size_t at = move.find(" F"); at != std::string::npos) all += move.substr(at);
+    return all;
+  };
+  const auto degrees = [](double radius) { return " F" + brief(100 / radius * 180 / 3.14159265358979323846); };
+  EXPECT_EQ(feeds("G00Z40.\nG01A90."), degrees(40));
+  EXPECT_EQ(feeds("G00Y30.Z40.\nG01A90."), degrees(50));
+  EXPECT_EQ(feeds("G01A90."), " F100") << "at the origin there is no such speed";
+  const double way = 40 * 3.14159265358979323846 / 2;
+  EXPECT_EQ(feeds("G00Z40.\nG01X30.A90."), " F" + brief(100 * 30 / std::hypot(30, way)));
 }
 
 TEST(DgshapeAuxiliary, StandAloneCodes) {  // DGSHAPE 2-3

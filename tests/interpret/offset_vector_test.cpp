@@ -9,7 +9,8 @@ namespace {
 
 Path path_of(const std::string& text, nc_dialect dialect = NC_DIALECT_M700) {
   Bench bench(dialect);
-  bench.tool(1, 5).tool(2, 3);
+  const nc_tool_column radius = dialect == NC_DIALECT_DGSHAPE ? NC_TOOL_RADIUS : NC_TOOL_LENGTH;
+  bench.tool(1, 5, radius).tool(2, 3, radius);
   const Outcome run = bench.run(dialect == NC_DIALECT_DGSHAPE ? "%\n" + text : text);
   EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
   Path all = run.path();

@@ -18,11 +18,11 @@ struct Family {
   const char* begin;  ///< what its programs begin with
   nc_tool_column radius;
 };
-// DGSHAPE has one value for each offset, radius or length.
+// In m700 each offset has one value by default, radius or length.
 constexpr Family kM700{NC_DIALECT_M700, "", NC_TOOL_LENGTH};
 constexpr Family kHx{NC_DIALECT_HX, "", NC_TOOL_RADIUS};
 constexpr Family kIso{NC_DIALECT_ISO, "", NC_TOOL_RADIUS};
-constexpr Family kDgshape{NC_DIALECT_DGSHAPE, "%\n", NC_TOOL_LENGTH};
+constexpr Family kDgshape{NC_DIALECT_DGSHAPE, "%\n", NC_TOOL_RADIUS};
 constexpr Family kAll[] = {kM700, kHx, kIso, kDgshape};
 constexpr Family kSeries8{NC_DIALECT_SERIES8, "", NC_TOOL_RADIUS};
 

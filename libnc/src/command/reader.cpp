@@ -90,6 +90,8 @@ Reading CommandReader::take_misc(double value) {
   uint32_t code = 0;
   if (!whole_number(value, &code)) return front_.refuse(Condition::value_range, Role::misc_code, value);
   const MiscRow* row = find_misc(*front_.dialect, code);
+  const Dialect& dialect = *front_.dialect;
+  if (row == nullptr && dialect.rules.auxiliary.codes_are_listed && !puts_out(dialect, code)) return front_.refuse(Condition::illegal_g, Role::misc_code, code);
   if (row != nullptr && row->missing != nullptr) return front_.refuse(Condition::no_function, Role::misc_code, code);
   return w_.m.push_back(code) ? Reading::done : front_.refuse(Condition::format_error, Role::misc_code, value);
 }

@@ -107,7 +107,7 @@ constexpr Sentence kSentences[] = {
     {C::parity_vertical, "The block has an odd number of characters on the tape. Check the tape, or switch the parity check off.",
      nullptr},
     // G and M codes
-    {C::illegal_g, "{word} is not a G code of this control.", "There is no such G code on this control."},
+    {C::illegal_g, "{word} is not a code of this control.", "There is no such code on this control."},
     {C::no_function, "The function that {word} asks for is not fitted.", "This function is not fitted.",
      "{word} is not available on this control."},
     {C::must_stand_alone, "{word} must stand alone in its block.", "This must stand alone in its block."},

@@ -2,6 +2,7 @@
 // Looks things up in the tables of a family.
 #include "dialect/dialect.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dialect/default_alarms.hpp"
@@ -92,6 +93,10 @@ const FunctionRow* find_function(const Dialect& dialect, Function function) {
   for (const FunctionRow& row : dialect.functions)
     if (row.function == function && row.number == 0) return &row;
   return nullptr;
+}
+
+bool puts_out(const Dialect& dialect, unsigned code) {
+  return std::any_of(dialect.outputs.begin(), dialect.outputs.end(), [code](const OutputRow& row) { return row.code == code; });
 }
 
 MiscFunction misc_function(const Dialect& dialect, unsigned code) {

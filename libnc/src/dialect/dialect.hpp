@@ -95,7 +95,7 @@ struct Dialect {
   char device_letter = 0;            ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
   Table<FunctionRow> functions;      ///< G codes, sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
-  Table<OutputRow> outputs;          ///< those that go out and mean something besides, sorted by code
+  Table<OutputRow> outputs;          ///< those that go out and mean something besides, or are all there are (AuxiliaryRules::codes_are_listed), sorted by code
   Table<AlarmRow> conditions;        ///< condition -> code, at most one row for each; what has none is as dialect/default_alarms.hpp says
   Table<AlarmText> alarms;           ///< the manual's whole list
   Table<DataInputRow> data_input{};
@@ -131,6 +131,8 @@ const MiscRow* find_misc(const Dialect& dialect, unsigned code);
 
 /// The row with number 0 of this function, whatever the order of the codes. nullptr = the family has no code for the function.
 const FunctionRow* find_function(const Dialect& dialect, Function function);
+/// The M code stands in the table of those that go out.
+bool puts_out(const Dialect& dialect, unsigned code);
 /// What an M code means. MiscFunction::output if it means nothing to the control.
 MiscFunction misc_function(const Dialect& dialect, unsigned code);
 /// The result of misc_code() if there is no such code.

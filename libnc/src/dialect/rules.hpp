@@ -66,6 +66,10 @@ struct AuxiliaryRules {
   /// A tool number and the code of the tool change have to stand together, and a block may have only one of each (DGSHAPE M06). In M700 11
   /// the tool number stands alone.
   bool tool_change_is_pair;
+  /// The family's tables have every M code there is, and any other one is a fault (DGSHAPE 2-7). Otherwise a code that they do not have goes out to the machine.
+  bool codes_are_listed = false;
+  /// A change to the tool that the change before has brought is passed over (DGSHAPE M06). Otherwise it goes out (M700 11).
+  bool skips_tool_held = false;
 };
 
 struct SpindleRules {
@@ -93,6 +97,9 @@ struct FeedRules {
   /// F in inverse-time feed is 1 divided by the minutes that the whole block takes, also for an arc (RS-274/NGC 3.5.19). Otherwise F of an
   /// arc is the speed divided by the radius (M700 7.5).
   bool inverse_time_is_of_block;
+  /// A rotary axis turns so that the tool, at its distance from the zero point across the axis, is passed at F: the distance counts where the block begins
+  /// (DGSHAPE 1-4, F). Otherwise F of rotary axes alone is in deg/min.
+  bool rotary_by_radius = false;
   /// F in inverse-time feed holds until the next one (Series 8 G93 prints it in a block of its own). Otherwise each cut has its own (M700 7.5).
   bool inverse_time_is_modal = false;
 };

@@ -22,6 +22,7 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::vector_x, 'I'},
     {Role::vector_y, 'J'},
     {Role::vector_z, 'K'},
+    {Role::turn_x, 'A'},          // 1-4: the axis that the rotary axis unit turns about
     {Role::arc_radius, 'R'},      // G02, G03
     {Role::arc_turns, 'P'},
     {Role::dwell_seconds, 'X'},   // G04

@@ -11,7 +11,7 @@ namespace {
 
 // What G10 L sets.
 constexpr DataInputRow kDataInput[] = {
-    {DataInputRow::kWithoutL, DataInput::tool_length},  // P R sets the tool-diameter offset, in the only column of offsets that there is
+    {DataInputRow::kWithoutL, DataInput::tool_radius},  // P R sets the tool-diameter offset; lengths are set on the machine alone (G43)
     {2, DataInput::work_offset},
 };
 

@@ -66,13 +66,17 @@ const MiscRow kMisc[] = {
     {99, M::return_sub, "NC-NO-SUCH-CODE", "no sub programs in this family", "2-3"},
 };
 
-// M04 is not in the list of the manual. It is put out like any M code that the machine may have, and it means that the spindle turns in
-// reverse, as in other families.
+// The list is complete (2-7): any other M code, M04 among them, does not exist.
 const OutputRow kOutputs[] = {
     {3, M::spindle_forward},
-    {4, M::spindle_reverse},
     {5, M::spindle_stop},
     {6, M::tool_change},
+    {12, M::output},  // air blower on, off
+    {13, M::output},
+    {14, M::output},  // chip cleaner on, off
+    {15, M::output},
+    {16, M::output},  // light on, off
+    {17, M::output},
 };
 
 }  // namespace nc::dgshape

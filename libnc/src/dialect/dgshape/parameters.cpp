@@ -14,10 +14,16 @@ constexpr ParameterName kNames[] = {
     {"startup", P::comp_type_b, 0, 0, "A|B", nullptr, "how tool-diameter offset starts and ends", "G40-G42"},
 };
 
+// Values for which other families have a parameter and this one has none.
+constexpr FixedParameter kFixed[] = {
+    {P::tool_memory_type, 2},  // G43, G41: lengths are set on the machine, and are no tool-diameter offsets
+};
+
 }  // namespace
 
 constinit const FamilyParameters kParameters = {
     .names = {kNames, sizeof kNames / sizeof kNames[0]},
+    .fixed = kFixed,
     .arc_tolerance_mm = 0.01,      // the manual gives none: see docs/decisions.md
     .checks_interference = false,  // the manual knows no interference check
 };

@@ -9,7 +9,7 @@ namespace nc::dgshape {
 
 inline constexpr unsigned kFunctionRows = 39;
 inline constexpr unsigned kMiscRows = 6;
-inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kOutputRows = 9;
 inline constexpr unsigned kAlarmRows = 5;
 inline constexpr unsigned kConditionRows = 70;
 

@@ -102,6 +102,11 @@ Execution check_tool_pair(BlockContext& in) {
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
 
+/// DGSHAPE M06: the block asks for the tool that is there already. No tool (0) is asked for each time: whether there is one is not known.
+bool holds_tool_asked_for(const BlockContext& in, uint32_t tool) {
+  return in.dialect->rules.auxiliary.skips_tool_held && tool != 0 && tool == in.state.modal.tool;
+}
+
 /// DGSHAPE 2: checks numbers "with no decimal point": codes, speeds and numbers of things; also P (except the factor of G51) and K where they are
 /// milliseconds, a number or a count.
 Execution check_whole_numbers(BlockContext& in) {
@@ -167,9 +172,11 @@ Execution auxiliary_before(BlockContext& in) {
     if (did != Execution::done) return did;
     waiting = in.queue.size() != before;
   }
-  if (w.has(Role::tool)) {
-    if (!whole_number(w.get(Role::tool), &in.state.modal.tool) || in.state.modal.tool > 99999999) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
-    uint32_t tool = in.state.modal.tool;
+  uint32_t tool = 0;
+  if (w.has(Role::tool) && (!whole_number(w.get(Role::tool), &tool) || tool > 99999999)) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
+  const bool held = w.has(Role::tool) && holds_tool_asked_for(in, tool);
+  if (w.has(Role::tool) && !held) {
+    in.state.modal.tool = tool;
     if (in.settings.life_managed) {
       did = select_managed_tool(in, &tool);
       if (did != Execution::done) return did;
@@ -190,6 +197,7 @@ Execution auxiliary_before(BlockContext& in) {
     const MiscFunction function = misc_function(*in.dialect, m);
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
+    if (held && function == MiscFunction::tool_change) continue;
     note_spindle(in, function);
     if (m == in.settings.tap_m) in.state.tap_code = true;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
