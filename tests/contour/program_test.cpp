@@ -64,6 +64,12 @@ TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of("G1 X30. ,C-4. F100\nY40.\nM30"), "P35 L1");
   EXPECT_EQ(alarm_of("G81 X30. Z-5. R1. F100 ,C1.\nM30"), "P380 L1");
   EXPECT_EQ(alarm_of("G4 X1. ,C1.\nM30"), "P380 L1");
+  // A next block with an alarm of its own: that is what has to be mended, and nothing of the block before has happened.
+  EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG2 X40. Y-10. R1.\nM30"), "P71 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,R4. F100\n#1=1\nG1 Y4..5\nM30"), "P33 L3");
+  EXPECT_EQ(alarm_of("G1 X30. ,R4. F100\nG1 Y20. F0\nM30"), "P62 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,R4. F100\nG101 Y20.\nM30"), "P270 L2");
+  EXPECT_EQ(alarm_of("G1 X30. ,R4. F100\nY20. ,C1. ,Q\nM30"), "P39 L2");
   std::string statements = "G1 X30. ,C4. F100\n";
   for (unsigned i = 0; i < 40; ++i) statements += "#1=1\n";
   EXPECT_EQ(alarm_of(statements + "Y40.\nM30"), "P990 L1");

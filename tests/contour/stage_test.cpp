@@ -143,6 +143,12 @@ TEST(Contour, WhatCannotBeWaitedForStopsBeforeThePendingMove) {
   const std::string no_move = alarm(Condition::corner_no_move);
   EXPECT_EQ(passed({pending, mark(1), action(), mark(2), line(kK, kB)}), no_move);  // a block without a movement
   for (const ItemKind kind : {ItemKind::sync, ItemKind::end}) EXPECT_EQ(passed({pending, mark(1), of_kind(kind)}), no_move);
+  Item own = of_kind(ItemKind::alarm);  // the next block is in alarm itself: that is what has to be mended
+  own.alarm = Fault{};
+  own.alarm.condition = Condition::arc_center;
+  EXPECT_EQ(passed({pending, mark(1), own}), alarm(Condition::arc_center));
+  EXPECT_EQ(passed({line(point(0, 5), kA), mark(1), pending, mark(2), mark(3, false), own}), "0,0 |1 " + alarm(Condition::arc_center));
+  EXPECT_EQ(passed({pending, mark(1), action(), mark(2), own}), no_move);  // a block without a movement lies between
   Item rapid = line(kK, kB);
   rapid.move.kind = NC_MOVE_RAPID;
   EXPECT_EQ(passed({pending, mark(1), rapid}), no_move);

@@ -53,7 +53,9 @@ bool ContourStage::push(const Item& item, ContourRule rule) {
     behind_mark_ = behind_mark_ || block_over;
     return true;
   }
-  if (inhibits_read_ahead(item) || (block_over && behind_mark_)) {
+  if (item.kind == ItemKind::alarm) {
+    stop_by(item);
+  } else if (inhibits_read_ahead(item) || (block_over && behind_mark_)) {
     fail(Condition::corner_no_move, item.source, 0);
   } else if (count_ == kHeld - 2) {  // a line and its cut must find room
     fail(Condition::pre_read, held(ready_).item.source, 0);
@@ -176,21 +178,21 @@ void ContourStage::push_behind_meeting(const Item& item) {
   const bool second_block = item.kind == ItemKind::mark && item.block_end && behind_mark_;
   const bool full = count_ >= kHeld - 2;
   if (!inhibits_read_ahead(item) && !second_block && !full) return;
-  if (needed && item.kind == ItemKind::alarm) {  // nothing of a block has happened that an alarm of the next one leaves without an end
-    const Item alarm = item;
-    count_ = ready_;
-    append(alarm);
-    ready_ = count_;
-    pending_ = false;
-    failed_ = true;
-    return;
-  }
+  if (needed && item.kind == ItemKind::alarm) return stop_by(item);
   if (needed) return fail(full ? Condition::pre_read : Condition::geometric_no_line, full ? held(ready_).item.source : item.source, 0);
   stand_alone();
   ready_ = count_;
 }
 
 /// The program stops before the pending move: the alarm takes its place, and what was read behind it is forgotten.
+void ContourStage::stop_by(const Item& alarm) {
+  count_ = ready_;
+  append(alarm);
+  ready_ = count_;
+  pending_ = false;
+  failed_ = true;
+}
+
 void ContourStage::fail(Condition condition, const nc_source& source, double value) {
   Item alarm;
   alarm.kind = ItemKind::alarm;
@@ -202,11 +204,7 @@ void ContourStage::fail(Condition condition, const nc_source& source, double val
     alarm.alarm.has_value = true;
     alarm.alarm.value = value;
   }
-  count_ = ready_;
-  append(alarm);
-  ready_ = count_;
-  pending_ = false;
-  failed_ = true;
+  stop_by(alarm);
 }
 
 bool ContourStage::pop(Item& out) {

@@ -13,8 +13,8 @@
 // meets it, and one by its radius alone is nothing then.
 //
 // What cannot be waited for is an alarm in the place of the pending move: a block without a movement (M700 P382), an arc (P381, but for a machine that
-// cuts corners beside arcs), a stop, a
-// sync and the end of the program, and more items than the stage holds.
+// cuts corners beside arcs), a stop, a sync and the end of the program, and more items than the stage holds. A next block that is in alarm itself says
+// so there with its own alarm, which is what has to be mended.
 #pragma once
 
 #include "base/arena.hpp"
@@ -78,6 +78,7 @@ class ContourStage {
   void stand_alone();
   void push_behind_meeting(const Item& item);
   void show_meeting(Item& item, const AxisVec& lead) const;
+  void stop_by(const Item& alarm);
   void fail(Condition condition, const nc_source& source, double value);
 
   Held* held_ = nullptr;
