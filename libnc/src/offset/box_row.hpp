@@ -76,8 +76,9 @@ class BoxRow {
   template <class Visit>
   bool any(uint64_t first, const Box& box, const Visit& visit) const {
     if (first >= end_) return false;
-    for (uint64_t part = first >> top_; part <= (end_ - 1) >> top_; ++part)
-      if (any_below(top_, part, first, box, visit)) return true;
+    const unsigned over_all = std::min(top_, static_cast<unsigned>(std::bit_width(first ^ (end_ - 1))));  // one box lies over all of a short row
+    for (uint64_t part = first >> over_all; part <= (end_ - 1) >> over_all; ++part)
+      if (any_below(over_all, part, first, box, visit)) return true;
     return false;
   }
 

@@ -107,6 +107,10 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
   } else {
     w0 = (1 / c) * (oa * behind.u - (ob + kb / 2 * (oa * oa - ob * ob)) * before.u);
   }
+  if (ka == 0 && kb == 0) {
+    *w = w0;
+    return std::isfinite(w->h) && std::isfinite(w->v);
+  }
   const Vec2 w1 = (0.5 / c) * (ka * behind.u - kb * before.u);
   const double a2 = dot(w1, w1), a1 = 2 * dot(w0, w1) - 1, a0 = dot(w0, w0) - oa * oa;
   double discriminant = a1 * a1 - 4 * a2 * a0;

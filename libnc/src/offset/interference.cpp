@@ -12,13 +12,14 @@ namespace {
 constexpr unsigned kMaxSpan = 2;
 constexpr double kBackwards_mm = 1e-6;
 
-// Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not.
+// Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not. They cross in s a = d + t b, s and t compared without a
+// division.
 bool vectors_cross(Vec2 a, Vec2 b, Vec2 d) {
-  const double c = cross(a, b);
-  if (std::abs(c) <= 1e-12 * norm(a) * norm(b)) return false;
-  const double s = cross(d, b) / c, t = cross(d, a) / c;
-  const double near_end = 1e-9;
-  return s > near_end && s < 1 - near_end && t > near_end && t < 1 - near_end;
+  const double c = cross(a, b), size = std::abs(c);
+  if (c * c <= 1e-24 * (dot(a, a) * dot(b, b))) return false;
+  const double s = std::copysign(1, c) * cross(d, b), t = std::copysign(1, c) * cross(d, a);
+  const double near_end = 1e-9 * size;
+  return s > near_end && s < size - near_end && t > near_end && t < size - near_end;
 }
 
 // An offset curve: a line through `point` along `u`, or a circle about `center`.
@@ -100,9 +101,19 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   const Vec2 radius_end = (-sense / std::abs(section.end.curvature)) * left_of(section.end.u);
   const Vec2 now_start = radius_start + from, now_end = radius_end + to;
   if (!(norm(now_start) > kBackwards_mm) || !(norm(now_end) > kBackwards_mm)) return false;  // the tool turns in one place
+  // The arc tangent of a number is no more than the number: what turns by less than there is of the arc leaves some of it.
+  const double along_start = dot(radius_start, now_start), along_end = dot(radius_end, now_end);
+  if (along_start > 0 && along_end > 0 &&
+      std::abs(section.sweep) > std::abs(cross(radius_start, now_start)) / along_start + std::abs(cross(radius_end, now_end)) / along_end)
+    return false;
   const auto turned = [](Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); };
   const double sweep = section.sweep + turned(radius_end, now_end) - turned(radius_start, now_start);
   return sweep * sense * norm(now_start) < -kBackwards_mm;
+}
+
+// Joints have changed: all are compared again.
+void compare_again(Chain* chain) {
+  for (unsigned i = 0; i < chain->size(); ++i) (*chain)[i].apart = false;
 }
 
 // Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be
@@ -124,6 +135,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   if (runs_backwards(before, start_vector(*chain, i, first_vector), x)) return false;
   const Vec2 leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
   if (runs_backwards(behind, x - d, leave)) return false;
+  compare_again(chain);
   before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
     (*chain)[k].joint = ContourJoint::single(x - joint_distance(*chain, i, k));
@@ -161,18 +173,20 @@ Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, V
 }
 
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
-// that has taken its place.
+// that has taken its place. `*crosses`: they do not go as they were.
 Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
-                   unsigned* at) {
+                   unsigned* at, bool* crosses) {
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
   const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j));
   if (!crossing.found) return Finding::none;
+  *crosses = true;
   *at = live;
   const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
   const ContourJoint whole_before = before.joint;
   const ContourJoint whole_behind = behind.joint;
   erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
+  compare_again(chain);
   if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1) {  // what remains is the path
     if (!runs_backwards(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;
     *at = j;
@@ -232,7 +246,9 @@ Finding check_direction(Chain* chain, unsigned i, Vec2 first_vector, unsigned* a
 Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at) {
   if (leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
   for (unsigned j = 1; j < chain->size(); ++j) {
-    if (!may_be_erased((*chain)[j]) || (*chain)[j].dead) continue;
+    Section& section = (*chain)[j];
+    if (section.apart || !may_be_erased(section) || section.dead) continue;
+    bool crosses = false;
     for (unsigned span = 1; span <= kMaxSpan && span <= j; ++span) {
       const unsigned i = j - span;
       if (span > 1 && (*chain)[i + 1].dead) continue;  // seen from the section left out already
@@ -240,9 +256,10 @@ Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, 
       while (live > 0 && (*chain)[live].dead) --live;
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
       const bool may_wait = live >= last_call;
-      if (check_pair(chain, live, i, j, may_wait, first_vector, at) == Finding::alarm) return Finding::alarm;
-      if ((*chain)[j].dead) break;
+      if (check_pair(chain, live, i, j, may_wait, first_vector, at, &crosses) == Finding::alarm) return Finding::alarm;
+      if (section.dead) break;
     }
+    section.apart = !crosses;
   }
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
     if (check_direction(chain, i, first_vector, at) == Finding::alarm) return Finding::alarm;

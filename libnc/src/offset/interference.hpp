@@ -29,6 +29,7 @@ struct Section {
   bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, walls = false, avoid = false;
+  bool apart = false;        ///< the vectors at its end cross none of those in front, as they all stand now: need not be compared again
 
   // For the memory of the contour (contour_memory.hpp), which `walls` asks for.
   uint64_t number = 0;        ///< in that memory
@@ -40,8 +41,29 @@ struct Section {
   bool settled = false;       ///< its path has been looked at
 };
 
-/// The blocks under consideration, in order. Only the last one may not be jointed yet.
-using Chain = FixedVector<Section, 6>;
+/// The blocks under consideration, in order. Only the last one may not be jointed yet. They lie in a ring, so that those in front go without the others
+/// being moved.
+class Chain {
+ public:
+  /// A block that comes lets those go that have three behind them; an arc that only the avoidance can leave out waits for two more.
+  static constexpr unsigned kMost = 8;
+  unsigned size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
+  Section& operator[](unsigned i) { return ring_[(front_ + i) % kMost]; }
+  const Section& operator[](unsigned i) const { return ring_[(front_ + i) % kMost]; }
+  Section& back() { return (*this)[size_ - 1]; }
+  const Section& back() const { return (*this)[size_ - 1]; }
+  void push_back(const Section& section) { (*this)[size_++] = section; }
+  void drop_front(unsigned count) {
+    front_ = (front_ + count) % kMost;
+    size_ -= count;
+  }
+
+ private:
+  Section ring_[kMost];
+  unsigned front_ = 0, size_ = 0;
+};
 
 enum class Finding : uint8_t { none, alarm };
 

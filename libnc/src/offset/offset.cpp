@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "alarm/condition.hpp"
+#include "stream/copy_item.hpp"
 
 namespace nc {
 
@@ -94,7 +95,7 @@ bool OffsetStage::push(const Item& item, NoRule) {
 
 OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
   Held& held = held_at(next_index());
-  held.item = item;
+  copy_item(item, &held.item);
   held.role = Role::pass;
   held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = false;
   held.lead = Vec2{};
@@ -487,8 +488,7 @@ void OffsetStage::release(unsigned sections) {
     chain_start_ = joint.v[joint.n - 1];
     start_commanded_ = section.commanded;
   }
-  for (unsigned i = sections; i < chain_.size(); ++i) chain_[i - sections] = chain_[i];
-  chain_.resize(chain_.size() - sections);
+  chain_.drop_front(sections);
   released_ = chain_.empty() ? next_index() : chain_[0].index;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/same_place.hpp"
 #include "offset/offset.hpp"
+#include "stream/copy_item.hpp"
 
 namespace nc {
 namespace {
@@ -155,7 +156,7 @@ bool OffsetStage::pop(Item& out) {
       if (pop_move(&held, out)) return true;
       continue;
     }
-    out = held.item;
+    copy_item(held.item, &out);
     if (held.item.kind == ItemKind::mark) note_mark(held);
     drop_front();
     return true;
@@ -206,7 +207,7 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
 
 // The move itself, from the vector in force to `end_vector`.
 bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
-  const Move programmed = held.item.move;
+  const Move& programmed = held.item.move;
   out = held.item;
   Move& move = out.move;
   move.start = joined(shifted(programmed.start, axis_, vector_), compensated_);
