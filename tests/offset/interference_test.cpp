@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "support/pull.hpp"
+
 namespace nc::test {
 namespace {
 
@@ -92,6 +96,40 @@ TEST(Interference, WideAngleBetweenTheVectorsIsAnAlarm) {
   unsigned at = 99;
   EXPECT_EQ(check_interference(&chain, 0, {}, &at), Finding::alarm);
   EXPECT_EQ(at, 0u);
+}
+
+/// A groove in a straight edge, its mouth at X0 to X`mouth`, cut with a tool of 10 mm; the walls go from there to X`from` and X`to` at Y-30.
+Outcome groove(const char* from, const char* to, const char* mouth, const char* avoid, double offset_x = 0, double offset_y = 0) {
+  Bench bench;
+  bench.tool(1, 5).param("8102", avoid).work_offset(1, {offset_x, offset_y});
+  return bench.run(std::string("G90 G0 X-60. Y20.\nG41 D1 G1 X-60. Y0 F100\nX0.\nX") + from + " Y-30.\nX" + to + "\nX" + mouth + " Y0\nX60.\nG40 Y20.\nM30");
+}
+
+// 12.4.8 (2)(c): "grooves which are narrower than the tool ... or which have parallel or widening walls". The vectors at the two ends of the mouth
+// cross, and three blocks lie between them; five are read ahead.
+TEST(Interference, AGrooveThatWidensBehindItsMouth) {
+  for (const char* const avoid : {"0", "1"}) {
+    for (const auto& [from, to, mouth] : {std::array{"-5.", "10.", "5."}, std::array{"-1.", "10.", "9."}, std::array{"-.5", "10.4", "9.9"}}) {
+      const Outcome run = groove(from, to, mouth, avoid);
+      EXPECT_EQ(run.alarm, "P153") << mouth;
+      EXPECT_EQ(run.alarm_line, 3u) << mouth;
+    }
+    EXPECT_EQ(groove("-5.", "16.", "11.", avoid).alarm, "");  // as wide as the tool at its mouth, and wider
+  }
+}
+
+// The walls' vectors stand at right angles, which is not "more than 90 degrees" (2)(b): the groove is left uncut, wherever the part lies.
+TEST(Interference, AGrooveWithParallelWallsIsLeftUncut) {
+  const Path uncut = {"rapid -60 20 0", "line -60 5 0 F100", "line 5 5 0 F100", "line 60 5 0 F100", "line 60 20 0 F100"};
+  EXPECT_EQ(groove("0", "9.", "9.", "1").work(), groove("0", "9.", "9.", "1", -68.406, -127.58).work());
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {-68.406, -127.58}, {1000, -700}, {0.1, 33.333}, {-0.7, 1e-3}})
+    for (const char* const width : {"9.", "7.", "4."}) {
+      const Outcome run = groove("0", width, width, "1", x, y);
+      EXPECT_EQ(run.alarm, "") << x << ' ' << width;
+      ASSERT_EQ(run.moves().size(), uncut.size());
+      for (size_t i = 0; i < uncut.size(); ++i) EXPECT_NEAR(run.moves()[i].machine.v[1] - y, i == 0 || i == 4 ? 20 : 5, 1e-9) << x << ' ' << width;
+    }
+  EXPECT_EQ(groove("0", "9.", "9.", "0").alarm, "P153");
 }
 
 }  // namespace

@@ -36,8 +36,17 @@ void ContourMemory::begin(bool with_start) {
   state_.open = true;
 }
 
+ContourMemory::State ContourMemory::with(State state, const Doubt& doubt) {
+  if (doubt.first != state.first) return state;
+  for (unsigned place = 0; place <= kWay; ++place) {
+    const uint64_t number = state.first + place - (state.with_start ? 0 : 1);
+    if (number < state.end) state.suspects = static_cast<uint8_t>(state.suspects | (doubt.suspects & 1u << place));
+  }
+  if (doubt.out != 0 && doubt.out < state.end) state.out = doubt.out;
+  return state;
+}
+
 void ContourMemory::restore(const State& state) {
-  const State seen = state_;
   state_ = state;
   if (!state.open) return;
   // Where the contour is not in this memory, another control has read it, or too much has been read since: it cannot be checked any more.
@@ -45,10 +54,6 @@ void ContourMemory::restore(const State& state) {
   if (state_.overlong) return;
   walls_.cut(state.end);
   while (paths_.end() > 0 && paths_.keeps(paths_.end() - 1) && paths_[paths_.end() - 1].number >= state.end) paths_.cut(paths_.end() - 1);
-  if (seen.open && seen.first == state.first) {  // paths in front of the mark were settled behind it
-    state_.suspects = static_cast<uint8_t>(state.suspects | seen.suspects);
-    if (seen.out != 0 && seen.out < state.end) state_.out = seen.out;
-  }
 }
 
 /// The joint at the end of a block: where the contour is, and whether it has closed.
@@ -75,14 +80,24 @@ bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(numbe
 /// A path comes too near to this block. True: it is a wall; else that shows later.
 bool ContourMemory::blame(uint64_t number) {
   if (is_way_in(number)) return false;
-  if (state_.closure != 0 && number > state_.closure) {
-    if (state_.out == 0 || number < state_.out) state_.out = number;
+  const uint64_t place = behind_start(number);
+  if (place <= kWay) {  // the contour may still come back to where it ends
+    state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
     return false;
   }
-  const uint64_t place = behind_start(number);
-  if (place > kWay) return true;
-  state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
+  if (state_.closure == 0 || number <= state_.closure) return true;
+  if (state_.out == 0 || number < state_.out) state_.out = number;
   return false;
+}
+
+/// At the end of the contour: blocks in doubt behind its start that are neither a way in nor one out.
+bool ContourMemory::no_way(uint64_t cancel) const {
+  for (unsigned place = 0; place <= kWay; ++place) {
+    if ((state_.suspects >> place & 1) == 0) continue;
+    const uint64_t number = state_.first + place - (state_.with_start ? 0 : 1);
+    if (state_.closure == 0 || number <= state_.closure || cancel - number > kWay) return true;
+  }
+  return state_.out != 0 && cancel - state_.out > kWay;
 }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
@@ -162,9 +177,9 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool commande
     add(section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
   }
   if (!section.cancel || section.transparent) return found;
-  const bool no_way_in = state_.suspects != 0, no_way_out = state_.out != 0 && section.number - state_.out > kWay;
+  const bool no_way_in_or_out = no_way(section.number);
   state_.open = false;
-  return found == Clearance::fits && (no_way_in || no_way_out) ? Clearance::enters : found;
+  return found == Clearance::fits && no_way_in_or_out ? Clearance::enters : found;
 }
 
 /// A piece of a path: all walls that have been read.

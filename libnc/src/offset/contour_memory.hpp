@@ -41,7 +41,7 @@ class ContourMemory {
     uint8_t joints = 0;      ///< how many of `joint` are there
     uint8_t away = 0;        ///< bit i: the contour has left joint i
     uint8_t closed = 0;      ///< bit i: ... and has come back to it
-    uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in
+    uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in, or out
     double offset = 0;       ///< of the last block that has one
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
     Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
@@ -55,6 +55,15 @@ class ContourMemory {
   void reset() { state_.open = state_.overlong = false; }
   const State& state() const { return state_; }
   void restore(const State& state);
+  /// What of the blocks in front is in doubt when a path has been settled. That is later than the end of its block has been read.
+  struct Doubt {
+    uint64_t first = 0;    ///< the contour that it is about
+    uint64_t out = 0;
+    uint8_t suspects = 0;
+  };
+  Doubt doubt() const { return {state_.first, state_.out, state_.suspects}; }
+  /// The state at the end of a block, with what is in doubt since: of blocks behind it nothing.
+  static State with(State state, const Doubt& doubt);
   /// A path has come too near to blocks that have to be a way in or out, which is not known yet.
   bool suspects() const { return state_.open && (state_.suspects != 0 || state_.out != 0); }
 
@@ -85,6 +94,7 @@ class ContourMemory {
   bool is_way_in(uint64_t number) const;
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
   bool blame(uint64_t number);
+  bool no_way(uint64_t cancel) const;
   Clearance take(const Path& path);
 
   BoxRow<Wall> walls_;

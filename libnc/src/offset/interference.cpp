@@ -2,14 +2,19 @@
 // Interference check and avoidance (M700 12.4.8).
 #include "offset/interference.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nc {
 namespace {
 
-// Blocks between two joints that are compared: five blocks are read ahead, an interference behind the fourth
-// moving block is not found (M700 12.4.8 "When interference check cannot be executed").
-constexpr unsigned kMaxSpan = 2;
+// Blocks between two joints that are compared: of five blocks the joint at the end of the first and that at the end of the fourth are known; an
+// interference behind the fourth moving block is not found (M700 12.4.8 "When interference check cannot be executed").
+constexpr unsigned kMaxSpan = 3;
+// The avoidance joins a block to the next but one or the one behind that, or to the one behind the joints that interfere.
+constexpr unsigned kReach = 2;
+// Below this the cosine of the angle between two vectors is rounding: at right angles is not "more than 90 degrees".
+constexpr double kRightAngle = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
 
 // Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not. They cross in s a = d + t b, s and t compared without a
@@ -140,7 +145,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   for (unsigned k = i + 1; k < j; ++k) {
     (*chain)[k].joint = ContourJoint::single(x - joint_distance(*chain, i, k));
     (*chain)[k].jointed = true;
-    (*chain)[k].dead = true;
+    (*chain)[k].dead = (*chain)[k].bound = true;
     (*chain)[k].vanished = false;
   }
   return true;
@@ -161,10 +166,11 @@ struct Crossing {
   unsigned before = 0, behind = 0;
 };
 
-// From the outermost vectors inwards: (1)-(4)', (2)-(3)', (3)-(2)', (4)-(1)'.
-Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, Vec2 d) {
+// From the outermost vectors inwards: (1)-(4)', (2)-(3)', (3)-(2)', (4)-(1)'. `walls_only`: just those that stand on the blocks between the two
+// joints. Of a groove with several blocks these tell whether the tool fits between its walls; the tips of lengthened corners may cross outside of it.
+Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, Vec2 d, bool walls_only) {
   const unsigned steps = before.n > behind.n ? before.n : behind.n;
-  for (unsigned k = 0; k < steps; ++k) {
+  for (unsigned k = walls_only ? steps - 1 : 0; k < steps; ++k) {
     const unsigned i = k < before.n ? k : before.n - 1u;
     const unsigned j = k < behind.n ? behind.n - 1u - k : 0u;
     if (vectors_cross(before.v[i], behind.v[j], d)) return {true, i, j};
@@ -178,7 +184,7 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
                    unsigned* at, bool* crosses) {
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
-  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j));
+  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j), j - i == kMaxSpan);
   if (!crossing.found) return Finding::none;
   *crosses = true;
   *at = live;
@@ -187,6 +193,7 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   const ContourJoint whole_behind = behind.joint;
   erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
   compare_again(chain);
+  for (unsigned k = i + 1; k <= j; ++k) (*chain)[k].bound = true;
   if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1) {  // what remains is the path
     if (!runs_backwards(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;
     *at = j;
@@ -198,8 +205,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   if (!before.avoid) return Finding::alarm;  // 12.4.8 alarm (1)
   // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90
   // degrees (2)(b).
-  if (one_sided || dot(a, b) < 0) return Finding::alarm;
-  const unsigned farthest = live + 1 + kMaxSpan;
+  if (one_sided || dot(a, b) < -kRightAngle * norm(a) * norm(b)) return Finding::alarm;
+  const unsigned farthest = std::max(live + 1 + kReach, j + 1);
   for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
     if (go_round(chain, live, target, first_vector)) return Finding::none;
   }
@@ -216,10 +223,10 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
     if (!(*chain)[i].vanished) continue;
     *at = i;
     bool done = false;
-    for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size() && !done; ++target) {
+    for (unsigned target = i + 1; target <= i + kReach && target < chain->size() && !done; ++target) {
       done = go_round(chain, i - 1, target, first_vector);
     }
-    if (!done && (i < last_call || chain->size() > i + kMaxSpan || (*chain)[chain->size() - 1].cancel))
+    if (!done && (i < last_call || chain->size() > i + kReach || (*chain)[chain->size() - 1].cancel))
       return Finding::alarm;
   }
   return Finding::none;
@@ -227,23 +234,24 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
 
 // M700 12.4.8 alarm (2)(c): a block that runs against its programmed direction between its vectors. The vectors of short blocks need not cross
 // for that.
-Finding check_direction(Chain* chain, unsigned i, Vec2 first_vector, unsigned* at) {
+Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsigned* at) {
   Section& section = (*chain)[i];
   const bool along_contour = !section.start && !section.cancel && !section.dead && !section.vanished && section.jointed && section.joint.n > 0;
   if (!along_contour || !section.check || section.commanded) return Finding::none;
-  if (i > 0 && !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
-  const Vec2 from = start_vector(*chain, i, first_vector), to = section.joint.v[0];
+  if (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
+  const Vec2 from = start_vector(*chain, i, start.vector), to = section.joint.v[0];
   if (!runs_backwards(section, from, to) && !arc_runs_backwards(section, from, to)) return Finding::none;
   *at = i;
   if (!section.avoid || i == 0) return Finding::alarm;
-  for (unsigned target = i + 1; target <= i + kMaxSpan && target < chain->size(); ++target)
-    if (go_round(chain, i - 1, target, first_vector)) return Finding::none;
+  for (unsigned target = i + 1; target <= i + kReach && target < chain->size(); ++target)
+    if (go_round(chain, i - 1, target, start.vector)) return Finding::none;
   return Finding::alarm;
 }
 
 }  // namespace
 
-Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at) {
+Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& start, unsigned* at) {
+  const Vec2 first_vector = start.vector;
   if (leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
   for (unsigned j = 1; j < chain->size(); ++j) {
     Section& section = (*chain)[j];
@@ -262,7 +270,7 @@ Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, 
     section.apart = !crosses;
   }
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
-    if (check_direction(chain, i, first_vector, at) == Finding::alarm) return Finding::alarm;
+    if (check_direction(chain, i, start, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;
 }
 

@@ -29,6 +29,7 @@ struct Section {
   bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, walls = false, avoid = false;
+  bool bound = false;        ///< a comparison with a block in front has changed its joint, or left it out: it is not read again without that block
   bool apart = false;        ///< the vectors at its end cross none of those in front, as they all stand now: need not be compared again
 
   // For the memory of the contour (contour_memory.hpp), which `walls` asks for.
@@ -67,10 +68,15 @@ class Chain {
 
 enum class Finding : uint8_t { none, alarm };
 
-/// Checks the joints of the chain against each other and repairs what may be repaired. `first_vector`: where
-/// chain[0] starts. An interference that blocks still to come may repair is left for the next call;
+/// Where chain[0] starts.
+struct ChainStart {
+  Vec2 vector;
+  bool commanded = false;  ///< it may lie anywhere
+};
+
+/// Checks the joints of the chain against each other and repairs what may be repaired. An interference that blocks still to come may repair is left for the next call;
 /// `last_call` = sections below this number cannot wait any longer. On alarm *at is the section before which
 /// the program stops.
-Finding check_interference(Chain* chain, unsigned last_call, Vec2 first_vector, unsigned* at);
+Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& start, unsigned* at);
 
 }  // namespace nc

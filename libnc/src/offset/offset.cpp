@@ -84,6 +84,7 @@ bool OffsetStage::push(const Item& item, NoRule) {
   held.mode = mode_;
   held.idle_blocks = idle_blocks_;
   held.level = level_end_;
+  held.approach = approach_;
   held.in_contour = memory_.state().open;
   if (held.in_contour) contour_at(held) = memory_.state();
   settle();
@@ -97,7 +98,9 @@ OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
   Held& held = held_at(next_index());
   copy_item(item, &held.item);
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = false;
+  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.trim_next = held.bound_next = false;
+  held.commanded = true;
+  held.doubt = {};
   held.lead = Vec2{};
   held.joint.n = 0;
   return held;
@@ -111,7 +114,9 @@ void OffsetStage::reset() {
   moved_ = failed_ = lead_done_ = false;
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
-  start_commanded_ = true;
+  start_commanded_ = out_commanded_ = true;
+  trim_next_ = out_trim_ = bound_ = false;
+  doubt_ = {};
   memory_.reset();
   level_ = level_end_ = 0;
   feed_scale_ = 0;
@@ -138,6 +143,10 @@ void OffsetStage::restore(const OffsetResume& resume) {
   idle_blocks_ = resume.idle_blocks;
   memory_.restore(resume.contour);
   level_ = level_end_ = resume.level;
+  start_commanded_ = out_commanded_ = resume.commanded;
+  trim_next_ = out_trim_ = resume.trim;
+  approach_ = {resume.approach[0], resume.approach[1]};
+  feed_scale_ = resume.feed_scale;
   mode_ = resume.pending ? Mode::pending : Mode::on;
   vector_ = {resume.vector[0], resume.vector[1]};
   tail_ = vector_;
@@ -228,6 +237,7 @@ void OffsetStage::intake_carried(Held* held) {
     held->role = Role::section;
     held->joint = ContourJoint::single({});
     tail_ = {};
+    start_commanded_ = true;
   }
   ++count_;
 }
@@ -292,7 +302,7 @@ void OffsetStage::intake_command(Held* held) {
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
     close();
     if (failed_) return;
-    held->has_lead = held->lead_arc = true;
+    start_commanded_ = held->has_lead = held->lead_arc = true;
     held->lead = tail_ = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
   } else if (comp.corner_arc) {
     if (last) bend_behind(last->index, held->item);
@@ -303,9 +313,12 @@ void OffsetStage::intake_command(Held* held) {
     if (last && !last->vanished) {
       last->joint = ContourJoint::single(tail_);
       last->jointed = last->commanded = true;
-    } else {
-      held->has_lead = true;
-      held->lead = tail_;
+    } else {  // all joints in front are known
+      const Vec2 vector = tail_;
+      close();
+      if (failed_) return;
+      start_commanded_ = held->has_lead = true;
+      held->lead = tail_ = vector;
     }
   }
   ++count_;
@@ -335,6 +348,8 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.led = held->has_lead && !held->lead_arc;
   section.avoid = comp.avoid;
   section.vanished = !section.cancel && !section.start && vanishes(begin, end, section.offset);
+  if (trim_next_) held->trim = true;
+  trim_next_ = false;
   if (section.start) mode_ = Mode::on;
   join(section, held);
   if (failed_) return;
@@ -349,7 +364,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
     section.jointed = true;
   } else if (comp.hold_vector) {  // M700 12.4.2 G38: the vector of the end before
     section.joint = ContourJoint::single(tail_);
-    section.jointed = true;
+    section.jointed = section.bound = true;
   }
   section.commanded = section.jointed;
   if (section.jointed) tail_ = section.joint.v[0];
@@ -390,7 +405,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   if (!found) return fail(last->index, Condition::comp_no_intersection, held_last.item.source);
   held_last.inner = !last->start && !behind.cancel && cuts_inner_corner(*last, held_last.item.move, behind, held_behind->item.move);
   const bool changes_side = !behind.cancel && last->offset * behind.offset < 0;
-  if (changes_side || comp_behind.cancel_vector) held_last.trim = held_behind->trim = true;
+  if (changes_side || comp_behind.cancel_vector) held_last.trim = held_last.trim_next = held_behind->trim = true;
   last->merge_first = last->end.curvature == 0 && !last->start;
   last->merge_last = behind.begin.curvature == 0 && !behind.cancel && !comp_behind.hold_vector;
   tail_ = last->joint.v[last->joint.n - 1];
@@ -420,7 +435,7 @@ ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& 
 bool OffsetStage::check_joints(unsigned last_call) {
   if (chain_.size() < 2) return look_at_walls(last_call);
   unsigned at = 0;
-  if (check_interference(&chain_, last_call, chain_start_, &at) == Finding::alarm) {
+  if (check_interference(&chain_, last_call, {chain_start_, start_commanded_}, &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
@@ -439,6 +454,7 @@ bool OffsetStage::look_at_walls(unsigned sections) {
     const ContourJoint* before = i == 0 ? nullptr : &chain_[i - 1].joint;
     const bool commanded = section.commanded || (!section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded));
     const Clearance found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], commanded);
+    held_at(section.index).doubt = memory_.doubt();
     if (found == Clearance::fits) continue;
     fail(section.index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, held_at(section.index).item.source);
     return false;
@@ -483,10 +499,12 @@ void OffsetStage::release(unsigned sections) {
       --joint.n;
       for (unsigned k = 0; k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
     }
-    held_at(section.index).joint = joint;
-    held_at(section.index).dead = section.dead;
+    Held& held = held_at(section.index);
+    held.joint = joint;
+    held.dead = section.dead;
+    held.commanded = start_commanded_ = section.commanded || !section.check;
+    held.bound_next = i + 1 < chain_.size() && chain_[i + 1].bound;
     chain_start_ = joint.v[joint.n - 1];
-    start_commanded_ = section.commanded;
   }
   chain_.drop_front(sections);
   released_ = chain_.empty() ? next_index() : chain_[0].index;

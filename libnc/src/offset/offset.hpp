@@ -47,6 +47,10 @@ struct OffsetResume {
   double direction[2] = {0, 0};  ///< tangent of the last block at its end, unit
   ContourMemory::State contour;  ///< what the check of the whole contour has seen
   double level = 0;  ///< its level across the plane
+  bool commanded = true;  ///< the vector may lie anywhere: what begins with it is not checked against it
+  bool trim = false;      ///< an arc that comes next loses what is beyond a full circle
+  double approach[2] = {0, 0};  ///< lines without a direction since the last joint
+  double feed_scale = 0;
 };
 
 inline bool in_force(const OffsetResume& resume) { return resume.active; }
@@ -84,7 +88,7 @@ class OffsetStage {
 
  private:
   static constexpr unsigned kLookAheadItems = 24;  ///< items held back while looking ahead over five blocks
-  static constexpr unsigned kChain = 4;  ///< moving blocks that the interference check wants to see at once
+  static constexpr unsigned kChain = 5;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
   /// This many blocks without movement close the contour (M700 12.4.2).
   static constexpr uint8_t kIdleLimit = 4;
@@ -103,6 +107,11 @@ class OffsetStage {
     bool dead = false;        ///< left out by the interference avoidance
     bool inner = false;       ///< section: the joint at its end is a corner that the tool cuts from the inside (M700 7.10)
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
+    bool trim_next = false;   ///< section: ... of the one behind, whose side is another
+    bool commanded = true;    ///< section: the vector at its end may lie anywhere
+    bool bound_next = false;  ///< section: the one behind has a joint that depends on this one
+    ContourMemory::Doubt doubt;  ///< section: what was in doubt about the contour when its path was settled
+    Vec2 approach;            ///< marks: lines without a direction since the joint
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
     bool in_contour = false;  ///< marks: contour_ has what the check of the walls has seen
@@ -144,6 +153,7 @@ class OffsetStage {
   void pop_connecting(const Held& held, Item& out);
   void drop_front();
   void note_move(const Move& programmed, const AxisVec& compensated_end);
+  void note_section(const Held& held);
   void note_mark(const Held& held);
 
   Held held_[kHeld];       ///< item number i lies in held_[i % kHeld]
@@ -162,6 +172,7 @@ class OffsetStage {
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
   Vec2 approach_;        ///< of the next section
   bool start_commanded_ = true;  ///< it may lie anywhere
+  bool trim_next_ = false;       ///< restored: the section that comes
   ContourMemory memory_;
   double level_ = 0, level_end_ = 0;  ///< of the last move, across the plane
 
@@ -172,6 +183,9 @@ class OffsetStage {
   AxisVec programmed_, compensated_;
   Vec2 direction_;  ///< tangent at the end of the last move
   Compensation out_comp_;
+  bool out_commanded_ = true, out_trim_ = false;
+  bool bound_ = false;      ///< the blocks behind cannot be read again from here: a joint of theirs depends on one in front
+  ContourMemory::Doubt doubt_;
   double feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))
   OffsetResume resume_;
 };

@@ -157,7 +157,10 @@ bool OffsetStage::pop(Item& out) {
       continue;
     }
     copy_item(held.item, &out);
-    if (held.item.kind == ItemKind::mark) note_mark(held);
+    if (held.item.kind == ItemKind::mark) {
+      note_mark(held);
+      out.mark.resume = out.mark.resume && !bound_;
+    }
     drop_front();
     return true;
   }
@@ -173,6 +176,7 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
   switch (held->role) {
     case Role::pass:
       out = held->item;
+      bound_ = false;
       vector_ = {};
       programmed_ = compensated_ = held->item.move.end;
       drop_front();
@@ -190,6 +194,7 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
       break;
   }
   if (connecting_ == 0) {
+    note_section(*held);
     axis_[0] = held->item.move.comp.axis[0];
     axis_[1] = held->item.move.comp.axis[1];
     const bool any = pop_shifted(*held, held->joint.v[0], out);
@@ -249,6 +254,7 @@ bool OffsetStage::pop_lead(const Held& held, Item& out) {
   axis_[0] = move.comp.axis[0];
   axis_[1] = move.comp.axis[1];
   vector_ = held.lead;
+  out_commanded_ = true;  // where the section behind it is not its own
   const AxisVec end = shifted(move.start, axis_, vector_);
   make_straight(held.item, move.start, start, end, &out);
   out.move.rule.scale = feed_scale_;
@@ -284,13 +290,25 @@ void OffsetStage::note_move(const Move& programmed, const AxisVec& compensated_e
   if (make_legs(programmed, &begin, &end)) direction_ = end.u;
 }
 
+void OffsetStage::note_section(const Held& held) {
+  out_commanded_ = held.commanded;
+  out_trim_ = held.trim_next;
+  bound_ = held.bound_next;
+  doubt_ = held.doubt;
+}
+
 void OffsetStage::note_mark(const Held& held) {
   resume_.active = held.mode != Mode::off;
   resume_.pending = held.mode == Mode::pending;
   resume_.idle_blocks = held.idle_blocks;
   resume_.level = held.level;
   resume_.contour.open = false;
-  if (held.in_contour) resume_.contour = contour_at(held);
+  if (held.in_contour) resume_.contour = ContourMemory::with(contour_at(held), doubt_);
+  resume_.commanded = out_commanded_;
+  resume_.trim = out_trim_;
+  resume_.approach[0] = held.approach.h;
+  resume_.approach[1] = held.approach.v;
+  resume_.feed_scale = feed_scale_;
   resume_.comp = out_comp_;
   resume_.programmed = programmed_;
   resume_.compensated = compensated_;
