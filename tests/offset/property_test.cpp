@@ -308,7 +308,8 @@ TEST(OffsetProperty, NothingToResumeOnceCompensationIsOver) {
   EXPECT_FALSE(stage.resume_point().active);
 }
 
-TEST(OffsetProperty, ManyItemsBetweenTwoMovesCloseTheContour) {
+/// Two lines with an outer corner, and this many items between them.
+std::vector<Item> items_between(int count) {
   PathBuilder path(-20, 0);
   path.side(1, 5);
   path.line(0, 0).line(50, 0);
@@ -316,16 +317,31 @@ TEST(OffsetProperty, ManyItemsBetweenTwoMovesCloseTheContour) {
   Item action;
   action.kind = ItemKind::action;
   action.action = Action{};
-  for (int i = 0; i < 100; ++i) items.push_back(action);
+  for (int i = 0; i < count; ++i) items.push_back(action);
   const size_t before = path.items.size();
   path.line(50, -40).cancel().line(80, -40).end();
   items.insert(items.end(), path.items.begin() + static_cast<std::ptrdiff_t>(before), path.items.end());
+  return items;
+}
+
+TEST(OffsetProperty, ItemsBetweenTwoMovesAreWaitedFor) {
+  for (const int count : {1, 24, 100}) {
+    const std::vector<Item> items = items_between(count);
+    OffsetStage stage;
+    const std::vector<Item> out = run_stage(stage, items);
+    EXPECT_EQ(out.size(), items.size());
+    const AxisVec p = at_block(out, AxisVec{}, 2);
+    EXPECT_NEAR(p[0], 55, 1e-9) << count;  // the intersection
+    EXPECT_NEAR(p[1], 5, 1e-9) << count;
+  }
+}
+
+TEST(OffsetProperty, MoreItemsThanThereIsRoomForAreAnAlarmInFrontOfTheBlock) {  // the end of which cannot be known
   OffsetStage stage;
-  const std::vector<Item> out = run_stage(stage, items);
-  EXPECT_EQ(out.size(), items.size());
-  const AxisVec p = at_block(out, path.start(), 2);
-  EXPECT_NEAR(p[0], 50, 1e-9);  // perpendicular, not the intersection (55, 5)
-  EXPECT_NEAR(p[1], 5, 1e-9);
+  const std::vector<Item> out = run_stage(stage, items_between(200));
+  ASSERT_NE(alarm_of(out), nullptr);
+  EXPECT_EQ(alarm_of(out)->alarm.condition, Condition::pre_read);
+  EXPECT_EQ(moves_of(out).size(), 1u);
 }
 
 TEST(OffsetProperty, AnInhibitingItemIsNeverHeldBack) {

@@ -165,7 +165,7 @@ constexpr Sentence kSentences[] = {
     {C::corner_next_short, "The block is shorter than the corner ,{word} at its start.",
      "The block is shorter than the corner (,{chamfer} ,{rounding}) at its start."},
     {C::corner_motion, "A corner (,{chamfer} ,{rounding}, or the arc of radius compensation) lies between two cuts. Program {linear} first.", nullptr},
-    {C::pre_read, "Too many blocks without a movement behind a corner (,{chamfer} ,{rounding}).", nullptr},
+    {C::pre_read, "Too many statements behind a block with ,{chamfer} ,{rounding} or radius compensation: calculate in front of it.", nullptr},
     {C::geometric_option, "A line by its angle ({line_angle} or ,{angle}) alone is not possible here: the letter has another meaning, or a mode bars it.", nullptr},
     {C::geometric_arc_option, "An arc that touches the line of the block before is not possible in this mode.", nullptr},
     {C::geometric_circle_option, "A circle that meets the block before is not possible in this mode.", nullptr},

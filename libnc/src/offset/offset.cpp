@@ -88,9 +88,8 @@ bool OffsetStage::push(const Item& item, NoRule) {
   held.in_contour = memory_.state().open;
   if (held.in_contour) contour_at(held) = memory_.state();
   settle();
-  // No room to wait any longer. Counted without what only waits to be fetched: the caller's pace never
-  // changes the geometry.
-  if (next_index() - released_ >= kLookAheadItems) close();
+  // Counted without what only waits to be fetched: the caller's pace never changes the geometry.
+  if (next_index() - released_ >= kLookAheadItems) make_room();
   return true;
 }
 
@@ -487,6 +486,17 @@ void OffsetStage::settle() {
   }
   if (n > 0 && chain_[0].check && !check_joints(n)) return;
   release(n);
+}
+
+// No room to wait any longer: what has its joint goes. If the block that has none is all that is held, its end cannot be known, and a guess would cut
+// into the corner or leave it standing.
+void OffsetStage::make_room() {
+  unsigned n = 0;
+  while (n < chain_.size() && chain_[n].jointed && !chain_[n].vanished && !(n + 1 < chain_.size() && chain_[n + 1].vanished)) ++n;
+  if (n > 0 && !check_joints(n)) return;
+  release(n);
+  if (next_index() - released_ < kLookAheadItems) return;
+  fail(chain_[0].index, Condition::pre_read, held_at(chain_[0].index).item.source);
 }
 
 // The first `sections` of the chain have their joints for good.

@@ -63,7 +63,7 @@ inline constexpr double kNoDirection_mm = 5e-4;
 class OffsetStage {
  public:
   /// Room for items; a power of two, so that the numbers of items may wrap.
-  static constexpr unsigned kHeld = 32;
+  static constexpr unsigned kHeld = 128;
   using Rule = NoRule;
   using Resume = OffsetResume;
   /// `contour_blocks`: the longest contour that the check of its walls can take. Without this call it takes none.
@@ -87,7 +87,8 @@ class OffsetStage {
   bool idle() const { return count_ == 0 && mode_ == Mode::off && !failed_ && vector_ == Vec2{}; }
 
  private:
-  static constexpr unsigned kLookAheadItems = 24;  ///< items held back while looking ahead over five blocks
+  /// Items held back while looking ahead over five blocks: macro statements between two movements are no blocks, but each of them has a mark.
+  static constexpr unsigned kLookAheadItems = kHeld - 8;
   static constexpr unsigned kChain = 5;  ///< moving blocks that the interference check wants to see at once
   static constexpr unsigned kLookAheadBlocks = 5;
   /// This many blocks without movement close the contour (M700 12.4.2).
@@ -137,6 +138,7 @@ class OffsetStage {
   void count_block_end();
   void close();
   void settle();
+  void make_room();
   bool may_release(unsigned section) const;
   void release(unsigned sections);
   void fail(uint32_t index, Condition condition, const nc_source& source);
