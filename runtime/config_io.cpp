@@ -82,13 +82,25 @@ void each_interface_range(nc_dialect dialect, const Use& use) {
     if (row.role != NC_VARIABLE_OTHER) use(row);
 }
 
+// Where the name of a row ends in "-00", each of its places has that name with its number: "@motion.digital-in-07". 0 = the key is none of them.
+unsigned numbered(const nc_system_variable& row, std::string_view name, std::string_view key) {
+  constexpr std::string_view kFirst = "-00";
+  if (name.size() != key.size() || name.size() < kFirst.size() || name.substr(name.size() - kFirst.size()) != kFirst) return 0;
+  if (name.substr(0, name.size() - 2) != key.substr(0, key.size() - 2)) return 0;
+  unsigned place = 0;
+  const auto result = std::from_chars(key.data() + key.size() - 2, key.data() + key.size(), place);
+  return result.ptr == key.data() + key.size() && place <= row.last - row.first ? row.first + place : 0;
+}
+
 std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_view key) {
   unsigned n = 0;
   std::optional<InterfaceNumber> found;
   if (!key.empty() && key[0] == '@') {  // a family whose inputs and outputs have names: "@RUNG6" begins what the row is called
     each_interface_range(dialect, [&](const nc_system_variable& row) {
-      const std::string_view name = row.name;
-      if (name.substr(0, name.find(' ')) == key) n = row.first;
+      std::string_view name = row.name;
+      name = name.substr(0, name.find(' '));
+      if (name == key) n = row.first;
+      n = std::max(n, numbered(row, name, key));
     });
     if (n == 0) return {};
   } else {

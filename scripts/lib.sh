@@ -9,6 +9,19 @@ installed_something=no
 say() { printf '%s\n' "$*"; }
 die() { printf '%s\n' "$*" >&2; exit 1; }
 
+# Machines of etc/ that are made for one family say so by a line "# Example part: FILE", which is taken from their folder.
+example_machines() { grep -l '^# Example part: ' "$top"/etc/*.toml; }
+# example_of_machine FILE: the part, nothing where the machine names none.
+example_of_machine() {
+  local part
+  part=$(sed -n 's/^# Example part: //p' "$1" | head -n 1)
+  [ -z "$part" ] || realpath "$(dirname "$1")/$part"
+}
+# machine_of_dialect NAME: the first machine of this family, nothing where there is none.
+machine_of_dialect() { { example_machines | xargs grep -l "^dialect = \"$1\"" || true; } | head -n 1; }
+# The families that have one, each with a space before it.
+dialects_of_machines() { example_machines | xargs sed -n 's/^dialect = "\([^"]*\)".*/\1/p' | sed 's/^/ /' | tr -d '\n'; }
+
 # packages_in FILE...: prints the package names of the lists, without comments and blank lines.
 packages_in() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$@"; }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <map>
+#include <memory>
 
 #include "support/drive.hpp"
 
@@ -124,6 +127,53 @@ TEST(FeedOnline, CornerOverrideReachesBackOverShortBlocks) {  // M700 7.10
   EXPECT_NEAR(slow_way("0.5"), 0.5, 0.1);
   EXPECT_NEAR(slow_way("3"), 3, 0.1) << "of the block before";
   EXPECT_NEAR(slow_way("6"), 6, 0.1) << "and the one before that";
+}
+
+/// The feeds along X behind the inner corner at X2, of a program of the HX with the tool on the right of a path that turns right; by the place on X.
+std::map<int, double> feeds_behind_corner(Bench& bench, const std::string& text) {
+  std::map<int, double> feeds;
+  bench.at(0, 0, 0);
+  run_online(bench, text, [&](nc_inputs&, const nc_outputs& out) {
+    if (!out.distance_zero && std::fabs(out.velocity.v[1]) < 1e-9 && out.velocity.v[0] > 0) feeds[static_cast<int>(out.command.v[0])] = out.feed_mm_min;
+  });
+  return feeds;
+}
+
+TEST(FeedOnline, CornerOverrideActsBehindTheCornerAsWell) {  // HX 5.3.5: PI 124 to 126, 130, 131, 153
+  const std::string path = "G01 X0 Y5. F1200\nX0 Y50.\nX50.\nY20.\nX20. Y20.\nG40 G00 X0 Y0\nM30";
+  const auto bench = [] {
+    auto b = std::make_unique<Bench>(NC_DIALECT_HX, quick_machine);
+    b->tool(1, 2, NC_TOOL_RADIUS).param("3124", "50").param("3130", "120").param("3125", "5").param("3126", "10");
+    return b;
+  };
+  const auto normal = bench();
+  std::map<int, double> feed = feeds_behind_corner(*normal, "G62 G42 D1\n" + path);
+  EXPECT_NEAR(feed[6], 600, 1);    // the corner is at X2 for the centre of the tool: up to X12
+  EXPECT_NEAR(feed[11], 600, 1);
+  EXPECT_NEAR(feed[14], 1200, 1);
+  EXPECT_NEAR(feed[40], 1200, 1);
+  EXPECT_NEAR(feed[45], 600, 1);   // in front of the next corner, at X48
+  const auto always = bench();     // PI 131
+  always->param("3131", "1");
+  EXPECT_NEAR(feeds_behind_corner(*always, "G64 G42 D1\n" + path)[6], 600, 1);
+  EXPECT_NEAR(feeds_behind_corner(*normal, "G64 G42 D1\n" + path)[6], 1200, 1);
+  const auto fixed = bench();      // PI 153
+  fixed->param("3153", "300");
+  EXPECT_NEAR(feeds_behind_corner(*fixed, "G62 G42 D1\n" + path)[6], 300, 1);
+  EXPECT_NEAR(feeds_behind_corner(*normal, "G62 G41 D1\n" + path)[6], 1200, 1);  // outside
+}
+
+TEST(FeedOnline, InnerArcsGoByTheRatioOfTheirRadii) {  // HX 5.3.6: PI 132
+  const auto on_arc = [](const char* least, const char* radius, const std::string& head) {
+    Bench bench(NC_DIALECT_HX, quick_machine);
+    bench.tool(1, std::atof(radius), NC_TOOL_RADIUS).param("3132", least);
+    return speeds(bench, head + "G01 X0 Y10. F1200\nX40.\nG03 X60. Y30. R20.\nG01 Y60.\nG40 X0\nM30")[4];
+  };
+  EXPECT_NEAR(on_arc("10", "5", "G62 G41 D1\n"), 1200 * 15 / 20.0, 1);   // the tool goes inside, on a radius of 15
+  EXPECT_NEAR(on_arc("80", "5", "G62 G41 D1\n"), 1200 * 0.8, 1);         // not below PI 132
+  EXPECT_NEAR(on_arc("0", "5", "G62 G41 D1\n"), 1200, 1);                // off
+  EXPECT_NEAR(on_arc("10", "5", "G64 G41 D1\n"), 1200, 1);
+  EXPECT_NEAR(on_arc("10", "5", "G62 G42 D1\n"), 1200, 1);               // outside
 }
 
 TEST(FeedOnline, ReversalsRestByParameter) {  // M700 7.9.2, the printed examples (1), (3), (4), (5)

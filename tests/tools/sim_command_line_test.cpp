@@ -36,6 +36,7 @@ TEST(SimCommandLine, EachSubcommandIsFound) {
       {{"motion", "p.nc"}, What::kMotion},
       {{"plot", "p.nc"}, What::kPlot},
       {{"plot", "p.nc", "--profile"}, What::kProfile},
+      {{"dialects"}, What::kDialects},
       {{"functions"}, What::kFunctions},
       {{"alarms"}, What::kAlarms},
       {{"variables"}, What::kVariables},

@@ -274,7 +274,7 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
   if (options.tape.empty()) note_numbers(session, err);
   if (result.how == RunResult::How::kAlarmed) {
-    const std::string other = dialect_note(dialects_without_alarm(options, limits));
+    const std::string other = dialect_note(dialects_without_alarm(options, limits, nc_dialect_name(static_cast<nc_dialect>(session.config().dialect))));
     if (!other.empty()) std::fprintf(err, "%s\n", other.c_str());
   }
   if (result.how == RunResult::How::kAlarmed)
@@ -323,6 +323,40 @@ int plot_command(const SessionOptions& options, const RunLimits& limits, const P
                static_cast<unsigned long long>(result.moves),
                number(std::round(result.length * 1000) / 1000).c_str());
   return close_output(out, err, exit_code(result.how));
+}
+
+namespace {
+
+/// What a dialect has, counted from its tables. Codes that call a macro of the user where he registers it are not counted.
+std::vector<std::string> dialect_row(nc_dialect id) {
+  unsigned codes = 0, run = 0, part = 0, ranges = 0, parameters = 0;
+  std::string misc;
+  nc_function row;
+  for (unsigned i = 0; nc_function_row(id, i, &row) == NC_OK; ++i) {
+    if (row.code[0] == 'M') {
+      if (row.supported) misc += (misc.empty() ? "" : " ") + std::string(row.code);
+      continue;
+    }
+    if (row.name != nullptr && std::string_view(row.name).substr(0, 10) == "user macro") continue;
+    ++codes;
+    run += row.supported ? 1u : 0u;
+    part += row.supported && row.part != nullptr ? 1u : 0u;
+  }
+  nc_system_variable variable{};
+  while (nc_system_variable_row(id, ranges, &variable) == NC_OK) ++ranges;
+  nc_parameter parameter;
+  while (nc_parameter_row(id, parameters, &parameter) == NC_OK) ++parameters;
+  return {nc_dialect_name(id), nc_dialect_title(id), std::to_string(run) + " of " + std::to_string(codes), std::to_string(part), misc, std::to_string(ranges),
+          std::to_string(parameters)};
+}
+
+}  // namespace
+
+int dialects_command(bool markdown, std::FILE* out, std::FILE* err) {
+  Table table(out, markdown);
+  table.head({"dialect", "programs of", "G codes that run", "of them not with all words", "M codes of the control itself", "ranges of system variables", "parameters"});
+  for (const std::string& name : dialect_names()) table.row(dialect_row(*dialect_from_name(name)));
+  return close_output(out, err, kExitEnded);
 }
 
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err) {

@@ -53,6 +53,8 @@ struct PlotOptions {
 int plot_command(const SessionOptions& options, const RunLimits& limits, const PlotOptions& how,
                  const std::string& base, std::FILE* out, std::FILE* err);
 
+/** `ncsim dialects`: a line for each dialect that the library knows, and what it has. */
+int dialects_command(bool markdown, std::FILE* out, std::FILE* err);
 /** `ncsim functions`: prints the dialect's table of functions, tab-separated or as Markdown; the same for the tables below. */
 int functions_command(const std::string& dialect, bool markdown, std::FILE* out, std::FILE* err);
 

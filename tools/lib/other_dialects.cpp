@@ -22,15 +22,19 @@ bool ends_well(const SessionOptions& options, const RunLimits& limits) {
 
 }  // namespace
 
-std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits) {
+std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own) {
   std::vector<std::string> found;
-  if (options.program == "-" || !options.setup.empty() || !options.machine.empty() || !options.tape.empty()) return found;
-  for (const std::string& name : dialect_names()) {  // its own family is tried as well: the alarm comes again there
+  if (options.program == "-" || !options.tape.empty()) return found;
+  for (const std::string& name : dialect_names()) {
     SessionOptions other = options;
     other.dialect = name;
     other.dialect_given = true;
     other.print.clear();
-    if (ends_well(other, limits)) found.push_back(name);
+    other.setup.clear();  // they belong to the family of the program as it was given
+    other.machine.clear();
+    if (!ends_well(other, limits)) continue;
+    if (name == own) return {};  // it is one of this family, and what is wrong comes from the setup or the machine
+    found.push_back(name);
   }
   return found;
 }
@@ -39,7 +43,7 @@ std::string dialect_note(const std::vector<std::string>& dialects) {
   if (dialects.empty()) return "";
   std::string names;
   for (size_t i = 0; i < dialects.size(); ++i) names += (i == 0 ? "" : i + 1 == dialects.size() ? " or " : ", ") + dialects[i];
-  return "note: as a program of " + names + " it ends without an alarm: --dialect " + dialects.front();
+  return "note: this looks like a program of " + names + ", as which it ends without an alarm; try --dialect " + dialects.front();
 }
 
 }  // namespace nc::tools

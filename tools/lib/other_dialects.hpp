@@ -11,13 +11,13 @@
 namespace nc::tools {
 
 /**
- * Families other than that of `options` with which the program runs to its end without an alarm, with a default
- * setup. There are none for a program from standard input, for a tape, and when a setup or a machine is given, because these belong to
- * one family.
+ * Families other than `own` with which the program runs to its end without an alarm, with a default setup and no machine, because these belong to one
+ * family. There are none for a program from standard input, for a tape, and for one that has no alarm in its own family with a default setup: then the
+ * alarm comes from the setup or the machine.
  */
-std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits);
+std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own);
 
-/** A note such as "note: as a program of iso it ends without an alarm: --dialect iso"; "" when there are no such families. */
+/** A note such as "note: this looks like a program of iso, as which it ends without an alarm; try --dialect iso"; "" when there are no such families. */
 std::string dialect_note(const std::vector<std::string>& dialects);
 
 }  // namespace nc::tools

@@ -163,6 +163,12 @@ CLI::App* add_table(CLI::App* app, const char* name, const char* help, SimComman
   return table;
 }
 
+CLI::App* add_dialects(CLI::App* app, SimCommand* sim) {
+  CLI::App* dialects = app->add_subcommand("dialects", "the dialects, and how much of each there is");
+  dialects->add_flag("--markdown", sim->markdown, "as a Markdown table");
+  return dialects;
+}
+
 CLI::App* add_variables(CLI::App* app, SimCommand* sim) {
   CLI::App* variables = app->add_subcommand("variables", "the system variables of a dialect");
   CLI::Option* markdown = variables->add_flag("--markdown", sim->markdown, "as a Markdown table");
@@ -214,6 +220,7 @@ std::optional<int> parse_sim_command(int argc, const char* const* argv, SimComma
       {add_running(&app, "time", "cycle time on a simulated machine", sim), What::kTime},
       {add_motion(&app, sim), What::kMotion},
       {add_plot(&app, &words, sim), What::kPlot},
+      {add_dialects(&app, sim), What::kDialects},
       {add_table(&app, "functions", "the G and M codes of a dialect", sim), What::kFunctions},
       {add_table(&app, "alarms", "the alarms of a dialect", sim), What::kAlarms},
       {add_variables(&app, sim), What::kVariables},
@@ -242,6 +249,7 @@ int run_sim_command(const SimCommand& sim, std::FILE* out, std::FILE* err) {
     case What::kMotion: return motion_command(sim.session, sim.machine, sim.format, sim.output, sim.limits, fileno(out), err);
     case What::kPlot: return plot_command(sim.session, sim.limits, sim.plot, sim.output, out, err);
     case What::kProfile: return profile_command(sim.session, sim.machine, sim.limits, sim.output, out, err);
+    case What::kDialects: return dialects_command(sim.markdown, out, err);
     case What::kFunctions: return functions_command(sim.session.dialect, sim.markdown, out, err);
     case What::kAlarms: return alarms_command(sim.session.dialect, sim.markdown, out, err);
     case What::kVariables: return variables_command(sim.session.dialect, sim.markdown, out, err);

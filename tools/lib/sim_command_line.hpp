@@ -12,7 +12,7 @@
 namespace nc::tools {
 
 struct SimCommand {
-  enum class What : std::uint8_t { kTrace, kCheck, kTime, kMotion, kPlot, kProfile, kFunctions, kAlarms, kVariables, kVariableUse, kParameters };
+  enum class What : std::uint8_t { kTrace, kCheck, kTime, kMotion, kPlot, kProfile, kDialects, kFunctions, kAlarms, kVariables, kVariableUse, kParameters };
   What what = What::kTrace;
   SessionOptions session;
   RunLimits limits;

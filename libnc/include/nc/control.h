@@ -697,6 +697,13 @@ NC_API nc_status nc_text_get(const nc_control* control, unsigned system, uint32_
 NC_API const char* nc_dialect_name(nc_dialect dialect);
 
 /**
+ * Whose programs a dialect reads, in one short English line ("TurboTek HX, machining centre"). Any thread; needs no control.
+ * @param dialect the controller family
+ * @return constant text; NULL: there is no such dialect
+ */
+NC_API const char* nc_dialect_title(nc_dialect dialect);
+
+/**
  * The dialect with a name, the reverse of nc_dialect_name(). Any thread; needs no control.
  * @param name as nc_dialect_name() gives it; small letters
  * @param dialect receives the controller family

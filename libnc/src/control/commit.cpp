@@ -405,7 +405,10 @@ void Commit::set_rule(const FeedRule& rule, Segment* s) {
   s->fixed_override = rule.tapping;
   s->digit_most_mm_s = rule.digit_most / 60;
   s->digit_step_mm_s = rule.digit_step / 60;
-  if (rule.scale > 0) s->feed_mm_s *= rule.scale;
+  if (rule.scale > 0) {
+    s->feed_mm_s *= rule.scale;
+    s->feed_mm_rev *= rule.scale;
+  }
   s->corner_reach = rule.corner_reach;
   if (rule.slow_zone > 0) {
     s->slow_zone = rule.slow_zone;

@@ -31,6 +31,8 @@ struct MiscRow {
   const char* missing;   ///< as in FunctionRow
   const char* name;
   const char* section;
+  uint8_t number = 0;    ///< which of the codes with this function
+  const char* part = nullptr;  ///< as in FunctionRow
 };
 
 /// What data setting by program sets.
@@ -86,6 +88,7 @@ struct AlarmText {
 struct Dialect {
   nc_dialect id;
   const char* name;                  ///< "m700"
+  const char* title;                 ///< whose programs it reads, one short line
   const LexRules* lex;
   AddressTable addresses;            ///< which address carries which meaning
   uint32_t axis_addresses;           ///< bit n: address n is for axes; if no axis has it, the word is a fault (or the second auxiliary function)

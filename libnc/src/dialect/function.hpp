@@ -130,8 +130,12 @@ enum class MiscFunction : uint8_t {
   interrupt_on, interrupt_off,                  ///< as long as no parameter gives another code this meaning; then they are output
   program_stop, optional_stop, program_end,     ///< kept by the control, as the rest
   call_sub, return_sub, call_external,
-  override_allowed, override_barred, override_of_one,   ///< allow or bar both overrides of the operator; or act on one of them
-  spindle_orient, tool_number, machine_output, machine_input, modal_state
+  override_allowed, override_barred,            ///< allow or bar both overrides of the operator
+  override_of_one,                              ///< number 0 feed, 1 spindle, 2 adaptive feed, 3 feed hold: its word allows or bars it
+  tool_number,                                  ///< says which tool is in the spindle
+  machine_output, machine_value,                ///< number 0 an output off, 1 on; a word of outputs gets a value
+  machine_input,                                ///< waits for an input
+  modal_state
 };
 /// The M code is put out to the machine.
 constexpr bool goes_out(MiscFunction f) { return f <= MiscFunction::interrupt_off; }

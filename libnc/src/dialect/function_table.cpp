@@ -51,9 +51,9 @@ nc_code_role code_role(MiscFunction function) {
     case MiscFunction::surface_hold:
     case MiscFunction::surface_resume:
     case MiscFunction::spindle_oriented:
-    case MiscFunction::spindle_orient:
     case MiscFunction::tool_number:
     case MiscFunction::machine_output:
+    case MiscFunction::machine_value:
     case MiscFunction::machine_input:
     case MiscFunction::modal_state: break;
   }
@@ -90,6 +90,7 @@ nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) 
   const nc::MiscRow& from = family.misc.row[index];
   nc::m_code_text(family.addresses.letter(nc::Role::misc_code), from.code, found.code, sizeof found.code);
   nc::set(&found, 0, from.missing, from.name, from.section);
+  found.part = from.part;
   nc::give_struct(found, row);
   return NC_OK;
 }
@@ -115,6 +116,8 @@ nc_status nc_alarm_role_get(nc_dialect dialect, nc_alarm_role role, char code[16
 }
 
 const char* nc_dialect_name(nc_dialect dialect) { return nc::known(dialect) ? nc::dialect(dialect).name : nullptr; }
+
+const char* nc_dialect_title(nc_dialect dialect) { return nc::known(dialect) ? nc::dialect(dialect).title : nullptr; }
 
 nc_status nc_dialect_get(const char* name, nc_dialect* dialect) {
   if (name == nullptr || dialect == nullptr) return NC_E_ARGUMENT;

@@ -182,6 +182,15 @@ enum class Parameter : uint8_t {
   polar_axis,                  ///< [2] linear, rotary: number of the axis
   cylinder_second_axis,        ///< the rotary axis stands for the other axis of the plane
   box_outside,                 ///< the area of the stroke check is where the axes may be
+  corner_behind,               ///< way behind an inner corner that has its override, too
+  corner_always,               ///< the override of inner corners acts outside of its mode as well
+  corner_feed,                 ///< feed of inner corners in place of an override; 0 = the override
+  inner_arc_least,             ///< least factor, in percent, of the feed of an arc that the tool cuts from the inside; 0 = the feed of the tool's centre is F
+  shift_axis, shift_direction, ///< of cycles beside the hole: 0 the first, 1 the second axis of the plane; 0 plus, 1 minus
+  start_scaling, start_rotation,
+  stitch_length,               ///< [7] ends of the ranges of lengths
+  stitch_feed, stitch_feed_2,  ///< [8] feed of each range, of the first and of the second axis of the plane
+  stitch_wait, stitch_wait_2,  ///< [8] time behind a move of each range, the same
   count_
 };
 

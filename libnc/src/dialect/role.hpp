@@ -61,6 +61,9 @@ enum class Role : uint8_t {
   cycle_first_depth, tap_lead,                  ///< end of the first cut; way of a tap in one turn of the spindle
   cavity_length, cavity_width, cavity_cut, cavity_step, cavity_corner,   ///< of a circle the length is its radius
   surface_radius,                               ///< radius at the present position, for constant surface speed
+  // ---- machine inputs and outputs by number
+  output_number, word_number, word_value, input_wait, input_limit,   ///< a bit; a word and its value; how an input is waited for, and for how long, s
+  override_switch, named_tool, orient_angle,    ///< allows or bars one override; tool in the spindle; angle of an oriented spindle, deg
   // ---- tool life: of a group its number, the life of each tool and what is counted; of a tool its number and those of its offsets
   life_group, life_span, life_method, life_tool, life_length, life_radius,
   count_

@@ -85,6 +85,8 @@ struct SpindleRules {
   /// R beside the code of coordinate system setting is the radius at the present position, and the words of the axis are diameters (Series 8 G92).
   /// Otherwise the coordinate of the axis is the radius (M700 10.3).
   bool radius_by_coordinate_setting = false;
+  /// A word beside the code of constant surface speed is the highest speed (LinuxCNC G96 D). Otherwise coordinate system setting gives it (M700 10.4).
+  bool limit_beside_surface = false;
 };
 
 struct FeedRules {
@@ -247,7 +249,8 @@ struct CycleRules {
   bool tap_follows_spindle = false;
   /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
   bool takes_length_number = false;
-  /// A cycle that goes beside the hole has the words of the shift (HX 12.3.9: the direction of Q is lost). Otherwise parameters may give it (M700 13.1.1).
+  /// A cycle that goes beside the hole has the words of the shift, or both parameters that say which way Q goes: the axis of the plane, and the direction
+  /// (HX 12.3.9). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
   bool shift_needs_words = false;
 };
 

@@ -35,6 +35,7 @@ enum class SystemVariable : uint8_t {
   device,
   parameter_itself,            ///< the parameter that has the number of the variable
   reference_position,          ///< parts are the reference positions, from 0; a place for each axis
+  input_answer,                ///< what the last wait for an input has found
   count_
 };
 

@@ -79,6 +79,13 @@ struct CavityOfBlock {
   unsigned piece = 0;
 };
 
+/// What the block in hand waits for (functions/machine_io.cpp).
+struct InputWait {
+  uint32_t number = 0, left = 0;   ///< of the input; questions that are left
+  uint8_t kind = 0;
+  bool analog = false, seen = false, last = false;  ///< ...; the level of the last question is known, and is `last`
+};
+
 class SharedTables;
 struct Interpreter;
 
@@ -124,6 +131,7 @@ struct BlockContext {
   Step next_step = Step::none;
   HolesOfBlock holes;
   CavityOfBlock cavity;
+  InputWait input_wait;
   bool motion_done = false;
   bool modal_kept = false;         ///< the block in hand has not changed the modal state
   bool block_starts_incremental = false; ///< G91 was modal before this block

@@ -39,6 +39,7 @@ bool keeps_its_offset_number(const FunctionRow* one_shot) {
 /// In a thread block it is one, too, when E has a sign, or is a small letter directly behind another number (Z1e1).
 Execution check_lead_word(Interpreter& in) {
   const Command& w = in.words;
+  if (w.has(Role::word_number) && !takes_word_number(in)) return in.raise(Condition::exponent, Role::word_number, w.get(Role::word_number));
   if (!w.has(Role::fine_thread_lead)) return Execution::done;
   const bool thread = in.state.modal.is(Function::thread) && w.one_shot == nullptr && w.cycle == nullptr;
   const bool exponent = w.written(Role::fine_thread_lead).has_sign_or_exponent();
@@ -184,7 +185,7 @@ Execution apply_systems(Interpreter& in) {
   } else if (in.words.has(Role::offset_number) && gives_length_in_cycle(in)) {
     const Execution did = take_length_in_cycle(in);
     if (did != Execution::done) return did;
-  } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot)) {
+  } else if (in.words.has(Role::offset_number) && !keeps_its_offset_number(one_shot) && !limits_surface_speed(in)) {
     const Execution did = change_radius(in);
     if (did != Execution::done) return did;
   }
@@ -346,6 +347,7 @@ Execution execute_words(Interpreter& in) {
   // M700 3.2 note 9, DGSHAPE 1-1: N and O stand at the beginning of a block. Behind other words no search would find them. (N of G10 is something else.)
   if (w.late_number != kNoWord && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
+  if (!w.m.empty() && waits_for_input(in)) return wait_for_input(in);
   did = check_precedence(in);
   if (did == Execution::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
   if (did != Execution::done) return did;
@@ -393,6 +395,7 @@ Execution continue_block(Interpreter& in) {
   if (step == Step::reference_check) did = compare_reference(in);
   if (step == Step::cavity) did = continue_cavity(in);
   if (step == Step::loop) did = continue_sine_loop(in);
+  if (step == Step::input) did = continue_input_wait(in);
   if (did == Execution::later) return did;
   if (did == Execution::done) in.next_step = Step::none;
   return finish(in, did);

@@ -188,6 +188,16 @@ Execution check_special_feed(BlockContext& in, Function motion) {
   return modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Execution::done;
 }
 
+namespace {
+
+/// HX 5.3.5 (2): by parameter in the cutting mode as well; exact stops and tapping have no override.
+bool overrides_corners(const BlockContext& in) {
+  const ModalState& modal = in.state.modal;
+  return modal.is(Function::corner_override) || (in.settings.corners_always && modal.is(Function::cutting_mode));
+}
+
+}  // namespace
+
 void apply_special_feed(BlockContext& in, Move& move) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {
@@ -202,10 +212,13 @@ void apply_special_feed(BlockContext& in, Move& move) {
   if (modal.is(Function::tapping_mode)) {  // M700 7.11 (1), (2)
     move.rule.tapping = true;
     move.exact_stop = move.kind == NC_MOVE_RAPID;
-  } else if (modal.is(Function::corner_override) && move.comp.side != 0 && !move.comp.transparent && move.kind != NC_MOVE_RAPID) {
+  } else if (overrides_corners(in) && move.comp.side != 0 && !move.comp.transparent && move.kind != NC_MOVE_RAPID) {
     const Settings& s = in.settings;  // M700 7.10, precautions (8), (9)
-    if (s.corner_angle <= 0 || s.corner_angle >= 180 || s.corner_override <= 0 || s.corner_override >= 100) return;
-    move.rule.corner_override = static_cast<float>(s.corner_override / 100);
+    move.rule.inner_arc = static_cast<float>(s.inner_arc_least);
+    const double factor = s.corner_feed > 0 && move.feed_mm_min > 0 ? s.corner_feed / move.feed_mm_min : s.corner_override / 100;
+    if (s.corner_angle <= 0 || s.corner_angle >= 180 || factor <= 0 || factor >= 1) return;
+    move.rule.corner_override = static_cast<float>(factor);
+    move.rule.behind_zone = static_cast<float>(s.corner_behind);
     move.rule.corner_angle = static_cast<float>(s.corner_angle * std::numbers::pi / 180);
     move.rule.slow_zone = move.rule.corner_reach = static_cast<float>(s.corner_zone);
   }

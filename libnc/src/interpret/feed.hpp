@@ -30,7 +30,7 @@ bool inverse_time_so_far(const BlockContext& in);
 Execution check_special_feed(BlockContext& in, Function motion);
 void apply_special_feed(BlockContext& in, Move& move);
 
-inline bool special_feed(const BlockContext& in) { return (in.state.special & kSpecialFeed) != 0; }
+inline bool special_feed(const BlockContext& in) { return (in.state.special & kSpecialFeed) != 0 || in.settings.corners_always; }
 
 /// A cutting move of the function `motion` is about to be made: checks that there is a feed.
 inline Execution check_feed(BlockContext& in, Function motion) {

@@ -109,12 +109,31 @@ InitialValues Interpreter::initial_values() const {
   if (settings.start_high_accuracy) modal.set(Function::high_accuracy_mode);  // M700 13.15 (4)
   if (settings.start_linear) modal.set(Function::linear);  // HX 3.2
   if (settings.start_stroke_check) modal.set(Function::stroke_check_on);  // HX 3.2: no area yet
+  if (settings.start_scaling) modal.set(Function::scaling_on);
+  if (settings.start_rotation) modal.set(Function::rotation_on);
   modal.set(settings.start_plane);
   basic_plane_axes(*this, settings.start_plane, initial.plane_axis);
   initial.motion_outlives_end = dialect->rules.program.motion_outlives_end;
   initial.keeps_polar_command = settings.keeps_polar_command;
   initial.keeps_clamp = settings.keeps_clamp;
   return initial;
+}
+
+/// HX 3.2: scaling by the factors of the axes, and rotation by the angle that is set, begin with the program, about its zero point.
+void Interpreter::start_maps(ProgramMaps* maps) {
+  constexpr double kLeast = 1e-6, kLargest = 99.999999;
+  if (settings.start_scaling) {
+    state.scaled = static_cast<uint8_t>(~rotary & ((1u << axis_count) - 1));
+    for (unsigned i = 0; i < axis_count; ++i) {
+      const double size = std::fabs(settings.axis_factor[i]);
+      maps->scaling_factor[i] = size >= kLeast && size <= kLargest ? settings.axis_factor[i] : 1;
+      maps->scaling_center[i] = 0;
+    }
+  }
+  if (!settings.start_rotation) return;
+  maps->rotation_deg = settings.rotation_deg;
+  maps->rotation_center[0] = maps->rotation_center[1] = 0;
+  state.rotated = true;
 }
 
 void Interpreter::refresh_derived() {
@@ -140,7 +159,9 @@ void Interpreter::reset(bool keep_modal) {
   variables.forget();
   ProgramRecords left = *records;
   begin_program(left, keep_modal, dialect->rules.reference.forgets_with_program);
+  if (!keep_modal) start_maps(&left.maps);
   records.change_from_outside(left);
+  program_changed();
   refresh_derived();
   take_work_rotation(*this, true);  // M700 13.21 (4): the parameters act from the cycle start on
   store->forget_notes(system_index);

@@ -159,6 +159,7 @@ struct Interpreter : BlockContext {
   const CodeCall* after_block = nullptr; ///< the call to be made when the block in hand has been executed
 
   /// Makes everything that follows from the groups of the state anew, after they have been assigned.
+  void start_maps(ProgramMaps* maps);
   void refresh_derived();
 
  private:

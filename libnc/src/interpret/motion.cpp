@@ -15,6 +15,7 @@ namespace nc {
 namespace {
 
 constexpr double kNoMotion = 1e-9;  // mm or deg
+constexpr double kAnyFeed = 1e12;   // mm/min: feed_for() says with more than that that the axis turns as fast as it can
 
 bool same_place(const AxisVec& a, const AxisVec& b, unsigned count) {
   for (unsigned i = 0; i < count; ++i)
@@ -635,6 +636,7 @@ Execution move_by_words(BlockContext& in) {
                            : w.incremental != 0 || in.rotary != 0 || mapped || !plain ? in.position()
                                                                                       : AxisVec{};
   const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
+  if ((in.state.special & kSpecialStitch) != 0 && is_line(motion)) return move_stitch(in, target, w.axes);
   if (motion == Function::rapid) {
     move_rapid(in, target, w.axes);
     return Execution::done;
@@ -653,6 +655,10 @@ Execution move_by_words(BlockContext& in) {
     return spiral && arc_words ? move_spiral(in, target, w.axes, ccw) : did;
   }
   style.feed_mm_min = feed_for(in, position, target);
+  if (style.feed_mm_min > kAnyFeed) [[unlikely]] {
+    move_rapid(in, target, w.axes);
+    return Execution::done;
+  }
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
   style.in_position = style.exact_stop ? w.in_position : 0;  // it acts only where there is a deceleration check

@@ -151,6 +151,15 @@ struct Settings {
   uint8_t polar_axis[2] = {};             ///< HX PM 4623, 4624: number of the axis from 1, 0 = not set
   bool cylinder_second_axis = false;      ///< HX PI 155
   bool box_outside = false;               ///< HX PM 3474
+  double corner_behind = 0;               ///< HX PI 126, mm
+  double corner_feed = 0;                 ///< HX PI 153, mm/min, 0 = none
+  double inner_arc_least = 0;             ///< HX PI 132, factor, 0 = arcs go with F
+  bool corners_always = false;            ///< HX PI 131
+  int8_t shift_axis = -1, shift_direction = 0;  ///< HX PI 70, 71: axis of the plane, -1 = not set; 1 or -1, 0 = not set
+  bool start_scaling = false, start_rotation = false;  ///< HX PI 149, 150
+  double stitch_length[7] = {};           ///< HX PM 7321 to 7327, mm
+  double stitch_feed[2][8] = {};          ///< HX PM 7328 to 7335, 7344 to 7351: by axis of the plane, mm/min, 0 = any
+  double stitch_wait_s[2][8] = {};        ///< HX PM 7336 to 7343, 7352 to 7359
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA

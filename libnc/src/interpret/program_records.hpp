@@ -102,6 +102,18 @@ struct ReferenceMidpoints {
   bool operator==(const ReferenceMidpoints&) const = default;
 };
 
+/// What the newest wait for an input has found (LinuxCNC M66, #5399): the input, or -1 where it did not come.
+struct InputAnswer {
+  double value = 0;
+  bool operator==(const InputAnswer&) const = default;
+};
+
+/// The shift that G92.2 has taken away, for G92.3 (LinuxCNC G92).
+struct ShiftKept {
+  AxisVec at;
+  bool operator==(const ShiftKept&) const = default;
+};
+
 /// Where the newest G31 has ended, workpiece coordinates (#5061).
 struct SkipPosition {
   AxisVec work;
@@ -142,6 +154,8 @@ struct MachineRecordsLife {
   SkipPosition skip;
   InterfaceOutput output[NC_WORDS];
   WorkpieceCounts workpieces;
+  InputAnswer answer;
+  ShiftKept shift_kept;
   bool operator==(const MachineRecordsLife&) const = default;
 };
 

@@ -111,6 +111,8 @@ void SettingsReader::start() {
   s_.start_absolute = value(P::start_absolute, 1) != 0;
   s_.start_linear = flag(P::start_linear);
   s_.start_stroke_check = flag(P::start_stroke_check);
+  s_.start_scaling = flag(P::start_scaling);
+  s_.start_rotation = flag(P::start_rotation);
   s_.start_synchronous = flag(P::start_synchronous);
   s_.start_high_accuracy = flag(P::start_high_accuracy);
   const double start_plane = value(P::start_plane, 1);  // 1 G17, 2 G18, 3 G19
@@ -213,6 +215,9 @@ void SettingsReader::cycles() {
   for (unsigned i = 0; i < 3; ++i) s_.tap_stage[i].seconds = value(i < 2 ? ParameterOf{P::tap_time, i} : ParameterOf{P::spindle_most, 1}, 0) / 1000;
   s_.shift_ignored = axes_with(P::shift_ignored);
   s_.shift_minus = axes_with(P::shift_minus);
+  s_.shift_axis = static_cast<int8_t>(value(P::shift_axis, -1));
+  const double minus = value(P::shift_direction, -1);
+  s_.shift_direction = static_cast<int8_t>(minus < 0 ? 0 : minus != 0 ? -1 : 1);
   s_.dwell_p_decimal = flag(P::dwell_p_decimal);
   s_.dwell_in_revolutions = flag(P::dwell_in_revolutions);
   s_.box_outside = flag(P::box_outside);
@@ -314,6 +319,17 @@ void SettingsReader::feeds() {
   s_.corner_override = value(P::corner_override, 0);
   s_.corner_angle = value(P::corner_override_angle, 0);
   s_.corner_zone = value(P::corner_override_zone, 0);
+  s_.corner_behind = value(P::corner_behind, 0);
+  s_.corner_feed = value(P::corner_feed, 0);
+  s_.inner_arc_least = value(P::inner_arc_least, 0) / 100;
+  s_.corners_always = flag(P::corner_always);
+  for (unsigned i = 0; i < 7; ++i) s_.stitch_length[i] = value({P::stitch_length, i}, 0);
+  for (unsigned i = 0; i < 8; ++i) {
+    s_.stitch_feed[0][i] = value({P::stitch_feed, i}, 0);
+    s_.stitch_feed[1][i] = value({P::stitch_feed_2, i}, 0);
+    s_.stitch_wait_s[0][i] = value({P::stitch_wait, i}, 0) / 1000;
+    s_.stitch_wait_s[1][i] = value({P::stitch_wait_2, i}, 0) / 1000;
+  }
 }
 
 /// M700 13.13, 14.7, 14.13: parameters that each axis has for itself.

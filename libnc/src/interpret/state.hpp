@@ -90,7 +90,7 @@ struct Loop {
 };
 
 /// What a block still has to do after its first items. At a mark that ends a block it is always Step::none.
-enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, cavity, loop, after_motion };
+enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, cavity, loop, input, after_motion };
 
 /// What cylindrical and polar coordinate interpolation restore when they end (M700 6.9, 6.10).
 struct MillReturn {
@@ -174,7 +174,8 @@ enum Special : uint8_t {
   kSpecialMap = 1,         ///< programmed coordinates are not those of the axes (AxisMap)
   kSpecialWords = 2,       ///< axis words mean something else (G16)
   kSpecialFeed = 4,        ///< F is not a plain feed per minute, or a special cutting mode is in force (interpret/feed.hpp)
-  kSpecialSpline = 8       ///< G01 goes along a spline
+  kSpecialSpline = 8,      ///< G01 goes along a spline
+  kSpecialStitch = 16      ///< lines have the feed of their length (HX 15.6)
 };
 // ---- the groups ---------------------------------------------------------------------------------------------------------
 
@@ -211,6 +212,7 @@ struct ModalLife {
   uint8_t scaled = 0;           ///< bit i: axis i is scaled (M700 13.19)
   uint8_t mirror = 0;           ///< bit i: axis i is mirrored by program (M700 13.6)
   bool rotated = false;         ///< coordinates are rotated by program (M700 13.20)
+  bool stitch = false;          ///< lines have the feed of their length (HX 15.6)
   SplineState spline;
   uint32_t held_point = 0;      ///< id of the point at which the axes of G07 stand (Interpreter::points)
   uint32_t stroke_box = 0;      ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
@@ -321,7 +323,7 @@ struct State : StateValues, CallStack {
     const bool feed = modal.is(Function::inverse_time_feed) || modal.is(Function::feed_per_revolution) || modal.feed_digit != 0 ||
                       modal.is(Function::corner_override) || modal.is(Function::tapping_mode);
     special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.is(Function::polar_command_on) ? kSpecialWords : 0) |
-                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0));
+                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0) | (stitch ? kSpecialStitch : 0));
   }
   void refresh_accuracy() {
     const bool on = modal.is(Function::high_accuracy_mode) || accuracy_command || fine_mode != FineMode::none;

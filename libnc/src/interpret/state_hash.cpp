@@ -157,8 +157,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
-                 rotated, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
-    hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated,
+                 rotated, stitch, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
+    hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated, stitch,
              spline, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle);
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
@@ -235,8 +235,8 @@ void add_records(Hash& hash, const ProgramRecords& records) {
     hash.add(maps);
   }
   {
-    const auto& [midpoints, skip, output, workpieces] = static_cast<const MachineRecordsLife&>(records);
-    hash.add(midpoints.axis, skip.work, workpieces.count);
+    const auto& [midpoints, skip, output, workpieces, answer, shift_kept] = static_cast<const MachineRecordsLife&>(records);
+    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at);
     for (const InterfaceOutput& word : output) hash.add(word.bits);
   }
 }

@@ -48,20 +48,13 @@ Eval read_input_bit(Access& a) {
 }
 Eval read_input_word(Access& a) {
   if (!world_known(a, NC_SYNC_INPUT)) return Eval::need_sync;
-  return give(a, a.in.world.input[a.index]);
+  return give(a, a.in.world.input[a.part + a.index]);
 }
 
 uint32_t output_word(const Interpreter& in, uint32_t word) { return in.records->output[word].bits; }
 
-/// Writes outputs. They change when the machine gets there, so an action goes into the stream, and the interpreter keeps the value that it has read ahead.
 Execution put_outputs(Access& a, uint32_t word, uint32_t mask, uint32_t bits) {
-  a.in.change(&ProgramRecords::output, word, InterfaceOutput{(output_word(a.in, word) & ~mask) | (bits & mask)});
-  Action& action = a.in.emit(ItemKind::action).action;
-  action.kind = NC_ACTION_OUTPUT;
-  action.index = word;
-  action.mask = mask;
-  action.bits = bits & mask;
-  action.value = a.written;
+  give_out_bits(a.in, word, mask, bits, a.written);
   return Execution::done;
 }
 Eval read_output_bit(Access& a) {
@@ -75,11 +68,12 @@ Execution write_output_bit(Access& a) {
   // Vacant is 0, and any number other than 0 is 1; for values below 1e-8 the manual says "indefinite", and here they are 0.
   return put_outputs(a, word, 1u << bit, std::fabs(a.written) < 1e-8 ? 0 : 1u << bit);
 }
-Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.index)); }
+Eval read_output_word(Access& a) { return give(a, output_word(a.in, a.part + a.index)); }
+Eval read_input_answer(Access& a) { return give(a, a.in.records->answer.value); }
 Execution write_output_word(Access& a) {
   const double whole = std::trunc(a.written);
   if (whole < -2147483648.0 || whole > 4294967295.0) return a.in.raise(Condition::value_range, Sign::variable, a.number);
-  return put_outputs(a, a.index, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
+  return put_outputs(a, a.part + a.index, 0xffffffffu, static_cast<uint32_t>(static_cast<int64_t>(whole)));
 }
 
 // ---- offsets ---------------------------------------------------------------------------------------------------------------
@@ -425,6 +419,7 @@ constexpr VariableHandler kHandlers[kSystemVariables] = {
     {V::device, read_device, nullptr, kInput},
     {V::parameter_itself, read_parameter_itself, write_parameter_itself, 0},
     {V::reference_position, read_reference, nullptr, 0},
+    {V::input_answer, read_input_answer, nullptr, 0},
 };
 constexpr bool in_order() {
   for (unsigned i = 0; i < kSystemVariables; ++i)

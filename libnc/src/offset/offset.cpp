@@ -97,7 +97,7 @@ OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
   Held& held = held_at(next_index());
   copy_item(item, &held.item);
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.trim_next = held.bound_next = false;
+  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = false;
   held.commanded = true;
   held.doubt = {};
   held.lead = Vec2{};
@@ -110,7 +110,7 @@ void OffsetStage::reset() {
   count_ = first_ = released_ = blocks_ = 0;
   mode_ = Mode::off;
   idle_blocks_ = connecting_ = 0;
-  moved_ = failed_ = lead_done_ = false;
+  moved_ = failed_ = lead_done_ = has_rest_ = false;
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
@@ -403,6 +403,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   last->jointed = true;
   if (!found) return fail(last->index, Condition::comp_no_intersection, held_last.item.source);
   held_last.inner = !last->start && !behind.cancel && cuts_inner_corner(*last, held_last.item.move, behind, held_behind->item.move);
+  held_behind->behind_inner = held_last.inner;
   const bool changes_side = !behind.cancel && last->offset * behind.offset < 0;
   if (changes_side || comp_behind.cancel_vector) held_last.trim = held_last.trim_next = held_behind->trim = true;
   last->merge_first = last->end.curvature == 0 && !last->start;

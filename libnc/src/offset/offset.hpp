@@ -84,7 +84,7 @@ class OffsetStage {
   /// Vectors, not points, are carried on.
   void displaced() {}
   /// True when nothing is held and compensation is off: items may bypass the stage.
-  bool idle() const { return count_ == 0 && mode_ == Mode::off && !failed_ && vector_ == Vec2{}; }
+  bool idle() const { return count_ == 0 && !has_rest_ && mode_ == Mode::off && !failed_ && vector_ == Vec2{}; }
 
  private:
   /// Items held back while looking ahead over five blocks: macro statements between two movements are no blocks, but each of them has a mark.
@@ -107,6 +107,7 @@ class OffsetStage {
     bool lead_arc = false;    ///< on an arc about the programmed point
     bool dead = false;        ///< left out by the interference avoidance
     bool inner = false;       ///< section: the joint at its end is a corner that the tool cuts from the inside (M700 7.10)
+    bool behind_inner = false;  ///< section: so is the one at its start
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
     bool trim_next = false;   ///< section: ... of the one behind, whose side is another
     bool commanded = true;    ///< section: the vector at its end may lie anywhere
@@ -153,6 +154,7 @@ class OffsetStage {
   bool pop_lead(const Held& held, Item& out);
   bool pop_shifted(const Held& held, Vec2 end_vector, Item& out);
   void pop_connecting(const Held& held, Item& out);
+  void slow_behind_corner(Item& out);
   void drop_front();
   void note_move(const Move& programmed, const AxisVec& compensated_end);
   void note_section(const Held& held);
@@ -179,6 +181,8 @@ class OffsetStage {
   double level_ = 0, level_end_ = 0;  ///< of the last move, across the plane
 
   bool lead_done_ = false;    ///< of the front item
+  bool has_rest_ = false;     ///< the first part of a move has been given, and `rest_` comes next
+  Item rest_;
   uint8_t connecting_ = 0;    ///< connecting moves of the front item given, 0 = the move itself not yet
   Vec2 vector_;               ///< in force where pop() stands
   uint8_t axis_[2] = {0, 1};  ///< its plane

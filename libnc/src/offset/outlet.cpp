@@ -78,10 +78,49 @@ double straight_length(const Move& move) {
   return std::sqrt(squares);
 }
 
+// HX 5.3.6: what is cut by an inner arc goes at F where the centre of the tool goes at F times the ratio of the radii.
+void slow_inner_arc(const Move& programmed, Move* move) {
+  const double least = static_cast<double>(programmed.rule.inner_arc), before = programmed.circle.radius_start, now = move->circle.radius_start;
+  if (least <= 0 || !programmed.circular || !move->circular || !(now < before)) return;
+  move->rule.scale = std::max(now / before, std::min(least, 1.0));
+}
+
+// The end of the first `way` mm of a move, which the rest begins with; false: the move is not longer than that.
+bool cut_in_two(const Move& whole, double way, Move* first, Move* rest) {
+  double squares = 0;
+  const double round = whole.circular ? (whole.circle.radius_start + whole.circle.radius_end) / 2 * whole.circle.sweep : 0;
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    if (!whole.circular || (i != whole.plane_axis[0] && i != whole.plane_axis[1])) squares += (whole.end[i] - whole.start[i]) * (whole.end[i] - whole.start[i]);
+  const double length = std::sqrt(squares + round * round), part = way / length;
+  if (!(length > way + kNoLength)) return false;
+  *first = *rest = whole;
+  for (unsigned i = 0; i < kMaxAxes; ++i) {
+    first->end[i] = whole.start[i] + part * (whole.end[i] - whole.start[i]);
+    first->work[i] = whole.work[i] + (1 - part) * (whole.start[i] - whole.end[i]);
+  }
+  if (whole.circular) {
+    Circle& head = first->circle;
+    Circle& tail = rest->circle;
+    head.sweep = whole.circle.sweep * part;
+    tail.sweep = whole.circle.sweep - head.sweep;
+    tail.angle_start = whole.circle.angle_start + head.sweep;
+    head.radius_end = tail.radius_start = whole.circle.radius_start + part * (whole.circle.radius_end - whole.circle.radius_start);
+    const double at[2] = {std::cos(tail.angle_start), std::sin(tail.angle_start)};
+    for (unsigned i = 0; i < 2; ++i) {
+      const unsigned axis = whole.plane_axis[i];
+      first->end[axis] = whole.circle.center[i] + tail.radius_start * at[i];
+      first->work[axis] = whole.work[axis] + first->end[axis] - whole.end[axis];
+    }
+  }
+  rest->start = first->end;
+  first->exact_stop = false;
+  return true;
+}
+
 // M700 7.5: inverse time is that of the block, so the tool centre goes as much faster as its path is longer, or its radius larger.
 void scale_feed(const Move& programmed, Move* move) {
   move->rule.scale = 0;
-  if (!programmed.rule.inverse_time) return;
+  if (!programmed.rule.inverse_time) return slow_inner_arc(programmed, move);
   const double before = programmed.circular ? programmed.circle.radius_start : straight_length(programmed);
   const double now = move->circular ? move->circle.radius_start : straight_length(*move);
   if (before > 0 && now > 0) move->rule.scale = now / before;
@@ -150,6 +189,11 @@ bool bendable(Vec2 from, Vec2 to) {
 }  // namespace
 
 bool OffsetStage::pop(Item& out) {
+  if (has_rest_) [[unlikely]] {
+    out = rest_;
+    has_rest_ = false;
+    return true;
+  }
   while (first_ != released_) {
     Held& held = held_at(first_);
     if (held.item.kind == ItemKind::move) {
@@ -236,13 +280,28 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   if (!held.inner) move.rule.slow_zone = 0;
   drop_feed_of_rapid(&move);
   scale_feed(programmed, &move);
-  feed_scale_ = move.rule.scale;
+  feed_scale_ = programmed.rule.inverse_time ? move.rule.scale : 0;
   if (!has_length(move)) {
     note_move(programmed, compensated_);
     return false;
   }
   note_move(programmed, move.end);
+  if (held.behind_inner && move.rule.behind_zone > 0 && move.rule.corner_override > 0 && move.shape == 0) slow_behind_corner(out);
   return true;
+}
+
+// HX 5.3.5: the first part of a block behind an inner corner has the override, too, and is a move of its own.
+void OffsetStage::slow_behind_corner(Item& out) {
+  const Move whole = out.move;
+  Move rest;
+  const float zone = whole.rule.behind_zone;
+  if (cut_in_two(whole, static_cast<double>(zone), &out.move, &rest)) {
+    rest_ = out;
+    rest_.move = rest;
+    has_rest_ = true;
+    out.block_end = false;
+  }
+  out.move.rule.slow_zone = std::max(zone, out.move.rule.slow_zone);
 }
 
 // The displacement before a move: the perpendicular vector of a start without movement, a vector commanded

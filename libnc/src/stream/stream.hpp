@@ -122,6 +122,8 @@ struct FeedRule {
   float corner_angle = 0;      ///< at corners that are sharper than this, rad
   float slow_zone = 0;         ///< over this length before the end, which is such a corner, mm
   float corner_reach = 0;      ///< the same for a corner at the end of a block behind, mm
+  float behind_zone = 0;       ///< G62: over this length behind such a corner as well, mm (HX 5.3.5)
+  float inner_arc = 0;         ///< an arc that the tool cuts from the inside is slower by the ratio of its radii, not below this (HX 5.3.6); 0 = it is not
 };
 
 /// Feeds that the skip signals of a G31 change to (M700 15.5). Only one such move is under way at a time, because a sync follows it.

@@ -28,6 +28,7 @@ const Function kInitial[] = {
 const Dialect kDialect = {
     .id = NC_DIALECT_DGSHAPE,
     .name = "dgshape",
+    .title = "DGSHAPE NC code (JIS), modelling machines",
     .lex = &kLex,
     .addresses = kAddressTable,
     .axis_addresses = AddressTable::letters("XYZA"),

@@ -8,13 +8,6 @@ namespace nc::hx {
 using F = Function;
 using M = MiscFunction;
 
-namespace {
-
-/// The manual has no number for a control without an option.
-constexpr const char* kNotBuilt = "NC-NOT-BUILT";
-
-}  // namespace
-
 const FunctionRow kFunctions[] = {
     // code, group, function, alarm when not built, name, section, what of it is not built, number
     {0, 1, F::rapid, nullptr, "rapid traverse", "4.1"},
@@ -74,11 +67,10 @@ const FunctionRow kFunctions[] = {
     {590, 14, F::work_system, nullptr, "work coordinate system 6", "7.2.2", nullptr, 5},
     {600, 0, F::unidirectional, nullptr, "single direction positioning", "4.2"},
     {610, 15, F::exact_stop_mode, nullptr, "exact stop mode", "5.3.2"},
-    {620, 15, F::corner_override, nullptr, "automatic corner override mode", "5.3.5",
-     "the way behind the corner (PI 126), PI 131, 132 and 153: they do nothing"},
+    {620, 15, F::corner_override, nullptr, "automatic corner override mode", "5.3.5, 5.3.6"},
     {630, 15, F::tapping_mode, nullptr, "tapping mode", "5.3.4"},
-    {631, 0, F::stitch_on, kNotBuilt, "stitch", "15.6"},
-    {632, 0, F::stitch_off, kNotBuilt, "stitch off", "15.6"},
+    {631, 0, F::stitch_on, nullptr, "stitch", "15.6", "PPF, PPE and NPFIN of the stitching head (PM 7374 to 7408): they are signals of its machine"},
+    {632, 0, F::stitch_off, nullptr, "stitch off", "15.6"},
     {640, 15, F::cutting_mode, nullptr, "cutting mode", "5.3.3"},
     {650, 0, F::macro_call, nullptr, "macro call", "14.1.1"},
     {660, 12, F::macro_modal, nullptr, "modal macro call", "14.1.2, 14.1.8"},
@@ -87,7 +79,7 @@ const FunctionRow kFunctions[] = {
     {690, 18, F::rotation_off, nullptr, "coordinate rotation off", "15.4"},
     {730, 10, F::cycle_step, nullptr, "high-speed peck drilling cycle", "12.3.4"},
     {740, 10, F::cycle_reverse_tap, nullptr, "counter tapping cycle", "12.3.6"},
-    {760, 10, F::cycle_fine_bore, nullptr, "fine boring cycle", "12.3.9", "Q by PI 70 and PI 71: the shift has I J"},
+    {760, 10, F::cycle_fine_bore, nullptr, "fine boring cycle", "12.3.9"},
     {800, 10, F::cycle_off, nullptr, "canned cycle off", "12.2.1"},
     {810, 10, F::cycle_drill, nullptr, "drilling cycle", "12.3.1"},
     {820, 10, F::cycle_spot, nullptr, "drilling cycle with dwell", "12.3.2"},
@@ -97,7 +89,7 @@ const FunctionRow kFunctions[] = {
     {843, 10, F::cycle_rigid_reverse_tap, nullptr, "counter rigid tapping cycle", "12.3.6"},
     {850, 10, F::cycle_bore_feed, nullptr, "boring cycle", "12.3.7"},
     {860, 10, F::cycle_bore_stop, nullptr, "boring cycle, back with the spindle stopped", "12.3.8"},
-    {870, 10, F::cycle_back_bore, nullptr, "back boring cycle", "12.3.10", "Q by PI 70 and PI 71: the shift has I J"},
+    {870, 10, F::cycle_back_bore, nullptr, "back boring cycle", "12.3.10"},
     {880, 10, F::cycle_bore_stop_dwell, nullptr, "boring cycle, back by hand", "12.3.11"},
     {890, 10, F::cycle_bore_dwell, nullptr, "boring cycle with dwell", "12.3.12"},
     {900, 3, F::absolute, nullptr, "absolute command", "8.1"},

@@ -25,6 +25,7 @@ const Function kInitial[] = {
 const Dialect kDialect = {
     .id = NC_DIALECT_HX,
     .name = "hx",
+    .title = "TurboTek HX, machining centre",
     .lex = &kLex,
     .addresses = kAddressTable,
     .axis_addresses = AddressTable::letters("ABCUVWXYZ"),

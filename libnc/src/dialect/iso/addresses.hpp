@@ -32,6 +32,15 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::input_kind, 'L'},      // G10
     {Role::input_number, 'P'},
     {Role::input_amount, 'R'},
+    {Role::clamp_highest, 'D'},   // G96
+    {Role::output_number, 'P'},   // M62 to M66
+    {Role::word_number, 'E'},     // M66 to M68
+    {Role::word_value, 'Q'},
+    {Role::input_wait, 'L'},      // M66
+    {Role::input_limit, 'Q'},
+    {Role::override_switch, 'P'}, // M50 to M53
+    {Role::named_tool, 'Q'},      // M61
+    {Role::orient_angle, 'R'},    // M19
 };
 inline constexpr AddressTable kAddressTable(kRoleRows);
 

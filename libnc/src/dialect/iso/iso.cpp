@@ -31,6 +31,7 @@ const Function kInitial[] = {
 const Dialect kDialect = {
     .id = NC_DIALECT_ISO,
     .name = "iso",
+    .title = "ISO 6983 and RS-274 as CAM systems and LinuxCNC users write it, machining centre",
     .lex = &kLex,
     .addresses = kAddressTable,
     .axis_addresses = AddressTable::letters("ABCUVWXYZ"),

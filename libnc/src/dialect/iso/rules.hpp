@@ -33,7 +33,8 @@ inline constexpr Rules kRules = {
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T selects the tool, M6 changes it
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = false,
-                .skips_repeated_codes = false},
+                .skips_repeated_codes = false,
+                .limit_beside_surface = true},
     .feed = {.inch_is_ten_degrees = false,
              .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: F is the speed of X Y Z if one of them moves
              .inverse_time_is_of_block = true},

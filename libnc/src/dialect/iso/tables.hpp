@@ -8,8 +8,8 @@
 namespace nc::iso {
 
 inline constexpr unsigned kFunctionRows = 78;
-inline constexpr unsigned kMiscRows = 26;
-inline constexpr unsigned kOutputRows = 4;
+inline constexpr unsigned kMiscRows = 25;
+inline constexpr unsigned kOutputRows = 5;
 inline constexpr unsigned kAlarmRows = 8;
 inline constexpr unsigned kConditionRows = 74;
 

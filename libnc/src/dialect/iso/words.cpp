@@ -21,7 +21,7 @@ constexpr LexRules make_rules() {
   rules.mdi_semicolon = Semicolon::comment;
   rules.slash_only_at_head = true;  // RS-274/NGC 3.3.1: the block delete character stands first; elsewhere it is a division
   rules.zero_numbers = true;        // RS-274/NGC 3.3.2.1: N0 to N99999
-  for (const char* letter = "ABCDFHIJKLMNPQRSTUVWXYZ"; *letter != 0; ++letter) {
+  for (const char* letter = "ABCDEFHIJKLMNPQRSTUVWXYZ"; *letter != 0; ++letter) {
     rules.word[at(*letter)].known = true;
     rules.word[at(*letter)].integer_digits = 11;
   }

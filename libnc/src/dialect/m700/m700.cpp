@@ -45,6 +45,7 @@ const Function kInitial[] = {
 const Dialect kDialect = {
     .id = NC_DIALECT_M700,
     .name = "m700",
+    .title = "Mitsubishi CNC 700 series, machining centre",
     .lex = &kLex,
     .addresses = kAddressTable,
     .axis_addresses = AddressTable::letters("ABCUVWXYZ"),

@@ -20,6 +20,7 @@ const Function kInitial[] = {
 const Dialect kDialect = {
     .id = NC_DIALECT_SERIES8,
     .name = "series8",
+    .title = "SERIES 8, PMI, machining centre",
     .lex = &kLex,
     .addresses = kAddressTable,
     .axis_addresses = AddressTable::letters("ABCUVWXYZ"),

@@ -192,12 +192,18 @@ Execution auxiliary_before(BlockContext& in) {
   const unsigned most = rules.auxiliary.most_m_codes, first = w.m.size() > most ? w.m.size() - most : 0;
   for (unsigned i = first; i < w.m.size(); ++i) {
     const uint32_t m = w.m[i];
-    if (!output_code(in, m)) continue;
+    if (!output_code(in, m)) {
+      did = act_on_machine(in, m);
+      if (did != Execution::done) return did;
+      continue;
+    }
     if (m > 99999999) return in.raise(Condition::value_range, Role::misc_code, m);
     const MiscFunction function = misc_function(*in.dialect, m);
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
     if (held && function == MiscFunction::tool_change) continue;
+    if (function == MiscFunction::spindle_oriented && w.has(Role::orient_angle) && w.get(Role::orient_angle) != 0)
+      return in.raise(Condition::value_range, Role::orient_angle, w.get(Role::orient_angle));  // LinuxCNC M19 R: the machine has one angle
     note_spindle(in, function);
     if (m == in.settings.tap_m) in.state.tap_code = true;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time

@@ -83,13 +83,38 @@ Execution do_coordinate_set(BlockContext& in) {
   return Execution::done;
 }
 
-/// RS-274/NGC 3.5.18: takes away the shift of all axes.
-Execution do_shift_off(BlockContext& in) {
+namespace {
+
+Execution shift_to(BlockContext& in, const AxisVec& shift) {
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
   const AxisVec zero_before = in.zero();
-  for (unsigned i = 0; i < in.axis_count; ++i) in.set_table(Frames::shift_key(i), 0);
+  for (unsigned i = 0; i < in.axis_count; ++i) in.set_table(Frames::shift_key(i), shift[i]);
   keep_rotation_center(in, zero_before);
   return Execution::done;
+}
+
+}  // namespace
+
+/// RS-274/NGC 3.5.18: takes away the shift of all axes.
+Execution do_shift_off(BlockContext& in) {
+  const Execution did = shift_to(in, AxisVec{});
+  if (did == Execution::done) in.change(&ProgramRecords::shift_kept, ShiftKept{});
+  return did;
+}
+
+/// RS-274/NGC 3.5.18: G92.2 takes the shift away as well, and G92.3 brings back what was there.
+Execution do_shift_suspend(BlockContext& in) {
+  ShiftKept kept;
+  for (unsigned i = 0; i < in.axis_count; ++i) kept.at[i] = in.frames.get(Frames::shift_key(i));
+  if (kept.at == AxisVec{}) kept = in.records->shift_kept;  // a second one has nothing to keep
+  const Execution did = shift_to(in, AxisVec{});
+  if (did == Execution::done) in.change(&ProgramRecords::shift_kept, kept);
+  return did;
+}
+
+Execution do_shift_restore(BlockContext& in) {
+  const AxisVec at = in.records->shift_kept.at;
+  return at == AxisVec{} ? Execution::done : shift_to(in, at);
 }
 
 Execution do_coordinate_preset(BlockContext& in) {

@@ -245,7 +245,8 @@ Execution check_hole(BlockContext& in) {
   if (strokes_of(c.kind).pecks && !(std::fabs(c.q) >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
   if (c.has_first && strokes_of(c.kind).pecks && c.has_r && !c.r_incremental && c.has_z && !c.z_incremental && !((c.first - c.r) * (c.z - c.r) > 0))
     return in.raise(Condition::value_range, Role::cycle_first_depth, c.first);
-  if (rules.shift_needs_words && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
+  const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0 && c.q != 0;
+  if (rules.shift_needs_words && !by_parameter && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
     return in.raise(Condition::words_missing, Role::vector_x);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;

@@ -80,6 +80,10 @@ AxisVec place_beside(BlockContext& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   double shift[2] = {c.shift[pair.first], c.shift[pair.second]};
   const bool by_words = shift[0] != 0 || shift[1] != 0;
+  if (!by_words && in.settings.shift_axis >= 0 && in.settings.shift_direction != 0) {  // HX 12.3.9
+    const bool second = in.settings.shift_axis != 0;
+    shift[second ? 1 : 0] = in.settings.shift_direction * std::fabs(c.q);
+  }
   AxisVec place = as_programmed(in, in.holes.over);
   for (unsigned i = 0; i < 2; ++i) {
     const int axis = in.state.plane_axis[i];
@@ -215,7 +219,6 @@ void turn_spindle(BlockContext& in, CycleSpindle turn) {
   if (turns && is_tap(in.state.cycle.kind) && in.settings.spindle_forward_m != 0)
     return give_out_spindle(in, function, reverse ? in.settings.spindle_reverse_m : in.settings.spindle_forward_m);
   uint32_t out = misc_code(*in.dialect, function);
-  if (out == kNoMisc) out = misc_code(*in.dialect, MiscFunction::spindle_orient);  // RS-274: in a program it has words that are not built
   give_out_spindle(in, function, out);
 }
 

@@ -53,6 +53,9 @@ Execution do_coordinate_set(BlockContext& in);     // coordinates.cpp
 Execution do_coordinate_preset(BlockContext& in);  // coordinates.cpp
 Execution do_shift_off(BlockContext& in);          // coordinates.cpp
 
+Execution do_shift_suspend(BlockContext& in);      // coordinates.cpp: G92.2
+Execution do_shift_restore(BlockContext& in);      // coordinates.cpp: G92.3
+
 Execution do_cylinder(BlockContext& in);           // milling.cpp
 Execution do_polar_on(BlockContext& in);           // milling.cpp
 Execution do_polar_off(BlockContext& in);          // milling.cpp
@@ -66,6 +69,8 @@ Execution do_cavity(BlockContext& in);             // cavity.cpp: G34 G35 G36 of
 Execution continue_cavity(BlockContext& in);       // cavity.cpp
 Execution do_sine_loop(BlockContext& in);          // sine_loop.cpp: G06 of the Series 8
 Execution continue_sine_loop(BlockContext& in);    // sine_loop.cpp
+
+Execution do_stitch(BlockContext& in);             // stitch.cpp: G63.1 G63.2 of the HX
 
 Execution do_comp_vector(BlockContext& in);        // offset_vector.cpp: G38
 Execution do_corner_arc(BlockContext& in);         // offset_vector.cpp: G39 beside a movement
@@ -91,6 +96,7 @@ Execution move_to_meet(BlockContext& in);          ///< such a block
 Execution take_line_angle(BlockContext& in);       ///< of a line with one end coordinate: the other one
 
 /// Motions with rules of their own.
+Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commanded);             // stitch.cpp
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
 Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
 Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
@@ -148,6 +154,14 @@ Execution check_tap_speed(BlockContext& in);  ///< the S of such a block
 Execution auxiliary_before(BlockContext& in);
 /// An M code that acts behind the motion: stops, the end of the program, overrides. Any other does nothing here.
 void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m);
+/// Codes of the macro interface by number, of single overrides and of the tool in the spindle (machine_io.cpp); any other M code does nothing here.
+Execution act_on_machine(BlockContext& in, uint32_t code);
+/// Bits of a word of the macro interface change where the machine gets there; `value` is for displays.
+void give_out_bits(BlockContext& in, uint32_t word, uint32_t mask, uint32_t bits, double value);
+bool takes_word_number(const BlockContext& in);        ///< a code of the block has the word of an analog input or output
+bool waits_for_input(const BlockContext& in);          ///< the block waits for an input (LinuxCNC M66), and does nothing else
+Execution wait_for_input(BlockContext& in);
+Execution continue_input_wait(BlockContext& in);
 /// The program goes on when what has been given out is complete.
 void await_fin(BlockContext& in);
 /// An M code of the spindle that a cycle makes; the program goes on when it is complete. The modal M of the program stays.
@@ -158,6 +172,7 @@ Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the
 void hold_surface(BlockContext& in, bool held);              ///< M59, M58 of the Series 8
 Execution set_surface_radius(BlockContext& in);              ///< G92 R of the Series 8
 Execution surface_word(BlockContext& in);                    ///< S while G96 is in force
+bool limits_surface_speed(const BlockContext& in);     ///< a word of this block is the highest speed of G96 (LinuxCNC)
 bool is_clamp_command(const BlockContext& in);         ///< the S of this block belongs to a G92
 Execution set_spindle_clamp(BlockContext& in);               ///< G92 S Q
 void end_spindle_control(BlockContext& in);            ///< M02, M30

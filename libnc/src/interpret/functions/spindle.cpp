@@ -38,8 +38,25 @@ bool is_clamp_command(const BlockContext& in) {
   return in.settings.clamp_command_always || in.state.spindle.axis != 0;
 }
 
+/// LinuxCNC G96: D of the block is the highest speed, and it holds until the next G96.
+bool limits_surface_speed(const BlockContext& in) {
+  if (!in.dialect->rules.spindle.limit_beside_surface) return false;
+  for (const FunctionRow* row : in.words.g)
+    if (row->function == Function::surface_on) return true;
+  return false;
+}
+
 Execution set_surface_speed(BlockContext& in) {
   State& state = in.state;
+  if (limits_surface_speed(in)) {
+    uint32_t largest = 0;
+    if (in.words.has(Role::clamp_highest)) {
+      const Execution did = speed_word(in, Role::clamp_highest, &largest);
+      if (did != Execution::done) return did;
+    }
+    in.state.spindle_clamped = largest != 0;
+    emit_control(in, NC_CONTROL_SPINDLE_CLAMP, largest != 0 ? NC_CLAMP_S : 0, 0, largest);
+  }
   for (const FunctionRow* row : in.words.g) {
     if (mode_of(row->function) != Mode::surface_speed) continue;
     state.modal.set(*row);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// DGSHAPE 2-5: the feed of the rotary axis, which is commanded in mm/min and goes by the distance of the tool from the axis.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The last move of a program on a machine with X Y Z and the rotary axis A, whose Z is up at 100.
+nc_move last_move(const std::string& text) {
+  Bench bench(NC_DIALECT_DGSHAPE, [](nc_config& config) {
+    axes("XYZa")(config);
+    config.system[0].axis[2].reference[0] = 100;
+  });
+  bench.tool(1, 4, NC_TOOL_LENGTH);
+  const Outcome run = bench.run("%\n" + text + "\nM30");
+  EXPECT_EQ(run.alarm, "") << text << run.alarm_detail;
+  return run.moves().empty() ? nc_move{} : run.moves().back();
+}
+
+TEST(DgshapeRotary, FIsTheSpeedOfTheToolOnItsCircle) {
+  // 10 mm from the axis: 100 mm/min are 10 rad/min.
+  EXPECT_NEAR(last_move("G00Z10.\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);
+  EXPECT_NEAR(last_move("G00Y3.Z4.\nG01A-90.F100.").feed_mm_min, 20 / kDegree, 1e-9);  // from Y and Z
+  EXPECT_NEAR(last_move("G00X50.Z10.\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);  // whatever X is
+  EXPECT_NEAR(last_move("G20\nG00Z1.\nG01A90.F1.").feed_mm_min, 1 / kDegree, 1e-9);     // inch per minute, an inch from the axis
+  // The distance is that of the workpiece coordinates, and of the tip of the tool.
+  EXPECT_NEAR(last_move("G10L2P1Z-10.\nG53Z0\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);
+  EXPECT_NEAR(last_move("G43H1Z10.\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);
+}
+
+TEST(DgshapeRotary, TheSpeedIsThatAtTheStartOfTheBlock) {
+  // Up by 20 while it turns: at the start F is what the tool goes at on the workpiece, straight and round together.
+  const nc_move move = last_move("G00Z10.\nG01Z30.A180.F100.");
+  const double round = 10 * std::numbers::pi, way = std::hypot(20, round);
+  EXPECT_NEAR(move.feed_mm_min, 100 * 20 / way, 1e-9);  // along Z; the axis turns in the same time
+  EXPECT_NEAR(last_move("G00Z10.\nG01A180.F100.").feed_mm_min, 10 / kDegree, 1e-9);
+  EXPECT_NEAR(last_move("G00Z10.\nG01X5.Y3.F100.").feed_mm_min, 100, 1e-9);
+}
+
+TEST(DgshapeRotary, AtTheTopOfZItTurnsAsFastAsItCan) {
+  EXPECT_EQ(last_move("G00Z100.\nG01A90.F100.").kind, NC_MOVE_RAPID);
+  EXPECT_EQ(last_move("G28Z20.\nG01A90.F100.").kind, NC_MOVE_RAPID);
+  EXPECT_EQ(last_move("G00Z99.\nG01A90.F100.").kind, NC_MOVE_LINE);
+  EXPECT_EQ(last_move("G00Z100.\nG01X5.A90.F100.").feed_mm_min, 100);  // X goes at F
+  EXPECT_EQ(last_move("G01A90.F100.").kind, NC_MOVE_RAPID);            // on the axis no speed turns it
+}
+
+}  // namespace
+}  // namespace nc::test
