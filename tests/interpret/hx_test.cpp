@@ -80,6 +80,50 @@ TEST(Hx, SingleDirectionPositioningOverrunsByTheParameterOfTheAxis) {  // 4.2, P
             (Path{"rapid 51 18 0", "rapid 50 20 0"}));
 }
 
+TEST(Hx, AHoleIsApproachedFromOneSideByG60) {  // 4.2: G60 [G00/G81 to G89]
+  Bench bench(NC_DIALECT_HX);
+  bench.param("3061", "2").param("3062", "-3").param("3063", "7");
+  EXPECT_EQ(bench.run("G90 G00 X0 Y0 Z10.\nG60 G99 G81 X50. Y20. Z-5. R2. F100\nX60.\nG60 X70. K2\nG80\nM30").path(),
+            (Path{"rapid 0 0 10", "rapid 48 23 10", "rapid 50 20 10", "rapid 50 20 2", "line 50 20 -5 F100", "rapid 50 20 2", "rapid 60 20 2", "line 60 20 -5 F100",
+                  "rapid 60 20 2", "rapid 68 20 2", "rapid 70 20 2", "line 70 20 -5 F100", "rapid 70 20 2", "rapid 68 20 2", "rapid 70 20 2", "line 70 20 -5 F100",
+                  "rapid 70 20 2"}));
+}
+
+TEST(Hx, TheReferencePositionsOfG30AreThreeByP) {  // 6.2
+  for (const char* p : {"P0", "P1", "P5", "P2.6", "P-2"}) EXPECT_EQ(alarm_of(std::string("G30 ") + p + " X1.\nM30"), "F_82002") << p;
+  EXPECT_EQ(alarm_of("G30 X1.\nM30"), "");  // the 2nd
+}
+
+TEST(Hx, ReturnsAndZeroPointsWantNoMap) {  // 15.2.2, 15.4.2: G50 and G69 go before
+  for (const char* map : {"G51 X0 Y0 P2000", "G68 X0 Y0 R30."})
+    for (const char* code : {"G27 X0", "G28 X10.", "G29 X10.", "G30 X10.", "G92 X0"})
+      EXPECT_EQ(alarm_of(std::string(map) + "\n" + code + "\nM30"), "NC-MODE") << map << " " << code;
+  EXPECT_EQ(alarm_of("G51 X0 Y0 P2000\nG50\nG28 X0\nG68 X0 Y0 R30.\nG69\nG92 X0\nM30"), "");
+}
+
+TEST(Hx, APoleThatAnIncrementHasSetStays) {  // 8.3, the printed program (G91), with points; the one in G90 drills the same holes
+  const auto holes = [](const std::string& text) {
+    Path found;
+    for (const std::string& move : hx(text).path())
+      if (move.substr(0, 4) == "line") found.push_back(move.substr(0, move.find(" F")));
+    return found;
+  };
+  const Path printed = {"line 80 44 -22", "line 50 61.320508 -22", "line 50 26.679492 -22"};
+  EXPECT_EQ(holes("N50 G90 G00 X60. Y44. Z10.\nN51 G16 G17\nN52 G81 G91 G99 X20. Y0 Z-25. R-7. F100\nN53 Y120.\nN54 Y120.\nN55 G15 G00 Z50.\nM30"), printed);
+  EXPECT_EQ(holes("N50 G52 X60. Y44.\nN51 G16 G17\nN52 G81 G90 G99 X20. Y0 Z-22. R3. F100\nN53 Y120.\nN54 Y240.\nN55 G15 G00 Z50.\nM30"), printed);
+  // Both radius and angle absolute, then only the angle an increment: about the zero point.
+  EXPECT_EQ(hx("G16\nG90 G00 X100. Y30.\nG91 Y120.\nM30").path(), hx("G16\nG90 G00 X100. Y30.\nY150.\nM30").path());
+  EXPECT_EQ(hx("G00 X5. Y5.\nG16\nG91 X10. Y90.\nG90 X20. Y0\nM30").path(), (Path{"rapid 5 5 0", "rapid 5 15 0", "rapid 20 0 0"}));
+}
+
+TEST(Hx, OffsetsHave128Numbers) {  // 13.1.1, 14.2.3
+  EXPECT_EQ(alarm_of("G43 H128 Z5.\nG41 D128 G01 X10. F100\nX20.\nG40 X0\nG10 L10 P128 R1.\nM30"), "");
+  for (const char* block : {"G43 H129 Z5.", "G41 D129 G01 X10. F100"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "NC-OFFSET-DATA") << block;
+  for (const char* block : {"G10 L10 P129 R1.", "G10 L12 P129 R1."}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "NC-DATA") << block;
+  const Outcome without = hx("G10 P1 R1.\nM30");
+  EXPECT_EQ(without.alarm_detail.find("4294967295"), std::string::npos) << without.alarm_detail;
+}
+
 TEST(Hx, AMoveInMachineCoordinatesIsAbsoluteOnly) {  // 7.1.1: in G91 the code does nothing
   EXPECT_EQ(Bench(NC_DIALECT_HX).work_offset(1, {10}).run("G90 G53 G00 X5.\nG91 G53 X7.\nG90 X1.\nM30").path(),
             (Path{"rapid 5 0 0", "rapid 11 0 0"}));

@@ -545,8 +545,8 @@ TEST(Config, EveryInterfaceNumberHasItsPlace) {
 
 // The Series 8 has a name for its input, and HX has numbers of its own.
 TEST(Config, TheMacroInterfaceGoesByTheNamesOfTheFamily) {
-  const auto parse = [](const std::string& dialect, const std::string& key, Config* config) {
-    return nc::rt::parse_config("[machine]\ndialect=\"" + dialect + "\"\n[[axis]]\nname=\"X\"\nmax_velocity=1\nmax_acceleration=1\n[[point]]\nname=\"p\"\ndirection=\"input\"\n"
+  const auto parse = [](const std::string& dialect, const std::string& key, Config* config, const std::string& type = "bit") {
+    return nc::rt::parse_config("[machine]\ndialect=\"" + dialect + "\"\n[[axis]]\nname=\"X\"\nmax_velocity=1\nmax_acceleration=1\n[[point]]\nname=\"p\"\ntype=\"" + type + "\"\ndirection=\"input\"\n"
                                     "[macro_interface]\n\"" + key + "\"=\"p\"\n", "m.toml", config);
   };
   Config named, numbered, wrong;
@@ -554,6 +554,13 @@ TEST(Config, TheMacroInterfaceGoesByTheNamesOfTheFamily) {
   EXPECT_EQ(named.macro.input_bit[0][0], 0);
   EXPECT_TRUE(parse("hx", "#7001", &numbered).empty());
   EXPECT_EQ(numbered.macro.input_bit[0][1], 0);
+  Config bit, word;
+  EXPECT_TRUE(parse("iso", "@motion.digital-in-07", &bit).empty());
+  EXPECT_EQ(bit.macro.input_bit[0][7], 0);
+  EXPECT_TRUE(parse("iso", "@motion.analog-in-02", &word, "word").empty());
+  EXPECT_EQ(word.macro.input_word[3], 0);
+  for (const char* key : {"@motion.digital-in-32", "@motion.digital-in-7", "@motion.analog-in-03", "@motion.digital-in-0x", "@motion.digital-inn-07", "@motion.digital-in--1"})
+    EXPECT_FALSE(parse("iso", key, &wrong).empty()) << key;
   EXPECT_FALSE(parse("series8", "@RUNG7", &wrong).empty());
   EXPECT_FALSE(parse("series8", "@", &wrong).empty());
   EXPECT_FALSE(parse("m700", "@RUNG6", &wrong).empty());

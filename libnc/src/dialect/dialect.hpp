@@ -116,6 +116,7 @@ struct Dialect {
   bool percent_required;             ///< the first block must be '%' (DGSHAPE 2)
   bool end_code_required;            ///< the text must not end without M02 or M30 (M700 P36)
   bool bare_letters;                 ///< "G" alone is G00, "G28 XYZ" means zeros (M700 3.7, 14.10); otherwise every word needs its number
+  unsigned most_offsets = ~0u;       ///< highest number of an offset of a tool that a program can name
   unsigned call_depth;               ///< how many levels deep sub programs may be called
 };
 

@@ -266,6 +266,8 @@ struct ReferenceRules {
   /// The length compensation of an axis is cancelled when the axis reaches its reference position (M700 12.2, 14.7 (9), 14.8 (6)). DGSHAPE
   /// G28 does not say so.
   bool cancels_length;
+  /// P of the further reference positions is 2 to 4, and anything else a fault (HX 6.2). Otherwise it is the 2nd position (M700 14.8 (1)).
+  bool place_is_checked = false;
   /// A block without axis words moves all axes, without an intermediate point (RS-274/NGC 3.5.8). Otherwise it is a fault that words are
   /// missing (M700 14.7; DGSHAPE G28).
   bool all_axes_without_words;
@@ -284,6 +286,12 @@ struct CoordinateRules {
   bool incremental_machine_move_rests;
   /// Words of a move in machine coordinates are absolute in incremental mode, too (Series 8 G69).
   bool machine_move_is_absolute = false;
+  /// Returns to reference positions, their check and coordinate system setting are faults while coordinates are scaled or rotated (HX 15.2.2, 15.4.2).
+  /// Otherwise each has a rule of its own (M700 13.19, 13.20).
+  bool maps_bar_returns = false;
+  /// A radius of G16 that is an increment makes the place where the axes are the pole, which stays it for words without a radius; the first angle counts from
+  /// the first axis (HX 8.3). Otherwise the pole is there for that block alone, and is the zero point for others (M700 6.12).
+  bool pole_stays = false;
   /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
   bool shift_ends_with_program = false;
 };

@@ -174,6 +174,8 @@ struct BlockContext {
   }
   /// Sets the words that command axes: their names, and the words that a mode of the state gives them.
   void refresh_axis_words();
+  /// The highest number of an offset of a tool.
+  unsigned tool_offsets() const { return frames.tool_offsets() < dialect->most_offsets ? frames.tool_offsets() : dialect->most_offsets; }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.

@@ -235,7 +235,8 @@ Execution execute_motion_of_words(BlockContext& in) {
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
     return do_cycle(in);
   }
-  if (w.one_shot != nullptr) return execute_one_shot(in);
+  const bool of_hole = in.state.cycle.kind != CycleKind::none && w.one_shot != nullptr && w.one_shot->function == Function::unidirectional;
+  if (w.one_shot != nullptr && !of_hole) return execute_one_shot(in);  // G60 of a hole: M700 6.8, HX 4.2
   if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);
   if (w.has_angle || w.has(Role::line_angle)) {
     const Execution did = take_line_angle(in);

@@ -217,6 +217,7 @@ struct ModalLife {
   uint32_t held_point = 0;      ///< id of the point at which the axes of G07 stand (Interpreter::points)
   uint32_t stroke_box = 0;      ///< prohibited area of G22 (Interpreter::stroke_boxes), counted from 1; 0 = G23
   double polar_angle = 0;       ///< G16: angle of the block before, deg
+  double polar_pole[2] = {0, 0};  ///< G16: what the radius counts from, in the plane (CoordinateRules::pole_stays)
   double thread_lead = 0;       ///< G33: mm along the long axis
   double last_feed = 0;         ///< G93: feed of the last cutting block, mm/min; a block that only displaces the tool uses it
   double arc_radius = 0;        ///< last R of an arc, mm as programmed; 0 = none yet (ArcRules::radius_is_modal)

@@ -157,9 +157,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   }
   {
     const auto& [modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
-                 rotated, stitch, spline, held_point, stroke_box, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
+                 rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
     hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated, stitch,
-             spline, polar_angle, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle);
+             spline, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle);
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
     if (stroke_box != 0) {

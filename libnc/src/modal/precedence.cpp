@@ -91,6 +91,11 @@ constexpr BarredRow kBarred[] = {
     {kInDiameterOffset, F::scaling_off, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, F::scaling_on, Condition::not_in_compensation, "DGSHAPE G41"},
     {kInDiameterOffset, F::cycle_off, Condition::cycle_in_compensation, "DGSHAPE G41"},
+    {kInMap, F::reference_check, Condition::not_accepted, "HX 15.2.2"},
+    {kInMap, F::reference_return, Condition::not_accepted, "HX 15.2.2"},
+    {kInMap, F::start_return, Condition::not_accepted, "HX 15.2.2"},
+    {kInMap, F::second_reference, Condition::not_accepted, "HX 15.2.2"},
+    {kInMap, F::coordinate_set, Condition::not_accepted, "HX 15.2.2"},
 };
 
 }  // namespace

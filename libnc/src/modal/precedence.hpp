@@ -37,6 +37,7 @@ inline constexpr uint8_t kInFigure = 2;        ///< a program called by M98 I J 
 inline constexpr uint8_t kInSpaceArc = 4;      ///< G02.4, G03.4
 inline constexpr uint8_t kInDiameterOffset = 8;  ///< DGSHAPE G41, G42
 inline constexpr uint8_t kInExponential = 16;  ///< G02.3, G03.3
+inline constexpr uint8_t kInMap = 32;          ///< HX G51, G68
 
 struct BarredRow {
   uint8_t mode;          ///< one of the bits above

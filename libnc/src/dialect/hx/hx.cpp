@@ -47,6 +47,7 @@ const Dialect kDialect = {
     .percent_required = false,
     .end_code_required = true,  // F_82016
     .bare_letters = false,
+    .most_offsets = 128,  // 13.1.1, 14.2.3
     .call_depth = 8,  // 14.1.7 (5): four levels of M98 and four of macros
 };
 

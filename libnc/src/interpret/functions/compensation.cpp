@@ -43,7 +43,7 @@ Execution take_length_number(BlockContext& in) {
 
 /// The offset that goes with the tool.
 Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
-  if (in.state.modal.tool > in.frames.tool_offsets()) return in.raise(Condition::no_offset_number, word, in.state.modal.tool);
+  if (in.state.modal.tool > in.tool_offsets()) return in.raise(Condition::no_offset_number, word, in.state.modal.tool);
   *number = in.state.modal.tool;
   return Execution::done;
 }
@@ -92,7 +92,7 @@ Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
     *number = static_cast<uint32_t>(ToolLife(in.frames).get(ToolLife(in.frames).in_spindle(), column));
     return Execution::done;
   }
-  if (!whole_number(in.words.get(word), number) || *number > in.frames.tool_offsets())
+  if (!whole_number(in.words.get(word), number) || *number > in.tool_offsets())
     return in.raise(Condition::no_offset_number, word, in.words.get(word));
   return Execution::done;
 }

@@ -202,7 +202,7 @@ Execution check_circle(BlockContext& in) {
   const CycleState& c = in.state.cycle;
   uint32_t number = 0;
   if (c.q == 0) return in.raise(Condition::words_missing, Role::cycle_depth_step);
-  if (!c.has_p || !whole_number(c.p, &number) || number > in.frames.tool_offsets()) return in.raise(Condition::no_offset_number, Role::cycle_dwell, c.p);
+  if (!c.has_p || !whole_number(c.p, &number) || number > in.tool_offsets()) return in.raise(Condition::no_offset_number, Role::cycle_dwell, c.p);
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0 || plane.h == c.drill_axis || plane.v == c.drill_axis) return in.raise_mode(Condition::plane_mismatch, Mode::cycle);
   const bool fits = (std::fabs(c.q) - radius_amount(in, number)) / 2 > kNoRadius_mm;

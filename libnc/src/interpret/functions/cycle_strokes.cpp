@@ -278,6 +278,8 @@ void position_over_hole(BlockContext& in) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   if (strokes_of(in.state.cycle.kind).takes_widths) style.in_position = in.words.in_position;
+  if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::unidirectional)  // M700 6.8, HX 4.2: not the axis that drills
+    move_linear(in, before_creep(in, target, axes), axes, style);
   if (!in.dialect->rules.cycle.others_keep_motion_mode) return move_linear(in, target, axes, style);  // all of them together (Series 8 G81: X Y A)
   const LinearStyle other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
   move_linear(in, target, axes & ~over_hole, other);

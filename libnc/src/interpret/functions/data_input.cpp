@@ -74,7 +74,7 @@ Execution tool_offset(BlockContext& in, unsigned column) {
   const Command& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
-  if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.frames.tool_offsets())
+  if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.tool_offsets())
     return in.raise(Condition::g10_p, Role::input_number, w.get(Role::input_number));
   const unsigned key = in.frames.tool_key(number, column);
   const bool add = in.dialect->rules.data_input.incremental_adds && in.state.modal.is(Function::incremental);
@@ -138,6 +138,7 @@ Execution do_data_input(BlockContext& in) {
   uint32_t l = DataInputRow::kWithoutL;
   if (w.has(Role::input_kind) && !whole_number(w.get(Role::input_kind), &l)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
   const DataInputRow* const row = row_of(*in.dialect, l);
+  if (row == nullptr && l == DataInputRow::kWithoutL) return in.raise(Condition::g10_l);
   if (row == nullptr) return in.raise(Condition::g10_l, Role::input_kind, l);
   const bool of_system = row->input == DataInput::work_offset || row->input == DataInput::work_offset_here;
   if (of_system && rules.data_input.amount_turns_system && w.has(Role::input_amount) && w.get(Role::input_amount) != 0)

@@ -61,6 +61,8 @@ Execution do_polar_on(BlockContext& in);           // milling.cpp
 Execution do_polar_off(BlockContext& in);          // milling.cpp
 Execution do_hypothetical_axis(BlockContext& in);  // hypothetical.cpp
 Execution do_unidirectional(BlockContext& in);     // unidirectional.cpp
+/// The place from which these axes go to `target` in their last direction (unidirectional.cpp).
+AxisVec before_creep(const BlockContext& in, const AxisVec& target, uint32_t axes);
 Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
 Execution do_hole_pattern(BlockContext& in);       // hole_pattern.cpp: G34 G35 G36 G37.1

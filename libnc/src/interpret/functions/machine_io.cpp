@@ -130,7 +130,7 @@ bool takes_word_number(const BlockContext& in) {
 bool waits_for_input(const BlockContext& in) { return waiting_row(in) != nullptr; }
 
 Execution wait_for_input(BlockContext& in) {
-  const BlockWords& w = in.words;
+  const Command& w = in.words;
   const MiscRow& row = *waiting_row(in);
   if (w.m.size() > 1 || !w.g.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, row.code);
   InputWait wait;

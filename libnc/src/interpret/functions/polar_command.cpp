@@ -33,6 +33,7 @@ Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
   }
   state.modal.set(row);
   state.polar_angle_known = false;
+  state.polar_pole[0] = state.polar_pole[1] = 0;
   return Execution::done;
 }
 
@@ -49,13 +50,17 @@ void resolve_polar_words(BlockContext& in) {
   const bool has_radius = ((w.axes >> h) & 1) != 0, has_angle = ((w.axes >> v) & 1) != 0;
   if (!has_radius && !has_angle) return;  // there is nothing to convert
   const AxisVec position = program_mapped(in) ? to_program(in, in.position()) : in.position();
+  const bool stays = in.dialect->rules.coordinate.pole_stays, moves = has_radius && ((w.incremental >> h) & 1) != 0;
   double pole[2] = {0, 0};
-  double radius = std::hypot(position[h], position[v]);
-  if (has_radius) {
-    radius = w.axis[h];
-    if (((w.incremental >> h) & 1) != 0) pole[0] = position[h], pole[1] = position[v];
+  if (moves) {
+    pole[0] = position[h], pole[1] = position[v];
+  } else if (stays && !has_radius) {
+    for (unsigned i = 0; i < 2; ++i) pole[i] = state.polar_pole[i];
   }
-  const double seen = std::atan2(position[v], position[h]) * 180 / kPi;
+  for (unsigned i = 0; i < 2; ++i) state.polar_pole[i] = stays ? pole[i] : 0;
+  const double out[2] = {position[h] - (stays ? pole[0] : 0), position[v] - (stays ? pole[1] : 0)};
+  const double radius = has_radius ? w.axis[h] : std::hypot(out[0], out[1]);
+  const double seen = stays && moves ? 0 : std::atan2(out[1], out[0]) * 180 / kPi;
   double angle = seen;
   if (has_angle) {
     angle = length_value(in, w.written(in.axis_words.word(v)), true, false);  // in degrees, also in inch mode

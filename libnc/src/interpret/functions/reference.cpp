@@ -110,7 +110,12 @@ Execution do_reference_return(BlockContext& in) {
 Execution do_second_reference(BlockContext& in) {
   // M700 14.8 (1): without P, and with another P than 2 to 4, it is the 2nd reference position.
   uint32_t place = 2;
-  if (!place_of_p(in, 2, &place) || place < 2 || place > 4) place = 2;
+  if (!place_of_p(in, 2, &place) || place < 2 || place > 4) {
+    if (in.dialect->rules.reference.place_is_checked) return in.raise(Condition::value_range, Role::return_place, in.words.get(Role::return_place));
+    place = 2;
+  }
+  if (in.dialect->rules.reference.place_is_checked && in.words.has(Role::return_place) && in.words.get(Role::return_place) != place)
+    return in.raise(Condition::value_range, Role::return_place, in.words.get(Role::return_place));  // P2.6
   return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
 }
 

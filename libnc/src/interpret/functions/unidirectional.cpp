@@ -4,16 +4,19 @@
 
 namespace nc {
 
+AxisVec before_creep(const BlockContext& in, const AxisVec& target, uint32_t axes) {
+  AxisVec before = target;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0) before[i] -= in.settings.creep[i];  // the sign of the parameter is the final direction
+  return before;
+}
+
 Execution do_unidirectional(BlockContext& in) {
   const uint32_t axes = in.words.axes;
-  const AxisVec target = target_of_words(in);
-  AxisVec before = target;
+  const AxisVec target = target_of_words(in), before = before_creep(in, target, axes);
   uint32_t creeps = 0;
-  for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) == 0 || in.settings.creep[i] == 0) continue;
-    before[i] -= in.settings.creep[i];  // the sign of the parameter is the final direction
-    creeps |= 1u << i;
-  }
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (((axes >> i) & 1) != 0 && in.settings.creep[i] != 0) creeps |= 1u << i;
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   move_linear(in, before, axes, style);
