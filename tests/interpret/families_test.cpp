@@ -269,8 +269,8 @@ const Difference kDifferences[] = {
 /// What a program does, as text: its moves, dwells and codes in order, and its alarm.
 std::string outcome(nc_dialect family, const std::string& program) {
   Bench bench(family);
-  bench.tool(1, 2, family == NC_DIALECT_M700 || family == NC_DIALECT_DGSHAPE ? NC_TOOL_LENGTH : NC_TOOL_RADIUS);
-  if (family != NC_DIALECT_M700 && family != NC_DIALECT_DGSHAPE) bench.tool(1, 2, NC_TOOL_LENGTH);
+  bench.tool(1, 2, family == NC_DIALECT_M700 ? NC_TOOL_LENGTH : NC_TOOL_RADIUS);
+  if (family != NC_DIALECT_M700) bench.tool(1, 2, NC_TOOL_LENGTH);
   const size_t second = program.find("---");  // two programs, one after the other
   if (second != std::string::npos) bench.run(program.substr(0, second));
   const Outcome run = bench.run(second == std::string::npos ? program : program.substr(second + 3));

@@ -99,8 +99,8 @@ struct FeedRules {
   /// F in inverse-time feed is 1 divided by the minutes that the whole block takes, also for an arc (RS-274/NGC 3.5.19). Otherwise F of an
   /// arc is the speed divided by the radius (M700 7.5).
   bool inverse_time_is_of_block;
-  /// A rotary axis turns so that the tool, at its distance from the zero point across the axis, is passed at F: the distance counts where the block begins
-  /// (DGSHAPE 1-4, F). Otherwise F of rotary axes alone is in deg/min.
+  /// F of a turning axis is the speed of the tool on the circle about the axis on which it stands as the block begins, in mm/min; where Z stands at its
+  /// reference position the axis turns as fast as it can (DGSHAPE 1-4, 2-5). Otherwise F is in deg/min where only turning axes move (M700 7.6).
   bool rotary_by_radius = false;
   /// F in inverse-time feed holds until the next one (Series 8 G93 prints it in a block of its own). Otherwise each cut has its own (M700 7.5).
   bool inverse_time_is_modal = false;

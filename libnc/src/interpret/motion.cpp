@@ -2,6 +2,7 @@
 // Moves: from words to curves in the compensation frame.
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "frame/rotary.hpp"
@@ -122,36 +123,38 @@ double feed_mm_min(const BlockContext& in) {
 
 namespace {
 
-/// The square of the distance of a place from the zero point, across the axis that the rotary axis `turning` turns about; 0 if that is not known.
-double squared_distance_across(const BlockContext& in, unsigned turning, const AxisVec& place) {
-  constexpr Role kTurns[3] = {Role::turn_x, Role::turn_y, Role::turn_z};
+/// How far the tool is from a turning axis, whose zero is that of the coordinates.
+double distance_from(const BlockContext& in, unsigned turning, const AxisVec& at) {
   double squares = 0;
-  for (unsigned along = 0; along < 3; ++along) {
-    if (!in.dialect->addresses.has(kTurns[along]) || in.axis_called(kTurns[along]) != static_cast<int>(turning)) continue;
-    for (unsigned pair = 0; pair < 3; ++pair) {
-      const int axis = pair == along ? -1 : axis_of_pair(in, pair);
-      if (axis >= 0) squares += place[static_cast<unsigned>(axis)] * place[static_cast<unsigned>(axis)];
-    }
+  constexpr Role kTurns[3] = {Role::turn_x, Role::turn_y, Role::turn_z};
+  for (unsigned i = 0; i < 3; ++i) {
+    const int axis = in.axis_called(basic_along(i));
+    if (axis >= 0 && in.axis_called(kTurns[i]) != static_cast<int>(turning)) squares += at[static_cast<unsigned>(axis)] * at[static_cast<unsigned>(axis)];
   }
-  return squares;
+  return std::sqrt(squares);
 }
 
-/// DGSHAPE 1-4 "A-axis Feed Rate": the rotary axis goes so fast that the tool, at its distance from the zero point across that axis, is passed at F, from the
-/// place where the block begins on. The feed in mm/min of the linear axes if some move, else in deg/min. At the zero point there is no such speed: F is deg/min.
-double feed_by_radius(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
-  double linear = 0, round = 0, turned = 0;
+/// DGSHAPE 2-5: F is the speed of the tool on the workpiece where the block begins; what it makes of the turning axis stays through the block. Infinite: as
+/// fast as the axis can, at the highest position of Z, and where the tool stands on the axis.
+double surface_feed(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
+  const double feed = feed_mm_min(in);
+  double straight = 0, round = 0, turned = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const double way = end[i] - start[i];
     if (((in.rotary >> i) & 1) == 0) {
-      linear += way * way;
+      straight += way * way;
       continue;
     }
-    round += squared_distance_across(in, i, start) * std::pow(way * std::numbers::pi / 180, 2);
+    const double arc = way * std::numbers::pi / 180 * distance_from(in, i, start);
     turned += way * way;
+    round += arc * arc;
   }
-  const double feed = feed_mm_min(in), whole = std::sqrt(linear + round);
-  if (!(turned > 0) || !(whole > kNoMotion) || !(round > 0)) return feed;
-  return feed * std::sqrt(linear > 0 ? linear : turned) / whole;
+  if (turned == 0) return feed;
+  const int z = in.axis_called(Role::basic_z);
+  const bool highest = z >= 0 && std::fabs(in.state.machine[static_cast<unsigned>(z)] - in.reference(0, static_cast<unsigned>(z))) < kNoMotion;
+  if (highest) round = 0;
+  if (straight > 0) return feed * std::sqrt(straight / (straight + round));
+  return round > 0 ? feed * std::sqrt(turned / round) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -160,7 +163,7 @@ double feed_by_radius(const BlockContext& in, const AxisVec& start, const AxisVe
 /// inch/min along the programmed curve, whichever axes move (6.9 (6), 6.10 (5)).
 double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
   const bool inch = in.state.modal.is(Function::inch);
-  if (in.rotary != 0 && in.dialect->rules.feed.rotary_by_radius) return feed_by_radius(in, start, end);
+  if (in.rotary != 0 && in.dialect->rules.feed.rotary_by_radius) return surface_feed(in, start, end);
   if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
   const AxisMap& map = in.state.map;
   const uint32_t turning = map.kind == AxisMap::Kind::none ? in.rotary : in.rotary & ~(1u << map.rotary);

@@ -19,7 +19,6 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::basic_x, 'X'},
     {Role::basic_y, 'Y'},
     {Role::basic_z, 'Z'},
-    {Role::turn_x, 'A'},          // 2-5
     {Role::vector_x, 'I'},
     {Role::vector_y, 'J'},
     {Role::vector_z, 'K'},
