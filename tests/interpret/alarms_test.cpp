@@ -93,6 +93,11 @@ const Row kRows[] = {
     {"P151", "G41 D0 G1 X1.\nD1\nG2 X9. I4.", 3},
     {"P151", "G41 D1 G1 X9.\nX20.\nG40\nG2 X29. I4.5", 4},  // ... and ends with one
     {"P151", "G41 D1 G1 X9.\nX20.\nD0\nG2 X29. I4.5", 4},
+    {"P151", "G41 D1 G1 X9.\nX20.\nG40\nZ5.\nG2 X29. I4.5", 5},  // a movement across the plane does neither
+    {"P151", "G41 D1 G1 X9.\nX20.\nG40\nZ5.\nG12 I20. D1", 5},
+    {"P151", "G1 X1.\nG41 D1\nZ5.\nG2 X9. I4.", 4},
+    {"P155", "G41 D1 G1 X9.\nX20.\nG40\nG81 Z-5. R2.", 4},  // the tool stands beside the place of the hole
+    {"P155", "G41 D1 G1 X9.\nX20.\nG40\nZ5.\nG81 X20. Z-5. R2.", 5},
     {"P33", "G2.1 X9. P1", 1},                           // no centre
     {"P33", "G12 D1", 1},                                // no radius
     {"P155", "G41 D1 X20.\nG81 Z-5. R1.", 2},

@@ -132,5 +132,35 @@ TEST(Interference, AGrooveWithParallelWallsIsLeftUncut) {
   EXPECT_EQ(groove("0", "9.", "9.", "0").alarm, "P153");
 }
 
+// Where the amount at one of its two ends is larger than the radius inside of an arc there is no curve (12.4.6).
+TEST(Interference, AnArcThatIsSmallerThanTheAmountBefore) {
+  const auto with = [](const char* line, const char* arc, const char* contour_check) {
+    Bench bench;
+    bench.tool(1, 2.5).tool(2, 3.2).tool(3, 2.4).param("CONTOUR_CHECK", contour_check);
+    return bench.run(std::string("G90 G0 X0 Y-20. F1000\nG41 D1 G1 X0 Y0\nX-30.\nY20.\nX30. ") + line + "\nG3 X32.5 Y17.5 I2.5 " + arc + "\nG1 Y0\nX0 D1\nG40 Y-20.\nM30");
+  };
+  for (const char* const check : {"0", "1"}) {
+    EXPECT_EQ(with("D2", "D1", check).alarm, "P153");
+    EXPECT_EQ(with("D2", "D1", check).alarm_line, 6u);
+    EXPECT_EQ(with("D3", "D2", check).alarm, "P153");
+    EXPECT_EQ(with("D2", "D2", check).alarm, "P153");
+    EXPECT_EQ(with("D3", "D3", check).alarm, "");
+  }
+}
+
+// The vector of a start is that of the block behind it: without one the tool's centre would go to the corner of the part.
+TEST(Interference, AnAlarmBehindTheStartStandsInFrontOfIt) {
+  for (const char* const bad : {"Y50. D999", "G2 X20. Y50. R1.", "G101", "M98 P77"}) {
+    Bench bench;
+    bench.tool(1, 5);
+    const Outcome run = bench.run(std::string("G90 G0 X0 Y0 F100\nG41 D1 G1 X10. Y10.\n") + bad + "\nG40 X0\nM30");
+    EXPECT_NE(run.alarm, "") << bad;
+    EXPECT_EQ(run.alarm_line, 3u) << bad;
+    EXPECT_EQ(run.moves().size(), 0u) << bad;
+    bench.start(std::string("G90 G0 X0 Y0 F100\nG41 D1 G1 X10. Y10.\nY30.\n") + bad + "\nG40 X0\nM30");
+    EXPECT_EQ(bench.finish().moves().size(), 2u) << bad;  // the mode has begun: the block before the alarm ends at right angles
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

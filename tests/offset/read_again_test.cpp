@@ -50,6 +50,15 @@ TEST(ReadAgain, AVectorOfIJKMayLieAnywhere) {
   EXPECT_GE(reads_again("G18 G90 G94\nG10 L10 P1 R5.\nG1 F1000 D1\nG42 X17.407 K-3.239\nX17.408\nG3 Z-9.601 R29.771\nG1 G40 X60.\nM30"), 6u);
 }
 
+TEST(ReadAgain, AVectorThatG38Holds) {
+  EXPECT_GE(reads_again("G90 G94\nG10 L10 P1 R5.\nF1000\nG42 D1\nG1 X18.400 Y-25.350 G38\nY-25.351\nG2 X23.501 R-21.432\nG1 X60.\nG40 Y0\nM30"), 7u);
+  EXPECT_GE(reads_again("G90 G94\nG10 L10 P1 R5.\nF1000\nG42 D1\nG1 X18.400 Y-25.350\nG38 X30. Y-25.350\nY-25.351\nG2 X33.501 R-21.432\nG1 X60.\nG40 Y0\nM30"), 7u);
+}
+
+TEST(ReadAgain, ALineOfAMicrometreBack) {
+  EXPECT_GE(reads_again("G90 G94 G1\nG10 L10 P1 R3.\nF1000\nG42 D1\nY6.934\nG2 Y23.587 J8.326\nY23.586\nG1 Y21.764\nG40 X20.\nM30", {{"8102", "1"}}), 5u);
+}
+
 TEST(ReadAgain, WhatIsInDoubtOfAWayIn) {
   const std::string circle = "G90 G94\nG10 L10 P1 R5.\nG1 F8000\nG41 D1 X0. Y0.\nY36.479\nG2 J-11.051\nG1 G40 Y60.\nM30";
   EXPECT_GE(reads_again(circle, {{"CONTOUR_CHECK", "1"}}), 5u);

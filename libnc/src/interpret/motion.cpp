@@ -52,6 +52,13 @@ Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_
   }
 }
 
+/// Radius compensation starts and ends with a movement in its plane, not with one across it: until then the vector is not made, or still there.
+[[gnu::cold]] void note_side(State& state, const AxisVec& start, const AxisVec& target) {
+  const unsigned h = state.comp.axis[0], v = state.comp.axis[1];
+  const bool changes = state.comp.side != 0 && state.moved_side != 0;
+  if (changes || start[h] != target[h] || start[v] != target[v]) state.moved_side = state.comp.side;
+}
+
 /// Begins a move, with everything that is the same for all moves.
 Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& start, const AxisVec& target, const AxisVec& machine) {
   Move& move = in.emit_move(start, target);
@@ -61,7 +68,7 @@ Move& begin_any_move(BlockContext& in, TransformId transform, const AxisVec& sta
   move.transform = transform;
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
-  in.state.moved_side = in.state.comp.side;
+  if (in.state.moved_side != in.state.comp.side) [[unlikely]] note_side(in.state, start, target);
   if (leads_beside(in.state)) [[unlikely]] in.state.moved_space = move.space = space_vector(in, machine);
   return move;
 }
@@ -305,7 +312,7 @@ void move_nowhere(BlockContext& in) {
   const auto side = in.state.moved_side;
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.start);
   in.state.moves_since_comp_off = moves;
-  if (!in.state.comp.has_vector || in.state.comp.side == 0) in.state.moved_side = side;  // 12.4.3: the vector of I, J acts at once
+  in.state.moved_side = in.state.comp.has_vector && in.state.comp.side != 0 ? in.state.comp.side : side;  // 12.4.3: the vector of I, J acts at once
   move.kind = in.state.modal.is(Function::rapid) ? NC_MOVE_RAPID : NC_MOVE_LINE;
   move.exact_stop = move.kind == NC_MOVE_RAPID;
   if (move.kind != NC_MOVE_RAPID) set_modal_feed(in, move, feed_mm_min(in));
@@ -454,6 +461,13 @@ static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
 
 /// M700 12.4.1: compensation starts and is cancelled with a straight movement, also when it was commanded in a block before.
 bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
+
+bool keeps_vector(const BlockContext& in) {
+  const Compensation& comp = in.state.comp;
+  if (comp.side != 0 || in.state.moved_side == 0) return false;
+  const AxisVec position = in.position(), target = target_of_words(in, position);
+  return position[comp.axis[0]] == target[comp.axis[0]] && position[comp.axis[1]] == target[comp.axis[1]];
+}
 
 /// Where the centre of an arc of the block lies, by programmed coordinates, whose quadrants count.
 static bool find_centre(const BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, bool ccw, double center[2]) {

@@ -34,6 +34,8 @@ inline bool leads_beside(const State& state) { return state.space.on || state.mo
 SpaceVector space_vector(const BlockContext& in, const AxisVec& machine);
 /// The next movement is the one that radius compensation starts or ends with: it must not be an arc.
 bool starts_or_ends_compensation(const BlockContext& in);
+/// Radius compensation has been cancelled by a block without a movement in its plane, and this one has none either: the tool stays beside the path.
+bool keeps_vector(const BlockContext& in);
 /// Makes an arc in the plane in force, by the words of the block.
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;

@@ -269,6 +269,8 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
     }
     section.apart = !crosses;
   }
+  for (unsigned i = 1; i < chain->size(); ++i)  // the vector that is held may have been changed
+    if ((*chain)[i].holds) (*chain)[i].joint = ContourJoint::single(start_vector(*chain, i, first_vector));
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
     if (check_direction(chain, i, start, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;

@@ -22,6 +22,7 @@ struct Section {
   ContourJoint joint;               ///< at its end
   bool jointed = false;      ///< `joint` is known
   bool commanded = false;    ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
+  bool holds = false;        ///< ... namely that of the joint before (G38)
   bool start = false;        ///< start block: does not run along an offset curve
   bool cancel = false;       ///< nor does a block without compensation at its end
   bool vanished = false;     ///< an arc whose offset circle does not exist

@@ -75,6 +75,10 @@ bool OffsetStage::push(const Item& item, NoRule) {
   if (item.kind == ItemKind::move) {
     intake_move(&held);
   } else {
+    if (item.kind == ItemKind::alarm && open() != nullptr && open()->start) {  // the vector at its end is that of a block that there is not
+      stop_by(open()->index, item);
+      return true;
+    }
     if (inhibits_read_ahead(item)) close();
     if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) fail(next_index(), Condition::comp_interference, item.source);
     if (!failed_) ++count_;
@@ -346,7 +350,12 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.cuts = move.kind != NC_MOVE_RAPID;
   section.led = held->has_lead && !held->lead_arc;
   section.avoid = comp.avoid;
-  section.vanished = !section.cancel && !section.start && vanishes(begin, end, section.offset);
+  if (!section.cancel && !section.start) {
+    // It begins with the amount of the block before (M700 12.4.6).
+    const Section* last = open();
+    const double offset_begin = last == nullptr ? section.offset : offset_on_side(held_at(last->index).item.move.comp, comp);
+    section.vanished = vanishes(begin, end, section.offset) || !offset_exists(begin, offset_begin);
+  }
   if (trim_next_) held->trim = true;
   trim_next_ = false;
   if (section.start) mode_ = Mode::on;
@@ -363,7 +372,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
     section.jointed = true;
   } else if (comp.hold_vector) {  // M700 12.4.2 G38: the vector of the end before
     section.joint = ContourJoint::single(tail_);
-    section.jointed = section.bound = true;
+    section.jointed = section.holds = true;
   }
   section.commanded = section.jointed;
   if (section.jointed) tail_ = section.joint.v[0];
@@ -524,16 +533,21 @@ void OffsetStage::release(unsigned sections) {
 // The program stops before the move `index`: an alarm takes its place, and what was read behind it is
 // forgotten.
 void OffsetStage::fail(uint32_t index, Condition condition, const nc_source& source) {
+  Item alarm;
+  alarm.kind = ItemKind::alarm;
+  alarm.source = source;
+  alarm.alarm = Fault{};
+  alarm.alarm.condition = condition;
+  stop_by(index, alarm);
+}
+
+void OffsetStage::stop_by(uint32_t index, const Item& alarm) {
   unsigned before = 0;
   while (before < chain_.size() && static_cast<int32_t>(chain_[before].index - index) < 0) ++before;
   release(before);
   chain_.clear();
-  Held alarm;
-  alarm.item.kind = ItemKind::alarm;
-  alarm.item.source = source;
-  alarm.item.alarm = Fault{};
-  alarm.item.alarm.condition = condition;
-  held_at(index) = alarm;
+  held_at(index) = Held();
+  held_at(index).item = alarm;
   if (index == next_index()) {
     ++count_;
   } else {

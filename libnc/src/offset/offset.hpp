@@ -142,6 +142,7 @@ class OffsetStage {
   void make_room();
   bool may_release(unsigned section) const;
   void release(unsigned sections);
+  void stop_by(uint32_t index, const Item& alarm);
   void fail(uint32_t index, Condition condition, const nc_source& source);
   uint32_t next_index() const { return first_ + count_; }
   Held& held_at(uint32_t index) { return held_[index % kHeld]; }

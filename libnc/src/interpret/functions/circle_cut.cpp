@@ -4,6 +4,7 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/motion.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
@@ -42,7 +43,8 @@ Execution do_circle_cut(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Execution did = check_format(in);
   if (did != Execution::done) return did;
-  if (in.words.comp_command) return in.raise_code(Condition::arc_in_compensation_start, row);  // 12.4.1: compensation neither starts nor ends with an arc
+  // 12.4.1: compensation neither starts nor ends with an arc.
+  if (in.words.comp_command || starts_or_ends_compensation(in)) return in.raise_code(Condition::arc_in_compensation_start, row);
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, row);
   const auto h = static_cast<unsigned>(plane.h);

@@ -80,7 +80,8 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
     state.modal.set(row);
     return Execution::done;
   }
-  if (state.compensated()) return in.raise_code(Condition::cycle_in_compensation, row);
+  // Behind G40 alone the vector is there until a movement in the plane has ended without it: a hole without one would lie beside its place.
+  if (state.compensated() || keeps_vector(in)) return in.raise_code(Condition::cycle_in_compensation, row);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
   const bool begins = state.cycle.kind == CycleKind::none;
   if (begins || rules.ends_at_r) {  // without a level to return to, that of each code is the one from which it begins
