@@ -137,6 +137,18 @@ TEST_F(CommandTest, ALoopThatComesToItsEndIsNotCut) {
 }
 
 // A loop that comes back to a state that it has had before: in every pass, in every second or third one, or from some pass on.
+// G06 of the Series 8 goes to and fro for as long as an input is on, which the setup leaves on.
+TEST_F(CommandTest, ABlockThatNeverEndsIsGivenUp) {
+  file("p.s8", "F100\nG06X10Y5F1000\nM30\n");
+  file("on.json", R"({"inputs":{"1000":1}})");
+  for (const char* command : {"check", "trace"}) {
+    const Outcome run = ncsim(std::string(command) + " --dialect series8 --setup on.json p.s8");
+    EXPECT_EQ(run.code, 3) << command << run.err;
+    EXPECT_NE((run.err + run.out).find("line 2: 100 passes within this block, the last one without any change: an endless loop"), std::string::npos) << run.err << run.out.substr(0, 300);
+  }
+  EXPECT_EQ(ncsim("check --dialect series8 p.s8").code, 0);
+}
+
 TEST_F(CommandTest, ALoopThatGoesRoundIsGivenUp) {
   struct {
     const char* program;

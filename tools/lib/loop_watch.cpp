@@ -16,11 +16,15 @@
 namespace nc::tools {
 namespace {
 
+constexpr char kOption[] = " (--max-passes)";
 constexpr uint64_t kLongestPeriod = 16;  // a loop is found when it repeats a state within at most this number of passes
+
+std::string program_of(const nc_source& source) { return source.program != 0 ? " of O" + std::to_string(source.program) : ""; }
 
 }  // namespace
 
 bool LoopWatch::block(const nc_source& source, const Look& look) {
+  in_block_ = {};
   levels_.resize(size_t{source.depth} + 1);  // removes the levels of calls that have returned
   Level& level = levels_.back();
   if (level.program != source.program || level.file != source.file) {
@@ -41,23 +45,32 @@ bool LoopWatch::block(const nc_source& source, const Look& look) {
 }
 
 bool LoopWatch::pass(const nc_source& to, uint32_t from, Loop* loop, const Look& look) {
+  const std::string why = too_often(loop, look);
+  if (why.empty()) return false;
+  verdict_ = "line " + std::to_string(from) + program_of(to) + ": " + std::to_string(loop->passes) + " passes of the loop back to line " +
+             std::to_string(to.line) + why;
+  return true;
+}
+
+bool LoopWatch::block_goes_on(const nc_source& source, const Look& look) {
+  const std::string why = too_often(&in_block_, look);
+  if (why.empty()) return false;
+  verdict_ = "line " + std::to_string(source.line) + program_of(source) + ": " + std::to_string(in_block_.passes) + " passes within this block" + why;
+  return true;
+}
+
+std::string LoopWatch::too_often(Loop* loop, const Look& look) const {
   const uint64_t passes = ++loop->passes;
-  const auto give_up = [&](const std::string& why) {
-    const std::string program = to.program != 0 ? " of O" + std::to_string(to.program) : "";
-    verdict_ = "line " + std::to_string(from) + program + ": " + std::to_string(passes) + " passes of the loop back to line " + std::to_string(to.line) +
-               why + " (--max-passes)";
-    return true;
-  };
-  if (limits_.any != 0 && passes >= limits_.any) return give_up(" without an end");
-  if (limits_.same == 0 || passes + 1 < limits_.same) return false;
+  if (limits_.any != 0 && passes >= limits_.any) return std::string(" without an end") + kOption;
+  if (limits_.same == 0 || passes + 1 < limits_.same) return {};
   const uint64_t since = passes - loop->kept_at;
   if (loop->kept_at == 0 || passes + 1 == 2 * (loop->kept_at + 1)) {
     *loop = {passes, passes, look(), questions_};
   } else if (since <= std::min(kLongestPeriod, 2 * (loop->kept_at + 1) / limits_.same) && loop->questions == questions_ && look() == loop->state) {
-    return give_up(since == 1 ? ", the last one without any change: an endless loop"
-                              : ", the last " + std::to_string(since) + " of them back to where they began: an endless loop");
+    const std::string last = since == 1 ? ", the last one without any change" : ", the last " + std::to_string(since) + " of them back to where they began";
+    return last + ": an endless loop" + kOption;
   }
-  return false;
+  return {};
 }
 
 }  // namespace nc::tools

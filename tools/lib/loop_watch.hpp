@@ -33,6 +33,9 @@ class LoopWatch {
   /** To be called when a block has ended. @return true when a loop has exceeded its limit; verdict() says which. */
   bool block(const nc_source& source, const Look& look);
 
+  /** To be called when a block that goes on asks the machine how. @return true when it has done so more often than a loop may pass. */
+  bool block_goes_on(const nc_source& source, const Look& look);
+
   /** The loop that exceeded its limit, such as "line 7: 100 passes of the loop back to line 3 ...". */
   const std::string& verdict() const { return verdict_; }
 
@@ -46,9 +49,11 @@ class LoopWatch {
     std::map<std::pair<uint32_t, uint32_t>, Loop> loops;  // keyed by the line to which the jump goes and the line from which it comes
   };
   bool pass(const nc_source& to, uint32_t from, Loop* loop, const Look& look);
+  std::string too_often(Loop* loop, const Look& look) const;
 
   const LoopLimits limits_;
   std::vector<Level> levels_;  // one for each level of calls
+  Loop in_block_;              // of the block in execution
   uint64_t questions_ = 0;
   std::string verdict_;
 };

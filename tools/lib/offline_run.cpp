@@ -110,6 +110,11 @@ class OfflineRun {
           fail("the control refused the answer to a sync");
           return false;
         }
+        // Series 8 G06 goes to and fro until the machine answers otherwise.
+        if ((item.u.sync.what & NC_SYNC_INPUT) != 0 && !result_.one_pass && loops_.block_goes_on(item.source, [this] { return items_.program_state(); })) {
+          give_up(loops_.verdict());
+          return false;
+        }
         break;
       case NC_ITEM_MARK:
         mark(item);
