@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "support/pull.hpp"
@@ -160,6 +161,26 @@ TEST(Interference, AnAlarmBehindTheStartStandsInFrontOfIt) {
     bench.start(std::string("G90 G0 X0 Y0 F100\nG41 D1 G1 X10. Y10.\nY30.\n") + bad + "\nG40 X0\nM30");
     EXPECT_EQ(bench.finish().moves().size(), 2u) << bad;  // the mode has begun: the block before the alarm ends at right angles
   }
+}
+
+// The perpendicular vectors of an acute corner lie on the way of lines that run beside their programmed ones, and are left out only there.
+TEST(AcuteCorner, KeepsThePerpendicularOfALineThatRunsObliquely) {
+  const auto path = [](const std::string& contour) {
+    Bench bench;
+    bench.tool(1, 10).tool(2, 2);
+    const Outcome run = bench.run("G90 G0 X-100. Y-20. F100\nG41 D1 G1 X-60. Y0\n" + contour + "\nG40 X0 Y-90.\nM30");
+    EXPECT_EQ(run.alarm, "");
+    return run.path();
+  };
+  const auto passes = [](const Path& moves, const char* point) { return std::find(moves.begin(), moves.end(), std::string("line ") + point + " 0 F100") != moves.end(); };
+  const Path plain = path("X0.\nX-20. Y-20.\nY-80.");
+  EXPECT_TRUE(passes(plain, "10 10") && passes(plain, "14.142136 0"));
+  EXPECT_FALSE(passes(plain, "0 10") || passes(plain, "7.071068 -7.071068"));
+  EXPECT_TRUE(passes(path("X0.\nX-20. Y-20. D2\nY-80."), "7.071068 -7.071068"));       // another amount at its end
+  EXPECT_TRUE(passes(path("X0.\nG41 X-20. Y-20. I1. J1.\nY-80."), "7.071068 -7.071068"));  // a vector of the program there
+  EXPECT_TRUE(passes(path("X0.\nG38 X-20. Y-20.\nY-80."), "7.071068 -7.071068"));
+  EXPECT_TRUE(passes(path("G38 X-30. Y0 I-5. J10.\nX0.\nX-20. Y-20.\nY-80."), "0 10"));  // or at its start
+  EXPECT_TRUE(passes(path("G41 X-30. Y0 I5. J5.\nX0.\nX-20. Y-20.\nY-80."), "0 10"));
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compensated contours against an offset that shares no code with the control: GEOS (python3-shapely).
 
-Random closed contours of lines and arcs are compensated inside and outside by ncsim, with CONTOUR_CHECK, from a way in and back on a way out, which
-are lines or quarter circles, with and without a ramp. Of each that does not end in an alarm it is asked:
+Random closed contours of lines and arcs are compensated inside and outside by ncsim, with CONTOUR_CHECK, from a way in and back on a way out: lines at
+right angles, quarter circles with and without a ramp, lines along the first and the last block (a corner is then left on its lengthened sides), lines at
+any angle. Some go round twice, the first time down along a helix, whole circles among them. Corners between lines and, as the machine has the option for
+it, beside arcs are cut. Offset numbers differ from contour to contour; some contours change theirs on the way. Of each that does not end in an alarm it is asked:
 
   gouge    no part of the tool's path, the ways in and out included, comes nearer than the radius to any element of the contour
   uncut    every point of the contour that GEOS' offset curve reaches is reached by the path
@@ -38,7 +40,7 @@ except ImportError:
 SAGITTA = 0.00025  # mm: how far the fine polygons leave their arcs
 TOLERANCE = 0.001 + 3 * SAGITTA
 PER_PROCESS = 50
-MOST_ALARMS = {"star": 0.5, "slot": 0.6, "plate": 0.6, "round": 0.5}  # shares of each kind
+MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.6, "round": 0.5, "circle": 0.5}  # shares of each kind
 
 MACHINE = """[machine]
 name = "contours"
@@ -185,6 +187,61 @@ def nearly_round(rng, r):
     return [Element(start, end, (0.0, 0.0), True), Element(end, start)]
 
 
+def circle(rng, r):
+    """A whole circle in one block."""
+    radius = round(r * rng.choice([0.5, 1, 1.05, 1.5, 4]) * rng.uniform(1, 1.2), 3)
+    start = rounded((radius, 0)) if rng.random() < 0.5 else rounded((0, radius))
+    return [Element(start, start, (0.0, 0.0), True)]
+
+
+def cut_at(near, far):
+    """Points in which two offset curves meet, each (element, its distance to the left), of two the one nearer to the corner first."""
+    def curve(element, left):
+        if element.center is None:
+            p, u = element.at(0)
+            return ("line", (p[0] - left * u[1], p[1] + left * u[0]), u)
+        return ("circle", element.center, element.radius() - left * (1 if element.ccw else -1))
+
+    a, b = curve(*near), curve(*far)
+    if a[0] == "circle" and b[0] == "line":
+        a, b = b, a
+    if a[0] == "line" and b[0] == "line":
+        return []
+    if b[2] <= 1e-3 or (a[0] == "circle" and a[2] <= 1e-3):
+        return []
+    if a[0] == "line":
+        foot = (b[1][0] - a[1][0]) * a[2][0] + (b[1][1] - a[1][1]) * a[2][1]
+        beside = (b[1][0] - a[1][0]) * a[2][1] - (b[1][1] - a[1][1]) * a[2][0]
+        base, along, half = (a[1][0] + foot * a[2][0], a[1][1] + foot * a[2][1]), a[2], b[2] ** 2 - beside ** 2
+    else:
+        d = math.dist(a[1], b[1])
+        if d < 1e-6:
+            return []
+        e = ((b[1][0] - a[1][0]) / d, (b[1][1] - a[1][1]) / d)
+        x = (a[2] ** 2 - b[2] ** 2 + d * d) / (2 * d)
+        base, along, half = (a[1][0] + x * e[0], a[1][1] + x * e[1]), (-e[1], e[0]), a[2] ** 2 - x * x
+    if half <= 1e-6:
+        return []
+    corner, h = near[0].end, math.sqrt(half)
+    hits = [(base[0] + t * along[0], base[1] + t * along[1]) for t in (h, -h)]
+    return sorted(hits, key=lambda p: math.dist(p, corner))
+
+
+def foot_on(element, point):
+    """Where the element is nearest to a point beside it, and how far along it that is, 0 to 1; None beside its ends."""
+    if element.center is None:
+        p, u = element.at(0)
+        way = (point[0] - p[0]) * u[0] + (point[1] - p[1]) * u[1]
+        part = way / element.length()
+        return ((p[0] + way * u[0], p[1] + way * u[1]), part) if 0 <= part <= 1 else None
+    r, d = element.radius(), math.dist(point, element.center)
+    foot = (element.center[0] + (point[0] - element.center[0]) * r / d, element.center[1] + (point[1] - element.center[1]) * r / d)
+    if math.dist(foot, element.start) < 1e-9:
+        return None
+    part = Element(element.start, foot, element.center, element.ccw).sweep() / element.sweep()
+    return (foot, part) if 0 <= part <= 1 else None
+
+
 def divide(rng, elements):
     """Collinear and tangent joints, down to pieces of a nanometre."""
     result = []
@@ -206,17 +263,21 @@ class Contour:
         self.seed = seed
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = rng.choice(["star", "star", "star", "slot", "plate", "round"])
-            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius)}[kind]()
-            if any(e.start == e.end for e in elements):
+            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius)}[kind]()
+            if any(e.start == e.end and e.center is None for e in elements):
                 continue
             self.part = Polygon(ring_of(elements))
             if self.part.is_valid and self.part.area > 1e-3 and self.part.exterior.is_ccw:
                 break
         self.kind = kind
         self.inside = rng.random() < 0.5
-        if rng.random() < 0.4:
+        if kind != "circle" and rng.random() < 0.4:
             elements = divide(rng, elements)
+        self.along = 0.0  # length of lines along the first and the last block by which the tool comes and goes
+        self.aslant = None  # unit vector of the way in and out, where it is not at right angles
+        self.depth = 0.0  # of a first round along a helix
+        self.number, self.other = rng.randint(1, 9), None  # offset numbers; `other`: (block, radius) from which on another amount counts
         self.corners = {}
         self.way = 0.0  # radius of the quarter circles in and out, 0: lines at right angles to the contour
         self.ramp = ""  # Z to which the tool goes down on the way in
@@ -224,6 +285,10 @@ class Contour:
         self.cut_corners(rng)
         if rng.random() < 0.5:
             self.reverse()
+        if rng.random() < 0.15:
+            self.depth = rng.choice([0.5, 3.0])
+        elif not self.corners and len(self.programmed) > 2 and rng.random() < 0.1:
+            self.other = (rng.randint(1, len(self.programmed) - 1), round(self.radius * rng.uniform(0.7, 1.0), 3))
 
     def begin(self, rng, elements):
         """Starts in the middle of an element, where the tool has room if there is such a place."""
@@ -243,7 +308,8 @@ class Contour:
                 continue
             break
         i, part = chosen
-        if elements[i].length() < 0.01:
+        kind = rng.random()
+        if elements[i].length() < 0.01 or self.kind == "circle" or (0.4 < kind < 0.6 and rng.random() < 0.6):  # from a corner
             part = 0
         if part == 0:
             self.elements = elements[i:] + elements[:i]
@@ -255,7 +321,20 @@ class Contour:
             self.lead = rounded((point[0] - side * u[1] * far * self.radius, point[1] + side * u[0] * far * self.radius))
             if self.part.exterior.distance(Point(self.lead)) >= self.radius - 2 * SAGITTA:
                 break
-        if rng.random() < 0.4:  # on quarter circles, as far as there is room
+        if 0.4 < kind < 0.6:
+            self.along = round(rng.uniform(1.05, 3) * self.radius, 3)
+            last, v = self.elements[-1].at(1)
+            begin = (point[0] - self.along * u[0], point[1] - self.along * u[1])
+            end = (last[0] + self.along * v[0], last[1] + self.along * v[1])
+            self.between = (rounded(begin), rounded(end))
+            self.lead = rounded((begin[0] - side * u[1] * 1.5 * self.radius, begin[1] + side * u[0] * 1.5 * self.radius))
+        elif 0.6 < kind < 0.75:
+            angle = rng.uniform(-0.9, 0.9)
+            n = (-side * u[1], side * u[0])
+            self.aslant = (n[0] * math.cos(angle) - n[1] * math.sin(angle), n[0] * math.sin(angle) + n[1] * math.cos(angle))
+            far = rng.uniform(1.2, 2.5) * self.radius
+            self.lead = rounded((point[0] + far * self.aslant[0], point[1] + far * self.aslant[1]))
+        elif kind < 0.4:  # on quarter circles, as far as there is room
             self.way = round(rng.uniform(1.05, 2) * self.radius, 3)
             self.lead = rounded((point[0] - side * u[1] * self.way, point[1] + side * u[0] * self.way))
             self.ramp = rng.choice(["", " Z-2.5"])
@@ -276,11 +355,13 @@ class Contour:
             cut = None
             if follows and element.center is None and follows.center is None and rng.random() < 0.4:
                 cut = self.cut(rng, start, element.end, follows.end)
+            elif follows and (element.center or follows.center) and element.start != element.end and rng.random() < 0.3:
+                cut = self.cut_beside_arc(rng, Element(start, element.end, element.center, element.ccw), follows)
             if cut is None:
                 new.append(Element(start, element.end, element.center, element.ccw))
                 continue
             self.corners[i], before, behind, middle = cut
-            new.append(Element(start, before))
+            new.append(Element(start, before, element.center, element.ccw))
             new.append(middle)
             entry = behind
         candidate = Polygon(ring_of(new))
@@ -288,6 +369,30 @@ class Contour:
             self.corners = {}
             return
         self.elements, self.part = new, candidate
+
+    def cut_beside_arc(self, rng, element, follows):
+        """The same beside an arc (corner_ii): the circle that touches both, or the line between the points that are as far from the corner."""
+        shortest = min(element.length(), follows.length(), *(e.radius() for e in (element, follows) if e.center))
+        (_, u), (corner, w) = element.at(1), follows.at(0)
+        turn = math.atan2(u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1])
+        if shortest < 0.5 or not 0.1 < abs(turn) < 3:
+            return None
+        size = round(rng.uniform(0.05, 0.3) * shortest, 3)
+        if size < 0.02:
+            return None
+        if rng.random() < 0.5:
+            ends = []
+            for e, sense in ((element, -1), (follows, 1)):
+                way = size if e.center is None else 2 * e.radius() * math.asin(size / 2 / e.radius())
+                ends.append(e.at(0.5 + sense * (way / e.length() - 0.5))[0])
+            return f",C{size:.3f}", ends[0], ends[1], Element(ends[0], ends[1])
+        left = size if turn > 0 else -size
+        for center in cut_at((element, left), (follows, left)):
+            feet = foot_on(element, center), foot_on(follows, center)
+            if None in feet or feet[0][1] < 0.5 or feet[1][1] > 0.5:
+                return None
+            return f",R{size:.3f}", feet[0][0], feet[1][0], Element(feet[0][0], feet[1][0], center, turn > 0)
+        return None
 
     def cut(self, rng, start, corner, end):
         a, b = math.dist(start, corner), math.dist(corner, end)
@@ -322,7 +427,16 @@ class Contour:
             return
         self.elements = [Element(e.end, e.start, e.center, not e.ccw) for e in reversed(self.elements)]
         self.programmed = list(self.elements)
-        self.backwards = True
+        self.turn_round()
+
+    def turn_round(self):
+        self.backwards = not self.backwards
+        if self.along:
+            self.between = self.between[::-1]
+            point, end = self.programmed[0].start, self.between[0]
+            u = ((point[0] - end[0]) / self.along, (point[1] - end[1]) / self.along)
+            side = 1 if self.side() == "G41" else -1
+            self.lead = rounded((end[0] - side * u[1] * 1.5 * self.radius, end[1] + side * u[0] * 1.5 * self.radius))
 
     backwards = False
 
@@ -342,28 +456,47 @@ class Contour:
         along = 1 if end else -1
         return rounded((center[0] + along * u[0] * self.way, center[1] + along * u[1] * self.way)), center
 
-    def blocks(self):
-        first, lead = self.programmed[0].start, self.lead
-        sense = "G3" if self.side() == "G41" else "G2"
-        lines = [f"G10 L10 P1 R{self.radius:.6f}", f"G0 X{lead[0]:.6f} Y{lead[1]:.6f}"]
-        if self.way:
-            start, center = self.quarter(False)
-            lines.append(f"{self.side()} D1 G1 X{start[0]:.6f} Y{start[1]:.6f} F1000")
-            lines.append(f"{sense} X{first[0]:.6f} Y{first[1]:.6f} I{center[0] - start[0]:.6f} J{center[1] - start[1]:.6f}{self.ramp}")
-        else:
-            lines.append(f"{self.side()} D1 G1 X{first[0]:.6f} Y{first[1]:.6f} F1000")
+    def round(self, lines, depth):
+        """The blocks of one round; `depth`: along it the tool goes down evenly."""
+        start = 0.0
+        whole = sum(e.length() for e in self.programmed)
         for i, e in enumerate(self.programmed):
             word = self.corners.get(i, "")
+            if self.other and self.other[0] == i:
+                word += f"D{self.number % 9 + 1}"
+            start += e.length()
+            down = f" Z{-depth * start / whole:.4f}" if depth else ""
             if e.center is None:
-                lines.append(f"G1 X{e.end[0]:.6f} Y{e.end[1]:.6f} {word}")
+                lines.append(f"G1 X{e.end[0]:.6f} Y{e.end[1]:.6f}{down} {word}")
             else:
-                lines.append(f"G{3 if e.ccw else 2} X{e.end[0]:.6f} Y{e.end[1]:.6f} I{e.center[0] - e.start[0]:.6f} J{e.center[1] - e.start[1]:.6f}")
+                lines.append(f"G{3 if e.ccw else 2} X{e.end[0]:.6f} Y{e.end[1]:.6f}{down} I{e.center[0] - e.start[0]:.6f} J{e.center[1] - e.start[1]:.6f} {word}")
+
+    def blocks(self):
+        first, lead, code = self.programmed[0].start, self.lead, f"{self.side()} D{self.number}"
+        sense = "G3" if self.side() == "G41" else "G2"
+        lines = [f"G10 L10 P{self.number} R{self.radius:.6f}", f"G0 X{lead[0]:.6f} Y{lead[1]:.6f}"]
+        if self.other:
+            lines[0] += f"\nG10 L10 P{self.number % 9 + 1} R{self.other[1]:.6f}"
+        if self.way:
+            start, center = self.quarter(False)
+            lines.append(f"{code} G1 X{start[0]:.6f} Y{start[1]:.6f} F1000")
+            lines.append(f"{sense} X{first[0]:.6f} Y{first[1]:.6f} I{center[0] - start[0]:.6f} J{center[1] - start[1]:.6f}{self.ramp}")
+        elif self.along:
+            lines.append(f"{code} G1 X{self.between[0][0]:.6f} Y{self.between[0][1]:.6f} F1000")
+            lines.append(f"X{first[0]:.6f} Y{first[1]:.6f}")
+        else:
+            lines.append(f"{code} G1 X{first[0]:.6f} Y{first[1]:.6f} F1000")
+        if self.depth:
+            self.round(lines, self.depth)
+        self.round(lines, 0)
         if self.way:
             last = self.programmed[-1].end
             end, center = self.quarter(True)
             lines.append(f"{sense} X{end[0]:.6f} Y{end[1]:.6f} I{center[0] - last[0]:.6f} J{center[1] - last[1]:.6f}{self.ramp and ' Z0'}")
-        lines.append(f"G1 G40 X{lead[0]:.6f} Y{lead[1]:.6f}")
-        return lines
+        if self.along:
+            lines.append(f"G1 X{self.between[1][0]:.6f} Y{self.between[1][1]:.6f}")
+        lines.append(f"G1 G40 X{lead[0]:.6f} Y{lead[1]:.6f}{' Z0' if self.depth else ''}")
+        return [block for line in lines for block in line.split("\n")]
 
 
 # ---- transformed contours
@@ -399,8 +532,8 @@ def line_of(move, scale):
 def run_backwards(contour):
     """The same contour the other way round, on its other side."""
     back = copy.copy(contour)
-    back.backwards = not contour.backwards
     back.elements = back.programmed = [Element(e.end, e.start, e.center, not e.ccw) for e in reversed(contour.programmed)]
+    back.turn_round()
     return back.blocks()
 
 
@@ -443,7 +576,7 @@ def run_all(ncsim, programs, folder):
     setup, machine = os.path.join(folder, "setup.json"), os.path.join(folder, "machine.toml")
     if not os.path.exists(machine):
         with open(setup, "w", encoding="ascii") as out:
-            json.dump({"params": {"CONTOUR_CHECK": 1}}, out)
+            json.dump({"params": {"CONTOUR_CHECK": 1, "corner_ii": 1}}, out)
         with open(machine, "w", encoding="ascii") as out:
             out.write(MACHINE)
     next_one = 0
@@ -457,9 +590,10 @@ def run_all(ncsim, programs, folder):
         path = os.path.join(folder, "contours.nc")
         with open(path, "w", encoding="ascii") as out:
             out.write("\n".join([*lines, "M30", ""]))
-        first_line = {}
+        first_line = {}  # of the start of compensation
         for number, k in enumerate(owner):
-            first_line.setdefault(k, number + 1)
+            if k is not None and k not in first_line and lines[number].startswith(("G41", "G42")):
+                first_line[k] = number + 1
         trace = subprocess.run([ncsim, "trace", "--machine", machine, "--setup", setup, path], stdout=subprocess.PIPE, check=False).stdout
         next_one = batch[-1] + 1
         at = {"X": 0.0, "Y": 0.0}
@@ -468,7 +602,7 @@ def run_all(ncsim, programs, folder):
             if event["t"] == "alarm":
                 k = owner[event["line"] - 1]
                 results[k].alarm = event["code"]
-                results[k].alarm_block = event["line"] - first_line[k] - 2
+                results[k].alarm_block = event["line"] - first_line[k]
                 next_one = k + 1
             if event["t"] != "move":
                 continue
@@ -476,7 +610,7 @@ def run_all(ncsim, programs, folder):
             to = event["machine"]
             start, end = (at["X"], at["Y"]), (to["X"], to["Y"])
             center = event.get("machine_center")
-            block = event["line"] - first_line[k] - 2
+            block = event["line"] - first_line[k]
             if block >= 0:
                 results[k].moves.append((block, Element(start, end, (center["X"], center["Y"]) if center else None, event.get("dir") == "ccw")))
             at = to
@@ -497,11 +631,11 @@ def judge(contour, result):
         return "open: the path does not come back"
     wall, paths = contour.wall(), [(block, LineString(move.points())) for block, move in result.moves if move.length() > 1e-9]
     path = MultiLineString([line for _, line in paths])
-    depth = contour.radius - path.distance(wall)
+    depth = (min(contour.radius, contour.other[1]) if contour.other else contour.radius) - path.distance(wall)
     if depth > TOLERANCE:
         block = min(paths, key=lambda each: each[1].distance(wall))[0]
         return f"gouge of {depth:.4f} mm in block {block}"
-    return judge_uncut(contour, path)
+    return None if contour.other else judge_uncut(contour, path)  # with two amounts there is no one offset curve
 
 
 def judge_uncut(contour, path):
@@ -561,8 +695,8 @@ def main():
         for way in [*TRANSFORMS, "back"]:
             programs = [run_backwards(c) if way == "back" else transformed(c.blocks(), way) for c in tried]
             for contour, result, other in zip(tried, results, run_all(ncsim, programs, folder)):
-                if way == "back" and contour.corners:
-                    continue  # their words stand at the other block then
+                if way == "back" and (contour.corners or contour.depth or contour.other or contour.along):
+                    continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
                 bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way)
                 if bad:
                     wrong[way] = wrong.get(way, 0) + 1

@@ -184,6 +184,9 @@ struct CompensationRules {
   /// At an outer corner whose blocks enclose less than this the tool goes round on an arc, at any other one to the intersection (Series 8 G41); 0 =
   /// as M700 12.4.1 has it.
   double arc_below_deg = 0;
+  /// In the mode the code of the other side may stand in the block of an arc (HX 13.2.2 (3): "N6 G41 G02 J-50.0"). Otherwise these codes and an arc
+  /// do not go together (M700 App. 1 P151).
+  bool side_changes_on_arc = false;
 };
 
 /// Compensation of the tool length.

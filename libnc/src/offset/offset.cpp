@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "alarm/condition.hpp"
+#include "base/same_place.hpp"
 #include "stream/copy_item.hpp"
 
 namespace nc {
@@ -56,6 +57,9 @@ bool cuts_inner_corner(const Section& before, const Move& move, const Section& b
 bool vanishes(const Leg& begin, const Leg& end, double offset) {
   return !offset_exists(begin, offset) || !offset_exists(end, offset);
 }
+
+// Does a line that begins with this vector run parallel to its programmed one? Not where another amount, or the program, has made the vector.
+bool runs_beside(const Section& line, Vec2 from) { return std::abs(dot(from, left_of(line.end.u)) - line.offset) <= kNoLength; }
 
 // How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
 double reach(const Leg& leg, Vec2 delta) {
@@ -416,7 +420,8 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   const bool changes_side = !behind.cancel && last->offset * behind.offset < 0;
   if (changes_side || comp_behind.cancel_vector) held_last.trim = held_last.trim_next = held_behind->trim = true;
   last->merge_first = last->end.curvature == 0 && !last->start;
-  last->merge_last = behind.begin.curvature == 0 && !behind.cancel && !comp_behind.hold_vector;
+  const bool own_end = !comp_behind.hold_vector && !comp_behind.has_vector && behind.offset == last->offset;
+  last->merge_last = behind.begin.curvature == 0 && !behind.cancel && own_end;
   tail_ = last->joint.v[last->joint.n - 1];
 }
 
@@ -515,7 +520,7 @@ void OffsetStage::release(unsigned sections) {
     Section& section = chain_[i];
     ContourJoint joint = section.joint;
     if (joint.lengthened && section.merge_last) --joint.n;
-    if (joint.lengthened && section.merge_first) {
+    if (joint.lengthened && section.merge_first && runs_beside(section, chain_start_)) {
       --joint.n;
       for (unsigned k = 0; k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
     }

@@ -129,7 +129,8 @@ Execution set_compensation(BlockContext& in, Function function) {
     return Execution::done;
   }
   if (means_space(in)) return set_space_compensation(in, function);
-  if (arc) return in.raise_function(Condition::arc_in_compensation_start, function);
+  const bool changes_on_arc = rules.side_changes_on_arc && comp.side != 0 && state.moved_side != 0;
+  if (arc && !changes_on_arc) return in.raise_function(Condition::arc_in_compensation_start, function);
   if (state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_function(Condition::cycle_in_compensation, function);
   const int8_t side = function == Function::comp_left ? int8_t{1} : int8_t{-1};
   if (comp.side == -side && !rules.may_change_side) return in.raise_function(Condition::not_in_compensation, function);
@@ -154,7 +155,7 @@ Execution set_compensation(BlockContext& in, Function function) {
   if (rules.arc_below_deg > 0) comp.arc_cos = static_cast<float>(std::cos((180 - rules.arc_below_deg) * std::numbers::pi / 180));
   comp.radius = radius_amount(in, state.modal.d);
   comp.side = state.modal.d == 0 ? int8_t{0} : side;
-  comp.has_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
+  comp.has_vector = rules.vector_by_words && !arc && take_vector(in, words, comp.vector);  // of an arc they are its centre
   // M700 12.4.3: the vector is gone to at once, even when the block names no axis; cutting takes a feed (3.2, P62).
   if (comp.has_vector && comp.side != 0 && motion != Function::rapid) return check_feed(in, motion);
   return Execution::done;
