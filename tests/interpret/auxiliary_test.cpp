@@ -234,7 +234,11 @@ TEST(DgshapeOffsets, LengthsAndDiametersAreApart) {  // DGSHAPE G10, G43: a prog
 TEST(DgshapeFeed, OfTheRotaryAxisGoesByTheRadius) {
   const auto feeds = [](const std::string& text) {
     std::string all;
-    for (const std::string& move : Bench(NC_DIALECT_DGSHAPE, axes("XYZa")).run("%\nG21G90F100.\n" + text + "\nM02").path())
+    const auto machine = [](nc_config& config) {
+      axes("XYZa")(config);
+      config.system[0].axis[2].reference[0] = 100;  // the highest position of Z, where F does not count
+    };
+    for (const std::string& move : Bench(NC_DIALECT_DGSHAPE, machine).run("%\nG21G90F100.\n" + text + "\nM02").path())
       if (const size_t at = move.find(" F"); at != std::string::npos) all += move.substr(at);
     return all;
   };

@@ -24,6 +24,11 @@ nc_move last_move(const std::string& text) {
   return run.moves().empty() ? nc_move{} : run.moves().back();
 }
 
+TEST(DgshapeCycleBeside, AMotionDoesNotEndACycle) {  // 1-2, 2-7: other groups
+  for (const char* codes : {"G00G99G81", "G99G81G00"})
+    EXPECT_EQ(dgshape(std::string("M03S1000\n") + codes + "X1.Z-1.R1.F100.\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 0 1", "line 1 0 -1 F100", "rapid 1 0 1"})) << codes;
+}
+
 TEST(DgshapeRotary, FIsTheSpeedOfTheToolOnItsCircle) {
   // 10 mm from the axis: 100 mm/min are 10 rad/min.
   EXPECT_NEAR(last_move("G00Z10.\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);
@@ -49,7 +54,7 @@ TEST(DgshapeRotary, AtTheTopOfZItTurnsAsFastAsItCan) {
   EXPECT_EQ(last_move("G28Z20.\nG01A90.F100.").kind, NC_MOVE_RAPID);
   EXPECT_EQ(last_move("G00Z99.\nG01A90.F100.").kind, NC_MOVE_LINE);
   EXPECT_EQ(last_move("G00Z100.\nG01X5.A90.F100.").feed_mm_min, 100);  // X goes at F
-  EXPECT_EQ(last_move("G01A90.F100.").kind, NC_MOVE_RAPID);            // on the axis no speed turns it
+  EXPECT_EQ(last_move("G01A90.F100.").feed_mm_min, 100);               // on the axis no speed of the tool turns it: deg/min
 }
 
 }  // namespace

@@ -124,6 +124,93 @@ TEST(Hx, OffsetsHave128Numbers) {  // 13.1.1, 14.2.3
   EXPECT_EQ(without.alarm_detail.find("4294967295"), std::string::npos) << without.alarm_detail;
 }
 
+TEST(Hx, ABlockSkipStandsAtTheHeadOfItsBlock) {  // 2.3.3, 14.2.2
+  for (const char* block : {"/0 X1.", "/10 X1.", "//X1.", "X1. /2 Y2.", "G00 X1. /"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "F_82017") << block;
+  EXPECT_EQ(hx("/1 X1.\nM30").path(), (Path{"rapid 1 0 0"}));
+}
+
+TEST(Hx, FormulasStandInBrackets) {  // 14.2.4
+  for (const char* block : {"X4.-1.", "X1.+2.", "X2.*3."}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "F_82004") << block;
+  EXPECT_EQ(hx("#1=2\nX-[#1+#1]\nZ-#1\nX[4.-1.]\nM30").path(), (Path{"rapid -4 0 0", "rapid -4 0 -2", "rapid 3 0 -2"}));
+  EXPECT_EQ(hx("#1=4.-1.\nX#1\nM30").path(), (Path{"rapid 3 0 0"}));
+}
+
+TEST(Hx, WholeNumbersHaveNoFraction) {  // 2.2.2
+  for (const char* block : {"M3.5", "T1.5", "S100.7", "G43 H1.5 Z1.", "G41 D1.5 G01 X1. F10", "M98 P10.7", "G10 L10.9 P1 R1.", "G10 L10 P1.5 R1.", "G81 X1. Z-1. R1. F10 K2.7"})
+    EXPECT_EQ(alarm_of(std::string("S100\n") + block + "\nM30"), "F_82004") << block;
+  EXPECT_EQ(alarm_of("M3.\nT1. S100.\nM30"), "");
+}
+
+TEST(Hx, AParameterThatNothingAsksForIsNoVariable) {  // 14.2.3
+  for (const char* block : {"#3000=1(ALARM)", "#3006=1", "#3200=1", "#29999=1", "#100=#3001", "#100=#20000"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "NC-VARIABLE") << block;
+}
+
+TEST(Hx, AWayThroughTheAreaOfTheStrokeCheckIsProhibited) {  // 15.5.3
+  const std::string area = "G22 X100. Y50. Z50. I10. J10. K10.\n";
+  EXPECT_EQ(alarm_of(area + "X-5. Y20. Z20.\nG01 X120. F100\nM30"), "NC-LIMIT");
+  EXPECT_EQ(alarm_of(area + "X-5. Y20. Z20.\nG01 Y200. F100\nX120.\nM30"), "");
+  EXPECT_EQ(alarm_of(area + "X0 Y0 Z20.\nG02 X0 Y60. J30. F100\nM30"), "");                  // on the other side
+  EXPECT_EQ(alarm_of(area + "X0 Y0 Z20.\nG03 X0 Y60. J30. F100\nM30"), "NC-LIMIT");          // through it
+  EXPECT_EQ(alarm_of(area + "X5. Y5. Z0\nG01 X120. Y60. Z5. F100\nM30"), "");                // below
+  const auto outside = [](const std::string& text) {
+    return Bench(NC_DIALECT_HX).param("23474", "1").run("G22 X100. Y50. Z50. I-10. J-10. K-10.\n" + text + "M30").alarm;
+  };
+  EXPECT_EQ(outside("X90.\nG03 X90. Y40. J20. F100\n"), "NC-LIMIT");  // it bulges over the border
+  EXPECT_EQ(outside("X70.\nG03 X70. Y40. J20. F100\n"), "");
+}
+
+TEST(Hx, TheSkipPositionIsOfAllAxes) {  // 14.2.3 (7)
+  Bench bench(NC_DIALECT_HX);
+  bench.skip_at = [](const nc_item&) { return std::optional<double>(0.5); };
+  const Outcome run = bench.run("G00 X10. Y20.\nG31 Z-40. F100\n#100=#6319\n#101=#6320\n#102=#6321\nM30");
+  EXPECT_EQ(run.var(100), 10);
+  EXPECT_EQ(run.var(101), 20);
+  EXPECT_EQ(run.var(102), -20);
+  Bench measuring(NC_DIALECT_HX);
+  measuring.param("3141", "5").param("3142", "2").param("3143", "30").tool(1, 10).skip_at = [](const nc_item&) { return std::optional<double>(0.5); };
+  EXPECT_NEAR(measuring.run("G43 H1 G00 Z50.\nG37 Z20.\n#100=#6321\nM30").var(100), 31.5, 1e-9);  // half of the way from 25 to 18, without the length
+}
+
+TEST(Hx, ACentreOfRotationIsScaled) {  // 15.4.2 (2)
+  EXPECT_EQ(hx("G51 X0 Y0 P2000\nG68 X5. Y0 R90.\nX10. Y0\nG69\nG50\nM30").path(), (Path{"rapid 10 10 0"}));
+}
+
+TEST(Hx, OfAMotionAndACycleTheLaterOneCounts) {  // 12.2.1
+  EXPECT_EQ(hx("G90 G00 G99 G81 X1. Z-1. R1. F100\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 0 1", "line 1 0 -1 F100", "rapid 1 0 1"}));
+  EXPECT_EQ(hx("G90 G99 G81 G00 X1. Z-1. R1. F100\nM30").path(), (Path{"rapid 1 0 -1"}));
+}
+
+TEST(Hx, TheClampOfG92IsNoSpeed) {  // 9.3
+  EXPECT_EQ(hx("G97 S1000 M03\nG92 S3000\nM30").aux(), "S1000 M3 M30");
+}
+
+TEST(Hx, OffsetsAreVariablesInTheUnitInForce) {  // 13.3, 14.2.3
+  const Outcome run = hx("G20\n#2240=1.\n#2377=2.\n#100=#2240\n#101=#2377\nG43 H1 Z0\nX0\nG21\n#102=#2240\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_EQ(run.path(), (Path{"rapid 0 0 25.4", "rapid 50.8 0 25.4"}));
+  EXPECT_NEAR(run.var(100), 1, 1e-12);
+  EXPECT_NEAR(run.var(101), 2, 1e-12);
+  EXPECT_NEAR(run.var(102), 25.4, 1e-12);
+}
+
+TEST(Hx, TheShiftOfABoreIsThatOfTheSpindle) {  // 15.2.2: not scaled, mirrored or turned
+  const auto shift = [](const std::string& map) { return hx("M03 S500\nG00 Z10.\n" + map + "\nG76 X5. Y0 Z-5. R2. I1. J.5 F100\nG80\nM30").path(); };
+  EXPECT_EQ(shift("G51 X0 Y0 Z0 P2000")[4], "line 11 0.5 -10 F100");
+  EXPECT_EQ(shift("G51 X0 Y0 I-1000 J1000")[4], "line -4 0.5 -5 F100");
+  EXPECT_EQ(shift("G68 X0 Y0 R90.")[4], "line 1 5.5 -5 F100");
+}
+
+TEST(Hx, LRepeatsACycleAsKDoes) {  // 12.2.2
+  EXPECT_EQ(hx("G91 G99 G81 X1. Z-1. R0 F100 L2\nM30").path().size(), 6u);
+  EXPECT_EQ(hx("G99 G81 X1. Z-1. R0 F100 L0\nM30").path().size(), 0u);
+}
+
+TEST(Hx, ASubProgramNeedsItsReturn) {  // 2.4.3
+  Bench bench(NC_DIALECT_HX);
+  bench.add("O10.nc", "O10\nG00 X1.\n");
+  EXPECT_EQ(bench.run("M98 P10\nM30").alarm, "F_82024");
+}
+
 TEST(Hx, AMoveInMachineCoordinatesIsAbsoluteOnly) {  // 7.1.1: in G91 the code does nothing
   EXPECT_EQ(Bench(NC_DIALECT_HX).work_offset(1, {10}).run("G90 G53 G00 X5.\nG91 G53 X7.\nG90 X1.\nM30").path(),
             (Path{"rapid 5 0 0", "rapid 11 0 0"}));

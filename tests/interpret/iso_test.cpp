@@ -273,6 +273,22 @@ TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
   EXPECT_EQ(alarm_of("G10 L1 P1 Z1"), "NC-NOT-BUILT");
 }
 
+TEST(Iso, AHoleGoesDown) {  // LinuxCNC G81: R below Z is an error
+  EXPECT_EQ(alarm_of("G0 Z5\nG81 X1 Z2 R1 F100"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G0 Z5\nG91 G81 X1 Z2 R1 F100"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G0 Z5\nG81 X1 Z1 R1 F100"), "");
+}
+
+TEST(Iso, ADwellTakesNoAxisWords) {  // RS-274/NGC 3.5.4
+  EXPECT_EQ(alarm_of("G0 X1 G4 P1"), "NC-ALONE");
+}
+
+TEST(Iso, AMotionAndACycleAreOfOneGroup) {  // RS-274/NGC 3.4, table 4
+  EXPECT_EQ(alarm_of("G0 G81 X1 Z-1 R1 F100"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G81 G0 X1 Z-1 R1 F100"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G0 G80 X1"), "");
+}
+
 TEST(IsoSystems, TheShiftIsOfAllAndGoesWithG921) {  // RS-274/NGC 3.5.18
   Bench bench(NC_DIALECT_ISO);
   bench.tool(1, 10);

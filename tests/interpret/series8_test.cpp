@@ -201,6 +201,11 @@ TEST(Series8Cycle, EndsAtRAndItsLevelsStay) {  // G80, G81
   EXPECT_EQ(alarm_of("F10\nG81X1Z-3"), "NC-WORDS");
 }
 
+TEST(Series8Cycle, OfAMotionAndACycleTheLaterOneCounts) {  // G80
+  EXPECT_EQ(path_of("F10\nG00G81X1Z-1R1"), (Path{"rapid 1 0 0", "rapid 1 0 1", "line 1 0 -1 F10", "rapid 1 0 1"}));
+  EXPECT_EQ(path_of("F10\nG81G00X1Z-1R1"), (Path{"rapid 1 0 -1"}));
+}
+
 TEST(Series8Cycle, PositionsARotaryAxisTogetherWithXY) {
   const auto with_a = [](nc_config& config) {
     config.system[0].axis_count = 4;
@@ -247,6 +252,15 @@ TEST(Series8Cycle, BoresInTheWayOfEachCode) {  // G85 to G89
                                   "rapid 7 0 10", "rapid 5 0 10"}));
   EXPECT_EQ(upwards.aux(), "S600 M4 M5 M19 M4 M5 M19 M4");
   EXPECT_EQ(alarm_of("F10\nG86X1Z-3R4"), "NC-SPINDLE");  // which way would it turn again?
+}
+
+TEST(Series8Cycle, TheShiftIsThatOfTheSpindle) {  // G88: no map turns or scales it
+  const auto shifted = [](const std::string& map) {
+    const Path path = path_of("M04S600\nF10\n" + map + "\nG88X5Y0Z-5R2I.5P0");
+    return path.size() > 3 ? path[3] : std::string();
+  };
+  EXPECT_EQ(shifted("G55R180"), "rapid -4.5 0 -5");
+  EXPECT_EQ(shifted("G57R2"), "rapid 10.5 0 -5");
 }
 
 TEST(Series8Cycle, TakesTheLengthOfItsTool) {  // G81 D

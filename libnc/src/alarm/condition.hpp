@@ -40,6 +40,7 @@ enum class Condition : uint16_t {
   contour_too_long,
   tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,
   life_full, life_group,
+  block_skip, sub_without_return,
   internal,
   count_
 };

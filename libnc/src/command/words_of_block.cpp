@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command/words_of_block.hpp"
 
+#include <cmath>
+
 #include "command/command.hpp"
 #include "modal/modes.hpp"
 
@@ -50,6 +52,15 @@ WordSlot first_expression(const Block& block) {
 WordSlot first_with_point(const Block& block, WordSet words, double* value) {
   for (const Word& word : block.words) {
     if (!is_in(word, words) || (word.flags & kWordPoint) == 0) continue;
+    *value = word.value;
+    return slot_of(word);
+  }
+  return kNoWord;
+}
+
+WordSlot first_with_fraction(const Block& block, WordSet words, double* value) {
+  for (const Word& word : block.words) {
+    if (!is_in(word, words) || (word.flags & kWordExpression) != 0 || word.value == std::floor(word.value)) continue;
     *value = word.value;
     return slot_of(word);
   }

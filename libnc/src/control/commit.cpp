@@ -175,6 +175,25 @@ bool Commit::begins_elsewhere(const Move& move) const {  // a shape, or an arc
   return std::fabs(h) > kNoJump || std::fabs(v) > kNoJump;
 }
 
+/// HX 15.5.3: a place of the curve between its ends is prohibited. Curves are looked at in pieces, which differ from their chords by less than the
+/// tolerance of an arc.
+bool Commit::enters(const StrokeBox& box) const {
+  constexpr double kPiece_mm = 0.5;
+  constexpr unsigned kMostPieces = 2000;
+  const bool straight = !curve_.circular && curve_.shape == nullptr;
+  const bool whole = straight && !box.any_turns() && !box.outside;
+  const double wanted = std::ceil(curve_.length / kPiece_mm);
+  const unsigned pieces = whole ? 1 : wanted < 16 ? 16 : wanted > kMostPieces ? kMostPieces : static_cast<unsigned>(wanted);
+  AxisVec from = machine_;
+  for (unsigned i = 1; i <= pieces; ++i) {
+    const AxisVec to = i == pieces ? curve_.end : curve_position(curve_, curve_.length * i / pieces, axis_count_);
+    if (box.prohibits(to)) return true;
+    if (!box.outside && !box.any_turns() && box.meets(from, to)) return true;
+    from = to;
+  }
+  return false;
+}
+
 Committed Commit::commit(const Item& item, const Named& named) {
   if (item.kind == ItemKind::move) {
     const Move& move = item.move;
@@ -206,7 +225,7 @@ Committed Commit::commit(const Item& item, const Named& named) {
     if (any_limit_ && !inside_limits(curve_)) return Committed::soft_limit;
     if (move.stroke_box != 0) [[unlikely]] {  // M700 15.7 (2)
       const StrokeBox& box = (*config_.stroke_boxes)[move.stroke_box - 1];
-      if (box.prohibits(machine_) || box.prohibits(end)) return Committed::prohibited;
+      if (box.prohibits(machine_) || box.prohibits(end) || (box.way && enters(box))) return Committed::prohibited;
     }
     if (shape != nullptr) ++shape_count_;
     start_ = machine_;

@@ -164,6 +164,7 @@ class Commit {
     point.machine = machine_;
     return point;
   }
+  bool enters(const StrokeBox& box) const;
   bool begins_elsewhere(const Move& move) const;
   bool inside_limits(const Curve& curve);
   void add_held_axes(const Curve& curve, AxisVec* from, AxisVec* low, AxisVec* high);

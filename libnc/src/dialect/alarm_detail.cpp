@@ -275,6 +275,8 @@ constexpr Sentence kSentences[] = {
      nullptr},
     {C::name_without_value, "No value has been given to the named parameter before this block.", nullptr},
     {C::too_many_names, "The program has more named parameters than there is room for ({value}).", "The program has more named parameters than there is room for."},
+    {C::block_skip, "A block skip stands at the head of its block, as / or with the number of a switch, /1 to /9.", nullptr},
+    {C::sub_without_return, "The text of the sub program ends without {word}.", "The text of the sub program ends without its return."},
     {C::call_in_mdi, "Blocks of MDI call no sub program. Put {word} into a program.", "Blocks of MDI call no sub program."},
     {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr},
     {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},

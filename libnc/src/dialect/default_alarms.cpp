@@ -189,6 +189,8 @@ constexpr AlarmRow kRows[] = {
     {C::hole_angle_zero, "NC-RANGE", nullptr},
     {C::drilling_axis_changed, "NC-PLANE", nullptr},
     {C::call_in_mdi, "NC-MODE", nullptr},
+    {C::block_skip, "NC-FORMAT", nullptr},
+    {C::sub_without_return, "NC-END", nullptr},
     {C::geometric_arc_option, "NC-CORNER", nullptr},
     {C::geometric_circle_option, "NC-CORNER", nullptr},
     {C::geometric_parallel, "NC-CORNER", nullptr},

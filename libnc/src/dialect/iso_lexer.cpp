@@ -142,7 +142,11 @@ class Lexer {
     if (!rules_.skip_numbers || !is_digit(at_.peek())) return;
     block_.skip = static_cast<uint8_t>(*at_.p - '0');
     ++at_.p;
-    if (block_.skip == 0) fault(Condition::value_range, '/', 0);
+    if (rules_.skip_misuse != Condition::none && (block_.skip == 0 || is_digit(at_.peek()))) {
+      fault(rules_.skip_misuse, '/');
+    } else if (block_.skip == 0) {
+      fault(Condition::value_range, '/', 0);
+    }
   }
 
   bool head_number(char letter, bool* has, uint32_t* number) {
@@ -354,7 +358,8 @@ class Lexer {
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, word->letter);
     const char next = at_.peek();
-    if (rules_.macros && rules_.formula == Formula::macro && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
+    if (rules_.macros && !rules_.bare_sums && (next == '+' || next == '-' || next == '*')) return fault(Condition::format_error, word->letter);
+    if (rules_.macros && rules_.bare_sums && rules_.formula == Formula::macro && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
       at_ = start;
       return expression_value(word);
     }
@@ -411,6 +416,7 @@ class Lexer {
       case '=':
         return fault(rules_.macros ? Condition::format_error : Condition::illegal_character, c);
       case '/':
+        return fault(rules_.skip_misuse != Condition::none ? rules_.skip_misuse : Condition::format_error, c);
       case '+':
       case '-':
       case '.':

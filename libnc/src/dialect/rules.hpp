@@ -44,6 +44,8 @@ struct BlockRules {
   /// A decimal point is a fault in words whose value is a whole number: codes, spindle speeds, numbers of tools and offsets, counts
   /// (DGSHAPE 2). Otherwise the decimals are cut off (M700 5.3).
   bool whole_words_refuse_point;
+  /// Digits behind a point that are not 0 are a fault in the same words (HX 2.2.2 "format of data"). Otherwise they are cut off (M700 5.3).
+  bool whole_words_refuse_fraction = false;
   /// M codes that stop or end the program have to stand alone in their block (DGSHAPE 2). M700 9.1 allows other words beside them.
   bool stops_stand_alone;
   /// A dwell has to stand alone in its block (DGSHAPE G04). M700 8.1 allows other words beside it.
@@ -111,6 +113,8 @@ struct SkipRules {
   /// The move has the F in force, and an F in its block stays in force (LinuxCNC G38). Otherwise an F in the block counts for this move only,
   /// and without one a parameter gives the feed (M700 15.2).
   bool feed_is_modal;
+  /// The place where a measurement of a tool has ended is that of the last skip, too (HX 4.10). Otherwise only a skip stores one (M700 15.1).
+  bool measurement_stores = false;
 };
 
 struct ArcRules {
@@ -146,6 +150,8 @@ struct DwellRules {
   double longest_s;  ///< M700 8.1; DGSHAPE G04: 3600 s
   /// X is in seconds without a point, too (HX 5.4). Else it goes by the settings of numbers (M700 8.1; DGSHAPE 1-5).
   bool x_is_seconds;
+  /// Axis words beside a dwell are a fault: the dwell takes no such words (RS-274/NGC 3.5.4). Otherwise they mean nothing there (M700 8.1).
+  bool refuses_axes = false;
 };
 
 /// Compensation of the tool radius.
@@ -212,7 +218,16 @@ struct LengthRules {
   bool axis_on_plane;
 };
 
+/// What a cycle does beside a code of a motion in its block.
+enum class CycleBeside : uint8_t {
+  motion,      ///< nothing: the motion counts, in either order (M700 13.1.1 precaution (4))
+  last,        ///< the later one of the two counts: a motion behind the cycle ends it (HX 12.2.1, Series 8 G80)
+  cycle,       ///< it is made, and the motion only becomes modal: other groups do not end it (DGSHAPE 1-2, G80)
+  fault        ///< the two are of one group, and a block has one code of a group (RS-274/NGC 3.4)
+};
+
 struct CycleRules {
+  CycleBeside beside = CycleBeside::motion;
   /// XY is the only plane of cycles (DGSHAPE G80-G89). M700 13.1.1 allows every plane.
   bool xy_plane_only;
   /// Rotary axes may stand in a block with a hole (M700 13.1.1 precaution (6)). DGSHAPE G80-G89: A is a fault.
@@ -255,6 +270,11 @@ struct CycleRules {
   /// A cycle that goes beside the hole has the words of the shift, or both parameters that say which way Q goes: the axis of the plane, and the direction
   /// (HX 12.3.9). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
   bool shift_needs_words = false;
+  /// The shift beside the hole is that of the spindle, which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88).
+  /// Otherwise it is mapped as other words are (M700 13.19).
+  bool shift_is_of_spindle = false;
+  /// A bottom above R is a fault (LinuxCNC G81). Otherwise the hole is made upwards (M700 13.1.1).
+  bool bottom_is_below_r = false;
 };
 
 /// Reference positions.
@@ -295,6 +315,8 @@ struct CoordinateRules {
   /// A radius of G16 that is an increment makes the place where the axes are the pole, which stays it for words without a radius; the first angle counts from
   /// the first axis (HX 8.3). Otherwise the pole is there for that block alone, and is the zero point for others (M700 6.12).
   bool pole_stays = false;
+  /// The stroke check looks at the way of a block (HX 15.5.3). Otherwise at its start and end (M700 15.7).
+  bool stroke_check_sees_way = false;
   /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
   bool shift_ends_with_program = false;
 };
@@ -325,6 +347,8 @@ struct RotationRules {
   bool plane_in_block;
   /// Without an angle it is that of a parameter (HX 15.4.1). Else that of before (M700 13.20 (4)).
   bool angle_by_parameter;
+  /// A centre that is programmed while scaling is in force is scaled (HX 15.4.2 (2)). Otherwise it is not (M700 13.20).
+  bool centre_is_scaled = false;
   /// As ScalingRules::about_zero, and the angle is never added to that of before (Series 8 G55).
   bool about_zero = false;
 };
@@ -352,6 +376,8 @@ struct CodeCallRules {
 
 /// Data setting by program. Which value of L sets what is a table (DataInputRow).
 struct DataInputRules {
+  /// Offsets that a program reads and writes as variables are in the unit in force (HX 14.2.3, 13.3). Otherwise in mm (M700 13.5.5).
+  bool variables_in_unit = false;
   /// In incremental mode the value is added to the one that is set (M700 12.7, 14.10 (6)). In DGSHAPE G10 the modes make no difference.
   bool incremental_adds;
   /// The number of the coordinate system is required (DGSHAPE G10). Otherwise it is the selected system if the number is missing (M700 14.10

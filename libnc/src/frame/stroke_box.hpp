@@ -13,12 +13,13 @@ struct StrokeBox {
   int8_t axis[kBasicAxes] = {-1, -1, -1};  ///< index of the axis; -1: not checked, because its two coordinates are the same
   bool turns[kBasicAxes] = {};             ///< the position of the axis is shown within one turn (14.13): the area is converted as a command is
   double low[kBasicAxes] = {}, high[kBasicAxes] = {};
+  bool way = false;                        ///< the way of a block is looked at (HX 15.5.3), and not its two ends (M700 15.7)
   bool outside = false;                    ///< it is what lies around the box that is prohibited (HX 15.5.3)
 
   bool operator==(const StrokeBox& other) const {
     for (unsigned i = 0; i < kBasicAxes; ++i)
       if (axis[i] != other.axis[i] || turns[i] != other.turns[i] || low[i] != other.low[i] || high[i] != other.high[i]) return false;
-    return outside == other.outside;
+    return outside == other.outside && way == other.way;
   }
 
   /// The position is in the area. The border belongs to the area: 15.7 (8) prints 45 <= Z <= 315.
@@ -34,6 +35,26 @@ struct StrokeBox {
     }
     return any;
   }
+  /// A straight way enters the area, whose axes do not turn: the part of it that is between the two sides of each axis.
+  bool meets(const AxisVec& from, const AxisVec& to) const {
+    double enter = 0, leave = 1;
+    bool any = false;
+    for (unsigned i = 0; i < kBasicAxes; ++i) {
+      if (axis[i] < 0) continue;
+      any = true;
+      const auto of = static_cast<unsigned>(axis[i]);
+      const double at = from[of], way_of = to[of] - at;
+      if (way_of == 0) {
+        if (at < low[i] || at > high[i]) return false;
+        continue;
+      }
+      const double first = (low[i] - at) / way_of, second = (high[i] - at) / way_of;
+      enter = std::fmax(enter, std::fmin(first, second));
+      leave = std::fmin(leave, std::fmax(first, second));
+    }
+    return any && enter <= leave;
+  }
+  bool any_turns() const { return turns[0] || turns[1] || turns[2]; }
   bool prohibits(const AxisVec& machine) const {
     bool any = false;
     for (const int8_t of : axis) any = any || of >= 0;

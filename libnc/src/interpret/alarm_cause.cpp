@@ -92,7 +92,7 @@ bool put_foreign(const Interpreter& in, TextWriter& out) {
   // An O-word shows by letters without numbers, so the block must be one that could not be read; an O number before a block that can be read is no O-word.
   // It also shows as a program that has ended without M30, because behind the first blocks an O begins another program.
   const bool unreadable = in.block != nullptr && (in.block->has_fault || fault.condition == Condition::format_error ||
-                                                  fault.condition == Condition::program_end || fault.condition == Condition::variable_use);
+                                                  fault.condition == Condition::program_end || fault.condition == Condition::sub_without_return || fault.condition == Condition::variable_use);
   if (!unreadable || in.dialect->lex->formula == Formula::ngc) return false;  // this family has O-words and named parameters, and sentences of its own
   char text[160] = {};
   const TextEntry* const entry = in.store->entry(in.source.file);

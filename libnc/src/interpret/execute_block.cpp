@@ -228,9 +228,33 @@ Execution execute_motion(Interpreter& in) {
 
 }  // namespace
 
+namespace {
+
+/// The cycle of the block is made although a motion stands in it, too (CycleBeside).
+bool cycle_counts(const BlockContext& in) {
+  const Command& w = in.words;
+  if (w.cycle == nullptr || w.cycle->function == Function::cycle_off) return false;
+  switch (in.dialect->rules.cycle.beside) {
+    case CycleBeside::motion:
+    case CycleBeside::fault: return false;
+    case CycleBeside::cycle: return true;
+    case CycleBeside::last: break;
+  }
+  bool counts = false;
+  for (const FunctionRow* row : w.g) {
+    if (row == w.cycle) counts = true;
+    if (row == w.motion) counts = false;
+  }
+  return counts;
+}
+
+}  // namespace
+
 Execution execute_motion_of_words(BlockContext& in) {
   const Command& w = in.words;
-  if (w.motion != nullptr) {
+  if (w.motion != nullptr && !cycle_counts(in)) {
+    if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.cycle.beside == CycleBeside::fault)
+      return in.raise_code(Condition::format_error, *w.cycle);
     cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
     return do_cycle(in);

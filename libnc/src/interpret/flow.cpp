@@ -524,7 +524,7 @@ Execution return_behind_last(Interpreter& in) {
 
 Execution text_ended(Interpreter& in) {
   // M700 App.1 P36: '%', the end of the text, or the next O number was read before M02, M30 or M99.
-  if (in.state.depth > 0) return in.raise_misc(Condition::program_end, MiscFunction::return_sub);
+  if (in.state.depth > 0) return in.raise_misc(Condition::sub_without_return, MiscFunction::return_sub);
   // A text of MDI may end without a code for it.
   if (in.dialect->end_code_required && !(in.mdi && in.block->end_of_text)) return in.raise(Condition::program_end);
   in.state.end_seen = true;

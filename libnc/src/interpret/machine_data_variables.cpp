@@ -167,12 +167,17 @@ Eval read_parameter(Access& a) {
 }
 
 /// HX 14.2.3: a parameter as a variable of its own number.
+/// A number that nothing in the control asks for is no parameter: what a program means by it would be lost.
+bool known_parameter(const Access& a) { return find_parameter(*a.in.dialect, ParameterKey{a.number, 0, -1}) != nullptr; }
+
 Eval read_parameter_itself(Access& a) {
+  if (!known_parameter(a)) return no_variable(a);
   double value = 0;
   a.in.parameters.get(ParameterId::of_number(a.number), -1, -1, &value);
   return give(a, value);
 }
 Execution write_parameter_itself(Access& a) {
+  if (!known_parameter(a)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
   if (a.in.set_parameter(ParameterId::of_number(a.number), -1, -1, a.written)) return Execution::done;
   return a.in.raise(Condition::value_range, Sign::variable, a.written);
 }

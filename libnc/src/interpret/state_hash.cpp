@@ -163,8 +163,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
     if (stroke_box != 0) {
-      const auto& [axis, turns, low, high, outside] = in.stroke_boxes[stroke_box - 1];
-      hash.add(axis, turns, low, high, outside);
+      const auto& [axis, turns, low, high, way, outside] = in.stroke_boxes[stroke_box - 1];
+      hash.add(axis, turns, low, high, way, outside);
     }
   }
   {

@@ -86,17 +86,26 @@ bool tool_key(Access& a, uint32_t* key) {
   *key = a.in.frames.tool_key(number, column);
   return true;
 }
+/// mm of one unit of an offset that is read or written as a variable.
+double unit_of_offsets(const Access& a, bool length) {
+  return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? 25.4 : 1;
+}
+Execution set_offset(Access& a, uint32_t key, bool length) {
+  const double value = a.written * unit_of_offsets(a, length);
+  if (std::fabs(value) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  a.in.set_table(key, value);
+  return Execution::done;
+}
+bool of_length(const Access& a) { return ((a.in.rotary >> a.index) & 1) == 0; }
+
 Eval read_tool(Access& a) {
   uint32_t key = 0;
   if (!tool_key(a, &key)) return no_variable(a);
-  return shared_known(a) ? give(a, a.in.frames.get(key)) : Eval::need_sync;
+  return shared_known(a) ? give(a, a.in.frames.get(key) / unit_of_offsets(a, true)) : Eval::need_sync;
 }
 Execution write_tool(Access& a) {
   uint32_t key = 0;
-  if (!tool_key(a, &key)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
-  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
-  a.in.set_table(key, a.written);
-  return Execution::done;
+  return tool_key(a, &key) ? set_offset(a, key, true) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
 }
 
 /// Part 0 is the external offset, the next six are the standard systems, then come the extended ones.
@@ -108,14 +117,11 @@ bool work_key(Access& a, uint32_t* key) {
 }
 Eval read_work(Access& a) {
   uint32_t key = 0;
-  return work_key(a, &key) ? give(a, a.in.frames.get(key)) : no_variable(a);
+  return work_key(a, &key) ? give(a, a.in.frames.get(key) / unit_of_offsets(a, of_length(a))) : no_variable(a);
 }
 Execution write_work(Access& a) {
   uint32_t key = 0;
-  if (!work_key(a, &key)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
-  if (std::fabs(a.written) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
-  a.in.set_table(key, a.written);
-  return Execution::done;
+  return work_key(a, &key) ? set_offset(a, key, of_length(a)) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
 }
 
 // ---- alarm, message, clock, control ------------------------------------------------------------------------------------------

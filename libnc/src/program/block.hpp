@@ -56,6 +56,8 @@ struct LexRules {
   Semicolon semicolon = Semicolon::unknown;      ///< meaning in program texts; a parameter of the machine may make it a comment
   Semicolon mdi_semicolon = Semicolon::unknown;  ///< meaning in blocks of MDI
   bool skip_numbers = false;       ///< true: "/1" to "/9" name the skip switch; false: only "/" exists
+  Condition skip_misuse{};         ///< of a block skip that is written wrong, or not at the head; none = as any number or character
+  bool bare_sums = true;           ///< with `macros`: "X4.-1." is a sum; else formulas stand in brackets, and what follows a number begins a word
   bool slash_only_at_head = true;  ///< '/' skips a block only at its head; elsewhere it is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65

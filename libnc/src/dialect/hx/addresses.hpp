@@ -30,6 +30,7 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::cycle_depth_step, 'Q'},
     {Role::cycle_dwell, 'P'},
     {Role::cycle_count, 'K'},
+    {Role::cycle_count_2, 'L'},         // 12.2.2 writes L(K)
     {Role::call_program, 'P'},          // 2.4.3, 14.1.1
     {Role::call_repeats, 'L'},
     {Role::call_sequence, 'Q'},

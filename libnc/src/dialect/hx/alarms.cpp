@@ -40,6 +40,8 @@ const AlarmRow kConditions[] = {
     {C::value_range, "F_82002", nullptr},        // 2.2.2
     {C::format_error, "F_82004", nullptr},
     {C::program_end, "F_82016", nullptr},        // 2.3
+    {C::block_skip, "F_82017", nullptr},         // 2.3.3
+    {C::sub_without_return, "F_82024", nullptr},  // 2.4.3
     {C::number_zero, "F_82018", nullptr},        // 2.3.2
     {C::sequence_missing, "F_82019", nullptr},
     {C::nesting, "F_82021", nullptr},            // 2.4.3

@@ -90,6 +90,8 @@ constexpr ParameterName kNames[] = {
 // What other families have a parameter for and this one does not.
 constexpr FixedParameter kFixed[] = {
     {P::tool_memory_type, 2},         // 13.1.2: H and D, a column each
+    {P::clamp_command_always, 1},     // 9.3: S of G92 is the limit of G96 and no speed
+    {P::clamp_in_surface_speed, 1},
     {P::system_codes_call, 1},        // 14.1.3 (2): G01 to G255
     {P::hypothetical_by_name, 1},     // 4.6: the second axis is C
 };

@@ -29,6 +29,7 @@ inline constexpr Rules kRules = {
                .rounds_formulas = true},
     .block = {.distance_by_word = false,  // 8.1, 8.2
               .whole_words_refuse_point = false,
+              .whole_words_refuse_fraction = true,
               .stops_stand_alone = false,
               .dwell_stands_alone = false,
               .words_stand_once = false,  // 14.1.1 (3): the last one counts
@@ -38,7 +39,7 @@ inline constexpr Rules kRules = {
                 .limits_by_coordinate_setting = true,  // 9.3
                 .skips_repeated_codes = false},
     .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false},
-    .skip = {.feed_is_modal = true},  // 4.9: like G01
+    .skip = {.feed_is_modal = true, .measurement_stores = true},  // 4.9: like G01
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,
@@ -63,7 +64,8 @@ inline constexpr Rules kRules = {
                .shifts_reading = false,
                .number_is_that_of_tool = false,
                .axis_on_plane = true},
-    .cycle = {.xy_plane_only = false,
+    .cycle = {.beside = CycleBeside::last,
+              .xy_plane_only = false,
               .takes_rotary_axes = true,
               .needs_turning_spindle = false,
               .without_bottom_positions = false,
@@ -74,7 +76,8 @@ inline constexpr Rules kRules = {
               .begins_with_both_levels = false,
               .rises_before_positioning = false,
               .longest_dwell_ms = 99999999,
-              .shift_needs_words = true},  // 12.3.9, 12.3.10
+              .shift_needs_words = true,
+              .shift_is_of_spindle = true},  // 12.3.9, 12.3.10
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,
@@ -86,12 +89,14 @@ inline constexpr Rules kRules = {
                    .machine_move_by_motion = false,
                    .incremental_machine_move_rests = true,
                    .maps_bar_returns = true,
-                   .pole_stays = true},
+                   .pole_stays = true,
+                   .stroke_check_sees_way = true},
     .scaling = {.all_linear_axes = true,  // 15.2.1: about the point of G51 where no word names it
                 .factor_required = false,
                 .factor_of_word = factor_of_word,
                 .factor_by_axis = true, .arcs_may_be_uneven = true},
-    .data_input = {.incremental_adds = true,  // 13.1.3
+    .data_input = {.variables_in_unit = true,
+                   .incremental_adds = true,  // 13.1.3
                    .system_required = true,
                    .axes_required = true,
                    .vector_turns_work = false,
@@ -99,7 +104,7 @@ inline constexpr Rules kRules = {
                    .amount_turns_system = false},
     .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true, .no_call_in_mdi = true, .sub_programs_in_one_another = 4},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
-    .rotation = {.plane_in_block = true, .angle_by_parameter = true},
+    .rotation = {.plane_in_block = true, .angle_by_parameter = true, .centre_is_scaled = true},
     .mill = {.rotary_in_block = true, .polar_cuts_only = true},
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program},
 };

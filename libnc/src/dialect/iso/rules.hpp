@@ -44,7 +44,7 @@ inline constexpr Rules kRules = {
             .turns_exclude_radius = false,
             .closed_by_radius_is_fault = true,
             .turns_count_last = true},
-    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false},
+    .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false, .refuses_axes = true},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
                      .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
                      .bars_scaling_and_cycle_end = false,
@@ -62,7 +62,8 @@ inline constexpr Rules kRules = {
                .shifts_reading = true,
                .number_is_that_of_tool = true,
                .axis_on_plane = false},
-    .cycle = {.xy_plane_only = false,
+    .cycle = {.beside = CycleBeside::fault,
+              .xy_plane_only = false,
               .takes_rotary_axes = false,  // RS-274/NGC 3.5.16: an error
               .needs_turning_spindle = false,
               .without_bottom_positions = false,
@@ -74,7 +75,8 @@ inline constexpr Rules kRules = {
               .rises_before_positioning = true,
               .longest_dwell_ms = 1e9,
               .keeps_spindle_direction = true,
-              .axis_follows_plane = true},
+              .axis_follows_plane = true,
+              .bottom_is_below_r = true},
     .reference = {.remembered_axes_go = false,
                   .forgets_with_program = true,
                   .takes_rotary_axes = true,

@@ -19,6 +19,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::block_too_long, "P33", nullptr},     // 3.2 gives no largest length of a block, so it is a fault of format
     {C::number_zero, "P37", nullptr},
     {C::program_end, "P36", nullptr},
+    {C::sub_without_return, "P36", nullptr},
     {C::no_start_mark, "P33", nullptr},  // does not occur: no start mark is required
     {C::illegal_axis, "P11", nullptr},
     {C::too_many_axes, "P10", nullptr},
@@ -163,6 +164,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tap_speed_word, "P186", nullptr},
     {C::life_full, "P178", nullptr},       // appendix 1
     {C::life_group, "P179", nullptr},
+    {C::block_skip, "P33", nullptr},         // does not occur
     {C::no_holes, "P221", nullptr},        // 13.2
     {C::hole_angle_zero, "P222", nullptr}, // appendix 1
     {C::drilling_axis_changed, "P33", nullptr},  // 13.1.1 note 2 has no code: a block that may not be written so

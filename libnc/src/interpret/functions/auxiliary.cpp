@@ -121,6 +121,26 @@ Execution check_whole_numbers(BlockContext& in) {
   return word == kNoWord ? Execution::done : in.raise(Condition::format_error, word, value);
 }
 
+/// HX 2.2.2: the same words have no digits behind a point that mean something; of a call its program, of a cycle the number of holes.
+Execution check_fractions(BlockContext& in) {
+  const Command& w = in.words;
+  const auto broken = [&w](Role word) { return w.has(word) && w.get(word) != std::floor(w.get(word)); };
+  for (const Role word : {Role::spindle_speed, Role::tool, Role::offset_number, Role::length_number})
+    if (broken(word)) return in.raise(Condition::format_error, word, w.get(word));
+  double value = 0;
+  const WordSlot code = first_with_fraction(*in.block, in.set_of({Role::misc_code}), &value);
+  if (code != kNoWord) return in.raise(Condition::format_error, code, value);
+  const bool data = w.one_shot != nullptr && w.one_shot->function == Function::data_input;
+  for (const Role word : {Role::input_kind, Role::input_number})
+    if (data && broken(word)) return in.raise(Condition::format_error, word, w.get(word));
+  for (const uint32_t m : w.m)
+    if (calls_program(misc_function(*in.dialect, m)) && broken(Role::call_program)) return in.raise(Condition::format_error, Role::call_program, w.get(Role::call_program));
+  const bool hole = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr && w.one_shot == nullptr);
+  for (const Role word : {Role::cycle_count, Role::cycle_count_2})
+    if (hole && !is_arc(in.state.modal.of(Mode::motion)) && broken(word)) return in.raise(Condition::format_error, word, w.get(word));
+  return Execution::done;
+}
+
 }  // namespace
 
 /// M700 13.5.9: with #3003 bit 1 FIN is not waited for.
@@ -140,6 +160,10 @@ Execution check_precedence(BlockContext& in) {
   const BlockRules& rules = in.dialect->rules.block;
   if (rules.whole_words_refuse_point) {
     const Execution did = check_whole_numbers(in);
+    if (did != Execution::done) return did;
+  }
+  if (rules.whole_words_refuse_fraction) {
+    const Execution did = check_fractions(in);
     if (did != Execution::done) return did;
   }
   const unsigned words = word_count(*in.block);

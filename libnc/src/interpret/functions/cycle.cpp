@@ -249,6 +249,9 @@ Execution check_hole(BlockContext& in) {
   const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0 && c.q != 0;
   if (rules.shift_needs_words && !by_parameter && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
     return in.raise(Condition::words_missing, Role::vector_x);
+  const double depth = c.z_incremental ? -c.z : c.r - c.z;  // below R
+  const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);
+  if (rules.bottom_is_below_r && c.has_z && same_kind && c.kind != CycleKind::back_bore_to_level && depth < 0) return in.raise(Condition::value_range, Role::cycle_level, c.r);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
 }

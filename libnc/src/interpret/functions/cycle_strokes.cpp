@@ -84,7 +84,8 @@ AxisVec place_beside(BlockContext& in) {
     const bool second = in.settings.shift_axis != 0;
     shift[second ? 1 : 0] = in.settings.shift_direction * std::fabs(c.q);
   }
-  AxisVec place = as_programmed(in, in.holes.over);
+  const bool of_spindle = in.dialect->rules.cycle.shift_is_of_spindle;
+  AxisVec place = of_spindle ? in.holes.over : as_programmed(in, in.holes.over);
   for (unsigned i = 0; i < 2; ++i) {
     const int axis = in.state.plane_axis[i];
     if (axis < 0) continue;
@@ -92,7 +93,7 @@ AxisVec place_beside(BlockContext& in) {
       shift[i] = (in.settings.shift_minus >> axis & 1) != 0 ? -std::fabs(c.q) : std::fabs(c.q);
     place[static_cast<unsigned>(axis)] += shift[i];
   }
-  return as_moved(in, place);
+  return of_spindle ? place : as_moved(in, place);
 }
 
 void resolve_hole(BlockContext& in) {

@@ -91,6 +91,11 @@ Execution measured(BlockContext& in) {
   if (in.measured_nothing) return in.raise(Condition::measure_signal, name, in.measured_position);
   for (unsigned i = 0; i < in.axis_count; ++i) state.machine[i] = in.world.machine.v[i];
   if (!in.world.skipped) return in.raise(Condition::measure_signal, name, in.measured_position);
+  if (in.dialect->rules.skip.measurement_stores) {
+    AxisVec place = state.machine;
+    for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.world.skip_machine.v[i];
+    store_skip_position(in, place);
+  }
   const double at = in.world.skip_machine.v[axis] - in.zero()[axis] - state.applied[axis];
   const double difference = at - in.measured_position;
   if (std::fabs(difference) > in.measured_range + finest(in)) return in.raise(Condition::measure_signal, name, in.measured_position);

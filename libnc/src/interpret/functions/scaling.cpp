@@ -146,7 +146,9 @@ Execution do_rotation(BlockContext& in) {
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);
     const bool given = ((w.axes >> axis) & 1) != 0;  // the word is absolute, also in G91
-    maps.rotation_center[i] = given ? w.axis[axis] : at[axis];
+    const bool scaled = given && in.dialect->rules.rotation.centre_is_scaled && (in.state.scaled >> axis & 1) != 0;
+    const double point = scaled ? maps.scaling_center[axis] + maps.scaling_factor[axis] * (w.axis[axis] - maps.scaling_center[axis]) : w.axis[axis];
+    maps.rotation_center[i] = given ? point : at[axis];
   }
   in.change(&ProgramRecords::maps, maps);
   in.state.rotated = true;

@@ -9,13 +9,6 @@ namespace nc {
 namespace {
 
 /// Stores #5061...: the skip position in workpiece coordinates, including tool compensation (M700 13.5.5 (10.11)). Axes that are not named keep their values.
-void store_skip_position(BlockContext& in, const AxisVec& machine, uint32_t axes) {
-  const AxisVec zero = in.zero();
-  SkipPosition skip = in.records->skip;
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((axes >> i) & 1) != 0) skip.work[i] = machine[i] - zero[i];
-  in.change(&ProgramRecords::skip, skip);
-}
 
 /// M700 15.5: takes F1= to F8=, the feed after each signal; 0 ends the move. Signals that are not named do nothing.
 Execution take_speeds(BlockContext& in, uint32_t* stops) {
@@ -39,6 +32,14 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
 }
 
 }  // namespace
+
+/// The place of all axes where the signal has come, of those that do not move as well (HX 14.2.3 (7), M700 15.2).
+void store_skip_position(BlockContext& in, const AxisVec& machine) {
+  const AxisVec zero = in.zero();
+  SkipPosition skip = in.records->skip;
+  for (unsigned i = 0; i < in.axis_count; ++i) skip.work[i] = machine[i] - zero[i];
+  in.change(&ProgramRecords::skip, skip);
+}
 
 Execution do_skip(BlockContext& in) {
   const Command& w = in.words;
@@ -76,7 +77,7 @@ Execution do_skip(BlockContext& in) {
   move_linear(in, target_of_words(in), w.axes, style);
   if (in.state.machine == before) {  // there is no way on which a signal could come
     if (w.one_shot->function == Function::probe) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
-    store_skip_position(in, in.state.machine, w.axes);
+    store_skip_position(in, in.state.machine);
     return Execution::done;
   }
   in.next_step = Step::skip_answered;
@@ -92,7 +93,7 @@ Execution skip_answered(BlockContext& in) {
       in.state.machine[i] = in.world.machine.v[i];
     }
   }
-  store_skip_position(in, at, in.words.axes);
+  store_skip_position(in, at);
   const bool missed = !in.world.skipped && in.words.one_shot->function == Function::probe;
   return missed ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
 }

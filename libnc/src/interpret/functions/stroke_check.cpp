@@ -39,6 +39,7 @@ Execution do_stroke_check(BlockContext& in) {
     return in.raise_first(Condition::illegal_address, other);
   }
   box.outside = in.settings.box_outside;
+  box.way = in.dialect->rules.coordinate.stroke_check_sees_way;
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;
   in.state.modal.set(*w.one_shot);
   return Execution::done;
