@@ -142,7 +142,7 @@ double distance_from(const BlockContext& in, unsigned turning, const AxisVec& at
 }
 
 /// DGSHAPE 2-5: F is the speed of the tool on the workpiece where the block begins; what it makes of the turning axis stays through the block. Infinite: as
-/// fast as the axis can, at the highest position of Z, and where the tool stands on the axis.
+/// fast as the axis can, at the highest position of Z. Where the tool stands on the axis F is in deg/min.
 double surface_feed(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
   const double feed = feed_mm_min(in);
   double straight = 0, round = 0, turned = 0;
@@ -161,7 +161,8 @@ double surface_feed(const BlockContext& in, const AxisVec& start, const AxisVec&
   const bool highest = z >= 0 && std::fabs(in.state.machine[static_cast<unsigned>(z)] - in.reference(0, static_cast<unsigned>(z))) < kNoMotion;
   if (highest) round = 0;
   if (straight > 0) return feed * std::sqrt(straight / (straight + round));
-  return round > 0 ? feed * std::sqrt(turned / round) : std::numeric_limits<double>::infinity();
+  if (highest) return std::numeric_limits<double>::infinity();
+  return round > 0 ? feed * std::sqrt(turned / round) : feed;
 }
 
 }  // namespace
