@@ -101,6 +101,20 @@ TEST(Precedence, AlarmCells) {
   EXPECT_EQ(run("G66 G65 P1").out.alarm, "P33");
 }
 
+/// M700 14.10 (12): the P of a block is used by one code. That of G54.1 is no number of turns of the arc, and no dwell of the cycle, that is in force.
+TEST(Precedence, AWordOfACodeIsNotOneOfTheMotionInForce) {
+  const auto behind = [](const std::string& first, const std::string& block) {
+    Bench bench;
+    return bench.param("1181", "1").run("G0 X0 Y0 Z2.\n" + first + "\n" + block + "\nX3.\nM30");
+  };
+  const auto turns = [&](const std::string& block) { return behind("G2 X5. I2.5 F100", block).moves()[2].turns; };
+  EXPECT_EQ(turns("X10. I2.5 P2"), 2u);
+  for (const char* code : {"G54.1 P2 ", "G96 S100 P1 "}) EXPECT_EQ(turns(std::string(code) + "X10. I2.5"), 0u) << code;
+  const auto dwells = [&](const std::string& block) { return behind("G82 X1. Z-1. R1. P500 F100", block).dwells(); };
+  EXPECT_EQ(dwells("X2. P300"), (std::vector<double>{0.5, 0.3, 0.3}));
+  for (const char* code : {"G54.1 P7 ", "G96 S100 P1 "}) EXPECT_EQ(dwells(std::string(code) + "X2."), (std::vector<double>{0.5, 0.5, 0.5})) << code;
+}
+
 TEST(Precedence, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
   EXPECT_EQ(barred(kInPolarCommand, Function::high_speed_accuracy), Condition::illegal_g);
   EXPECT_EQ(barred(kInPolarCommand, Function::high_speed), Condition::none);

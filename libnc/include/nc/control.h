@@ -39,7 +39,7 @@ typedef struct nc_axis_config {
 /** One part system. */
 typedef struct nc_system_config {
   uint8_t axis_count;      /**< 1..NC_MAX_AXES */
-  nc_axis_config axis[NC_MAX_AXES];
+  nc_axis_config axis[NC_MAX_AXES]; /**< nothing of those behind axis_count is looked at */
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
   uint64_t spindle_unsigned; /**< bit n: the speed in nc_inputs::spindle[n] is measured without a sign, so a thread does not check in which
                                   direction this spindle turns */
@@ -63,7 +63,7 @@ typedef struct nc_config {
   NC_STRUCT_SIZE(nc_config); /**< see NC_STRUCT_SIZE; set by nc_config_init() */
   uint8_t dialect;         /**< nc_dialect */
   uint8_t system_count;    /**< 1..NC_MAX_SYSTEMS */
-  nc_system_config system[NC_MAX_SYSTEMS];
+  nc_system_config system[NC_MAX_SYSTEMS]; /**< nothing of those behind system_count is looked at */
   double cycle_s;          /**< servo cycle, s, 1e-6..0.1; default 0.001 */
   uint32_t look_ahead;     /**< records in the ring between feeder and scan, power of two 64..65536; default 1024 (15 MB).
                                 In the time-optimal mode a row of short lines runs at full speed only if the lines in the ring, each of which takes

@@ -373,10 +373,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   (void)budget;
   if (next_step != Step::none) return settle(continue_block(*this));
   CallFrame& frame = state.frame[state.depth];
-  source.system = system_index;
-  source.depth = state.depth;
-  source.file = frame.program.file;
-  source.program = frame.program.number;
+  place_in_program();
   if (state.owes_mark) {
     finish_call();
     return NC_OK;

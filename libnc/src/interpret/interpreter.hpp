@@ -189,6 +189,14 @@ struct Interpreter : BlockContext {
   }
   InitialValues initial_values() const;
   void note_block_call() { interrupted_.vendor_call = vendor_call_.known && vendor_call_.seq == state.seq ? vendor_call_ : VendorCall{}; }
+  /// The program that runs is the place of what is made from now on; its line is not known yet.
+  void place_in_program() {
+    const CallFrame& frame = state.frame[state.depth];
+    source.system = system_index;
+    source.depth = state.depth;
+    source.file = frame.program.file;
+    source.program = frame.program.number;
+  }
   void place_at_next_block();
   void finish_call();
   bool begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine);

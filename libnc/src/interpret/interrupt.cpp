@@ -90,11 +90,8 @@ bool Interpreter::interrupt_inside(const AxisVec& machine, unsigned items) {
 
 /// What has been read ahead is given up, so the place in the program is that of the next block.
 void Interpreter::place_at_next_block() {
-  const CallFrame& frame = state.frame[state.depth];
-  source.depth = state.depth;
-  source.file = frame.program.file;
-  source.program = frame.program.number;
-  source.line = frame.line;
+  place_in_program();
+  source.line = state.frame[state.depth].line;
 }
 
 bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisVec& machine) {

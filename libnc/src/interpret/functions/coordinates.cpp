@@ -5,6 +5,11 @@
 
 namespace nc {
 
+/// A one-shot function, and a call, have words of their own: which code they belong to is not for this one to say.
+void take_word_of_code(BlockContext& in, Role word) {
+  if (in.words.one_shot == nullptr && !has_words_of_call(in)) in.words.present &= ~in.set_of({word});
+}
+
 Execution select_work_system(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
@@ -22,6 +27,7 @@ Execution select_work_system(BlockContext& in, const FunctionRow& row) {
     if (p > in.frames.extended_systems()) return in.raise(Condition::no_function, Role::system_number, p);
     state.work_system = static_cast<uint16_t>(5 + p);
     state.modal.extended = static_cast<uint16_t>(p);
+    take_word_of_code(in, Role::system_number);
   }
   state.modal.set(row);
   keep_rotation_center(in, zero_before);

@@ -89,6 +89,8 @@ Execution change_space_vector(BlockContext& in);
 /// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
 Execution set_length_along_tool(BlockContext& in, double length);
 
+/// coordinates.cpp: the word is of a code that the block names, so it is not one of the motion or the cycle in force (M700 14.10 (12)).
+void take_word_of_code(BlockContext& in, Role word);
 WordSlot second_function(const BlockContext& in);  ///< auxiliary.cpp: the second auxiliary function, kNoWord = the family has none
 
 /// Lines by their angle and blocks without an end (M700 13.8, 13.9): meeting.cpp.

@@ -70,6 +70,7 @@ Execution set_surface_speed(BlockContext& in) {
     if (in.settings.surface_axis != 0 && in.words.has(Role::surface_axis)) {  // 10.3 (2)
       if (!whole_number(in.words.get(Role::surface_axis), &axis) || axis < 1 || axis > 3 || axis > in.axis_count)
         return in.raise(Condition::surface_axis, Role::surface_axis, in.words.get(Role::surface_axis));
+      take_word_of_code(in, Role::surface_axis);
     }
     if (axis > in.axis_count) return in.raise(Condition::surface_axis, Role::surface_axis, axis);
     if (in.words.has(Role::spindle_speed) ? !(in.words.get(Role::spindle_speed) > 0) : state.spindle.surface == 0) return in.raise(Condition::surface_speed, Role::spindle_speed);  // P132
