@@ -118,6 +118,8 @@ PLANTED = {
         "if (first == 5221) return;",
         "if (what - 5001 < 20) return;",
         "use(vars[5001]);",
+        "const double q = t.get(8090);",
+        "use(parameter_value(t, 8090));",
         "constexpr uint32_t kUnit = 1041;\nbool f(uint32_t number) { return number == kUnit; }",
     ],
     "letter": ["if (word.letter == 'P') return;", "return in.raise(Condition::value_range, 'R');", "switch (letter) { case 'G': return; default: break; }",
@@ -147,7 +149,7 @@ PLANTED = {
         '#include "program/block.hpp"',
         '#include "dialect/iso_lexer.hpp"',
     ],
-    "plain": ["if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
+    "plain": ["if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
     "key": ['get("1078", -1, &value);', 'get("1267/bit0");', 'return number("8621");'],
     "text": ['say("no effect while #8107 is 0");', 'const char* why = R"(set #1037)";'],
     "alarm": ['if (alarm.code == "P62") return;', 'return !strcmp(code, "P130");'],
@@ -227,6 +229,7 @@ class Found(unittest.TestCase):
         for sample in ("if (words.has(Role::feed)) return in.raise(Condition::value_range, Role::feed, words.get(Role::feed));",
                        "const WordSlot word = in.axis_words.word(i);", "if (second == kNoWord || holds(known, second)) return;",
                        "const Table<ModalWord>& words = dialect->variables->words;", "a.word = word_of_capital(whole({P::ascii_call_letter, i}, 0));",
+                       "if (n >= 0 && n <= 99999999) return;", "if (bits == 3 * kStride) return;", "FixedVector<uint32_t, 16> m(in);", "std::get<1>(pair);",
                        "if (!is_letter(text[0])) return;", "char line[160];", "double f(double raw);", "out.put(',');"):
             with self.subTest(sample=sample):
                 self.assertEqual(kinds(sample), [])
