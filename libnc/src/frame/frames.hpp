@@ -3,7 +3,7 @@
 //
 // How positions are composed (M700 13.6, 14.2, 14.5, 14.10, 14.11, 14.13; DGSHAPE G54-G59, G92), from the programmed word to the machine position:
 //
-//     word      = as programmed; G91: + the previous programmed position          interpret/block_words.cpp, motion.cpp
+//     word      = as programmed; G91: + the previous programmed position          interpret/read_command.cpp, motion.cpp
 //     turned    = an angle of G90 as a way on an axis that turns                  frame/rotary.hpp
 //     work      = M turned                  M affine: figure, scaling, rotation, mirror, and the rotation about a point of the machine
 //                                           where #8627 or G10 K says so; in front of compensation     interpret/program_map.hpp

@@ -3,14 +3,14 @@
 //
 //   context.cpp           what functions work with, and all that they see of this (context.hpp)
 //   interpreter.cpp       the loop: next block, jobs that go over several calls, checkpoints, rewind, reset
-//   block_words.cpp       words -> values: expressions, units, decimal point rules of the dialect
+//   read_command.cpp      the command of a block (command/), units and decimal point rules of its numbers
 //   execute_block.cpp     the order in which the words of one block act
 //   plain_line.cpp        the same for a line in absolute millimetres, in short
 //   functions/*.cpp       what the one-shot and modal functions do, one handler per Function (functions.hpp is the table)
 //   motion.cpp, arc.cpp   moves
 //   program_control.cpp   M codes behind the moves of their block: which call, return, end
 //   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
-//   macro_call.cpp        G65, G66, G66.1, G67 and their arguments
+//   macro_call.cpp        G65, G66, G66.1, G67
 //   interrupt.cpp         M96, M97 and the interrupt program
 //   code_call.cpp         G M S T B and ASCII codes that call programs
 //   system_variables.cpp  #1000 and up
