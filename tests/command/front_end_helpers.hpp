@@ -79,20 +79,19 @@ class FrontEndTest : public testing::Test {
     *value = found == self(core).variables.end() ? Value{} : Value::of(found->second);
     return Eval::ok;
   }
-  static constexpr CoreQuestions kAnswers = {
-      .evaluation = [](void* core) {
-        VariableReader reader;
-        reader.self = core;
-        reader.read = read_variable;
-        return Evaluation{reader, {}};
-      },
-      .check_code = [](void* core, const FunctionRow& row, double) {
-        self(core).asked.push_back(row.function);
-        return row.function == self(core).refused ? Reading::fault : Reading::done;
-      },
-      .has_modal_call = [](const void* core) { return static_cast<const FrontEndTest*>(core)->modal_call; },
-      .length = [](const void*, Written number) { return number.value; },
-  };
+  static Evaluation evaluation(void* core) {
+    VariableReader reader;
+    reader.self = core;
+    reader.read = read_variable;
+    return Evaluation{reader, {}};
+  }
+  static Reading check_code(void* core, const FunctionRow& row, double) {
+    self(core).asked.push_back(row.function);
+    return row.function == self(core).refused ? Reading::fault : Reading::done;
+  }
+  static bool has_modal_call(const void* core) { return static_cast<const FrontEndTest*>(core)->modal_call; }
+  static double length(const void*, Written number) { return number.value; }
+  static constexpr CoreQuestions kAnswers = {evaluation, check_code, has_modal_call, length};
 
   const Dialect* family_ = nullptr;
   std::vector<std::unique_ptr<Block>> blocks_;
