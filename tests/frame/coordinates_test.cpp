@@ -180,7 +180,7 @@ TEST(DataInput, Dgshape) {  // DGSHAPE G10
   EXPECT_EQ(bench.work_offset_now(2, 0), 5);  // absolute, also in G91
   EXPECT_EQ(bench.work_offset_now(2, 1), 9);
   EXPECT_EQ(bench.work_offset_now(0, 2), 1);
-  EXPECT_EQ(bench.tool_now(3), 4);
+  EXPECT_EQ(bench.tool_now(3, NC_TOOL_RADIUS), 4);
   EXPECT_EQ(dgshape("G10L3P1X1000\nM02").alarm, "NC-DATA");
   EXPECT_EQ(dgshape("G10L2P7X1000\nM02").alarm, "NC-RANGE");
   EXPECT_EQ(dgshape("G10P0R1000\nM02").alarm, "NC-DATA");
