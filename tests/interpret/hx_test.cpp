@@ -325,6 +325,22 @@ TEST(Hx, RotationTakesItsPlaneAndItsAngleByParameter) {  // 15.4.1
 
 // ---- tools ---------------------------------------------------------------------------------------------------------------------
 
+TEST(Hx, TheSideChangesOnAnArc) {  // 13.2.2 (3), as printed
+  const auto run = [](const std::string& text) { return Bench(NC_DIALECT_HX).tool(1, 5, NC_TOOL_RADIUS).run("G90 G17 G00 X0. Y0. F500\n" + text + "\nG40 G01 X50.\nM30"); };
+  const Outcome printed = run("G42 D1 G01 G91 X20. Y50.\nN5 G01 G91 X50.0 Y-70.0\nN6 G41 G02 J-50.0\nN7 G42 G01 X50.0 Y70.0");
+  EXPECT_EQ(printed.alarm, "");
+  unsigned arcs = 0;
+  for (const nc_move& move : printed.moves()) {
+    if (move.plane == NC_PLANE_NONE) continue;
+    ++arcs;
+    EXPECT_EQ(move.turns, 0);  // longer than a full circle by the change: only what is beyond is cut
+    EXPECT_NEAR(move.radius, 55, 1);
+  }
+  EXPECT_EQ(arcs, 1u);
+  EXPECT_NE(run("G42 D1 G02 X20. Y0. I10. J0.").alarm, "");  // it does not start with an arc
+  EXPECT_NE(run("G42 D1 G01 X20. Y0.\nX40.\nG40 G02 X60. Y0. I10. J0.").alarm, "");
+}
+
 TEST(Hx, LengthCompensationIsAlongTheAxisOnThePlane) {  // 13.1.1
   Bench bench(NC_DIALECT_HX);
   bench.tool(1, 5);

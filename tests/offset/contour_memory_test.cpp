@@ -311,5 +311,14 @@ TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is compute
   EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
 }
 
+// A second round is a part of the contour, not a way out: its wall holds for the way out behind it, which is an arc larger than the hole.
+TEST(ContourMemory, ASecondRoundIsNoWayOut) {
+  const auto hole = [](const char* round) {
+    return std::string("G90 G0 X0 Y-1.553\nG42 D1 G1 X-9.882 F1000\nG2 X0 Y8.329 I9.882 J0 Z-2.5\n") + round + "G2 J-8.329\nG2 X9.882 Y-1.553 J-9.882\nG1 G40 X0\nM30";
+  };
+  for (const char* const round : {"", "G2 J-8.329 Z-0.5\n", "G2 J-8.329\n", "G2 J-8.329\nG2 J-8.329\n"})
+    EXPECT_EQ(alarm_of_program(hole(round), 6.947, {{"CONTOUR_CHECK", "1"}}), "P153") << round;
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -54,16 +54,15 @@ program_entries = 2
 class Element:
     """A line, or an arc about `center` (None: line)."""
 
-    def __init__(self, start, end, center=None, ccw=False):
-        self.start, self.end, self.center, self.ccw = start, end, center, ccw
+    def __init__(self, start, end, center=None, ccw=False, turns=0):
+        self.start, self.end, self.center, self.ccw, self.turns = start, end, center, ccw, turns
 
     def sweep(self):
         a = math.atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
         b = math.atan2(self.end[1] - self.center[1], self.end[0] - self.center[0])
         turn = (b - a) % (2 * math.pi) if self.ccw else -((a - b) % (2 * math.pi))
-        if abs(turn) < 1e-12:
-            turn = 2 * math.pi if self.ccw else -2 * math.pi
-        return turn
+        whole = max(self.turns, 1) if abs(turn) < 1e-12 else self.turns
+        return turn + (2 if self.ccw else -2) * math.pi * whole
 
     def radius(self):
         return math.hypot(self.start[0] - self.center[0], self.start[1] - self.center[1])
@@ -285,8 +284,8 @@ class Contour:
         self.cut_corners(rng)
         if rng.random() < 0.5:
             self.reverse()
-        if rng.random() < 0.15:
-            self.depth = rng.choice([0.5, 3.0])
+        if not self.corners and rng.random() < 0.15:  # the size of a chamfer counts along a line in space
+            self.depth, self.ramp = rng.choice([0.5, 3.0]), ""
         elif not self.corners and len(self.programmed) > 2 and rng.random() < 0.1:
             self.other = (rng.randint(1, len(self.programmed) - 1), round(self.radius * rng.uniform(0.7, 1.0), 3))
 
@@ -612,7 +611,7 @@ def run_all(ncsim, programs, folder):
             center = event.get("machine_center")
             block = event["line"] - first_line[k]
             if block >= 0:
-                results[k].moves.append((block, Element(start, end, (center["X"], center["Y"]) if center else None, event.get("dir") == "ccw")))
+                results[k].moves.append((block, Element(start, end, (center["X"], center["Y"]) if center else None, event.get("dir") == "ccw", event.get("turns", 0))))
             at = to
     return results
 
@@ -631,6 +630,9 @@ def judge(contour, result):
         return "open: the path does not come back"
     wall, paths = contour.wall(), [(block, LineString(move.points())) for block, move in result.moves if move.length() > 1e-9]
     path = MultiLineString([line for _, line in paths])
+    if contour.depth:  # the way in lies above the walls
+        paths = [each for each in paths if each[0] > (1 if contour.way or contour.along else 0)]
+        path = MultiLineString([line for _, line in paths])
     depth = (min(contour.radius, contour.other[1]) if contour.other else contour.radius) - path.distance(wall)
     if depth > TOLERANCE:
         block = min(paths, key=lambda each: each[1].distance(wall))[0]

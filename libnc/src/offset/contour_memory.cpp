@@ -66,9 +66,13 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
     if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm) continue;
-    state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
-    if (state_.closure == 0) state_.closure = number;
-    for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
+    if (state_.closure == 0 || state_.closure == number) {  // the way in ends where the contour first closes
+      state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
+      for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
+    } else if ((2u << i) <= state_.closed) {  // a point of the way in, where the way out ends
+      continue;
+    }
+    state_.closure = number;  // of another round, too: what is behind the last one may be a way out
   }
   if (place > kWay) return;
   for (uint64_t i = state_.joints; i <= place; ++i) state_.joint[i] = i < place ? start : state_.at;
@@ -97,7 +101,7 @@ bool ContourMemory::no_way(uint64_t cancel) const {
     const uint64_t number = state_.first + place - (state_.with_start ? 0 : 1);
     if (state_.closure == 0 || number <= state_.closure || cancel - number > kWay) return true;
   }
-  return state_.out != 0 && cancel - state_.out > kWay;
+  return state_.out != 0 && (state_.out <= state_.closure || cancel - state_.out > kWay);
 }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {

@@ -36,11 +36,11 @@ class ContourMemory {
     uint64_t first_path = 0; ///< ... and of its first path
     bool with_start = true;  ///< the first block is that of a start
     uint64_t end = 0;        ///< ... of the next block
-    uint64_t closure = 0;    ///< of the block in which the contour has first closed; 0: not yet
+    uint64_t closure = 0;    ///< of the block in which the contour has closed last; 0: not yet
     uint64_t out = 0;        ///< of a block behind it that a path comes too near to: it has to be a way out; 0: none
     uint8_t joints = 0;      ///< how many of `joint` are there
     uint8_t away = 0;        ///< bit i: the contour has left joint i
-    uint8_t closed = 0;      ///< bit i: ... and has come back to it
+    uint8_t closed = 0;      ///< bit i: ... and has come back to it, when it first closed
     uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in, or out
     double offset = 0;       ///< of the last block that has one
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
