@@ -27,7 +27,7 @@ std::function<void(nc_config&)> optimal(uint32_t look_ahead) {
   };
 }
 
-/// Lines of all kinds: noisy ones and long ones, gentle and sharp corners, arcs, and feeds of all sizes.
+/// Lines of all kinds: noisy ones and long ones, gentle and sharp corners, arcs, NURBS, and feeds of all sizes.
 std::string lines(uint32_t seed) {
   std::mt19937 random(seed);
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -47,6 +47,14 @@ std::string lines(uint32_t seed) {
     if (random() % 40 == 0) {
       text += "G3 X" + brief(std::round(1e4 * (x + 4)) / 1e4) + " R2.5\nG1\n";
       x = std::round(1e4 * (x + 4)) / 1e4;
+    }
+    if (random() % 60 == 0) {
+      const double end = std::round(1e4 * (x + 6)) / 1e4;
+      x = std::round(1e4 * x) / 1e4;
+      y = std::round(1e4 * y) / 1e4;
+      text += "G5 P10000\nG1 X" + brief(x) + " Y" + brief(y) + "\nG6.2 P4 K0 X" + brief(x) + " Y" + brief(y) + "\nK0 X" + brief(x + 2) + " Y" + brief(y + 3) + "\nK0 X" + brief(x + 4) +
+              " Y" + brief(y - 3) + "\nK0 X" + brief(end) + " Y" + brief(y) + "\nK1\nK1\nK1\nK1\nG5 P0\nG1\n";
+      x = end;
     }
     if (random() % 100 == 0) text += "G4 P20\n";
   }

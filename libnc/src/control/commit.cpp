@@ -161,7 +161,11 @@ void Commit::commit_shape(const Move& move, const Affine& to_machine, const Move
     if (move.plane_axis[i] == axis) circle_.center[i] = to_machine.on_axis(axis, move.circle.center[i] / map.scale);
   }
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
-  make_shaped(shape, plain, to_machine, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_);
+  make_shaped(shape, plain, to_machine, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_, &ahead_);
+}
+
+bool Commit::make_ahead(const Move& move, const MoveShape& shape, int64_t* left) {
+  return ahead_.go_on(shape, {&move.start, &move.end, nullptr, move.plane_axis[0], move.plane_axis[1]}, axis_count_, rotary_, left);
 }
 
 /// The curve of the move does not begin where the axes are, so that they would jump. It cannot happen to a line, which is made from the place of

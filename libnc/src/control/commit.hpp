@@ -10,7 +10,7 @@
 #include "frame/affine.hpp"
 #include "frame/stroke_box.hpp"
 #include "nc/control.h"
-#include "path/shape.hpp"
+#include "path/shape_ahead.hpp"
 #include "ring/record.hpp"
 
 namespace nc {
@@ -98,6 +98,8 @@ class Commit {
     shape_count_ = shapes;
     return committed;
   }
+  /// Makes a part of what commit() will need for a move with such a shape, and takes from `left` what that is in instructions. @return whether all is there
+  bool make_ahead(const Move& move, const MoveShape& shape, int64_t* left);
   /// False when every place for a shape is taken by one that the scan may still evaluate: records from `tail` up to `head` are under way.
   bool shape_room(uint32_t tail, uint32_t head) const;
   /// The curve just committed, which is a move, goes into record number `record`.
@@ -195,6 +197,7 @@ class Commit {
   /// The shapes of moves, in a ring. The place of a shape is free when its record has been executed or given up.
   CurveShape* shapes_ = nullptr;
   const MoveShape arc_in_space_{};  ///< the shape of an arc whose plane is tilted by the map to the machine: plain, so that the map makes the tilt
+  ShapeAhead ahead_;
   uint32_t* shape_record_ = nullptr;
   uint32_t shape_mask_ = 0;
   uint64_t shape_count_ = 0;

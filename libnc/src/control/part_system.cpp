@@ -370,6 +370,10 @@ void PartSystem::drop_repeated(const Repeat& repeat, const AxisVec& head) {
     return NC_OK;
   }
   if (wants_look_ahead(*item)) [[unlikely]] return look_ahead(budget);
+  if (shape_left_ != nullptr && item->kind == ItemKind::move && named(*item).shape != nullptr) [[unlikely]] {
+    shape_waits_ = !commit_.make_ahead(item->move, *named(*item).shape, shape_left_);
+    if (shape_waits_) return NC_BUDGET;
+  }
   const Committed committed = commit_.commit(*item, named(*item));
   if (committed != Committed::yes && committed != Committed::nothing) {
     stop_on(refused(committed), item->source);
@@ -693,11 +697,14 @@ void PartSystem::read_on(int64_t* left) {
     if (*left <= 0) return;
     const auto units = static_cast<uint32_t>(std::min<int64_t>((*left + kUnit - 1) / kUnit, f.blocks));
     uint32_t budget = units;
+    shape_left_ = executor.slices() ? left : nullptr;
     f.status = commit_online(budget);
+    shape_left_ = nullptr;
     f.blocks -= units - budget;
     *left -= kUnit * (units - budget) + (units == budget && executor.slices() ? kItem : 0);
     if (f.status == NC_OK) f.committed = true;
-    if (f.status == NC_BUDGET && f.blocks > 0) {
+    if (f.status == NC_BUDGET && (f.blocks > 0 || shape_waits_)) {
+      shape_waits_ = false;
       f.status = NC_OK;
       *left = 0;
       return;

@@ -170,6 +170,8 @@ class PartSystem {
   Item staged_[kStaged];
   unsigned staged_head_ = 0, staged_count_ = 0;
   bool gathering_ = false;   ///< the items of such a block are being fetched, and its end has not come yet
+  int64_t* shape_left_ = nullptr;  ///< instructions that are left for the table of a curve, which may be made in the next calls, too; nullptr: no end
+  bool shape_waits_ = false;       ///< the item in front waits for its table
   bool from_stage_ = false;  ///< the item next() gave is one of `staged_`, not the interpreter's front
   static constexpr Serial kNowhere = ~Serial{0};
   Serial looked_behind_ = kNowhere;  ///< the block behind this mark has been checked

@@ -91,13 +91,11 @@ Move& begin_moved(BlockContext& in, const AxisVec& offset, const AxisVec& start,
 void finish_shaped(BlockContext& in, const MoveShape& what, const MoveFrame& frame, const AxisVec& before, Move& move) {
   move.shape = in.shapes.intern(what) + 1;
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
-  CurveShape shape;
-  Curve curve;
-  make_shaped(what, plain, frame.to_machine, before, in.axis_count, in.rotary, &shape, &curve);
+  const AxisVec end = shaped_end(what, plain, frame.to_machine, before, in.axis_count, in.rotary);
   const AxisMap& map = what.map;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     // For an axis that is held the program goes on from the commanded position; its real position is kept apart (M700 6.16).
-    if (((map.frozen >> i) & 1) == 0) in.state.machine[i] = curve.end[i];
+    if (((map.frozen >> i) & 1) == 0) in.state.machine[i] = end[i];
   }
   if (map.kind != AxisMap::Kind::cylinder) return;
   // On a cylinder the positions that are shown are in degrees.

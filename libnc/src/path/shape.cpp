@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "path/shape_base.hpp"
+#include "path/shape_ahead.hpp"
 
 namespace nc {
 namespace {
@@ -210,20 +210,18 @@ double polar_turn(const Curve& base, const AxisMap& map) {
   return angle_on_circle(c, inside, c.radius_end, c.angle_start + c.sweep) - angle_on_circle(c, inside, c.radius_start, c.angle_start);
 }
 
-void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
-                 uint32_t rotary, CurveShape* shape, Curve* curve) {
-  shape->what = what;
-  shape->to_machine = to_machine;
-  const AxisMap& map = what.map;
-  // On a mapped plane the programmed coordinate of the rotary axis is in millimetres.
-  const uint32_t degrees = map.kind != AxisMap::Kind::none ? rotary & ~(1u << map.rotary) : rotary;
-  if (what.kind != ShapeKind::plain) {
-    make_base(*move.start, *move.end, axis_count, degrees, shape);
-  } else if (move.circle != nullptr) {
+/// The base of a shape that is the line or circle of the move itself.
+static void make_plain(const PlainMove& move, unsigned axis_count, uint32_t degrees, CurveShape* shape) {
+  if (move.circle != nullptr) {
     shape->base = make_arc(*move.start, *move.end, move.h, move.v, *move.circle, axis_count, degrees);
   } else {
     make_line(*move.start, *move.end, axis_count, degrees, &shape->base);
   }
+}
+
+/// Sets what begins and ends where on the machine, for a shape whose base is made.
+static void place_shape(const AxisVec& machine_start, unsigned axis_count, CurveShape* shape, Curve* curve) {
+  const AxisMap& map = shape->what.map;
   double end_turn = 0;
   if (map.kind == AxisMap::Kind::polar) {
     shape->begin_deg = machine_start[map.rotary];
@@ -250,6 +248,39 @@ void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_
     }
   }
   for (unsigned i = 0; i < kMaxAxes; ++i) curve->delta[i] = i < axis_count ? curve->end[i] - curve->start[i] : 0;
+}
+
+uint32_t programmed_degrees(const AxisMap& map, uint32_t rotary) {
+  return map.kind != AxisMap::Kind::none ? rotary & ~(1u << map.rotary) : rotary;
+}
+
+void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
+                 uint32_t rotary, CurveShape* shape, Curve* curve, const ShapeAhead* ahead) {
+  shape->what = what;
+  shape->to_machine = to_machine;
+  const uint32_t degrees = programmed_degrees(what.map, rotary);
+  if (what.kind == ShapeKind::plain) {
+    make_plain(move, axis_count, degrees, shape);
+  } else if (ahead == nullptr || !ahead->give(move, shape)) {
+    make_base(*move.start, *move.end, axis_count, degrees, shape);
+  }
+  place_shape(machine_start, axis_count, shape, curve);
+}
+
+AxisVec shaped_end(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
+                   uint32_t rotary) {
+  CurveShape shape;
+  Curve curve;
+  shape.what = what;
+  shape.to_machine = to_machine;
+  const uint32_t degrees = programmed_degrees(what.map, rotary);
+  if (what.kind == ShapeKind::plain) {
+    make_plain(move, axis_count, degrees, &shape);
+  } else {
+    begin_base(*move.start, *move.end, axis_count, degrees, &shape);
+  }
+  place_shape(machine_start, axis_count, &shape, &curve);
+  return curve.end;
 }
 
 AxisVec to_programmed(const AxisMap& map, const Affine& to_machine, const AxisVec& machine) {

@@ -111,9 +111,15 @@ struct PlainMove {
   uint8_t h, v;
 };
 
-/// Makes *shape and *curve. The machine stands at `machine_start`, and the move ends at curve->end.
+class ShapeAhead;
+/// Makes *shape and *curve. The machine stands at `machine_start`, and the move ends at curve->end. `ahead`: its table may have been made there; or nullptr.
 void make_shaped(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
-                 uint32_t rotary, CurveShape* shape, Curve* curve);
+                 uint32_t rotary, CurveShape* shape, Curve* curve, const ShapeAhead* ahead = nullptr);
+/// Only where it ends, which needs no table.
+AxisVec shaped_end(const MoveShape& what, const PlainMove& move, const Affine& to_machine, const AxisVec& machine_start, unsigned axis_count,
+                   uint32_t rotary);
+/// The axes whose programmed coordinates are degrees: on a mapped plane that of the rotary axis is in millimetres.
+uint32_t programmed_degrees(const AxisMap& map, uint32_t rotary);
 
 /// The programmed coordinates of a machine position. Frozen axes are not treated differently from others.
 AxisVec to_programmed(const AxisMap& map, const Affine& to_machine, const AxisVec& machine);

@@ -248,26 +248,21 @@ double quintic(const ParameterTable& table, unsigned k, double h, double t) {
   return ((((c5 * t + c4) * t + c3) * t + a0) * t + v0) * t + p0;
 }
 
-constexpr unsigned kPieces = 64;  ///< equal pieces of the parameter in which the whole length is integrated
+constexpr unsigned kPieces = TableMaker::kPieces;
 
-/// Length up to the beginning of each piece.
-struct PieceLengths {
-  double at[kPieces + 1];
-  unsigned panels[kPieces];
-};
-
-/// The parameter at the length s: finds the piece, then uses Newton's method in it.
-double solve_parameter(const CurveShape& shape, const PieceLengths& pieces, double s, unsigned axis_count) {
+/// The parameter at the length s: finds the piece, then uses Newton's method in it. `at`: the length up to the beginning of each piece, which is integrated
+/// in so many `panels`.
+double solve_parameter(const CurveShape& shape, const double* at, const uint8_t* panels, double s, unsigned axis_count) {
   const double last = last_parameter(shape);
   unsigned k = 0;
-  while (k + 1 < kPieces && pieces.at[k + 1] <= s) ++k;
+  while (k + 1 < kPieces && at[k + 1] <= s) ++k;
   const double from = last * k / kPieces, to = last * (k + 1) / kPieces;
-  const double whole = pieces.at[k + 1] - pieces.at[k];
-  double u = whole > 0 ? from + (to - from) * (s - pieces.at[k]) / whole : from;
+  const double whole = at[k + 1] - at[k];
+  double u = whole > 0 ? from + (to - from) * (s - at[k]) / whole : from;
   for (int i = 0; i < 20; ++i) {
     const double sigma = sigma_at(shape, u, axis_count);
     if (!(sigma > 0)) break;
-    const double step = (pieces.at[k] + length_between(shape, from, u, pieces.panels[k], axis_count) - s) / sigma;
+    const double step = (at[k] + length_between(shape, from, u, panels[k], axis_count) - s) / sigma;
     u = std::clamp(u - step, from, to);
     if (std::fabs(step) < 1e-15 * last) break;
   }
@@ -374,47 +369,75 @@ double graded_parameter(const CurveShape& shape, unsigned k, double behind, unsi
   return inside_interval(shape, low, behind, t.effort[low], axis_count);
 }
 
-/// Calculates the length and the table.
-void make_table(unsigned axis_count, CurveShape* shape) {
-  constexpr unsigned kSteps = ParameterTable::kSteps;
-  constexpr double kFine = 1e-11;     // share of the length: an error of a place below this does not show, not even in third differences
-  constexpr double kMeasured = 1e-13; // share of the length: the error with which it is integrated
-  constexpr unsigned kAtOnce = 4;     // a step is divided when more parts than this have to be integrated for one point
-  constexpr unsigned kNear = 2;       // a step is divided when more steps of Newton's method than this are needed
-  PieceLengths pieces;
-  const double last = last_parameter(*shape);
-  const double about = length_between(*shape, 0, last, kPieces, axis_count);
-  pieces.at[0] = 0;
-  for (unsigned k = 0; k < kPieces; ++k) {
-    const double from = last * k / kPieces, to = last * (k + 1) / kPieces;
-    pieces.panels[k] = panels_for(*shape, from, to, kMeasured * about, axis_count);
-    pieces.at[k + 1] = pieces.at[k] + length_between(*shape, from, to, pieces.panels[k], axis_count);
-  }
-  shape->base.length = pieces.at[kPieces];
-  if (!(shape->base.length > 0)) return;
-  ParameterTable& table = shape->table;
-  for (unsigned k = 0; k <= kSteps; ++k) {
-    const double s = shape->base.length * k / kSteps;
-    table.u[k] = k == 0 ? 0 : k == kSteps ? last : solve_parameter(*shape, pieces, s, axis_count);
-    ByParameter q;
-    by_parameter(*shape, table.u[k], axis_count, &q);
-    const ByLength d = by_length(*shape, q, axis_count);
-    table.du[k] = d.u1;
-    table.ddu[k] = d.u2;
-  }
-  table.places = 0;
-  for (unsigned k = 0; k < kSteps; ++k) {
-    set_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
-    table.graded[k] = 0;
-    if (table.newton[k] <= kNear && table.newton[k] * table.panels[k] <= kAtOnce) continue;
-    if (divide_step(*shape, k, kMeasured * shape->base.length, axis_count, &table))
-      set_interval_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
-  }
-}
-
 }  // namespace
 
-void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, CurveShape* shape) {
+void TableMaker::begin(const CurveShape& shape, unsigned axis_count) {
+  next_ = 0;
+  about_ = length_between(shape, 0, last_parameter(shape), kPieces, axis_count);
+  at_[0] = 0;
+}
+
+/// The length of one of the equal pieces of the parameter.
+void TableMaker::measure(unsigned k, const CurveShape& shape, unsigned axis_count) {
+  constexpr double kMeasured = 1e-13;  // share of the length: the error with which it is integrated
+  const double last = last_parameter(shape), from = last * k / kPieces, to = last * (k + 1) / kPieces;
+  panels_[k] = static_cast<uint8_t>(panels_for(shape, from, to, kMeasured * about_, axis_count));
+  at_[k + 1] = at_[k] + length_between(shape, from, to, panels_[k], axis_count);
+}
+
+void TableMaker::place(unsigned k, unsigned axis_count, CurveShape* shape) const {
+  constexpr unsigned kSteps = ParameterTable::kSteps;
+  ParameterTable& table = shape->table;
+  const double s = shape->base.length * k / kSteps;
+  table.u[k] = k == 0 ? 0 : k == kSteps ? last_parameter(*shape) : solve_parameter(*shape, at_, panels_, s, axis_count);
+  ByParameter q;
+  by_parameter(*shape, table.u[k], axis_count, &q);
+  const ByLength d = by_length(*shape, q, axis_count);
+  table.du[k] = d.u1;
+  table.ddu[k] = d.u2;
+}
+
+/// How a place within a step is found.
+void TableMaker::divide(unsigned k, unsigned axis_count, CurveShape* shape) {
+  constexpr double kFine = 1e-11;      // share of the length: an error of a place below this does not show, not even in third differences
+  constexpr double kMeasured = 1e-13;
+  constexpr unsigned kAtOnce = 4;      // a step is divided when more parts than this have to be integrated for one point
+  constexpr unsigned kNear = 2;        // a step is divided when more steps of Newton's method than this are needed
+  ParameterTable& table = shape->table;
+  if (k == 0) table.places = 0;
+  set_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
+  table.graded[k] = 0;
+  if (table.newton[k] <= kNear && table.newton[k] * table.panels[k] <= kAtOnce) return;
+  if (divide_step(*shape, k, kMeasured * shape->base.length, axis_count, &table))
+    set_interval_effort(*shape, k, kFine * shape->base.length, axis_count, &table);
+}
+
+bool TableMaker::go_on(unsigned axis_count, CurveShape* shape, int64_t* cost) {
+  constexpr unsigned kSteps = ParameterTable::kSteps, kPlaced = kPieces + kSteps + 1;
+  constexpr int64_t kPart = 400;  // instructions, to integrate one part of a curve
+  constexpr unsigned kOfPiece = 3, kOfPlace = 5, kOfStep = 8, kOfInterval = 40;  // parts that are integrated for each part and interval of the result
+  const unsigned n = next_++;
+  if (n < kPieces) {
+    measure(n, *shape, axis_count);
+    *cost = kPart * kOfPiece * panels_[n];
+    if (n + 1 < kPieces) return false;
+    shape->base.length = at_[kPieces];
+    return !(shape->base.length > 0);
+  }
+  if (n < kPlaced) {
+    place(n - kPieces, axis_count, shape);
+    *cost = kPart * kOfPlace * panels_[std::min(2 * (n - kPieces), kPieces - 1)];
+    return false;
+  }
+  const unsigned k = n - kPlaced;
+  divide(k, axis_count, shape);
+  *cost = kPart * (kOfStep * shape->table.panels[k] + kOfInterval * shape->table.graded[k]);
+  return k + 1 == kSteps;
+}
+
+bool has_table(ShapeKind kind) { return kind == ShapeKind::exponential || kind == ShapeKind::rational || kind == ShapeKind::spline; }
+
+void begin_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, CurveShape* shape) {
   Curve& base = shape->base;
   base.circular = false;
   base.shape = nullptr;
@@ -439,7 +462,16 @@ void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, ui
     base.length = shape->what.arc.radius * std::fabs(shape->what.arc.sweep);
     return;
   }
-  make_table(axis_count, shape);
+}
+
+void make_base(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, CurveShape* shape) {
+  begin_base(start, end, axis_count, rotary, shape);
+  if (!has_table(shape->what.kind)) return;
+  TableMaker maker;
+  maker.begin(*shape, axis_count);
+  int64_t cost = 0;
+  while (!maker.go_on(axis_count, shape, &cost)) {
+  }
 }
 
 double base_parameter(const CurveShape& shape, double s, unsigned axis_count) {
