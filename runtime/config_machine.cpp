@@ -267,6 +267,8 @@ void read_motion(TableReader* root, Config* config) {
     reader.number("tolerance", &nc.path_tolerance, 0, 1);
     if (nc.path_tolerance > 0 && nc.path_tolerance < kLeastTolerance)
       reader.error("tolerance", "is 0 (a rest at each corner) or at least 0.0001 mm");
+    reader.number("retract_overlap", &nc.retract_overlap, 0, 100);
+    reader.number("tap_most_apart", &nc.tap_most_apart, 0.05, 100);
     const std::string lacks = optimal_lacks(nc);
     if (nc.motion_mode == NC_MOTION_OPTIMAL && !lacks.empty()) reader.error("mode", "optimal needs limits of velocity, acceleration and jerk of every axis, " + lacks);
   });

@@ -184,6 +184,8 @@ TEST(StructSize, AnOlderConfigurationHasTheDefaultsBehindItsEnd) {
   same.look_ahead = 64;
   same.programs = 8;
   EXPECT_EQ(same.contour_blocks, 3800u);
+  EXPECT_EQ(same.retract_overlap, 0);
+  EXPECT_EQ(same.tap_most_apart, 2);
   EXPECT_NE(nc_memory_required(&same), 0u);
   EXPECT_EQ(nc_memory_required(as<const nc_config>(&older.old)), nc_memory_required(&same));
 }

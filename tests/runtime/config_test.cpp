@@ -682,7 +682,10 @@ TEST(Config, TheOptimalModeNeedsTheJerkOfEveryAxis) {
   EXPECT_EQ(config.nc.motion_mode, NC_MOTION_OPTIMAL);
   EXPECT_DOUBLE_EQ(config.nc.path_tolerance, 0.005);
   EXPECT_EQ(nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"optimal\"\ntolerance = 0.0\n").nc.path_tolerance, 0);
+  EXPECT_DOUBLE_EQ(nc::test::parse_or_fail(nc::test::base_toml() + motion + "retract_overlap = 2.5\n").nc.retract_overlap, 2.5);
+  EXPECT_EQ(config.nc.retract_overlap, 0);
   Config between;
+  EXPECT_FALSE(nc::rt::parse_config(nc::test::base_toml() + motion + "retract_overlap = 101.0\n", "test.toml", &between).empty());
   EXPECT_FALSE(nc::rt::parse_config(nc::test::base_toml() + "[motion]\nmode = \"optimal\"\ntolerance = 0.00005\n", "test.toml", &between).empty());
   std::string text = nc::test::base_toml();
   const std::string jerk = "max_jerk = 50000.0";

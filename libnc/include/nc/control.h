@@ -90,6 +90,11 @@ typedef struct nc_config {
   uint32_t contour_blocks;            /**< blocks of the longest contour that the check of its walls takes (the parameter CONTOUR_CHECK of m700), 16 to 1000000;
                                 default 3800 (1.5 MB for each part system; memory that no contour has needed is never written). A longer contour is an
                                 alarm where the check is on */
+  double retract_overlap;             /**< mm, 0 to 100; default 0. NC_MOTION_OPTIMAL: between two holes of a fixed cycle the tool goes on by so much beyond
+                                its return level (R or the initial level) and passes from the retract into the traverse, and from there down, in one
+                                curve each, without a rest. Where it is below that level the axes of the plane stand. 0: it stops at the level */
+  double tap_most_apart;              /**< revolutions, 0.05 to 100; default 2. A spindle that is farther from what a synchronous tap commands does not
+                                follow it: an alarm */
 } nc_config;
 
 /**

@@ -39,7 +39,7 @@ enum class Condition : uint16_t {
   control_structure, name_without_value, too_many_names, probe_no_contact, call_in_mdi,
   contour_too_long,
   tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,
-  life_full, life_group,
+  life_full, life_group, tap_apart, encoder_jumps,
   block_skip, sub_without_return,
   internal,
   count_

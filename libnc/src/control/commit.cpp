@@ -477,6 +477,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       s.feed_mm_s = s.rapid ? 0 : item.move.feed_mm_min / 60;
       s.feed_mm_rev = item.move.feed_mm_rev;
       s.exact_stop = item.move.exact_stop;
+      s.flows = s.rapid && item.move.flows;
       s.skip = item.move.kind == NC_MOVE_SKIP;
       s.skip_mask = item.move.skip_mask;
       s.skip_speeds = item.move.skip_speeds;

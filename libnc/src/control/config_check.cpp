@@ -196,6 +196,8 @@ bool Check::motion() {
   if (c_.path_tolerance != 0 &&
       !within(Path().member("path_tolerance"), c_.path_tolerance, 1e-5, 10, "must be 0, or 0.00001 to 10 mm"))
     return false;
+  if (!within(Path().member("retract_overlap"), c_.retract_overlap, 0, 100, "must be 0 to 100 mm")) return false;
+  if (!within(Path().member("tap_most_apart"), c_.tap_most_apart, 0.05, 100, "must be 0.05 to 100 revolutions")) return false;
   if (c_.motion_mode == NC_MOTION_TRAPEZOID) return true;
   if (c_.motion_mode != NC_MOTION_OPTIMAL) return refuse(Path().member("motion_mode"), "must be an nc_motion_mode");
   for (unsigned i = 0; i < c_.system_count; ++i)
@@ -256,6 +258,7 @@ void set_defaults(nc_config* config) {
   config->max_feed_override = 2.0;
   config->path_tolerance = 0.01;
   config->contour_blocks = 3800;
+  config->tap_most_apart = 2;
 }
 
 }  // namespace

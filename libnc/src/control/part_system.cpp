@@ -42,6 +42,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   in.frames.tool_offsets = config.tool_offsets;
   in.vendor = shared.vendor;
   in.longest_filter_ms = PositionFilter::places(kLongestMean, config.cycle_s) * config.cycle_s * 1000;
+  if (config.motion_mode == NC_MOTION_OPTIMAL) in.retract_overlap = config.retract_overlap;
   interpreter.create(in, shared.store, shared.common, arena);
 
   CommitConfig commit;
@@ -74,6 +75,7 @@ void PartSystem::create(const nc_config& config, unsigned index, const Dialect& 
   ex.spindle_unsigned = static_cast<uint8_t>(system.spindle_unsigned);
   ex.cycle_s = config.cycle_s;
   ex.max_feed_override = config.max_feed_override;
+  ex.tap_most_apart = config.tap_most_apart;
   ex.accuracy_joint_speed = dialect.rules.motion.accuracy_joint_speed;
   ex.capacity = config.look_ahead;
   ex.tells_marks = config.system_count > 1;
@@ -214,8 +216,9 @@ void PartSystem::describe_alarm() {
 bool PartSystem::alarm(nc_alarm* out) const {
   nc_source place;
   if (online_ && executor.faulted(&place)) {  // it comes before an alarm that has been read but not reached
+    const ScanFault found = executor.scan_fault();
     Fault fault;
-    fault.condition = Condition::internal;
+    fault.condition = found == ScanFault::tap ? Condition::tap_apart : found == ScanFault::encoder ? Condition::encoder_jumps : Condition::internal;
     put_fault(fault, place, out);
     return true;
   }

@@ -30,6 +30,7 @@ struct CycleState {
                              ///< shift of the coordinates in the cycle mode (M700 13.1.2, 13.1.3) does not move it
   TapControl tap = TapControl::by_parameter;
   bool synchronous = false;  ///< what follows from it and the parameters for the cycle in force
+  int8_t returned = 0;       ///< the tool has come back from a hole along the drilling axis in this direction, 1 or -1; 0 = it has not
   bool has_first = false;    ///< the first cut has an end of its own ...
   double pitch = 0;          ///< of a synchronous tap, mm/rev; 0 = none yet
   double return_speed = 0;   ///< ,S: of the spindle on the way back of a synchronous tap, r/min; 0 = that of the way in

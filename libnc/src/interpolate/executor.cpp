@@ -285,8 +285,10 @@ BlockSeq Executor::last_block() const {
 bool Executor::faulted(nc_source* where) const {
   const ScanStatus& status = state_->shared.status.read();
   *where = status.stopped_at;
-  return status.faulted;
+  return status.faulted != ScanFault::none;
 }
+
+ScanFault Executor::scan_fault() const { return state_->shared.status.read().faulted; }
 
 bool Executor::stopped(nc_source* where, BlockSeq* behind) const {
   const ScanStatus& status = state_->shared.status.read();

@@ -11,6 +11,9 @@
 
 namespace nc {
 
+/// Alarms of the scan itself: the move in execution cannot begin or go on; the spindle of a synchronous tap does not follow it; its encoder jumps.
+enum class ScanFault : uint8_t { none, move, tap, encoder };
+
 struct ExecutorConfig {
   unsigned axis_count = 3;
   uint32_t rotary = 0;  ///< bit i: axis i is rotary
@@ -23,6 +26,7 @@ struct ExecutorConfig {
   uint8_t axis_spindle[kMaxAxes] = {};  ///< number (from 1) of the spindle that becomes this axis while its servo is on (M700 10.5), 0 = none
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
+  double tap_most_apart = 2;  ///< revolutions that the spindle of a synchronous tap may be away from its command
   AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< MotionLimits::accuracy_joint_speed
   uint32_t capacity = 1024;  ///< records in the ring, power of two
   bool tells_marks = false;  ///< executed_mark() will be called
@@ -115,8 +119,9 @@ class Executor {
   uint32_t cycle_seen() const;
   /// The next record does not need the ring place of a block end that has not been taken yet.
   bool may_push() const;
-  /// The scan itself has raised the alarm: the move of the block *where cannot begin or go on. It holds until reset.
+  /// The scan itself has raised the alarm, in the block *where. It holds until reset.
   bool faulted(nc_source* where) const;
+  ScanFault scan_fault() const;
   /// An alarm that is no record, one of the scan or of the machine, has stopped the program in the block *where. *behind: the last block that had been
   /// executed to its end. It holds until reset.
   bool stopped(nc_source* where, BlockSeq* behind) const;

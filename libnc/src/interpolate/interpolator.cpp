@@ -253,7 +253,8 @@ void Interpolator::states(const nc_inputs& in) {
     if (frozen_ && shared_->truncation.withdraw()) frozen_ = false;
     if (!still || frozen_ || rereading_) return;
     give_up();
-    reset_ = faulted_ = stopped_ = false;
+    reset_ = stopped_ = false;
+    faulted_ = ScanFault::none;
     alarmed_ = in.alarm;
     state_ = NC_STATE_IDLE;
   }

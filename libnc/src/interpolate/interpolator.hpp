@@ -39,7 +39,7 @@ struct ScanStatus {
   Cut cut;
   // A program that was in execution has been stopped by an alarm that is no item of it.
   bool stopped = false;     ///< there is such an alarm, of the machine or of the scan itself
-  bool faulted = false;     ///< it is one of the scan itself: the move in execution cannot begin, or cannot go on
+  ScanFault faulted = ScanFault::none;  ///< it is one of the scan itself
   nc_source stopped_at{};   ///< block in execution at that moment
   BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
   nc_tap tap{};  ///< nc_tap_get()
@@ -143,6 +143,7 @@ class Interpolator {
   void release_tap() NC_RT;
   double tap_turns() const NC_RT;
   void follow_tap(const nc_inputs& in) NC_RT;
+  void take_tap_where_it_stands(const nc_inputs& in) NC_RT;
   bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
   bool tap_in_hole() const NC_RT;
   void turn_tap_spindle(nc_outputs& out) NC_RT;
@@ -294,7 +295,7 @@ class Interpolator {
   bool start_ = false;  ///< cycle start was pressed and not yet acted upon
   bool start_refused_ = false;  ///< a cycle start was refused because feed hold was on, and feed hold still is
   nc_run_state shown_ = NC_STATE_IDLE;  ///< nc_outputs::state of the cycle before
-  bool faulted_ = false;  ///< fault() has raised an alarm; until reset
+  ScanFault faulted_ = ScanFault::none;  ///< the alarm that the scan has raised; until reset
   bool placed_ = false;         ///< source_ is a block of this run
   bool stopped_ = false;        ///< ScanStatus::stopped, and below stopped_at and stopped_behind; until reset
   nc_source stopped_at_{};
@@ -355,6 +356,7 @@ class Interpolator {
     double per_mm = 0;               ///< turns of the spindle by the way of the axis, forward positive
     double speed = 0, acceleration = 0;  ///< of the axis, mm/s with the sign of the way in, and mm/s^2
     double turns = 0;                ///< of the spindle since it was taken over, up to the move in execution
+    double waited_s = 0;             ///< for the spindle, where it is to be let go
     double shown = 0;                ///< turns of the cycle before
     double added = 0;                ///< to the commands of c_axis, deg
   };

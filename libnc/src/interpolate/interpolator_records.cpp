@@ -78,7 +78,8 @@ void Interpolator::alarm() {
 
 /// The move does not begin where the axes stand, which should never happen: nothing moves, and the feeder shows an internal alarm.
 Interpolator::Done Interpolator::fault(const Record& r) {
-  alarmed_ = faulted_ = true;
+  alarmed_ = true;
+  faulted_ = ScanFault::move;
   stop_in(r.source, last_block_);
   return Done::no;
 }

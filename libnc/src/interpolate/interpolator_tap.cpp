@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kStands_rev_s = 1e-3;
 constexpr double kDegrees = 360;  // of a turn
+constexpr double kLongestWait_s = 1;  // for a spindle to come to the place where it is let go
 
 }  // namespace
 
@@ -62,7 +63,12 @@ void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
 
 /// M700 13.1.1, G84: a hold that came between R and R again acts now. Before the tap lets its spindle go, both have come to their places.
 Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
-  if ((bits & NC_TAPPING_STROKES) == 0 && !tap_follower_.arrived()) return wait(NC_CAUSE_SPINDLE_ANGLE);
+  if ((bits & NC_TAPPING_STROKES) == 0 && !tap_follower_.arrived()) {
+    tap_.waited_s += config_.cycle_s;
+    if (tap_.waited_s > kLongestWait_s) tap_follower_.say_apart();
+    return wait(NC_CAUSE_SPINDLE_ANGLE);
+  }
+  tap_.waited_s = 0;
   if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
     tap_.turns = 0;
     tap_.held = false;
@@ -110,8 +116,30 @@ void Interpolator::follow_tap(const nc_inputs& in) {
   if (stands && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, tap_turns());  // behind a power cut, or with drives that were off
   if (!tap_follower_.active()) return;
   const bool measured = taps && encoder(in).turns_valid && !encoder(in).unmeasured;
-  const TapFollower::Limits limits{config_.limits[a].velocity, config_.limits[a].acceleration, config_.cycle_s};
+  if (tap_.held && measured && !alarmed_ && tap_follower_.rests_beside() && !manual_.active()) take_tap_where_it_stands(in);
+  TapFollower::Limits limits{config_.limits[a].velocity, config_.limits[a].acceleration, config_.limits[a].jerk, config_.cycle_s};
+  limits.most_apart = config_.tap_most_apart;
+  limits.before = last_command_[a];
+  if ((config_.soft_limited >> a & 1) != 0 && (in.unlimited >> a & 1) == 0) {
+    limits.low = std::min(config_.soft_min[a], command_[a]);
+    limits.high = std::max(config_.soft_max[a], command_[a]);
+  }
   command_[a] += tap_follower_.step(measured, encoder(in).turns, taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
+  if (tap_follower_.trouble() == TapFollower::Trouble::none || faulted_ != ScanFault::none) return;
+  if (!alarmed_ && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
+  faulted_ = tap_follower_.trouble() == TapFollower::Trouble::jumped ? ScanFault::encoder : ScanFault::tap;
+  alarmed_ = true;
+}
+
+/// A tap that is left in its hole beside its path: axis and spindle are at one place of the thread, from which both go on. Only the command of either is
+/// taken to it.
+void Interpolator::take_tap_where_it_stands(const nc_inputs& in) {
+  const double beside = tap_follower_.beside();
+  wanted_[tap_.axis] += beside;
+  command_[tap_.axis] += beside;
+  tap_.shown += beside * tap_.per_mm;
+  tap_follower_.drop();
+  tap_follower_.begin(encoder(in).turns, tap_turns());
 }
 
 /// A tap that stands in its hole: the signal draws it out, with the speed and the acceleration with which it has gone in. True: `wish` says how.
@@ -136,7 +164,9 @@ bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Ru
 
 /// The tap stands in the hole and could be drawn out.
 bool Interpolator::tap_in_hole() const {
-  return tap_.held && manual_allowed_ && (tap_.entry - wanted_[tap_.axis]) * tap_.speed < 0 && std::fabs(tap_.entry - wanted_[tap_.axis]) > kAddingUp;
+  constexpr double kOut = 1e-3;  // mm
+  const double way = tap_.entry - wanted_[tap_.axis] - tap_follower_.beside();  // the axis is where its spindle is
+  return tap_.held && manual_allowed_ && way * tap_.speed < 0 && std::fabs(way) > kOut;
 }
 
 /// The angle that belongs to the place on the path, or of the axis that is moved by hand.

@@ -3,6 +3,10 @@
 // of the spindle. The encoder shows by how much the spindle is behind (or before) what it was commanded in the cycle before; the axis is commanded that
 // much of the lead behind its path. So a spindle that lags as it accelerates, or runs on at the bottom, takes the axis along, and the thread is as good as
 // the lag of one cycle is constant. A drive that does what it is told changes nothing.
+//
+// A spindle that fails must not take the axis along without end. Where it is more turns away from its command than its acceleration explains, and where
+// its encoder jumps, there is trouble(), which is an alarm. From then on the axis follows a spindle that runs out no farther than it can, and a jump not
+// at all. In no case does it leave the limits of its stroke.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +19,13 @@ namespace nc {
 class TapFollower {
  public:
   struct Limits {
-    double velocity = 0, acceleration = 0;  ///< of the axis, mm/s and mm/s^2; 0 = none
+    double velocity = 0, acceleration = 0, jerk = 0;  ///< of the axis, mm/s, mm/s^2, mm/s^3; 0 = none
     double cycle_s = 0.001;
+    double before = 0;                        ///< place of the axis in the cycle before, mm
+    double low = -HUGE_VAL, high = HUGE_VAL;  ///< of its stroke, mm
+    double most_apart = 2;                    ///< revolutions that the spindle may be away from its command
   };
+  enum class Trouble : uint8_t { none, apart, jumped };
 
   /// The spindle is taken over where it stands, at `turns` revolutions of its encoder and `commanded` ones of the tap.
   void begin(double turns, double commanded) NC_RT {
@@ -26,15 +34,26 @@ class TapFollower {
     commanded_ = commanded;
     aim_ = beside_;
     fresh_ = active_ = true;
-    ends_ = false;
+    ends_ = stands_ = fades_ = false;
+    earlier_[0] = earlier_[1] = beside_;
+    turns_ = turns;
+    seen_ = true;
+    apart_ = fastest_ = 0;
+    trouble_ = Trouble::none;
   }
   /// The axis has been put where it is: it is on its path.
   void drop() NC_RT { active_ = false; }
   /// The spindle is let go. The axis comes back to its path.
   void end() NC_RT { ends_ = true; }
   bool active() const NC_RT { return active_; }
-  /// The axis is on its path, but for the resolution of an encoder, or the spindle stands and comes no nearer.
-  bool arrived() const NC_RT { return !active_ || std::fabs(beside_) <= kArrived || stands_; }
+  /// The axis is on its path, but for the resolution of an encoder, or the spindle stands near its command and comes no nearer.
+  bool arrived() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled()) || (stands_ && trouble_ == Trouble::none && std::fabs(apart_) <= kStands); }
+  /// Why the spindle cannot be followed any more; until begin().
+  Trouble trouble() const NC_RT { return active_ ? trouble_ : Trouble::none; }
+  /// The spindle does not come to the place where it is let go.
+  void say_apart() NC_RT { trouble_ = Trouble::apart; }
+  /// Axis and spindle have come to rest beside the path, or where the spindle could not be followed any more.
+  bool rests_beside() const NC_RT { return active_ && stands_ && speed_ == 0 && (beside_ != 0 || trouble_ != Trouble::none); }
 
   /**
    * One cycle.
@@ -45,15 +64,18 @@ class TapFollower {
    * @return what is added to that place, mm
    */
   double step(bool measured, double turns, double commanded, double per_mm, double place, const Limits& limits) NC_RT {
+    const double time = limits.cycle_s;
+    cycle_s_ = time;
+    if (ends_ && (fades_ || (std::fabs(beside_) <= kFaded && settled()))) return fade(place, limits);
     const bool follows = measured && !ends_ && per_mm != 0;
-    double aim = follows ? (turns - began_ - commanded_) / per_mm : 0;
-    if (!std::isfinite(aim)) aim = aim_;
+    const double aim = follows ? aim_at(turns, per_mm, limits) : 0;
+    fastest_ = std::max(fastest_, std::fabs(commanded - commanded_) / time);
     commanded_ = commanded;
     stands_ = !measured || std::fabs(turns - turns_) <= kStill;
-    turns_ = turns;
-    const double time = limits.cycle_s;
+    if (measured) turns_ = turns;
+    seen_ = measured;
     if (fresh_) {  // it stands
-      last_ = place + beside_;
+      last_ = limits.before;
       speed_ = 0;
       fresh_ = false;
     }
@@ -67,29 +89,103 @@ class TapFollower {
     double speed = of_path + back + (follows ? (aim - aim_) / time : 0);
     aim_ = aim;
     if (limits.velocity > 0) speed = std::clamp(speed, std::min(of_path, -limits.velocity), std::max(of_path, limits.velocity));
-    // The path itself keeps the limits, whatever the speed behind it is.
-    if (limits.acceleration > 0) speed = std::clamp(speed, std::min(speed_, of_path) - change, std::max(speed_, of_path) + change);
+    if (limits.acceleration > 0) speed = std::clamp(speed, speed_ - change, speed_ + change);
+    const double inside = within_stroke(speed, of_path, limits);
+    if (follows && inside != speed && std::fabs(aim_ - beside_) * std::fabs(per_mm) > kBeside) trouble_ = Trouble::apart;
+    speed = inside;
     last_ += speed * time;
     speed_ = speed;
+    earlier_[1] = earlier_[0];
+    earlier_[0] = beside_;
     beside_ = last_ - place;
-    if (ends_ && std::fabs(beside_) <= kGone) {
-      beside_ = 0;
-      active_ = false;
-    }
     return beside_;
   }
   /// How far the axis is beside its path.
   double beside() const NC_RT { return active_ ? beside_ : 0; }
 
  private:
+  /// The axis has no speed and no acceleration of its own to speak of.
+  bool settled() const NC_RT {
+    const double v = (beside_ - earlier_[0]) / cycle_s_, a = (beside_ - 2 * earlier_[0] + earlier_[1]) / (cycle_s_ * cycle_s_);
+    return std::fabs(v) <= kSlow && std::fabs(a) <= kSteady;
+  }
+  /// The spindle is let go: what the axis is beside its path fades as a polynomial of degree 5 that begins with its speed and acceleration and ends with
+  /// none. It lasts so long that what it adds to the acceleration and the jerk of the path is not felt.
+  double fade(double place, const Limits& limits) NC_RT {
+    const double time = limits.cycle_s;
+    if (!fades_) {
+      fades_ = true;
+      faded_ = 0;
+      from_[0] = beside_;
+      from_[1] = (beside_ - earlier_[0]) / time;
+      from_[2] = (beside_ - 2 * earlier_[0] + earlier_[1]) / (time * time);
+      fade_s_ = 10 * time;
+      if (limits.acceleration > 0) {
+        const double a = kUnfelt * limits.acceleration;
+        fade_s_ = std::max({fade_s_, std::sqrt(6 * std::fabs(from_[0]) / a), 6 * std::fabs(from_[1]) / a});
+      }
+      if (limits.jerk > 0) {
+        const double j = kUnfelt * limits.jerk;
+        fade_s_ = std::max({fade_s_, std::cbrt(60 * std::fabs(from_[0]) / j), std::sqrt(36 * std::fabs(from_[1]) / j), 9 * std::fabs(from_[2]) / j});
+      }
+    }
+    fade_s_ = std::min(fade_s_, kLongestFade_s);
+    faded_ += time;
+    if (faded_ >= fade_s_) {
+      active_ = fades_ = false;
+      return beside_ = 0;
+    }
+    const double t = faded_ / fade_s_, b = from_[0], v = from_[1] * fade_s_, a = from_[2] * fade_s_ * fade_s_;
+    const double c3 = -10 * b - 6 * v - 1.5 * a, c4 = 15 * b + 8 * v + 1.5 * a, c5 = -6 * b - 3 * v - 0.5 * a;
+    const double x = b + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5))));
+    return beside_ = std::clamp(place + x, limits.low, limits.high) - place;
+  }
+
+  /// How far the axis has to be beside its path, mm: by what the spindle is beside its command.
+  double aim_at(double turns, double per_mm, const Limits& limits) NC_RT {
+    if (!std::isfinite(turns) || (seen_ && std::fabs(turns - turns_) > kJump + kFaster * fastest_ * limits.cycle_s)) trouble_ = Trouble::jumped;
+    if (trouble_ == Trouble::jumped) return aim_;
+    apart_ = turns - began_ - commanded_;
+    if (std::fabs(apart_) > limits.most_apart) trouble_ = Trouble::apart;
+    const double farthest = limits.most_apart + kRunOut_s * fastest_;
+    return std::clamp(apart_, -farthest, farthest) / per_mm;
+  }
+  /// The speed with which the axis can still stop in front of the end of its stroke. Where it is on its path it goes as its path does.
+  double within_stroke(double speed, double of_path, const Limits& limits) const NC_RT {
+    const double own = std::fabs(beside_) <= kArrived ? std::fabs(of_path) : 0, a = kOfStroke * limits.acceleration, b = 0.5 * a * limits.cycle_s;
+    const auto most = [&](double room) {
+      if (!(room > 0)) return 0.0;
+      const double reached = room / limits.cycle_s;
+      return a > 0 ? std::min(std::max(std::sqrt(2 * a * room + b * b) - b, own), reached) : reached;
+    };
+    return std::clamp(speed, -most(last_ - limits.low), most(limits.high - last_));
+  }
+
   static constexpr double kArrived = 1e-3;        ///< mm
   static constexpr double kStill = 1e-6;          ///< revolutions in one cycle
-  static constexpr double kGone = 1e-12;          ///< mm
+  static constexpr double kUnfelt = 5e-4;         ///< share of the limits of the axis that is not felt
+  static constexpr double kFaded = 0.05, kSlow = 0.1, kSteady = 3;  ///< mm, mm/s, mm/s^2: what may fade
+  static constexpr double kLongestFade_s = 0.5;
   static constexpr double kOfAcceleration = 0.5;  ///< share of the axis' acceleration with which it comes back
+  static constexpr double kOfStroke = 0.85;       ///< and with which it stops in front of the end of its stroke; its last cycle may take an eighth more
+  // Revolutions: by which a spindle that stands may be beside its command as it is let go, outside of the hole; which the axis may miss because its
+  // stroke ends.
+  static constexpr double kStands = 0.02, kBeside = 0.25;
+  static constexpr double kRunOut_s = 1;  ///< seconds of the highest speed commanded: so far the axis goes along with a spindle that runs out
+  // No spindle turns more than this in one cycle: revolutions, and times the highest speed commanded.
+  static constexpr double kJump = 0.1, kFaster = 2;
 
   bool active_ = false, fresh_ = false, ends_ = false, stands_ = false;
+  bool seen_ = false;  ///< turns_ is of the cycle before
   double turns_ = 0, began_ = 0, commanded_ = 0;
   double aim_ = 0, beside_ = 0, last_ = 0, speed_ = 0;
+  double earlier_[2] = {};  ///< beside_ of the two cycles before
+  double cycle_s_ = 0.001;
+  bool fades_ = false;
+  double from_[3] = {}, faded_ = 0, fade_s_ = 0;  ///< what it fades from with its first two derivatives, since when and for how long, s
+  double apart_ = 0;    ///< revolutions that the spindle is before its command
+  double fastest_ = 0;  ///< that was commanded since begin(), rev/s
+  Trouble trouble_ = Trouble::none;
 };
 
 }  // namespace nc

@@ -104,6 +104,7 @@ struct BlockContext {
   CodeCalls code_calls;            ///< codes that parameters have registered to call a program
   bool codes_call = false;         ///< there are such codes, or codes of the vendor
   FrontEnd front;                  ///< what the words of a block are read with
+  double retract_overlap = 0;      ///< how far the tool goes beyond the level between two holes of a cycle, mm; 0 = it stops there
   uint32_t optional_skip = 0;      ///< optional block skip switches, bit n = switch n
 
   // ---- what is in force, and the tables

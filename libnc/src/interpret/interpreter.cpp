@@ -34,6 +34,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   }
   codes.create(*dialect);
   vendor = config.vendor;
+  retract_overlap = config.retract_overlap;
   if (vendor->replaces_g(codes.linear().code)) codes.forget_linear();
   words.addresses = &dialect->addresses;
   front.dialect = dialect;

@@ -254,7 +254,8 @@ inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width
 inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   if (in.settings.life_managed) [[unlikely]] count_tool_use(in, style.kind != NC_MOVE_RAPID);
   move.kind = style.kind;
-  move.exact_stop = style.exact_stop || style.kind == NC_MOVE_RAPID;
+  move.exact_stop = (style.exact_stop || style.kind == NC_MOVE_RAPID) && !style.flows;
+  move.flows = style.flows;
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
   move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
   move.skip_mask = style.skip_mask;

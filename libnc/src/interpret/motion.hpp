@@ -11,6 +11,7 @@ struct LinearStyle {
   double feed_mm_min = 0;
   const SkipSpeeds* skip_speeds = nullptr;
   bool exact_stop = false;
+  bool flows = false;         ///< rapid traverse: see Move::flows
   bool transparent = false;   ///< the vectors of radius compensation are taken away for this move
   uint8_t skip_mask = 0;
   uint8_t unclamps = 0;       ///< bit i: axis i, an index table, is unclamped during the move (M700 9.3)

@@ -32,6 +32,7 @@ struct InterpreterConfig {
   FramesConfig frames;
   const VendorCodes* vendor = nullptr;
   double longest_filter_ms = 0;    ///< longest mean for which the filters behind interpolation have room, ms
+  double retract_overlap = 0;      ///< how far the tool goes beyond the level between two holes of a cycle, mm; 0 = it stops at the level
 };
 
 /// The alarm that has ended the program: its fault, and texts that do not follow from the fault.

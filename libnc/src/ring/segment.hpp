@@ -27,6 +27,7 @@ struct Segment {
   double feed_end_mm_s = 0;  ///< the feed changes evenly to this at the end; 0 = it does not change
   uint8_t feed_digit = 0;    ///< n + 1: commanded as the one-digit feed Fn (M700 7.3); 0 = not
   bool fixed_override = false;  ///< the feed override does not act (G63)
+  bool flows = false;           ///< rapid traverse: the path goes on at speed where what is behind begins with its direction
   bool rest_before = false;     ///< the path comes to rest where it begins
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
   float slow_zone = 0, slow_factor = 1;            ///< the feed over this length before the end (M700 7.10)

@@ -165,6 +165,7 @@ struct Move {
   Corner corner = Corner::none;  ///< at its end; the plane of a rounding is `plane`, `plane_axis`
   double corner_mm = 0;          ///< of the chamfer its legs, of the rounding its radius, > 0; meet: > 0 where nothing is left of it if nothing meets it
   bool meets = false;            ///< the move before, which is pending, ends where this one begins
+  bool flows = false;            ///< rapid traverse: the path goes on at speed where what is behind begins with its direction
   SettingsId settings = 0;       ///< parameters as they were when the move was made: stages and commit go by them alone
   TransformId transform = 0;
   uint32_t shape = 0;            ///< number of its MoveShape, counted from 1; 0 = the move is just the line or circle below

@@ -247,7 +247,9 @@ Execution check_hole(BlockContext& in) {
   if (c.has_first && strokes_of(c.kind).pecks && c.has_r && !c.r_incremental && c.has_z && !c.z_incremental && !((c.first - c.r) * (c.z - c.r) > 0))
     return in.raise(Condition::value_range, Role::cycle_first_depth, c.first);
   const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0 && c.q != 0;
-  if (rules.shift_needs_words && !by_parameter && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
+  // 13.1.1, note: Q is the shift where #1080 makes Z the drilling axis. Without that it would be ignored, and the tool drawn along the wall.
+  const bool lost_q = w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step) && !in.settings.drilling_axis_z;
+  if ((rules.shift_needs_words || lost_q) && !by_parameter && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
     return in.raise(Condition::words_missing, Role::vector_x);
   const double depth = c.z_incremental ? -c.z : c.r - c.z;  // below R
   const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);

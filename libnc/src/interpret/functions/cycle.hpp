@@ -20,6 +20,13 @@ void position_over_hole(BlockContext& in);
 /// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the drilling axis.
 uint32_t positioning_axes(const BlockContext& in);
 
+/// retract_overlap.cpp, an option of the machine (nc_config::retract_overlap): strokes along the drilling axis go on at speed where they can.
+bool strokes_flow(const BlockContext& in);
+/// The direction in which the hole in hand has been left along the drilling axis, 1 or -1; 0 where that was not in rapid traverse out of the hole.
+int8_t way_back(const BlockContext& in);
+/// Over to the next hole beyond the level on which the tool is, without a rest. False: it has to go there as it is programmed.
+bool traverse_beyond_level(BlockContext& in, const AxisVec& target, uint32_t axes);
+
 /// tap.cpp: what the block says of tapping, kept in State::cycle; and whether a tap can be made.
 Execution take_tap_words(BlockContext& in);
 Execution check_tap(BlockContext& in);

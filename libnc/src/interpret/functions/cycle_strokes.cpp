@@ -143,8 +143,13 @@ void position_in_pattern(BlockContext& in) {
   target = as_moved(in, target);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  if (in.state.cycle.kind == CycleKind::none) style = by_motion_in_force(in, in.position(), target);
-  move_linear(in, target, 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1], style);
+  const uint32_t axes = 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1];
+  if (in.state.cycle.kind == CycleKind::none) {
+    style = by_motion_in_force(in, in.position(), target);
+  } else if (traverse_beyond_level(in, target, axes)) {
+    return;
+  }
+  move_linear(in, target, axes, style);
 }
 
 /// Half circles and the circle of M700 13.1.1, G75: about the hole, its entry on the minus side of the plane's first axis.
@@ -207,6 +212,7 @@ void move_along(BlockContext& in, const CycleStep& step) {
   style.tapping = (step.flags & kStrokeTaps) != 0;
   if (style.tapping && c.synchronous) set_tap(in, step, &style);
   if ((step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths) style.in_position = c.in_position;
+  style.flows = style.kind == NC_MOVE_RAPID && style.in_position == 0 && strokes_flow(in);
   move_linear(in, target, 1u << c.drill_axis, style);
 }
 
@@ -279,6 +285,7 @@ void position_over_hole(BlockContext& in) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   if (strokes_of(in.state.cycle.kind).takes_widths) style.in_position = in.words.in_position;
+  if (in.words.one_shot == nullptr && style.in_position == 0 && (axes & ~over_hole) == 0 && traverse_beyond_level(in, target, axes)) return;
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::unidirectional)  // M700 6.8, HX 4.2: not the axis that drills
     move_linear(in, before_creep(in, target, axes), axes, style);
   if (!in.dialect->rules.cycle.others_keep_motion_mode) return move_linear(in, target, axes, style);  // all of them together (Series 8 G81: X Y A)
@@ -308,6 +315,7 @@ Execution continue_cycle(BlockContext& in) {
       if ((step.flags & kStrokeStops) != 0) in.emit_stop_point();
       continue;
     }
+    in.state.cycle.returned = way_back(in);
     if (--holes.left == 0) return Execution::done;
     in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
     return begin_hole(in);

@@ -102,7 +102,7 @@ void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, doubl
   tail_ = head_;
   head_u_ = line_u_ = u;
   forget_line();
-  closing_ = false;
+  closing_ = flows_ = false;
   arc_.curve = nullptr;
   joint_ = {};
   begins_ = 0;
@@ -491,9 +491,11 @@ void PathBuilder::add_curve(const Record& r) {
   const auto push = [&] { line ? push_piece(p) : push_curve(p, s); };
   if (rest - zone > 1e-9) {
     p.length = rest - zone;
-    p.rest_behind = !(zone > 0);
+    p.rest_behind = !(zone > 0) && !s.flows;
     push();
-    if (p.rest_behind) return;
+    flows_ = s.flows;
+    if (flows_) epoch_ = r.epoch;
+    if (!(zone > 0)) return;
     p.curve_from += p.length;
     for (unsigned i = 0; i < limits_.axis_count; ++i) p.c[0][i] += p.length * p.c[1][i];
   }
@@ -762,6 +764,15 @@ bool PathBuilder::part(const Record& r, bool moves) {
   return true;
 }
 
+/// Rapid traverse goes on at speed only into rapid traverse or a cut that is passed at speed, and of these only where the path does not bend
+/// (join_piece()). The planner may know the piece already; but what it has planned ends at rest there, because nothing lay behind.
+void PathBuilder::rest_unless_it_flows(const Record& r, bool moves) {
+  const Segment& s = r.segment;
+  const bool on = moves && (passes(s) || (s.rapid && !(s.begun > 0))) && !s.rest_before && r.epoch == epoch_;
+  if (flows_ && !on && head_ != tail_) store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
+  flows_ = false;
+}
+
 /// One move behind what is open. @param more  there are more pieces than before
 PathBuilder::Next PathBuilder::add(Work& work, const Record& r, bool* more) {
   const Segment& s = r.segment;
@@ -812,6 +823,7 @@ PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head, bool* more) {
     if (moves || demands_rest(r)) {
       if (!part(r, moves)) return Next::no_room;
       if (closing_) continue;
+      rest_unless_it_flows(r, moves);
     }
     const Next next = moves ? add(work, r, more) : Next::go_on;
     if (next == Next::no_room || next == Next::line_full) return next;

@@ -51,6 +51,7 @@ class PathBuilder {
   Next add(Work& work, const Record& r, bool* more);
   void add_line(const Record& r);
   double tap_share(const Segment& s) const;
+  void rest_unless_it_flows(const Record& r, bool moves);
   void add_curve(const Record& r);
   void add_arc(const Record& r);
   void end_arc();
@@ -110,6 +111,7 @@ class PathBuilder {
   uint32_t epoch_ = 0;
   uint32_t oldest_ = 0;      ///< epoch of records that are not void
   bool uses_turns_ = false;
+  bool flows_ = false;       ///< the last piece is of a rapid traverse behind which the path may go on at speed
   bool closing_ = false;     ///< it ends at its last vertex, whatever comes
   double line_start_u_ = 0;  ///< of vertex 0
   bool goes_on_ = false;
