@@ -52,6 +52,22 @@ TEST_F(LifeCount, ALifeThatEndsIsTold) {
   EXPECT_EQ(drive->out.tool_life, NC_TOOL_LIFE_ENDED | NC_TOOL_GROUP_ENDED);
 }
 
+// All of the program fits into the look-ahead; what T selects and what is told goes by what has happened all the same.
+TEST_F(LifeCount, NothingGoesByWhatIsOnlyRead) {
+  bench.at(0, 0, 0);
+  run("G10 L3\nP10 L1 Q2\nT101\nT102\nG11\nG94 F600\nT10 M06\nG1 X650.\nT10 M06\nG1 X0\nM30");
+  EXPECT_EQ(drive->out.t, 102U) << "the minute of the first one was over";
+  EXPECT_NEAR(life(2, NC_LIFE_USED), 65. / 60, 0.02);
+  drive = std::make_unique<Drive>(bench, "G10 L3\nP10 L2\nT101\nT102\nG11\nG94 F600\nT10 M06\nG1 X100.\nG1 X0.\nT10 M06\nG1 X100.\nM30");
+  unsigned told_at = 0;
+  for (unsigned n = 0; n < 100000 && !drive->ended; ++n) {
+    drive->press_start();
+    drive->step(50);
+    if (told_at == 0 && drive->out.tool_life != 0) told_at = drive->out.source.line;
+  }
+  EXPECT_GE(told_at, 10U) << "with the second mount, and not before";
+}
+
 TEST_F(LifeCount, AToolThatBreaksIsNotUsedAnyMore) {
   run("G10 L3\nP7 L100\nT11\nT12\nG11\nT7 M6\nM30");
   EXPECT_EQ(drive->out.t, 11U);

@@ -331,6 +331,14 @@ Execution execute_move(Interpreter& in) {
   return in.after_block == nullptr ? Execution::done : call_behind_block(in);
 }
 
+/// T and M06 under tool life management go by what the machine has counted when it comes to them.
+bool names_managed_tool(const BlockContext& in) {
+  if (in.words.has(Role::tool)) return true;
+  for (const uint32_t m : in.words.m)
+    if (misc_function(*in.dialect, m) == MiscFunction::tool_change) return true;
+  return false;
+}
+
 }  // namespace
 
 Execution execute_words(Interpreter& in) {
@@ -359,6 +367,7 @@ Execution execute_words(Interpreter& in) {
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
   const Function motion_before = in.state.modal.of(Mode::motion);  // M700 App.2: codes of motions beside G37 are ignored
   if (!in.shared_known() && adds_to_shared(in)) return in.need(NC_SYNC_SHARED);
+  if (in.settings.life_managed && !in.world_fresh && names_managed_tool(in)) return in.need(NC_SYNC_CLOCK);
   did = apply_reading_modes(in);
   if (did != Execution::done) return did;
   if (macro_call) {
