@@ -264,8 +264,9 @@ bool has_decision(const std::string& text) {
         if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
       return true;
     };
+    if (c < 'I' || comment) continue;  // most characters are digits
     const int capital = c & ~0x20;
-    if (comment || (capital != 'I' && capital != 'W')) continue;
+    if (capital != 'I' && capital != 'W') continue;
     if (is("IF", 2) || is("WHILE", 5)) return true;
   }
   return false;
