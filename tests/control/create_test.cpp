@@ -192,7 +192,7 @@ TEST(Create, SmallestAndLargest) {
     const Memory memory = exact_memory(size);
     EXPECT_NE(nc_create(&config, memory.get(), size, nullptr), nullptr);
   }
-  EXPECT_LT(nc_memory_required(&small), size_t{1400000});
+  EXPECT_LT(nc_memory_required(&small), size_t{1900000});
 }
 
 // ---- misuse --------------------------------------------------------------------------------------------------------------------

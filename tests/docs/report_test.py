@@ -41,7 +41,9 @@ class Report(unittest.TestCase):
             done = subprocess.run([sys.executable, SOURCE / ".ci/report", xml, names], capture_output=True, text=True, check=False)
             self.assertEqual(done.stderr, "")
             self.assertEqual(done.returncode, status, done.stdout)
-            return done.stdout.splitlines(), names.read_text(encoding="utf-8").splitlines()[1:]
+            listed = names.read_text(encoding="utf-8").splitlines()[1:]
+            self.reasons = [line.strip() for line in listed if line.startswith("    ")]
+            return done.stdout.splitlines(), [line for line in listed if not line.startswith("    ")]
 
     def test_one_process_each(self):
         lines, names = self.report([("a.X.Y", "run", "", "fine"), ("a.script", "fail", '<failure message="Timeout"/>', "first\nlast"),
@@ -50,6 +52,12 @@ class Report(unittest.TestCase):
         self.assertEqual(lines[-1], "1 passed, 2 failed, 1 skipped")
         self.assertEqual(lines[:3], ["----- FAILED a.script (Timeout, 1.2 s)", "first", "last"])
         self.assertEqual(names, ["a.script", "a.gone"])
+        self.assertEqual(self.reasons, ["first", "last"])
+
+    def test_a_failed_case_says_why(self):
+        output = run("S.A") + "noise\nfile.cpp:7: Failure\nExpected: 1\n" + "more\n" * 20 + "[  FAILED  ] S.A (3 ms)\n"
+        self.report([("room.pack_1", "fail", "", output)], 1)
+        self.assertEqual(self.reasons[:2], ["file.cpp:7: Failure", "Expected: 1"])
 
     def test_all_is_well(self):
         lines, names = self.report([("a.X.Y", "run", "", "fine")], 0)

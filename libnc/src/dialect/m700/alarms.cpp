@@ -195,6 +195,7 @@ const AlarmText kAlarms[] = {
     // beyond a stored stroke limit is known from machines of the family.
     {"M01-0007", "S/W stroke end"},
     {"P452", "Limit before travel"},
+    {"NC-TAP", "Spindle does not follow its tap"},
     {"NC-VENDOR", "Function of the machine failed"},
     {"NC-INTERNAL", "Internal error of the control"},
 };

@@ -168,6 +168,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_holes, "P221", nullptr},        // 13.2
     {C::hole_angle_zero, "P222", nullptr}, // appendix 1
     {C::drilling_axis_changed, "P33", nullptr},  // 13.1.1 note 2 has no code: a block that may not be written so
+    {C::tap_apart, "NC-TAP", nullptr},       // the manual prints no number
+    {C::encoder_jumps, "NC-TAP", nullptr},
     {C::internal, "NC-INTERNAL", nullptr},
 };
 
