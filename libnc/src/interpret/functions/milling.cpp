@@ -153,7 +153,7 @@ Execution do_cylinder(BlockContext& in) {
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
   const bool by_word = in.dialect->rules.mill.rotary_in_block;
   const int axis = by_word && (w.axes & in.rotary) == 0 ? -1 : rotary_axis(in);
-  const WordSlot name = by_word && axis >= 0 ? in.axis_words.word(axis) : in.settings.mill_axis;
+  const WordSlot name = by_word && axis >= 0 ? in.axis_words.word(static_cast<unsigned>(axis)) : in.settings.mill_axis;
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
   if (const Execution did = stands_alone(in, 1u << axis); did != Execution::done) return did;
