@@ -63,8 +63,11 @@ class RetainedControl : public testing::Test {
   }
   template <class Done>
   bool until(Done done) {
-    for (int n = 0; n < 15000 && !done(); ++n) std::this_thread::sleep_for(2ms);
-    return done();
+    for (int n = 0; n < 15000; ++n) {
+      if (done()) return true;  // not asked again: a file that is being replaced is away for a moment
+      std::this_thread::sleep_for(2ms);
+    }
+    return false;
   }
   // Enters a program in the feeder thread, to which the control belongs while it runs.
   unsigned add(const std::string& text) {
@@ -361,7 +364,7 @@ TEST_F(RetainedControl, WhatIsKeptInTheMiddleIsWhatWasExecuted) {
   std::string variables, tables;
   ASSERT_TRUE(until([&] { return saved("vars", &variables) && saved("offsets", &tables) && tables.find("121") != std::string::npos; }));
   std::this_thread::sleep_for(100ms);  // several periods of the keeper
-  ASSERT_TRUE(saved("vars", &variables) && saved("offsets", &tables));
+  ASSERT_TRUE(until([&] { return saved("vars", &variables) && saved("offsets", &tables); }));
   EXPECT_EQ(tables, "nc tables 1\ntool 1 0\n120\n121\nend\n");
   for (const char* name : {"vars", "offsets"})  // the next control finds what a power cut would leave now
     std::filesystem::copy_file(file(name), file(std::string("cut.") + name));
