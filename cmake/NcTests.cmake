@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # How the tests of a room are compiled, and what CTest runs.
 
-# nc_join_tests(FILES ROOM): replaces the *_test.cpp in the list FILES by sources that hold six of them each (tests/join-tests.sh). Most of the
-# time of a build went into headers and templates that the tests of a room have in common. Files with options of their own stay alone, and those
+# nc_join_tests(FILES ROOM): replaces the *_test.cpp in the list FILES by sources that hold NC_TESTS_PER_SOURCE of them each (tests/join-tests.sh). Most of
+# the time of a build went into headers and templates that the tests of a room have in common. Files with options of their own stay alone, and those
 # with the property SKIP_UNITY_BUILD_INCLUSION.
 function(nc_join_tests files room)
-  if(NOT NC_JOIN_TESTS)
+  if(NOT NC_TESTS_PER_SOURCE GREATER 1)
     return()
   endif()
   set(alone)
@@ -22,7 +22,7 @@ function(nc_join_tests files room)
   set(script ${CMAKE_SOURCE_DIR}/tests/join-tests.sh)
   set(number 0)
   while(joined)
-    list(SUBLIST joined 0 6 some)
+    list(SUBLIST joined 0 ${NC_TESTS_PER_SOURCE} some)
     list(REMOVE_ITEM joined ${some})
     math(EXPR number "${number} + 1")
     set(source ${CMAKE_CURRENT_BINARY_DIR}/joined/${room}_${number}.cpp)

@@ -4,15 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/axes/direction.hpp"
 #include "runtime/scan.hpp"
 
 namespace nc::rt {
-namespace {
-
-int sign(double value) { return (value > 0) - (value < 0); }
-
-}  // namespace
-
 void Scan::create_axes() {
   for (unsigned s = 0; s < systems_; ++s) {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
@@ -138,10 +133,10 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
   hindered_[s][a] = Answer::kDone;
   if (unknown && manual.kind == NC_MANUAL_JOG) manual.velocity = std::clamp(manual.velocity, -homing.jog, homing.jog);
   if (unknown && manual.kind == NC_MANUAL_STEP) manual.velocity = homing.jog;
-  int direction = sign(out_[s].velocity.v[a]);
-  if (manual.kind == NC_MANUAL_JOG && manual.velocity != 0) direction = sign(manual.velocity);
-  if (manual.kind == NC_MANUAL_STEP || manual.kind == NC_MANUAL_HANDLE) direction = sign(manual.distance);
-  if (manual.kind == NC_MANUAL_REFERENCE && direction == 0) direction = sign(config_.nc.system[s].axis[a].reference[0] - out_[s].command.v[a]);
+  int direction = direction_of(out_[s].velocity.v[a]);
+  if (manual.kind == NC_MANUAL_JOG && manual.velocity != 0) direction = direction_of(manual.velocity);
+  if (manual.kind == NC_MANUAL_STEP || manual.kind == NC_MANUAL_HANDLE) direction = direction_of(manual.distance);
+  if (manual.kind == NC_MANUAL_REFERENCE && direction == 0) direction = direction_of(config_.nc.system[s].axis[a].reference[0] - out_[s].command.v[a]);
   Answer why = way_hindrance(s, a, direction);
   if (why == Answer::kDone && unknown && manual.kind == NC_MANUAL_HANDLE) why = Answer::kNotHomed;
   if (why == Answer::kDone) return;
@@ -160,7 +155,7 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
 void Scan::hold_at_interlock(unsigned s) noexcept {
   std::uint32_t& waits = interlock_waits_[s];
   for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-    const int direction = out_[s].state == NC_STATE_RUNNING ? sign(out_[s].velocity.v[a]) : 0;
+    const int direction = out_[s].state == NC_STATE_RUNNING ? direction_of(out_[s].velocity.v[a]) : 0;
     if (direction != 0 && is_interlocked(s, a, direction)) waits |= 1u << (2 * a + side_of(direction));
     for (unsigned side = 0; side < 2; ++side)
       if ((last_requests_.system[s].interlocked[side] >> a & 1u) == 0) waits &= ~(1u << (2 * a + side));

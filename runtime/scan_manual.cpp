@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/axes/direction.hpp"
 #include "runtime/scan.hpp"
 
 namespace nc::rt {
@@ -15,10 +16,6 @@ namespace {
 constexpr double kAtLimit = 1e-6;           // mm or deg
 constexpr double kHandleIncrement = 0.001;  // mm or deg
 constexpr double kLongestStep = 1e6;        // mm or deg
-
-int sign(double value) {
-  return (value > 0) - (value < 0);
-}
 
 // True when the jog button must be released and pressed again after this reason has gone. A soft limit and a jog feed of 0 need no new press: the button is
 // obeyed all the time, only the axis cannot move.
@@ -77,14 +74,14 @@ Answer Scan::jog(const Command& command) noexcept {
   }
   Answer why = hand_hindrance(command.system, command.axis);
   if (why == Answer::kDone && axes_[command.system][command.axis].homing.active()) why = Answer::kHoming;
-  if (why == Answer::kDone) why = way_hindrance(command.system, command.axis, sign(command.value));
+  if (why == Answer::kDone) why = way_hindrance(command.system, command.axis, direction_of(command.value));
   const double most = config_.nc.system[command.system].axis[command.axis].max_velocity;
   if (why == Answer::kDone && !(std::abs(command.value) <= most)) return Answer::kOutOfRange;
   const bool waits = jog.kind == NC_MANUAL_JOG && jog.refused;
   jog = {NC_MANUAL_JOG, command.value, kJogDeadManScans, waits || why != Answer::kDone};
   if (why != Answer::kDone) return why;
   if (waits) return Answer::kLetGoFirst;
-  return at_soft_limit(command.system, command.axis, sign(command.value)) ? Answer::kSoftLimit : Answer::kDone;
+  return at_soft_limit(command.system, command.axis, direction_of(command.value)) ? Answer::kSoftLimit : Answer::kDone;
 }
 
 Answer Scan::step_or_return(const Command& command) noexcept {
@@ -94,9 +91,9 @@ Answer Scan::step_or_return(const Command& command) noexcept {
   if (command.kind == CommandKind::kReference && config_.equipment[s][a].homing.present() && !axes_[s][a].homed) return begin_homing(s, a);
   if (!at_rest()) return Answer::kAxesMove;
   if (command.kind == CommandKind::kStep) {
-    if (const Answer why = way_hindrance(s, a, sign(command.value)); why != Answer::kDone) return why;
+    if (const Answer why = way_hindrance(s, a, direction_of(command.value)); why != Answer::kDone) return why;
     if (!(std::abs(command.value) <= kLongestStep)) return Answer::kOutOfRange;
-    if (at_soft_limit(s, a, sign(command.value))) return Answer::kSoftLimit;
+    if (at_soft_limit(s, a, direction_of(command.value))) return Answer::kSoftLimit;
     jog_[s][a] = {NC_MANUAL_STEP, command.value, 2, false};  // two scans are enough: the NC takes the distance at the rising edge
     on_its_way_[s][a] = Asked::kStep;
   } else {
@@ -113,7 +110,7 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
     const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops() && !is_spindle_now(s, a);
     if (!acts && jog.kind != NC_MANUAL_JOG) jog = {};
     if (!acts && jog.kind == NC_MANUAL_JOG) jog.refused = true;
-    jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind == NC_MANUAL_JOG ? sign(jog.value) : 0);
+    jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind == NC_MANUAL_JOG ? direction_of(jog.value) : 0);
     manual = {};
     if (!jog.refused) {
       manual.kind = jog.kind;
@@ -240,7 +237,7 @@ void Scan::watch_handle(unsigned s, unsigned a) noexcept {
   Answer why = hand_hindrance(s, a);
   if (why == Answer::kDone) why = axes_[s][a].homing.active() ? Answer::kHoming : hindered_[s][a];
   const bool jogs = ignored || given.kind == NC_MANUAL_JOG;
-  if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, sign(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
+  if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, direction_of(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
   if (why != noted) refuse(s, Asked::kHandle, why, static_cast<int>(a), given.kind != NC_MANUAL_HANDLE && !ignored);
   noted = why;
 }

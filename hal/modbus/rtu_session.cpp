@@ -25,7 +25,7 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr int kSliceMs = 50;
+constexpr int kPollMs = 50;
 constexpr std::size_t kCrc = 2;     // bytes behind the PDU
 constexpr std::size_t kHeader = 6;  // of TCP, in front of the unit
 
@@ -176,7 +176,7 @@ int RtuSession::send_all(const Frame& request) {
 // The beginning of an answer is waited for here, in slices, so that abort() is seen: nothing wakes libmodbus while it waits for a line.
 int RtuSession::receive(const Frame& request, std::uint8_t* answer) {
   const Time end = steady_clock::now() + milliseconds(config_.response_timeout_ms);
-  for (pollfd wait{fd_, POLLIN, 0}; poll(&wait, 1, kSliceMs) <= 0;) {
+  for (pollfd wait{fd_, POLLIN, 0}; poll(&wait, 1, kPollMs) <= 0;) {
     if (steady_clock::now() < end) continue;
     errno = ETIMEDOUT;
     return -1;

@@ -12,10 +12,10 @@
 #include <fstream>
 #include <vector>
 
+#include "runtime/services/system_error.hpp"
+
 namespace nc::rt::services {
 namespace {
-
-std::string system_error(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 Json to_json(const Change& change) {
   return {{"time_ns", change.time_ns}, {"user", change.user},     {"client", change.client}, {"service", change.service},

@@ -15,14 +15,14 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/services/system_error.hpp"
+
 namespace nc::rt::services {
 namespace {
 
 constexpr int kWaiting = 16;                // peers that may connect at the same time
 constexpr int kLookMs = 500;                // interval at which clients that do not go on are looked for
 constexpr std::size_t kReadBytes = 65536;
-
-std::string system_error(const std::string& what) { return what + ": " + std::strerror(errno); }
 
 bool address_of(const std::string& path, sockaddr_un* address) {
   *address = {};

@@ -23,7 +23,7 @@ std::string printable(std::string text) {
   return text;
 }
 
-std::string number_text(double value) {
+std::string shown_number(double value) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
@@ -44,7 +44,7 @@ std::string value_text(std::string_view key, const Json& value) {
   if (value.is_string()) return printable(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return is_time(key) ? time_text(value.get<std::int64_t>()) : value.dump();
-  if (value.is_number()) return number_text(value.get<double>());
+  if (value.is_number()) return shown_number(value.get<double>());
   std::string text;
   if (value.is_array())
     for (const Json& element : value) {

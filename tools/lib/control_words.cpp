@@ -47,7 +47,7 @@ std::string arguments_of(const ServiceRow& row) {
   return text.empty() ? text : text.substr(1);
 }
 
-std::string number_text(double value) {
+std::string limit_text(double value) {
   if (value == std::floor(value) && std::fabs(value) < 1e16) return std::to_string(static_cast<long long>(value));
   char text[32];
   std::snprintf(text, sizeof text, "%g", value);
@@ -56,7 +56,7 @@ std::string number_text(double value) {
 
 std::string range_text(const FieldInfo& row) {
   if (row.kind == Kind::kFlag) return "";
-  const std::string range = row.least == row.most ? number_text(row.least) : number_text(row.least) + " to " + number_text(row.most);
+  const std::string range = row.least == row.most ? limit_text(row.least) : limit_text(row.least) + " to " + limit_text(row.most);
   return row.kind == Kind::kNumber || row.kind == Kind::kWhole ? range + (row.unit[0] != '\0' ? std::string(" ") + row.unit : "") : range + " bytes";
 }
 
