@@ -123,6 +123,20 @@ TEST(LineLaw, AnyStateComesToRestWhereItShall) {
   EXPECT_LT(late, 2000u);
 }
 
+/// A rotary axis may turn by thousands of degrees for each mm of a line, whose jerk is then some mm/s3: there 1e-10 mm beside the end are as far as the axis
+/// goes in a cycle. A stop that ends so far behind it is none.
+TEST(LineLaw, AStopThatAnAxisShowsBesideItsEndIsNone) {
+  const LineLimits turning{0.01, 0.15, 4.5}, straight{250, 2000, 50000};
+  for (const LineLimits& l : {turning, straight}) {
+    LineLaw law;
+    ASSERT_TRUE(law.stop(0.2 * l.speed, 0, l));
+    const double way = law.distance(), seen = 1.5 * optimal::unseen(l, way);
+    EXPECT_TRUE(law.reach(way, 0.2 * l.speed, 0, l, kNoEnd));
+    EXPECT_FALSE(law.reach(way - seen, 0.2 * l.speed, 0, l, kNoEnd));
+    EXPECT_LT(seen, 1e-14 * l.jerk + 1e-13 * way) << "a millionth of the way of a cycle of 0.4 ms, or rounding";
+  }
+}
+
 TEST(LineLaw, WhatTakesTooLongEndsEarlierAndKeepsItsSpeedUntilThen) {
   const LineLimits l{50, 2000, 50000};
   LineLaw law;

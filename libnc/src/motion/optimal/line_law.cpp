@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/optimal/piece.hpp"
+
 namespace nc::optimal {
 namespace {
 
-constexpr double kNear = 1e-10;       ///< mm, by which a stop may miss its end: rounding
+constexpr double kNear = 1e-10;       ///< mm, by which a stop may miss its end at most
 constexpr double kSame = 1e-12;       ///< of a speed: rounding
 constexpr double kMoreJerk = 1.0005;  ///< of the limit: a state from which only such a stop leads to rest
 constexpr double kClose = 1e-14;      ///< of the distance
@@ -38,6 +40,10 @@ double largest(double low, double high, double distance, Way&& way) {
 }
 
 }  // namespace
+
+double unseen(const LineLimits& limits, double distance) {
+  return std::max(std::min(kNear, kUnseen * limits.jerk), kClose * distance);
+}
 
 void LineLaw::begin(double v, double a) {
   start_ = at_ = {0, v, a};
@@ -110,8 +116,9 @@ double LineLaw::way_behind(double rise) {
 bool LineLaw::reach(double distance, double v, double a, const LineLimits& limits, double most_seconds) {
   whole_ = true;
   if (!stop(v, a, limits)) return false;
-  if (at_.s > distance + kNear) return false;
-  if (at_.s >= distance - kNear && v > 0) return true;
+  const double near = unseen(limits, distance);
+  if (at_.s > distance + near) return false;
+  if (at_.s >= distance - near && v > 0) return true;
   const double level = std::max(0.0, v + a * std::fabs(a) / (2 * limits.jerk));  // the speed when its change has ended as soon as possible
   const bool slower = limits.speed < (1 - kSame) * level;
   const double most = slower ? limits.speed : std::max(level, limits.speed);

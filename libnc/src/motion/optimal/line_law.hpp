@@ -26,6 +26,9 @@ struct LineLimits {
   double speed = 0, acceleration = 0, jerk = 0;
 };
 
+/// mm by which a law over `distance` may miss its end: rounding, and no more than an axis shows.
+double unseen(const LineLimits& limits, double distance);
+
 class LineLaw {
  public:
   static constexpr unsigned kPhases = 8;

@@ -274,14 +274,15 @@ void Mesher::cells(Walk* walk, unsigned count) {
     m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
     if (in.down != nullptr) m.guess[m.cells] = std::max(m.guess[m.cells], 0.9 * in.down->at(u + 0.5 * h));
     ++m.cells;
-    if (u + h >= edge - kRounding * end && at.piece + 1 < in.count && u + h < end) {
+    const bool ends_piece = u + h >= edge - kRounding * end;
+    if (ends_piece && at.piece + 1 < in.count && u + h < end) {
       u = edge;
       ++at.piece;
       at.x = 0;
       edge += in.at(at.piece).length;
     } else {
       u += h;
-      at.x += h;
+      at.x = ends_piece ? in.at(at.piece).length : at.x + h;
     }
     walk->ended = end - u < kRounding * end;
   }

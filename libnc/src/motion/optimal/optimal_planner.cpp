@@ -163,7 +163,8 @@ void OptimalPlanner::follow_generation(const Following& f) {
   begin_again(f);  // it rests on the path, which stays as it is
   fresh_piece_ = f.piece;
   fresh_x_ = f.x;
-  if (f.x >= store_.piece_at(f.piece).length - kTiny) ++fresh_piece_, fresh_x_ = 0;
+  const Piece& p = store_.piece_at(f.piece);
+  if (f.x >= p.length - unseen(p, limits_, p.length)) ++fresh_piece_, fresh_x_ = 0;
 }
 
 void OptimalPlanner::begin_law(bool answer) {
@@ -451,18 +452,18 @@ double OptimalPlanner::law_seconds() const {
 bool OptimalPlanner::path_ends() const {
   const PathPlace& place = windows_->place(windows_->law().cells);
   const Piece& last = windows_->piece_of(windows_->law().cells);
-  return last.rest_behind && place.x >= last.length - kTiny;
+  return last.rest_behind && place.x >= last.length - unseen(last, limits_, last.length);
 }
 
 /// Where the next law begins behind one that ends in piece `piece`.
-OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, double u) const {
+OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, double u, double way) const {
   Start s;
   s.after = write_ - 1;
   s.piece = piece;
   s.x = x;
   s.u = u;
   const Piece& p = store_.piece_at(piece);
-  if (x >= p.length - kTiny) {
+  if (x >= p.length - unseen(p, limits_, way)) {
     s.u = builder_.start_of(piece) + p.length;
     ++s.piece;
     s.x = 0;
@@ -490,7 +491,7 @@ Task<bool> OptimalPlanner::copy_law(Work& work, const Start& start, Start* end) 
     co_await work.pause(kCopyCost);
   }
   const PathPlace& place = windows_->place(law.cells);
-  *end = behind_law(start.piece + place.piece, place.x, builder_.start_of(start.piece + place.piece) + place.x);
+  *end = behind_law(start.piece + place.piece, place.x, builder_.start_of(start.piece + place.piece) + place.x, place.x);
   co_return true;
 }
 
@@ -528,8 +529,21 @@ Task<bool> OptimalPlanner::try_limits(Work& work, const Start& start, double mos
   co_return found;
 }
 
+/// How far a law from `at` may go to a place on the path. Where that is the end of a piece, it is that to the last bit: places are rounded, and by as
+/// little an axis may show that it has not come to its end.
+double OptimalPlanner::way_to(const Start& at, double u) const {
+  const double way = u - at.u;
+  double end = -at.x;
+  for (uint32_t k = at.piece; way < HUGE_VAL && k != builder_.head() && end < way + kTiny; ++k) {
+    end += store_.piece_at(k).length;
+    if (std::fabs(end - way) < kTiny) return end;
+  }
+  return way;
+}
+
+/// The same to the end of the block, in single block.
 double OptimalPlanner::block_most(const Following& f, const Start& at) const {
-  return f.block_rests ? next_block_end(at.u, f.tail) - at.u : HUGE_VAL;
+  return f.block_rests ? way_to(at, next_block_end(at.u, f.tail)) : HUGE_VAL;
 }
 
 /// Laws from `start` on, one behind the other, written and offered. False when there is none.

@@ -104,7 +104,7 @@ class OptimalPlanner {
   bool path_ends() const;
   Task<bool> copy_law(Work& work, const Start& start, Start* end);
   void copy_cell(const Start& start, unsigned cell, bool path_ends, double* time);
-  Start behind_law(uint32_t piece, double x, double u) const;
+  Start behind_law(uint32_t piece, double x, double u, double way) const;
   void way_down(WayDown* down);
   // planner_lines.cpp
   bool line_limits(const Piece& p, LineLimits* most) const;
@@ -114,6 +114,7 @@ class OptimalPlanner {
   void bound_creep(const Piece& p, double x, LineLimits* most) const;
   bool keeps_limits(const Piece& p, double x) const;
   bool find_line_stop(const Start& start, double most);
+  bool goes_beyond(uint32_t piece, double beyond, double way) const;
   template <class PhasesOf>
   void phase_way_down(const PhasesOf& law, double share, WayDown* down);
   template <class PhasesOf>
@@ -125,6 +126,7 @@ class OptimalPlanner {
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
   Task<bool> slow_down(Work& work, const Following& f, const Start& start);
   Limits unbound(const Start& start) const;
+  double way_to(const Start& at, double u) const;
   double block_most(const Following& f, const Start& at) const;
   double least_lead() const { return 4 * setup_.cycle_s; }
   void publish();

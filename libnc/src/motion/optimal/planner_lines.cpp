@@ -14,7 +14,7 @@ constexpr double kMostSeconds = 2;      ///< of one law, where constant speed ca
 constexpr unsigned kMostCells = 1024;   ///< of one law; where it takes longer, they do
 constexpr unsigned kMostPieces = 512;
 constexpr double kSame = 1e-9;          ///< of directions and speeds
-constexpr double kEdge = 1e-9;          ///< mm: a cell ends with its piece
+constexpr double kEdge = 1e-9;          ///< mm, of a line
 constexpr unsigned kHalvings = 60;
 constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< of each phase
 constexpr unsigned kBends = 32;         ///< places of a piece where its bends are looked at
@@ -56,7 +56,7 @@ bool OptimalPlanner::line_limits(const Piece& p, LineLimits* most) const {
 bool OptimalPlanner::straight(const Start& start, double reach, bool feed, LineLimits* most, double* length) const {
   const unsigned count = pieces_from(start.piece, kMostPieces);
   *length = -start.x;
-  for (unsigned n = 0; n < count && *length < reach - kEdge; ++n) {
+  for (unsigned n = 0; n < count && *length < reach; ++n) {
     const Piece &first = store_.piece_at(start.piece), &p = store_.piece_at(start.piece + n);
     LineLimits here;
     if (!line_limits(p, n == 0 ? most : &here)) return false;
@@ -84,7 +84,7 @@ bool OptimalPlanner::find_line_stop(const Start& start, double most) {
   double length = 0;
   if (!line_limits(store_.piece_at(start.piece), &limits) || !line_.stop(start.v, start.a, limits)) return false;
   const double way = line_.distance();
-  return way <= most && straight(start, way, false, &limits, &length) && length >= way - kEdge;
+  return way <= most && straight(start, way, false, &limits, &length) && length >= way - unseen(limits, way);
 }
 
 /// Where no other law is found: from rest to rest over one piece of any kind, with one limit for all of it, twice as slow until every place that
@@ -166,11 +166,18 @@ void OptimalPlanner::phase_way_down(const PhasesOf& law, double share, WayDown* 
   *down = {down_u_, down_b_, n + 1};
 }
 
-/// Writes the law as cells of about a period each, none of which lies on two pieces. False when they have no room.
+/// A law that ends `beyond` mm behind the end of a piece goes on on the next one.
+bool OptimalPlanner::goes_beyond(uint32_t piece, double beyond, double way) const {
+  return beyond > 0 && piece + 1 != builder_.head() && beyond > unseen(store_.piece_at(piece), limits_, way);
+}
+
+/// Writes the law as cells of about a period each, none of which lies on two pieces, to the last bit. The last one lies on the piece that the law
+/// ends on. False when they have no room.
 template <class PhasesOf>
 Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end) {
   const CellIndex first = write_;
   const double period = std::max(kPeriod, law.seconds() / kMostCells);
+  const double way = start.x + law.distance();
   double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
   uint32_t piece = start.piece;
   double begun = -start.x;  // where the piece begins on the line
@@ -192,7 +199,7 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
       double to = n < cells ? phase.seconds * n / cells : phase.seconds;
       LineState then = state(to);
       const double edge = begun + store_.piece_at(piece).length;
-      const bool crosses = then.s > edge + kEdge && piece + 1 != builder_.head();
+      const bool crosses = then.s > edge && goes_beyond(piece, law.distance() - edge, way);
       if (crosses) {
         to = when(from, phase.jerk, edge, t, to);
         then = state(to);
@@ -226,7 +233,7 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
       chain_next_[write_ & store_.cell_mask] = write_ + 1;
       chain_end_[write_ & store_.cell_mask] = time += c.seconds;
       ++write_;
-      if (then.s >= edge - kEdge && !(last && n > cells) && piece + 1 != builder_.head()) {
+      if (then.s >= edge && goes_beyond(piece, law.distance() - edge, way)) {
         begun = edge;
         ++piece;
       }
@@ -238,8 +245,8 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
   }
   const Piece& p = store_.piece_at(piece);
   const double x = law.distance() - begun;
-  store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - kEdge;
-  *end = behind_law(piece, x, start.u + law.distance());
+  store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - unseen(p, limits_, way);
+  *end = behind_law(piece, x, start.u + law.distance(), way);
   co_return true;
 }
 

@@ -190,7 +190,7 @@ Task<bool> OptimalPlanner::stop_at_block(Work& work, const Following& f, const S
       chain_.block_rests = true;  // the chain itself ends before; what comes behind it rests
       co_return false;
     }
-    const bool done = co_await extend(work, f, start, end - start.u, nullptr);
+    const bool done = co_await extend(work, f, start, way_to(start, end), nullptr);
     if (done) co_return true;
   }
   co_return false;
