@@ -67,7 +67,9 @@ int main(int argc, char** argv) {
   nc_status status = NC_E_MEMORY;
   nc_control* const control = memory ? nc_create(&config, memory.get(), size, &status) : nullptr;
   unsigned file = 0;
-  if (control == nullptr || nc_program_add_text(control, "PART", text.data(), text.size(), &file) != NC_OK ||
+  // With fine segments and splines (M700 13.17, 13.18).
+  if (control == nullptr || nc_parameter_set(control, 0, "1267/bit0", 0, "1") != NC_OK || nc_parameter_set(control, 0, "8025", 0, "1") != NC_OK ||
+      nc_program_add_text(control, "PART", text.data(), text.size(), &file) != NC_OK ||
       nc_program_select(control, 0, file) != NC_OK)
     return complain("the control does not take the program");
   nc_inputs in;

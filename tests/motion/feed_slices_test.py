@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """No call of nc_feed() takes more than its budget and 200,000 instructions: counted by callgrind, so that it does not hang on the machine.
 
-A program of each kind (corners, noise of a CAM system, a hatch, arcs, rests) is gone with small budgets, while holds and another override
+A program of each kind (corners, noise of a CAM system, a hatch, arcs, NURBS and splines, rests) is gone with small budgets, while holds and another override
 come again and again. Skipped where there is no valgrind, and under sanitizers, which count other instructions.
 """
 import math
@@ -67,6 +67,35 @@ def arcs():
     return text + "M30\n"
 
 
+def curves():
+    """A NURBS of degree 3, and one with weights that is a quarter of a circle."""
+    return HEAD + """G5 P10000
+G1 X20. F6000
+G06.2 P4 K0 X20. Y0.
+K0 X25. Y5.
+K0 X30. Y-5.
+K0 X35. Y0.
+K1.
+K1.
+K1.
+K1.
+G1 X36. Y0.
+G06.2 P3 K0 X36. Y0. R1.
+K0 X46. Y0. R0.7071
+K0 X46. Y10. R1.
+K1.
+K1.
+K1.
+G5 P0
+M30
+"""
+
+
+def splines():
+    points = "".join(f"X{3 * n}. Y{2 * math.sin(n):.4f} Z{math.cos(0.7 * n):.4f}\n" for n in range(1, 5))
+    return HEAD + "G1 F5000\nG5 P10000\nG5.1 Q2 X0 Y0 Z0\n" + points + "G5.1 Q0\nG5 P0\nM30\n"
+
+
 def rests():
     return HEAD + "".join(f"G0 X{10 * n} Y{n}\nG1 Z-3. F800\nG4 P20\nG0 Z0.\n" for n in range(1, 5)) + "M30\n"
 
@@ -108,6 +137,12 @@ class FeedSlices(unittest.TestCase):
 
     def test_arcs(self):
         self.check(arcs())
+
+    def test_curves(self):
+        self.check(curves())
+
+    def test_splines(self):
+        self.check(splines())
 
     def test_rests(self):
         self.check(rests())

@@ -143,6 +143,7 @@ bool OptimalPlanner::called(const Following& f) const {
 void OptimalPlanner::give_up_law() {
   if (!law_work_.open()) return;
   law_work_.give_up();
+  if (round_ == Round::law) builder_.give_up();
   if (!open_) write_ = law_first_;
 }
 
@@ -155,12 +156,15 @@ void OptimalPlanner::give_up_rounds() {
 
 /// The scan follows another path, or none.
 void OptimalPlanner::follow_generation(const Following& f) {
-  give_up_rounds();
   if (!f.halted) {
+    give_up_rounds();
     rebuild(f);
     return;
   }
-  begin_again(f);  // it rests on the path, which stays as it is
+  give_up_law();
+  if (round_ != Round::path) round_ = Round::none;
+  answering_ = unanswered_ = false;
+  begin_again(f);  // it rests on the path, which stays as it is, and what is under way for it goes on
   fresh_piece_ = f.piece;
   fresh_x_ = f.x;
   const Piece& p = store_.piece_at(f.piece);

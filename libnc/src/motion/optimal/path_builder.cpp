@@ -18,20 +18,10 @@ constexpr unsigned kGathered = 64;     ///< the same while more records lie in t
 constexpr unsigned kFewest = 3;        ///< vertices that are smoothed at once, where more need too many knots
 constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
 constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
-constexpr unsigned kPiecesOfCurve = 100;
-constexpr unsigned kOfArc = kPiecesOfCurve + 20;  ///< pieces of a curve and its transition
-constexpr unsigned kHalvings = 24;     ///< of a part of a curve, at most
 constexpr double kBeside = 1e-6;       ///< mm, and of the length: from a cusp
-constexpr double kShortest = 2e-8;     ///< mm, and of the length: such a part is not halved any more
-constexpr double kUneven = 2;          ///< of the speeds that the bends allow at the ends and in the middle of such a part
-constexpr double kFarTurn = 0.94;      ///< cosine: and between its ends
-constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at most
-constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allows along it
-constexpr double kMostOverride = 2;    ///< that a feed is expected to have
 constexpr double kLongestReach = 10;   ///< mm, of a transition
 constexpr double kPeriodsApart = 1.5;  ///< periods of the feed from knot to knot, where the tolerance lets them be so far apart
 constexpr double kTurns = 50;          ///< rev/s, for such a spacing: the spindle may have another speed when the path is gone
-constexpr double kNothing = 1e-12;     ///< mm, of a curve between two transitions
 constexpr double kMostSpeed = 1e4;     ///< mm/s, whose knots are the farthest apart
 constexpr double kCollinear = 1e-9;    ///< |t2 - t1| of no corner, where lines are followed exactly
 constexpr double kSameSlope = 1e-6;    ///< of q' and of q'', by which pieces may differ where they meet
@@ -45,6 +35,8 @@ bool demands_rest(const Record& r) {
   if (r.kind == ItemKind::action) return r.action.kind == NC_ACTION_MESSAGE;
   return r.kind == ItemKind::gate || r.kind == ItemKind::sync || r.kind == ItemKind::alarm || r.kind == ItemKind::end;
 }
+
+bool is_move(const Record& r) { return r.kind == ItemKind::move && r.segment.curve.length > 0; }
 
 /// Feed of a line under no override, and what it goes with.
 double feed_of_segment(const Segment& s, FeedBy* by) {
@@ -104,6 +96,7 @@ void PathBuilder::restart(uint32_t from, double s, const AxisVec& machine, doubl
   forget_line();
   closing_ = flows_ = false;
   arc_.curve = nullptr;
+  holds_ = false;
   joint_ = {};
   begins_ = 0;
   resumed_ = true;
@@ -226,8 +219,24 @@ void PathBuilder::go_there(const AxisVec& to, const Piece& curve) {
   push_piece(p);
 }
 
+/// What is pushed from now on does not show until holds_ is false again.
+void PathBuilder::hold() {
+  held_head_ = head_;
+  held_u_ = head_u_;
+  held_arc_ = arc_;
+  holds_ = true;
+}
+
+void PathBuilder::give_up() {
+  if (!holds_) return;
+  head_ = held_head_;
+  head_u_ = held_u_;
+  arc_ = held_arc_;
+  holds_ = false;
+}
+
 /// Gives out the open arc up to `to`.
-void PathBuilder::push_arc(double to) {
+Task<bool> PathBuilder::push_arc(Work& work, double to) {
   Piece p;
   p.curve = arc_.curve;
   p.by = by_;
@@ -237,132 +246,14 @@ void PathBuilder::push_arc(double to) {
     if (!(p.length > kNothing)) continue;
     p.feed = arc_.from < arc_.zone ? arc_.feed : arc_.slow_feed;
     p.curve_from = arc_.from;
-    push_curve(p, *arc_.segment);
+    co_await push_curve(work, p, *arc_.segment);
     arc_.from = end;
   }
-}
-
-/// What the bends alone let a curve be gone through with between two places.
-double PathBuilder::own_speed(const Curve& curve, double from, double to) const {
-  double speed = HUGE_VAL;
-  for (unsigned n = 0; n <= 2; ++n) {
-    const CurvePoint q = curve_evaluate(curve, from + 0.5 * n * (to - from), limits_.axis_count);
-    for (unsigned i = 0; i < limits_.axis_count; ++i) {
-      const double v = limits_.velocity[i], a = limits_.acceleration[i], j = limits_.jerk[i];
-      if (v > 0 && speed * std::fabs(q.d1[i]) > v) speed = v / std::fabs(q.d1[i]);
-      if (a > 0 && speed * speed * std::fabs(q.d2[i]) > a) speed = std::sqrt(a / std::fabs(q.d2[i]));
-      if (j > 0 && speed * speed * speed * std::fabs(q.d3[i]) > j) speed = std::cbrt(j / std::fabs(q.d3[i]));
-    }
-  }
-  return speed;
-}
-
-/// The bends allow very different speeds at the ends and in the middle of a part, or it turns so far that a place in between may be slower:
-/// next to a cusp all of that happens within some um.
-bool PathBuilder::uneven(const Curve& curve, double from, double to, double feed) const {
-  double slowest = feed, fastest = 0;
-  for (unsigned n = 0; n <= 2; ++n) {
-    const double at = from + 0.5 * n * (to - from), speed = std::min(own_speed(curve, at, at), feed);
-    slowest = std::min(slowest, speed);
-    fastest = std::max(fastest, speed);
-  }
-  return fastest > kUneven * slowest || turns_far(curve, from, to);
-}
-
-bool PathBuilder::turns_far(const Curve& curve, double from, double to) const {
-  double first2 = 0, last2 = 0, both = 0;
-  const AxisVec a = curve_evaluate(curve, from, limits_.axis_count).d1, b = curve_evaluate(curve, to, limits_.axis_count).d1;
-  for (unsigned i = 0; i < limits_.axis_count; ++i) {
-    first2 += a[i] * a[i];
-    last2 += b[i] * b[i];
-    both += a[i] * b[i];
-  }
-  return both < kFarTurn * std::sqrt(first2 * last2);
-}
-
-/// A part of a curve as a straight line, to rest.
-void PathBuilder::push_straight(const Curve& curve, double from, double to, const Piece& like) {
-  const AxisVec a = curve_position(curve, from, limits_.axis_count), b = curve_position(curve, to, limits_.axis_count);
-  Piece p = like;
-  p.curve = nullptr;
-  p.length = to - from;
-  p.rest_behind = true;
-  for (unsigned i = 0; i < limits_.axis_count; ++i) {
-    p.c[0][i] = a[i];
-    p.c[1][i] = (b[i] - a[i]) / p.length;
-  }
-  push_piece(p);
-}
-
-/// The part of a curve between two places has the lower feed of its ends where the feed goes from F to Q with the linear axis (M700 6.11).
-double PathBuilder::feed_between(const Segment& s, double from, double to) const {
-  const unsigned axis = s.curve.shape->what.exponential.linear;
-  const auto at = [&](double place) {
-    const double share = (curve_position(s.curve, place, limits_.axis_count)[axis] - s.curve.start[axis]) / s.curve.delta[axis];
-    return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::clamp(share, 0.0, 1.0);
-  };
-  return std::min(at(from), at(to));
-}
-
-/// A part of a curve. An arc is the same everywhere; where another curve bends less or more, or has another feed, begins a piece of its
-/// own, because the cells of a time law and what is expected of its speed go by pieces.
-void PathBuilder::push_curve(const Piece& whole, const Segment& s) {
-  const Curve& curve = *whole.curve;
-  if (curve.shape == nullptr) return push_piece(whole);
-  Piece p = whole;
-  p.rest_behind = false;
-  const double end = whole.curve_from + whole.length, step = curve.length / kParts;
-  const bool fades = s.feed_end_mm_s > 0;
-  const double feed = goes_by_spindle(whole.by) ? HUGE_VAL : kMostOverride * whole.feed;
-  const auto push_to = [&](double to) {
-    p.length = to - p.curve_from;
-    if (fades) p.feed = feed_between(s, p.curve_from, to);
-    push_piece(p);
-    p.curve_from = to;
-  };
-  const double shortest = std::max(curve.length, 1.0) * kShortest;
-  double low = 0, high = 0, at = whole.curve_from, part = at;
-  double ends[kHalvings + 1];  // of the parts that are still to be looked at
-  unsigned open = 0, pieces = 0;
-  while (at + kNothing < end) {
-    if (open == 0) {
-      part = part + 1.5 * step < end ? part + step : end;
-      ends[open++] = part;
-    }
-    const double to = ends[open - 1];
-    const bool whole_part = to - at <= shortest || open > kHalvings || pieces >= kPiecesOfCurve;
-    if (!whole_part && uneven(curve, at, to, feed)) {
-      ends[open++] = 0.5 * (at + to);
-      continue;
-    }
-    --open;
-    if (to - at <= shortest && turns_far(curve, at, to)) {  // a cusp: the path turns round at rest
-      p.rest_behind = true;
-      if (at > p.curve_from) push_to(at);
-      push_straight(curve, at, to, p);
-      p.rest_behind = false;
-      p.curve_from = at = to;
-      pieces += 2;
-      high = 0;
-      continue;
-    }
-    const double speed = std::min(own_speed(curve, at, to), feed);
-    if (at > p.curve_from && pieces < kPiecesOfCurve && (fades || std::max(high, speed) > kSpread * std::min(low, speed))) {
-      push_to(at);
-      ++pieces;
-      high = 0;
-    }
-    low = high > 0 ? std::min(low, speed) : speed;
-    high = std::max(high, speed);
-    at = to;
-  }
-  if (!(end > p.curve_from + kNothing)) return;  // it ends with such a turn, at rest
-  p.rest_behind = whole.rest_behind;
-  push_to(end);
+  co_return true;
 }
 
 /// An arc, or another curve, that may be passed at speed at both ends. Its last part waits for what comes behind it.
-void PathBuilder::add_arc(const Record& r) {
+Task<bool> PathBuilder::add_arc(Work& work, const Record& r) {
   const Segment& s = r.segment;
   const double length = s.curve.length;
   const bool from_machine = begins_ == 0 && resumes(s);
@@ -388,16 +279,18 @@ void PathBuilder::add_arc(const Record& r) {
   double settled = length - std::min(0.5 * length, kLongestReach);
   const double beside = kBeside * std::max(length, 1.0);
   if (s.curve.shape != nullptr && turns_far(s.curve, settled - beside, settled + beside)) settled -= 4 * beside;  // not on a cusp
-  push_arc(std::max(arc_.from, settled));
-  if (s.exact_stop) end_arc();
+  co_await push_arc(work, std::max(arc_.from, settled));
+  if (s.exact_stop) co_await end_arc(work);
+  co_return true;
 }
 
 /// The open arc to its end, at rest.
-void PathBuilder::end_arc() {
-  push_arc(arc_.curve->length);
+Task<bool> PathBuilder::end_arc(Work& work) {
+  co_await push_arc(work, arc_.curve->length);
   store_->piece[(head_ - 1) & store_->piece_mask].rest_behind = true;
   arc_.curve = nullptr;
   head_u_ = line_u_;
+  co_return true;
 }
 
 /// The transition round the end of the newest record.
@@ -413,22 +306,23 @@ void PathBuilder::push_transition(double feed) {
 }
 
 /// The open arc and the transition into what comes behind it, of which it may take `most`. False when there is none: the path rests.
-bool PathBuilder::leave_arc(const JointSide& after, double most, double feed) {
+Task<bool> PathBuilder::leave_arc(Work& work, const JointSide& after, double most, double feed) {
   const JointSide before = arc_end(*arc_.curve);
   const double left = arc_.curve->length - arc_.from;
   joint_ = find_joint(before, after, std::min(most, left), tolerance_, limits_.axis_count, made_);
+  co_await work.pause(kCurveCost);
   if (!joint_.found) {
-    end_arc();
-    return false;
+    co_await end_arc(work);
+    co_return false;
   }
-  push_arc(arc_.curve->length - joint_.reach);
+  co_await push_arc(work, arc_.curve->length - joint_.reach);
   head_u_ = line_u_ - joint_.reach;
   if (joint_.reach > 0) {
     make_transition(joint_, before.at(-joint_.reach, limits_.axis_count), after, limits_.axis_count, made_);
     push_transition(std::min({arc_.feed, arc_.slow_feed, feed}));
   }
   arc_.curve = nullptr;
-  return true;
+  co_return true;
 }
 
 /// The gathered line ends where the transition into the arc begins.
@@ -463,7 +357,7 @@ double PathBuilder::tap_share(const Segment& s) const {
 }
 
 /// What is not passed at speed: from rest to rest (two pieces with a slow zone).
-void PathBuilder::add_curve(const Record& r) {
+Task<bool> PathBuilder::add_curve(Work& work, const Record& r) {
   const Segment& s = r.segment;
   const bool from_machine = resumes(s);
   const double from = from_machine && resumed_s_ > 0 ? resumed_s_ : s.begun;
@@ -488,21 +382,29 @@ void PathBuilder::add_curve(const Record& r) {
   }
   resumed_ = false;
   const double zone = s.slow_zone > 0 ? std::min(static_cast<double>(s.slow_zone), rest) : 0;
-  const auto push = [&] { line ? push_piece(p) : push_curve(p, s); };
   if (rest - zone > 1e-9) {
     p.length = rest - zone;
     p.rest_behind = !(zone > 0) && !s.flows;
-    push();
+    if (line) {
+      push_piece(p);
+    } else {
+      co_await push_curve(work, p, s);
+    }
     flows_ = s.flows;
     if (flows_) epoch_ = r.epoch;
-    if (!(zone > 0)) return;
+    if (!(zone > 0)) co_return true;
     p.curve_from += p.length;
     for (unsigned i = 0; i < limits_.axis_count; ++i) p.c[0][i] += p.length * p.c[1][i];
   }
   p.length = zone;
   p.feed *= static_cast<double>(s.slow_factor);
   p.rest_behind = true;
-  push();
+  if (line) {
+    push_piece(p);
+  } else {
+    co_await push_curve(work, p, s);
+  }
+  co_return true;
 }
 
 /// Copies the first pieces of the smoothed line into the ring.
@@ -537,6 +439,7 @@ bool PathBuilder::turns_at(unsigned k) const {
 /// Without a tolerance a line is what it is, with a rest at each of its corners. An edge is final when it is known what follows.
 Task<bool> PathBuilder::exact_line(Work& work, bool whole) {
   unsigned k = 0;
+  hold();
   for (; k + (whole ? 1 : 2) < count_ && room(1); ++k) {
     Piece p;
     p.length = length_[k];
@@ -553,6 +456,7 @@ Task<bool> PathBuilder::exact_line(Work& work, bool whole) {
   }
   drop(k);
   line_start_u_ = head_u_;
+  holds_ = false;
   if (!whole) co_return k > 0;
   if (count_ > 1) co_return false;
   begins_ = 0;
@@ -650,12 +554,14 @@ bool PathBuilder::meets_arc_badly(unsigned cells) {
 
 /// Gives out the last pieces of a line, and the transition into the arc behind it.
 Task<bool> PathBuilder::close_line(Work& work, unsigned cells) {
+  hold();
   co_await give_out(work, cells, !joint_.found);
   head_u_ = line_u_ - joint_.reach;
   if (joint_.reach > 0) push_transition(joint_feed_);
   begins_ = joint_.reach;
   joint_ = {};
   forget_line();
+  holds_ = false;
   co_return true;
 }
 
@@ -731,8 +637,10 @@ Task<bool> PathBuilder::give_settled(Work& work) {
     if (border.cells == 0) co_return false;
     Piece& last = out_[border.cells - 1];
     last.length = border.u - room_.knot[border.cells - 1];
+    hold();
     co_await give_out(work, border.cells, false);
     go_on(border);
+    holds_ = false;
     tried_ = n < count || cells > most ? 0 : count_;  // where there was more to be had, nothing need come before it is tried again
     co_return true;
   }
@@ -742,7 +650,9 @@ Task<bool> PathBuilder::give_settled(Work& work) {
 Task<bool> PathBuilder::finish(Work& work) {
   if (arc_.curve != nullptr) {
     if (!room(kOfArc)) co_return false;
-    end_arc();
+    hold();
+    co_await end_arc(work);
+    holds_ = false;
     co_return true;
   }
   const bool done = co_await smooth_line(work, true);
@@ -752,16 +662,30 @@ Task<bool> PathBuilder::finish(Work& work) {
 }
 
 /// Closes what the record in front does not go on at speed, as far as there is room.
-bool PathBuilder::part(const Record& r, bool moves) {
+Task<bool> PathBuilder::part(Work& work, const Record& r, bool moves) {
   const bool on = moves && joins(r);
   if (count_ > 0 && !(on && straight_line(r.segment))) {
     if (on) meet_arc(r.segment);
     closing_ = true;
   } else if (arc_.curve != nullptr && !on) {
-    if (!room(kOfArc)) return false;
-    end_arc();
+    if (!room(kOfArc)) co_return false;
+    co_await end_arc(work);
   }
-  return true;
+  co_return true;
+}
+
+/// Whether one more line can be gathered.
+PathBuilder::Next PathBuilder::room_for_line() const {
+  if (count_ + 2 >= kVertices) return Next::line_full;
+  return room(count_ < kAhead ? kOfArc : kMostAtOnce) ? Next::go_on : Next::no_room;
+}
+
+/// One line that is passed at speed.
+PathBuilder::Next PathBuilder::gather_line(const Record& r) {
+  add_line(r);
+  closing_ = r.segment.exact_stop;
+  store_->passed[read_ & store_->record_mask] = line_u_;
+  return !closing_ && worthwhile(kGathered) ? Next::settle : Next::go_on;
 }
 
 /// Rapid traverse goes on at speed only into rapid traverse or a cut that is passed at speed, and of these only where the path does not bend
@@ -774,43 +698,67 @@ void PathBuilder::rest_unless_it_flows(const Record& r, bool moves) {
 }
 
 /// One move behind what is open. @param more  there are more pieces than before
-PathBuilder::Next PathBuilder::add(Work& work, const Record& r, bool* more) {
+Task<PathBuilder::Next> PathBuilder::add(Work& work, const Record& r, bool* more) {
   const Segment& s = r.segment;
-  Next next = Next::go_on;
-  if (!passes(s) || !straight_line(s)) {
-    if (!room(2 * kOfArc)) return Next::no_room;
-    if (!passes(s)) {
-      add_curve(r);
-      line_u_ = head_u_;
-    } else {
-      if (arc_.curve != nullptr) begins_ = leave_arc(arc_start(s.curve), 0.5 * s.curve.length, least_feed(s)) ? joint_.reach : 0;
-      joint_ = {};
-      add_arc(r);
-    }
+  if (!passes(s)) {
+    if (!room(2 * kOfArc)) co_return Next::no_room;
+    co_await add_curve(work, r);
+    line_u_ = head_u_;
     work.spend(straight_line(s) ? kPieceCost : kCurveCost);
     *more = true;
+  } else if (!straight_line(s)) {
+    if (!room(2 * kOfArc)) co_return Next::no_room;
+    if (arc_.curve != nullptr) {
+      const JointSide start = arc_start(s.curve);
+      const bool left = co_await leave_arc(work, start, 0.5 * s.curve.length, least_feed(s));
+      begins_ = left ? joint_.reach : 0;
+    }
+    joint_ = {};
+    co_await add_arc(work, r);
+    work.spend(kCurveCost);
+    *more = true;
   } else {
-    if (count_ + 2 >= kVertices) return Next::line_full;
-    if (!room(count_ < kAhead ? kOfArc : kMostAtOnce)) return Next::no_room;
+    const Next may = room_for_line();
+    if (may != Next::go_on) co_return may;
     if (arc_.curve != nullptr) {
       const JointSide line = line_through(s.curve.start, s.curve.start, s.curve.end, s.curve.length, limits_.axis_count);
-      joined_start_ = leave_arc(line, 0.5 * s.curve.length, least_feed(s));
+      joined_start_ = co_await leave_arc(work, line, 0.5 * s.curve.length, least_feed(s));
       cut_ = joint_.reach;
       joint_ = {};
       *more = true;
-      work.spend(kCurveCost);
     }
-    add_line(r);
-    work.spend(kLineCost);
-    closing_ = s.exact_stop;
-    if (!closing_ && worthwhile(kGathered)) next = Next::settle;
+    const Next next = gather_line(r);
+    co_return next;
   }
   store_->passed[read_ & store_->record_mask] = line_u_;
-  return next;
+  co_return Next::go_on;
+}
+
+/// Moves the path on over the next record.
+Task<PathBuilder::Next> PathBuilder::part_and_add(Work& work, const Record& r, bool* more) {
+  const bool moves = is_move(r);
+  if (moves || demands_rest(r)) {
+    const bool parted = co_await part(work, r, moves);
+    if (!parted) co_return Next::no_room;
+    if (closing_) co_return Next::close;
+    rest_unless_it_flows(r, moves);
+  }
+  if (!moves) co_return Next::go_on;
+  const Next next = co_await add(work, r, more);
+  co_return next;
+}
+
+/// Takes the next record, which is a curve or lies behind one.
+Task<PathBuilder::Next> PathBuilder::take_beside_curve(Work& work, bool* more) {
+  hold();
+  const Next next = co_await part_and_add(work, records_[read_ & store_->record_mask], more);
+  if (next != Next::no_room && next != Next::line_full && next != Next::close) ++read_;
+  holds_ = false;
+  co_return next;
 }
 
 /// Takes records until something else is to be done, or others may have their turn.
-PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head, bool* more) {
+PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head) {
   for (unsigned n = 0; n < kRecords; ++n) {
     if (closing_) return Next::close;
     if (read_ == head) return Next::nothing;
@@ -819,14 +767,19 @@ PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head, bool* more) {
       ++read_;
       continue;
     }
-    const bool moves = r.kind == ItemKind::move && r.segment.curve.length > 0;
-    if (moves || demands_rest(r)) {
-      if (!part(r, moves)) return Next::no_room;
-      if (closing_) continue;
-      rest_unless_it_flows(r, moves);
+    const bool moves = is_move(r);
+    if (arc_.curve != nullptr || (moves && !(passes(r.segment) && straight_line(r.segment)))) return Next::curve;
+    if (count_ > 0 && (moves ? !joins(r) : demands_rest(r))) {
+      closing_ = true;
+      continue;
     }
-    const Next next = moves ? add(work, r, more) : Next::go_on;
-    if (next == Next::no_room || next == Next::line_full) return next;
+    if (moves || demands_rest(r)) rest_unless_it_flows(r, moves);
+    Next next = moves ? room_for_line() : Next::go_on;
+    if (next != Next::go_on) return next;
+    if (moves) {
+      next = gather_line(r);
+      work.spend(kLineCost);
+    }
     ++read_;
     if (next == Next::settle || work.spent()) return next;
   }
@@ -836,7 +789,8 @@ PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head, bool* more) {
 Task<bool> PathBuilder::take(Work& work, uint32_t head) {
   bool more = false, done = false;
   for (;;) {
-    const Next next = gather(work, head, &more);
+    Next next = gather(work, head);
+    if (next == Next::curve) next = co_await take_beside_curve(work, &more);
     if (next == Next::nothing) break;
     if (next == Next::no_room) co_return more;
     co_await work.pause(kRecordsCost);

@@ -27,9 +27,11 @@ class PathBuilder {
   /// to `s`, and the axes stand at `machine`. Records of an epoch before `epoch` are void and no path: the scan, which has not seen all of them
   /// yet, will throw them away.
   void restart(uint32_t from, double s, const AxisVec& machine, double u, uint32_t epoch);
+  /// finish() was given up in its midst: the path is as it was before.
+  void give_up();
 
   uint32_t taken() const { return read_; }
-  uint32_t head() const { return head_; }  ///< behind the last piece
+  uint32_t head() const { return holds_ ? held_head_ : head_; }  ///< behind the last piece
   /// For tests: records and pieces are counted from here.
   void count_from(uint32_t first) {
     read_ = head_ = tail_ = first;
@@ -37,27 +39,32 @@ class PathBuilder {
   }
   void free_pieces(uint32_t tail) { tail_ = tail; }
   double start_of(uint32_t piece) const { return start_u_[piece & store_->piece_mask]; }
-  double end_u() const { return head_u_; }  ///< of all pieces
+  double end_u() const { return holds_ ? held_u_ : head_u_; }  ///< of all pieces
   bool uses_turns() const { return uses_turns_; }  ///< a feed per revolution has been met
 
  private:
   bool joins(const Record& r) const;
   /// Epochs have 31 bits (interpolate/run_word.hpp).
   bool is_void(const Record& r) const { return static_cast<int32_t>((r.epoch - oldest_) << 1) < 0; }
-  bool part(const Record& r, bool moves);
-  /// What is to be done before more records can be gathered.
-  enum class Next : uint8_t { go_on, line_full, settle, close, no_room, nothing };
-  Next gather(Work& work, uint32_t head, bool* more);
-  Next add(Work& work, const Record& r, bool* more);
+  Task<bool> part(Work& work, const Record& r, bool moves);
+  /// What is to be done before more records can be gathered. `curve`: the next one is a curve or lies behind one, which takes longer.
+  enum class Next : uint8_t { go_on, line_full, settle, close, no_room, nothing, curve };
+  Next gather(Work& work, uint32_t head);
+  void hold();
+  Task<Next> take_beside_curve(Work& work, bool* more);
+  Task<Next> part_and_add(Work& work, const Record& r, bool* more);
+  Task<Next> add(Work& work, const Record& r, bool* more);
+  Next room_for_line() const;
+  Next gather_line(const Record& r);
   void add_line(const Record& r);
   double tap_share(const Segment& s) const;
   void rest_unless_it_flows(const Record& r, bool moves);
-  void add_curve(const Record& r);
-  void add_arc(const Record& r);
-  void end_arc();
-  bool leave_arc(const JointSide& after, double most, double feed);
-  void push_arc(double to);
-  void push_curve(const Piece& whole, const Segment& s);
+  Task<bool> add_curve(Work& work, const Record& r);
+  Task<bool> add_arc(Work& work, const Record& r);
+  Task<bool> end_arc(Work& work);
+  Task<bool> leave_arc(Work& work, const JointSide& after, double most, double feed);
+  Task<bool> push_arc(Work& work, double to);
+  Task<bool> push_curve(Work& work, const Piece& whole, const Segment& s);
   double feed_between(const Segment& s, double from, double to) const;
   double own_speed(const Curve& curve, double from, double to) const;
   bool turns_far(const Curve& curve, double from, double to) const;
@@ -89,6 +96,9 @@ class PathBuilder {
   bool room(unsigned pieces) const { return head_ - tail_ + pieces < kPieces; }
   static bool passes(const Segment& s) { return !s.rapid && !s.skip && !(s.begun > 0) && s.tap_rev_per_mm == 0; }
   static bool straight_line(const Segment& s) { return !s.curve.circular && s.curve.shape == nullptr; }
+
+  static constexpr unsigned kPiecesOfCurve = 100, kOfArc = kPiecesOfCurve + 20;  ///< the second: and of its transition
+  static constexpr double kNothing = 1e-12;  ///< mm, of a curve between two transitions
 
   Limits limits_;
   double tolerance_ = 0.01, period_ = 0.005;
@@ -131,6 +141,11 @@ class PathBuilder {
     double feed = 0, slow_feed = 0;
   };
   Arc arc_;
+  // Pieces that are given out in slices show when all of them are there, and it is known where their record ends.
+  bool holds_ = false;
+  uint32_t held_head_ = 0;
+  double held_u_ = 0;
+  Arc held_arc_;
   double begins_ = 0;          ///< so much of the next record, an arc, lies in a transition
   double cut_ = 0;             ///< the same of the first edge of the gathered line
   bool joined_start_ = false;  ///< the gathered line begins at speed behind an arc
