@@ -77,6 +77,29 @@ TEST(Planned, NoWayIsTooShortForALaw) {
   }
 }
 
+/// A former fault: a path that is gone from rest to rest within one cycle ended behind its second line, and as the axes did not stand where that line
+/// begins, there was an alarm. Lines that are not rounded, and a short path with a tolerance of 0.2 um.
+TEST(Planned, SeveralLinesAreGoneInOneCycle) {
+  for (const double tolerance : {0.0, 0.0002}) {
+    ExecutorConfig config = optimal_config();
+    config.cycle_s = 0.004;
+    config.tolerance = tolerance;
+    for (unsigned i = 0; i < 3; ++i) config.limits[i] = {500, 500, 6000, 2.5e7, 0.01};
+    Program p(config);
+    for (const double x : {0.0011, 0.0038, 0.0048}) {
+      p.line(at(x, 0), 12).exact_stop = x == 0.0038;
+      p.mark();
+    }
+    p.line(at(0.0048, 0.0017), 12);
+    p.end();
+    Machine m(config);
+    ASSERT_TRUE(m.run_to_end(p, 1000)) << tolerance;
+    EXPECT_EQ(m.events.size(), p.records.size()) << tolerance;
+    for (unsigned i = 0; i < 2; ++i) EXPECT_NEAR(m.command()[i], p.at()[i], 1e-9) << tolerance;
+    EXPECT_TRUE(m.checker.ok()) << m.checker.report();
+  }
+}
+
 /// An axis without a jerk limit, which a configuration would not allow, has no law. The path before it is executed, then the axes wait and show the
 /// cause, without an alarm, and a reset ends that.
 TEST(Planned, WithoutALawTheAxesWaitAndSaySo) {
