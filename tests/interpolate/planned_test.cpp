@@ -100,6 +100,35 @@ TEST(Planned, SeveralLinesAreGoneInOneCycle) {
   }
 }
 
+/// A former fault: a hold came to rest behind the beginning of a line, before the line in front of it was counted off, and the start behind it was an
+/// alarm, because the axes did not stand where that line begins.
+TEST(Planned, AHoldMayRestInALineThatHasNotBegun) {
+  ExecutorConfig config = optimal_config();
+  config.cycle_s = 0.004;
+  config.tolerance = 0.0017;
+  for (unsigned i = 0; i < 3; ++i) config.limits[i] = {500, 500, 7456, 1.4e7, 0.01};
+  Program p(config);
+  for (const AxisVec& end : {at(0.0028, 0), at(0.0028, 0.2297), at(0.0291, 0.2297), at(0.2673, 0.2297)}) {
+    p.line(end, 6.1);
+    p.mark();
+  }
+  p.end();
+  for (uint64_t hold = 1; hold < 25; ++hold) {
+    Machine m(config);
+    m.feed(p);
+    m.start();
+    for (uint64_t n = 0; n < 1000 && m.out.state != NC_STATE_IDLE; ++n) {
+      m.in.feed_hold = n >= hold && n < hold + 30;
+      m.in.cycle_start = m.out.state == NC_STATE_HOLD && !m.in.feed_hold && !m.in.cycle_start;
+      m.feed(p);
+      m.cycle();
+      ASSERT_NE(m.out.state, NC_STATE_ALARM) << hold;
+    }
+    EXPECT_EQ(m.out.state, NC_STATE_IDLE) << hold;
+    for (unsigned i = 0; i < 2; ++i) EXPECT_NEAR(m.command()[i], p.at()[i], 1e-9) << hold;
+  }
+}
+
 /// An axis without a jerk limit, which a configuration would not allow, has no law. The path before it is executed, then the axes wait and show the
 /// cause, without an alarm, and a reset ends that.
 TEST(Planned, WithoutALawTheAxesWaitAndSaySo) {

@@ -159,7 +159,6 @@ class Interpolator {
   bool misses(const AxisVec& stop) const NC_RT;
   Done passed(const Record& record) NC_RT;
   bool would_jump(const AxisVec& place) const NC_RT;
-  bool gone_already() const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;
   nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;
   void tell_planner(const nc_inputs& in, const ScanStatus& status) NC_RT;

@@ -56,12 +56,6 @@ bool Interpolator::path_stops(const nc_inputs& in) const {
   return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
 }
 
-/// The path rests, and this move is behind it: it may have gone through several records in a cycle, or a hold may have come before all of them were
-/// counted off.
-bool Interpolator::gone_already() const {
-  return optimal_ != nullptr && !passing_ && follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_]);
-}
-
 Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (follower_.at_rest() && !passing_) {
@@ -72,7 +66,8 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
     if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, unless the override is 0
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
-    if (gone_already()) return passed(r);
+    // The path may rest at the end of several records, and a hold may have come before all of them were counted off.
+    if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r);
     if (follower_.idle()) {
       return wait(no_law_ ? NC_CAUSE_NO_LAW : standing(s, in));
     }

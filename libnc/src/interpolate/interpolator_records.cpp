@@ -97,7 +97,9 @@ void Interpolator::stop_in(const nc_source& block, BlockSeq behind) {
 /// False when the move cannot be begun: it would jump.
 bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
   const Segment& s = r.segment;
-  if (at_rest() && !gone_already()) {
+  // Where the path that has come to rest leads over this move, it has begun already: several may be gone in one cycle, and a hold may come to rest behind
+  // the beginning of a move before the one in front is counted off.
+  if (at_rest() && !follower_.rests_behind(tail_)) {
     // Axes that were stopped on a smoothed line may stand beside the programmed line; whether its path goes on there is checked when it does.
     const double most = optimal_ != nullptr ? kReached + 2 * config_.tolerance : kReached;
     const AxisVec from = s.begun > 0 ? curve_position(s.curve, s.begun, config_.axis_count) : s.curve.start;
