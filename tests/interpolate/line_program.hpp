@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random programs of lines only, as post-processors make them, and a simple feasible law for them, with which the optimal mode is compared. It
-// shares no code with the planner.
+// Random programs of lines only, as post-processors make them.
 #pragma once
 
 #include "interpolate/random_program.hpp"
@@ -13,10 +12,11 @@ inline const char* name_of(LineShape s) {
   return kName[static_cast<unsigned>(s)];
 }
 
-/// The points of a polyline, and for each the feed in mm/s of the line that leads to it.
+/// The points of a polyline, and for each the feed in mm/s of the line that leads to it and whether the axes rest there.
 struct LineProgram {
   std::vector<AxisVec> point{AxisVec{}};
   std::vector<double> feed{0};
+  std::vector<bool> stop{false};
 
   void to(double x, double y, double z, double f) {
     AxisVec p;
@@ -26,7 +26,9 @@ struct LineProgram {
     if (p == point.back()) return;
     point.push_back(p);
     feed.push_back(f);
+    stop.push_back(false);
   }
+  void keep(size_t points) { point.resize(points), feed.resize(points), stop.resize(points); }
   void by(double x, double y, double f) { to(point.back()[0] + x, point.back()[1] + y, point.back()[2], f); }
   double length(size_t k) const {
     double sum = 0;
@@ -133,68 +135,5 @@ inline LineProgram line_program(LineShape shape, std::mt19937_64& rng) {
   }
   return p;
 }
-
-/// The time of a law that keeps the limits: each corner is rounded at constant speed by a curve whose q'' is a triangle (half width h, so that
-/// it cuts the corner by turn h / 6), and the rest of each line has seven phases of constant jerk between these speeds.
-class SimpleLaw {
- public:
-  SimpleLaw(double velocity, double acceleration, double jerk, double tolerance) : v_(velocity), a_(acceleration), j_(jerk), tolerance_(tolerance) {}
-
-  double seconds(const LineProgram& p) const {
-    const size_t n = p.point.size();
-    if (n < 2) return 0;
-    std::vector<double> reach(n, 0), speed(n, 0), straight(n, 0), most(n, 0), a(n, 0), j(n, 0);
-    for (size_t k = 1; k < n; ++k) {
-      const AxisVec d = p.direction(k);
-      const double share = std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])});
-      most[k] = std::min(p.feed[k], v_ / share);
-      a[k] = a_ / share;
-      j[k] = j_ / share;
-    }
-    for (size_t k = 1; k + 1 < n; ++k) {
-      const double turn = p.turn(k), feed = std::min(most[k], most[k + 1]);
-      if (turn < 1e-9) {
-        speed[k] = feed;
-        continue;
-      }
-      const double h = reach[k] = std::min({0.9 * 6 * tolerance_ / turn, 0.45 * p.length(k), 0.45 * p.length(k + 1)});
-      speed[k] = std::min({feed, std::sqrt(a_ * h / turn), std::cbrt(j_ * h * h / turn)});
-    }
-    for (size_t k = 1; k < n; ++k) straight[k] = p.length(k) - reach[k] - reach[k - 1];
-    for (size_t k = 1; k < n; ++k) speed[k] = std::min(speed[k], reachable(speed[k - 1], straight[k], a[k], j[k]));
-    for (size_t k = n - 1; k > 0; --k) speed[k - 1] = std::min(speed[k - 1], reachable(speed[k], straight[k], a[k], j[k]));
-    double sum = 0;
-    for (size_t k = 1; k < n; ++k) {
-      if (reach[k] > 0) sum += 2 * reach[k] / speed[k];
-      sum += line(speed[k - 1], speed[k], straight[k], most[k], a[k], j[k]);
-    }
-    return sum;
-  }
-
- private:
-  static double change_seconds(double from, double to, double a, double j) {
-    const double by = std::fabs(to - from);
-    return by > a * a / j ? by / a + a / j : 2 * std::sqrt(by / j);
-  }
-  static double change_length(double from, double to, double a, double j) { return 0.5 * (from + to) * change_seconds(from, to, a, j); }
-  static double bisect(double low, double high, const std::function<bool(double)>& fits) {
-    for (int n = 0; n < 60; ++n) {
-      const double middle = 0.5 * (low + high);
-      (fits(middle) ? low : high) = middle;
-    }
-    return low;
-  }
-  double reachable(double from, double length, double a, double j) const {
-    return bisect(from, from + v_ * 2, [&](double v) { return change_length(from, v, a, j) <= length; });
-  }
-  static double line(double from, double to, double length, double most, double a, double j) {
-    const double peak = bisect(std::max(from, to), std::max({from, to, most}),
-                               [&](double v) { return change_length(from, v, a, j) + change_length(v, to, a, j) <= length; });
-    const double rest = length - change_length(from, peak, a, j) - change_length(peak, to, a, j);
-    return change_seconds(from, peak, a, j) + change_seconds(peak, to, a, j) + (peak > 0 ? std::max(rest, 0.0) / peak : 0);
-  }
-
-  double v_, a_, j_, tolerance_;
-};
 
 }  // namespace nc::test

@@ -4,9 +4,9 @@
 // requires it, and keep the limits and the tolerance, also with a changing override, and with a hold in any cycle.
 #include <gtest/gtest.h>
 
-#include "interpolate/line_program.hpp"
 #include "interpolate/path_distance.hpp"
 #include "interpolate/rests.hpp"
+#include "interpolate/simple_law.hpp"
 #include "support/seeds.hpp"
 
 namespace nc::test {
@@ -95,11 +95,11 @@ Trial random_trial(uint64_t seed, uint64_t most_cycles, bool many) {
     for (size_t k = 1; k < all.feed.size(); ++k) all.feed[k] = log_uniform(rng, 1, 30000) / 60;
   t.lines = many ? all : begin_of(all, most_s);
   const AxisLimits& l = t.config.limits[0];
-  SimpleLaw law(l.velocity, l.acceleration, std::min(l.jerk, kShownJerk * l.acceleration / t.config.cycle_s), t.config.tolerance);
-  for (t.law_s = law.seconds(t.lines); !many && t.law_s > most_s && t.lines.point.size() > 2; t.law_s = law.seconds(t.lines)) {
+  const SimpleLimits limits{l.velocity, l.acceleration, std::min(l.jerk, kShownJerk * l.acceleration / t.config.cycle_s), t.config.tolerance};
+  const auto simply = [&] { return SimpleLaw(limits, t.lines).seconds(); };
+  for (t.law_s = simply(); !many && t.law_s > most_s && t.lines.point.size() > 2; t.law_s = simply()) {
     const size_t keep = std::max<size_t>(2, static_cast<size_t>(static_cast<double>(t.lines.point.size()) * most_s / t.law_s));
-    t.lines.point.resize(std::min(keep, t.lines.point.size() - 1));
-    t.lines.feed.resize(t.lines.point.size());
+    t.lines.keep(std::min(keep, t.lines.point.size() - 1));
   }
   t.program = Program(t.config);
   for (size_t k = 1; k < t.lines.point.size(); ++k) {

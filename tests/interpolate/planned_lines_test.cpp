@@ -3,8 +3,8 @@
 // requires it, keep the limits and the tolerance, and take no longer than a simple law.
 #include <gtest/gtest.h>
 
-#include "interpolate/line_program.hpp"
 #include "interpolate/path_distance.hpp"
+#include "interpolate/simple_law.hpp"
 #include "support/seeds.hpp"
 
 namespace nc::test {
@@ -43,7 +43,7 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, uint64_t plan_e
   for (size_t k = 1; k + 1 < lines.point.size(); ++k)
     seen.rests_allowed += lines.turn(k) > (config.tolerance > 0 ? kReversal : 1e-9) ? 1u : 0u;
   const AxisLimits& l = config.limits[0];
-  seen.simple = SimpleLaw(l.velocity, l.acceleration, l.jerk, config.tolerance).seconds(lines);
+  seen.simple = SimpleLaw({l.velocity, l.acceleration, l.jerk, config.tolerance}, lines).seconds();
   const PathDistance path(p, config.axis_count);
   Machine m(config);
   m.feed(p);
