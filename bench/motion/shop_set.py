@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs the measured set (shop_programs.py) through `ncsim motion` and compares its times with the shortest ones without a jerk limit, by toppra.
 
-usage: bench/motion/shop [--markdown] [--worst N] [--ncsim PATH] [--option TEXT ...] [PROGRAM ...]
+usage: bench/motion/shop [--markdown] [--trapezoid] [--accuracy] [--worst N] [--ncsim PATH] [--option TEXT ...] [PROGRAM ...]
 
 PROGRAM: names of the set, or files. The columns are explained in bench/motion/README.md; `slowest` is the least path speed divided by the mean
 one, away from rests, which is near 1 where the part is smooth. Optima are kept in build/motion-bench. Exit status: 0, 1 when a limit, the
@@ -11,6 +11,7 @@ tolerance or a feed is not kept or a program does not run.
 import hashlib
 import json
 import os
+import re
 import statistics
 import sys
 
@@ -62,7 +63,18 @@ def arguments():
     parser = runner.common_arguments(__doc__)
     parser.add_argument("--worst", type=int, default=0, metavar="N", help="only the N rows that are farthest from the optimum, the worst one first")
     parser.add_argument("--trapezoid", action="store_true", help="the other mode: the law without a limit of jerk")
+    parser.add_argument("--accuracy", action="store_true", help="G61.1, high-accuracy control, in the place of G64")
     return parser.parse_args()
+
+
+def with_accuracy(program):
+    """A copy of the program with G61.1 in the place of G64."""
+    folder = os.path.join(runner.ROOT, "build", "motion-bench", "accuracy")
+    os.makedirs(folder, exist_ok=True)
+    copy = os.path.join(folder, os.path.basename(program))
+    with open(program, encoding="ascii") as text, open(copy, "w", encoding="ascii") as out:
+        out.write(re.sub(r"\bG64\b", "G61.1", text.read()))
+    return copy
 
 
 def main():
@@ -76,7 +88,7 @@ def main():
         if sys.stderr.isatty():
             print(f"\r{os.path.basename(program):40}", end="", file=sys.stderr)
         try:
-            row = runner.measured(program, options)
+            row = runner.measured(program, options, with_accuracy(program) if options.accuracy else None)
             row["free"] = optimum(program, options)
         except (OSError, RuntimeError, runner.path_file.PathError) as error:
             row = {"program": os.path.basename(program), "failed": str(error)}
