@@ -311,6 +311,24 @@ TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is compute
   EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
 }
 
+// Not compared are the two blocks beside a change of side, each with the path of the other. The block behind them is a wall like any other.
+TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
+  const auto behind = [](const char* block) {  // the tool comes up at X-5
+    return std::string("G0 X-20. Y-40.\nG41 D1 G1 X0 Y-40. F500\nX0 Y0\nG42 X-20. Y10.\n") + block + "\nG40 X-40. Y40.\nM30\n";
+  };
+  EXPECT_EQ(alarm_of_program(behind("X-40. Y20."), 5, {{"CONTOUR_CHECK", "1"}}), "");
+  EXPECT_EQ(alarm_of_program(behind("X10. Y-30."), 5, {}), "");
+  EXPECT_EQ(alarm_of_program(behind("X10. Y-30."), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // across the path of the tool
+}
+
+// I J of a start give the vector at its end. What the tool meets on its way there, and on the way behind it, is checked.
+TEST(ContourCheck, VectorOfAStart) {
+  const auto hole = [](const char* from, const char* start) { return std::string("G0 ") + from + "\nG41 D1 " + start + "\nG3 J-6.\nG1 G40 X0 Y0\nM30\n"; };
+  EXPECT_EQ(alarm_of_program(hole("X0 Y0", "G1 X0 Y6. I-1. J0 F500"), 5, {{"CONTOUR_CHECK", "1"}}), "");
+  EXPECT_EQ(alarm_of_program(hole("X1.5 Y0", "G1 X0 Y6. I-1. J0 F500"), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // 4.5 mm beside the wall
+  EXPECT_EQ(alarm_of_program(hole("X10. Y-10.", "G1 X10. Y6. I-1. J0 F500\nX0"), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // through the wall
+}
+
 // A second round is a part of the contour, not a way out: its wall holds for the way out behind it, which is an arc larger than the hole.
 TEST(ContourMemory, ASecondRoundIsNoWayOut) {
   const auto hole = [](const char* round) {

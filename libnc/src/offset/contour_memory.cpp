@@ -17,12 +17,20 @@ constexpr double kCloses_mm = 1e-3;
 constexpr double kAway_mm = 0.01;
 /// Ends of walls this near to where the tool comes to the contour belong to that joint.
 constexpr double kSameJoint_mm = 0.01;
-/// Levels that differ by less are one.
+/// Levels that differ by less are one; so are distances from a wall.
 constexpr double kLevel_mm = 1e-3;
 constexpr double kHalfTurn = 3.14159265358979323846;
 
 /// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
 double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
+
+/// Is this point of a path as far from the wall as the vectors of the blocks are?
+bool lies_beside(const Piece& wall, double offset, Vec2 point) {
+  const Vec2 along = wall.to - wall.from;
+  if (!wall.round) return std::abs(cross(along, point - wall.from) - offset * norm(along)) <= kLevel_mm * norm(along);
+  const double inwards = wall.sweep > 0 ? offset : -offset;
+  return std::abs(norm(point - wall.center) - (wall.radius - inwards)) <= kLevel_mm;
+}
 
 uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
 
@@ -104,13 +112,20 @@ bool ContourMemory::no_way(uint64_t cancel) const {
   return state_.out != 0 && (state_.out <= state_.closure || cancel - state_.out > kWay);
 }
 
+/// Between the path and the wall, which are neighbours, lies a joint with a vector that the program gives. One of a start that stands at right angles to the
+/// wall behind it is what would have been computed.
+bool ContourMemory::across_given(const Path& path, uint64_t number, const Wall& wall) {
+  if (number < path.number) return path.from_given;
+  return path.to_given && !(path.starts && lies_beside(wall.piece, wall.offset, path.piece.to));
+}
+
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
   const uint64_t between = apart(path.number, number);
   if (between == 0) return false;
-  if (between <= kPreRead && (path.commanded || path.offset * wall.offset < 0)) return false;
+  if (between == 1 && (path.offset * wall.offset < 0 || across_given(path, number, wall))) return false;
   OpenEnds open;
-  if (between <= kPreRead && (path.starts ? number > path.number : path.cancels && number < path.number)) {
+  if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
     if (open.from && open.to && !wall.piece.round) return false;
@@ -145,7 +160,7 @@ Clearance ContourMemory::read(Section* section) {
   return near && blame(section->number) ? Clearance::enters : Clearance::fits;
 }
 
-Clearance ContourMemory::settle(const Section& section, Vec2 from, bool commanded) {
+Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_given) {
   Path path;
   path.number = section.number;
   path.offset = section.cancel ? state_.offset : section.offset;
@@ -153,32 +168,34 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool commande
   path.high = std::max(section.level, section.level_end);
   path.starts = section.start;
   path.cancels = section.cancel;
-  path.commanded = commanded && !section.cancel;
+  path.from_given = from_given && !section.cancel;
+  path.to_given = section.commanded && !section.cancel;
   const Vec2 start = section.contour_start, end = start + section.delta;
   path.slop = slop_of(wall_of(section, start));
   path.contour = section.start ? end : start;
   Clearance found = Clearance::fits;
-  const auto add = [&](const Piece& piece) {
-    path.piece = piece;
-    const Clearance next = take(path);
+  const auto add = [&](Path next_path, const Piece& piece) {
+    next_path.piece = piece;
+    const Clearance next = take(next_path);
     if (next != Clearance::fits && found != Clearance::full) found = next;
   };
   if (section.led) {
     Piece lead;
     lead.from = start;
     lead.to = start + from;
-    path.starts = true;
-    path.contour = start;
-    add(lead);
-    path.starts = section.start;
-    path.contour = section.start ? end : start;
+    Path ahead = path;
+    ahead.starts = true;
+    ahead.contour = start;
+    ahead.to_given = from_given;
+    add(ahead, lead);
   }
-  add(path_of(section, start, from, section.joint.v[0]));
+  add(path, path_of(section, start, from, section.joint.v[0]));
+  path.from_given = false;
   for (unsigned k = 1; k < section.joint.n; ++k) {
     Piece piece;
     piece.from = end + section.joint.v[k - 1];
     piece.to = end + section.joint.v[k];
-    add(section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
+    add(path, section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);

@@ -9,7 +9,7 @@
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
 // What is not compared: a path with its own wall, blocks on other levels (the axis across the plane), and of vectors that the program gives itself
-// (I J K, G38, what stops the pre-read, a change of side) the two blocks before and behind.
+// (I J K, G38, what stops the pre-read, a change of side) the block before and the block behind, each with the path of the other.
 //
 // Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
 // is not looked at.
@@ -26,7 +26,7 @@ enum class Clearance : uint8_t { fits, enters, full };
 class ContourMemory {
  public:
   static constexpr unsigned kWay = 3;  ///< the most blocks of a way in, or out
-  static constexpr unsigned kPreRead = 2;  ///< blocks beside a vector that the program gives, which are not compared
+  static constexpr unsigned kOpen = 2;  ///< blocks beside the start or the cancel whose end may lie where the tool comes or leaves
 
   /// What a checkpoint keeps: the contour as far as it has been read.
   struct State {
@@ -69,8 +69,8 @@ class ContourMemory {
 
   /// A block has been read; `section->number` becomes its number. Its path comes later.
   Clearance read(Section* section);
-  /// The path of the block is settled: it begins with this vector.
-  Clearance settle(const Section& section, Vec2 from, bool commanded);
+  /// The path of the block is settled: it begins with this vector, which the program may have given.
+  Clearance settle(const Section& section, Vec2 from, bool from_given);
 
  private:
   struct Wall {
@@ -84,7 +84,8 @@ class ContourMemory {
     uint64_t number = 0;  ///< of its block
     double offset = 0, slop = 0;
     double low = 0, high = 0;
-    bool commanded = false, starts = false, cancels = false;
+    bool from_given = false, to_given = false;  ///< by the program: the vector at this end may lie anywhere
+    bool starts = false, cancels = false;
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
 
@@ -92,6 +93,7 @@ class ContourMemory {
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   void follow(const Section& section, uint64_t number);
   bool is_way_in(uint64_t number) const;
+  static bool across_given(const Path& path, uint64_t number, const Wall& wall);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
   bool blame(uint64_t number);
   bool no_way(uint64_t cancel) const;

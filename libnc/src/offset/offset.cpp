@@ -466,8 +466,8 @@ bool OffsetStage::look_at_walls(unsigned sections) {
     if (!section.walls || section.settled || section.joint.n == 0) continue;
     section.settled = true;
     const ContourJoint* before = i == 0 ? nullptr : &chain_[i - 1].joint;
-    const bool commanded = section.commanded || (!section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded));
-    const Clearance found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], commanded);
+    const bool from_given = !section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded);
+    const Clearance found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], from_given);
     held_at(section.index).doubt = memory_.doubt();
     if (found == Clearance::fits) continue;
     fail(section.index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, held_at(section.index).item.source);

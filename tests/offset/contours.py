@@ -1,0 +1,477 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Random closed contours of lines and arcs, each with a way in and a way out, as programs with radius compensation (for oracle_test.py)."""
+import math
+import random
+
+import numpy
+from shapely.geometry import LineString, Point, Polygon
+
+SAGITTA = 0.00025  # mm: how far the fine polygons leave their arcs
+
+
+class Element:
+    """A line, or an arc about `center` (None: line)."""
+
+    def __init__(self, start, end, center=None, ccw=False, angle=None):
+        self.start, self.end, self.center, self.ccw, self.angle = start, end, center, ccw, angle
+
+    def sweep(self):
+        """As given, or of an arc of at most a whole turn."""
+        if self.angle is not None:
+            return self.angle
+        a = math.atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
+        b = math.atan2(self.end[1] - self.center[1], self.end[0] - self.center[0])
+        turn = (b - a) % (2 * math.pi) if self.ccw else -((a - b) % (2 * math.pi))
+        return turn if abs(turn) >= 1e-12 else math.copysign(2 * math.pi, 1 if self.ccw else -1)
+
+    def radius(self):
+        return math.hypot(self.start[0] - self.center[0], self.start[1] - self.center[1])
+
+    def points(self):
+        """Fine polygon, both ends included."""
+        if self.center is None:
+            return [self.start, self.end]
+        r, sweep = self.radius(), self.sweep()
+        r_end = math.hypot(self.end[0] - self.center[0], self.end[1] - self.center[1])
+        most = max(r, r_end)
+        if most < 1e-9:
+            return [self.start, self.end]
+        step = 2 * math.sqrt(2 * SAGITTA / most) if most > SAGITTA else math.pi / 2
+        n = max(2, math.ceil(abs(sweep) / min(step, math.pi / 4)))
+        part = numpy.arange(n + 1) / n
+        angle, radius = math.atan2(self.start[1] - self.center[1], self.start[0] - self.center[0]) + sweep * part, r + (r_end - r) * part
+        points = numpy.stack((self.center[0] + radius * numpy.cos(angle), self.center[1] + radius * numpy.sin(angle)), axis=1)
+        points[0], points[-1] = self.start, self.end
+        return points
+
+    def at(self, part):
+        """Point and unit tangent at a part of its length."""
+        if self.center is None:
+            dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
+            length = math.hypot(dx, dy)
+            return (self.start[0] + part * dx, self.start[1] + part * dy), (dx / length, dy / length)
+        sweep, r = self.sweep(), self.radius()
+        a = math.atan2(self.start[1] - self.center[1], self.start[0] - self.center[0]) + part * sweep
+        sense = 1 if sweep > 0 else -1
+        return (self.center[0] + r * math.cos(a), self.center[1] + r * math.sin(a)), (-sense * math.sin(a), sense * math.cos(a))
+
+    def length(self):
+        if self.center is None:
+            return math.hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
+        return abs(self.sweep()) * self.radius()
+
+    def split(self, part):
+        point = rounded(self.at(part)[0])
+        if self.center is None:
+            return Element(self.start, point), Element(point, self.end)
+        return Element(self.start, point, self.center, self.ccw), Element(point, self.end, self.center, self.ccw)
+
+
+def rounded(point):
+    return (round(point[0], 6), round(point[1], 6))
+
+
+def bulged(start, end, bulge):
+    """Arc from start to end whose sweep is 4 atan(bulge)."""
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    k = (1 - bulge * bulge) / (4 * bulge)
+    center = ((start[0] + end[0]) / 2 - k * dy, (start[1] + end[1]) / 2 + k * dx)
+    return Element(start, end, rounded(center), bulge > 0)
+
+
+def ring_of(elements):
+    return numpy.concatenate([element.points()[:-1] for element in elements])
+
+
+def area_of(ring):
+    """Positive where the ring goes round counter-clockwise."""
+    x, y = ring[:, 0] - ring[0, 0], ring[:, 1] - ring[0, 1]
+    return 0.5 * float(numpy.dot(x, numpy.roll(y, -1)) - numpy.dot(y, numpy.roll(x, -1)))
+
+
+# ---- contours, counter-clockwise
+
+
+def star(rng):
+    n = rng.randint(3, 9)
+    spread = rng.choice([0.0, 0.3, 0.8])
+    angles = sorted(rng.uniform(0, 2 * math.pi) for _ in range(n)) if spread else [2 * math.pi * k / n for k in range(n)]
+    corners = [rounded((30 * rng.uniform(1 - spread, 1) * math.cos(a), 30 * rng.uniform(1 - spread, 1) * math.sin(a))) for a in angles]
+    arcs = rng.choice([0, 0, 0.4, 0.8])
+    elements = []
+    for i, corner in enumerate(corners):
+        end = corners[(i + 1) % n]
+        if rng.random() < arcs:
+            elements.append(bulged(corner, end, rng.choice([-1, 1]) * rng.uniform(0.05, 0.7)))
+        else:
+            elements.append(Element(corner, end))
+    return elements
+
+
+def polygon(points):
+    return [Element(rounded(p), rounded(points[(i + 1) % len(points)])) for i, p in enumerate(points)]
+
+
+def slot(rng, r):
+    width, depth = r * rng.choice([0.5, 1.5, 1.999, 2.0, 2.001, 2.5, 4]), rng.uniform(2, 20)
+    x = rng.uniform(-10, 10)
+    taper = rng.choice([0, 0, 0.4])
+    return polygon([(-40, -20), (40, -20), (40, 20), (x + width / 2, 20), (x + width / 2 - taper, 20 - depth), (x - width / 2 + taper, 20 - depth), (x - width / 2, 20), (-40, 20)])
+
+
+def rounded_plate(rng, r):
+    """Corner radii about that of the tool, convex or concave corners."""
+    radius = r * rng.choice([1, 1, 0.999, 1.001, 0.5, 2])
+    a, b = rng.uniform(3, 30) + 2 * radius, rng.uniform(3, 20) + 2 * radius
+    elements, concave = [], rng.random() < 0.4
+    at = [(a, -b, 0), (a, b, 1), (-a, b, 2), (-a, -b, 3)]
+    ways = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+    for i, (x, y, k) in enumerate(at):
+        d, e = ways[k], ways[(k + 1) % 4]
+        before = rounded((x - d[0] * radius, y - d[1] * radius))
+        behind = rounded((x + e[0] * radius, y + e[1] * radius))
+        center = (x, y) if concave else (x - d[0] * radius + e[0] * radius, y - d[1] * radius + e[1] * radius)
+        elements.append(Element(before, behind, rounded(center), not concave))
+        nx, ny, nk = at[(i + 1) % 4]
+        nd = ways[nk]
+        elements.append(Element(behind, rounded((nx - nd[0] * radius, ny - nd[1] * radius))))
+    return elements
+
+
+def nearly_round(rng, r):
+    """359.999 degrees and the chord that closes them."""
+    radius = r * rng.choice([0.5, 1, 1.5, 4])
+    a = rng.uniform(0, 2 * math.pi)
+    gap = math.radians(rng.choice([0.001, 0.01, 1]))
+    start = rounded((radius * math.cos(a), radius * math.sin(a)))
+    end = rounded((radius * math.cos(a - gap), radius * math.sin(a - gap)))
+    return [Element(start, end, (0.0, 0.0), True), Element(end, start)]
+
+
+def circle(rng, r):
+    """A whole circle in one block."""
+    radius = round(r * rng.choice([0.5, 1, 1.05, 1.5, 4]) * rng.uniform(1, 1.2), 3)
+    start = rounded((radius, 0)) if rng.random() < 0.5 else rounded((0, radius))
+    return [Element(start, start, (0.0, 0.0), True)]
+
+
+def cut_at(near, far):
+    """Points in which two offset curves meet, each (element, its distance to the left), of two the one nearer to the corner first."""
+    def curve(element, left):
+        if element.center is None:
+            p, u = element.at(0)
+            return ("line", (p[0] - left * u[1], p[1] + left * u[0]), u)
+        return ("circle", element.center, element.radius() - left * (1 if element.ccw else -1))
+
+    a, b = curve(*near), curve(*far)
+    if a[0] == "circle" and b[0] == "line":
+        a, b = b, a
+    if a[0] == "line" and b[0] == "line":
+        return []
+    if b[2] <= 1e-3 or (a[0] == "circle" and a[2] <= 1e-3):
+        return []
+    if a[0] == "line":
+        foot = (b[1][0] - a[1][0]) * a[2][0] + (b[1][1] - a[1][1]) * a[2][1]
+        beside = (b[1][0] - a[1][0]) * a[2][1] - (b[1][1] - a[1][1]) * a[2][0]
+        base, along, half = (a[1][0] + foot * a[2][0], a[1][1] + foot * a[2][1]), a[2], b[2] ** 2 - beside ** 2
+    else:
+        d = math.dist(a[1], b[1])
+        if d < 1e-6:
+            return []
+        e = ((b[1][0] - a[1][0]) / d, (b[1][1] - a[1][1]) / d)
+        x = (a[2] ** 2 - b[2] ** 2 + d * d) / (2 * d)
+        base, along, half = (a[1][0] + x * e[0], a[1][1] + x * e[1]), (-e[1], e[0]), a[2] ** 2 - x * x
+    if half <= 1e-6:
+        return []
+    corner, h = near[0].end, math.sqrt(half)
+    hits = [(base[0] + t * along[0], base[1] + t * along[1]) for t in (h, -h)]
+    return sorted(hits, key=lambda p: math.dist(p, corner))
+
+
+def foot_on(element, point):
+    """Where the element is nearest to a point beside it, and how far along it that is, 0 to 1; None beside its ends."""
+    if element.center is None:
+        p, u = element.at(0)
+        way = (point[0] - p[0]) * u[0] + (point[1] - p[1]) * u[1]
+        part = way / element.length()
+        return ((p[0] + way * u[0], p[1] + way * u[1]), part) if 0 <= part <= 1 else None
+    r, d = element.radius(), math.dist(point, element.center)
+    foot = (element.center[0] + (point[0] - element.center[0]) * r / d, element.center[1] + (point[1] - element.center[1]) * r / d)
+    if math.dist(foot, element.start) < 1e-9:
+        return None
+    part = Element(element.start, foot, element.center, element.ccw).sweep() / element.sweep()
+    return (foot, part) if 0 <= part <= 1 else None
+
+
+def divide(rng, elements):
+    """Collinear and tangent joints, down to pieces of a nanometre."""
+    result = []
+    for element in elements:
+        length = element.length()
+        part = rng.choice([0.5, rng.random(), 1e-6 / length if length > 1 else 0.5, 0.001 / length if length > 1 else 0.5])
+        if rng.random() < 0.25 and 0 < part < 1:
+            pieces = element.split(part)
+            if all(piece.start != piece.end for piece in pieces):
+                result.extend(pieces)
+                continue
+        result.append(element)
+    return result
+
+
+class Contour:
+    def __init__(self, seed):
+        rng = random.Random(seed)
+        self.seed = seed
+        elements = self.draw(rng)
+        self.along = 0.0  # length of lines along the first and the last block by which the tool comes and goes
+        self.aslant = None  # unit vector of the way in and out, where it is not at right angles
+        self.depth = 0.0  # of a first round along a helix
+        self.number, self.other = rng.randint(1, 9), None  # offset numbers; `other`: (block, radius) from which on another amount counts
+        self.corners = {}
+        self.way = 0.0  # radius of the quarter circles in and out, 0: lines at right angles to the contour
+        self.ramp = ""  # Z to which the tool goes down on the way in
+        self.begin(rng, elements)
+        self.cut_corners(rng)
+        if rng.random() < 0.5:
+            self.reverse()
+        if not self.corners and rng.random() < 0.15:  # the size of a chamfer counts along a line in space
+            self.depth, self.ramp = rng.choice([0.5, 3.0]), ""
+        elif not self.corners and len(self.programmed) > 2 and rng.random() < 0.1:
+            self.other = (rng.randint(1, len(self.programmed) - 1), round(self.radius * rng.uniform(0.7, 1.0), 3))
+
+    def draw(self, rng):
+        """Radius of the tool, shape of the part, side; gives the elements of the part."""
+        self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
+        while True:
+            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius)}[kind]()
+            if any(e.start == e.end and e.center is None for e in elements):
+                continue
+            ring = ring_of(elements)
+            if area_of(ring) <= 1e-3:
+                continue
+            self.part = Polygon(ring)
+            if self.part.is_valid:
+                break
+        self.kind = kind
+        self.inside = rng.random() < 0.5
+        if kind != "circle" and rng.random() < 0.4:
+            elements = divide(rng, elements)
+        return elements
+
+    def place(self, rng, elements):
+        """Number of an element and a part of its length, where the tool has room if there is such a place."""
+        order = sorted(range(len(elements)), key=lambda i: (-min(elements[i].length(), 5), rng.random()))
+        side = 1 if self.inside else -1
+        chosen = None
+        for i in order[:6]:
+            for part in (0.5, 0.3, 0.7):
+                point, u = elements[i].at(part)
+                center = Point(point[0] - side * u[1] * self.radius, point[1] + side * u[0] * self.radius)
+                if chosen is None:
+                    chosen = (i, part)
+                if self.part.exterior.distance(center) >= self.radius - 2 * SAGITTA:
+                    return i, part
+        return chosen
+
+    def start_at(self, elements, i, part):
+        """The elements from there on."""
+        if part == 0:
+            self.elements = elements[i:] + elements[:i]
+        else:
+            first, last = elements[i].split(part)
+            self.elements = [last, *elements[i + 1:], *elements[:i], first]
+
+    def begin(self, rng, elements):
+        """Start of the contour, ways in and out."""
+        side = 1 if self.inside else -1
+        i, part = self.place(rng, elements)
+        kind = rng.random()
+        if elements[i].length() < 0.01 or self.kind == "circle" or (0.4 < kind < 0.6 and rng.random() < 0.6):  # from a corner
+            part = 0
+        self.start_at(elements, i, part)
+        point, u = self.elements[0].at(0)
+        for far in (1.5, 1.2, 1.05, 1.0):  # where the tool stands before and behind has room, too
+            self.lead = rounded((point[0] - side * u[1] * far * self.radius, point[1] + side * u[0] * far * self.radius))
+            if self.part.exterior.distance(Point(self.lead)) >= self.radius - 2 * SAGITTA:
+                break
+        if 0.4 < kind < 0.6:
+            self.along = round(rng.uniform(1.05, 3) * self.radius, 3)
+            last, v = self.elements[-1].at(1)
+            begin = (point[0] - self.along * u[0], point[1] - self.along * u[1])
+            end = (last[0] + self.along * v[0], last[1] + self.along * v[1])
+            self.between = (rounded(begin), rounded(end))
+            self.lead = rounded((begin[0] - side * u[1] * 1.5 * self.radius, begin[1] + side * u[0] * 1.5 * self.radius))
+        elif 0.6 < kind < 0.75:
+            angle = rng.uniform(-0.9, 0.9)
+            n = (-side * u[1], side * u[0])
+            self.aslant = (n[0] * math.cos(angle) - n[1] * math.sin(angle), n[0] * math.sin(angle) + n[1] * math.cos(angle))
+            far = rng.uniform(1.2, 2.5) * self.radius
+            self.lead = rounded((point[0] + far * self.aslant[0], point[1] + far * self.aslant[1]))
+        elif kind < 0.4:  # on quarter circles, as far as there is room
+            self.way = round(rng.uniform(1.05, 2) * self.radius, 3)
+            self.lead = rounded((point[0] - side * u[1] * self.way, point[1] + side * u[0] * self.way))
+            self.ramp = rng.choice(["", " Z-2.5"])
+
+    def cut_corners(self, rng):
+        """,C and ,R between lines, with the shape that they make by a calculation of its own."""
+        self.programmed = list(self.elements)
+        if rng.random() < 0.6:
+            return
+        shape, i, n = list(self.elements), 0, len(self.elements)
+        new = []
+        entry = None
+        for i in range(n):
+            element = shape[i]
+            start = entry or element.start
+            entry = None
+            follows = shape[i + 1] if i + 1 < n else None
+            cut = None
+            if follows and element.center is None and follows.center is None and rng.random() < 0.4:
+                cut = self.cut(rng, start, element.end, follows.end)
+            elif follows and (element.center or follows.center) and element.start != element.end and rng.random() < 0.3:
+                cut = self.cut_beside_arc(rng, Element(start, element.end, element.center, element.ccw), follows)
+            if cut is None:
+                new.append(Element(start, element.end, element.center, element.ccw))
+                continue
+            self.corners[i], before, behind, middle = cut
+            new.append(Element(start, before, element.center, element.ccw))
+            new.append(middle)
+            entry = behind
+        candidate = Polygon(ring_of(new))
+        if not candidate.is_valid:
+            self.corners = {}
+            return
+        self.elements, self.part = new, candidate
+
+    def cut_beside_arc(self, rng, element, follows):
+        """The same beside an arc (corner_ii): the circle that touches both, or the line between the points that are as far from the corner."""
+        shortest = min(element.length(), follows.length(), *(e.radius() for e in (element, follows) if e.center))
+        (_, u), (corner, w) = element.at(1), follows.at(0)
+        turn = math.atan2(u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1])
+        if shortest < 0.5 or not 0.1 < abs(turn) < 3:
+            return None
+        size = round(rng.uniform(0.05, 0.3) * shortest, 3)
+        if size < 0.02:
+            return None
+        if rng.random() < 0.5:
+            ends = []
+            for e, sense in ((element, -1), (follows, 1)):
+                way = size if e.center is None else 2 * e.radius() * math.asin(size / 2 / e.radius())
+                ends.append(e.at(0.5 + sense * (way / e.length() - 0.5))[0])
+            return f",C{size:.3f}", ends[0], ends[1], Element(ends[0], ends[1])
+        left = size if turn > 0 else -size
+        for center in cut_at((element, left), (follows, left)):
+            feet = foot_on(element, center), foot_on(follows, center)
+            if None in feet or feet[0][1] < 0.5 or feet[1][1] > 0.5:
+                return None
+            return f",R{size:.3f}", feet[0][0], feet[1][0], Element(feet[0][0], feet[1][0], center, turn > 0)
+        return None
+
+    def cut(self, rng, start, corner, end):
+        a, b = math.dist(start, corner), math.dist(corner, end)
+        if min(a, b) < 0.5:
+            return None
+        u = ((corner[0] - start[0]) / a, (corner[1] - start[1]) / a)
+        w = ((end[0] - corner[0]) / b, (end[1] - corner[1]) / b)
+        turn = math.atan2(u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1])
+        if abs(turn) > 3:
+            return None
+        room = 0.45 * min(a, b)
+        if rng.random() < 0.5:
+            size = round(rng.uniform(0.1, 0.9) * room, 3)
+            taken, word = size, f",C{size:.3f}"
+        else:
+            if abs(turn) < 0.05:
+                return None
+            size = round(min(rng.uniform(0.1, 0.9) * room / math.tan(abs(turn) / 2), room), 3)
+            taken, word = size * math.tan(abs(turn) / 2), f",R{size:.3f}"
+        if size <= 0.01 or taken > room:
+            return None
+        before = (corner[0] - taken * u[0], corner[1] - taken * u[1])
+        behind = (corner[0] + taken * w[0], corner[1] + taken * w[1])
+        if word[1] == "C":
+            return word, before, behind, Element(before, behind)
+        sense = 1 if turn > 0 else -1
+        center = (before[0] - sense * size * u[1], before[1] + sense * size * u[0])
+        return word, before, behind, Element(before, behind, center, turn > 0)
+
+    def reverse(self):
+        if self.corners:
+            return
+        self.elements = [Element(e.end, e.start, e.center, not e.ccw) for e in reversed(self.elements)]
+        self.programmed = list(self.elements)
+        self.turn_round()
+
+    def turn_round(self):
+        self.backwards = not self.backwards
+        if self.along:
+            self.between = self.between[::-1]
+            point, end = self.programmed[0].start, self.between[0]
+            u = ((point[0] - end[0]) / self.along, (point[1] - end[1]) / self.along)
+            side = 1 if self.side() == "G41" else -1
+            self.lead = rounded((end[0] - side * u[1] * 1.5 * self.radius, end[1] + side * u[0] * 1.5 * self.radius))
+
+    backwards = False
+
+    def side(self):
+        return "G41" if self.inside != self.backwards else "G42"
+
+    def wall(self):
+        """All of the contour as one line."""
+        points = ring_of(self.elements)
+        return LineString(numpy.concatenate((points, points[:1])))
+
+    def quarter(self, end):
+        """The quarter circle by which the tool comes to the contour, or leaves it (`end`): its other end and its centre."""
+        point, u = self.programmed[-1].at(1) if end else self.programmed[0].at(0)
+        side = 1 if self.side() == "G41" else -1
+        center = rounded((point[0] - side * u[1] * self.way, point[1] + side * u[0] * self.way))
+        along = 1 if end else -1
+        return rounded((center[0] + along * u[0] * self.way, center[1] + along * u[1] * self.way)), center
+
+    def round(self, lines, depth):
+        """The blocks of one round; `depth`: along it the tool goes down evenly."""
+        start = 0.0
+        whole = sum(e.length() for e in self.programmed)
+        for i, e in enumerate(self.programmed):
+            word = self.corners.get(i, "")
+            if self.other and self.other[0] == i:
+                word += f"D{self.number % 9 + 1}"
+            start += e.length()
+            down = f" Z{-depth * start / whole:.4f}" if depth else ""
+            if e.center is None:
+                lines.append(f"G1 X{e.end[0]:.6f} Y{e.end[1]:.6f}{down} {word}")
+            else:
+                lines.append(f"G{3 if e.ccw else 2} X{e.end[0]:.6f} Y{e.end[1]:.6f}{down} I{e.center[0] - e.start[0]:.6f} J{e.center[1] - e.start[1]:.6f} {word}")
+
+    def blocks(self):
+        first, lead, code = self.programmed[0].start, self.lead, f"{self.side()} D{self.number}"
+        sense = "G3" if self.side() == "G41" else "G2"
+        lines = [f"G10 L10 P{self.number} R{self.radius:.6f}", f"G0 X{lead[0]:.6f} Y{lead[1]:.6f}"]
+        if self.other:
+            lines[0] += f"\nG10 L10 P{self.number % 9 + 1} R{self.other[1]:.6f}"
+        if self.way:
+            start, center = self.quarter(False)
+            lines.append(f"{code} G1 X{start[0]:.6f} Y{start[1]:.6f} F1000")
+            lines.append(f"{sense} X{first[0]:.6f} Y{first[1]:.6f} I{center[0] - start[0]:.6f} J{center[1] - start[1]:.6f}{self.ramp}")
+        elif self.along:
+            lines.append(f"{code} G1 X{self.between[0][0]:.6f} Y{self.between[0][1]:.6f} F1000")
+            lines.append(f"X{first[0]:.6f} Y{first[1]:.6f}")
+        else:
+            lines.append(f"{code} G1 X{first[0]:.6f} Y{first[1]:.6f} F1000")
+        if self.depth:
+            self.round(lines, self.depth)
+        self.round(lines, 0)
+        if self.way:
+            last = self.programmed[-1].end
+            end, center = self.quarter(True)
+            lines.append(f"{sense} X{end[0]:.6f} Y{end[1]:.6f} I{center[0] - last[0]:.6f} J{center[1] - last[1]:.6f}{self.ramp and ' Z0'}")
+        if self.along:
+            lines.append(f"G1 X{self.between[1][0]:.6f} Y{self.between[1][1]:.6f}")
+        lines.append(f"G1 G40 X{lead[0]:.6f} Y{lead[1]:.6f}{' Z0' if self.depth else ''}")
+        return [block for line in lines for block in line.split("\n")]
+
+    def reversible(self):
+        """Words of corners would stand at other blocks, and along its sides the tool comes from the other end."""
+        return not (self.corners or self.depth or self.other or self.along)
