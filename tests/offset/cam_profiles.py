@@ -4,7 +4,8 @@
 The way in and the way out of a profile are drawn each for itself: lines at right angles, aslant, along the contour; arcs of any angle with a line that
 is radial, tangent, or has a piece under compensation in front of a turn; whole turns of a helix; the depth on a ramp, along the arc, or by a plunge
 between them; rapid, with a vector that I J give (12.4.3), of type A or B (12.4.1). The tool comes round a piece beyond its start, or cuts first
-with an allowance and another offset number, or has a negative amount and the other code, or changes the side in the middle of its contour.
+with an allowance and another offset number, or has a negative amount and the other code, or changes the side in the middle of its contour, or reads the
+machine between its blocks.
 """
 import copy
 import math
@@ -15,6 +16,7 @@ from shapely.geometry import Point
 import contours
 from contours import SAGITTA, Element, rounded
 
+READS = ["#100=#5041", "#100=#5021+#5022", "#100=#1000", "#100=#3001", "IF[#1001 EQ 5]GOTO9"]
 KINDS = ["normal", "aslant", "along", "radial", "tangent", "turned"]
 
 
@@ -83,6 +85,7 @@ class Profile(contours.Contour):
         self.cuts = [(self.number, self.radius)]
         if self.cross is None and rng.random() < 0.25:
             self.cuts.insert(0, (self.number % 9 + 1, round(self.radius * rng.uniform(1, 1.3), 3)))
+        self.reads = rng.choice(READS) if rng.random() < 0.2 and not self.corners else ""  # between the blocks of the contour; no movement depends on what it gives
         self.negative, self.type_b = rng.random() < 0.15, rng.random() < 0.3
         self.approach, self.depart = (self.lead_with_room(rng, corner, end) for end in (False, True))
 
@@ -173,6 +176,8 @@ class Profile(contours.Contour):
                 change = ""
             lines_of.append(len(lines))
             lines.append(change + (self.arc(e.ccw, e.start, e.end, e.center) if e.center else f"G1 X{e.end[0]:.6f} Y{e.end[1]:.6f}") + corner)
+            if self.reads:
+                lines.append(self.reads)
         if self.beyond:
             e, end = self.programmed[0], self.end_point()[0]
             lines.append(self.arc(e.ccw, e.start, end, e.center) if e.center else f"G1 X{end[0]:.6f} Y{end[1]:.6f}")

@@ -107,5 +107,25 @@ TEST(WithoutDirection, OneThatOpensTheContourWaitsForABlockWithADirection) {
   EXPECT_NEAR(at[1], 3, 2 * kNanometre);
 }
 
+// A change of side in such a line takes place between the blocks around it: its own direction would end the arc wherever it crosses it.
+TEST(WithoutDirection, OneThatChangesTheSide) {
+  const auto ends = [](double tiny) {
+    PathBuilder path(20, 0);
+    path.side(-1, 1);
+    path.line(10, 0).arc_by(true, -10, 10, -10, 0);
+    path.comp.side = 1;
+    if (tiny > 0) path.by(tiny, 0);
+    path.line(-10, 10);
+    path.cancel().line(-20, 20);
+    path.end();
+    const std::vector<Item> out = run_stage(path);
+    EXPECT_EQ(alarm_of(out), nullptr);
+    return at_block(out, path.start(), 2);
+  };
+  const AxisVec without = ends(0), with = ends(3e-4);
+  EXPECT_NEAR(with[0], without[0], 1e-3);
+  EXPECT_NEAR(with[1], without[1], 1e-3);
+}
+
 }  // namespace
 }  // namespace nc::test

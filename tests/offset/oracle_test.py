@@ -53,6 +53,9 @@ def transformed(blocks, way):
     """The program of the contour mirrored in X, turned by a right angle, or twice as large: exact in its digits."""
     result = []
     for block in blocks:
+        if block[0] in "#I":  # macro statements
+            result.append(block)
+            continue
         words = block.split()
         swap = {"G2": "G3", "G3": "G2", "G41": "G42", "G42": "G41"}
         if way == "mirror":
@@ -205,7 +208,7 @@ def judge_change(contour, moves, paths):
     before, behind = contour.lines_of[a], contour.lines_of[b]
     beside = [each for each in paths if before <= each[0] <= behind]
     others = [each for each in paths if not before <= each[0] <= behind]
-    rest = [e.points() for i, e in enumerate(elements) if not a <= i <= b]
+    rest = [e.points() for i, e in enumerate(elements) if not a <= i <= b and e.length() > TOLERANCE]  # of a shorter one the ends are those of its neighbours
     bad = (others and judge_gouge(others, contour.wall(), r)) or (beside and rest and judge_gouge(beside, MultiLineString(rest), r))
     if bad:
         return bad

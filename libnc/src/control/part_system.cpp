@@ -401,7 +401,7 @@ void PartSystem::drop_repeated(const Repeat& repeat, const AxisVec& head) {
 }
 
 void PartSystem::note_given(const Item& item) {
-  if (item.kind == ItemKind::sync) sync_what_ = item.sync.what, sync_source_ = item.source, open_sync_ = commit_.serial();
+  if (item.kind == ItemKind::sync) sync_ = item.sync, sync_source_ = item.source, open_sync_ = commit_.serial();
   if (item.kind == ItemKind::alarm) describe_alarm();
 }
 
@@ -509,6 +509,15 @@ void PartSystem::publish_answered() {
 
 void PartSystem::note_answered() { answered_block_ = interpreter.stands_at_machine() ? interpreter.newest_block() + 1 : 0; }
 
+/// The answer to a read in a contour: blocks in front of it are still to be executed. Positions are those at their end, with the radius vector there, and as far
+/// beside it as the machine stands beside its program now (a shift by hand).
+nc_world PartSystem::at_end_of_what_is_read(const nc_world& world) const {
+  nc_world known = world;
+  const AxisVec end = interpreter.beside_end(sync_.axis, sync_.vector), &here = commit_.machine();
+  for (unsigned i = 0; i < axis_count_; ++i) known.machine.v[i] = end[i] + (world.machine.v[i] - here[i]);
+  return known;
+}
+
 nc_status PartSystem::answer(const nc_world& world) {
   if (open_sync_ == 0) return NC_E_STATE;
   open_sync_ = 0;
@@ -516,9 +525,9 @@ nc_status PartSystem::answer(const nc_world& world) {
     publish_all();
     interpreter.publish(interpreter.newest_block());
   }
-  interpreter.answer(world);
+  interpreter.answer(sync_.ahead ? at_end_of_what_is_read(world) : world);
   note_answered();
-  if ((sync_what_ & NC_SYNC_SKIP) != 0 && world.skipped) {
+  if ((sync_.what & NC_SYNC_SKIP) != 0 && world.skipped) {
     AxisVec machine;
     std::memcpy(machine.v, world.machine.v, sizeof(machine.v));
     commit_.set_machine(machine);
@@ -780,7 +789,7 @@ nc_status PartSystem::feed(uint32_t budget) {
 /// After a sync: takes the positions that axes which are spindles as well have, because a spindle turns without the program (M700 10.5 (1)). Where a
 /// skip move was dropped when the servo went off (precaution (3)) the other axes are not at its end either, and theirs are taken, too.
 void PartSystem::take_spindle_axes(const nc_world& world) {
-  const bool skip = (sync_what_ & NC_SYNC_SKIP) != 0 && !world.skipped;
+  const bool skip = (sync_.what & NC_SYNC_SKIP) != 0 && !world.skipped;
   const uint32_t axes = (skip ? ~uint32_t{0} : spindle_axes_) & ~interpreter.maps().frozen_axes;
   AxisVec here = commit_.machine(), read_to = interpreter.machine();
   for (unsigned i = 0; i < axis_count_; ++i)

@@ -36,6 +36,7 @@ class PartSystem {
   nc_status move_point(double share, nc_axes* machine) const;
   nc_status move_zero(nc_axes* zero) const;
   nc_status answer(const nc_world& world);
+  nc_world at_end_of_what_is_read(const nc_world& world) const;
   nc_status rewind(Serial serial);
   /// Offline: the level of the interrupt signal (M700 13.12). *take_back becomes true when the item pulled last must not be executed.
   nc_status interrupt_signal(bool on, bool* take_back);
@@ -209,7 +210,7 @@ class PartSystem {
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   nc_source sync_source_{};
   Serial open_sync_ = 0;
-  uint32_t sync_what_ = 0;
+  Sync sync_{};  ///< the one that has been given last
   uint32_t spindle_axes_ = 0;   ///< bit i: axis i is a spindle as well (M700 10.5)
 };
 

@@ -277,6 +277,9 @@ struct BlockContext {
   /// The data that part systems share can be read now: the machine has come to this block, or there is only one part system. False: a sync is needed
   /// (NC_SYNC_SHARED).
   bool shared_known() const { return shared == nullptr || world_fresh; }
+  /// Part of Interpreter::sync_needed: a variable is read in a contour with radius compensation, or before its end has been made.
+  static constexpr uint32_t kSyncAhead = uint32_t{1} << 31;
+  bool in_contour() const { return state.comp.side != 0 || state.moved_side != 0; }
   Execution need(uint32_t what) {
     sync_needed = what;
     return Execution::sync;

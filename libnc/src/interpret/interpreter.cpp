@@ -452,8 +452,8 @@ nc_status Interpreter::settle(Execution did) {
     case Execution::sync: {
       if (statement > 0) keep_call();  // the statements before this one are done
       Item& item = emit(ItemKind::sync);
-      item.sync.what = sync_needed;
-      waiting_for_ = sync_needed;
+      item.sync.what = waiting_for_ = sync_needed & ~kSyncAhead;
+      item.sync.ahead = (sync_needed & kSyncAhead) != 0;
       waiting_ = true;
       return NC_OK;
     }

@@ -104,6 +104,15 @@ void PartInterpreter::look_back(BlockSeq seq, bool back) { in_->look_back(seq, b
 // ---- positions --------------------------------------------------------------------------------------------------------------
 
 const AxisVec& PartInterpreter::machine() const { return in_->state.machine; }
+AxisVec PartInterpreter::beside_end(const uint8_t (&axis)[2], const double (&vector)[2]) const {
+  AxisVec end = in_->state.machine, beside;
+  const Affine* map = in_->transforms.newest();
+  if (map == nullptr || in_->state.map.active()) return end;
+  for (unsigned i = 0; i < 2; ++i) beside[axis[i]] = vector[i];
+  beside = map->direct(beside);
+  for (unsigned i = 0; i < kMaxAxes; ++i) end[i] += beside[i];
+  return end;
+}
 void PartInterpreter::end_at(const AxisVec& machine) { in_->state.machine = machine; }
 void PartInterpreter::set_machine(const AxisVec& machine) { in_->set_machine(machine); }
 void PartInterpreter::move_to(const AxisVec& machine, const AxisVec& beside) { in_->move_to(machine, beside); }

@@ -145,6 +145,8 @@ class PartInterpreter {
 
   // ---- positions, machine coordinates
   const AxisVec& machine() const;
+  /// ... and a radius vector on these axes, as a move maps it to the machine.
+  AxisVec beside_end(const uint8_t (&axis)[2], const double (&vector)[2]) const;
   /// Sets where the newest block has ended.
   void end_at(const AxisVec& machine);
   /// Forgets what has been read, and goes on from this position.

@@ -473,6 +473,7 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
   Access access{in, place.part, place.index, number, value, sync};
   const Eval eval = read(access);
   if (eval == Eval::fault) *fault = in.fault;
+  if (eval == Eval::need_sync && in.in_contour() && *sync != NC_SYNC_SHARED) *sync |= Interpreter::kSyncAhead;
   return eval;
 }
 

@@ -75,7 +75,11 @@ bool OffsetStage::can_push() const {
 bool OffsetStage::push(const Item& item, NoRule) {
   if (!can_push()) return false;
   if (failed_) return true;
-  Held& held = new_slot(item);
+  if (item.kind == ItemKind::sync && item.sync.ahead && mode_ != Mode::off) {
+    let_pass(item);
+    return true;
+  }
+  Held& held = new_slot(next_index(), item);
   if (item.kind == ItemKind::move) {
     intake_move(&held);
   } else {
@@ -83,7 +87,12 @@ bool OffsetStage::push(const Item& item, NoRule) {
       stop_by(open()->index, item);
       return true;
     }
-    if (inhibits_read_ahead(item)) close();
+    if (item.kind == ItemKind::sync) held.item.sync.ahead = false;  // all in front of it is executed first
+    if (item.kind == ItemKind::alarm) {
+      end_before_alarm();
+    } else if (inhibits_read_ahead(item)) {
+      close();
+    }
     if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) fail(next_index(), Condition::comp_interference, item.source);
     if (!failed_) ++count_;
   }
@@ -101,11 +110,30 @@ bool OffsetStage::push(const Item& item, NoRule) {
   return true;
 }
 
-OffsetStage::Held& OffsetStage::new_slot(const Item& item) {
-  Held& held = held_at(next_index());
+// A read of the machine between two blocks of the contour. If the block before it had to be executed first, it would have to end without the one behind it,
+// which decides how far it goes: at an inner corner it would cut into the part. So the read goes in front of all that is held.
+void OffsetStage::let_pass(const Item& sync) {
+  for (uint32_t i = next_index(); i != released_; --i) {
+    held_at(i) = held_at(i - 1);
+    contour_at(held_at(i)) = contour_at(held_at(i - 1));
+    held_at(i).passed = true;  // read again from here, it would be asked for once more
+  }
+  for (unsigned i = 0; i < chain_.size(); ++i) ++chain_[i].index;
+  Sync& passed = new_slot(released_, sync).item.sync;
+  const Section* last = open();
+  const Vec2 vector = last == nullptr ? tail_ : last->start || last->vanished ? Vec2{} : perpendicular(last->end, last->offset);
+  for (unsigned i = 0; i < 2; ++i) passed.axis[i] = comp_.axis[i];
+  passed.vector[0] = vector.h;
+  passed.vector[1] = vector.v;
+  ++released_;
+  ++count_;
+}
+
+OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
+  Held& held = held_at(index);
   copy_item(item, &held.item);
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = false;
+  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = held.passed = false;
   held.commanded = true;
   held.doubt = {};
   held.lead = Vec2{};
@@ -184,6 +212,14 @@ void OffsetStage::close() {
   if (check_joints(chain_.size())) release(chain_.size());
 }
 
+// The block behind has an alarm. What is wrong with the joints that are known comes before it; the vector that the last block gets is none of the program's, so
+// nothing can be wrong with it.
+void OffsetStage::end_before_alarm() {
+  if (mode_ == Mode::off || !check_joints(chain_.size())) return;
+  for (unsigned i = 0; i < chain_.size(); ++i) chain_[i].check = chain_[i].walls = false;
+  close();
+}
+
 // ---- moves ----
 
 void OffsetStage::intake_move(Held* held) {
@@ -253,7 +289,7 @@ void OffsetStage::intake_carried(Held* held) {
 bool OffsetStage::intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end) {
   const Move& move = held->item.move;
   const Vec2 delta = plane_delta(move);
-  const bool ordinary = move.comp.side == 0 || move.comp.transparent || move.comp.hold_vector || signed_offset(move.comp) != offset_before;
+  const bool ordinary = move.comp.side == 0 || move.comp.transparent || move.comp.hold_vector || std::abs(signed_offset(move.comp)) != std::abs(offset_before);
   if (ordinary || begin->curvature != 0 || norm(delta) >= kNoDirection_mm) return false;
   const Vec2 since_joint = approach_ + delta;
   if (norm(since_joint) >= kNoDirection_mm) {

@@ -112,6 +112,7 @@ class OffsetStage {
     bool trim_next = false;   ///< section: ... of the one behind, whose side is another
     bool commanded = true;    ///< section: the vector at its end may lie anywhere
     bool bound_next = false;  ///< section: the one behind has a joint that depends on this one
+    bool passed = false;      ///< marks: a read that comes behind it has gone in front of it
     ContourMemory::Doubt doubt;  ///< section: what was in doubt about the contour when its path was settled
     Vec2 approach;            ///< marks: lines without a direction since the joint
     Mode mode = Mode::off;    ///< marks: state behind them
@@ -123,6 +124,7 @@ class OffsetStage {
   };
 
   // Intake: push() and what it decides (offset.cpp).
+  void let_pass(const Item& sync);
   void intake_move(Held* held);
   void intake_carried(Held* held);
   bool intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end);
@@ -137,6 +139,7 @@ class OffsetStage {
   bool look_at_walls(unsigned sections);
   void read_wall(Section* section, const nc_source& source);
   void count_block_end();
+  void end_before_alarm();
   void close();
   void settle();
   void make_room();
@@ -146,7 +149,7 @@ class OffsetStage {
   void fail(uint32_t index, Condition condition, const nc_source& source);
   uint32_t next_index() const { return first_ + count_; }
   Held& held_at(uint32_t index) { return held_[index % kHeld]; }
-  Held& new_slot(const Item& item);
+  Held& new_slot(uint32_t index, const Item& item);
   ContourMemory::State& contour_at(const Held& held) { return contour_[&held - held_]; }
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 

@@ -203,7 +203,7 @@ bool OffsetStage::pop(Item& out) {
     copy_item(held.item, &out);
     if (held.item.kind == ItemKind::mark) {
       note_mark(held);
-      out.mark.resume = out.mark.resume && !bound_;
+      out.mark.resume = out.mark.resume && !bound_ && !held.passed;
     }
     drop_front();
     return true;

@@ -205,6 +205,10 @@ struct Gate {
 
 struct Sync {
   uint32_t what = 0;  ///< nc_sync_what bits
+  /// A read in a contour whose next corner needs the blocks behind it: a stage that waits for them lets it pass in front of what it holds.
+  bool ahead = false;
+  uint8_t axis[2] = {0, 1};   ///< ... and says here what it adds to the end of what has been read, on these axes: the radius vector,
+  double vector[2] = {0, 0};  ///< mm, compensation frame
 };
 
 /// A block that a macro interrupt has cut and that goes on: what has been executed of it is not executed again (M700 13.12).

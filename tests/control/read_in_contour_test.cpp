@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads of the machine between two blocks of a contour with radius compensation: the path is what it is without them, and positions are those at the end of
+// what has been read.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/pull.hpp"
+
+namespace nc::test {
+namespace {
+
+/// Path of a program in which `%` stands for what is put between its blocks.
+Outcome with(const std::string& program, const std::string& between, nc_dialect dialect = NC_DIALECT_M700) {
+  std::string text;
+  for (const char c : program) text += c == '%' ? between : std::string(1, c);
+  Bench bench(dialect);
+  bench.tool(1, 3);
+  if (dialect != NC_DIALECT_M700) bench.tool(1, 3, NC_TOOL_RADIUS);
+  return bench.run(text);
+}
+
+constexpr char kInner[] = "G90 G94 G17\nG41 D1 G1 X10. F100\n%Y10.\n%X30.\n%G3 X40. Y20. J10.\n%G1 G40 X40. Y40.\nM30\n";
+constexpr char kOuter[] = "G90 G94 G17\nG42 D1 G1 X10. F100\n%Y10.\n%X30.\n%X0 Y12.\n%Y40.\n%G40 X-40.\nM30\n";
+constexpr char kAlone[] = "G90 G94 G17\nG41 D1\n%G1 X10. Y0 F100\n%Y10.\n%X30.\nG40\n%X50. Y20.\nM30\n";
+
+TEST(ReadInContour, LeavesThePathAlone) {
+  for (const char* program : {kInner, kOuter, kAlone}) {
+    const Outcome plain = with(program, "");
+    ASSERT_EQ(plain.alarm, "");
+    for (const char* read : {"#100=#5041\n", "#100=#5021+#5022\n", "#100=#1000\n", "#100=#3001\n", "#100=#4201\n", "IF[#5043 GT 5.]GOTO9\n", "#100=#5041\n#101=#1001\n#102=#3002\nM8\n"}) {
+      const Outcome run = with(program, read);
+      EXPECT_EQ(run.alarm, "") << read;
+      EXPECT_EQ(run.path(), plain.path()) << program << read;
+    }
+  }
+  const Outcome hx = with("G90 G94 G17\nG41 D1 G01 X10. F100\nY10.\n%X30.\nG40 X40.\nM30\n", "#100=#4083\n", NC_DIALECT_HX);
+  EXPECT_EQ(hx.alarm, "");
+  EXPECT_EQ(hx.path(), with("G90 G94 G17\nG41 D1 G01 X10. F100\nY10.\n%X30.\nG40 X40.\nM30\n", "", NC_DIALECT_HX).path());
+}
+
+/// What the program of an inner corner gives, read at the corner.
+double read_at_corner(const char* variable, const std::function<void(Bench&)>& change = {}, const char* head = "") {
+  Bench bench;
+  bench.tool(1, 3).work_offset(1, {100, 50, 7});
+  if (change) change(bench);
+  const Outcome run = bench.run(std::string("G54 G90 G94 G17 G0 X0 Y0 Z0\n") + head + "G41 D1 G1 X10. F100\nY10.\n#100=" + variable + "\nX30.\nG40 X40.\nM30\n");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  return run.var(100);
+}
+
+TEST(ReadInContour, GivesTheEndOfTheBlockBefore) {  // with the vector at right angles to it, as where the contour ends there (12.4.2)
+  EXPECT_EQ(read_at_corner("#5001"), 10);
+  EXPECT_EQ(read_at_corner("#5041"), 7);
+  EXPECT_EQ(read_at_corner("#5042"), 10);
+  EXPECT_EQ(read_at_corner("#5021"), 107);
+  EXPECT_EQ(read_at_corner("#5022"), 60);
+  EXPECT_EQ(read_at_corner("#5043"), 0);
+  EXPECT_EQ(read_at_corner("#5021", {}, "G51.1 X0\n"), 93);  // mirrored behind compensation
+}
+
+TEST(ReadInContour, ComesInFrontOfTheBlocksThatWaitForTheCorner) {
+  const Outcome run = with(kInner, "");
+  ASSERT_EQ(run.of(NC_ITEM_SYNC).size(), 0u);
+  const Outcome read = with("G90 G94 G17\nG41 D1 G1 X10. F100\nY10.\n#100=#1000\nX30.\nG40 X40.\nM30\n", "");
+  std::string kinds;
+  for (const Step& step : read.steps) kinds += step.item.kind == NC_ITEM_SYNC ? 's' : step.item.kind == NC_ITEM_MOVE ? 'm' : '-';
+  EXPECT_LT(kinds.find('s'), kinds.find('m')) << kinds;  // the start and its first block are held for the corner behind them
+}
+
+}  // namespace
+}  // namespace nc::test
