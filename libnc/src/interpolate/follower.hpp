@@ -51,7 +51,7 @@ class Follower {
     return static_cast<double>(store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turns);
   }
   /// At rest at a place where the path itself rests, and not only the plan.
-  bool at_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).path_ends; }
+  bool at_path_end() const { return at_end_ && (cell_ != optimal::kNoCell ? store_->at(cell_).path_ends : halted_ && halt_ends_); }
   /// At rest at the end of the plan, and the record at ring index k lies on the path of that plan.
   bool rests_behind(uint32_t k) const { return at_end_ && cell_ != optimal::kNoCell && static_cast<int32_t>(k - taken_to_) < 0; }
   /// At rest at a place of the path where no plan ends: a stop that brake() has found has come to its end, and nothing further is planned.
@@ -169,7 +169,9 @@ class Follower {
   void halt() NC_RT {
     const optimal::PlanCell& c = store_->at(cell_);
     halt_piece_ = c.piece;
-    halt_x_ = std::fmin(store_->piece_at(c.piece).length, c.x + x_);
+    const optimal::Piece& p = store_->piece_at(c.piece);
+    halt_x_ = std::fmin(p.length, c.x + x_);
+    halt_ends_ = p.rest_behind && halt_x_ >= p.length - optimal::unseen(p, *limits_, p.length);
     let_go();
     halted_ = true;
   }
@@ -252,6 +254,7 @@ class Follower {
   bool halted_ = false;       ///< at rest on the path, not at the end of a plan
   uint32_t halt_piece_ = 0;
   double halt_x_ = 0;
+  bool halt_ends_ = false;    ///< no axis shows that it is not where the path itself rests
 };
 
 }  // namespace nc

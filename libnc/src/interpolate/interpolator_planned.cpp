@@ -91,7 +91,9 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   const double end = optimal_->store().passed[tail_ & mask_], u = follower_.u();
   law_.s = std::clamp(s.curve.length - (end - u), 0.0, s.curve.length);
   passing_ = passing_ && u > end + kPassed;
-  if (follower_.at_rest() ? u < nearly(end) : !(u > end + kPassed)) return Done::no;
+  // Where a stop happens to end right in front of a place that is no rest of the path, what is left is gone when the path goes on.
+  const bool beside = follower_.halted() && !follower_.at_path_end();
+  if (follower_.at_rest() ? u < (beside ? end : nearly(end)) : !(u > end + kPassed)) return Done::no;
   return passed(r);
 }
 

@@ -122,7 +122,7 @@ inline void derivatives(const Piece& p, double x, unsigned axis_count, CurvePoin
 inline constexpr double kUnseen = 2e-15;
 /// mm in front of the end of a piece that no axis shows: a path that has come so near to it has come to it. An axis may turn by thousands of degrees
 /// for each mm of a piece, so a length alone does not say that. `way` mm were added up to come there, with their rounding.
-inline double unseen(const Piece& p, const Limits& limits, double way) {
+inline double unseen(const Piece& p, const Limits& limits, double way) NC_RT {
   constexpr double kMost = 1e-9, kRounding = 3e-14;
   double least = kMost;
   CurvePoint q;
