@@ -206,6 +206,10 @@ def judge_change(contour, moves, paths):
     while b + 1 < len(elements) and elements[b].length() < NO_DIRECTION:
         b += 1
     before, behind = contour.lines_of[a], contour.lines_of[b]
+    if elements[a].length() < NO_DIRECTION:  # the way in is what has a direction
+        before = 0
+    if elements[b].length() < NO_DIRECTION:
+        behind = contour.spans[0][1]
     beside = [each for each in paths if before <= each[0] <= behind]
     others = [each for each in paths if not before <= each[0] <= behind]
     rest = [e.points() for i, e in enumerate(elements) if not a <= i <= b and e.length() > TOLERANCE]  # of a shorter one the ends are those of its neighbours
