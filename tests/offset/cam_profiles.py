@@ -202,6 +202,11 @@ class Profile(contours.Contour):
                 lines.append(f"G{0 if lead.rapid else 1} G40 X{end[0]:.6f} Y{end[1]:.6f}{up}")
             begin = end
 
+    def changes_in_a_tiny_line(self):
+        """Half a micrometre does not scale: from there on a line beside the change of side is a block."""
+        k = self.cross
+        return k is not None and min(self.programmed[k - 1].length(), self.programmed[k].length()) < 0.0005
+
     def reversible(self):
         return not (self.corners or self.beyond or len(self.cuts) > 1 or self.approach.vector or self.depart.vector)
 
