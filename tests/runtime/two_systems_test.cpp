@@ -454,6 +454,25 @@ TEST_F(TwoSystems, ModeAndResetAreOfTheWholeControl) {
   EXPECT_EQ(runtime->snapshot().mode, Mode::kMdi);
 }
 
+// M700 12.4.4 (1): there are no MDI blocks in the block stop of a program. The operator is told, and the program goes on from there.
+TEST_F(TwoSystems, NoBlocksOfMdiInABlockStop) {
+  build();
+  ASSERT_EQ(select(1, "G1 X1. F6000\nG1 X2.\nM30\n"), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 1), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  steps(600);
+  ASSERT_EQ(now(1).nc.state, NC_STATE_STOPPED);
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  const Answer answer = runtime->load_mdi("S1000 M3\n", 1);
+  EXPECT_EQ(answer, Answer::kRefusedByControl);
+  EXPECT_NE(runtime->explain(answer).find("a program is interrupted"), std::string::npos);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 0), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
+  finish();
+  EXPECT_NEAR(x(1), 2, 1e-9);
+}
+
 // Each has its own count of runs, which counts also a block that ends before anybody looks.
 TEST_F(TwoSystems, RunsAreCountedForEach) {
   build();
