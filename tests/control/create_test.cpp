@@ -498,5 +498,20 @@ TEST(Create, TellsTheKeysOfParametersByTheirRole) {
   EXPECT_EQ(nc_parameter_key_get(nullptr, NC_PARAMETER_TOOL_MEMORY, nullptr), NC_E_ARGUMENT);
 }
 
+// And how it reads lengths without a decimal point.
+TEST(Create, TellsWhatLengthsWithoutAPointAre) {
+  const auto whole = [](auto&& bench) {
+    bool found = false;
+    EXPECT_EQ(nc_undotted_get(bench.control(), 0, &found), NC_OK);
+    return found;
+  };
+  Bench m700(NC_DIALECT_M700), dgshape(NC_DIALECT_DGSHAPE);
+  EXPECT_FALSE(whole(m700) || whole(dgshape) || whole(Bench(NC_DIALECT_HX)));
+  EXPECT_TRUE(whole(Bench(NC_DIALECT_ISO)) && whole(Bench(NC_DIALECT_SERIES8)));
+  EXPECT_TRUE(whole(m700.param("1078", "1")) && whole(dgshape.param("interpretation", "calculator")));
+  EXPECT_EQ(nc_undotted_get(m700.control(), 0, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_undotted_get(m700.control(), 7, nullptr), NC_E_ARGUMENT);
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -429,7 +429,7 @@ TEST(HxManual, ConditionsHaveTheNumbersThatTheSectionsPrint) {
       {Condition::illegal_character, "F_82001"}, {Condition::arc_deviation, "F_82112"},     {Condition::arc_center, "F_82100"},
       {Condition::block_too_long, "F_82111"},    {Condition::reference_compare, "F_82209"}, {Condition::no_feed, "F_84020"},
       {Condition::measure_signal, "F_84022"},    {Condition::program_end, "F_82016"},       {Condition::sequence_missing, "F_82019"},
-      {Condition::mill_code, "F_82204"},         {Condition::mill_axis, "F_82208"},         {Condition::illegal_g, "F_82030"},
+      {Condition::polar_code, "F_82204"},        {Condition::polar_state, "F_82204"},       {Condition::mill_code, "F_82208"},         {Condition::mill_axis, "F_82208"},         {Condition::illegal_g, "F_82030"},
   };
   for (const auto& [condition, code] : printed) EXPECT_EQ(code_of(hx(), condition), code);
 }

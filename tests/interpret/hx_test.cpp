@@ -116,6 +116,23 @@ TEST(Hx, APoleThatAnIncrementHasSetStays) {  // 8.3, the printed program (G91), 
   EXPECT_EQ(hx("G00 X5. Y5.\nG16\nG91 X10. Y90.\nG90 X20. Y0\nM30").path(), (Path{"rapid 5 5 0", "rapid 5 15 0", "rapid 20 0 0"}));
 }
 
+TEST(Hx, RepetitionsGoOnByTheAngle) {  // 8.3, 12.1.2: K counts on by the words in G91, and the angle is one of them
+  const auto holes = [](const std::string& text) {
+    Path found;
+    for (const nc_move& move : hx(text).moves())
+      if (move.kind == NC_MOVE_LINE) found.push_back(brief(move.machine.v[0]) + " " + brief(move.machine.v[1]));
+    return found;
+  };
+  const Path arc = {"8.660254 5", "5 8.660254", "0 10"};
+  EXPECT_EQ(holes("G00 X0 Y0 Z10.\nG91 G16 G81 X10. Y30. Z-5. R-2. K3 F100\nM30"), arc);
+  EXPECT_EQ(holes("G00 X0 Y0 Z10.\nG16 G81 X10. Y30. Z-5. R2. F100\nG91 Y30. K2\nM30"), arc);
+  EXPECT_EQ(holes("G00 X0 Y0 Z10.\nG16 G81 X10. Y30. Z-5. R2. F100\nG91 Y30. K2\nY90.\nM30"), (Path{arc[0], arc[1], arc[2], "-10 0"}));  // and from there
+  EXPECT_EQ(holes("G00 X1. Y0 Z10.\nG91 G16 G81 X10. Z-5. R-2. K3 F100\nM30"), (Path{"11 0", "21 0", "31 0"}));  // the radius alone: outwards
+  EXPECT_EQ(holes("G16 G81 X10. Y30. Z-5. R2. K2 F100\nM30"), (Path{arc[0], arc[0]}));  // in G90 the same place
+  EXPECT_EQ(Bench(NC_DIALECT_M700).run("G00 X0 Y0 Z10.\nG16 G81 X10. Y30. Z-5. R2. F100\nG91 Y30. L2\nM30").path().size(), 13u);
+  EXPECT_EQ(Bench(NC_DIALECT_M700).run("G00 X0 Y0 Z10.\nG16 G81 X10. Y30. Z-5. R2. F100\nG91 Y30. L2\nM30").path().back(), "rapid 0 10 10");
+}
+
 TEST(Hx, OffsetsHave128Numbers) {  // 13.1.1, 14.2.3
   EXPECT_EQ(alarm_of("G43 H128 Z5.\nG41 D128 G01 X10. F100\nX20.\nG40 X0\nG10 L10 P128 R1.\nM30"), "");
   for (const char* block : {"G43 H129 Z5.", "G41 D129 G01 X10. F100"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "NC-OFFSET-DATA") << block;
@@ -206,6 +223,9 @@ TEST(Hx, LRepeatsACycleAsKDoes) {  // 12.2.2
 }
 
 TEST(Hx, ASubProgramNeedsItsReturn) {  // 2.4.3
+  const Outcome nothing = hx("M98\nM30");
+  EXPECT_EQ(nothing.alarm, alarm_of("G65\nM30"));
+  EXPECT_NE(nothing.alarm_detail.find('P'), std::string::npos) << nothing.alarm_detail;
   Bench bench(NC_DIALECT_HX);
   bench.add("O10.nc", "O10\nG00 X1.\n");
   EXPECT_EQ(bench.run("M98 P10\nM30").alarm, "F_82024");
@@ -273,11 +293,31 @@ TEST(Hx, PolarCoordinateInterpolationTakesTheFirstAxisAndTheOneThatTurns) {  // 
   EXPECT_NEAR(run.moves().back().machine.v[0], 60, 1e-6);
   for (const char* block : {"G81 X1. Z-1. R1. F10.", "G28 X0", "G00 X1.", "X1.", "G17", "G51 X0", "G92 X0", "G68 X0 Y0 R1."})
     EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).run(std::string("G00 X10.\nG112\n") + block + "\nM30").alarm, "F_82204") << block;
-  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).param("24624", "2").run("G112\nM30").alarm, "F_82208");  // Y does not turn
-  EXPECT_EQ(alarm_of("G112\nM30"), "F_82208");
+  EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).param("24624", "2").run("G112\nM30").alarm, "F_82204");  // Y does not turn
+  EXPECT_EQ(alarm_of("G112\nM30"), "F_82204");
 }
 
 // ---- scaling, mirror, rotation -------------------------------------------------------------------------------------------------
+
+TEST(Hx, FaultsOfG112AndG107HaveTheirNumbers) {  // 4.6 F_82204, 4.7 F_82208
+  const auto alarm = [](const std::string& text) { return Bench(NC_DIALECT_HX, with_c).run(text + "\nM30").alarm; };
+  const std::string polar = "G00 X50. C0\nG112\n", cylinder = "G18\nG107 C30.\n";
+  EXPECT_EQ(alarm_of("G112\nM30"), "F_82204");  // no axis turns
+  EXPECT_EQ(alarm(polar + "G112"), "F_82204");
+  EXPECT_EQ(alarm(polar + "G107 C30."), "F_82204");
+  EXPECT_EQ(alarm(polar + "G28 X0"), "F_82204");
+  EXPECT_EQ(alarm(polar + "G18"), "F_82204");
+  EXPECT_EQ(alarm(polar + "G00 X10."), "F_82204");
+  EXPECT_EQ(alarm(polar + "G01 X-50. F100"), "F_82204");  // through the centre
+  EXPECT_EQ(alarm("G68 X0 Y0 R30.\nG112"), "F_82204");
+  EXPECT_EQ(alarm_of("G107 C30.\nM30"), "NC-AXIS");      // there is no C
+  EXPECT_EQ(alarm("G107 X30."), "F_82208");
+  EXPECT_EQ(alarm(cylinder + "G28 Z0"), "F_82208");
+  EXPECT_EQ(alarm(cylinder + "G107 C40."), "F_82208");
+  EXPECT_EQ(alarm(cylinder + "G112"), "F_82208");
+  EXPECT_EQ(alarm(cylinder + "T1"), "F_82208");
+  EXPECT_EQ(alarm("G68 X0 Y0 R30.\nG107 C30."), "F_82208");
+}
 
 TEST(Hx, ScalingHasAFactorForEachAxis) {  // 15.2
   EXPECT_EQ(hx("G51 X0 Y0 Z0 P2000\nG01 X10. Y10. F100.\nG50\nX1.\nM30").path(), (Path{"line 20 20 0 F100", "line 1 20 0 F100"}));
@@ -413,6 +453,16 @@ TEST(Hx, BlocksOfMdiCallNoSubProgram) {  // 2.4.3
   ASSERT_EQ(nc_mdi_load(bench.control(), 0, text.data(), text.size()), NC_OK);
   const Outcome run = bench.finish();
   EXPECT_EQ(run.alarm, "F_82113");
+}
+
+TEST(Hx, BlocksOfMdiEndTheirLoops) {  // 14.2.5
+  const auto mdi = [](const std::string& text) {
+    Bench bench(NC_DIALECT_HX);
+    EXPECT_EQ(nc_mdi_load(bench.control(), 0, text.data(), text.size()), NC_OK);
+    return bench.finish().alarm;
+  };
+  EXPECT_EQ(mdi("WHILE [1 EQ 1] DO1"), "NC-LOOP");
+  EXPECT_EQ(mdi("#1=0 ; WHILE [#1 LT 2] DO1 ; #1=#1+1 ; END1"), "");
 }
 
 TEST(Hx, TheMainProgramIsRepeatedAsOftenAsLSays) {  // 2.4.4

@@ -268,7 +268,7 @@ TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
   EXPECT_EQ(iso("G0 X10\nG10 L20 P1 X2\nG0 X3\nG10 L20 P2 X0\nG55 X1").path(), (Path{"rapid 10 0 0", "rapid 11 0 0", "rapid 12 0 0"}));
   EXPECT_EQ(iso("#5222=4\nG0 Y0").path(), (Path{"rapid 0 4 0"}));
   EXPECT_EQ(alarm_of("G10 L2 P10 X1"), "NC-RANGE");
-  EXPECT_EQ(alarm_of("G10 L2 X1"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G10 L2 X1"), "NC-WORDS");
   EXPECT_EQ(alarm_of("G10 L2 P1 X1 R10"), "NC-NOT-BUILT");
   EXPECT_EQ(alarm_of("G10 L1 P1 Z1"), "NC-NOT-BUILT");
 }
@@ -336,6 +336,29 @@ TEST(IsoProbe, NoContactIsAnAlarmOrNot) {  // LinuxCNC G38
   EXPECT_EQ(bench.at(0, 0, 0).run("G38.2 Z-10").alarm, "NC-FEED");
 }
 
+TEST(IsoProbe, LeavesTheWorkUntilTheContactIsLost) {  // LinuxCNC G38.4, G38.5
+  Bench bench(NC_DIALECT_ISO);
+  const Outcome stays = bench.run("F100\nG38.4 Z10\nG0 Z0");
+  EXPECT_EQ(stays.alarm, "NC-PROBE");
+  EXPECT_EQ(stays.alarm_line, 2u);
+  EXPECT_TRUE(stays.moves().at(0).skip_away);
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG38.5 Z10\nG0 Z0").path(), (Path{"skip 0 0 10 F100", "rapid 0 0 0"}));
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  EXPECT_EQ(bench.at(0, 0, 0).run("G38.4 Z10 F150\nG1 X#5063").path(), (Path{"skip 0 0 10 F150", "line 5 0 5 F150"}));
+  EXPECT_FALSE(bench.at(0, 0, 0).run("G38.3 Z-10 F150").moves().at(0).skip_away);
+}
+
+TEST(IsoProbe, TheSignalHasToChange) {  // LinuxCNC G38: an error where it is as at the end already, and where there is no way
+  Bench bench(NC_DIALECT_ISO);
+  bench.skip_at = [](const nc_item&) { return 0.0; };
+  for (const char* code : {"G38.2", "G38.3", "G38.4", "G38.5"}) {
+    const Outcome run = bench.at(0, 0, 0).run(std::string("F100\n") + code + " Z-10\nG0 Z5");
+    EXPECT_EQ(run.alarm, "NC-PROBE") << code;
+    EXPECT_EQ(run.alarm_line, 2u) << code;
+    EXPECT_EQ(bench.at(0, 0, -10).run(std::string("F100\n") + code + " Z-10").alarm, "NC-PROBE") << code;
+  }
+}
+
 // ---- M codes and what is not there ----------------------------------------------------------------------------------------------------
 
 TEST(IsoMisc, OverridesAreBarredAndAllowed) {  // RS-274/NGC 3.6.5
@@ -389,12 +412,16 @@ TEST(IsoCycles, TheAxisFollowsThePlane) {  // RS-274/NGC 3.5.16
 }
 
 TEST(Iso, WhatIsNotBuiltSaysSo) {
-  for (const char* text : {"G33.1 Z-1 K1", "G38.4 Z1", "G43.2 H1", "G41.1 D1", "G52 X1", "G76 P1", "G5.2", "G7", "G28.1", "M51 P0", "M52 P1", "M70", "M98 P1",
+  for (const char* text : {"G33.1 Z-1 K1", "G43.2 H1", "G41.1 D1", "G52 X1", "G5.2", "G28.1", "M51 P0", "M52 P1", "M70", "M98 P1",
                            "M99"}) {
     const Outcome run = iso(std::string("G21\n") + text);
     EXPECT_EQ(run.alarm, "NC-NOT-BUILT") << text;
     EXPECT_EQ(run.alarm_line, 2u) << text;
   }
+  for (const char* text : {"G76 P0.05 Z-1 I-.075 J.008 K.045 Q29.5 L2 E.045", "G7", "G8"}) EXPECT_EQ(alarm_of(text), "NC-LATHE") << text;
+  EXPECT_NE(iso("G76 P1").alarm_detail.find("on a lathe"), std::string::npos) << iso("G76 P1").alarm_detail;
+  EXPECT_EQ(iso("M51 P0").alarm_detail, "M51 P0: no program bars the override of the spindle.");
+  EXPECT_EQ(iso("M52 P1").alarm_detail, "M52 P1: there is no signal of an adaptive feed.");
   EXPECT_EQ(alarm_of("G12"), "NC-NO-SUCH-CODE");
   EXPECT_EQ(alarm_of("E5"), "NC-ADDRESS");  // a letter of M66 to M68 alone
 }

@@ -97,7 +97,7 @@ TEST(Series8, ACornerIsPutBetweenTwoLines) {  // G10
   EXPECT_EQ(printed[0].substr(0, 6), "line 0");
   EXPECT_EQ(path_of("F10\nG01G10X10L2\nY10"), (Path{"line 8 0 0 F10", "line 10 2 0 F10", "line 10 10 0 F10"}));
   EXPECT_EQ(alarm_of("F10\nG01G10X10\nY10"), "NC-WORDS");
-  EXPECT_EQ(alarm_of("F10\nG01G10X10L1R1\nY10"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F10\nG01G10X10L1R1\nY10"), "NC-FORMAT");
   EXPECT_EQ(alarm_of("F10\nG00G10X10L1\nY10"), "NC-CORNER");
   EXPECT_EQ(alarm_of("F10\nG01G10X10L1\nG02X20R5"), "NC-CORNER");
 }

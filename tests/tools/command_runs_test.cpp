@@ -136,12 +136,11 @@ TEST_F(CommandTest, ALoopThatComesToItsEndIsNotCut) {
   EXPECT_EQ(ncsim("check p.nc").code, 3);
 }
 
-// A loop that comes back to a state that it has had before: in every pass, in every second or third one, or from some pass on.
 // G06 of the Series 8 goes to and fro for as long as an input is on, which the setup leaves on.
 TEST_F(CommandTest, ABlockThatNeverEndsIsGivenUp) {
   file("p.s8", "F100\nG06X10Y5F1000\nM30\n");
   file("on.json", R"({"inputs":{"1000":1}})");
-  for (const char* command : {"check", "trace"}) {
+  for (const char* command : {"check", "trace", "time --cycle-us 10000"}) {
     const Outcome run = ncsim(std::string(command) + " --dialect series8 --setup on.json p.s8");
     EXPECT_EQ(run.code, 3) << command << run.err;
     EXPECT_NE((run.err + run.out).find("line 2: 100 passes within this block, the last one without any change: an endless loop"), std::string::npos) << run.err << run.out.substr(0, 300);
@@ -149,6 +148,15 @@ TEST_F(CommandTest, ABlockThatNeverEndsIsGivenUp) {
   EXPECT_EQ(ncsim("check --dialect series8 p.s8").code, 0);
 }
 
+// A cycle without the point of its Q: so many strokes that nobody has meant them.
+TEST_F(CommandTest, ABlockOfMillionsOfMovesIsGivenUp) {
+  file("p.s8", "F100\nG83X1Z-1000R1I0J.0001\nM30\n");
+  const Outcome run = ncsim("check --dialect series8 p.s8");
+  EXPECT_EQ(run.code, 3) << run.err;
+  EXPECT_NE(run.err.find("line 2: 1000000 moves of this block alone, and it goes on"), std::string::npos) << run.err;
+}
+
+// A loop that comes back to a state that it has had before: in every pass, in every second or third one, or from some pass on.
 TEST_F(CommandTest, ALoopThatGoesRoundIsGivenUp) {
   struct {
     const char* program;

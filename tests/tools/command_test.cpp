@@ -361,6 +361,22 @@ TEST_F(CommandTest, CheckNotesNumbersThatWereHardlyMeant) {
   EXPECT_EQ(notes("G4 P1.00000\nM30\n", R"({"params": {"8112": 1}})"), "");
 }
 
+// Families that have no parameter for it: the program is one of another family, which is said as it is where it has an alarm.
+TEST_F(CommandTest, CheckNotesNumbersOfAnotherFamily) {
+  file("p.ngc", "g20 g64\ng0z1\ng0x0y0\ng1z-.1f24\ng1x1.5y2\nm30\n");
+  const Outcome hx = ncsim("check --dialect hx p.ngc");
+  EXPECT_EQ(hx.code, 0) << hx.out;
+  EXPECT_NE(hx.err.find("note: p.ngc:2: Z1 and 1 more number without a decimal point are read in the least command unit"), std::string::npos) << hx.err;
+  EXPECT_NE(hx.err.find("note: this looks like a program of iso, as which it ends without an alarm; try --dialect iso\n"), std::string::npos) << hx.err;
+  EXPECT_EQ(ncsim("check --dialect iso p.ngc").err, "");
+  file("p.nc", "%\nG21G90\nG00X1.5\nX7\nM30\n");
+  EXPECT_NE(ncsim("check --dialect dgshape p.nc").err.find("note: p.nc:4: X7 without a decimal point is read"), std::string::npos);
+  file("s.json", R"({"params": {"interpretation": "calculator"}})");
+  EXPECT_EQ(ncsim("check --dialect dgshape --setup s.json p.nc").err, "");
+  file("p.nc", "G00 X10000\nX20000\nM30\n");
+  EXPECT_EQ(ncsim("check --dialect hx p.nc").err.find("looks like"), std::string::npos) << "thousandths throughout";
+}
+
 TEST_F(CommandTest, VariablesOfAProgram) {
   file("p.nc", "#500=#5001\nM98 P7\nM98 P8\nM98 P#500\nO7 #1100=1\nM99\n");
   file("O8", "#[#1+2]=#1000\n#500=1\nM99\n");

@@ -113,6 +113,33 @@ TEST(Skip, ASignalThatIsOnEndsADwell) {  // M700 15.3 (2)
   EXPECT_EQ(world.answer(0).power_on_ms, 10000);
 }
 
+TEST(Skip, AMoveAwayEndsWhereNothingIsTouched) {
+  const tools::Setup setup = setup_of(R"({"skip": [{"box": {"X": [20, 30], "Y": [-5, 5]}}, {"box": {"X": [28, 40], "Y": [-5, 5]}}]})");
+  VirtualWorld world(setup, xyz());
+  const auto away = [&](nc_axes from, nc_axes to, uint8_t mask = 1) {
+    nc_move m = skip_move(from, to, mask);
+    m.skip_away = true;
+    world.execute(&m);
+    return m.machine.v[0];
+  };
+  EXPECT_NEAR(away({{22, 0, 0}}, {{-50, 0, 0}}), 20, 1e-6);
+  EXPECT_TRUE(world.skipped());
+  EXPECT_NEAR(away({{25, 0, 0}}, {{100, 0, 0}}), 40, 1e-6) << "out of the one within the other";
+  EXPECT_NEAR(away({{20, 0, 0}}, {{0, 0, 0}}), 20, 1e-6) << "where a probe has just touched";
+  EXPECT_LT(world.answer(NC_SYNC_SKIP).machine.v[0], 20) << "and it has moved";
+  EXPECT_TRUE(world.skipped());
+  EXPECT_EQ(away({{22, 0, 0}}, {{29, 0, 0}}), 29) << "it stays inside";
+  EXPECT_FALSE(world.skipped());
+  EXPECT_EQ(away({{5, 0, 0}}, {{0, 0, 0}}), 5) << "it touches nothing where it begins";
+  EXPECT_TRUE(world.skipped());
+  const tools::Setup of_work = setup_of(R"({"skip": [{"coordinates": "work", "ball": {"radius": 3}, "box": {"X": [50, 90], "Y": [0, 60], "Z": [-30, 8]}}]})");
+  VirtualWorld ball(of_work, xyz());
+  nc_move out = skip_move({{40, 20, -5}}, {{0, 20, -5}});
+  out.skip_away = true;
+  ASSERT_TRUE(ball.execute(&out));
+  EXPECT_NEAR(out.work.v[0], 47, 1e-6);
+}
+
 TEST(Clock, GoesByLengthOverFeedRapidsDwellsAndReads) {
   const tools::Setup setup = setup_of(R"({"clock": "1970-01-01T00:00:00"})");
   VirtualWorld world(setup, xyz());

@@ -272,9 +272,11 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how == RunResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);
-  if (options.tape.empty()) note_numbers(session, err);
-  if (result.how == RunResult::How::kAlarmed) {
-    const std::string other = dialect_note(dialects_without_alarm(options, limits, nc_dialect_name(static_cast<nc_dialect>(session.config().dialect))));
+  const bool foreign_numbers = options.tape.empty() && note_numbers(session, err);
+  if (result.how == RunResult::How::kAlarmed || foreign_numbers) {
+    const std::string own = nc_dialect_name(static_cast<nc_dialect>(session.config().dialect));
+    const bool alarmed = result.how == RunResult::How::kAlarmed;
+    const std::string other = dialect_note(dialects_without_alarm(options, limits, own, !alarmed));
     if (!other.empty()) std::fprintf(err, "%s\n", other.c_str());
   }
   if (result.how == RunResult::How::kAlarmed)

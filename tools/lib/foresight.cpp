@@ -33,7 +33,7 @@ bool Foresight::commit(const nc_item& item, uint32_t main_line) {
   const bool put_off = entry.put_off;
   if (!put_off && item.kind == NC_ITEM_MOVE && entry.listens) {
     const nc_move& move = item.u.move;
-    probe_ = {item.serial, world_.take_hit(item.source, move), move.machine_start, {}, 0.0};
+    probe_ = {item.serial, world_.take_hit(item.source, move), move.machine_start, {}, 0.0, move.skip_away};
     for (unsigned a = 0; a < axis_count_; ++a) probe_.by.v[a] = move.machine.v[a] - move.machine_start.v[a];
   }
   if (entry.listens || !entry.events.empty()) ahead_.push_back(std::move(entry));
@@ -80,7 +80,8 @@ OutsideSignals Foresight::signals(const nc_axes& command, const nc_axes& work) {
   }
   found.skip |= world_.solids_at(command, work);
   const bool probing = probe_.serial != 0 && (listener == probe_.serial || executed_ >= probe_.serial);
-  if (probing && touches(command)) found.skip |= 1u << (probe_.touch.signal - 1);
+  const bool leaves = probe_.away && probe_.touch.hit != SIZE_MAX;  // the signal is on until the place of the hit has come
+  if (probing && touches(command) != leaves) found.skip |= 1u << (probe_.touch.signal - 1);
   return found;
 }
 

@@ -48,6 +48,7 @@ class Foresight {
     VirtualWorld::Touch touch;
     nc_axes from = {}, by = {};
     double part = 0.0;  // part of its way that is done, 0 to 1
+    bool away = false;  // it listens to the end of a signal
   };
   void go_back(uint64_t serial);
   uint64_t next_listener() const;

@@ -130,30 +130,33 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
   return hints;
 }
 
-void note_numbers(const Session& session, std::FILE* err) {
+bool note_numbers(const Session& session, std::FILE* err) {
   // M700 5.3: in type II a number without a point is in mm. 8.1: P is in ms, with a point or without, unless a parameter makes the point count.
   const std::string type_2 = switched_off(session, NC_PARAMETER_DECIMAL_TYPE_2), dwell_point = switched_off(session, NC_PARAMETER_DWELL_POINT);
-  if (type_2.empty() && dwell_point.empty()) return;
+  bool whole = true;
+  nc_undotted_get(session.control(), kPartSystem, &whole);
+  if (whole && dwell_point.empty()) return false;
   const std::string text = session.main_text();
   const nc_config& config = session.config();
   std::string letters;
   for (unsigned i = 0; i < config.system[kPartSystem].axis_count; ++i) letters += config.system[kPartSystem].axis[i].name;
-  const NumberHints hints = number_hints(text, session.dialect(), letters, !type_2.empty());
+  const NumberHints hints = number_hints(text, session.dialect(), letters, !whole);
   nc_source source = {};
   source.file = session.main_file();
   const std::string file = rt::valid_utf8(session.file_name(source));
   constexpr const char* kUnit = "read in the least command unit (0.001 mm, 0.0001 inch or 0.001 deg unless parameters say otherwise)";
   const auto without = static_cast<unsigned long long>(hints.without_point);
-  if (!type_2.empty() && hints.doubtful())
-    std::fprintf(err, "note: %s:%u: %s%s without a decimal point %s %s; with #%s = 1 %s mm\n", file.c_str(), hints.first_without, hints.first_word.c_str(),
-                 without == 1 ? "" : (" and " + more(without - 1, "number")).c_str(), without == 1 ? "is" : "are", kUnit, type_2.c_str(),
-                 without == 1 ? "it is" : "they are");
-  else if (!type_2.empty() && without != 0)
+  const std::string by_parameter = type_2.empty() ? "" : "; with #" + type_2 + " = 1 " + (without == 1 ? "it is mm" : "they are mm");
+  if (!whole && hints.doubtful())
+    std::fprintf(err, "note: %s:%u: %s%s without a decimal point %s %s%s\n", file.c_str(), hints.first_without, hints.first_word.c_str(),
+                 without == 1 ? "" : (" and " + more(without - 1, "number")).c_str(), without == 1 ? "is" : "are", kUnit, by_parameter.c_str());
+  else if (!whole && without != 0)
     std::fprintf(err, "note: %s: all numbers are without a decimal point, %llu from line %u on, and %s; the largest is %s\n", file.c_str(), without,
                  hints.first_without, kUnit, hints.largest_word.c_str());
   if (!dwell_point.empty() && hints.dwells != 0)
     std::fprintf(err, "note: %s:%u: %s of a dwell counts milliseconds, and the point does not count (#%s)%s\n", file.c_str(), hints.first_dwell,
                  hints.dwell_word.c_str(), dwell_point.c_str(), hints.dwells == 1 ? "" : ("; " + more(hints.dwells - 1, "dwell")).c_str());
+  return !whole && hints.doubtful() && type_2.empty();
 }
 
 }  // namespace nc::tools

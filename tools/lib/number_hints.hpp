@@ -36,7 +36,10 @@ struct NumberHints {
  */
 NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes, bool lengths);
 
-/** Prints on `err` the hints that apply with the parameters of this control. */
-void note_numbers(const Session& session, std::FILE* err);
+/**
+ * Prints on `err` the hints that apply with the parameters of this control. Returns true when numbers were probably meant in whole mm or inch, and the family
+ * has no parameter to read them so: the program is then likely to be one of another family.
+ */
+bool note_numbers(const Session& session, std::FILE* err);
 
 }  // namespace nc::tools

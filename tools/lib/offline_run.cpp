@@ -9,6 +9,7 @@ namespace nc::tools {
 namespace {
 
 constexpr uint32_t kBudget = 4096;  // blocks that one pull may read
+constexpr uint64_t kMostMovesInBlock = 1000000;  // a cycle with a peck of a thousandth of what was meant
 constexpr uint32_t kMacroInterrupt = 96;  // index of the action of M96, M97 and the interrupt program
 
 class OfflineRun {
@@ -96,6 +97,11 @@ class OfflineRun {
     switch (item.kind) {
       case NC_ITEM_MOVE:
         move(item);
+        if (++moves_in_block_ >= kMostMovesInBlock) {
+          give_up("line " + std::to_string(item.source.line) + ": " + std::to_string(kMostMovesInBlock) +
+                  " moves of this block alone, and it goes on: is a decimal point missing in its words?");
+          return false;
+        }
         break;
       case NC_ITEM_ACTION:
         action(item);
@@ -190,6 +196,7 @@ class OfflineRun {
   void mark(const nc_item& item) {
     work_ = item.u.mark.work;
     modal_ = item.u.mark.modal;
+    moves_in_block_ = 0;
     if (!item.u.mark.report) return;
     last_mark_ = item.serial;
     if (item.u.mark.again) result_.one_pass = one_pass_ || !passes_differ();
@@ -246,6 +253,7 @@ class OfflineRun {
   uint64_t silent_ = 0;         // number of blocks since something happened
   uint64_t empty_lines_ = 0;    // number of lines without a block since the last item
   uint32_t furthest_line_ = 0;  // last line of the main program on which a block was executed
+  uint64_t moves_in_block_ = 0;
   uint64_t last_mark_ = 0;      // serial number of the last mark
   uint32_t modal_ = 0;
   bool ended_ = false, interrupt_ = false;

@@ -8,10 +8,12 @@
 namespace nc::tools {
 namespace {
 
-bool ends_well(const SessionOptions& options, const RunLimits& limits) {
+bool ends_well(const SessionOptions& options, const RunLimits& limits, bool whole_numbers) {
   Session session;
   std::string error;
   if (!session.configure(options, &error) || !session.start(options, &error)) return false;
+  bool whole = true;
+  if (whole_numbers && (nc_undotted_get(session.control(), kPartSystem, &whole) != NC_OK || !whole)) return false;
   ControlSource items(session.control(), session.dialect());
   VirtualWorld world(session.setup(), session.config().system[0]);
   RunSink nothing;
@@ -22,7 +24,7 @@ bool ends_well(const SessionOptions& options, const RunLimits& limits) {
 
 }  // namespace
 
-std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own) {
+std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers) {
   std::vector<std::string> found;
   if (options.program == "-" || !options.tape.empty()) return found;
   for (const std::string& name : dialect_names()) {
@@ -32,7 +34,7 @@ std::vector<std::string> dialects_without_alarm(const SessionOptions& options, c
     other.print.clear();
     other.setup.clear();  // they belong to the family of the program as it was given
     other.machine.clear();
-    if (!ends_well(other, limits)) continue;
+    if (!ends_well(other, limits, whole_numbers)) continue;
     if (name == own) return {};  // it is one of this family, and what is wrong comes from the setup or the machine
     found.push_back(name);
   }

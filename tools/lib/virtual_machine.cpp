@@ -165,12 +165,13 @@ class VirtualMachine {
     // With a servo the measured position changes by itself, so reading it counts as well.
     const uint32_t by_itself = servo_ != nullptr ? NC_SYNC_CLOCK | NC_SYNC_POSITION : +NC_SYNC_CLOCK;
     if (world_.changes() || (item.kind == NC_ITEM_SYNC && (item.u.sync.what & by_itself) != 0)) loops_.asked();
-    if (item.kind != NC_ITEM_MARK || !item.u.mark.report) return true;
-    given_up_ = loops_.block(item.source, [this] {
+    const auto state = [this] {
       uint64_t hash = 0;
       nc_program_state_hash(control_, kPartSystem, &hash);
       return hash;
-    });
+    };
+    if (item.kind == NC_ITEM_SYNC && (item.u.sync.what & NC_SYNC_INPUT) != 0) given_up_ = loops_.block_goes_on(item.source, state);  // within its block
+    if (item.kind == NC_ITEM_MARK && item.u.mark.report) given_up_ = loops_.block(item.source, state);
     return true;  // the end of the pass is still executed, but nothing after it
   }
 

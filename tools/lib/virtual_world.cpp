@@ -150,13 +150,13 @@ void VirtualWorld::put_back(const Touch& touch) {
   if (touch.hit < hits_.size()) hits_[touch.hit].taken = hits_[touch.hit].missed = false;
 }
 
-// The first event within the next `seconds` that switches on a signal of the mask.
-const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask) const {
+// The first event within the next `seconds` that switches on (off) a signal of the mask.
+const SetupEvent* VirtualWorld::signal_within(double seconds, uint32_t mask, bool off) const {
   const SetupEvent* first = nullptr;
   for (const SetupEvent* event : time_events_) {
     if (!(*event->seconds < seconds_ + seconds) || (first && *event->seconds >= *first->seconds)) continue;
     for (const auto& [name, on] : event->signals)
-      if (on && (skip_bit(name) & mask)) first = event;
+      if (on != off && (skip_bit(name) & mask)) first = event;
   }
   return first;
 }
@@ -175,6 +175,49 @@ double VirtualWorld::first_entry(const nc_move& move) const {
   return entry;
 }
 
+// The probe touches the solid at this part of the way, on its surface as well: a probe that has just touched stands there.
+bool VirtualWorld::touches_at(const nc_move& move, const SkipSolid& solid, double part) const {
+  nc_axes machine = move.machine_start, work = move.machine_start;
+  for (unsigned a = 0; a < axis_count_; ++a) {
+    machine.v[a] += part * (move.machine.v[a] - move.machine_start.v[a]);
+    work.v[a] = machine.v[a] + move.work.v[a] - move.machine.v[a];
+  }
+  if (solid.probe) return solid.probe->clearance(setup_.linear(solid.probe->work ? work : machine), machine.v) < kTouch;
+  bool inside = true;
+  for (unsigned a = 0; a < axis_count_; ++a)
+    inside = inside && (!solid.bounded[a] || (machine.v[a] > solid.low[a] - kTouch && machine.v[a] < solid.high[a] + kTouch));
+  return inside;
+}
+
+// The part of the way at which the path leaves a solid that it touches on its way; infinity when it ends in it. The way back enters where the way leaves.
+double VirtualWorld::exit_of(const nc_move& move, const SkipSolid& solid, double length) const {
+  nc_move back = move;
+  back.machine_start = move.machine;
+  back.machine = move.machine_start;
+  for (unsigned a = 0; a < axis_count_; ++a) back.work.v[a] = back.machine.v[a] + move.work.v[a] - move.machine.v[a];
+  const double entry = solid.probe ? first_probe(back, solid) : first_box(back, solid, length);
+  if (!(entry <= 1.0)) return 0.0;  // it lies along its surface
+  return entry > 0.0 ? 1.0 - entry : kNever;
+}
+
+// The smallest parameter at which no signal of the move's mask is on; infinity when one stays on.
+double VirtualWorld::first_exit(const nc_move& move) const {
+  if (signals_.skip & move.skip_mask) return kNever;
+  double length = 0.0;
+  for (unsigned a = 0; a < axis_count_; ++a) length = std::hypot(length, move.machine.v[a] - move.machine_start.v[a]);
+  double part = 0.0, next = 0.0;
+  bool touched = false;
+  do {
+    part = next;
+    for (const SkipSolid& solid : setup_.skip) {
+      if (!(move.skip_mask & (1u << (solid.signal - 1))) || !touches_at(move, solid, part)) continue;
+      touched = true;
+      next = std::max(next, exit_of(move, solid, length));
+    }
+  } while (next > part && next <= 1.0);
+  return touched && length > 0.0 ? std::max(next, kTouch / length) : next;  // it has moved
+}
+
 double VirtualWorld::duration(const nc_move& move) const {
   double feed = move.feed_mm_min;
   if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
@@ -186,9 +229,10 @@ bool VirtualWorld::execute(nc_move* move) {
   double part = 1.0;
   const SetupEvent* switched_on = nullptr;
   if (move->kind == NC_MOVE_SKIP) {
-    double entry = std::min(first_entry(*move), take_hit(now_, *move).part);
+    const Touch hit = take_hit(now_, *move);
+    double entry = !move->skip_away ? std::min(first_entry(*move), hit.part) : hit.hit != SIZE_MAX ? hit.part : first_exit(*move);
     const double all = duration(*move);
-    switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask);
+    switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask, move->skip_away);
     if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
     skipped_ = entry <= 1.0;
     if (skipped_) {

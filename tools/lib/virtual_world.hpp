@@ -115,9 +115,12 @@ class VirtualWorld {
   double duration(const nc_move& move) const;
   double first_box(const nc_move& move, const SkipSolid& solid, double length) const;
   double first_probe(const nc_move& move, const SkipSolid& solid) const;
-  const SetupEvent* signal_within(double seconds, uint32_t mask) const;
+  const SetupEvent* signal_within(double seconds, uint32_t mask, bool off = false) const;
   bool fire_due(const nc_item& item, uint32_t main_line);
   double first_entry(const nc_move& move) const;
+  bool touches_at(const nc_move& move, const SkipSolid& solid, double part) const;
+  double exit_of(const nc_move& move, const SkipSolid& solid, double length) const;
+  double first_exit(const nc_move& move) const;
 
   const Setup& setup_;
   unsigned axis_count_;

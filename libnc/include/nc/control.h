@@ -200,6 +200,15 @@ typedef enum nc_parameter_role {
 NC_API nc_status nc_parameter_key_get(const nc_control* control, nc_parameter_role role, char key[24]);
 
 /**
+ * How lengths and positions without a decimal point are read, with the parameters that are set. Feeder thread.
+ * @param control the control
+ * @param system index of the part system
+ * @param whole receives true: in whole mm, inch or deg (X10 is 10 mm); false: in the least unit of the dialect (X10 is 0.010 mm)
+ * @return NC_OK; NC_E_ARGUMENT: an argument is not valid
+ */
+NC_API nc_status nc_undotted_get(const nc_control* control, unsigned system, bool* whole);
+
+/**
  * Set one entry of the work offset tables. Feeder thread.
  * @param control the control
  * @param system part system, from 0

@@ -146,6 +146,7 @@ typedef struct nc_move {
   bool curved;              /**< the path of the axes is neither a line nor a circle of theirs: nc_move_point() gives its points */
   uint8_t skip_mask;        /**< skip: the signals that end the move, bit n = signal n+1 */
   uint8_t index_axes;       /**< bit n: the move turns axis n, an index table, which is unclamped for it (M700 9.3) */
+  bool skip_away;           /**< skip: the move ends where all signals of skip_mask that it listens to are off (a probe that leaves the work) */
 } nc_move;
 
 /** Payload of an action. */

@@ -41,6 +41,8 @@ enum class Condition : uint16_t {
   tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,
   life_full, life_group, tap_apart, encoder_jumps,
   block_skip, sub_without_return,
+  polar_code, polar_axis, polar_modal, polar_state,   // as those of mill_..., of the polar coordinate interpolation
+  probe_contact, two_words,
   internal,
   count_
 };

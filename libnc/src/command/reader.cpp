@@ -139,7 +139,7 @@ bool CommandReader::calls_sub() const {
 Reading CommandReader::take_corner_code() {
   Command& w = w_;
   const bool round = w.has(Role::option_corner_radius), cut = w.has(Role::option_chamfer);
-  if (round == cut) return front_.refuse_code(Condition::words_missing, *w.corner_code);
+  if (round == cut) return front_.refuse_code(round ? Condition::two_words : Condition::words_missing, *w.corner_code);
   const Role word = round ? Role::option_corner_radius : Role::option_chamfer;
   w.corner = round ? Corner::rounding : Corner::chamfer;
   w.corner_size = w.written(word);

@@ -111,6 +111,12 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
   return in.parameter(key, index, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
+nc_status nc_undotted_get(const nc_control* c, unsigned system, bool* whole) {
+  if (!known(c, system) || whole == nullptr) return NC_E_ARGUMENT;
+  *whole = c->system[system].interpreter.tables().whole_positions();
+  return NC_OK;
+}
+
 nc_status nc_parameter_key_get(const nc_control* c, nc_parameter_role role, char key[24]) {
   using nc::Parameter;
   constexpr Parameter kRoles[] = {Parameter::decimal_type_2, Parameter::dwell_p_decimal, Parameter::tool_memory_type, Parameter::power_off_clears_common, Parameter::digit_feed};

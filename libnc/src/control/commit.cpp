@@ -337,6 +337,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.index_axes = index_axes(curve_);
       m.exact_stop = move.exact_stop || m.index_axes != 0;
       m.skip_mask = move.skip_mask;
+      m.skip_away = move.skip_away;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
       m.turns = move.circular ? extra_turns(circle_.sweep) : 0;
       m.curved = curve_.shape != nullptr;
@@ -480,6 +481,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       s.flows = s.rapid && item.move.flows;
       s.skip = item.move.kind == NC_MOVE_SKIP;
       s.skip_mask = item.move.skip_mask;
+      s.skip_away = item.move.skip_away;
       s.skip_speeds = item.move.skip_speeds;
       s.start_feed_mm_s = s.feed_mm_s;
       for (unsigned i = 0; s.skip_speeds != nullptr && i < SkipSpeeds::kSignals; ++i)

@@ -146,13 +146,13 @@ void PartSystem::take() {
 Fault PartSystem::refused(Committed committed) const {
   Fault fault;
   if (committed == Committed::at_pole) {
-    fault.condition = Condition::mill_state;
+    fault.condition = Condition::polar_state;
     return fault;
   }
   if (committed == Committed::displaced) {
     const Curve& curve = commit_.curve();
-    const bool mapped = curve.shape != nullptr && curve.shape->what.map.kind != AxisMap::Kind::none;
-    fault.condition = mapped ? Condition::mill_state : curve.shape != nullptr ? Condition::displaced : Condition::arc_deviation;
+    const AxisMap::Kind map = curve.shape != nullptr ? curve.shape->what.map.kind : AxisMap::Kind::none;
+    fault.condition = map == AxisMap::Kind::polar ? Condition::polar_state : map != AxisMap::Kind::none ? Condition::mill_state : curve.shape != nullptr ? Condition::displaced : Condition::arc_deviation;
     return fault;
   }
   if (committed == Committed::prohibited) {

@@ -194,6 +194,13 @@ constexpr Sentence kSentences[] = {
      "The modes in force (plane, compensation, surface speed) do not suit cylindrical or polar interpolation."},
     {C::mill_state, "{word} is not possible in this state of cylindrical or polar coordinate interpolation.",
      "The path of cylindrical or polar coordinate interpolation cannot be followed here."},
+    {C::polar_code, "{word} is not possible during polar coordinate interpolation.", "This is not possible during polar coordinate interpolation."},
+    {C::polar_axis, "{word}: the axis cannot take part in polar coordinate interpolation.",
+     "An axis of polar coordinate interpolation does not exist or cannot take part in it."},
+    {C::polar_modal, "{word} is not possible with polar coordinate interpolation: plane, radius compensation, surface speed.",
+     "The modes in force (plane, compensation, surface speed) do not suit polar coordinate interpolation."},
+    {C::polar_state, "{word} is not possible in this state of polar coordinate interpolation.",
+     "The path of polar coordinate interpolation cannot be followed here."},
     {C::space_arc_blocks, "An arc in space needs two blocks: the point on the way and the end point.",
      nullptr},
     {C::space_arc_mode, "{word} and the arc in space ({space_arc_first}, {space_arc_second}) exclude each other.",
@@ -278,7 +285,9 @@ constexpr Sentence kSentences[] = {
     {C::block_skip, "A block skip stands at the head of its block, as / or with the number of a switch, /1 to /9.", nullptr},
     {C::sub_without_return, "The text of the sub program ends without {word}.", "The text of the sub program ends without its return."},
     {C::call_in_mdi, "Blocks of MDI call no sub program. Put {word} into a program.", "Blocks of MDI call no sub program."},
-    {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr},
+    {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr, "The signal of the probe has not changed up to the end of {word}."},
+    {C::probe_contact, "The probe touches where the move begins: draw it back first.", nullptr, "{word}: where the move begins the signal of the probe is already as at its end."},
+    {C::two_words, "{word} and another word of the block exclude each other.", "Two words of the block exclude each other.", "{word} takes one of its two words, not both."},
     {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
      "A macro cannot be called by a code during a fixed cycle."},
@@ -303,7 +312,7 @@ constexpr Sentence kSentences[] = {
     {C::program_changed, "The file of the program has changed since it was selected: reset, and select it again.", nullptr},
     {C::vendor_function, "The machine's own function {word} could not be carried out.", "A function of the machine's own could not be carried out."},
     {C::tap_no_speed, "A tap needs the spindle speed {spindle_speed}; one that goes with the spindle has it in the block of its code.", nullptr},
-    {C::tap_no_pitch, "A tap that goes with the spindle needs its lead {feed}, in mm or inch per revolution.", nullptr},
+    {C::tap_no_pitch, "A tap that goes with the spindle needs its lead {word}, in mm or inch per revolution.", "A tap that goes with the spindle needs its lead, in mm or inch per revolution."},
     {C::tap_pitch, "{word} is no lead that can be tapped.", "The lead of the tap is out of range."},
     {C::tap_speed_word, "{word} is not possible while a tap that goes with the spindle is in force. Cancel it with {cycle_off}, or repeat its code.",
      "The spindle speed cannot be commanded while a tap that goes with the spindle is in force."},
@@ -414,6 +423,18 @@ bool complete(const Dialect& dialect, const char* sentence, const Fault& fault) 
   return true;
 }
 
+/// What the row of a code that is not there says of it, nullptr = nothing.
+const char* why_missing(const Dialect& dialect, const Fault& fault) {
+  if (fault.condition != C::no_function || !about_code(dialect, fault) || !fault.has_value || !(fault.value >= 0 && fault.value < 1e6)) return nullptr;
+  const long code = std::lround(fault.value);
+  if (dialect.addresses.is(fault.letter, Role::misc_code)) {
+    const MiscRow* const row = find_misc(dialect, static_cast<unsigned>(code));
+    return row != nullptr ? row->part : nullptr;  // what is not built of it begins with its words ("P0: ...")
+  }
+  const FunctionRow* const row = find_function(dialect, static_cast<int>(code));
+  return row != nullptr && row->missing != nullptr ? row->part : nullptr;
+}
+
 const char* choose(const Dialect& dialect, const Fault& fault) {
   for (const Sentence& row : kSentences) {
     if (row.condition != fault.condition) continue;
@@ -489,6 +510,11 @@ void put_key(TextWriter& out, const char* at, const Dialect& dialect, const Faul
 
 void alarm_detail(const Dialect& dialect, const Fault& fault, const char* axis_name, char* text, size_t size) {
   TextWriter out(text, size);
+  if (const char* const why = why_missing(dialect, fault)) {
+    put_word(out, dialect, fault);
+    out.put(" ").put(why).put(".");
+    return;
+  }
   for (const char* at = choose(dialect, fault); *at != 0; ++at) {
     if (*at != '{') {
       out.put(*at);

@@ -21,7 +21,7 @@ struct FunctionRow {
   const char* missing;   ///< if the function is not built: the code of the alarm that it raises ("P90"); nullptr = it is built
   const char* name;      ///< short English name, our words
   const char* section;   ///< section of the manual
-  const char* part = nullptr;  ///< if the function is built in part: what is not built; nullptr = it is built completely
+  const char* part = nullptr;  ///< if the function is built in part: what is not built; of one that is not there: why, for the sentence of its alarm
   uint8_t number = 0;    ///< counts the rows with the same function from 0: G54 to G59 are 0 to 5; G107, the second code of G07.1, is 1
 };
 

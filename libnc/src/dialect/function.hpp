@@ -63,7 +63,7 @@ enum class Function : uint8_t {
   mirror_on, mirror_off,                ///< G51.1 G50.1: modal; both take the axis words of their block
   scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50 G68 G69
   // Beside the names that follow stand the codes of RS-274/NGC and LinuxCNC.
-  probe, probe_away,                    ///< G38.2: as `skip`, but it is an alarm if there is no contact; G38.4 G38.5
+  probe, probe_away, skip_away,         ///< G38.2: as `skip`, but it is an alarm if there is no contact; G38.4 G38.5: until the contact is lost
   centre_incremental, centre_absolute,  ///< G91.1 G90.1: how the centres of arcs are given
   shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: act on the shift that coordinate_set has set
   reference_set,                        ///< G28.1 G30.1
@@ -92,7 +92,7 @@ constexpr bool is_reference_move(Function f) {
   return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
 }
 /// A straight line at feed that a signal ends.
-constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe; }
+constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe || f == Function::probe_away || f == Function::skip_away; }
 /// Tool position offset (M700 12.6): it makes the motion of its block longer or shorter by an offset.
 constexpr bool offsets_position(Function f) {
   return f == Function::offset_longer || f == Function::offset_shorter || f == Function::offset_twice_longer || f == Function::offset_twice_shorter;

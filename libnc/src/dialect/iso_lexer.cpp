@@ -340,7 +340,7 @@ class Lexer {
     }
     if (is_digit(c) || c == '.') return number_value(format, word, may_count && !sign, start);
     if (c == '#' || c == '[') {
-      if (!rules_.macros) return fault(Condition::illegal_character, word->letter);
+      if (!rules_.macros) return fault(Condition::illegal_character, c);
       at_ = start;
       return expression_value(word);
     }

@@ -115,6 +115,9 @@ struct SkipRules {
   bool feed_is_modal;
   /// The place where a measurement of a tool has ended is that of the last skip, too (HX 4.10). Otherwise only a skip stores one (M700 15.1).
   bool measurement_stores = false;
+  /// A signal that is where the move begins as it is to be at its end is a fault, and so is a move without a way (LinuxCNC G38). Otherwise there is nothing
+  /// to move (M700 15.2).
+  bool change_required = false;
 };
 
 struct ArcRules {
@@ -193,6 +196,9 @@ struct CompensationRules {
   /// In the mode the code of the other side may stand in the block of an arc (HX 13.2.2 (3): "N6 G41 G02 J-50.0"). Otherwise these codes and an arc
   /// do not go together (M700 App. 1 P151).
   bool side_changes_on_arc = false;
+  /// Tool position offset stands neither in compensation nor in the block of a cycle (HX 12.2.2, 13.3). Otherwise a cycle is made without it, and in
+  /// compensation it lengthens the programmed way (M700 12.6).
+  bool bars_position_offset = false;
 };
 
 /// Compensation of the tool length.
@@ -397,6 +403,8 @@ struct DataInputRules {
 };
 
 struct ProgramRules {
+  /// A call of a sub program without a number calls the program that it stands in (M700 13.3.1). Otherwise its number is missing (HX 2.4.3).
+  bool own_without_number = false;
   /// The family has the macro interrupt, which M codes enable and disable (M700 13.12). DGSHAPE has no macros.
   bool macro_interrupt;
   /// The motion code and the feed stay in force after the end of a program, so that axis words which follow go on with them (M700 9.1, 7.2

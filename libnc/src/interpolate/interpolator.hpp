@@ -384,6 +384,7 @@ class Interpolator {
   bool skipped_ = false;       ///< the last skip move ended by its signal
   bool skip_braking_ = false;  ///< on the way to rest after the signal
   uint8_t skip_behind_ = 0;    ///< signals of a skip move whose path has ended before its axes have
+  bool skip_behind_away_ = false;  ///< ... which ends where they are off
   AxisVec skip_position_;
   double skip_feed_ = 0;       ///< feed of a move whose skip signals change it (M700 15.5), mm/s
   uint32_t skip_last_ = 0;     ///< skip signals of the cycle before, to find their rising edges

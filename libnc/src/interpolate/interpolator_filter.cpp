@@ -63,7 +63,8 @@ void Interpolator::watch_skip(const nc_inputs& in) {
   }
   const bool inside = moving_ && at_rest() && current().segment.skip;
   const uint32_t mask = inside ? current().segment.skip_mask : moving_ ? uint32_t{0} : skip_behind_;
-  if (skipped_ || (in.skip & mask) == 0) return;
+  const bool away = inside ? current().segment.skip_away : skip_behind_away_;
+  if (skipped_ || mask == 0 || ((in.skip & mask) != 0) == away) return;
   skip_braking_ = inside;
   skip_behind_ = 0;
   note_skip(in);

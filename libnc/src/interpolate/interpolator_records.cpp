@@ -140,6 +140,7 @@ void Interpolator::end_move(const Record& r) {
   if (r.segment.skip && !skipped_) {
     skip_position_ = wanted_;
     skip_behind_ = filter_.active() ? r.segment.skip_mask : uint8_t{0};
+    skip_behind_away_ = r.segment.skip_away;
   }
 }
 
@@ -298,7 +299,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   if (begins && !begin_move(r, in)) return fault(r);
   latest_ = &s;
   if (s.skip_speeds != nullptr) change_skip_feed(*s.skip_speeds, in.skip);
-  if (s.skip && !skipped_ && (in.skip & s.skip_mask)) {
+  if (!skipped_ && s.ended_by(in.skip)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skip_braking_ = true;
     note_skip(in);

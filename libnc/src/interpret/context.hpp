@@ -54,6 +54,15 @@ struct PathPoint {
   bool operator==(const PathPoint&) const { return false; }  // two points are never stored as one
 };
 
+/// How the holes of one block lie where its words are radius and angle and one of them is an increment (functions/polar_command.cpp).
+struct PolarHoles {
+  uint8_t axis[2] = {0, 1};   ///< of the plane
+  bool on = false;
+  double pole[2] = {0, 0};    ///< in the plane, as programmed
+  double radius = 0, angle = 0;             ///< of the hole under way, mm, deg
+  double radius_step = 0, angle_step = 0;   ///< to the next one
+};
+
 /// The holes that the block in hand makes (functions/cycle.cpp).
 struct HolesOfBlock {
   Hole hole;                  ///< the one under way ...
@@ -61,6 +70,7 @@ struct HolesOfBlock {
   uint32_t left = 0;          ///< with it
   uint32_t axes = 0;          ///< that the block positions, ...
   AxisVec increment;          ///< ... by these values of its words
+  PolarHoles polar;
   HolePattern pattern;        ///< where they lie, of a pattern
   AxisVec pattern_at;         ///< its reference point as programmed
   AxisVec over, beside;       ///< the hole, and the place that a shift goes to
@@ -131,6 +141,7 @@ struct BlockContext {
   Command words;
   Step next_step = Step::none;
   HolesOfBlock holes;
+  PolarHoles polar_holes;          ///< what the words of the block say of its holes
   CavityOfBlock cavity;
   InputWait input_wait;
   bool motion_done = false;
@@ -138,6 +149,7 @@ struct BlockContext {
   bool block_starts_incremental = false; ///< G91 was modal before this block
   bool distance_by_word = false;         ///< for an axis word the G90/G91 before it in the block counts (M700 5.1)
   SkipSpeeds skip_speeds;               ///< feeds of the G31 under way
+  AxisVec skip_start;                   ///< where the G31 under way begins, machine coordinates
   double measured_position = 0, measured_range = 0;  ///< expected position and range of the G37 under way
   bool measured_nothing = false;                     ///< that G37 has no range in which it could measure
 

@@ -143,6 +143,8 @@ bool refused_in_inverse_time(Function function) {
     case Function::skip:
     case Function::multi_skip:
     case Function::probe:
+    case Function::probe_away:
+    case Function::skip_away:
     case Function::thread:
     case Function::holes_on_circle:
     case Function::holes_on_line:

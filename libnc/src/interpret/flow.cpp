@@ -169,6 +169,7 @@ Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
 
 /// M700 App.1 P35: the P of a program has up to eight digits and no sign (3.5); the same holds for H and for the P of M99.
 Execution called_number(Interpreter& in, Role word, double value, uint32_t* number) {
+  if (in.dialect->rules.block.whole_words_refuse_fraction && value != std::floor(value)) return in.raise(Condition::format_error, word, value);
   return whole_number(value, number) && *number <= 99999999 ? Execution::done : in.raise(Condition::value_range, word, value);
 }
 
@@ -179,7 +180,7 @@ Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, P
     return program->valid() ? Execution::done : in.raise(Condition::program_missing, Sign::file_name);
   }
   if (!has_p) {
-    if (!own_allowed) return in.raise(Condition::address_missing, Role::call_program);
+    if (!own_allowed || !in.dialect->rules.program.own_without_number) return in.raise(Condition::address_missing, Role::call_program);
     *program = top(in).program;
     return Execution::done;
   }
@@ -525,7 +526,8 @@ Execution return_behind_last(Interpreter& in) {
 Execution text_ended(Interpreter& in) {
   // M700 App.1 P36: '%', the end of the text, or the next O number was read before M02, M30 or M99.
   if (in.state.depth > 0) return in.raise_misc(Condition::sub_without_return, MiscFunction::return_sub);
-  // A text of MDI may end without a code for it.
+  // A text of MDI may end without a code for it, but not within a loop.
+  if (in.mdi && check_loops_closed(in) != Execution::done) return Execution::fault;
   if (in.dialect->end_code_required && !(in.mdi && in.block->end_of_text)) return in.raise(Condition::program_end);
   in.state.end_seen = true;
   Item& end = in.emit(ItemKind::end);

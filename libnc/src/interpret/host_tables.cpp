@@ -18,6 +18,8 @@ nc_status HostTables::set_parameter(const char* key, int axis, const char* text)
   if (in_->shared != nullptr) in_->shared->parameter_changed(*in_, changed);
   return NC_OK;
 }
+bool HostTables::whole_positions() const { return in_->settings.whole_positions(); }
+
 bool HostTables::parameter(const char* key, int axis, double* value) const {
   ParameterId id;
   int bit = -1;

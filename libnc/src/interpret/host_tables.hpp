@@ -23,6 +23,7 @@ class HostTables {
   double parameter(ParameterOf parameter, int axis = -1) const;
   /// The first parameter that is set, from *place on; false: there is none. Gives its key, its axis (-1 = for all axes), and its value: a number, or a text.
   bool next_parameter(unsigned* place, char key[24], int* axis, double* number, char text[64]) const;
+  bool whole_positions() const;  ///< a position without a point is in mm, inch or deg; else it counts in the least unit
   int axis_named(char name) const;  ///< index of the axis, -1 = there is no such axis
   const FilterParameters& filters() const;
   const Frames& frames() const;

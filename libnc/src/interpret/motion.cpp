@@ -259,6 +259,7 @@ inline void set_style(BlockContext& in, Move& move, const LinearStyle& style) {
   move.rule.check_reversal = in.settings.check_reversal && style.kind != NC_MOVE_RAPID;
   move.feed_mm_min = style.kind == NC_MOVE_RAPID ? 0 : style.feed_mm_min;
   move.skip_mask = style.skip_mask;
+  move.skip_away = style.skip_away;
   move.unclamps = style.unclamps;
   move.skip_speeds = style.skip_speeds;
   move.comp.transparent = style.transparent;

@@ -14,6 +14,7 @@ struct LinearStyle {
   bool flows = false;         ///< rapid traverse: see Move::flows
   bool transparent = false;   ///< the vectors of radius compensation are taken away for this move
   uint8_t skip_mask = 0;
+  bool skip_away = false;     ///< see Move::skip_away
   uint8_t unclamps = 0;       ///< bit i: axis i, an index table, is unclamped during the move (M700 9.3)
   double feed_mm_rev = 0;     ///< thread: lead along the longest axis
   double thread_angle = 0;

@@ -25,6 +25,8 @@ constexpr PrecedenceRow kInOneBlock[] = {
     {F::skip,              kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
     {F::multi_skip,        kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
     {F::probe,             kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe_away,        kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::skip_away,         kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
     {F::measure_length,    kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
     {F::mirror_on,         kBoth,  kBoth,    kBoth,    kIgnored, kBoth,  kLoses, kBoth},
     {F::mirror_off,        kBoth,  kBoth,    kBoth,    kIgnored, kBoth,  kLoses, kBoth},

@@ -151,6 +151,7 @@ void make_straight(const Item& like, const AxisVec& programmed, const AxisVec& s
   move.circular = false;
   move.connecting = true;
   move.skip_mask = 0;
+  move.skip_away = false;
   move.plane = Plane::none;
   move.start = start;
   move.end = end;

@@ -20,6 +20,8 @@ struct Segment {
   bool exact_stop = false;       ///< the path comes to rest at its end
   uint8_t skip_mask = 0;  ///< skip: the signals that end it, bit n = signal n+1
   bool skip = false;
+  bool skip_away = false; ///< skip: ends where these signals are off
+  bool ended_by(uint32_t signals) const { return skip && ((signals & skip_mask) != 0) != skip_away; }
   const SkipSpeeds* skip_speeds = nullptr;  ///< skip: signals that change its feed; feed_mm_s is then the fastest feed
   double start_feed_mm_s = 0;               ///< feed with which it begins: feed_mm_s, unless there are skip_speeds
   bool thread = false;       ///< goes with the spindle; override and feed hold do not act (M700 6.7.1)

@@ -154,6 +154,7 @@ struct Move {
   bool exact_stop = false;       ///< at rest at its end: rapid, G09/G61, and where the dialect says so
   bool connecting = false;       ///< inserted by a stage (corner of a compensated contour), not programmed
   uint8_t skip_mask = 0;
+  bool skip_away = false;        ///< skip: ends where these signals are off
   const SkipSpeeds* skip_speeds = nullptr; ///< skip: signals that change its feed (M700 15.5); nullptr in nearly every move
   uint32_t stroke_box = 0;       ///< id of the prohibited area in force, counted from 1; 0 = none (M700 15.7)
   Plane plane = Plane::none;     ///< plane of a circular move, and of a line with a rounding at its end

@@ -35,6 +35,10 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::mill_axis, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_modal, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_state, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_axis, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_modal, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_state, "NC-NO-SUCH-CODE", nullptr},
     {C::space_arc_blocks, "NC-NO-SUCH-CODE", nullptr},
     {C::space_arc_mode, "NC-NO-SUCH-CODE", nullptr},
     {C::exponential_mode, "NC-NO-SUCH-CODE", nullptr},
@@ -92,6 +96,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_without_value, "NC-MACRO", nullptr},
     {C::too_many_names, "NC-MACRO", nullptr},
     {C::probe_no_contact, "NC-NO-SUCH-CODE", nullptr},
+    {C::probe_contact, "NC-NO-SUCH-CODE", nullptr},
     {C::call_in_mdi, "NC-MACRO", nullptr},
 };
 

@@ -26,7 +26,7 @@ const AlarmText kAlarms[] = {
     {"F_82111", "Block too long"},
     {"F_82112", "Arc end point not on the circle"},
     {"F_82113", "Sub program call in MDI"},
-    {"F_82204", "Code not possible in G112"},
+    {"F_82204", "Polar coordinate interpolation error"},
     {"F_82208", "Cylindrical interpolation error"},
     {"F_82209", "Not at the reference position"},
     {"F_84020", "No feed rate"},
@@ -52,10 +52,15 @@ const AlarmRow kConditions[] = {
     {C::center_missing, "F_82100", nullptr},
     {C::arc_deviation, "F_82112", nullptr},
     {C::block_too_long, "F_82111", nullptr},     // 2.2.4
-    {C::mill_code, "F_82204", nullptr},          // 4.6
-    {C::mill_modal, "F_82204", nullptr},
-    {C::mill_state, "F_82208", nullptr},         // 4.7
+    {C::polar_code, "F_82204", nullptr},         // 4.6
+    {C::polar_modal, "F_82204", nullptr},
+    {C::polar_state, "F_82204", nullptr},
+    {C::polar_axis, "F_82204", nullptr},
+    {C::mill_code, "F_82208", nullptr},          // 4.7
+    {C::mill_modal, "F_82208", nullptr},
+    {C::mill_state, "F_82208", nullptr},
     {C::mill_axis, "F_82208", nullptr},
+    {C::two_words, "F_82004", nullptr},          // 2.2.2
     {C::reference_compare, "F_82209", nullptr},  // 6.4
     {C::no_feed, "F_84020", nullptr},            // 5.2
     {C::measure_signal, "F_84022", nullptr},     // 4.10

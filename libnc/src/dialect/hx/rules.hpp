@@ -56,7 +56,8 @@ inline constexpr Rules kRules = {
                      .takes_changed_amounts = true,
                      .code_alone_waits = false,
                      .number_is_that_of_tool = false,
-                     .side_changes_on_arc = true},  // 13.2.2 (3)
+                     .side_changes_on_arc = true,  // 13.2.2 (3)
+                     .bars_position_offset = true},
     .length = {.axis_by_words = false,
                .number_in_any_block = false,
                .zero_is_number = true,  // 13.1.1: H00 cancels

@@ -17,6 +17,7 @@ const AlarmText kAlarms[] = {
     {"NC-OFFSET-PATH", "No path with this cutter compensation"},
     {"NC-PARAMETER", "Parameter not possible here"},
     {"NC-O-WORD", "O words are not available"},
+    {"NC-LATHE", "Code of a lathe"},
 };
 static_assert(sizeof kAlarms / sizeof kAlarms[0] == kAlarmRows);
 
@@ -38,6 +39,10 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::mill_axis, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_modal, "NC-NO-SUCH-CODE", nullptr},
     {C::mill_state, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_code, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_axis, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_modal, "NC-NO-SUCH-CODE", nullptr},
+    {C::polar_state, "NC-NO-SUCH-CODE", nullptr},
     {C::space_arc_blocks, "NC-NO-SUCH-CODE", nullptr},
     {C::space_arc_mode, "NC-NO-SUCH-CODE", nullptr},
     {C::exponential_mode, "NC-NO-SUCH-CODE", nullptr},

@@ -38,7 +38,7 @@ inline constexpr Rules kRules = {
     .feed = {.inch_is_ten_degrees = false,
              .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: F is the speed of X Y Z if one of them moves
              .inverse_time_is_of_block = true},
-    .skip = {.feed_is_modal = true},
+    .skip = {.feed_is_modal = true, .change_required = true},
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,

@@ -10,8 +10,8 @@ namespace nc::iso {
 inline constexpr unsigned kFunctionRows = 78;
 inline constexpr unsigned kMiscRows = 25;
 inline constexpr unsigned kOutputRows = 5;
-inline constexpr unsigned kAlarmRows = 8;
-inline constexpr unsigned kConditionRows = 74;
+inline constexpr unsigned kAlarmRows = 9;
+inline constexpr unsigned kConditionRows = 78;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];

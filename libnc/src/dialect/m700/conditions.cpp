@@ -74,6 +74,10 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::mill_axis, "P482", nullptr},
     {C::mill_modal, "P485", nullptr},
     {C::mill_state, "P486", nullptr},
+    {C::polar_code, "P481", nullptr},
+    {C::polar_axis, "P482", nullptr},
+    {C::polar_modal, "P485", nullptr},
+    {C::polar_state, "P486", nullptr},
     {C::space_arc_blocks, "P74", nullptr},     // 6.14
     {C::space_arc_mode, "P75", nullptr},
     {C::exponential_mode, "P612", nullptr},    // 6.11
@@ -157,6 +161,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::name_without_value, "P241", nullptr},
     {C::too_many_names, "P241", nullptr},
     {C::probe_no_contact, "P607", nullptr},
+    {C::probe_contact, "P607", nullptr},
+    {C::two_words, "P33", nullptr},
     {C::call_in_mdi, "P29", nullptr},  // does not occur
     {C::tap_no_speed, "P181", nullptr},    // 13.1.1, appendix 1
     {C::tap_no_pitch, "P183", nullptr},

@@ -91,7 +91,7 @@ inline constexpr Rules kRules = {
                    .vector_turns_work = true,
                    .zero_is_selected_system = false,
                    .amount_turns_system = false},
-    .program = {.macro_interrupt = true, .motion_outlives_end = true,
+    .program = {.own_without_number = true, .macro_interrupt = true, .motion_outlives_end = true,
                .loops_in_one_another = 27,
                .main_program_counts = false, .no_call_in_mdi = false, .sub_programs_in_one_another = 8},
     .motion = {.accuracy_limits = accuracy_limits,

@@ -166,6 +166,9 @@ Execution check_precedence(BlockContext& in) {
     const Execution did = check_fractions(in);
     if (did != Execution::done) return did;
   }
+  if (in.dialect->rules.compensation.bars_position_offset && (w.cycle != nullptr || in.state.cycle.kind != CycleKind::none))
+    for (const FunctionRow* row : w.g)  // HX 12.2.2
+      if (offsets_position(row->function)) return in.raise_code(Condition::not_accepted, *row);
   const unsigned words = word_count(*in.block);
   if (rules.stops_stand_alone)
     for (const uint32_t m : w.m)

@@ -71,6 +71,7 @@ Execution take_shape(BlockContext& in, Function function, double scale) {
   if (did != Execution::done) return did;
   shape.corner = std::fmax(corner - cutter, 0);
   if (shape.corner > std::fmin(shape.half[0], shape.half[1]) && !shape.circle) return in.raise(Condition::value_range, Role::cavity_corner, w.get(Role::cavity_corner));
+  if (!w.has(Role::cavity_step) && in.state.modal.d == 0) return in.raise(Condition::words_missing, Role::offset_number);
   if (w.has(Role::cavity_step) || !(step > 0)) did = positive(in, Role::cavity_step, &step);
   if (did != Execution::done) return did;
   shape.rings = rings_of_cavity(shape, step);

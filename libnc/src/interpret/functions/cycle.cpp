@@ -297,6 +297,7 @@ Execution do_cycle(BlockContext& in) {
   in.holes = HolesOfBlock{};
   in.holes.axes = w.axes;
   in.holes.increment = w.axis;
+  if (in.state.modal.is(Function::polar_command_on)) in.holes.polar = in.polar_holes;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);

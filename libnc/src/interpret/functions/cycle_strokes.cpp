@@ -318,6 +318,7 @@ Execution continue_cycle(BlockContext& in) {
     in.state.cycle.returned = way_back(in);
     if (--holes.left == 0) return Execution::done;
     in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
+    if (holes.polar.on) step_polar_hole(in);
     return begin_hole(in);
   }
   return Execution::later;

@@ -34,7 +34,7 @@ Execution work_offset_here(BlockContext& in) {
   uint32_t p = 0;
   const bool given = w.has(Role::input_number);
   if (!given || !whole_number(w.get(Role::input_number), &p) || p > work_systems(*in.dialect) || p > Frames::kStandardSystems + in.frames.extended_systems())
-    return given ? in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number)) : in.raise(Condition::format_error, Role::input_number);
+    return given ? in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number)) : in.raise(Condition::words_missing, Role::input_number);
   const unsigned system = p == 0 ? in.state.work_system : p - 1;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((w.axes >> i) & 1) == 0) continue;
@@ -61,7 +61,7 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
     const uint32_t last = extended || named > Frames::kStandardSystems + extended_systems ? extended_systems : named;
     if (!whole_number(w.get(Role::input_number), &p) || p > last || (extended && p == 0)) return in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number));
   } else if (rules.system_required || extended != extended_active) {
-    return in.raise(Condition::format_error, Role::input_number);  // M700 14.10 (6): without P only for the kind that is selected
+    return in.raise(Condition::words_missing, Role::input_number);  // M700 14.10 (6): without P only for the kind that is selected
   }
   unsigned system = in.state.work_system;
   const bool selected = p == 0 && rules.zero_is_selected_system;
@@ -73,7 +73,7 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
 Execution tool_offset(BlockContext& in, unsigned column) {
   const Command& w = in.words;
   uint32_t number = 0;
-  if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::format_error, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
+  if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::words_missing, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
   if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.tool_offsets())
     return in.raise(Condition::g10_p, Role::input_number, w.get(Role::input_number));
   const unsigned key = in.frames.tool_key(number, column);

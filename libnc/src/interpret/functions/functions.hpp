@@ -130,6 +130,7 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded);
 /// G15, G16 (polar_command.cpp): execute the code; turn radius and angle in the axis words of a block into coordinates.
 Execution select_polar_command(BlockContext& in, const FunctionRow& row);
 void resolve_polar_words(BlockContext& in);
+void step_polar_hole(BlockContext& in);   ///< the place of the next hole of the block
 
 /// Modal functions that need more than that their code comes into force.
 Execution select_work_system(BlockContext& in, const FunctionRow& row);   // coordinates.cpp

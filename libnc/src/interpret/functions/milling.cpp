@@ -14,13 +14,15 @@ namespace {
 /// Raises an alarm (P485, P486) in modes in which neither of the two can be commanded.
 Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
   const State& state = in.state;
+  const bool polar = row.function == Function::polar_on;
+  const Condition modal = polar ? Condition::polar_modal : Condition::mill_modal, mode = polar ? Condition::polar_state : Condition::mill_state;
   if (state.high_accuracy != 0) return in.raise_code(Condition::not_accepted, row);  // 13.15 (3); appendix 1 has P126
-  if (state.compensated()) return in.raise_code(Condition::mill_modal, row);
-  if (state.modal.is(Function::surface_on)) return in.raise_code(Condition::mill_modal, row);
-  if (!state.modal.is(Function::rotation_off) || state.work_turned) return in.raise_code(Condition::mill_modal, row);
-  if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(Condition::mill_modal, row);  // 6.14 (a)
-  if (state.any_mirror() != 0) return in.raise_code(Condition::mill_state, row);
-  if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::mill_state, row);
+  if (state.compensated()) return in.raise_code(modal, row);
+  if (state.modal.is(Function::surface_on)) return in.raise_code(modal, row);
+  if (!state.modal.is(Function::rotation_off) || state.work_turned) return in.raise_code(modal, row);
+  if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(modal, row);  // 6.14 (a)
+  if (state.any_mirror() != 0) return in.raise_code(mode, row);
+  if (!state.modal.is(Function::normal_line_off)) return in.raise_code(mode, row);
   return Execution::done;
 }
 
@@ -150,7 +152,7 @@ Execution do_cylinder(BlockContext& in) {
   const Command& w = in.words;
   const FunctionRow& code = *w.one_shot;
   if (w.g.size() > 1) return in.raise_code(Condition::format_error, code);
-  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
+  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::polar_state, code);
   const bool by_word = in.dialect->rules.mill.rotary_in_block;
   const int axis = by_word && (w.axes & in.rotary) == 0 ? -1 : rotary_axis(in);
   const WordSlot name = by_word && axis >= 0 ? in.axis_words.word(static_cast<unsigned>(axis)) : in.settings.mill_axis;
@@ -191,15 +193,15 @@ Execution do_polar_on(BlockContext& in) {
   const FunctionRow& code = *in.words.one_shot;
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
-  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::mill_state, code);
+  if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::polar_state, code);
   if (state.map.kind == AxisMap::Kind::cylinder) return in.raise_code(Condition::mill_code, code);
   const Execution did = check_modes_before(in, code);
   if (did != Execution::done) return did;
   const int axis = rotary_axis(in);
-  if (axis < 0) return in.raise(Condition::mill_axis, in.settings.mill_axis);
+  if (axis < 0) return in.raise(Condition::polar_axis, in.settings.mill_axis);
   const unsigned basic = polar_linear(in);
   const int linear = in.axis_called(basic_along(basic));
-  if (linear < 0) return in.raise(Condition::mill_axis, basic_along(basic));
+  if (linear < 0) return in.raise(Condition::polar_axis, basic_along(basic));
   begin_mode(in, code);
   const auto l = static_cast<unsigned>(linear), r = static_cast<unsigned>(axis);
   state.map.kind = AxisMap::Kind::polar;
@@ -224,7 +226,7 @@ Execution do_polar_off(BlockContext& in) {
   if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind != AxisMap::Kind::polar) return in.raise_code(Condition::mill_code, code);
-  if (state.compensated()) return in.raise_code(Condition::mill_modal, code);
+  if (state.compensated()) return in.raise_code(Condition::polar_modal, code);
   end_mode(in);
   return Execution::done;
 }
@@ -232,6 +234,7 @@ Execution do_polar_off(BlockContext& in) {
 Execution check_mill_block(BlockContext& in) {
   const Command& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
+  const Condition code = polar ? Condition::polar_code : Condition::mill_code, modal = polar ? Condition::polar_modal : Condition::mill_modal;
   for (const FunctionRow* row : w.g) {
     switch (row->function) {
       case Function::cylinder:
@@ -240,16 +243,16 @@ Execution check_mill_block(BlockContext& in) {
       case Function::plane_xy:
       case Function::plane_zx:
       case Function::plane_yz:
-        if (polar) return in.raise_code(Condition::mill_modal, *row);
+        if (polar) return in.raise_code(modal, *row);
         if (in.state.mill.moved) return in.raise_code(Condition::mill_code, *row);
         continue;
       case Function::polar_command_on:  // 6.10 (7) (b): "G16 to G19"
-        return in.raise_code(polar ? Condition::mill_modal : Condition::mill_code, *row);
+        return in.raise_code(polar ? modal : code, *row);
       default:
-        if (!allowed_here(in, row->function)) return in.raise_code(Condition::mill_code, *row);
+        if (!allowed_here(in, row->function)) return in.raise_code(code, *row);
     }
   }
-  if (w.has(Role::tool)) return in.raise(Condition::mill_modal, Role::tool, w.get(Role::tool));
+  if (w.has(Role::tool)) return in.raise(modal, Role::tool, w.get(Role::tool));
   return Execution::done;
 }
 
@@ -257,7 +260,7 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
   const Function motion = state.modal.of(Mode::motion);
-  if (!allowed_here(in, motion)) return in.raise_mode(Condition::mill_code, Mode::motion);
+  if (!allowed_here(in, motion)) return in.raise_mode(state.map.kind == AxisMap::Kind::polar ? Condition::polar_code : Condition::mill_code, Mode::motion);
   if (state.map.kind != AxisMap::Kind::cylinder) return Execution::done;
   const auto rotary = static_cast<int8_t>(state.map.rotary);
   if (state.plane_axis[0] != rotary && state.plane_axis[1] != rotary) return in.raise(Condition::mill_modal);

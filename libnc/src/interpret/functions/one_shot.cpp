@@ -32,6 +32,8 @@ constexpr Handler kHandlers[] = {
     {Function::skip, do_skip},
     {Function::multi_skip, do_skip},
     {Function::probe, do_skip},
+    {Function::probe_away, do_skip},
+    {Function::skip_away, do_skip},
     {Function::measure_length, do_measure_length},
     {Function::stroke_check_on, do_stroke_check},
     {Function::local_system, do_local_system},

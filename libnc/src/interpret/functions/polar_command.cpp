@@ -40,6 +40,7 @@ Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
 void resolve_polar_words(BlockContext& in) {
   Command& w = in.words;
   State& state = in.state;
+  in.polar_holes.on = false;
   if (reads_plain_words(in)) {
     if (w.axes != 0) state.polar_angle_known = false;
     return;
@@ -62,10 +63,18 @@ void resolve_polar_words(BlockContext& in) {
   const double radius = has_radius ? w.axis[h] : std::hypot(out[0], out[1]);
   const double seen = stays && moves ? 0 : std::atan2(out[1], out[0]) * 180 / kPi;
   double angle = seen;
+  PolarHoles& holes = in.polar_holes;
+  holes = PolarHoles{};
   if (has_angle) {
     angle = length_value(in, w.written(in.axis_words.word(v)), true, false);  // in degrees, also in inch mode
+    if (((w.incremental >> v) & 1) != 0) holes.angle_step = angle;
     if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
   }
+  if (moves && holes.angle_step == 0) holes.radius_step = radius;
+  holes.on = holes.angle_step != 0 || holes.radius_step != 0;
+  for (unsigned i = 0; i < 2; ++i) holes.pole[i] = pole[i];
+  holes.axis[0] = static_cast<uint8_t>(h), holes.axis[1] = static_cast<uint8_t>(v);
+  holes.radius = radius, holes.angle = angle;
   state.polar_angle = angle;
   state.polar_angle_known = true;
   // A negative radius leads to the other side, as |r| at 180 degrees more.
@@ -73,6 +82,17 @@ void resolve_polar_words(BlockContext& in) {
   w.axis[v] = pole[1] + radius * std::sin(angle * kPi / 180);
   w.axes |= 1u << h | 1u << v;
   w.incremental &= ~(1u << h | 1u << v);
+}
+
+/// Words that count on do so from hole to hole of their block, too (M700 13.1.1, L; HX 12.1.2, K): a step of the angle leads round the pole, one of the
+/// radius alone outwards.
+void step_polar_hole(BlockContext& in) {
+  PolarHoles& polar = in.holes.polar;
+  polar.radius += polar.radius_step;
+  polar.angle += polar.angle_step;
+  in.state.polar_angle = polar.angle;
+  in.holes.increment[polar.axis[0]] = polar.pole[0] + polar.radius * std::cos(polar.angle * kPi / 180);
+  in.holes.increment[polar.axis[1]] = polar.pole[1] + polar.radius * std::sin(polar.angle * kPi / 180);
 }
 
 }  // namespace nc

@@ -83,6 +83,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
 
 Execution do_position_offset(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
+  if (in.dialect->rules.compensation.bars_position_offset && in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);
   if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);  // precaution (1)
   if (in.state.rotated) return in.raise_code(Condition::offset_in_figure, row);  // App. 1, P141
   const Function motion = in.state.modal.of(Mode::motion);

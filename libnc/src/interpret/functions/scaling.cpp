@@ -98,6 +98,7 @@ Execution do_scaling(BlockContext& in) {
   if (!good) return in.raise(Condition::value_range, word, w.get(word));
   for (unsigned i = 0; i < in.axis_count && !rules.factor_by_axis; ++i) factors[i] = factor;  // (8): the newest counts for all axes
   const AxisVec at = to_program(in, in.position());
+  if (rules.all_linear_axes && (w.axes & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));  // it has no length
   const uint32_t axes = rules.all_linear_axes ? ~in.rotary & ((1u << in.axis_count) - 1) : w.axes;
   ProgramMaps maps = in.records->maps;
   for (unsigned i = 0; i < in.axis_count; ++i) {

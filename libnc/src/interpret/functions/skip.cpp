@@ -8,8 +8,6 @@
 namespace nc {
 namespace {
 
-/// Stores #5061...: the skip position in workpiece coordinates, including tool compensation (M700 13.5.5 (10.11)). Axes that are not named keep their values.
-
 /// M700 15.5: takes F1= to F8=, the feed after each signal; 0 ends the move. Signals that are not named do nothing.
 Execution take_speeds(BlockContext& in, uint32_t* stops) {
   const Command& w = in.words;
@@ -29,6 +27,12 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
     in.skip_speeds.feed_mm_min[i] = feed;
   }
   return Execution::done;
+}
+
+/// The move has to end by its signal.
+bool wants_signal(const BlockContext& in) {
+  const Function function = in.words.one_shot->function;
+  return function == Function::probe || function == Function::probe_away;
 }
 
 }  // namespace
@@ -73,13 +77,15 @@ Execution do_skip(BlockContext& in) {
     style.skip_speeds = &in.skip_speeds;
   }
   style.skip_mask = static_cast<uint8_t>(mask);
+  style.skip_away = w.one_shot->function == Function::probe_away || w.one_shot->function == Function::skip_away;
   const AxisVec before = in.state.machine;
   move_linear(in, target_of_words(in), w.axes, style);
   if (in.state.machine == before) {  // there is no way on which a signal could come
-    if (w.one_shot->function == Function::probe) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
+    if (wants_signal(in) || in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
     store_skip_position(in, in.state.machine);
     return Execution::done;
   }
+  in.skip_start = before;
   in.next_step = Step::skip_answered;
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
@@ -87,15 +93,17 @@ Execution do_skip(BlockContext& in) {
 Execution skip_answered(BlockContext& in) {
   AxisVec at = in.state.machine;  // when no signal has come it is the end point of the block
   if (in.world.skipped) {
+    bool moved = false;
     for (unsigned i = 0; i < in.axis_count; ++i) {
       if (((in.state.map.frozen >> i) & 1) != 0) continue;  // a held axis has not moved (M700 6.16)
       at[i] = in.world.skip_machine.v[i];
       in.state.machine[i] = in.world.machine.v[i];
+      moved = moved || in.state.machine[i] != in.skip_start[i];
     }
+    if (!moved && in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_contact, *in.words.one_shot);
   }
   store_skip_position(in, at);
-  const bool missed = !in.world.skipped && in.words.one_shot->function == Function::probe;
-  return missed ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
+  return !in.world.skipped && wants_signal(in) ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
 }
 
 }  // namespace nc
