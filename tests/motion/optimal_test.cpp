@@ -340,6 +340,30 @@ TEST(OptimalLaw, CellsThatCannotStayAtTheFeedAreNoLaw) {
   EXPECT_FALSE(law->ok);
 }
 
+/// From rest to a slow piece, and from one to rest, where the acceleration is reached in a hundredth of a cell: the cells grow from rest on by themselves and
+/// not by some percent each, which filled a mesh within micrometres.
+TEST(OptimalLaw, CellsBesideASlowPieceGrowFromRest) {
+  Limits limits = standard_limits();
+  for (unsigned i = 0; i < 3; ++i) {
+    limits.acceleration[i] = 137;
+    limits.jerk[i] = 3.3e7;
+  }
+  const Piece pieces[2][2] = {{straight(0.014, 250), straight(0.0012, 0.087)}, {straight(0.0012, 0.087), straight(0.014, 250)}};
+  for (const auto& path : pieces) {
+    for (const double period : {0.001, 0.0025, 0.005, 0.01, 0.02}) {
+      optimal::MeshRequest request;
+      request.piece = path;
+      request.count = 2;
+      request.period = period;
+      const auto mesher = std::make_unique<optimal::Mesher>();
+      const auto mesh = std::make_unique<optimal::Mesh>();
+      at_once([&](optimal::Work& work) { return mesher->build(work, request, limits, mesh.get()); });
+      EXPECT_TRUE(mesher->whole()) << period;
+      EXPECT_LE(mesh->cells, 150u) << period;
+    }
+  }
+}
+
 /// The next law begins where the speed has begun to rise, if that is near, else where it does not fall, else at the place that was asked for.
 TEST(OptimalLaw, TheNextLawBeginsWhereTheSpeedRises) {
   const auto from = [](std::vector<int> slopes, unsigned k) {

@@ -30,6 +30,7 @@ constexpr double kLevelUse = 0.9;      ///< of a limit, that the path itself may
 constexpr double kRampUse = 0.6;       ///< of the limits, with which such a speed is reached
 constexpr double kGentleLevel = 10;    ///< cells that the guess takes to come to it
 constexpr unsigned kFewestLevel = 8;   ///< cells in a row
+constexpr double kSteep = 0.5;         ///< an estimate from rest that is flatter, speed times period by length, makes cells that grow by some percent each
 constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
 // Instructions: of a piece or a knot for each axis, on a polynomial and on another curve, of a step of the estimate, and of a cell.
 constexpr int64_t kPieceCost = 200, kCurveCost = 1500, kNodeCost = 60, kCellCost = 400, kLevelCost = 60;
@@ -112,6 +113,8 @@ Task<bool> Mesher::forward(Work& work) {
     co_await work.pause(limits_->axis_count * (in.at(p).curve != nullptr ? kCurveCost : kPieceCost));
     edge = std::min(edge + in.at(p).length, in.reach);
     end_piece_ = p;
+    // What comes slows it down, and a straight line from rest to there would be too flat for the cells to grow.
+    if (v > bound.speed && in.from_rest && forward_.count == 1 && bound.speed * in.period < kSteep * u) forward_.node[forward_.count++] = {u, v};
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u < edge) {
       if (forward_.count == nodes) break;
@@ -149,6 +152,7 @@ Task<bool> Mesher::backward(Work& work, unsigned end_piece, double end) {
     const Bound& bound = this->bound(p);
     edge -= in.at(p).length;
     const double stop = std::max(edge, 0.0);
+    if (v > bound.speed && backward_.count == 1 && bound.speed * in.period < kSteep * (end - u)) backward_.node[backward_.count++] = {u, v};
     if (v > bound.speed) v = bound.speed, a = 0;
     while (u > stop && backward_.count < kNodes) {
       backward_.node[backward_.count++] = {u, v};
