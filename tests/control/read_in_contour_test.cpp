@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "support/pull.hpp"
+#include "support/drive.hpp"
 
 namespace nc::test {
 namespace {
@@ -66,6 +66,41 @@ TEST(ReadInContour, ComesInFrontOfTheBlocksThatWaitForTheCorner) {
   std::string kinds;
   for (const Step& step : read.steps) kinds += step.item.kind == NC_ITEM_SYNC ? 's' : step.item.kind == NC_ITEM_MOVE ? 'm' : '-';
   EXPECT_LT(kinds.find('s'), kinds.find('m')) << kinds;  // the start and its first block are held for the corner behind them
+}
+
+// A loop that waits for the machine would be waited for for ever by the corner in front of it.
+TEST(ReadInContour, ALoopThatWaitsIsAnAlarm) {
+  const Outcome run = with("G90 G94 G17\nG41 D1 G1 X10. F100\nY10.\nWHILE[#1000 EQ 0]DO1\nEND1\nX30.\nG40 X40.\nM30\n", "");
+  EXPECT_EQ(run.alarm, "P990");
+  EXPECT_EQ(run.alarm_line, 3u);
+}
+
+// At the machine the same: it waits for the answer where the block before the ones that are held ends.
+TEST(ReadInContour, OnlineAsOffline) {
+  const std::string text =
+      "G90 G94 G17\nG41 D1 G1 X10. F3000\nY10.\n#100=#5041 #101=#5042\nX30.\n#102=#5021\n#104=#1000\nG3 X40. Y20. J10.\n#103=#5042\nG1 G40 X40. Y40.\nM30\n";
+  Bench offline;
+  offline.tool(1, 3).input[0] = 1;
+  const Outcome expected = offline.run(text);
+  ASSERT_EQ(expected.alarm, "");
+  Bench bench;
+  bench.tool(1, 3);
+  Drive drive(bench, text);
+  while (!drive.ended && drive.cycle < 100000) {
+    drive.press_start();
+    drive.in.input[0] = 1;
+    drive.step();
+  }
+  EXPECT_EQ(drive.alarm(), "");
+  ASSERT_TRUE(drive.ended);
+  for (uint32_t n = 100; n <= 104; ++n) EXPECT_NEAR(bench.var_now(n), expected.var(n), 1e-9) << n;
+  EXPECT_NEAR(expected.var(100), 7, 1e-9);
+  EXPECT_NEAR(expected.var(102), 30, 1e-9);
+  const std::vector<nc_axes> ends = drive.ends();
+  const std::vector<nc_move> moves = expected.moves();
+  ASSERT_EQ(ends.size(), moves.size());
+  for (size_t i = 0; i < ends.size(); ++i)
+    for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(ends[i].v[axis], moves[i].machine.v[axis], 1e-9) << i;
 }
 
 }  // namespace

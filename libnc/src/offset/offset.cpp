@@ -89,7 +89,7 @@ bool OffsetStage::push(const Item& item, NoRule) {
     }
     if (item.kind == ItemKind::sync) held.item.sync.ahead = false;  // all in front of it is executed first
     if (item.kind == ItemKind::alarm) {
-      end_before_alarm();
+      if (mode_ != Mode::off && !end_before(item)) return true;
     } else if (inhibits_read_ahead(item)) {
       close();
     }
@@ -212,12 +212,44 @@ void OffsetStage::close() {
   if (check_joints(chain_.size())) release(chain_.size());
 }
 
-// The block behind has an alarm. What is wrong with the joints that are known comes before it; the vector that the last block gets is none of the program's, so
-// nothing can be wrong with it.
-void OffsetStage::end_before_alarm() {
-  if (mode_ == Mode::off || !check_joints(chain_.size())) return;
-  for (unsigned i = 0; i < chain_.size(); ++i) chain_[i].check = chain_[i].walls = false;
-  close();
+// The block behind has an alarm. An interference between blocks in front of it comes first, unless the avoidance could still join them to a block that there is
+// not (App. 1, P40). Then, and where the vector at right angles leads the last block into the contour, the alarm stands in front of the block that cannot be
+// machined. False: the program stops in front of a block that is held.
+bool OffsetStage::end_before(const Item& alarm) {
+  unsigned at = 0;
+  if (interferes(&at)) {
+    if (chain_[at].avoid && !chain_[at].vanished) {
+      stop_by(chain_[at].index, alarm);
+    } else {
+      fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
+    }
+    return false;
+  }
+  if (!look_at_walls(chain_.size())) return false;
+  if (mode_ == Mode::pending) mode_ = Mode::on;
+  if (Section* last = open()) {
+    if (last->vanished) {
+      fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
+      return false;
+    }
+    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
+    last->jointed = true;
+    const unsigned before = chain_.size() - 2;
+    const Vec2 from = chain_.size() == 1 ? chain_start_ : chain_[before].joint.v[chain_[before].joint.n - 1];
+    const bool from_given = chain_.size() == 1 ? start_commanded_ : chain_[before].commanded;
+    if (interferes(&at) || (last->walls && memory_.settle(*last, from, from_given) == Clearance::enters)) {
+      stop_by(last->index, alarm);
+      return false;
+    }
+    last->commanded = last->settled = true;
+    tail_ = last->joint.v[0];
+  }
+  release(chain_.size());
+  return true;
+}
+
+bool OffsetStage::interferes(unsigned* at) {
+  return !chain_.empty() && check_interference(&chain_, chain_.size(), {chain_start_, start_commanded_}, at) == Finding::alarm;
 }
 
 // ---- moves ----

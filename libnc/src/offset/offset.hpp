@@ -139,7 +139,8 @@ class OffsetStage {
   bool look_at_walls(unsigned sections);
   void read_wall(Section* section, const nc_source& source);
   void count_block_end();
-  void end_before_alarm();
+  bool end_before(const Item& alarm);
+  bool interferes(unsigned* at);
   void close();
   void settle();
   void make_room();
