@@ -55,7 +55,7 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, const FilterTim
   m.start();
   std::mt19937_64 rng(disturbed);
   uint64_t n = 0;
-  for (; n < 1000000; ++n) {
+  for (; n < 4000000; ++n) {
     if (n % 5 == 0) m.feed(p);
     if (disturbed != 0 && rng() % 64 == 0) m.in.feed_override = static_cast<double>(rng() % 200) / 100;
     if (disturbed != 0 && rng() % 200 == 0) m.in.feed_hold = true;
@@ -73,9 +73,10 @@ Seen run(const LineProgram& lines, const ExecutorConfig& config, const FilterTim
   return seen;
 }
 
+/// NC_SEEDS=1000 runs so many seeds, NC_FIRST=7 begins with seed 7.
 TEST(RoundedCorners, RandomLinesKeepTheLimitsAndTheTolerance) {
-  const uint64_t count = seeds(90, 9);
-  for (uint64_t seed = 0; seed < count; ++seed) {
+  const uint64_t from = wish("NC_FIRST", 0), count = seeds(90, 9);
+  for (uint64_t seed = from; seed < from + count; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 rng(seed);
     const LineProgram lines = line_program(static_cast<LineShape>(seed % static_cast<uint64_t>(LineShape::count)), rng);
@@ -100,6 +101,19 @@ TEST(RoundedCorners, NoiseIsNoStop) {
   EXPECT_TRUE(rounded.keeps) << rounded.report;
   EXPECT_LT(rounded.seconds, 1.75 * 100 / 130);
   EXPECT_GT(sharp.seconds, 3 * 100.0 / 130);
+}
+
+// Each corner takes the axis that turns there, and leaves the acceleration of the other one to the path: 1.3 mm along X between corners in Z. With
+// the same share kept of every axis it took 5.1 s.
+TEST(RoundedCorners, ACornerOfOneAxisLeavesTheOtherOnes) {
+  LineProgram lines;
+  for (int k = 1; k <= 100; ++k) lines.to(1.3 * k, 0, 0.25 * (k % 2), 150);
+  ExecutorConfig config = config_of(1);
+  config.tolerance = 0.01;
+  const Seen seen = run(lines, config, rounding_of(config), 0);
+  EXPECT_TRUE(seen.ends && seen.keeps) << seen.report;
+  EXPECT_LE(seen.off, config.tolerance);
+  EXPECT_LT(seen.seconds, 3.5);
 }
 
 TEST(RoundedCorners, WithoutAToleranceOrALimitThereIsNoMean) {

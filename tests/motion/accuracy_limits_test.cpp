@@ -119,10 +119,10 @@ TEST(M700Limits, AFamilyWithoutTheRuleAsksNothing) {
 TEST(M700Limits, SpeedClampIsTheSegmentsLimit) {
   const MotionLimits limits = fast_machine();
   Segment s = half_circle(10);
-  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  set_segment_limits(s, shape_of(s, limits), {}, limits);
   EXPECT_GT(s.speed_limit, 100);
   s.accuracy.speed_clamp = 70;
-  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  set_segment_limits(s, shape_of(s, limits), {}, limits);
   EXPECT_DOUBLE_EQ(s.speed_limit, 70);
   EXPECT_DOUBLE_EQ(shape_of(s, limits).reach, 70);
 }

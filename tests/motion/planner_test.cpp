@@ -269,7 +269,8 @@ TEST(Limits, SegmentsKeepEveryAxisAtTheirLimits) {
     for (Record& r : p.records) {
       if (r.kind != ItemKind::move) continue;
       Segment& s = r.segment;
-      const double share = static_cast<double>(rng() % 3) * 0.25;
+      AxisVec share;
+      for (unsigned a = 0; a < c.axis_count; ++a) share[a] = static_cast<double>(rng() % 3) * 0.25;
       const SegmentShape shape = shape_of(s, l);
       set_segment_limits(s, shape, share, l);
       const double feed =
@@ -282,7 +283,7 @@ TEST(Limits, SegmentsKeepEveryAxisAtTheirLimits) {
           for (const double sign : {-1.0, 1.0}) {
             const double used =
                 std::fabs(q.d1[a] * s.acceleration * sign + q.d2[a] * feed * feed) / c.limits[a].acceleration;
-            ASSERT_LE(used, (1 - share) * (1 + 1e-9))
+            ASSERT_LE(used, (1 - share[a]) * (1 + 1e-9))
                 << "axis " << a << " of serial " << r.serial << " in program " << n;
             closest = std::max(closest, used);
           }

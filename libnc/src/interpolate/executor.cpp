@@ -44,7 +44,7 @@ MotionLimits motion_limits(const ExecutorConfig& config) {
 /// Sets the speed above which a thread of the optimal mode could not stay at its angle of the spindle.
 void limit_thread(Segment& s, const ExecutorConfig& config) {
   const MotionLimits limits = motion_limits(config);
-  set_segment_limits(s, shape_of(s, limits), 0, limits);
+  set_segment_limits(s, shape_of(s, limits), {}, limits);
   s.speed_limit /= optimal::ThreadShare::kFaster;
 }
 

@@ -154,20 +154,41 @@ double velocity_limit(const Segment& s, const SegmentShape& g, const MotionLimit
   return v;
 }
 
+AxisVec every_axis(double share) {
+  AxisVec each;
+  for (double& v : each.v) v = share;
+  return each;
+}
+
+/// What is left of each axis' acceleration on a segment beside `share`.
+AxisVec rest_of(const AxisVec& share, const SegmentShape& g) {
+  AxisVec keep;
+  for (unsigned i = 0; i < kMaxAxes; ++i) keep[i] = 1 - std::max(share[i], g.round > 0 ? kRoundShare : 0.0);
+  return keep;
+}
+
+double least(const AxisVec& of, const MotionLimits& limits) {
+  double v = 1;
+  for (unsigned i = 0; i < limits.axis_count; ++i) v = std::min(v, of[i]);
+  return v;
+}
+
 /// Path acceleration at which `keep` of some axis' limit is reached, centripetal acceleration at speed v
 /// included.
-double path_acceleration(const Segment& s, const SegmentShape& g, double keep, double v,
+double path_acceleration(const Segment& s, const SegmentShape& g, const AxisVec& keep, double v,
                          const MotionLimits& limits) {
   const Curve& c = s.curve;
   double a = kUnlimitedAcceleration;
   if (s.filter.kind == FilterTimes::Kind::after) return a;
+  const double all = c.shape != nullptr ? least(keep, limits) : 1;  // `bend` of such a curve is of all axes together
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     const double axis = limits.axis[i].acceleration;
     if (axis <= 0 || (c.circular && (i == c.h || i == c.v))) continue;
-    if (g.most[i] * a > keep * axis) a = keep * axis / g.most[i];
+    const double most = std::min(keep[i], all) * axis;
+    if (g.most[i] * a > most) a = most / g.most[i];
   }
   if (c.circular && g.in_plane > 0) {
-    const double whole = keep * plane_acceleration(c, g, limits), centripetal = v * v * g.curvature;
+    const double whole = std::min(keep[c.h], keep[c.v]) * plane_acceleration(c, g, limits), centripetal = v * v * g.curvature;
     const double rest = std::sqrt(std::max(0.0, whole * whole - centripetal * centripetal));
     if (g.in_plane * a > rest) a = rest / g.in_plane;
   }
@@ -178,14 +199,14 @@ double path_acceleration(const Segment& s, const SegmentShape& g, double keep, d
 
 /// Speed at which centripetal acceleration takes kArcShare of `keep`, and what goes along unevenly
 /// kBendShare.
-double arc_speed(const Segment& s, const SegmentShape& g, double keep, const MotionLimits& limits) {
+double arc_speed(const Segment& s, const SegmentShape& g, const AxisVec& keep, const MotionLimits& limits) {
   if (s.filter.kind == FilterTimes::Kind::after) return HUGE_VAL;
   if (s.curve.shape != nullptr) {
     return g.bend > 0 ? std::sqrt(kArcShare * path_acceleration(s, g, keep, 0, limits) / g.bend) : HUGE_VAL;
   }
   if (!s.curve.circular || g.curvature <= 0) return HUGE_VAL;
   const double plane = plane_acceleration(s.curve, g, limits);
-  double v2 = kArcShare * keep * plane / g.curvature;
+  double v2 = kArcShare * std::min(keep[s.curve.h], keep[s.curve.v]) * plane / g.curvature;
   if (g.bend > 0) v2 = std::min(v2, kBendShare * path_acceleration(s, g, keep, 0, limits) / g.bend);
   if (!(g.round > 0)) return std::sqrt(v2);
   // The derivative of radius compensation steps where its share begins, stops growing, begins to fall and ends.
@@ -211,42 +232,63 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
       }
     }
   }
-  const double whole = g.round > 0 ? 1 - kRoundShare : 1.0;
-  const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, whole, limits));
+  const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, rest_of({}, g), limits));
   g.reach = std::min(v, highest_feed(s, limits));
   return g;
 }
 
 namespace {
 
-/// Seconds of a segment from a corner, passed at v, to rest at its other end, where `share` of the axes' acceleration is kept for the corner.
-double time_of(const Segment& s, const SegmentShape& g, double v, double share, const MotionLimits& limits) {
-  const double keep = 1 - std::max(reserve_towards({v * v, share}, s, g, limits), g.round > 0 ? kRoundShare : 0.0);
+/// Seconds of a segment from a corner to rest at its other end, on which `reserve` is kept for the corner.
+double time_of(const Segment& s, const SegmentShape& g, const Joint& corner, const AxisVec& reserve, const MotionLimits& limits) {
+  const AxisVec keep = rest_of(reserve, g);
   const double most = std::min({velocity_limit(s, g, limits), arc_speed(s, g, keep, limits), highest_feed(s, limits)});
-  const double a = path_acceleration(s, g, keep, most, limits), way = s.curve.length, from = std::min(v, most);
+  const double a = path_acceleration(s, g, keep, most, limits), way = s.curve.length, from = std::min(std::sqrt(corner.speed2), most);
   // Up to the speed from which it can still come to rest, and down.
   const double top2 = std::min(most * most, std::max(from * from, a * way + 0.5 * from * from)), top = std::sqrt(top2);
   return (2 * top - from) / a + std::max(0.0, way - (top2 - 0.5 * from * from) / a) / top;
 }
 
 /// What is kept for a corner slows both of its neighbours all along: of some shares the one by which both, at rest at their other ends, take the
-/// least time. A slower corner has to save a part of that, and a rest a larger one: cuts run on (M700 7.12). `speed(share)` is that of the corner, above `slowest`.
-template <class Speed>
-Joint quickest_joint(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, double most, double rounding,
-                     const MotionLimits& limits, double slowest, Speed&& speed) {
-  constexpr double kShares[] = {1, 0.6, 0.35, 0.2, 0.1};
+/// least time. A slower corner has to save a part of that, and a rest a larger one: cuts run on (M700 7.12). `corner(part)` is the corner with so much of
+/// what it may take, `whole` as it is without that; which takes the share `takes` of it; only what is faster than `slowest` is looked at.
+template <class Corner>
+Joint quickest_joint(const Segment& a, const SegmentShape& sa, const Segment& b, const SegmentShape& sb, const MotionLimits& limits, double slowest,
+                     const Joint& whole, double takes, Corner&& corner) {
+  constexpr double kParts[] = {1, 0.6, 0.35, 0.2, 0.1};
   constexpr double kRest = 1.05, kSlower = 0.97;
   Joint best;
-  double least = kRest * (time_of(a, sa, 0, 0, limits) + time_of(b, sb, 0, 0, limits));
-  for (const double part : kShares) {
-    const double share = part * most, v = speed(share);
-    if (v <= slowest) break;
-    const double time = time_of(a, sa, v, share + rounding, limits) + time_of(b, sb, v, share + rounding, limits);
+  double least = kRest * (time_of(a, sa, {}, {}, limits) + time_of(b, sb, {}, {}, limits));
+  for (const double part : kParts) {
+    const Joint joint = part < 1 ? corner(part * takes) : whole;
+    if (joint.speed2 <= slowest * slowest) break;
+    const double time = time_of(a, sa, joint, reserve_towards(joint, b, sb, limits), limits) + time_of(b, sb, joint, reserve_towards(joint, a, sa, limits), limits);
     if (!(time < (best.speed2 > 0 ? kSlower : 1) * least)) continue;
     least = time;
-    best = {v * v, share + rounding};
+    best = joint;
   }
   return best;
+}
+
+/// A corner whose step of velocity lies within one cycle, passed as fast as `share` of every axis' acceleration lets it.
+Joint corner_of_a_cycle(const SegmentShape& sa, const SegmentShape& sb, double shortest, double reach, double share, const MotionLimits& limits) {
+  AxisVec change;  // of direction, in units of each axis' acceleration: s^2/mm
+  double most = 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i) {
+    const double limit = limits.axis[i].acceleration;
+    if (limit > 0) most = std::max(most, change[i] = std::fabs(sb.entry[i] - sa.exit[i]) / limit);
+  }
+  // v (v dt/L + 1) change = share dt, solved for v without cancellation.
+  const double dt = limits.cycle_s, p = dt / shortest;
+  double v = reach;
+  if (v * (v * p + 1) * most > share * dt) {
+    const double q = share * dt / most;
+    v = std::min(reach, 2 * q / (1 + std::sqrt(1 + 4 * p * q)));
+  }
+  Joint joint;
+  joint.speed2 = v * v;
+  for (unsigned i = 0; i < limits.axis_count; ++i) joint.share[i] = std::min(share, v * (v * p + 1) * change[i] / dt);
+  return joint;
 }
 
 /// Joint by the axes' limits, no faster than `accuracy`.
@@ -254,43 +296,35 @@ Joint joint_by_axes(const Segment& a, const SegmentShape& sa, const Segment& b, 
                     const MotionLimits& limits, const RecentTurns* turns) {
   constexpr double kNothing = 0.1;  // a share that is not weighed
   constexpr double kShort = 2;      // times the speed of the corner, below which a segment stays from rest to rest: nor is that
-  // Largest change of direction, in units of each axis' acceleration: s^2/mm.
-  double change = 0;
-  for (unsigned i = 0; i < limits.axis_count; ++i) {
-    const double limit = limits.axis[i].acceleration;
-    if (limit > 0) change = std::max(change, std::fabs(sb.entry[i] - sa.exit[i]) / limit);
-  }
-  const double dt = limits.cycle_s;
   const double reach = std::min({sa.reach, sb.reach, accuracy});
   // The filters round the corner: what they make of any step keeps the limits.
-  if (a.filter.kind == FilterTimes::Kind::after) return {reach * reach, 0};
+  if (a.filter.kind == FilterTimes::Kind::after) return {reach * reach, 0, {}};
   const double window = turns != nullptr ? rounding_window(b, limits) : 0;
-  const double rounding = sa.round > 0 || sb.round > 0 ? kRoundShare : 0, most = (window > 0 ? kRoundingShare : kCornerShare) - rounding;
+  const double rounding = sa.round > 0 || sb.round > 0 ? kRoundShare : 0;
   const double shortest = std::min(a.curve.length, b.curve.length);
-  Joint joint;
-  joint.share = reach * (reach * dt / shortest + 1) * change / dt;
-  joint.speed2 = reach * reach;
-  if (window > 0) {
-    const RecentTurns::Corner corner = turns->corner(reach, most, window, limits);
-    joint = {corner.speed * corner.speed, corner.share};
-  }
-  if (joint.share <= kNothing && joint.speed2 >= reach * reach) {
-    joint.share += rounding;
+  const auto corner = [&](double part) {
+    Joint joint;
+    if (window > 0) {
+      const RecentTurns::Corner c = turns->corner(reach, part, rounding, window, limits);
+      joint = {c.speed * c.speed, c.turn, c.share};
+    } else {
+      joint = corner_of_a_cycle(sa, sb, shortest, reach, part * (kCornerShare - rounding), limits);
+    }
+    for (unsigned i = 0; rounding > 0 && i < limits.axis_count; ++i) joint.share[i] += rounding;
     return joint;
-  }
-  // v (v dt/L + 1) change = share dt, solved for v without cancellation.
-  const auto speed = [&](double share) {
-    if (window > 0) return turns->corner(reach, share, window, limits).speed;
-    const double p = dt / shortest, q = share * dt / change;
-    return std::min(reach, 2 * q / (1 + std::sqrt(1 + 4 * p * q)));
   };
-  const double share = std::min(joint.share, most), v = window > 0 ? std::sqrt(joint.speed2) : speed(share);
+  const Joint joint = corner(1);
+  double share = 0;
+  for (unsigned i = 0; i < limits.axis_count; ++i) share = std::max(share, joint.share[i]);
+  if (share <= kNothing + rounding && joint.speed2 >= reach * reach) return joint;
   // A corner that is passed slower than one cycle of braking is not worth passing: rest, so that its point is
   // hit exactly.
-  const double brake = std::min(path_acceleration(a, sa, 1, 0, limits), path_acceleration(b, sb, 1, 0, limits));
-  if (v <= brake * dt) return {};
-  if (kShort * kShort * v * v >= brake * std::max(a.curve.length, b.curve.length)) return {v * v, share + rounding};
-  return quickest_joint(a, sa, b, sb, share, rounding, limits, brake * dt, speed);
+  const double v = std::sqrt(joint.speed2);
+  const double brake = std::min(path_acceleration(a, sa, every_axis(1), 0, limits), path_acceleration(b, sb, every_axis(1), 0, limits));
+  if (v <= brake * limits.cycle_s) return {};
+  if (kShort * kShort * v * v >= brake * std::max(a.curve.length, b.curve.length)) return joint;
+  const double takes = std::min(1.0, (share - rounding) / ((window > 0 ? kRoundingShare : kCornerShare) - rounding));
+  return quickest_joint(a, sa, b, sb, limits, brake * limits.cycle_s, joint, takes, corner);
 }
 
 bool is_arc(const Segment& s) { return s.curve.circular && s.curve.shape == nullptr; }
@@ -322,17 +356,18 @@ Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, 
   return joint_by_axes(a, sa, b, sb, b.accuracy.ask_of_joint() ? accuracy_speed(a, sa, b, sb, limits) : HUGE_VAL, limits, turns);
 }
 
-double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
-                       const MotionLimits& limits) {
-  if (joint.speed2 <= 0) return 0;
+AxisVec reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
+                        const MotionLimits& limits) {
+  if (joint.speed2 <= 0) return {};
   // Behind a short neighbour lie other corners that fall into the same cycle, or into the same mean.
   const double window = rounding_window(neighbour, limits);
   if (window > 0) {
     // No faster than this on the way through it.
-    const double mean = std::sqrt(joint.speed2) + path_acceleration(neighbour, shape, 1, 0, limits) * window / 2;
-    return neighbour.curve.length < std::min(mean, shape.reach) * window ? kRoundingShare : joint.share;
+    const double mean = std::sqrt(joint.speed2) + path_acceleration(neighbour, shape, every_axis(1), 0, limits) * window / 2;
+    const bool within = neighbour.curve.length < std::min(mean, shape.reach) * window;
+    return within ? reserve_for_turns(joint.share, joint.turn, limits.axis_count) : joint.share;
   }
-  return neighbour.curve.length < shape.reach * limits.cycle_s ? kCornerShare : joint.share;
+  return neighbour.curve.length < shape.reach * limits.cycle_s ? every_axis(kCornerShare) : joint.share;
 }
 
 double even_acceleration(const Segment& s, double entry, double exit, const MotionLimits& limits) {
@@ -342,8 +377,8 @@ double even_acceleration(const Segment& s, double entry, double exit, const Moti
   return std::min(s.acceleration, kUneven * std::min(entry, exit) / window);
 }
 
-void set_segment_limits(Segment& s, const SegmentShape& g, double share, const MotionLimits& limits) {
-  const double keep = 1 - (g.round > 0 ? std::max(share, kRoundShare) : share);
+void set_segment_limits(Segment& s, const SegmentShape& g, const AxisVec& share, const MotionLimits& limits) {
+  const AxisVec keep = rest_of(share, g);
   s.speed_limit = std::min(velocity_limit(s, g, limits), arc_speed(s, g, keep, limits));
   s.acceleration = path_acceleration(s, g, keep, std::min(s.speed_limit, highest_feed(s, limits)), limits);
 }

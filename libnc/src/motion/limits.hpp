@@ -50,7 +50,8 @@ SegmentShape shape_of(const Segment& segment, const MotionLimits& limits);
 /// How the path passes from one segment to the next.
 struct Joint {
   double speed2 = 0;  ///< (mm/s)^2; 0 = at rest
-  double share = 0;   ///< of every axis' acceleration, what the velocity step takes at that speed
+  double turn = 0;    ///< |t2 - t1| of the largest turn in the mean
+  AxisVec share;      ///< of the acceleration of each axis, what the velocity step takes at that speed
 };
 
 /// The joint from a to b where nothing asks for rest. `turns` holds the corners up to and including that between a and b. Without it, or where no filter
@@ -61,13 +62,13 @@ Joint joint_between(const Segment& a, const SegmentShape& sa, const Segment& b, 
 /// The acceleration of a segment between two corners, passed at these speeds, where several of them may fall into one mean.
 double even_acceleration(const Segment& segment, double entry, double exit, const MotionLimits& limits);
 
-/// Share of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of
+/// Shares of the axes' acceleration to reserve on a segment for what happens at (and shortly behind) one of
 /// its ends.
-double reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
-                       const MotionLimits& limits);
+AxisVec reserve_towards(const Joint& joint, const Segment& neighbour, const SegmentShape& shape,
+                        const MotionLimits& limits);
 
 /// Fills speed_limit and acceleration of a segment of which `share` is reserved for corner steps.
-void set_segment_limits(Segment& segment, const SegmentShape& shape, double share,
+void set_segment_limits(Segment& segment, const SegmentShape& shape, const AxisVec& share,
                         const MotionLimits& limits);
 
 }  // namespace nc

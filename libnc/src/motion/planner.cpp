@@ -63,10 +63,13 @@ void Planner::update_joint(uint32_t ordinal) {
 }
 
 /// The end of the tip is known: its limits are final.
-void Planner::close(const Joint& exit, double reserve) {
+void Planner::close(const Joint& exit, const AxisVec& reserve) {
   if (!(exit.speed2 > 0)) turns_.clear();
   Segment& s = record(tip_.record).segment;
-  set_segment_limits(s, tip_.shape, std::max(tip_.reserve, reserve), limits_);
+  AxisVec share;
+  for (unsigned i = 0; i < limits_.axis_count; ++i) share[i] = std::max(tip_.reserve[i], reserve[i]);
+  turns_.reserve(share, limits_.axis_count);
+  set_segment_limits(s, tip_.shape, share, limits_);
   s.acceleration = even_acceleration(s, tip_.entry, std::sqrt(exit.speed2), limits_);
   if (s.tap_acceleration > 0) s.acceleration = std::min(s.acceleration, s.tap_acceleration);
   Entry& e = entry(tip_.ordinal);
@@ -124,7 +127,7 @@ void Planner::commit(uint32_t index) {
   ++tip_.between;
   // M700 6.7.1: single block stops behind the first block that is no thread any more.
   if (r.kind == ItemKind::mark && r.mark.stop && tip_.valid && !tip_.thread) entry(tip_.ordinal).stop_mark = true;
-  if (tip_.open && demands_rest(r)) close({}, 0);
+  if (tip_.open && demands_rest(r)) close({}, {});
 }
 
 /// Exit speeds from the last planned segment backward. Returns the first ordinal that has changed.
@@ -153,7 +156,7 @@ void Planner::replan(const Inputs& in) {
   const bool idle = head_ == seen_head_;
   seen_head_ = head_;
   // Nothing has come behind the segment held back and the machine stands in front of it: it ends at rest.
-  if (tip_.open && idle && in.tail == tip_.record) close({}, 0);
+  if (tip_.open && idle && in.tail == tip_.record) close({}, {});
   const bool all = in.feed_override != override_ || in.single_block != single_block_;
   const uint32_t end = tip_.open ? tip_.ordinal : next_ordinal_;
   if (!all && shown_ == (tip_.open ? tip_.record : head_)) return;
@@ -167,7 +170,7 @@ void Planner::replan(const Inputs& in) {
 
 void Planner::truncate(uint32_t end, const Inputs& in) {
   if (tip_.open && before(tip_.record, end)) {
-    close({}, 0);
+    close({}, {});
   }
   next_ordinal_ = in.ordinal;
   for (uint32_t i = in.tail; i != end; ++i) {

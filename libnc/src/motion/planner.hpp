@@ -63,7 +63,7 @@ class Planner {
   struct Tip {  ///< the segment committed last
     uint32_t record = 0, ordinal = 0;
     SegmentShape shape;
-    double reserve = 0;    ///< share reserved for its start
+    AxisVec reserve;       ///< shares reserved for its start
     double entry = 0;      ///< speed of the corner at its start, mm/s
     unsigned between = 0;  ///< other records committed behind it
     bool open = false;     ///< its end is not known: held back, its record is still there
@@ -76,7 +76,7 @@ class Planner {
   void commit_segment(uint32_t index);
   bool must_rest(const Record& from, const Record& to) const;
   void add_turn(const Segment& from, const Segment& to, const SegmentShape& shape);
-  void close(const Joint& exit, double reserve);
+  void close(const Joint& exit, const AxisVec& reserve);
   double cap(const Entry& e) const;
   void update_joint(uint32_t ordinal);
   uint32_t backward(uint32_t begin, uint32_t end, bool all);

@@ -11,23 +11,36 @@ namespace nc {
 namespace {
 
 /// Of the tolerance, what corners may take; what speeding up and arcs do to the mean has the rest.
-constexpr double kCornerTolerance = 0.8;
+constexpr double kCornerTolerance = 0.87;
+/// |t2 - t1| is no more than this.
+constexpr double kReversal = 2;
 
 }  // namespace
 
 FilterTimes rounding_filter(const MotionLimits& limits) {
   FilterTimes times;
-  double sum = 0;
+  double most = 0;
   for (unsigned i = 0; i < limits.axis_count; ++i) {
     if (!(limits.axis[i].acceleration > 0)) return times;
-    sum += limits.axis[i].acceleration * limits.axis[i].acceleration;
+    most = std::max(most, limits.axis[i].acceleration);
   }
-  const double seconds = std::sqrt(8 * kCornerTolerance * limits.tolerance / (kRoundingShare * std::sqrt(sum)));
+  // A corner along one axis that takes all of its share takes all of the tolerance, too.
+  const double seconds = std::sqrt(8 * kCornerTolerance * limits.tolerance / (kAloneShare * most));
   const double cycles = std::floor(std::min(seconds, kLongestSPattern / 1000) / limits.cycle_s);
   if (!(cycles >= 1)) return times;
   times.kind = FilterTimes::Kind::before;
   for (uint16_t& mean : times.mean) mean = static_cast<uint16_t>(std::min<double>(cycles, kMostFilterCycles));
   return times;
+}
+
+AxisVec reserve_for_turns(const AxisVec& share, double turn, unsigned axes) {
+  constexpr double kMore = 1.3, kOver = 0.05;          // times the share that is known, and above it
+  constexpr double kLeast = 0.45;                      // reserved where the path hardly turns
+  constexpr double kGentle = 0.4, kWild = 1.2;         // |t2 - t1| up to which an axis keeps its part, and from which on any axis may be the next
+  const double least = kLeast + (kRoundingShare - kLeast) * std::clamp((turn - kGentle) / (kWild - kGentle), 0.0, 1.0);
+  AxisVec reserve;
+  for (unsigned i = 0; i < axes; ++i) reserve[i] = std::max(share[i], std::clamp(kMore * share[i] + kOver, least, kRoundingShare));
+  return reserve;
 }
 
 double rounding_window(const Segment& s, const MotionLimits& limits) {
@@ -46,6 +59,7 @@ void RecentTurns::go(double length, double entry, double grain, const AxisVec& t
       for (unsigned i = 0; i < axes; ++i) {
         next.low[i] = std::min(oldest.low[i], next.low[i]);
         next.high[i] = std::max(oldest.high[i], next.high[i]);
+        next.reserved[i] = std::min(oldest.reserved[i], next.reserved[i]);
       }
       next.fastest = std::max(oldest.fastest, next.fastest);
       next.turns = true;
@@ -53,7 +67,8 @@ void RecentTurns::go(double length, double entry, double grain, const AxisVec& t
     }
     newest_ = (newest_ + 1) % kWays;
     ++count_;
-    back(0) = {direction_, direction_, 0, 0, false};
+    back(0) = {direction_, direction_, {}, 0, 0, false};
+    for (double& share : back(0).reserved.v) share = 1;
     began_ = way_;
   }
   Way& newest = back(0);
@@ -68,21 +83,34 @@ void RecentTurns::go(double length, double entry, double grain, const AxisVec& t
   }
 }
 
-RecentTurns::Corner RecentTurns::corner(double most, double share, double window, const MotionLimits& limits) const {
-  AxisVec low = direction_, high = direction_;
+void RecentTurns::reserve(const AxisVec& share, unsigned axes) {
+  if (count_ == 0) return;
+  for (unsigned i = 0; i < axes; ++i) back(0).reserved[i] = std::min(back(0).reserved[i], share[i]);
+}
+
+RecentTurns::Corner RecentTurns::corner(double most, double part, double kept, double window, const MotionLimits& limits) const {
+  AxisVec low = direction_, high = direction_, left;
+  for (unsigned i = 0; i < limits.axis_count; ++i) left[i] = 1;
+  // The mean is that of the middles between cycles: a corner in between is cut by 1 + (cycle / window)^2 times as much.
+  const double cycle = limits.cycle_s / window;
+  const double deviates = 8 * kCornerTolerance * limits.tolerance / (window * (1 + cycle * cycle));
   double fastest = 0;
   Corner best;
   for (unsigned n = 0; n < count_; ++n) {
     const Way& way = back(n);
-    double change = 0;  // of direction, in units of what the axes can do: s^2/mm
+    const bool alone = n == 0 && !way.turns;
+    const double share = part * ((alone ? kAloneShare : kRoundingShare) - kept);
+    double even = HUGE_VAL, wide2 = 0;
     for (unsigned i = 0; i < limits.axis_count; ++i) {
       low[i] = std::min(low[i], way.low[i]);
       high[i] = std::max(high[i], way.high[i]);
-      change = std::max(change, (high[i] - low[i]) / limits.axis[i].acceleration);
+      if (!alone) left[i] = std::min(left[i], way.reserved[i] - kept);
+      const double change = high[i] - low[i];
+      if (change > 0) even = std::min(even, std::min(share, left[i]) * limits.axis[i].acceleration * window / change);
+      wide2 += change * change;
     }
-    const bool alone = n == 0 && !way.turns;
+    if (wide2 > 0) even = std::min(even, deviates / std::min(kReversal, std::sqrt(wide2)));
     fastest = alone ? 0 : std::max(fastest, way.fastest);
-    const double even = change > 0 ? share * window / change : HUGE_VAL;
     double cap = alone ? even : even / (1 + kUneven);
     if (!alone && cap < fastest) cap = even - kUneven * fastest;
     cap = std::min(cap, most);
@@ -93,7 +121,12 @@ RecentTurns::Corner RecentTurns::corner(double most, double share, double window
       apart = std::min(apart / (1 + kUneven), apart - kUneven * fastest);
     }
     const double v = std::min(cap, apart);
-    if (v > best.speed) best = {v, std::min(share, (v + (alone ? 0 : kUneven * std::max(v, fastest))) * change / window)};
+    if (v > best.speed) {
+      best.speed = v;
+      best.turn = std::sqrt(wide2);
+      const double with = (v + (alone ? 0 : kUneven * std::max(v, fastest))) / window;
+      for (unsigned i = 0; i < limits.axis_count; ++i) best.share[i] = std::min(share, with * (high[i] - low[i]) / limits.axis[i].acceleration);
+    }
     if (cap <= apart) break;
   }
   return best;
