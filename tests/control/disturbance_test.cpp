@@ -121,7 +121,7 @@ void expect_same(const MachineRun& run, const Outcome& traced) {
   for (size_t i = 0; i < run.events.size() && i < traced.steps.size(); ++i) {
     const Step& step = traced.steps[i];
     const nc_event& event = run.events[i];
-    ASSERT_EQ(event.serial, step.item.serial);
+    ASSERT_EQ(event.serial, step.item.serial) << around(run, traced, i);
     ASSERT_EQ(event.kind, step.item.kind) << around(run, traced, i);
     ASSERT_EQ(event.source.line, step.item.source.line) << around(run, traced, i);
     ASSERT_EQ(event.source.program, step.item.source.program) << around(run, traced, i);

@@ -505,8 +505,9 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet
   const bool thread = block_has_thread_;
   if (m.report) block_has_thread_ = false;
-  if (m.report && m.stop && !m.beside && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
-    // The records behind this block are given up, and the feeder goes on with the interrupt program.
+  if (m.report && m.resume && m.stop && !m.beside && !thread && interrupt_wanted_ && at_rest() && state_ == NC_STATE_RUNNING) {
+    // The records behind this block are given up, and the feeder goes on with the interrupt program. Where blocks cannot be read again from the end of
+    // this one, the interrupt waits for the next.
     interrupt_wanted_ = false;
     cut_.inside = false;
     if (stale_ != 0) settle_axes();
