@@ -473,7 +473,9 @@ Eval read_system_variable(Interpreter& in, uint32_t number, Value* value, Fault*
   Access access{in, place.part, place.index, number, value, sync};
   const Eval eval = read(access);
   if (eval == Eval::fault) *fault = in.fault;
-  if (eval == Eval::need_sync && in.in_contour() && *sync != NC_SYNC_SHARED) *sync |= Interpreter::kSyncAhead;
+  // Not where an interrupt program may come in between: it counts what its block has done in the order of the program.
+  const bool interruptible = in.state.interrupt_on || in.state.interrupt_depth != 0;
+  if (eval == Eval::need_sync && in.in_contour() && !interruptible && *sync != NC_SYNC_SHARED) *sync |= Interpreter::kSyncAhead;
   return eval;
 }
 
