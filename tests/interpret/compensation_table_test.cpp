@@ -54,6 +54,7 @@ constexpr Row kOfThePlane[] = {
     {"12.4.1 (5)", "the cancel is no arc: P151", "", "G41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 G3 X30. Y50. R10.\n", "0,5 35,5 35,40 P151 L4"},
     {"12.4.2 (1)", "G39: an arc about the corner, from one vector at right angles to the other", "", "G41 D1 G1 X0 Y0 F500\nG39 X40.\nY-40.\nG40 X60. Y-60.\n", "0,5 40,5 ~45,0 45,-40 60,-60"},
     {"12.4.2 (1)", "G39 at an inner corner", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG39 Y40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,40 ~40,35 0,35 60,60"},
+    {"12.4.2 (1)", "... without a block behind it, in front of M00, the arc leads nowhere", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG39 Y-40.\nM0\nX0\nG40 X60. Y-60.\n", "0,5 45,5 P152 L3"},
     {"12.4.2 (2)", "G38: the vector at the end of the block before is kept", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG38 Y40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,45 0,35 60,60"},
     {"12.4.2 (2)", "G38 I J: the vector lies along the words", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG38 Y40. I-3. J4.\nX0\nG40 X60. Y60.\n", "0,5 35,5 37,44 0,35 60,60"},
     {"12.4.2 (2)", "G38 I J D: ... with the amount of D", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG38 Y40. I-5. J0 D2\nX0\nG40 X60. Y60.\n", "0,5 35,5 32,40 0,32 60,60"},

@@ -311,6 +311,13 @@ TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is compute
   EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
 }
 
+// At an inner corner the arc of G39 leads the tool into the block in front of it. A movement across the plane puts the block behind on another level.
+TEST(ContourCheck, ACornerArcAndItsOwnBlock) {
+  const auto corner = [](const char* end) { return std::string("G0 X0 Y0\nG41 D1 G1 X20. Y20. F500\nG39 X60.\nZ-1.\n") + end; };
+  EXPECT_EQ(alarm_of_program(corner("Y-20.\nG40 X100.\nM30\n"), 5, {{"CONTOUR_CHECK", "1"}}), "");
+  EXPECT_EQ(alarm_of_program(corner("Y60.\nX0\nG40 Y40.\nM30\n"), 5, {{"CONTOUR_CHECK", "1"}}), "P153");
+}
+
 // Not compared are the two blocks beside a change of side, each with the path of the other. The block behind them is a wall like any other.
 TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
   const auto behind = [](const char* block) {  // the tool comes up at X-5

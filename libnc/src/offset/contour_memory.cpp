@@ -122,7 +122,7 @@ bool ContourMemory::across_given(const Path& path, uint64_t number, const Wall& 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
   const uint64_t between = apart(path.number, number);
-  if (between == 0) return false;
+  if (between == 0 && !path.bends) return false;  // a path lies beside its own wall; the arc of G39 at an inner corner turns into it
   if (between == 1 && (path.offset * wall.offset < 0 || across_given(path, number, wall))) return false;
   OpenEnds open;
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
@@ -191,6 +191,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   }
   add(path, path_of(section, start, from, section.joint.v[0]));
   path.from_given = false;
+  path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
     Piece piece;
     piece.from = end + section.joint.v[k - 1];

@@ -205,6 +205,8 @@ void OffsetStage::close() {
   if (Section* last = open()) {
     if (last->vanished)
       return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
+    if (held_at(last->index).item.move.comp.corner_arc && !last->start)  // where the arc of G39 leads to nobody knows
+      return fail(last->index, Condition::comp_no_intersection, held_at(last->index).item.source);
     last->joint = ContourJoint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
     last->jointed = last->commanded = true;
     tail_ = last->joint.v[0];
