@@ -111,7 +111,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kNotInThisMode:
       return "not in this mode";
     case Answer::kNotWhileRunning:
-      return "a program is in execution: reset first";
+      return "a program is in execution or interrupted: reset first";
     case Answer::kMiddleOfBlock:
       return "the program stands in the middle of a block: go on to its end (single block), or reset";
     case Answer::kNoProgram:
