@@ -86,6 +86,8 @@ constexpr Row kOfThePlane[] = {
     {"12.4.2 (5)", "G41 and M00: no vector", "", "G41 D1\nM0\nG1 X0 Y0 F500\nX40.\nY40.\nG40 X60. Y60.\n", "2.071,5 35,5 35,40 60,60"},
     {"12.4.2 (5)", "the start moves and four of them follow: no vector", "", "G41 D1 G1 X0 Y0 F500\nM20\nM21\nM22\nM23\nX40.\nY40.\nG40 X60. Y60.\n", "0,0 35,5 35,40 60,60"},
     {"12.4.2 (5)", "G40 without movement: the following movement ends without compensation", "", "G41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 M5\nX60. Y60.\n", "0,5 35,5 35,40 60,60"},
+    {"12.4.2 (5)", "... and G41 without one between: a new start", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG40\nM8\nG41 D1\nY40.\nX0\nG40 X60. Y60.\n", "0,5 40,5 35,0 35,35 0,35 60,60"},
+    {"12.4.2 (5)", "... with a movement and another amount", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG40\nG41 D2 Y40.\nX0\nG40 X60. Y60.\n", "0,5 40,5 40,32 0,32 60,60"},
     {"12.4.2 (6)", "G40 I J: the meeting with a hypothetical path along the words", "", "G41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 X60. Y60. I10. J0\n", "0,5 35,5 35,45 60,60"},
     {"12.4.2 (6)", "... parallel to the last block: at right angles", "", "G41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 X60. Y60. I0 J10.\n", "0,5 35,5 35,40 60,60"},
     {"12.4.2 (7)", "corner movement: straight between several vectors", "", "G41 D1 G1 X0 Y0 F500\nX40.\nX0 Y-10.\nG40 Y-60.\n", "0,5 45,5 46.063,-3.638 1.213,-14.851 0,-60"},

@@ -100,6 +100,7 @@ bool OffsetStage::push(const Item& item, NoRule) {
   if (failed_) return true;
   held.mode = mode_;
   held.idle_blocks = idle_blocks_;
+  held.cancelled = cancelled_;
   held.level = level_end_;
   held.approach = approach_;
   held.in_contour = memory_.state().open;
@@ -146,7 +147,7 @@ void OffsetStage::reset() {
   count_ = first_ = released_ = blocks_ = 0;
   mode_ = Mode::off;
   idle_blocks_ = connecting_ = 0;
-  moved_ = failed_ = lead_done_ = has_rest_ = false;
+  moved_ = failed_ = cancelled_ = lead_done_ = has_rest_ = false;
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
@@ -176,6 +177,7 @@ void OffsetStage::restore(const OffsetResume& resume) {
   comp_ = out_comp_ = resume_.comp;
   if (!resume.active) return;
   idle_blocks_ = resume.idle_blocks;
+  cancelled_ = resume.cancelled;
   memory_.restore(resume.contour);
   level_ = level_end_ = resume.level;
   start_commanded_ = out_commanded_ = resume.commanded;
@@ -277,12 +279,18 @@ void OffsetStage::intake_move(Held* held) {
     held->has_lead = true;
     tail_ = {};
   }
+  const bool again = cancelled_ && move.comp.side != 0;
+  if (again) {  // the contour has ended, at right angles; another one starts from its vector
+    close();
+    if (failed_) return;
+    cancelled_ = false;
+  }
   const double offset_before = signed_offset(comp_);
   if (move.comp.side != 0) comp_ = move.comp;
   Leg begin, end;
   const bool moves = make_legs(move, &begin, &end);
   if (move.comp.side == 0 && (!moves || mode_ == Mode::pending)) return intake_uncompensated(held);
-  const bool starts = mode_ == Mode::off;
+  const bool starts = mode_ == Mode::off || again;
   if (starts) {
     mode_ = Mode::pending;
     idle_blocks_ = 0;
@@ -346,6 +354,7 @@ void OffsetStage::intake_uncompensated(Held* held) {
     if (without_length(move)) held->role = Role::command;
   } else {
     held->role = without_length(move) ? Role::command : Role::carried;
+    cancelled_ = true;
     Section* last = open();
     if (without_length(move) && move.comp.cancel_vector && last && !last->start && !last->vanished) {
       last->joint =
@@ -450,7 +459,10 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   }
   section.commanded = section.jointed;
   if (section.jointed) tail_ = section.joint.v[0];
-  if (comp.side == 0) mode_ = Mode::off;
+  if (comp.side == 0) {
+    mode_ = Mode::off;
+    cancelled_ = false;
+  }
   chain_.push_back(section);
   approach_ = {};
   ++count_;

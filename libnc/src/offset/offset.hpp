@@ -48,6 +48,7 @@ struct OffsetResume {
   ContourMemory::State contour;  ///< what the check of the whole contour has seen
   double level = 0;  ///< its level across the plane
   bool commanded = true;  ///< the vector may lie anywhere: what begins with it is not checked against it
+  bool cancelled = false; ///< G40 was commanded, no movement in the plane has taken the vector away yet
   bool trim = false;      ///< an arc that comes next loses what is beyond a full circle
   double approach[2] = {0, 0};  ///< lines without a direction since the last joint
   double feed_scale = 0;
@@ -117,6 +118,7 @@ class OffsetStage {
     Vec2 approach;            ///< marks: lines without a direction since the joint
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
+    bool cancelled = false;   ///< marks
     bool in_contour = false;  ///< marks: contour_ has what the check of the walls has seen
     double level = 0;  ///< marks
     Vec2 lead;
@@ -175,6 +177,7 @@ class OffsetStage {
   Mode mode_ = Mode::off;
   uint8_t idle_blocks_ = 0;
   bool moved_ = false;   ///< the present block has moved in the plane, or commands compensation (G41, G42): neither counts as idle
+  bool cancelled_ = false;  ///< G40 alone: the vector is still there, and what is commanded next is a start
   bool failed_ = false;  ///< an alarm of this stage ended the stream
   Compensation comp_;    ///< of the last section
   Vec2 tail_;            ///< vector at the end of everything decided

@@ -361,6 +361,7 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.active = held.mode != Mode::off;
   resume_.pending = held.mode == Mode::pending;
   resume_.idle_blocks = held.idle_blocks;
+  resume_.cancelled = held.cancelled;
   resume_.level = held.level;
   resume_.contour.open = false;
   if (held.in_contour) resume_.contour = ContourMemory::with(contour_at(held), doubt_);
