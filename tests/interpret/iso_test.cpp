@@ -359,6 +359,64 @@ TEST(IsoProbe, TheSignalHasToChange) {  // LinuxCNC G38: an error where it is as
   }
 }
 
+TEST(IsoProbe, StaysInForceAsAMotion) {  // LinuxCNC, modal groups: G38.n is one of group 1
+  Bench bench(NC_DIALECT_ISO);
+  EXPECT_EQ(bench.run("F100\nG0 Z5\nG38.3 Z-3\nX5\nM3 S100\nG4 P0\nG43.1 Z1\nG10 L2 P1 X0\nG1 X0").path(),
+            (Path{"rapid 0 0 5", "skip 0 0 -3 F100", "skip 5 0 -3 F100", "line 0 0 -3 F100"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG38.5 Z3\nX5 F50").moves().at(1).skip_away, 1);
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG38.3 Z-3\nG93\nG1 X1 F2").alarm, "");
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  EXPECT_EQ(bench.at(0, 0, 0).run("G38.2 Z-10 F150\nX6\nG91 Z-1").path(), (Path{"skip 0 0 -10 F150", "skip 6 0 -5 F150", "skip 3 0 -6 F150"}));
+  bench.skip_at = [](const nc_item& item) { return item.u.move.machine.v[0] > 1 ? std::optional<double>() : 0.5; };
+  struct Row {
+    const char *program, *alarm;
+    unsigned line;
+  };
+  for (const Row& row : {Row{"F100\nG38.2 Z-3\nX5", "NC-PROBE", 3}, Row{"F100\nG38.3 Z-3\nG93\nX1 F1", "NC-FEED-MODE", 4}, Row{"F100\nG4 P1 G38.3 Z-3", "NC-FORMAT", 2},
+                         Row{"F100\nG38.3 Z-3\nG53 X1", "NC-NO-SUCH-CODE", 3}, Row{"F100\nG38.3 Z-3 G1 X5", "NC-FORMAT", 2}}) {
+    const Outcome run = bench.at(0, 0, 0).run(row.program);
+    EXPECT_EQ(run.alarm, row.alarm) << row.program;
+    EXPECT_EQ(run.alarm_line, row.line) << row.program;
+  }
+}
+
+// ---- words ----------------------------------------------------------------------------------------------------------------------------
+
+TEST(IsoWords, NumbersOfThingsAreWhole) {  // RS-274/NGC 3.3.2.1
+  for (const char* text : {"T1.5 M6", "M3.5 S100", "M6.5", "M[3.5]", "G41 D1.5", "G43 H1.5", "G10 L2.7 P1 X5", "G10 L2 P1.5 X5", "F100 G81 X1 Z-1 R1 L2.5", "F100 G2 I5 P2.5", "T1.001"}) {
+    const Outcome run = iso(std::string("G0 X0\n") + text);
+    EXPECT_EQ(run.alarm, "NC-FORMAT") << text;
+    EXPECT_EQ(run.alarm_line, 2u) << text;
+  }
+  EXPECT_EQ(iso("T1.99995 M[3+3.00005]\nM2").aux(), "T2 M6 M2");  // within 0.0001
+  EXPECT_EQ(iso("T[1/3*3] M6.0\nM2").aux(), "T1 M6 M2");
+  EXPECT_EQ(iso("F100\nG99 G81 X1 Z-1 R1 L0.99995\nM2").alarm, "");
+}
+
+TEST(IsoWords, SpeedsAreReal) {  // RS-274/NGC 3.7.2
+  std::vector<double> speeds, surface;
+  for (const nc_item& item : iso("S100.5 M3\nG96 S150.25\nM2").of(NC_ITEM_ACTION)) {
+    if (item.u.action.kind == NC_ACTION_S) speeds.push_back(item.u.action.value);
+    if (item.u.action.kind == NC_ACTION_CONTROL && item.u.action.index == NC_CONTROL_SURFACE_SPEED && item.u.action.value > 0) surface.push_back(item.u.action.value);
+  }
+  EXPECT_EQ(speeds.at(0), 100.5);
+  EXPECT_EQ(surface.at(0), 150.25);
+}
+
+TEST(IsoWords, AWordThatNoCodeTakesIsAnAlarm) {  // LinuxCNC: "D word with no G41", "L word with no canned cycle" and their like
+  for (const char* text : {"G0 X1 L5", "R3", "G1 X1 I5 F100", "X1 P2", "G0 X1 D1", "G0 Z1 H1", "G1 X1 Q2 F100", "G81 X1 Z-1 R1 F100 Q2", "G81 X1 Z-1 R1 F100 P2", "G85 X1 Z-1 R1 F100 I2",
+                           "G53 G0 X1 R2", "G33 Z-1 K1 R2", "G80 R2", "G4 P0 R5", "M3 S1 P5", "M101 P5", "G49 H1", "G40 D1", "G38.3 Z-1 F1 R2", "G92 X0 L1"}) {
+    const Outcome run = iso(std::string("G0 X0\n") + text);
+    EXPECT_EQ(run.alarm, "NC-ADDRESS") << text;
+    EXPECT_EQ(run.alarm_line, 2u) << text;
+  }
+}
+
+TEST(IsoCoordinates, SettingsHaveTheAxisWordsThatTheyNeed) {  // RS-274/NGC 3.5.18
+  EXPECT_EQ(iso("G92").alarm, "NC-WORDS");
+  for (const char* code : {"G92.1", "G92.2", "G92.3"}) EXPECT_EQ(iso(std::string(code) + " X1").alarm, "NC-ALONE") << code;
+}
+
 // ---- M codes and what is not there ----------------------------------------------------------------------------------------------------
 
 TEST(IsoMisc, OverridesAreBarredAndAllowed) {  // RS-274/NGC 3.6.5

@@ -67,6 +67,16 @@ TEST(DecimalPoint, NumbersDropTheirDecimals) {  // M700 5.3: D H L M N O S T
   EXPECT_EQ(m700("S1000.9 T5.2 M3.7\nM30").aux(), "S1000 T5 M3 M30");
 }
 
+TEST(Dwell, HasOneTime) {  // M700 8.1, HX 5.4, DGSHAPE G04: X or P; Series 8 G04: X or F
+  struct Row {
+    nc_dialect family;
+    const char *program, *alarm;
+  };
+  for (const Row& row : {Row{NC_DIALECT_M700, "G04 X1. P500\nM30", "P33"}, Row{NC_DIALECT_HX, "G04 X1. P500\nM30", "F_82004"}, Row{NC_DIALECT_DGSHAPE, "%\nG04X1.P500\nM30", "NC-ALONE"},
+                         Row{NC_DIALECT_SERIES8, "G04X1F2\nM30", "NC-FORMAT"}})
+    EXPECT_EQ(Bench(row.family).run(row.program).alarm, row.alarm) << row.program;
+}
+
 TEST(Inch, LinearAxesOnlyAndFeedToo) {  // M700 5.2
   EXPECT_EQ(m700("G20 G0 X1. Y2. Z3.\nM30").path(), (Path{"rapid 25.4 50.8 76.2"}));
   EXPECT_EQ(m700("G20 G0 X100\nM30").path(), (Path{"rapid 0.254 0 0"}));  // printed table: 100 -> 0.254 mm

@@ -81,6 +81,9 @@ struct Command {
   double get(WordSlot word) const { return value_[index_of(word)]; }
   Written written(WordSlot word) const { return {value_[index_of(word)], form_[index_of(word)]}; }
 
+  /// The word counts as if it had this value.
+  void put(WordSlot word, double value) { value_[index_of(word)] = value; }
+
  private:
   friend class CommandReader;
   double value_[kAddresses + 1];   ///< of each word as programmed, of several the last one; undefined where it does not stand in the block

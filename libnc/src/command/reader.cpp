@@ -88,6 +88,8 @@ Reading CommandReader::take_code(double value) {
 
 Reading CommandReader::take_misc(double value) {
   uint32_t code = 0;
+  const double within = front_.dialect->rules.block.whole_words_within;
+  if (within >= 0 && !make_whole(within, &value)) return front_.refuse(Condition::format_error, Role::misc_code, value);
   if (!whole_number(value, &code)) return front_.refuse(Condition::value_range, Role::misc_code, value);
   const MiscRow* row = find_misc(*front_.dialect, code);
   const Dialect& dialect = *front_.dialect;

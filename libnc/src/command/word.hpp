@@ -60,4 +60,12 @@ inline bool whole_number(double raw, uint32_t* number) {
   return true;
 }
 
+/// Puts the nearest whole number in the place of a value that is not farther than `within` from it. False when it is farther.
+inline bool make_whole(double within, double* value) {
+  const double nearest = std::nearbyint(*value);
+  if (!(std::fabs(*value - nearest) <= within)) return false;
+  *value = nearest;
+  return true;
+}
+
 }  // namespace nc

@@ -58,15 +58,6 @@ WordSlot first_with_point(const Block& block, WordSet words, double* value) {
   return kNoWord;
 }
 
-WordSlot first_with_fraction(const Block& block, WordSet words, double* value) {
-  for (const Word& word : block.words) {
-    if (!is_in(word, words) || (word.flags & kWordExpression) != 0 || word.value == std::floor(word.value)) continue;
-    *value = word.value;
-    return slot_of(word);
-  }
-  return kNoWord;
-}
-
 bool stands_before(const Block& block, const FrontEnd& front, WordSlot word, Function function) {
   for (const Word& at : block.words) {
     if (slot_of(at) == word) return true;

@@ -24,8 +24,6 @@ unsigned place_of(const Block& block, WordSlot word);
 WordSlot first_expression(const Block& block);
 /// The first of these words that is written with a point, and its value as it is written; kNoWord = none.
 WordSlot first_with_point(const Block& block, WordSet words, double* value);
-/// The same of a plain number that is not whole.
-WordSlot first_with_fraction(const Block& block, WordSet words, double* value);
 /// The word stands in the block, and no code with this function before it. Codes that are expressions do not count.
 bool stands_before(const Block& block, const FrontEnd& front, WordSlot word, Function function);
 /// The motion that is in force when the whole block has been read, if it is `now` before; codes that are expressions do not count.

@@ -63,7 +63,7 @@ enum class Function : uint8_t {
   mirror_on, mirror_off,                ///< G51.1 G50.1: modal; both take the axis words of their block
   scaling_on, scaling_off, rotation_on, rotation_off,   ///< G51 G50 G68 G69
   // Beside the names that follow stand the codes of RS-274/NGC and LinuxCNC.
-  probe, probe_away, skip_away,         ///< G38.2: as `skip`, but it is an alarm if there is no contact; G38.4 G38.5: until the contact is lost
+  probe, probe_try, probe_away, probe_away_try,   ///< G38.2 to G38.5: as `skip`, but motions that stay in force; the first and third are alarms without a signal, the last two wait until it is off
   centre_incremental, centre_absolute,  ///< G91.1 G90.1: how the centres of arcs are given
   shift_off, shift_suspend, shift_restore,   ///< G92.1 G92.2 G92.3: act on the shift that coordinate_set has set
   reference_set,                        ///< G28.1 G30.1
@@ -76,6 +76,7 @@ enum class Function : uint8_t {
   stitch_on, stitch_off,                ///< G63.1 G63.2
   cycle_rigid_tap, cycle_rigid_reverse_tap,   ///< G84.2 G84.3
   // Numbers of the codes of the Series 8 stand beside those that follow.
+  probe_once,                           ///< G51: as `skip`, but it is an alarm if there is no contact
   corner_behind,                        ///< G10: a chamfer or a rounding between the line of its block and the next one
   absolute_once, incremental_once,      ///< G67 G68: as absolute and incremental, for their block only
   comp_entry,                           ///< G43: the first move with compensation leads straight beside its end
@@ -91,8 +92,10 @@ inline constexpr unsigned kFunctions = static_cast<unsigned>(Function::count_);
 constexpr bool is_reference_move(Function f) {
   return f == Function::reference_check || f == Function::reference_return || f == Function::start_return || f == Function::second_reference;
 }
+/// A straight line at feed that a signal ends, as a mode: the axis words of the blocks behind go on with it.
+constexpr bool is_probing(Function f) { return f == Function::probe || f == Function::probe_try || f == Function::probe_away || f == Function::probe_away_try; }
 /// A straight line at feed that a signal ends.
-constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe || f == Function::probe_away || f == Function::skip_away; }
+constexpr bool is_skip(Function f) { return f == Function::skip || f == Function::multi_skip || f == Function::probe_once || is_probing(f); }
 /// Tool position offset (M700 12.6): it makes the motion of its block longer or shorter by an offset.
 constexpr bool offsets_position(Function f) {
   return f == Function::offset_longer || f == Function::offset_shorter || f == Function::offset_twice_longer || f == Function::offset_twice_shorter;

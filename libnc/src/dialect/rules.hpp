@@ -44,8 +44,9 @@ struct BlockRules {
   /// A decimal point is a fault in words whose value is a whole number: codes, spindle speeds, numbers of tools and offsets, counts
   /// (DGSHAPE 2). Otherwise the decimals are cut off (M700 5.3).
   bool whole_words_refuse_point;
-  /// Digits behind a point that are not 0 are a fault in the same words (HX 2.2.2 "format of data"). Otherwise they are cut off (M700 5.3).
-  bool whole_words_refuse_fraction = false;
+  /// In the same words, but speeds where they are real numbers, a value farther than this from a whole number is a fault, a nearer one is that number
+  /// (HX 2.2.2 "format of data": 0; RS-274/NGC 3.3.2.1: 0.0001). Below 0: the decimals are cut off (M700 5.3).
+  double whole_words_within = -1;
   /// M codes that stop or end the program have to stand alone in their block (DGSHAPE 2). M700 9.1 allows other words beside them.
   bool stops_stand_alone;
   /// A dwell has to stand alone in its block (DGSHAPE G04). M700 8.1 allows other words beside it.
@@ -58,6 +59,9 @@ struct BlockRules {
   bool assigns_at_once;
   /// A word without a number is 0, in any block (Series 8 G01, G41 print G00XY). Otherwise it is a fault, but for the blocks that M700 14.10, 6.9 print.
   bool bare_word_is_zero = false;
+  /// A word that no code of the block takes is a fault (LinuxCNC, its errors "D word with no G41", "L word with no canned cycle" and their like). Otherwise it
+  /// is passed over (M700 3.2).
+  bool unused_words_are_faults = false;
 };
 
 /// M, T and the second auxiliary function.
@@ -89,6 +93,8 @@ struct SpindleRules {
   bool radius_by_coordinate_setting = false;
   /// A word beside the code of constant surface speed is the highest speed (LinuxCNC G96 D). Otherwise coordinate system setting gives it (M700 10.4).
   bool limit_beside_surface = false;
+  /// S is a real number, in r/min or as a surface speed (RS-274/NGC 3.7.2). Otherwise it is a whole one (M700 10.1).
+  bool speed_is_real = false;
 };
 
 struct FeedRules {
@@ -325,6 +331,8 @@ struct CoordinateRules {
   bool stroke_check_sees_way = false;
   /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
   bool shift_ends_with_program = false;
+  /// Coordinate system setting without axis words is a fault (RS-274/NGC 3.5.18). Otherwise it shifts nothing (M700 14.5).
+  bool setting_needs_axes = false;
 };
 
 struct ScalingRules {

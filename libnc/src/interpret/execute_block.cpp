@@ -111,6 +111,10 @@ Execution apply_reading_modes(Interpreter& in) {
       case Function::space_arc_second:
       case Function::nurbs:
       case Function::thread:
+      case Function::probe:
+      case Function::probe_try:
+      case Function::probe_away:
+      case Function::probe_away_try:
       case Function::normal_line_off:
       case Function::centre_incremental:
       case Function::centre_absolute:
@@ -248,6 +252,19 @@ bool cycle_counts(const BlockContext& in) {
   return counts;
 }
 
+/// LinuxCNC, modal groups: G38.2 to G38.5 stay in force, so axis words without a code of a motion probe once more. They are executed as one-shot functions.
+Execution take_probing(BlockContext& in) {
+  Command& w = in.words;
+  if (!is_probing(in.state.modal.of(Mode::motion))) return Execution::done;
+  if (w.motion != nullptr) {
+    if (w.one_shot != nullptr) return in.raise_code(Condition::format_error, *w.motion);  // both use the axis words
+    w.one_shot = w.motion;
+  } else if (w.axes != 0 && w.one_shot == nullptr && in.state.cycle.kind == CycleKind::none) {
+    w.one_shot = row_in_force(*in.dialect, in.state.modal, Mode::motion);
+  }
+  return Execution::done;
+}
+
 }  // namespace
 
 Execution execute_motion_of_words(BlockContext& in) {
@@ -259,6 +276,8 @@ Execution execute_motion_of_words(BlockContext& in) {
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
     return do_cycle(in);
   }
+  const Execution probes = take_probing(in);
+  if (probes != Execution::done) return probes;
   const bool of_hole = in.state.cycle.kind != CycleKind::none && w.one_shot != nullptr && w.one_shot->function == Function::unidirectional;
   if (w.one_shot != nullptr && !of_hole) return execute_one_shot(in);  // G60 of a hole: M700 6.8, HX 4.2
   if (in.state.cycle.kind != CycleKind::none) return do_cycle(in);

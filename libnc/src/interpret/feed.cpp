@@ -142,9 +142,11 @@ bool refused_in_inverse_time(Function function) {
     case Function::circle_cut_ccw:
     case Function::skip:
     case Function::multi_skip:
+    case Function::probe_once:
     case Function::probe:
+    case Function::probe_try:
     case Function::probe_away:
-    case Function::skip_away:
+    case Function::probe_away_try:
     case Function::thread:
     case Function::holes_on_circle:
     case Function::holes_on_line:
@@ -171,7 +173,7 @@ Execution check_inverse_time_block(BlockContext& in) {
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
   // (5): modes that were in force before
   const Function motion = in.state.modal.of(Mode::motion);
-  if (motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
+  if (is_probing(motion) ? w.axes != 0 && w.one_shot == nullptr : motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
   if (motion == Function::nurbs && w.axes != 0) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
   const bool cycle = in.state.cycle.kind != CycleKind::none && w.cycle == nullptr && w.motion == nullptr;
   if (cycle) return in.raise_mode(Condition::inverse_time_code, Mode::cycle);

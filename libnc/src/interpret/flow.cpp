@@ -169,7 +169,8 @@ Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
 
 /// M700 App.1 P35: the P of a program has up to eight digits and no sign (3.5); the same holds for H and for the P of M99.
 Execution called_number(Interpreter& in, Role word, double value, uint32_t* number) {
-  if (in.dialect->rules.block.whole_words_refuse_fraction && value != std::floor(value)) return in.raise(Condition::format_error, word, value);
+  const double within = in.dialect->rules.block.whole_words_within;
+  if (within >= 0 && !make_whole(within, &value)) return in.raise(Condition::format_error, word, value);
   return whole_number(value, number) && *number <= 99999999 ? Execution::done : in.raise(Condition::value_range, word, value);
 }
 

@@ -117,6 +117,10 @@ inline constexpr ModeRow kModeRows[] = {
     {Mode::cycle, Function::cycle_face_upwards},
     {Mode::high_speed, Function::high_speed_off},
     {Mode::high_speed, Function::high_speed_on},
+    {Mode::motion, Function::probe},
+    {Mode::motion, Function::probe_try},
+    {Mode::motion, Function::probe_away},
+    {Mode::motion, Function::probe_away_try},
 };
 
 constexpr ModeTable make_mode_table() {

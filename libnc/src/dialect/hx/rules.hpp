@@ -29,7 +29,7 @@ inline constexpr Rules kRules = {
                .rounds_formulas = true},
     .block = {.distance_by_word = false,  // 8.1, 8.2
               .whole_words_refuse_point = false,
-              .whole_words_refuse_fraction = true,
+              .whole_words_within = 0,
               .stops_stand_alone = false,
               .dwell_stands_alone = false,
               .words_stand_once = false,  // 14.1.1 (3): the last one counts

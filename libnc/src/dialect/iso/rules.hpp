@@ -26,15 +26,18 @@ inline constexpr Rules kRules = {
                .rounds_formulas = false},
     .block = {.distance_by_word = false,  // RS-274/NGC 3.8: the distance mode is set before anything moves
               .whole_words_refuse_point = false,
+              .whole_words_within = 1e-4,
               .stops_stand_alone = false,
               .dwell_stands_alone = false,
               .words_stand_once = true,
-              .assigns_at_once = true},
+              .assigns_at_once = true,
+              .unused_words_are_faults = true},
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T selects the tool, M6 changes it
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = false,
                 .skips_repeated_codes = false,
-                .limit_beside_surface = true},
+                .limit_beside_surface = true,
+                .speed_is_real = true},
     .feed = {.inch_is_ten_degrees = false,
              .degree_counts_as_millimetre = false,  // RS-274/NGC 2.1.2.5: F is the speed of X Y Z if one of them moves
              .inverse_time_is_of_block = true},
@@ -85,7 +88,8 @@ inline constexpr Rules kRules = {
     .coordinate = {.machine_move_may_be_incremental = false,  // LinuxCNC G53: an error in G91
                    .machine_code_ends_shift = false,
                    .machine_move_by_motion = true,
-               .incremental_machine_move_rests = false},
+               .incremental_machine_move_rests = false,
+               .setting_needs_axes = true},
     .scaling = {.all_linear_axes = false, .factor_required = true, .factor_of_word = factor_of_word,
                .factor_by_axis = false, .arcs_may_be_uneven = false},
     .data_input = {.incremental_adds = false,

@@ -32,7 +32,7 @@ const FunctionRow kFunctions[] = {
     {430, 0, F::comp_entry, nullptr, "straight entry of cutter radius compensation", "G43"},
     {490, 0, F::holes_on_frame_ccw, nullptr, "rectangular pattern, counter-clockwise", "G49"},
     {500, 0, F::holes_on_frame_cw, nullptr, "rectangular pattern, clockwise", "G50"},
-    {510, 0, F::probe, nullptr, "probe cycle", "G51"},
+    {510, 0, F::probe_once, nullptr, "probe cycle", "G51"},
     {550, 16, F::rotation_on, nullptr, "part rotation", "G55"},
     {560, 16, F::rotation_off, nullptr, "part rotation off", "G56"},
     {570, 11, F::scaling_on, nullptr, "part scaling", "G57"},

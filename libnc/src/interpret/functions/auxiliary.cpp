@@ -63,12 +63,14 @@ Execution spindle_word(BlockContext& in) {
     const Execution did = check_tap_speed(in);
     if (did != Execution::done) return did;
   }
-  if (!whole_number(in.words.get(Role::spindle_speed), &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, in.words.get(Role::spindle_speed));
+  const double written = in.words.get(Role::spindle_speed);
+  if (!whole_number(written, &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, written);
   if (in.state.spindle.axis != 0) {
     const Execution did = surface_word(in);
     if (did != Execution::done) return did;
   }
-  const double speed = in.dialect->rules.spindle.speed_of_word(s);
+  const SpindleRules& rules = in.dialect->rules.spindle;
+  const double speed = rules.speed_is_real ? written : rules.speed_of_word(s);
   in.state.modal.spindle = speed;
   if (in.state.spindle.axis != 0 && in.state.spindle.held) return Execution::done;  // it counts from M58 on
   if (!tap) emit_action(in, NC_ACTION_S, Role::spindle_speed, speed);
@@ -121,23 +123,33 @@ Execution check_whole_numbers(BlockContext& in) {
   return word == kNoWord ? Execution::done : in.raise(Condition::format_error, word, value);
 }
 
-/// HX 2.2.2: the same words have no digits behind a point that mean something; of a call its program, of a cycle the number of holes.
-Execution check_fractions(BlockContext& in) {
+/// Words of the block whose values are whole numbers (HX 2.2.2, RS-274/NGC 3.3.2.1); of a call its program, of a cycle the number of holes.
+WordSet whole_words(const BlockContext& in) {
   const Command& w = in.words;
-  const auto broken = [&w](Role word) { return w.has(word) && w.get(word) != std::floor(w.get(word)); };
-  for (const Role word : {Role::spindle_speed, Role::tool, Role::offset_number, Role::length_number})
-    if (broken(word)) return in.raise(Condition::format_error, word, w.get(word));
-  double value = 0;
-  const WordSlot code = first_with_fraction(*in.block, in.set_of({Role::misc_code}), &value);
-  if (code != kNoWord) return in.raise(Condition::format_error, code, value);
-  const bool data = w.one_shot != nullptr && w.one_shot->function == Function::data_input;
-  for (const Role word : {Role::input_kind, Role::input_number})
-    if (data && broken(word)) return in.raise(Condition::format_error, word, w.get(word));
+  WordSet whole = in.set_of({Role::tool, Role::offset_number, Role::length_number});
+  if (!in.dialect->rules.spindle.speed_is_real) whole |= in.set_of({Role::spindle_speed});
+  if (limits_surface_speed(in)) whole &= ~in.set_of({Role::clamp_highest});
+  const Function one_shot = w.one_shot != nullptr ? w.one_shot->function : Function::count_;
+  if (one_shot == Function::data_input) whole |= in.set_of({Role::input_kind, Role::input_number});
   for (const uint32_t m : w.m)
-    if (calls_program(misc_function(*in.dialect, m)) && broken(Role::call_program)) return in.raise(Condition::format_error, Role::call_program, w.get(Role::call_program));
+    if (calls_program(misc_function(*in.dialect, m))) whole |= in.set_of({Role::call_program});
+  const bool arc = is_arc(in.state.modal.of(Mode::motion));
   const bool hole = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr && w.one_shot == nullptr);
-  for (const Role word : {Role::cycle_count, Role::cycle_count_2})
-    if (hole && !is_arc(in.state.modal.of(Mode::motion)) && broken(word)) return in.raise(Condition::format_error, word, w.get(word));
+  if (arc && !hole && one_shot == Function::count_) whole |= in.set_of({Role::arc_turns});
+  if (hole && !arc) whole |= in.set_of({Role::cycle_count, Role::cycle_count_2});
+  return whole;
+}
+
+/// Checks the values of these words; one near enough to a whole number becomes that number.
+Execution check_fractions(BlockContext& in) {
+  Command& w = in.words;
+  const double within = in.dialect->rules.block.whole_words_within;
+  for (WordSet left = whole_words(in) & w.present; left != 0; left &= left - 1) {
+    const WordSlot word = first_word(left);
+    double value = w.get(word);
+    if (!make_whole(within, &value)) return in.raise(Condition::format_error, word, value);
+    w.put(word, value);
+  }
   return Execution::done;
 }
 
@@ -162,8 +174,12 @@ Execution check_precedence(BlockContext& in) {
     const Execution did = check_whole_numbers(in);
     if (did != Execution::done) return did;
   }
-  if (rules.whole_words_refuse_fraction) {
+  if (rules.whole_words_within >= 0) {
     const Execution did = check_fractions(in);
+    if (did != Execution::done) return did;
+  }
+  if (rules.unused_words_are_faults) {
+    const Execution did = check_unused_words(in);
     if (did != Execution::done) return did;
   }
   if (in.dialect->rules.compensation.bars_position_offset && (w.cycle != nullptr || in.state.cycle.kind != CycleKind::none))

@@ -64,6 +64,7 @@ static void set_zero_under_map(BlockContext& in) {
 Execution do_coordinate_set(BlockContext& in) {
   const Command& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
+  if (in.dialect->rules.coordinate.setting_needs_axes && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
     const Execution did = set_spindle_clamp(in);
     if (did != Execution::done) return did;
@@ -93,6 +94,7 @@ namespace {
 
 Execution shift_to(BlockContext& in, const AxisVec& shift) {
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
+  if (in.words.axes != 0) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);  // they would be lost
   const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) in.set_table(Frames::shift_key(i), shift[i]);
   keep_rotation_center(in, zero_before);
@@ -120,7 +122,7 @@ Execution do_shift_suspend(BlockContext& in) {
 
 Execution do_shift_restore(BlockContext& in) {
   const AxisVec at = in.records->shift_kept.at;
-  return at == AxisVec{} ? Execution::done : shift_to(in, at);
+  return at == AxisVec{} && in.words.axes == 0 ? Execution::done : shift_to(in, at);
 }
 
 Execution do_coordinate_preset(BlockContext& in) {

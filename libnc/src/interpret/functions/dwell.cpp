@@ -30,6 +30,8 @@ Execution do_dwell(BlockContext& in) {
   const Command& w = in.words;
   const Role word = w.has(Role::dwell_seconds) ? Role::dwell_seconds : Role::dwell_time;
   const DwellRules& rules = in.dialect->rules.dwell;
+  // "G04 X_" or "G04 P_" (M700 8.1, DGSHAPE G04, HX 5.4; Series 8 G04: X or F): of two times none is that of the program.
+  if (w.has(Role::dwell_seconds) && w.has(Role::dwell_time) && !has_words_of_call(in)) return in.raise(Condition::two_words, Role::dwell_time, w.get(Role::dwell_time));
   if (!w.has(word) && !rules.time_optional) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 15.2 prints "G04" alone behind G31, "machine stop check": the axes come to rest, and that is all.
   if (rules.refuses_axes && w.axes != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);

@@ -178,6 +178,8 @@ Execution set_surface_speed(BlockContext& in);               ///< G96 G97 of the
 void hold_surface(BlockContext& in, bool held);              ///< M59, M58 of the Series 8
 Execution set_surface_radius(BlockContext& in);              ///< G92 R of the Series 8
 Execution surface_word(BlockContext& in);                    ///< S while G96 is in force
+/// A word that no code of the block takes is an alarm (unused_words.cpp).
+Execution check_unused_words(BlockContext& in);
 bool limits_surface_speed(const BlockContext& in);     ///< a word of this block is the highest speed of G96 (LinuxCNC)
 bool is_clamp_command(const BlockContext& in);         ///< the S of this block belongs to a G92
 Execution set_spindle_clamp(BlockContext& in);               ///< G92 S Q

@@ -32,7 +32,7 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
 /// The move has to end by its signal.
 bool wants_signal(const BlockContext& in) {
   const Function function = in.words.one_shot->function;
-  return function == Function::probe || function == Function::probe_away;
+  return function == Function::probe_once || function == Function::probe || function == Function::probe_away;
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Execution do_skip(BlockContext& in) {
     style.skip_speeds = &in.skip_speeds;
   }
   style.skip_mask = static_cast<uint8_t>(mask);
-  style.skip_away = w.one_shot->function == Function::probe_away || w.one_shot->function == Function::skip_away;
+  style.skip_away = w.one_shot->function == Function::probe_away || w.one_shot->function == Function::probe_away_try;
   const AxisVec before = in.state.machine;
   move_linear(in, target_of_words(in), w.axes, style);
   if (in.state.machine == before) {  // there is no way on which a signal could come

@@ -102,9 +102,10 @@ Execution set_surface_radius(BlockContext& in) {
 }
 
 Execution surface_word(BlockContext& in) {
-  uint32_t speed = 0;
-  const Execution did = speed_word(in, Role::spindle_speed, &speed);
+  uint32_t whole = 0;
+  const Execution did = speed_word(in, Role::spindle_speed, &whole);
   if (did != Execution::done) return did;
+  const double speed = in.dialect->rules.spindle.speed_is_real ? in.words.get(Role::spindle_speed) : whole;
   // The example has m/min; in inch it is feet/min, as in FANUC.
   in.state.spindle.surface = in.state.modal.is(Function::inch) ? speed * 0.3048 : speed;
   announce_surface(in);
