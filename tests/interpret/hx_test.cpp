@@ -116,6 +116,19 @@ TEST(Hx, APoleThatAnIncrementHasSetStays) {  // 8.3, the printed program (G91), 
   EXPECT_EQ(hx("G00 X5. Y5.\nG16\nG91 X10. Y90.\nG90 X20. Y0\nM30").path(), (Path{"rapid 5 5 0", "rapid 5 15 0", "rapid 20 0 0"}));
 }
 
+TEST(HxPolar, WordsOfAnArcAreNoRadiusAndAngle) {  // HX 8.3, the list of the codes
+  EXPECT_EQ(hx("G16\nG00 X10. Y0\nG03 X0. Y10. R10. F100\nX-10. Y0 R10.\nG01 X5. Y0\nM30").path(),
+            (Path{"rapid 10 0 0", "ccw 0 10 0 c0,0 F100", "ccw -10 0 0 c0,0 F100", "line 5 0 0 F100"}));
+  EXPECT_EQ(hx("G16\nG81 X10. Y90. Z-1. R1. F100\nM30").path().front(), "rapid 0 10 0");
+}
+
+TEST(HxLength, AnotherNumberActsWithoutTheCode) {  // as m700, whose words these are (decisions.md)
+  const auto run = [](const std::string& text) { return Bench(NC_DIALECT_HX).tool(1, 10).tool(2, 20).run(text + "\nM30").path(); };
+  EXPECT_EQ(run("G00 G43 H1 Z5.\nH2\nZ6."), (Path{"rapid 0 0 15", "rapid 0 0 26"}));
+  EXPECT_EQ(run("G00 G43 H1 Z5.\nZ6. H2"), (Path{"rapid 0 0 15", "rapid 0 0 26"}));
+  EXPECT_EQ(run("H2\nG00 Z5."), (Path{"rapid 0 0 5"}));
+}
+
 TEST(Hx, RepetitionsGoOnByTheAngle) {  // 8.3, 12.1.2: K counts on by the words in G91, and the angle is one of them
   const auto holes = [](const std::string& text) {
     Path found;

@@ -254,6 +254,19 @@ TEST(Series8Cycle, BoresInTheWayOfEachCode) {  // G85 to G89
   EXPECT_EQ(alarm_of("F10\nG86X1Z-3R4"), "NC-SPINDLE");  // which way would it turn again?
 }
 
+TEST(Series8Cycle, WhatWouldCutTheWallIsAnAlarm) {  // G88, G89: "shifted off-center to allow passing the boring tool through the hole"
+  for (const char* block : {"G89X3R-3Z-1", "G88X3R1Z-1"}) EXPECT_EQ(alarm_of(std::string("F100M3S100\nG00Z10\n") + block + "\nM30"), "NC-WORDS") << block;
+}
+
+TEST(Series8Cycle, PlacesBesideItsCodeAreAnAlarm) {  // G49, G50 in a cycle: in a block of their own, where I and J are those of the pattern
+  for (const char* code : {"G49X0Y0I10J10K3L3", "G50X0Y0I10J10K3L3", "G34X0Y0I6J4D1", "G06X1Y1I1"}) {
+    const Outcome run = series8(std::string("F100\nG00Z10\nG81") + code + "Z-1R1\nG80\nM30");
+    EXPECT_EQ(run.alarm, "NC-FORMAT") << code;
+    EXPECT_EQ(run.alarm_line, 3u) << code;
+  }
+  EXPECT_EQ(alarm_of("F100\nG00Z10\nG81X0Y0Z-1R1\nG49X0Y0I10J10K3L3\nG80\nM30"), "");
+}
+
 TEST(Series8Cycle, TheShiftIsThatOfTheSpindle) {  // G88: no map turns or scales it
   const auto shifted = [](const std::string& map) {
     const Path path = path_of("M04S600\nF10\n" + map + "\nG88X5Y0Z-5R2I.5P0");
@@ -309,7 +322,7 @@ TEST(Series8Cavity, IsMilledInRingsAndDepths) {  // G34 to G36
   EXPECT_EQ(most[1], 65);
   EXPECT_EQ(path.back(), "rapid 100 50 2");
   EXPECT_EQ(bench.run("F300\nG34X0Y0Z-1R1I12J20D1").path()[3], "line 0 4 -1 F300");  // the line between the long walls
-  const auto first_turn = [&](const char* code) { return bench.run(std::string("F300\n") + code + "X0Y0Z-1R1I60J40Q15D1").moves(); };
+  const auto first_turn = [&](const char* code) { return bench.run(std::string("F300\n") + code + "X0Y0Z-1R1I60J40Q8D1").moves(); };
   EXPECT_GT(first_turn("G34")[6].machine.v[1], 0);  // from the middle of the right side upwards ...
   EXPECT_LT(first_turn("G35")[6].machine.v[1], 0);  // ... and downwards
   const Outcome circle = bench.run("F300\nG36X0Y0Z-1R1I15D1Q5");
@@ -323,7 +336,8 @@ TEST(Series8Cavity, RefusesWhatCannotBeMilled) {
   bench.tool(1, 5, NC_TOOL_RADIUS);
   const auto alarm = [&](const std::string& block) { return bench.run("F300\n" + block).alarm; };
   for (const char* block : {"G34X0Z-1R1I60D1", "G34X0Z-1I60J40D1", "G34X0R1I60J40D1", "G34X0Z-1R1I60J40D0"}) EXPECT_EQ(alarm(block), "NC-WORDS") << block;
-  for (const char* block : {"G34X0Z-1R1I8J40D1", "G36X0Z-1R1I5D1", "G34X0Z2R1I60J40D1", "G34X0Z-1R1I60J40P30D1", "G34X0Z-1R1I60J40K-1D1", "G34X0Z-1R1I60J40Q0D1"})
+  for (const char* block : {"G34X0Z-1R1I8J40D1", "G36X0Z-1R1I5D1", "G34X0Z2R1I60J40D1", "G34X0Z-1R1I60J40P30D1", "G34X0Z-1R1I60J40K-1D1", "G34X0Z-1R1I60J40Q0D1", "G34X0Z-1R1I60J40Q15D1",
+                            "G36X0Z-1R1I30Q25D1", "G34X0Z-1R1I60J40P2D1"})
     EXPECT_EQ(alarm(block), "NC-RANGE") << block;
 }
 

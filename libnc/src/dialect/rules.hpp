@@ -60,7 +60,7 @@ struct BlockRules {
   /// A word without a number is 0, in any block (Series 8 G01, G41 print G00XY). Otherwise it is a fault, but for the blocks that M700 14.10, 6.9 print.
   bool bare_word_is_zero = false;
   /// A word that no code of the block takes is a fault (LinuxCNC, its errors "D word with no G41", "L word with no canned cycle" and their like). Otherwise it
-  /// is passed over (M700 3.2).
+  /// is passed over.
   bool unused_words_are_faults = false;
 };
 
@@ -280,7 +280,7 @@ struct CycleRules {
   /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
   bool takes_length_number = false;
   /// A cycle that goes beside the hole has the words of the shift, or both parameters that say which way Q goes: the axis of the plane, and the direction
-  /// (HX 12.3.9). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
+  /// (HX 12.3.9, Series 8 G88, G89). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
   bool shift_needs_words = false;
   /// The shift beside the hole is that of the spindle, which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88).
   /// Otherwise it is mapped as other words are (M700 13.19).
@@ -325,7 +325,8 @@ struct CoordinateRules {
   /// Otherwise each has a rule of its own (M700 13.19, 13.20).
   bool maps_bar_returns = false;
   /// A radius of G16 that is an increment makes the place where the axes are the pole, which stays it for words without a radius; the first angle counts from
-  /// the first axis (HX 8.3). Otherwise the pole is there for that block alone, and is the zero point for others (M700 6.12).
+  /// the first axis; the words of an arc are no radius and angle (HX 8.3). Otherwise the pole is there for that block alone, and is the zero point for others,
+  /// and those of an arc are (M700 6.12).
   bool pole_stays = false;
   /// The stroke check looks at the way of a block (HX 15.5.3). Otherwise at its start and end (M700 15.7).
   bool stroke_check_sees_way = false;

@@ -252,6 +252,9 @@ bool cycle_counts(const BlockContext& in) {
   return counts;
 }
 
+/// Series 8: a function with places of its own beside the code of a cycle. I J K would be words of both, and only one of them would be executed.
+bool has_places_of_its_own(Function f) { return f == Function::holes_on_frame_ccw || f == Function::holes_on_frame_cw || cuts_cavity(f) || f == Function::sine_loop; }
+
 /// LinuxCNC, modal groups: G38.2 to G38.5 stay in force, so axis words without a code of a motion probe once more. They are executed as one-shot functions.
 Execution take_probing(BlockContext& in) {
   Command& w = in.words;
@@ -274,6 +277,7 @@ Execution execute_motion_of_words(BlockContext& in) {
       return in.raise_code(Condition::format_error, *w.cycle);
     cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
   } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
+    if (w.one_shot != nullptr && w.cycle->function != Function::cycle_off && has_places_of_its_own(w.one_shot->function)) return in.raise_code(Condition::format_error, *w.one_shot);
     return do_cycle(in);
   }
   const Execution probes = take_probing(in);

@@ -59,7 +59,7 @@ inline constexpr Rules kRules = {
                      .side_changes_on_arc = true,  // 13.2.2 (3)
                      .bars_position_offset = true},
     .length = {.axis_by_words = false,
-               .number_in_any_block = false,
+               .number_in_any_block = true,
                .zero_is_number = true,  // 13.1.1: H00 cancels
                .moves_at_once = false,
                .shifts_reading = false,

@@ -16,6 +16,7 @@ constexpr double kPi = std::numbers::pi;
 bool reads_plain_words(const BlockContext& in) {
   const Command& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
+  if (in.dialect->rules.coordinate.pole_stays && is_arc(in.state.modal.of(Mode::motion)) && w.cycle == nullptr && in.state.cycle.kind == CycleKind::none) return true;
   for (const FunctionRow* row : w.g) {
     const Mode mode = mode_of(row->function);
     if (mode == Mode::scaling || mode == Mode::rotation || mode == Mode::mirror || mode == Mode::macro) return true;
