@@ -227,6 +227,31 @@ TEST(OffsetProperty, OrderAndConservation) {
   EXPECT_LT(alarms, 1900u);
 }
 
+/// A contour, G40 without a movement, G41 without one, and then what ends that start before it has moved: the vector of the contour is still there.
+TEST(OffsetProperty, AStartBehindG40ThatIsGivenUpLeavesNoGap) {
+  for (const bool again : {false, true}) {
+    for (const bool moves : {false, true}) {
+      PathBuilder path(0, 0);
+      path.side(1, 5);
+      path.by(20, 20).by(40, 0).cancel().command();
+      path.side(1, 3);
+      path.command().cancel();
+      if (moves) path.by(0, 30);
+      path.command();
+      if (again) path.side(-1, 2);
+      if (again) path.by(10, 0).cancel();
+      const std::vector<Item> out = run_stage(path.by(50, 20).end());
+      ASSERT_EQ(alarm_of(out), nullptr);
+      AxisVec at = path.start();
+      for (const Move& move : moves_of(out)) {
+        EXPECT_EQ(move.start, at) << again << moves;
+        at = move.end;
+      }
+      EXPECT_EQ(at, path.position());
+    }
+  }
+}
+
 TEST(OffsetProperty, EndsUncompensated) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     Random random(seed);

@@ -69,7 +69,7 @@ NC_API nc_status nc_answer(nc_control* control, unsigned system, const nc_world*
  * @param control the control
  * @param system part system, from 0
  * @param serial serial of one of the last `look_ahead` marks that end a block (nc_mark::report); 0 = the start of the program
- * @return NC_OK; NC_E_NOT_FOUND: there is no such mark, or it is too old; NC_E_STATE: the program runs online; NC_E_ARGUMENT: no such part system
+ * @return NC_OK; NC_E_NOT_FOUND: no such mark, too old, or in a contour whose blocks depend on one before it; NC_E_STATE: online; NC_E_ARGUMENT: no such part system
  */
 NC_API nc_status nc_rewind(nc_control* control, unsigned system, uint64_t serial);
 

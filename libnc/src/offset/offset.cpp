@@ -279,6 +279,8 @@ void OffsetStage::intake_move(Held* held) {
     held->has_lead = true;
     tail_ = {};
   }
+  // A start behind G40 that has not moved yet either: the vector of the contour before is still there, and goes as in a contour.
+  if (mode_ == Mode::pending && norm(tail_) > 0 && (move.comp.side == 0 || move.comp.transparent)) mode_ = Mode::on;
   const bool again = cancelled_ && move.comp.side != 0;
   if (again) {  // the contour has ended, at right angles; another one starts from its vector
     close();
