@@ -3,13 +3,14 @@
 # ncrtd as a process in real time, with its threads: signals, data that outlive it, a program that is overwritten while it runs.
 . "$(dirname "${BASH_SOURCE[0]}")/ncrtd_process.sh"
 
-# until_listening PID: ncrtd is there and handles SIGINT and SIGTERM; before that a signal kills it, or is lost.
+# until_listening PID: ncrtd is there and handles SIGINT and SIGTERM; before that a signal kills it, or is lost. The program begins a moment later,
+# with a sanitizer on a busy computer more than half a second.
 until_listening() {
   local caught i
   for ((i = 0; i < 600; ++i)); do
     caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$1/status" 2>/dev/null)
     if [ "$(basename "$(readlink "/proc/$1/exe" 2>/dev/null)")" = ncrtd ] && [ $((0x${caught:-0} & 0x4002)) -eq $((0x4002)) ]; then
-      sleep 0.5
+      sleep "${NC_SANITIZE:+2}.5"
       return 0
     fi
     sleep 0.1
