@@ -213,6 +213,7 @@ TEST(IsoThread, KIsTheLeadAndFStaysTheFeed) {  // LinuxCNC G33
   EXPECT_EQ(run.moves()[0].kind, NC_MOVE_THREAD);
   EXPECT_DOUBLE_EQ(run.moves()[0].feed_mm_rev, 1.5);
   EXPECT_DOUBLE_EQ(run.moves()[1].feed_mm_min, 200);
+  EXPECT_EQ(iso("S100 M3 F200\nG33 Z-10").alarm_detail, "The block needs the word K.");
 }
 
 TEST(IsoMachine, MovesByTheMotionInForce) {  // RS-274/NGC 3.5.12

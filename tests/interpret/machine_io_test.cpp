@@ -37,7 +37,8 @@ TEST(MachineOutput, ChangesWithTheMotionThatFollows) {  // M62 to M65
 }
 
 TEST(MachineOutput, AValueIsAWordOfItsOwn) {  // M67, M68
-  EXPECT_EQ(order(iso("M67 E0 Q7.6\nX1\nM68 E2 Q-2\nM2")), "w1/4294967295=8 X1 w3/4294967295=4294967294");
+  EXPECT_EQ(order(iso("M67 E0 Q8\nX1\nM68 E2 Q-2\nM2")), "w1/4294967295=8 X1 w3/4294967295=4294967294");
+  EXPECT_EQ(alarm_of("M67 E0 Q7.6\nM2"), "NC-RANGE");  // a word of whole numbers
   EXPECT_EQ(alarm_of("M67 E0\nM2"), "NC-WORDS");
   EXPECT_EQ(alarm_of("M68 Q1\nM2"), "NC-WORDS");
   EXPECT_EQ(alarm_of("M68 E3 Q1\nM2"), "NC-RANGE");
@@ -122,7 +123,8 @@ TEST(ToolInTheSpindle, IsNamed) {  // M61
 
 TEST(Spindle, IsOrientedAtTheAngleOfTheMachine) {  // M19
   EXPECT_EQ(iso("M19\nM19 R0\nM2").aux(), "M19 M19 M2");
-  EXPECT_EQ(alarm_of("M19 R90\nM2"), "NC-RANGE");
+  for (const char* block : {"M19 R90", "M19 P1", "M19 Q5"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM2"), "NC-NOT-BUILT") << block;
+  EXPECT_EQ(iso("M19 Q5\nM2").alarm_detail, "The function that Q5 asks for is not fitted.");
 }
 
 // ---- G92.2, G92.3

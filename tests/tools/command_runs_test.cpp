@@ -148,6 +148,13 @@ TEST_F(CommandTest, ABlockThatNeverEndsIsGivenUp) {
   EXPECT_EQ(ncsim("check --dialect series8 p.s8").code, 0);
 }
 
+// M66 asks again and again for its time, and then goes on.
+TEST_F(CommandTest, AWaitForAnInputIsNoLoop) {
+  file("p.ngc", "M66 P0 L3 Q5\nG0 X#5399\nM2\n");
+  for (const char* command : {"check", "time"}) EXPECT_EQ(ncsim(std::string(command) + " --dialect iso p.ngc").code, 0) << command;
+  EXPECT_NE(ncsim("trace --dialect iso p.ngc").out.find("\"X\":-1"), std::string::npos);
+}
+
 // A cycle without the point of its Q: so many strokes that nobody has meant them.
 TEST_F(CommandTest, ABlockOfMillionsOfMovesIsGivenUp) {
   file("p.s8", "F100\nG83X1Z-1000R1I0J.0001\nM30\n");

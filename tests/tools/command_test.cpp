@@ -373,6 +373,8 @@ TEST_F(CommandTest, CheckNotesNumbersOfAnotherFamily) {
   EXPECT_NE(ncsim("check --dialect dgshape p.nc").err.find("note: p.nc:4: X7 without a decimal point is read"), std::string::npos);
   file("s.json", R"({"params": {"interpretation": "calculator"}})");
   EXPECT_EQ(ncsim("check --dialect dgshape --setup s.json p.nc").err, "");
+  file("p.nc", "G83 X75. Y50. Z-70. R5. Q6 F100.\nM30\n");
+  EXPECT_NE(ncsim("check --dialect hx p.nc").err.find("note: p.nc:1: Q6 without a decimal point is read"), std::string::npos) << "a peck of six thousandths";
   file("p.nc", "G00 X10000\nX20000\nM30\n");
   EXPECT_EQ(ncsim("check --dialect hx p.nc").err.find("looks like"), std::string::npos) << "thousandths throughout";
 }

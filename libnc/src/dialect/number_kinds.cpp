@@ -10,7 +10,12 @@ namespace nc {
 namespace {
 
 /// What the words of a block are, which its codes decide.
-enum class BlockKind : uint8_t { motion, holes, tap, dwell, arguments, work_data, tool_data, other_data, parameters_begin, data_end };
+enum class BlockKind : uint8_t { motion, holes, tap, bore, dwell, arguments, work_data, tool_data, other_data, parameters_begin, data_end };
+
+/// The cycle has a length that is no axis word.
+bool has_depth(Function function) {
+  return function == Function::cycle_step || function == Function::cycle_peck || function == Function::cycle_fine_bore || function == Function::cycle_back_bore;
+}
 
 BlockKind kind_of(DataInput input) {
   switch (input) {
@@ -44,6 +49,7 @@ class Words {
       if (row->function == Function::dwell) return BlockKind::dwell;
       if (row->function >= Function::holes_on_circle && row->function <= Function::holes_on_grid) return BlockKind::holes;
       if (row->function == Function::cycle_tap || row->function == Function::cycle_reverse_tap) return BlockKind::tap;
+      if (has_depth(row->function)) return BlockKind::bore;
       if (row->function == Function::data_input) return kind_of(input());
       if (ends_data_input(row->function)) return BlockKind::data_end;
       if (is_macro_call(row->function)) return BlockKind::arguments;
@@ -63,6 +69,9 @@ class Words {
         break;
       case BlockKind::tap:  // 13.1.1: ,R and ,S choose how the tap is made
         if (word.comma) return false;
+        break;
+      case BlockKind::bore:  // a peck, or the shift of a bore
+        if (is(word, Role::cycle_depth_step)) return true;
         break;
       case BlockKind::motion: break;
       default: return false;

@@ -245,8 +245,9 @@ Execution auxiliary_before(BlockContext& in) {
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
     if (held && function == MiscFunction::tool_change) continue;
-    if (function == MiscFunction::spindle_oriented && w.has(Role::orient_angle) && w.get(Role::orient_angle) != 0)
-      return in.raise(Condition::value_range, Role::orient_angle, w.get(Role::orient_angle));  // LinuxCNC M19 R: the machine has one angle
+    if (function == MiscFunction::spindle_oriented)  // LinuxCNC M19 R P Q: the machine has one angle, goes there in its own way, and FIN is waited for
+      for (const Role word : {Role::orient_angle, Role::output_number, Role::input_limit})
+        if (w.has(word) && w.get(word) != 0) return in.raise(Condition::no_function, word, w.get(word));
     note_spindle(in, function);
     if (m == in.settings.tap_m) in.state.tap_code = true;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time

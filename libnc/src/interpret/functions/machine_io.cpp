@@ -35,8 +35,8 @@ Execution put_value(BlockContext& in) {
   const Execution did = number_below(in, Role::word_number, NC_WORDS - 1, &number);
   if (did != Execution::done) return did;
   if (!in.words.has(Role::word_value)) return in.raise(Condition::words_missing, Role::word_value);
-  const double value = std::nearbyint(in.words.get(Role::word_value));
-  if (!(value >= INT32_MIN && value <= INT32_MAX)) return in.raise(Condition::value_range, Role::word_value, value);
+  const double value = in.words.get(Role::word_value);
+  if (value != std::floor(value) || !(value >= INT32_MIN && value <= INT32_MAX)) return in.raise(Condition::value_range, Role::word_value, value);
   give_out_bits(in, number + 1, ~0u, static_cast<uint32_t>(static_cast<int32_t>(value)), value);
   return did;
 }

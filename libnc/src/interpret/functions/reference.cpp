@@ -108,6 +108,7 @@ Execution do_reference_return(BlockContext& in) {
 }
 
 Execution do_second_reference(BlockContext& in) {
+  if (in.state.comp.side != 0 && in.dialect->rules.compensation.bars_reference_return) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
   // M700 14.8 (1): without P, and with another P than 2 to 4, it is the 2nd reference position.
   uint32_t place = 2;
   if (!place_of_p(in, 2, &place) || place < 2 || place > 4) {

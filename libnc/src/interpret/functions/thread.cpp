@@ -33,7 +33,7 @@ Execution take_lead(BlockContext& in) {
     lead = w.get(Role::thread_lead) * unit;  // M700 6.7.1: F1 = 1.000
     if (inch) limit = 100 * kMillimetresPerInch;
   } else {
-    return in.state.thread_lead > 0 ? Execution::done : in.raise(Condition::no_feed, Role::thread_lead);
+    return in.state.thread_lead > 0 ? Execution::done : in.raise(in.dialect->addresses.same(Role::thread_lead, Role::feed) ? Condition::no_feed : Condition::words_missing, Role::thread_lead);
   }
   if (!lead_in_range(lead, limit)) return in.raise(Condition::thread_lead, word, w.get(word));
   in.state.thread_lead = lead;
