@@ -8,7 +8,6 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kLongestTravel = 1e6;   // mm or deg
 constexpr double kTravelShare = 1.2; // of the way between the soft limits: the switches lie behind them
 constexpr double kTravelOfTurn = 400;  // deg
 constexpr double kJogShare = 0.1;    // of the largest velocity, where no speed of a search is given
@@ -51,16 +50,16 @@ void read_search(TableReader* reader, const nc_axis_config& axis, HomingConfig* 
   for (const char* key : {"direction", "fast", "creep"}) reader->require(key);
   unsigned word = 0;
   if (reader->choice("direction", {"-", "+"}, &word)) homing->direction = word == 0 ? -1 : 1;
-  const bool fast = reader->number("fast", &homing->fast, 1e-6, kLongestTravel), creep = reader->number("creep", &homing->creep, 1e-6, kLongestTravel);
+  const bool fast = reader->number("fast", &homing->fast, 1e-6, kMaxLength), creep = reader->number("creep", &homing->creep, 1e-6, kMaxLength);
   if (fast && axis.max_velocity > 0 && homing->fast > axis.max_velocity)
     reader->error("fast", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   if (fast && creep && homing->creep > homing->fast) reader->error("creep", "must not be above fast (" + number_text(homing->fast) + ")");
   homing->travel = axis.soft_limited ? kTravelShare * (axis.soft_max - axis.soft_min) : kTravelOfTurn;
   if (!axis.soft_limited && !axis.rotary) reader->require("travel");
-  reader->number("travel", &homing->travel, 1e-3, kLongestTravel);
+  reader->number("travel", &homing->travel, 1e-3, kMaxLength);
   if (reader->find("index") != nullptr) reader->require("index_travel");
   else if (reader->find("index_travel") != nullptr) reader->error("index_travel", "is for an index pulse: index");
-  reader->number("index_travel", &homing->index_travel, 1e-3, kLongestTravel);
+  reader->number("index_travel", &homing->index_travel, 1e-3, kMaxLength);
 }
 
 void check_reference(TableReader* reader, const nc_axis_config& axis, const HomingConfig& homing) {
@@ -93,14 +92,14 @@ void read_homing(TableReader* reader, Config* config, unsigned s, unsigned a) {
     read_name(reader, "dog", Part::kDog, hal::PointDirection::kInput, config, s, a);
   }
   read_name(reader, "index", Part::kIndex, hal::PointDirection::kInput, config, s, a);
-  reader->number("offset", &homing.offset, -kLongestTravel, kLongestTravel);
+  reader->number("offset", &homing.offset, -kMaxLength, kMaxLength);
   if (homing.kind == HomingKind::kDrive) {
     for (const char* key : {"request", "done"}) reader->require(key);
     read_name(reader, "request", Part::kRequest, hal::PointDirection::kOutput, config, s, a);
     read_name(reader, "done", Part::kDone, hal::PointDirection::kInput, config, s, a);
   }
   homing.jog = homing.fast > 0 ? homing.fast : kJogShare * axis.max_velocity;
-  if (reader->number("jog", &homing.jog, 1e-6, kLongestTravel) && axis.max_velocity > 0 && homing.jog > axis.max_velocity)
+  if (reader->number("jog", &homing.jog, 1e-6, kMaxLength) && axis.max_velocity > 0 && homing.jog > axis.max_velocity)
     reader->error("jog", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   check_reference(reader, axis, homing);
 }
@@ -207,7 +206,7 @@ void read_sim_axis(TableReader* reader, Config* config) {
   const AxisEquipment& equipment = config->equipment[s][a];
   hal::SimSwitches& sim = config->sim.axis[s][a].switches;
   double stands_at = config->start[s].v[a];
-  if (reader->number("stands_at", &stands_at, -kLongestTravel, kLongestTravel)) sim.offset = stands_at - config->start[s].v[a];
+  if (reader->number("stands_at", &stands_at, -kMaxLength, kMaxLength)) sim.offset = stands_at - config->start[s].v[a];
   const auto own = [&](int point) { return point >= 0 && config->points.at(static_cast<unsigned>(point)).bus == 0; };
   const auto lacks = [&](const char* key, bool there, const char* what) {
     if (!there && reader->find(key) != nullptr) reader->error(key, std::string("the axis has no ") + what + " on a point of the simulated machine");
@@ -218,9 +217,9 @@ void read_sim_axis(TableReader* reader, Config* config) {
     sim.dog = {equipment.homing.dog.point, equipment.homing.dog.closed, range[0], range[1]};
     if (range[0] > range[1]) reader->error("dog", "the first number must not be above the second");
   }
-  if (lacks("minus", own(equipment.limit[0].point), "limit switch in -") && reader->number("minus", &sim.minus.to, -kLongestTravel, kLongestTravel))
+  if (lacks("minus", own(equipment.limit[0].point), "limit switch in -") && reader->number("minus", &sim.minus.to, -kMaxLength, kMaxLength))
     sim.minus = {equipment.limit[0].point, equipment.limit[0].closed, -1e9, sim.minus.to};
-  if (lacks("plus", own(equipment.limit[1].point), "limit switch in +") && reader->number("plus", &sim.plus.from, -kLongestTravel, kLongestTravel))
+  if (lacks("plus", own(equipment.limit[1].point), "limit switch in +") && reader->number("plus", &sim.plus.from, -kMaxLength, kMaxLength))
     sim.plus = {equipment.limit[1].point, equipment.limit[1].closed, sim.plus.from, 1e9};
   if (lacks("index", own(equipment.homing.index.point), "index pulse") && reader->numbers("index", &range, 2, 2)) {
     sim.index = equipment.homing.index.point;

@@ -13,7 +13,6 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMaxLength = 1e6;  // mm or deg; a greater number is a typing error
 constexpr double kMaxRate = 1e9;
 constexpr double kLeastTolerance = 1e-4;  // mm; smallest tolerance of a smoothed path
 constexpr std::string_view kAxisLetters = "XYZABCUVW";

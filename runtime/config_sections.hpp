@@ -10,6 +10,8 @@
 
 namespace nc::rt {
 
+inline constexpr double kMaxLength = 1e6;  // mm or deg; a greater number is a typing error
+
 void read_machine(TableReader* root, Config* config);
 void read_scheduling(TableReader* root, Config* config);
 void read_motion(TableReader* root, Config* config);  // after the axes

@@ -261,9 +261,8 @@ Answer Feeder::load_mdi(const Command& command) {
   }
   scan_->set_loaded(Scan::kNothingLoaded);
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
-    return refuse(Answer::kRefusedByControl, status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks"
-                                             : status == NC_E_STATE  ? "a program is interrupted: let it end, or reset it, before MDI blocks are loaded"
-                                                                     : status_text(status));
+    return refuse(Answer::kRefusedByControl,
+                  status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
   if (refresh_) refresh_();  // only after load_mdi(): now the programs called by the one that was selected here are free
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);
