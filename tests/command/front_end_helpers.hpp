@@ -30,6 +30,7 @@ class FrontEndTest : public testing::Test {
     front.axis_words = &axis_words;
     front.vendor = &vendor;
     front.calls = &calls;
+    front.misc_codes = &misc_codes;
     front.code_words = family.addresses.set({Role::code, Role::misc_code, Role::sequence_number, Role::program_number});
     front.core = this;
     front.questions = &kAnswers;
@@ -53,6 +54,7 @@ class FrontEndTest : public testing::Test {
   AxisWords axis_words;
   VendorCodes vendor;
   CodeCalls calls;
+  MiscCodes misc_codes;
   FrontEnd front;
   Command command;
   Fault fault;

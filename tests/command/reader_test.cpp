@@ -11,15 +11,16 @@ class ReaderTest : public FrontEndTest {};
 
 TEST_F(ReaderTest, CodesAreWhatTheyMean) {
   ASSERT_EQ(read("G90 G2 G41 X10. I5. D1 M3"), Reading::done);
-  ASSERT_EQ(command.g.size(), 3u);
-  EXPECT_EQ(command.g[0]->function, Function::absolute);
-  EXPECT_EQ(command.g[2]->function, Function::comp_left);
+  ASSERT_EQ(command.functions.size(), 3u);
+  EXPECT_EQ(command.functions[0]->function, Function::absolute);
+  EXPECT_EQ(command.functions[2]->function, Function::comp_left);
   ASSERT_NE(command.motion, nullptr);
   EXPECT_EQ(command.motion->function, Function::arc_cw);
   EXPECT_EQ(command.one_shot, nullptr);
   EXPECT_EQ(command.cycle, nullptr);
-  ASSERT_EQ(command.m.size(), 1u);
-  EXPECT_EQ(command.m[0], 3u);
+  ASSERT_EQ(command.auxiliary.size(), 1u);
+  EXPECT_EQ(command.auxiliary[0].number, 3u);
+  EXPECT_EQ(command.auxiliary[0].function, MiscFunction::spindle_forward);
   ASSERT_EQ(read("G4 P500"), Reading::done);
   EXPECT_EQ(command.one_shot->function, Function::dwell);
   ASSERT_EQ(read("G9 G1 X1."), Reading::done);
@@ -151,8 +152,8 @@ TEST_F(ReaderTest, NothingOfTheBlockBeforeIsLeft) {
   ASSERT_EQ(read("G91 G81 G9 X1. R2. F3. M4 ,I0.1"), Reading::done);
   ASSERT_EQ(read("Y1."), Reading::done);
   EXPECT_EQ(command.present, set_of(axis_words.word(1)));
-  EXPECT_TRUE(command.g.empty());
-  EXPECT_TRUE(command.m.empty());
+  EXPECT_TRUE(command.functions.empty());
+  EXPECT_TRUE(command.auxiliary.empty());
   EXPECT_EQ(command.cycle, nullptr);
   EXPECT_FALSE(command.exact_stop);
   EXPECT_EQ(command.in_position, 0);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one block commands. The front end of a family makes it of a compiled block (command/reader.hpp), and the interpreter executes it.
 //
-//   codes      as rows of the family's table, each with its Function: all in the order of the block, and those that decide what is done: the motion, the fixed
-//              cycle, the one-shot function that takes the words, exact stop, a corner, G90 or G91 for this block alone
-//   M codes    as numbers, which the family's table turns into a MiscFunction
-//   targets    by axis: which axes are commanded, with which values, and which of these are increments
+//   functions  as rows of the family's table, each with its Function: all in the order of the block, and those that decide what is done: the motion, the
+//              fixed cycle, the one-shot function that takes the words, exact stop, a corner, absolute or incremental words for this block alone
+//   auxiliary  functions by what they mean (MiscFunction), with the number by which they are put out
+//   targets    by axis: whether it is commanded, whether the value is a place, an increment, a radius or an angle, and the value
 //   words      by their meaning to the function in hand (Role). The same word may have several meanings; the function decides which one it asks for
 //   options    what stands behind commas: corner, slope, widths of in-position checks, the words of taps, a device
 //
@@ -14,6 +14,8 @@
 #include <bit>
 #include <initializer_list>
 
+#include "command/auxiliary.hpp"
+#include "command/target.hpp"
 #include "command/word.hpp"
 #include "dialect/dialect.hpp"
 
@@ -27,9 +29,9 @@ struct Command {
   static constexpr uint32_t kNoVariable = ~uint32_t{0};
   const AddressTable* addresses = nullptr;  ///< what the words mean in this family
 
-  // ---- codes
-  FixedVector<const FunctionRow*, 16> g; ///< G codes in order
-  FixedVector<uint32_t, 16> m;           ///< M codes in order
+  // ---- functions
+  FixedVector<const FunctionRow*, 16> functions;  ///< in the order of the block
+  FixedVector<Auxiliary, 16> auxiliary;           ///< in the order of the block
   const FunctionRow* one_shot = nullptr; ///< the one-shot function that takes the words, or null
   const FunctionRow* motion = nullptr;   ///< the motion that this block names, or null
   const FunctionRow* cycle = nullptr;    ///< the fixed cycle that this block names, or null
@@ -42,9 +44,7 @@ struct Command {
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is waited for after the dwell
 
   // ---- targets
-  uint32_t axes = 0;               ///< bit i: axis i is commanded
-  uint32_t incremental = 0;        ///< bit i: axis i is commanded incrementally (G91)
-  AxisVec axis;                    ///< commanded value of each axis, mm or deg
+  Targets target;
 
   // ---- words
   WordSet present = 0;             ///< words that stand in the block, with a value

@@ -2,6 +2,7 @@
 // What a family's blocks are read with: its tables, the words of the machine's axes, and the few questions that only the core can answer.
 #pragma once
 
+#include "command/auxiliary.hpp"
 #include "command/axis_words.hpp"
 #include "command/code_calls.hpp"
 #include "command/vendor_codes.hpp"
@@ -35,6 +36,7 @@ struct FrontEnd {
   const AxisWords* axis_words = nullptr;
   const VendorCodes* vendor = nullptr;
   const CodeCalls* calls = nullptr;   ///< codes that parameters have registered
+  const MiscCodes* misc_codes = nullptr;  ///< M codes to which parameters give a meaning
   WordSet code_words = 0;             ///< words of G and M codes and of numbers at the head of a block
   bool checks_codes = false;          ///< the core is asked about every code of the block; otherwise only about those that are not built
   void* core = nullptr;

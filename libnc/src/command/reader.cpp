@@ -45,7 +45,7 @@ Reading CommandReader::take_code(double value) {
     if (may != Reading::done) return may;
   }
   Command& w = w_;
-  if (!w.g.push_back(row)) return front_.refuse(Condition::format_error, Role::code, value);
+  if (!w.functions.push_back(row)) return front_.refuse(Condition::format_error, Role::code, value);
   switch (row->function) {
     case Function::exact_stop_once: w.exact_stop = true; return Reading::done;
     case Function::corner_behind: w.corner_code = row; return Reading::done;
@@ -95,7 +95,7 @@ Reading CommandReader::take_misc(double value) {
   const Dialect& dialect = *front_.dialect;
   if (row == nullptr && dialect.rules.auxiliary.codes_are_listed && !puts_out(dialect, code)) return front_.refuse(Condition::illegal_g, Role::misc_code, code);
   if (row != nullptr && row->missing != nullptr) return front_.refuse(Condition::no_function, Role::misc_code, code);
-  return w_.m.push_back(code) ? Reading::done : front_.refuse(Condition::format_error, Role::misc_code, value);
+  return w_.auxiliary.push_back(auxiliary_of(dialect, *front_.misc_codes, code)) ? Reading::done : front_.refuse(Condition::format_error, Role::misc_code, value);
 }
 
 /// A word behind a comma.
@@ -132,8 +132,8 @@ Reading CommandReader::take_option(const Word& word, double value) {
 }
 
 bool CommandReader::calls_sub() const {
-  for (const uint32_t m : w_.m)
-    if (misc_function(*front_.dialect, m) == MiscFunction::call_sub) return true;
+  for (const Auxiliary& auxiliary : w_.auxiliary)
+    if (auxiliary.function == MiscFunction::call_sub) return true;
   return false;
 }
 
@@ -162,17 +162,18 @@ bool CommandReader::calls_another(unsigned first) const {
 Reading CommandReader::check_words_stand_once(WordSet twice) {
   const Command& w = w_;
   if (twice != 0) return front_.refuse(Condition::format_error, first_word(twice), w.get(first_word(twice)));
-  for (unsigned i = 1; i < w.g.size(); ++i)
+  for (unsigned i = 1; i < w.functions.size(); ++i)
     for (unsigned k = 0; k < i; ++k)
-      if (mode_of(w.g[i]->function) != Mode::none && mode_of(w.g[i]->function) == mode_of(w.g[k]->function)) return front_.refuse_code(Condition::format_error, *w.g[i]);
+      if (mode_of(w.functions[i]->function) != Mode::none && mode_of(w.functions[i]->function) == mode_of(w.functions[k]->function)) return front_.refuse_code(Condition::format_error, *w.functions[i]);
   return Reading::done;
 }
 
 void CommandReader::clear() {
   Command& w = w_;
-  w.present = w.axes = w.incremental = 0;
-  w.g.clear();
-  w.m.clear();
+  w.present = 0;
+  w.target.clear();
+  w.functions.clear();
+  w.auxiliary.clear();
   w.one_shot = w.motion = w.cycle = nullptr;
   w.exact_stop = w.fin_behind_dwell = w.comp_entry = false;
   w.corner_code = w.distance_once = nullptr;
@@ -235,8 +236,8 @@ Reading CommandReader::read() {
     if (front.is(word, Role::code)) {
       const Reading read = take_code(value);
       if (read != Reading::done) return read;
-      if (w.g.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
-      if (w.g.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
+      if (w.functions.back()->function == Function::absolute) w.absolute_at |= uint64_t{1} << i;
+      if (w.functions.back()->function == Function::incremental) w.incremental_at |= uint64_t{1} << i;
       if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) {
         // All further words are arguments. M700 App.2: G65 beside G66 is an error.
         if (calls_another(i)) return front.refuse(Condition::format_error, Role::code, value);
@@ -261,7 +262,7 @@ Reading CommandReader::read() {
     w.form_[at] = word.flags;
   }
   w.present = present;
-  if ((twice != 0 || w.g.size() > 1) && dialect.rules.block.words_stand_once) {
+  if ((twice != 0 || w.functions.size() > 1) && dialect.rules.block.words_stand_once) {
     const Reading once = check_words_stand_once(twice);
     if (once != Reading::done) return once;
   }

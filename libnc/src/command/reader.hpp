@@ -7,7 +7,7 @@
 
 namespace nc {
 
-/// Reads a block into `command`. Its targets are set by the core, which knows the modes: Command::axes, incremental and axis are empty. Whether what the
+/// Reads a block into `command`. Its targets are set by the core, which knows the modes: Command::target is empty. Whether what the
 /// block commands may stand together, and now, is for the core to say.
 Reading read_command(const Block& block, FrontEnd& front, Command& command);
 

@@ -80,12 +80,12 @@ Execution call_with_arguments(Interpreter& in, const Caller& caller) {
 bool moves(const Interpreter& in) {
   const Command& w = in.words;
   if (w.one_shot != nullptr && cuts_circle(w.one_shot->function)) return true;
-  if (w.axes == 0) return !is_line(in.state.modal.of(Mode::motion)) && w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}) && w.one_shot == nullptr;
+  if (w.target.axes() == 0) return !is_line(in.state.modal.of(Mode::motion)) && w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}) && w.one_shot == nullptr;
   return w.one_shot == nullptr || goes_to_position(w.one_shot->function);
 }
 
 bool cancels(const Interpreter& in) {
-  for (const FunctionRow* row : in.words.g)
+  for (const FunctionRow* row : in.words.functions)
     if (row->function == Function::macro_modal_off) return true;
   return false;
 }
@@ -128,9 +128,8 @@ bool block_is_argument(const Interpreter& in) { return modal_call_takes_blocks(i
 bool goes_on_elsewhere(const Interpreter& in) {
   if (modal_call_takes_blocks(in) || !moves(in) || cancels(in)) return false;
   if (in.after_block != nullptr) return true;
-  for (const uint32_t m : in.words.m) {
-    const MiscFunction function = misc_function(*in.dialect, m);
-    if (calls_program(function) || function == MiscFunction::return_sub) return true;
+  for (const Auxiliary& m : in.words.auxiliary) {
+    if (calls_program(m.function) || m.function == MiscFunction::return_sub) return true;
   }
   return false;
 }

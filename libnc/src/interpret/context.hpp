@@ -68,8 +68,7 @@ struct HolesOfBlock {
   Hole hole;                  ///< the one under way ...
   HoleProgress progress;
   uint32_t left = 0;          ///< with it
-  uint32_t axes = 0;          ///< that the block positions, ...
-  AxisVec increment;          ///< ... by these values of its words
+  Targets target;             ///< of the axes that the block positions
   PolarHoles polar;
   HolePattern pattern;        ///< where they lie, of a pattern
   AxisVec pattern_at;         ///< its reference point as programmed
@@ -343,8 +342,6 @@ void take_changed_amounts(BlockContext& in);
 /// interpret/interrupt.cpp, macro_call.cpp: what other functions need of program control.
 /// A code of the block calls a program, or names one (M96): then P, H and I J K are words of that code (M700 13.3.1, 13.3.3, 13.12).
 bool has_words_of_call(const BlockContext& in);
-bool is_interrupt_on(const BlockContext& in, uint32_t m);   ///< M96, or the M code that a parameter gives in its place
-bool is_interrupt_off(const BlockContext& in, uint32_t m);  ///< M97, or the M code that a parameter gives in its place
 bool has_modal_call(const BlockContext& in);   ///< something that G67 can cancel
 
 }  // namespace nc

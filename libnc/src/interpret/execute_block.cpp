@@ -60,7 +60,7 @@ bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && 
 /// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
 void drop_beside_cancel(Interpreter& in) {
   Command& w = in.words;
-  for (const FunctionRow* row : w.g) {
+  for (const FunctionRow* row : w.functions) {
     if (row->function != Function::macro_modal_off) continue;
     const bool one_shot = w.one_shot != nullptr && precedence_of(w.one_shot->function).macro == Precedence::loses;
     const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(row->function).cycle == Precedence::ignored;
@@ -78,7 +78,7 @@ Execution apply_reading_modes(Interpreter& in) {
   in.block_starts_incremental = in.state.modal.is(Function::incremental);
   in.distance_by_word = false;
   const Function feed_mode = in.state.modal.of(Mode::feed), cutting = in.state.modal.of(Mode::cutting);
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     switch (row->function) {
       case Function::absolute:
       case Function::incremental:
@@ -159,7 +159,7 @@ namespace {
 
 /// Step 2: coordinate systems and compensation.
 Execution apply_systems(Interpreter& in) {
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     Execution did = Execution::done;
     switch (row->function) {
       case Function::work_system:
@@ -172,7 +172,7 @@ Execution apply_systems(Interpreter& in) {
   const FunctionRow* radius = nullptr;
   in.words.comp_command = false;
   const FunctionRow* length = nullptr;
-  for (const FunctionRow* row : in.words.g) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
+  for (const FunctionRow* row : in.words.functions) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
     const Mode mode = mode_of(row->function);
     if (mode == Mode::radius && !ignores_compensation(one_shot, *row)) radius = row;
     if (mode == Mode::length && !ignores_compensation(one_shot, *row)) length = row;
@@ -204,7 +204,7 @@ Execution apply_systems(Interpreter& in) {
 /// M700 App.2: codes of length compensation and of work systems before a macro call only become modal.
 Execution update_beside_call(Interpreter& in) {
   const PrecedenceRow& beside = precedence_of(in.words.one_shot->function);
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     Execution did = Execution::done;
     if (row->function == Function::work_system && beside.work == Precedence::modal) did = select_work_system(in, *row);
     if (mode_of(row->function) == Mode::length && beside.length == Precedence::modal) {
@@ -219,11 +219,11 @@ Execution update_beside_call(Interpreter& in) {
 /// Step 4: the one-shot function, the fixed cycle, or the motion.
 Execution execute_motion(Interpreter& in) {
   const Command& w = in.words;
-  if ((w.axes & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
+  if ((w.target.axes() & in.rotary) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function))) {
     const Execution did = check_index_positions(in);
     if (did != Execution::done) return did;
   }
-  if (in.state.work_turned && (w.axes != 0 || w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}))) {
+  if (in.state.work_turned && (w.target.axes() != 0 || w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}))) {
     const Execution did = check_work_rotation(in);
     if (did != Execution::done) return did;
   }
@@ -245,7 +245,7 @@ bool cycle_counts(const BlockContext& in) {
     case CycleBeside::last: break;
   }
   bool counts = false;
-  for (const FunctionRow* row : w.g) {
+  for (const FunctionRow* row : w.functions) {
     if (row == w.cycle) counts = true;
     if (row == w.motion) counts = false;
   }
@@ -262,7 +262,7 @@ Execution take_probing(BlockContext& in) {
   if (w.motion != nullptr) {
     if (w.one_shot != nullptr) return in.raise_code(Condition::format_error, *w.motion);  // both use the axis words
     w.one_shot = w.motion;
-  } else if (w.axes != 0 && w.one_shot == nullptr && in.state.cycle.kind == CycleKind::none) {
+  } else if (w.target.axes() != 0 && w.one_shot == nullptr && in.state.cycle.kind == CycleKind::none) {
     w.one_shot = row_in_force(*in.dialect, in.state.modal, Mode::motion);
   }
   return Execution::done;
@@ -309,7 +309,7 @@ Execution finish(Interpreter& in, Execution did) {
 /// Executes what is left of a block whose motion, and the macro behind it, have been executed: its call of a program, or the return from its own.
 Execution execute_codes_left(Interpreter& in) {
   in.state.codes_left &= ~(1u << in.state.depth);
-  in.words.axes = 0;
+  in.words.target.clear();
   return execute_behind_motion(in);
 }
 
@@ -320,7 +320,7 @@ bool adds_to_shared(const Interpreter& in) {
   if (w.one_shot == nullptr || w.one_shot->function != Function::data_input || !w.has(Role::input_amount) ||
       !in.dialect->rules.data_input.incremental_adds)
     return false;
-  for (const FunctionRow* row : w.g)
+  for (const FunctionRow* row : w.functions)
     if (row->function == Function::incremental) return true;
   return in.state.modal.is(Function::incremental);
 }
@@ -333,8 +333,8 @@ bool only_moves(const Interpreter& in) {
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
   if (in.state.special != 0 || in.state.work_turned || in.state.meeting.kind != MeetingFirst::Kind::none || w.has_angle || !plain_motion(in.state.modal.of(Mode::motion)) || (w.motion != nullptr && !plain_motion(w.motion->function))) return false;
   if (in.dialect->rules.compensation.begins_beside_start && in.state.compensated()) return false;
-  const bool codes = w.g.empty() || (w.g.size() == 1 && w.motion != nullptr);
-  return codes && w.m.empty() && (w.present & ~(in.axis_words.all() | in.set_of({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
+  const bool codes = w.functions.empty() || (w.functions.size() == 1 && w.motion != nullptr);
+  return codes && w.auxiliary.empty() && (w.present & ~(in.axis_words.all() | in.set_of({Role::feed}))) == 0 && in.state.cycle.kind == CycleKind::none &&
          in.state.modal_call == 0;
 }
 
@@ -357,8 +357,8 @@ Execution execute_move(Interpreter& in) {
 /// T and M06 under tool life management go by what the machine has counted when it comes to them.
 bool names_managed_tool(const BlockContext& in) {
   if (in.words.has(Role::tool)) return true;
-  for (const uint32_t m : in.words.m)
-    if (misc_function(*in.dialect, m) == MiscFunction::tool_change) return true;
+  for (const Auxiliary& m : in.words.auxiliary)
+    if (m.function == MiscFunction::tool_change) return true;
   return false;
 }
 
@@ -397,14 +397,14 @@ Execution execute_words(Interpreter& in) {
     did = update_beside_call(in);
     return did == Execution::done ? call_macro(in) : did;
   }
-  if (w.g.size() > 1) drop_beside_cancel(in);
+  if (w.functions.size() > 1) drop_beside_cancel(in);
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   did = check_lead_word(in);
   if (did != Execution::done) return did;
   // M700 3.2 note 9, DGSHAPE 1-1: N and O stand at the beginning of a block. Behind other words no search would find them. (N of G10 is something else.)
   if (w.late_number != kNoWord && (w.one_shot == nullptr || w.one_shot->function != Function::data_input))
     return in.raise(Condition::format_error, w.late_number, w.get(w.late_number));
-  if (!w.m.empty() && waits_for_input(in)) return wait_for_input(in);
+  if (!w.auxiliary.empty() && waits_for_input(in)) return wait_for_input(in);
   did = check_precedence(in);
   if (did == Execution::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
   if (did != Execution::done) return did;
@@ -424,13 +424,13 @@ Execution execute_words(Interpreter& in) {
   if (did != Execution::done) return did;
   did = apply_systems(in);
   if (did != Execution::done) return did;
-  if (is_arc(in.state.modal.of(Mode::motion)) && w.axes != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
+  if (is_arc(in.state.modal.of(Mode::motion)) && w.target.axes() != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
     // M700 App.2: an arc and G43/G44 in one block.
-    for (const FunctionRow* row : w.g)
+    for (const FunctionRow* row : w.functions)
       if (row->function == Function::length_plus || row->function == Function::length_minus)
         return in.raise_code(Condition::arc_deviation, *row);
   }
-  if (!w.g.empty()) did = set_surface_speed(in);
+  if (!w.functions.empty()) did = set_surface_speed(in);
   if (did == Execution::done && !codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Execution::done) return did;
   if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);

@@ -162,19 +162,19 @@ bool refused_in_inverse_time(Function function) {
 
 bool inverse_time_so_far(const BlockContext& in) {
   Function mode = in.state.modal.of(Mode::feed);
-  for (const FunctionRow* row : in.words.g)
+  for (const FunctionRow* row : in.words.functions)
     if (mode_of(row->function) == Mode::feed) mode = row->function;
   return mode == Function::inverse_time_feed;
 }
 
 Execution check_inverse_time_block(BlockContext& in) {
   const Command& w = in.words;
-  for (const FunctionRow* row : w.g)
+  for (const FunctionRow* row : w.functions)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
   // (5): modes that were in force before
   const Function motion = in.state.modal.of(Mode::motion);
-  if (is_probing(motion) ? w.axes != 0 && w.one_shot == nullptr : motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
-  if (motion == Function::nurbs && w.axes != 0) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
+  if (is_probing(motion) ? w.target.axes() != 0 && w.one_shot == nullptr : motion != Function::nurbs && refused_in_inverse_time(motion)) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
+  if (motion == Function::nurbs && w.target.axes() != 0) return in.raise_mode(Condition::inverse_time_code, Mode::motion);
   const bool cycle = in.state.cycle.kind != CycleKind::none && w.cycle == nullptr && w.motion == nullptr;
   if (cycle) return in.raise_mode(Condition::inverse_time_code, Mode::cycle);
   if (in.state.modal.is(Function::surface_on)) return in.raise_mode(Condition::inverse_time_code, Mode::surface_speed);

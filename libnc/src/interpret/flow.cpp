@@ -206,7 +206,7 @@ Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
 
 bool only_calls(const Interpreter& in) {
   if (!has_only(*in.block, in.set_of({Role::misc_code, Role::call_program, Role::call_repeats, Role::call_sequence}))) return false;
-  return in.words.m.size() == 1;
+  return in.words.auxiliary.size() == 1;
 }
 
 /// One more sub program would be too many in one another.

@@ -42,6 +42,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   front.axis_words = &axis_words;
   front.vendor = vendor;
   front.calls = &code_calls;
+  front.misc_codes = &settings.misc_codes;
   front.code_words = set_of({Role::code, Role::misc_code, Role::sequence_number, Role::program_number});
   front.core = this;
   front.questions = &kCoreAnswers;

@@ -39,12 +39,9 @@ void pass_over_block(Interpreter& in, CallFrame& frame) {
 
 }  // namespace
 
-bool is_interrupt_on(const BlockContext& in, uint32_t m) { return m == in.settings.interrupt_on_m && in.dialect->rules.program.macro_interrupt; }
-bool is_interrupt_off(const BlockContext& in, uint32_t m) { return m == in.settings.interrupt_off_m && in.dialect->rules.program.macro_interrupt; }
-
 bool has_words_of_call(const BlockContext& in) {
-  for (const uint32_t m : in.words.m)
-    if (is_interrupt_on(in, m) || calls_program(misc_function(*in.dialect, m))) return true;
+  for (const Auxiliary& m : in.words.auxiliary)
+    if (m.function == MiscFunction::interrupt_on || calls_program(m.function)) return true;
   return false;
 }
 

@@ -101,7 +101,7 @@ Execution make_modal_call(Interpreter& in) {
 /// M700 13.5.1, G66.1: the words of each block are given to the macro as if G65 P_ stood before them. O, N and modal G codes also change the modal state.
 Execution call_with_block(Interpreter& in) {
   MacroCall call;
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     if (is_space_arc(row->function)) return in.raise_code(Condition::space_arc_mode, *row);  // 6.14 (b)
     if (row->function == Function::work_system && select_work_system(in, *row) != Execution::done) return Execution::fault;
   }

@@ -45,7 +45,7 @@ Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_
 /// M700 12.4.4 (2): under radius compensation an absolute word leads back to the programmed path from where the axis has been moved by hand. By an incremental
 /// word, or without a word, the axis stays as far beside the path as it is.
 [[gnu::cold]] void lead_back_to_path(BlockContext& in, Move& move) {
-  const uint32_t absolute = in.words.axes & ~in.words.incremental;
+  const uint32_t absolute = in.words.target.axes() & ~in.words.target.incremental();
   for (unsigned i = 0; i < 2; ++i) {
     double& still = (absolute >> move.comp.axis[i] & 1) != 0 ? in.state.comp.by_hand[i] : move.comp.by_hand[i];
     still = 0;
@@ -192,24 +192,24 @@ void turn_within_range(const BlockContext& in, const AxisVec& position, uint32_t
   }
 }
 
-inline AxisVec plain_target(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
+inline AxisVec plain_target(const BlockContext& in, const AxisVec& position, const Targets& targets) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((axes >> i) & 1) == 0) continue;
-    target[i] = ((in.words.incremental >> i) & 1) != 0 ? target[i] + value[i] : value[i];
+    if (!targets.commands(i)) continue;
+    target[i] = targets.counts_on(i) ? target[i] + targets[i] : targets[i];
   }
-  const uint32_t rotary = axes & in.rotary & ~in.words.incremental;
+  const uint32_t rotary = targets.axes() & in.rotary & ~targets.incremental();
   if (rotary != 0 && in.settings.turning != 0) turn_within_range(in, position, rotary & in.settings.turning, target);
   return target;
 }
 
 }  // namespace
 
-AxisVec target_of_words(const BlockContext& in, const AxisVec& position) { return target_of(in, position, in.words.axes, in.words.axis); }
+AxisVec target_of_words(const BlockContext& in, const AxisVec& position) { return target_of(in, position, in.words.target); }
 
-AxisVec target_of(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value) {
-  if (!program_mapped(in)) return plain_target(in, position, axes, value);
-  return from_program(in, plain_target(in, to_program(in, position), axes, value));
+AxisVec target_of(const BlockContext& in, const AxisVec& position, const Targets& targets) {
+  if (!program_mapped(in)) return plain_target(in, position, targets);
+  return from_program(in, plain_target(in, to_program(in, position), targets));
 }
 
 MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t commanded) {
@@ -583,12 +583,12 @@ void move_rapid(BlockContext& in, const AxisVec& target, uint32_t axes) {
 
 Execution check_index_positions(BlockContext& in) {
   const Command& w = in.words;
-  for (unsigned i = 0; (w.axes & in.rotary) != 0 && i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+  for (unsigned i = 0; (w.target.axes() & in.rotary) != 0 && i < in.axis_count; ++i) {
+    if (!w.target.commands(i)) continue;
     // M700 9.3 (8): a table that stands between two positions (moved by hand, after a reset) does not reach one by an increment of whole steps.
-    const bool between = ((w.incremental & in.settings.index_axes) >> i & 1) != 0 && off_increment(in, i, in.position()[i] + w.axis[i]);
-    if (!between && !off_increment(in, i, w.axis[i])) continue;
-    return in.raise_axis(Condition::index_increment, i, w.axis[i]);
+    const bool between = ((w.target.incremental() & in.settings.index_axes) >> i & 1) != 0 && off_increment(in, i, in.position()[i] + w.target[i]);
+    if (!between && !off_increment(in, i, w.target[i])) continue;
+    return in.raise_axis(Condition::index_increment, i, w.target[i]);
   }
   return Execution::done;
 }
@@ -614,7 +614,7 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
 static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, bool ccw, const LinearStyle& style) {
   const Command& w = in.words;
   const unsigned before = in.queue.size();
-  const Execution did = move_arc(in, target, w.axes, ccw);
+  const Execution did = move_arc(in, target, w.target.axes(), ccw);
   if (did != Execution::done) return did;
   for (unsigned i = in.queue.size(); i > before; --i) {
     Item& item = in.queue[i - 1];
@@ -636,11 +636,11 @@ Execution move_by_words(BlockContext& in) {
     const Execution did = take_corner(in, motion, &style);
     if (did != Execution::done) return did;
   }
-  if (w.axes == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_size.value);
-  if (w.axes == 0 && !((arc || !plain) && (arc_words || thread))) return Execution::done;
-  if (w.axes == 0 && !w.m.empty() && has_words_of_call(in)) return Execution::done;  // the words are those of the call, and no arc
+  if (w.target.axes() == 0 && style.corner != Corner::none) return in.raise(Condition::corner_short, corner_word(w), w.corner_size.value);
+  if (w.target.axes() == 0 && !((arc || !plain) && (arc_words || thread))) return Execution::done;
+  if (w.target.axes() == 0 && !w.auxiliary.empty() && has_words_of_call(in)) return Execution::done;  // the words are those of the call, and no arc
   if ((in.state.special & kSpecialMap) != 0 && in.state.map.kind != AxisMap::Kind::none) {
-    const Execution did = check_mill_move(in, w.axes);
+    const Execution did = check_mill_move(in, w.target.axes());
     if (did != Execution::done) return did;
   }
   if (const Execution did = check_index_positions(in); did != Execution::done) return did;
@@ -651,39 +651,39 @@ Execution move_by_words(BlockContext& in) {
   const bool mapped = program_mapped(in);
   const bool halfway = !plain && in.state.arc_step == ArcStep::middle_given;
   const AxisVec position = halfway                                                    ? in.points[in.state.arc_points + 1].at
-                           : w.incremental != 0 || in.rotary != 0 || mapped || !plain ? in.position()
+                           : w.target.incremental() != 0 || in.rotary != 0 || mapped || !plain ? in.position()
                                                                                       : AxisVec{};
-  const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.axes, w.axis);
-  if ((in.state.special & kSpecialStitch) != 0 && is_line(motion)) return move_stitch(in, target, w.axes);
+  const AxisVec target = mapped ? target_of_words(in, position) : plain_target(in, position, w.target);
+  if ((in.state.special & kSpecialStitch) != 0 && is_line(motion)) return move_stitch(in, target, w.target.axes());
   if (motion == Function::rapid) {
-    move_rapid(in, target, w.axes);
+    move_rapid(in, target, w.target.axes());
     return Execution::done;
   }
   if (w.in_position > 0 && motion != Function::linear) return in.raise(Condition::illegal_address, Role::vector_x, w.in_position);
-  if (thread || is_exponential(motion)) return move_by_function(in, motion, target, w.axes);
+  if (thread || is_exponential(motion)) return move_by_function(in, motion, target, w.target.axes());
   const Execution fed = check_feed(in, motion);
   if (fed != Execution::done) return fed;
-  if (!plain) return move_by_function(in, motion, target, w.axes);
+  if (!plain) return move_by_function(in, motion, target, w.target.axes());
   if (arc && style.corner != Corner::none) return move_arc_to_corner(in, target, ccw, style);
-  if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.axes, ccw);
+  if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.target.axes(), ccw);
   if (arc) {
-    const Execution did = move_arc(in, target, w.axes, ccw);
+    const Execution did = move_arc(in, target, w.target.axes(), ccw);
     // M700 6.13: in type 2, radii that differ by more than the tolerance make a spiral of less than one turn (L1 when omitted).
     const bool spiral = did == Execution::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius);
-    return spiral && arc_words ? move_spiral(in, target, w.axes, ccw) : did;
+    return spiral && arc_words ? move_spiral(in, target, w.target.axes(), ccw) : did;
   }
   style.feed_mm_min = feed_for(in, position, target);
   if (style.feed_mm_min > kAnyFeed) [[unlikely]] {
-    move_rapid(in, target, w.axes);
+    move_rapid(in, target, w.target.axes());
     return Execution::done;
   }
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
   style.in_position = style.exact_stop ? w.in_position : 0;  // it acts only where there is a deceleration check
   // The line on which the axes reach another rotation (13.21) does not belong to a spline.
-  if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.axes, style);
+  if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.target.axes(), style);
   const unsigned before = in.queue.size();
-  move_linear(in, target, w.axes, style);
+  move_linear(in, target, w.target.axes(), style);
   const bool nowhere = style.corner != Corner::none && in.queue.size() == before;  // a line of no length has no corner
   return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_size.value) : Execution::done;
 }

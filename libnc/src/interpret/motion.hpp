@@ -71,8 +71,8 @@ double feed_mm_min(const BlockContext& in);
 double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end);
 /// The end point that the words command.
 AxisVec target_of_words(const BlockContext& in);
-/// The end point by a value for each axis; bit i of `axes`: axis i is programmed.
-AxisVec target_of(const BlockContext& in, const AxisVec& position, uint32_t axes, const AxisVec& value);
+/// The end point that these targets command.
+AxisVec target_of(const BlockContext& in, const AxisVec& position, const Targets& targets);
 AxisVec target_of_words(const BlockContext& in, const AxisVec& position);  ///< for a caller that has position() already
 
 /// interpret/arc.cpp

@@ -4,6 +4,7 @@
 
 #include "base/arena.hpp"
 #include "base/optional_double.hpp"
+#include "command/auxiliary.hpp"
 #include "dialect/accuracy.hpp"
 #include "dialect/dialect.hpp"
 #include "fairing/rule.hpp"
@@ -62,7 +63,6 @@ struct Settings {
   double peck_clearance_73 = 0;       ///< #8012, mm
   uint32_t spindle_forward_m = 0, spindle_reverse_m = 0;  ///< #3028 sprcmn, and the one behind it; 0 = the family's
   bool tap_synchronous = false;       ///< #1229 bit 4
-  uint32_t tap_m = kNoMisc;           ///< #1513 stapM, with #1272 bit 1
   bool tap_to_r = false;              ///< #1272 bit 4
   double tap_clearance = 0;           ///< #8018, mm
   bool tap_checks = false, tap_check_approach = false, tap_check_bottom = false, tap_check_r = false;  ///< #1223 bits 3, 2, 4, 5
@@ -72,8 +72,6 @@ struct Settings {
   double tap_return = 0;              ///< #1172: speed of the way back as a share of S, 0 = the same
   bool life_managed = false, life_by_tool = false;  ///< #1103, #1104
   uint32_t shift_ignored = 0, shift_minus = 0;  ///< #8207, #8208, bit = axis
-  uint32_t reading_stops[8] = {};     ///< PREREAD_STOP_M1 to _M8: M codes behind which nothing is read ahead, 0 = none
-  bool any_reading_stop = false;
   bool codes_after_motion = false;    ///< MSTB_AFTER_MOTION: M S T B of a block that moves go out behind its motion
   uint8_t surface_axis = 0;           ///< #1181 G96_ax
   bool clamp_command_always = false;  ///< #1146 Sclamp
@@ -88,7 +86,7 @@ struct Settings {
   bool semicolon_comments = false;    ///< ';' begins a comment in program texts
   bool macro_extensions = false;      ///< IF THEN of later models
   bool negative_count = false;        ///< #3901 may be below 0
-  uint32_t interrupt_on_m = kNoMisc, interrupt_off_m = kNoMisc;  ///< the M codes that act as M96, M97 (where #1109 says so: #1110, #1111)
+  MiscCodes misc_codes;
   bool interrupt_by_level = false;    ///< #1112 S_TRG
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0

@@ -73,7 +73,7 @@ Execution take_tap_options(Interpreter& in) {
 /// number (3.2 (1)).
 bool takes_bare_axes(const Command& w) {
   if (w.one_shot != nullptr) return w.one_shot->function == Function::reference_return || w.one_shot->function == Function::hypothetical_axis;
-  for (const FunctionRow* row : w.g)
+  for (const FunctionRow* row : w.functions)
     if (is_plane(row->function)) return true;
   return false;
 }
@@ -212,24 +212,21 @@ uint32_t increments_of_block(const Interpreter& in) {
 
 Execution resolve_axes(Interpreter& in) {
   Command& w = in.words;
-  w.incremental = increments_of_block(in);
+  const uint32_t incremental = increments_of_block(in);
   const WordSet named = w.present & in.axis_words.all();
   const WordSlot seconds = w.one_shot != nullptr && w.one_shot->function == Function::dwell ? w.addresses->word(Role::dwell_seconds) : kNoWord;
-  uint32_t axes = 0;
   for (WordSet left = named; left != 0; left &= left - 1) {
     const WordSlot word = first_word(left);
     const auto axis = static_cast<unsigned>(in.axis_words.axis(word));
-    axes |= 1u << axis;
     // M700 6.10: in the plane of polar coordinate interpolation the rotary axis is commanded in mm or inch.
     const bool turns = ((in.rotary >> axis) & 1) != 0 && !(in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary);
     const Written number = w.written(word);
     const double value = axis_value(in, axis, number, turns);
     // Seconds of a dwell have a range of their own.
     if (word != seconds && !in_range(in, value, number, turns)) return in.raise(Condition::value_range, word, number.value);
-    w.axis[axis] = value;
+    w.target.set(axis, (incremental >> axis & 1) != 0 ? TargetKind::incremental : TargetKind::absolute, value);
   }
-  w.axes = axes;
-  w.incremental &= axes;
+  const uint32_t axes = w.target.axes();
   // M700 10.5, precaution (2), and (2), note: this is checked as the block is read.
   if ((axes & in.closed_axes) != 0 && (w.one_shot == nullptr || goes_to_position(w.one_shot->function)))
     return in.raise_axis(Condition::no_reference, static_cast<unsigned>(std::countr_zero(axes & in.closed_axes)));

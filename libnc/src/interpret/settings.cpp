@@ -128,8 +128,8 @@ void SettingsReader::words() {
   s_.semicolon_comments = flag(P::semicolon_comments);
   for (unsigned i = 0; i < 8; ++i) {
     const double m = value({P::reading_stop, i}, 0);
-    s_.reading_stops[i] = m >= 1 && m <= 99999999 ? static_cast<uint32_t>(m) : 0;
-    s_.any_reading_stop |= s_.reading_stops[i] != 0;
+    s_.misc_codes.reading_stops[i] = m >= 1 && m <= 99999999 ? static_cast<uint32_t>(m) : 0;
+    s_.misc_codes.any_reading_stop |= s_.misc_codes.reading_stops[i] != 0;
   }
   s_.tool_memory_2 = value(P::tool_memory_type, 1) == 2;
   s_.diameter_offsets = flag(P::diameter_offsets);
@@ -167,16 +167,19 @@ void SettingsReader::macros() {
   s_.print_blanks = flag(P::print_blanks);
   s_.asin_0_360 = flag(P::asin_0_360);
   s_.run_time_hours = flag(P::run_time_hours);
-  s_.interrupt_on_m = misc_code(dialect_, MiscFunction::interrupt_on);
-  s_.interrupt_off_m = misc_code(dialect_, MiscFunction::interrupt_off);
-  if (flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97, except 30
+  const bool interrupts = dialect_.rules.program.macro_interrupt;
+  if (interrupts) {
+    s_.misc_codes.interrupt_on = misc_code(dialect_, MiscFunction::interrupt_on);
+    s_.misc_codes.interrupt_off = misc_code(dialect_, MiscFunction::interrupt_off);
+  }
+  if (interrupts && flag(P::interrupt_own_m)) {  // 13.12: M codes 03 to 97, except 30
     const auto m_code = [this](Parameter parameter, uint32_t fallback) {
       const double m = value(parameter, fallback);
       const CodeRange range = dialect_.interrupt_misc;
       return m >= range.first && m <= range.last && goes_out(misc_function(dialect_, static_cast<unsigned>(m))) ? static_cast<uint32_t>(m) : fallback;
     };
-    s_.interrupt_on_m = m_code(P::interrupt_on_m, s_.interrupt_on_m);
-    s_.interrupt_off_m = m_code(P::interrupt_off_m, s_.interrupt_off_m);
+    s_.misc_codes.interrupt_on = m_code(P::interrupt_on_m, s_.misc_codes.interrupt_on);
+    s_.misc_codes.interrupt_off = m_code(P::interrupt_off_m, s_.misc_codes.interrupt_off);
   }
   s_.interrupt_by_level = flag(P::interrupt_by_level);
   s_.interrupt_type_2 = flag(P::interrupt_type_2);
@@ -199,7 +202,7 @@ void SettingsReader::cycles() {
   s_.spindle_forward_m = static_cast<uint32_t>(value(P::spindle_forward_code, 0));
   s_.spindle_reverse_m = s_.spindle_forward_m + 1;
   s_.tap_synchronous = flag(P::tap_synchronous);
-  if (flag(P::tap_by_code) && value(P::tap_code, 0) > 0) s_.tap_m = static_cast<uint32_t>(value(P::tap_code, 0));
+  if (flag(P::tap_by_code) && value(P::tap_code, 0) > 0) s_.misc_codes.synchronous_tap = static_cast<uint32_t>(value(P::tap_code, 0));
   s_.tap_to_r = flag(P::tap_to_r);
   s_.tap_clearance = value(P::tap_clearance, 0);
   s_.tap_checks = flag(P::tap_checks);

@@ -90,16 +90,11 @@ Execution check_axis_words(BlockContext& in, WordSlot second) {
   return in.raise_first(aux ? Condition::second_aux : Condition::illegal_axis, unknown);
 }
 
-bool output_code(const BlockContext& in, uint32_t code) {
-  if (is_interrupt_on(in, code) || is_interrupt_off(in, code)) return false;  // M700 13.12: such a code is processed internally
-  return goes_out(misc_function(*in.dialect, code));
-}
-
 /// DGSHAPE M06: M06 and T come as a pair, with at most one of each in a block.
 Execution check_tool_pair(BlockContext& in) {
   const unsigned tools = count_of(*in.block, in.word(Role::tool));
   unsigned changes = 0;
-  for (const uint32_t m : in.words.m) changes += misc_function(*in.dialect, m) == MiscFunction::tool_change ? 1u : 0u;
+  for (const Auxiliary& m : in.words.auxiliary) changes += m.function == MiscFunction::tool_change ? 1u : 0u;
   if (changes == 1 && tools == 1) return Execution::done;
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
@@ -131,8 +126,8 @@ WordSet whole_words(const BlockContext& in) {
   if (limits_surface_speed(in)) whole &= ~in.set_of({Role::clamp_highest});
   const Function one_shot = w.one_shot != nullptr ? w.one_shot->function : Function::count_;
   if (one_shot == Function::data_input) whole |= in.set_of({Role::input_kind, Role::input_number});
-  for (const uint32_t m : w.m)
-    if (calls_program(misc_function(*in.dialect, m))) whole |= in.set_of({Role::call_program});
+  for (const Auxiliary& m : w.auxiliary)
+    if (calls_program(m.function)) whole |= in.set_of({Role::call_program});
   const bool arc = is_arc(in.state.modal.of(Mode::motion));
   const bool hole = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr && w.one_shot == nullptr);
   if (arc && !hole && one_shot == Function::count_) whole |= in.set_of({Role::arc_turns});
@@ -183,27 +178,27 @@ Execution check_precedence(BlockContext& in) {
     if (did != Execution::done) return did;
   }
   if (in.dialect->rules.compensation.bars_position_offset && (w.cycle != nullptr || in.state.cycle.kind != CycleKind::none))
-    for (const FunctionRow* row : w.g)  // HX 12.2.2
+    for (const FunctionRow* row : w.functions)  // HX 12.2.2
       if (offsets_position(row->function)) return in.raise_code(Condition::not_accepted, *row);
   const unsigned words = word_count(*in.block);
   if (rules.stops_stand_alone)
-    for (const uint32_t m : w.m)
-      if (!output_code(in, m) && words > 1) return in.raise(Condition::must_stand_alone, Role::misc_code, m);
+    for (const Auxiliary& m : w.auxiliary)
+      if (!m.is_output() && words > 1) return in.raise(Condition::must_stand_alone, Role::misc_code, m.number);
   if (rules.dwell_stands_alone && w.one_shot != nullptr && w.one_shot->function == Function::dwell && words > 2)
     return in.raise_code(Condition::must_stand_alone, *w.one_shot);
   if (!in.dialect->rules.auxiliary.tool_change_is_pair) return Execution::done;
   const uint32_t tool = w.has(Role::tool) ? 1u : 0u;
-  for (const uint32_t m : w.m)
-    if (tool != 0 || misc_function(*in.dialect, m) == MiscFunction::tool_change) return check_tool_pair(in);
+  for (const Auxiliary& m : w.auxiliary)
+    if (tool != 0 || m.function == MiscFunction::tool_change) return check_tool_pair(in);
   return tool != 0 ? check_tool_pair(in) : Execution::done;
 }
 
-bool codes_behind_motion(const BlockContext& in) { return in.settings.codes_after_motion && in.words.axes != 0; }
+bool codes_behind_motion(const BlockContext& in) { return in.settings.codes_after_motion && in.words.target.axes() != 0; }
 
 Execution auxiliary_before(BlockContext& in) {
   Command& w = in.words;
   // Most blocks have none of the words that are looked at here.
-  if (w.m.empty() && !w.any((in.dialect->axis_addresses | in.set_of({Role::spindle_speed, Role::tool})) & ~in.axis_words.all())) return Execution::done;
+  if (w.auxiliary.empty() && !w.any((in.dialect->axis_addresses | in.set_of({Role::spindle_speed, Role::tool})) & ~in.axis_words.all())) return Execution::done;
   const Rules& rules = in.dialect->rules;
   const WordSlot second = second_function(in);
   Execution did = check_axis_words(in, second);
@@ -232,16 +227,16 @@ Execution auxiliary_before(BlockContext& in) {
     emit_action(in, NC_ACTION_B, second, in.state.modal.b);
     waiting = true;
   }
-  const unsigned most = rules.auxiliary.most_m_codes, first = w.m.size() > most ? w.m.size() - most : 0;
-  for (unsigned i = first; i < w.m.size(); ++i) {
-    const uint32_t m = w.m[i];
-    if (!output_code(in, m)) {
+  const unsigned most = rules.auxiliary.most_m_codes, first = w.auxiliary.size() > most ? w.auxiliary.size() - most : 0;
+  for (unsigned i = first; i < w.auxiliary.size(); ++i) {
+    const Auxiliary& m = w.auxiliary[i];
+    if (!m.is_output()) {  // M700 13.12: codes of the macro interrupt are processed internally, too
       did = act_on_machine(in, m);
       if (did != Execution::done) return did;
       continue;
     }
-    if (m > 99999999) return in.raise(Condition::value_range, Role::misc_code, m);
-    const MiscFunction function = misc_function(*in.dialect, m);
+    if (m.number > 99999999) return in.raise(Condition::value_range, Role::misc_code, m.number);
+    const MiscFunction function = m.function;
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
     if (held && function == MiscFunction::tool_change) continue;
@@ -249,10 +244,10 @@ Execution auxiliary_before(BlockContext& in) {
       for (const Role word : {Role::orient_angle, Role::output_number, Role::input_limit})
         if (w.has(word) && w.get(word) != 0) return in.raise(Condition::no_function, word, w.get(word));
     note_spindle(in, function);
-    if (m == in.settings.tap_m) in.state.tap_code = true;
+    if (m.taps_synchronously) in.state.tap_code = true;
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
-    in.state.modal.m = m;
-    emit_misc(in, function, m);
+    in.state.modal.m = m.number;
+    emit_misc(in, function, m.number);
     if (function == MiscFunction::tool_change && in.settings.life_managed) take_managed_tool(in);
     waiting = true;
   }
@@ -265,7 +260,9 @@ Execution auxiliary_before(BlockContext& in) {
   return Execution::done;
 }
 
-void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m) {
+void auxiliary_behind(BlockContext& in, const Auxiliary& auxiliary) {
+  const MiscFunction function = auxiliary.function;
+  const uint32_t m = auxiliary.number;
   switch (function) {
     case MiscFunction::program_stop:
       in.state.modal.m = m;

@@ -23,7 +23,7 @@ Execution take_levels(BlockContext& in) {
   CycleState& kept = in.state.cycle;
   CavityOfBlock& c = in.cavity;
   const AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
-  const bool z = (w.axes >> c.axis & 1) != 0, incremental = is_incremental(in);
+  const bool z = w.target.commands(c.axis), incremental = is_incremental(in);
   if (w.has(Role::cycle_level)) {
     c.r = axis_value(in, c.axis, w.written(Role::cycle_level), false) + (incremental ? at[c.axis] : 0);
   } else if (kept.has_r && !kept.r_incremental) {
@@ -32,7 +32,7 @@ Execution take_levels(BlockContext& in) {
     return in.raise(Condition::words_missing, Role::cycle_level);
   }
   if (z) {
-    c.bottom = w.axis[c.axis] + ((w.incremental >> c.axis & 1) != 0 ? c.r : 0);
+    c.bottom = w.target[c.axis] + (w.target.counts_on(c.axis) ? c.r : 0);
   } else if (kept.has_z && !kept.z_incremental) {
     c.bottom = kept.z;
   } else {
@@ -132,8 +132,8 @@ Execution do_cavity(BlockContext& in) {
   if (did == Execution::done) did = take_shape(in, row.function, std::fabs(scale_of(in, h)));
   if (did == Execution::done) did = check_feed(in, Function::linear);
   if (did != Execution::done) return did;
-  const uint32_t axes = in.words.axes & ~(1u << z);
-  const AxisVec over = target_of(in, in.position(), axes, in.words.axis);
+  const uint32_t axes = in.words.target.axes() & ~(1u << z);
+  const AxisVec over = target_of(in, in.position(), in.words.target.without(1u << z));
   go(in, over, axes, true);
   const AxisVec centre = program_mapped(in) ? as_programmed_end(in, in.position()) : in.position();
   in.cavity.center[0] = centre[h];

@@ -18,7 +18,7 @@ Execution check_format(BlockContext& in) {
   if (others != 0) {
     return in.raise_first(Condition::illegal_address, others);
   }
-  return w.m.empty() ? Execution::done : in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
+  return w.auxiliary.empty() ? Execution::done : in.raise(Condition::illegal_address, Role::misc_code, w.auxiliary[0].number);
 }
 
 /// Radius of the path in programmed coordinates: the sign of the radius word does not count; a positive offset makes the circle smaller (13.10 (1)). Scaling

@@ -59,7 +59,7 @@ int length_axis_of_block(const BlockContext& in) {
   if (!in.dialect->rules.length.axis_by_words || in.settings.drilling_axis_z) return z;
   for (const unsigned pair : {2u, 1u, 0u}) {
     const int axis = axis_of_pair(in, pair);
-    if (axis >= 0 && ((in.words.axes >> axis) & 1) != 0) return axis;
+    if (axis >= 0 && in.words.target.commands(axis)) return axis;
   }
   return z;
 }
@@ -120,7 +120,7 @@ Execution set_compensation(BlockContext& in, Function function) {
   }
   if (function == Function::comp_off) {
     if (comp.side == 0) return Execution::done;
-    if (arc && in.words.axes != 0) return in.raise_function(Condition::arc_in_compensation_start, function);  // M700 12.4.1: cancel must not be circular
+    if (arc && in.words.target.axes() != 0) return in.raise_function(Condition::arc_in_compensation_start, function);  // M700 12.4.1: cancel must not be circular
     plane_of(in, comp, words);
     comp.cancel_vector = rules.vector_by_words && take_vector(in, words, comp.vector);
     comp.side = 0;
@@ -165,7 +165,7 @@ Execution go_beside_start(BlockContext& in) {
   const Command& w = in.words;
   const Compensation& comp = in.state.comp;
   const bool pending = comp.side != 0 && in.state.moved_side == 0;
-  const bool of_plane = (w.axes >> comp.axis[0] & 1) != 0 || (w.axes >> comp.axis[1] & 1) != 0;
+  const bool of_plane = (w.target.axes() >> comp.axis[0] & 1) != 0 || (w.target.axes() >> comp.axis[1] & 1) != 0;
   if (w.comp_entry && !(pending && of_plane)) return in.raise_function(Condition::not_accepted, Function::comp_entry);
   if (pending && of_plane && !w.comp_entry && w.one_shot == nullptr && w.cycle == nullptr) {
     move_nowhere(in);
@@ -217,13 +217,13 @@ Execution change_length(BlockContext& in) {
 static Execution set_length_of_block(BlockContext& in) {
   const int z = in.axis_called(Role::basic_z);
   if (z < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
-  const uint32_t others = in.words.axes & ~(1u << z);
+  const uint32_t others = in.words.target.axes() & ~(1u << z);
   if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
-  if (in.words.axes == 0) return in.raise_function(Condition::words_missing, Function::length_of_block);
+  if (in.words.target.axes() == 0) return in.raise_function(Condition::words_missing, Function::length_of_block);
   in.state.length_axis = static_cast<uint8_t>(z);
-  in.state.length_value = in.words.axis[static_cast<unsigned>(z)];
+  in.state.length_value = in.words.target[static_cast<unsigned>(z)];
   in.state.applied[static_cast<unsigned>(z)] = in.state.length_value;
-  in.words.axes = 0;
+  in.words.target.clear();
   return Execution::done;
 }
 
@@ -255,11 +255,10 @@ Execution set_length(BlockContext& in, Function function) {
   if (!rules.moves_at_once) return Execution::done;
   // Without a word for it the axis goes together with those that the block names.
   const uint32_t axis_bit = 1u << state.length_axis;
-  if ((in.words.axes & axis_bit) == 0 && in.words.one_shot == nullptr) {
+  if ((in.words.target.axes() & axis_bit) == 0 && in.words.one_shot == nullptr) {
     const bool line = is_line(state.modal.of(Mode::motion)) && in.words.cycle == nullptr && (state.cycle.kind == CycleKind::none || in.words.motion != nullptr);
-    if (in.words.axes != 0 && line) {
-      in.words.axis[state.length_axis] = in.position()[state.length_axis];
-      in.words.axes |= axis_bit;
+    if (in.words.target.axes() != 0 && line) {
+      in.words.target.set(state.length_axis, TargetKind::absolute, in.position()[state.length_axis]);
       return Execution::done;
     }
     LinearStyle style;

@@ -38,10 +38,10 @@ Execution do_local_system(BlockContext& in) {
   if (in.state.work_system >= 6) return in.raise_code(Condition::local_in_extended, *in.words.one_shot);
   const Command& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     // M700 14.11: G90 replaces (measured from the workpiece zero), G91 adds to the present local zero.
     const unsigned key = Frames::local_key(in.state.work_system, i);
-    in.set_table(key, (((w.incremental >> i) & 1) != 0 ? in.frames.get(key) : 0.0) + w.axis[i]);
+    in.set_table(key, (w.target.counts_on(i) ? in.frames.get(key) : 0.0) + w.target[i]);
   }
   return Execution::done;
 }
@@ -53,9 +53,9 @@ static void set_zero_under_map(BlockContext& in) {
   const AxisVec work = in.position();
   AxisVec programmed = to_program(in, work);
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((w.axes >> i) & 1) != 0) programmed[i] = w.axis[i];
+    if (w.target.commands(i)) programmed[i] = w.target[i];
   const AxisVec behind = from_program(in, programmed);
-  const uint32_t axes = moved_axes(in, w.axes);
+  const uint32_t axes = moved_axes(in, w.target.axes());
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((axes >> i) & 1) != 0) in.set_table(Frames::shift_key(i), in.frames.get(Frames::shift_key(i)) + work[i] - behind[i]);
   in.state.map_begins = false;
@@ -64,7 +64,7 @@ static void set_zero_under_map(BlockContext& in) {
 Execution do_coordinate_set(BlockContext& in) {
   const Command& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
-  if (in.dialect->rules.coordinate.setting_needs_axes && w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
+  if (in.dialect->rules.coordinate.setting_needs_axes && w.target.axes() == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   if (w.any({Role::clamp_highest, Role::clamp_lowest}) && in.dialect->rules.spindle.limits_by_coordinate_setting) {
     const Execution did = set_spindle_clamp(in);
     if (did != Execution::done) return did;
@@ -79,11 +79,11 @@ Execution do_coordinate_set(BlockContext& in) {
     return Execution::done;
   }
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     // M700 14.5: the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a tool length
     // that shifts the reading belongs to it.
     const double length = in.dialect->rules.length.shifts_reading ? in.state.applied[i] : 0;
-    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - length - in.frames.zero(in.state.work_system, i) - w.axis[i];
+    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
     in.set_table(Frames::shift_key(i), shift);
   }
   keep_rotation_center(in, zero_before);
@@ -94,7 +94,7 @@ namespace {
 
 Execution shift_to(BlockContext& in, const AxisVec& shift) {
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
-  if (in.words.axes != 0) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);  // they would be lost
+  if (in.words.target.axes() != 0) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);  // they would be lost
   const AxisVec zero_before = in.zero();
   for (unsigned i = 0; i < in.axis_count; ++i) in.set_table(Frames::shift_key(i), shift[i]);
   keep_rotation_center(in, zero_before);
@@ -122,7 +122,7 @@ Execution do_shift_suspend(BlockContext& in) {
 
 Execution do_shift_restore(BlockContext& in) {
   const AxisVec at = in.records->shift_kept.at;
-  return at == AxisVec{} && in.words.axes == 0 ? Execution::done : shift_to(in, at);
+  return at == AxisVec{} && in.words.target.axes() == 0 ? Execution::done : shift_to(in, at);
 }
 
 Execution do_coordinate_preset(BlockContext& in) {
@@ -131,11 +131,11 @@ Execution do_coordinate_preset(BlockContext& in) {
   // 14.12: it is not allowed during scaling, coordinate rotation, or mirror image by program.
   if (in.state.modal.is(Function::scaling_on) || in.state.rotated || in.state.mirror != 0) return in.raise_code(Condition::illegal_g, *w.one_shot);
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
-    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
+    if (!w.target.commands(i)) continue;
+    if (w.target[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
   }
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     in.set_table(Frames::shift_key(i), 0);
     if (in.state.work_system < 6) in.set_table(Frames::local_key(in.state.work_system, i), 0);
     in.state.applied[i] = 0;  // precaution (1): the reading becomes the machine value minus the offset; the length acts again with the next command

@@ -148,10 +148,10 @@ Execution take_hole_data(BlockContext& in) {
   const Command& w = in.words;
   CycleState& c = in.state.cycle;
   const uint32_t drill_bit = 1u << c.drill_axis;
-  if ((w.axes & drill_bit) != 0) {
+  if ((w.target.axes() & drill_bit) != 0) {
     c.has_z = true;
-    c.z = w.axis[c.drill_axis];
-    c.z_incremental = (w.incremental & drill_bit) != 0;
+    c.z = w.target[c.drill_axis];
+    c.z_incremental = (w.target.incremental() & drill_bit) != 0;
   }
   if (w.has(Role::cycle_level)) {
     c.has_r = true;
@@ -235,7 +235,7 @@ Execution check_hole(BlockContext& in) {
   const Command& w = in.words;
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
-  if ((w.axes & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
+  if ((w.target.axes() & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.target.axes() & in.rotary));
   Execution did = check_spindle(in);
   if (did != Execution::done) return did;
   if (turns_axis(in, c.drill_axis)) return in.raise(Condition::plane_mismatch, in.axis_words.word(c.drill_axis));  // 13.21: not an axis alone
@@ -285,7 +285,7 @@ Execution do_cycle(BlockContext& in) {
     if (did != Execution::done) return did;
     if (in.state.cycle.kind == CycleKind::none) return move_by_words(in);  // G80 with axis words: they go by the motion in force
   }
-  if (w.axes == 0 && !w.has(Role::cycle_level)) return Execution::done;  // M700 13.1.1 (2)
+  if (w.target.axes() == 0 && !w.has(Role::cycle_level)) return Execution::done;  // M700 13.1.1 (2)
   if (rules.axis_follows_plane) did = follow_plane(in);
   if (did == Execution::done) did = take_hole_data(in);
   uint32_t count = 1;
@@ -295,8 +295,7 @@ Execution do_cycle(BlockContext& in) {
   if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
   if (count == 0) return Execution::done;  // data only
   in.holes = HolesOfBlock{};
-  in.holes.axes = w.axes;
-  in.holes.increment = w.axis;
+  in.holes.target = w.target;
   if (in.state.modal.is(Function::polar_command_on)) in.holes.polar = in.polar_holes;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if (!c.has_z && rules.without_bottom_positions) {

@@ -279,9 +279,10 @@ bool ends_tapping(const CycleStep& step) { return (step.flags & (kStrokeTaps | k
 /// Then the plane in rapid traverse, which ,I of the block belongs to.
 void position_over_hole(BlockContext& in) {
   if (in.holes.pattern.kind != PatternKind::none) return position_in_pattern(in);
-  const uint32_t axes = in.holes.axes & ~(1u << in.state.cycle.drill_axis);
+  const Targets over = in.holes.target.without(1u << in.state.cycle.drill_axis);
+  const uint32_t axes = over.axes();
   const uint32_t over_hole = positioning_axes(in);
-  const AxisVec start = in.position(), target = target_of(in, start, axes, in.holes.increment);
+  const AxisVec start = in.position(), target = target_of(in, start, over);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   if (strokes_of(in.state.cycle.kind).takes_widths) style.in_position = in.words.in_position;

@@ -12,10 +12,10 @@ template <class Key>
 Execution write_axes(BlockContext& in, Key key) {
   const bool accumulate = in.dialect->rules.data_input.incremental_adds;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((in.words.axes >> i) & 1) == 0) continue;
-    const bool add = accumulate && ((in.words.incremental >> i) & 1) != 0;
-    const double offset = (add ? in.frames.get(key(i)) : 0.0) + in.words.axis[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), in.words.axis[i]);  // M700 14.10 (6)
+    if (!in.words.target.commands(i)) continue;
+    const bool add = accumulate && in.words.target.counts_on(i);
+    const double offset = (add ? in.frames.get(key(i)) : 0.0) + in.words.target[i];
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), in.words.target[i]);  // M700 14.10 (6)
     in.set_table(key(i), offset);
   }
   return Execution::done;
@@ -37,11 +37,11 @@ Execution work_offset_here(BlockContext& in) {
     return given ? in.raise(Condition::value_range, Role::input_number, w.get(Role::input_number)) : in.raise(Condition::words_missing, Role::input_number);
   const unsigned system = p == 0 ? in.state.work_system : p - 1;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     const unsigned key = Frames::work_key(system, i);
     const double reads = in.state.machine[i] - in.state.applied[i] - in.frames.zero(system, i);
-    const double offset = in.frames.get(key) + reads - w.axis[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
+    const double offset = in.frames.get(key) + reads - w.target[i];
+    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
     in.set_table(key, offset);
   }
   return Execution::done;
@@ -51,7 +51,7 @@ Execution work_offset_here(BlockContext& in) {
 Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const Command& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
-  if (w.axes == 0 && rules.axes_required)
+  if (w.target.axes() == 0 && rules.axes_required)
     return w.has(Role::input_amount) ? in.raise(Condition::format_error, Role::input_amount, w.get(Role::input_amount)) : in.raise_code(Condition::format_error, *w.one_shot);
   if (extended && in.frames.extended_systems() == 0) return in.raise(Condition::g10_l, Role::input_kind, l);  // M700 14.10 (14)
   const bool extended_active = in.state.work_system >= 6;
@@ -113,9 +113,9 @@ bool two_kinds(const BlockContext& in) {
 /// M700 15.6: the limit is in percent of the rated current; decimals are ignored.
 Execution set_current_limit(BlockContext& in) {
   const Command& w = in.words;
-  if (w.axes == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
+  if (w.target.axes() == 0) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     const WordSlot name = in.axis_words.word(i);
     if (name == in.word(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): a program cannot set the limit of this axis
     const double percent = std::trunc(w.get(name));

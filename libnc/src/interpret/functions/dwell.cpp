@@ -34,7 +34,7 @@ Execution do_dwell(BlockContext& in) {
   if (w.has(Role::dwell_seconds) && w.has(Role::dwell_time) && !has_words_of_call(in)) return in.raise(Condition::two_words, Role::dwell_time, w.get(Role::dwell_time));
   if (!w.has(word) && !rules.time_optional) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 15.2 prints "G04" alone behind G31, "machine stop check": the axes come to rest, and that is all.
-  if (rules.refuses_axes && w.axes != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);
+  if (rules.refuses_axes && w.target.axes() != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);
   const bool revolutions = in.settings.dwell_in_revolutions && in.state.modal.is(Function::feed_per_revolution);  // HX 5.4
   const double seconds = !w.has(word) ? 0 : revolutions ? w.get(word) : seconds_of(in, word);
   if (!(seconds >= 0) || seconds > rules.longest_s) return in.raise(Condition::value_range, word, w.get(word));

@@ -72,12 +72,12 @@ WordSet known_words(const BlockContext& in) {
   if (allowed_in_fine_mode(in.state.fine_mode, Function::length_plus)) known |= in.set_of({Role::length_number});  // H of length compensation may stand in any block (12.1 (2))
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
   if (is_arc(motion) || is_spiral(motion) || motion == Function::nurbs) known |= in.set_of({Role::arc_turns, Role::curve_order, Role::spiral_step, Role::spiral_pitches});
-  for (const FunctionRow* row : w.g) {
+  for (const FunctionRow* row : w.functions) {
     if (row->function == Function::high_speed || row->function == Function::high_speed_accuracy || row->function == Function::data_input)
       known = ~uint32_t{0};
   }
-  for (const uint32_t m : w.m)
-    if (!goes_out(misc_function(*in.dialect, m))) known |= in.set_of({Role::call_program, Role::call_sequence, Role::call_repeats, Role::call_option});
+  for (const Auxiliary& m : w.auxiliary)
+    if (!goes_out(m.function)) known |= in.set_of({Role::call_program, Role::call_sequence, Role::call_repeats, Role::call_option});
   return known;
 }
 
@@ -107,14 +107,14 @@ Execution check_fine_block(BlockContext& in) {
   if (mode == FineMode::smooth && w.has(Role::feed) && is_feed_digit(in, w.get(Role::feed))) return in.raise(Condition::format_error, Role::feed, w.get(Role::feed));  // 13.17.2 (3)
   if (state.spline.on && !goes_on_with_spline(in)) state.spline_way = {};
   if (w.has_angle) return in.raise(Condition::format_error, Role::option_angle, w.angle.value);  // 13.8
-  if (w.g.empty() && w.m.empty() && !w.any(~(in.axis_words.all() | in.set_of({Role::feed})))) return Execution::done;
-  for (const FunctionRow* row : w.g) {
+  if (w.functions.empty() && w.auxiliary.empty() && !w.any(~(in.axis_words.all() | in.set_of({Role::feed})))) return Execution::done;
+  for (const FunctionRow* row : w.functions) {
     const bool allowed = allowed_in_fine_mode(mode, row->function) && (row->function != Function::data_input || data_input_allowed(in));
     if (!allowed) return in.raise_code(Condition::illegal_g, *row);
   }
   if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) return Execution::done;  // its words are arguments
-  for (const uint32_t m : w.m)  // note 1
-    if (mode != FineMode::accuracy1 && (is_interrupt_on(in, m) || is_interrupt_off(in, m))) return in.raise(Condition::format_error, Role::misc_code, m);
+  for (const Auxiliary& m : w.auxiliary)  // note 1
+    if (mode != FineMode::accuracy1 && m.switches_interrupt()) return in.raise(Condition::format_error, Role::misc_code, m.number);
   const uint32_t unknown = w.present & ~known_words(in);
   if (unknown == 0) return Execution::done;
   return in.raise_first(Condition::format_error, unknown);

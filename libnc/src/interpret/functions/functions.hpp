@@ -159,9 +159,9 @@ Execution check_tap_speed(BlockContext& in);  ///< the S of such a block
 /// M S T B (auxiliary.cpp). before: everything that goes out before the motion.
 Execution auxiliary_before(BlockContext& in);
 /// An M code that acts behind the motion: stops, the end of the program, overrides. Any other does nothing here.
-void auxiliary_behind(BlockContext& in, MiscFunction function, uint32_t m);
+void auxiliary_behind(BlockContext& in, const Auxiliary& auxiliary);
 /// Codes of the macro interface by number, of single overrides and of the tool in the spindle (machine_io.cpp); any other M code does nothing here.
-Execution act_on_machine(BlockContext& in, uint32_t code);
+Execution act_on_machine(BlockContext& in, const Auxiliary& code);
 /// Bits of a word of the macro interface change where the machine gets there; `value` is for displays.
 void give_out_bits(BlockContext& in, uint32_t word, uint32_t mask, uint32_t bits, double value);
 bool takes_word_number(const BlockContext& in);        ///< a code of the block has the word of an analog input or output

@@ -38,7 +38,7 @@ Execution check_cutting_code(BlockContext& in, const FunctionRow& row) {
 Execution do_high_accuracy(BlockContext& in) {
   State& state = in.state;
   const Command& w = in.words;
-  if (w.g.size() > 1 || !w.m.empty() || (w.present & ~in.set_of({Role::accuracy_switch})) != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);
+  if (w.functions.size() > 1 || !w.auxiliary.empty() || (w.present & ~in.set_of({Role::accuracy_switch})) != 0) return in.raise_code(Condition::must_stand_alone, *w.one_shot);
   if (!w.has(Role::accuracy_switch)) return in.raise(Condition::format_error, Role::accuracy_switch);
   uint32_t p = 0;
   if (!whole_number(w.get(Role::accuracy_switch), &p) || p > 1) return in.raise(Condition::value_range, Role::accuracy_switch, w.get(Role::accuracy_switch));

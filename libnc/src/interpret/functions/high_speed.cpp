@@ -9,7 +9,7 @@ namespace {
 
 bool in_mode_2(const State& state) { return state.fine_mode == FineMode::accuracy2 || state.fine_mode == FineMode::smooth; }
 
-bool other_words(const Command& w, uint32_t allowed) { return w.g.size() > 1 || !w.m.empty() || (w.present & ~allowed) != 0; }
+bool other_words(const Command& w, uint32_t allowed) { return w.functions.size() > 1 || !w.auxiliary.empty() || (w.present & ~allowed) != 0; }
 
 /// The row for the value of a word; nullptr = the family has no such row.
 template <class Row>

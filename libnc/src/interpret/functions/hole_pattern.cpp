@@ -33,7 +33,7 @@ Execution check_words(BlockContext& in, const PlaneAxes& plane) {
   if (others != 0) {
     return in.raise_first(Condition::illegal_address, others);
   }
-  const uint32_t axes = w.axes & ~(1u << plane.h | 1u << plane.v);
+  const uint32_t axes = w.target.axes() & ~(1u << plane.h | 1u << plane.v);
   return axes == 0 ? Execution::done : in.raise_axis(Condition::illegal_address, first_of(axes), w.get(in.axis_words.word(first_of(axes))));
 }
 
@@ -123,7 +123,7 @@ AxisVec reference_point(const BlockContext& in) {
   const Command& w = in.words;
   AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if ((w.axes >> i & 1) != 0) at[i] = (w.incremental >> i & 1) != 0 ? at[i] + w.axis[i] : w.axis[i];
+    if (w.target.commands(i)) at[i] = w.target.counts_on(i) ? at[i] + w.target[i] : w.target[i];
   return at;
 }
 
@@ -147,7 +147,6 @@ Execution do_hole_pattern(BlockContext& in) {
   }
   if (did != Execution::done) return did;
   in.holes = HolesOfBlock{};
-  in.holes.axes = in.words.axes;
   in.holes.pattern = pattern;
   in.holes.pattern_at = reference_point(in);
   in.holes.left = pattern.count();

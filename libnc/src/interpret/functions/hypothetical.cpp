@@ -7,11 +7,11 @@ namespace nc {
 Execution do_hypothetical_axis(BlockContext& in) {
   State& state = in.state;
   const Command& w = in.words;
-  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
+  if (w.target.axes() == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   AxisVec held = state.map.frozen != 0 ? in.points[state.held_point].at : AxisVec{};
   uint8_t frozen = state.map.frozen;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     const uint8_t bit = static_cast<uint8_t>(1u << i);
     // The number 0 (or the name alone) switches it on, every other number off.
     const bool on = w.get(in.axis_words.word(i)) == 0;

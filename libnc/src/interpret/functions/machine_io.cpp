@@ -42,16 +42,16 @@ Execution put_value(BlockContext& in) {
 }
 
 /// M50 to M53: P1, or no P, allows what P0 bars.
-Execution switch_override(BlockContext& in, const MiscRow& row) {
+Execution switch_override(BlockContext& in, const Auxiliary& code) {
   constexpr unsigned kFeed = 0, kSpindle = 1, kAdaptive = 2;
   uint32_t on = 1;
   if (in.words.has(Role::override_switch)) {
     const Execution did = number_below(in, Role::override_switch, 2, &on);
     if (did != Execution::done) return did;
   }
-  if (row.number == kAdaptive) return on == 0 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, row.code);
-  if (row.number == kSpindle) return on == 1 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, row.code);
-  const auto bit = static_cast<uint8_t>(row.number == kFeed ? 2 : 1);  // of NC_CONTROL_DISABLE
+  if (code.which == kAdaptive) return on == 0 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, code.number);
+  if (code.which == kSpindle) return on == 1 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, code.number);
+  const auto bit = static_cast<uint8_t>(code.which == kFeed ? 2 : 1);  // of NC_CONTROL_DISABLE
   in.state.control_3004 = static_cast<uint8_t>(on != 0 ? in.state.control_3004 & ~bit : in.state.control_3004 | bit);
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
@@ -74,12 +74,10 @@ Execution name_tool(BlockContext& in) {
 
 enum class Wait : uint8_t { none, rise, fall, high, low };
 
-/// The row of the M code of the block that waits, nullptr = there is none.
-const MiscRow* waiting_row(const BlockContext& in) {
-  for (const uint32_t m : in.words.m) {
-    const MiscRow* const row = find_misc(*in.dialect, m);
-    if (row != nullptr && row->function == MiscFunction::machine_input && row->missing == nullptr) return row;
-  }
+/// The function of the block that waits, nullptr = there is none.
+const Auxiliary* waiting(const BlockContext& in) {
+  for (const Auxiliary& m : in.words.auxiliary)
+    if (m.function == MiscFunction::machine_input) return &m;
   return nullptr;
 }
 
@@ -107,32 +105,27 @@ void give_out_bits(BlockContext& in, uint32_t word, uint32_t mask, uint32_t bits
   action.value = value;
 }
 
-Execution act_on_machine(BlockContext& in, uint32_t code) {
-  const MiscRow* const row = find_misc(*in.dialect, code);
-  if (row == nullptr || row->missing != nullptr) return Execution::done;  // whoever acts behind the motion raises its alarm
-  switch (row->function) {
-    case MiscFunction::machine_output: return put_output(in, row->number != 0);
+Execution act_on_machine(BlockContext& in, const Auxiliary& code) {
+  switch (code.function) {
+    case MiscFunction::machine_output: return put_output(in, code.which != 0);
     case MiscFunction::machine_value: return put_value(in);
-    case MiscFunction::override_of_one: return switch_override(in, *row);
+    case MiscFunction::override_of_one: return switch_override(in, code);
     case MiscFunction::tool_number: return name_tool(in);
     default: return Execution::done;
   }
 }
 
 bool takes_word_number(const BlockContext& in) {
-  for (const uint32_t m : in.words.m) {
-    const MiscFunction function = misc_function(*in.dialect, m);
-    if (function == MiscFunction::machine_value || function == MiscFunction::machine_input) return true;
-  }
+  for (const Auxiliary& m : in.words.auxiliary)
+    if (m.function == MiscFunction::machine_value || m.function == MiscFunction::machine_input) return true;
   return false;
 }
 
-bool waits_for_input(const BlockContext& in) { return waiting_row(in) != nullptr; }
+bool waits_for_input(const BlockContext& in) { return waiting(in) != nullptr; }
 
 Execution wait_for_input(BlockContext& in) {
   const Command& w = in.words;
-  const MiscRow& row = *waiting_row(in);
-  if (w.m.size() > 1 || !w.g.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, row.code);
+  if (w.auxiliary.size() > 1 || !w.functions.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, waiting(in)->number);
   InputWait wait;
   const bool analog = w.has(Role::word_number);
   if (analog == w.has(Role::output_number)) return in.raise(analog ? Condition::value_range : Condition::words_missing, Role::output_number, w.get(Role::output_number));

@@ -107,8 +107,8 @@ Execution check_modes_of_pair(BlockContext& in, Condition option) {
 
 /// (a), (c), (e): G01 A.
 Execution begin_with_line(BlockContext& in) {
-  if (word_is_taken(in) && in.words.axes == 0) return in.raise(Condition::geometric_option, Role::option_angle, in.words.has_angle ? in.words.angle.value : 0);
-  if (in.words.axes != 0) return in.raise_axis(Condition::geometric_address, first_of(in.words.axes));
+  if (word_is_taken(in) && in.words.target.axes() == 0) return in.raise(Condition::geometric_option, Role::option_angle, in.words.has_angle ? in.words.angle.value : 0);
+  if (in.words.target.axes() != 0) return in.raise_axis(Condition::geometric_address, first_of(in.words.target.axes()));
   const Execution did = check_modes_of_pair(in, Condition::geometric_option);
   if (did != Execution::done) return did;
   const InPlane plane = in_plane(in);
@@ -202,9 +202,9 @@ Second second_block(const BlockContext& in, const InPlane& plane) {
   Second second;
   const Command& w = in.words;
   const Function motion = in.state.modal.of(Mode::motion);
-  second.has_end = (w.axes & plane.bits()) == plane.bits() && plane.bits() != 0;
-  second.incremental = (w.incremental & plane.bits()) != 0;
-  const auto place = [&](unsigned axis, double from) { return (w.incremental >> axis & 1) != 0 ? from + w.axis[axis] : w.axis[axis]; };
+  second.has_end = (w.target.axes() & plane.bits()) == plane.bits() && plane.bits() != 0;
+  second.incremental = (w.target.incremental() & plane.bits()) != 0;
+  const auto place = [&](unsigned axis, double from) { return w.target.counts_on(axis) ? from + w.target[axis] : w.target[axis]; };
   second.end = {place(plane.h, plane.at.h), place(plane.v, plane.at.v)};
   if (!second.has_end || !free_for_lines(in)) return second;
   second.line = motion == Function::linear && has_line_angle(in) && (w.has_angle || !word_is_taken(in));
@@ -261,13 +261,13 @@ Execution make_second(BlockContext& in, const InPlane& plane, const Second& seco
   const AxisVec target = target_of_words(in);
   Execution did = Execution::done;
   if (second.line) {
-    move_linear(in, target, in.words.axes, cutting_style(in));
+    move_linear(in, target, in.words.target.axes(), cutting_style(in));
   } else {
     const PlanePoint center = second.circle.by_radius ? meeting.center : second.circle.center;
     ArcWords words;
     words.center[0] = center.h - meeting.at.h;
     words.center[1] = center.v - meeting.at.v;
-    did = move_arc_by(in, plane.axes, target, in.words.axes, words, second.circle.ccw);
+    did = move_arc_by(in, plane.axes, target, in.words.target.axes(), words, second.circle.ccw);
     if (did != Execution::done) did = in.raise(Condition::geometric_contact, second.circle.by_radius ? Role::arc_radius : plane.axes.center[0]);
   }
   Move* const move = newest_move(in, before);
@@ -287,7 +287,7 @@ Condition option_of(const MeetingFirst& first, const Second& second) {
 }
 
 Execution check_second_words(BlockContext& in) {
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     if (is_plane(row->function)) return in.raise_code(Condition::geometric_plane, *row);
     const bool fits = plain_motion(row->function) || row->function == Function::absolute || row->function == Function::incremental;
     if (!fits) return in.raise_code(Condition::geometric_address, *row);
@@ -305,7 +305,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
     const Execution did = check_second_words(in);
     if (did != Execution::done) return did;
     const Function motion = in.state.modal.of(Mode::motion);
-    if (in.words.axes == 0 || !free_for_lines(in) || !(motion == Function::linear || is_arc(motion))) return in.raise(Condition::geometric_no_line);
+    if (in.words.target.axes() == 0 || !free_for_lines(in) || !(motion == Function::linear || is_arc(motion))) return in.raise(Condition::geometric_no_line);
     if (second.incremental) return in.raise(Condition::geometric_incremental);
     if (!second.line && !second.arc) return in.raise(Condition::geometric_address);
   }
@@ -331,8 +331,8 @@ bool begins_meeting(const BlockContext& in) {
   if (!in.dialect->addresses.has(Role::line_angle) || !free_for_lines(in)) return false;
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return false;
-  if (has_line_angle(in)) return (w.axes & (1u << plane.h | 1u << plane.v)) == 0;
-  if (!is_arc(in.state.modal.of(Mode::motion)) || w.axes != 0 || w.has(Role::arc_turns)) return false;
+  if (has_line_angle(in)) return (w.target.axes() & (1u << plane.h | 1u << plane.v)) == 0;
+  if (!is_arc(in.state.modal.of(Mode::motion)) || w.target.axes() != 0 || w.has(Role::arc_turns)) return false;
   return w.has(Role::arc_radius) || w.has(plane.center[0]) || w.has(plane.center[1]);
 }
 
@@ -347,7 +347,7 @@ bool has_line_angle(const BlockContext& in) {
 
 bool begins_or_ends_meeting(const BlockContext& in) {
   const Command& w = in.words;
-  const bool words = w.present != 0 || !w.g.empty() || !w.m.empty() || w.has_angle;
+  const bool words = w.present != 0 || !w.functions.empty() || !w.auxiliary.empty() || w.has_angle;
   if (in.state.meeting.kind != Kind::none && words) return true;
   return begins_meeting(in);
 }
@@ -371,19 +371,17 @@ Execution take_line_angle(BlockContext& in) {
   if (!plane.exists()) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   if ((in.state.special & kSpecialMap) != 0) return in.raise(Condition::geometric_option, Role::option_angle, angle_of_block(in));
   if (in.state.high_speed != SpeedMode::off) return in.raise(Condition::format_error, Role::line_angle, angle_of_block(in));  // note
-  const bool has_h = (w.axes >> plane.h & 1) != 0, has_v = (w.axes >> plane.v & 1) != 0;
+  const bool has_h = w.target.commands(plane.h), has_v = w.target.commands(plane.v);
   if (has_h == has_v) return Execution::done;  // (3): with both the angle is ignored
   double cosine = 0, sine = 0;
   direction_of(angle_of_block(in), &cosine, &sine);
   const unsigned given = has_h ? plane.h : plane.v, other = has_h ? plane.v : plane.h;
   const double from = has_h ? plane.at.h : plane.at.v;
-  const double way = (w.incremental >> given & 1) != 0 ? w.axis[given] : w.axis[given] - from;
+  const double way = w.target.counts_on(given) ? w.target[given] : w.target[given] - from;
   // The line never gets there: it runs across the direction of the coordinate that is given.
   const double along = has_h ? cosine : sine, across = has_h ? sine : cosine;
-  if (along == 0) return in.raise_axis(Condition::geometric_address, given, w.axis[given]);
-  w.axis[other] = way * across / along;
-  w.axes |= 1u << other;
-  w.incremental |= 1u << other;
+  if (along == 0) return in.raise_axis(Condition::geometric_address, given, w.target[given]);
+  w.target.set(other, TargetKind::incremental, way * across / along);
   return Execution::done;
 }
 

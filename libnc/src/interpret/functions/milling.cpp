@@ -28,7 +28,7 @@ Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
 
 /// HX 4.7: the axis that the block of the cylinder names; 4.6: the one of the parameter, or the first that turns.
 int rotary_axis_of_block(const BlockContext& in) {
-  const uint32_t named = in.words.axes & in.rotary;
+  const uint32_t named = in.words.target.axes() & in.rotary;
   if (named != 0) return static_cast<int>(first_of(named));
   const unsigned number = in.settings.polar_axis[1];
   if (number != 0) return number <= in.axis_count && ((in.rotary >> (number - 1)) & 1) != 0 ? static_cast<int>(number - 1) : -1;
@@ -58,7 +58,7 @@ unsigned polar_linear(const BlockContext& in) {
 /// itself names.
 Execution stands_alone(BlockContext& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((in.words.axes & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.axis_words.word(i), in.words.axis[i]);
+    if (((in.words.target.axes() & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.axis_words.word(i), in.words.target[i]);
   return Execution::done;
 }
 
@@ -151,10 +151,10 @@ Execution do_cylinder(BlockContext& in) {
   State& state = in.state;
   const Command& w = in.words;
   const FunctionRow& code = *w.one_shot;
-  if (w.g.size() > 1) return in.raise_code(Condition::format_error, code);
+  if (w.functions.size() > 1) return in.raise_code(Condition::format_error, code);
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::polar_state, code);
   const bool by_word = in.dialect->rules.mill.rotary_in_block;
-  const int axis = by_word && (w.axes & in.rotary) == 0 ? -1 : rotary_axis(in);
+  const int axis = by_word && (w.target.axes() & in.rotary) == 0 ? -1 : rotary_axis(in);
   const WordSlot name = by_word && axis >= 0 ? in.axis_words.word(static_cast<unsigned>(axis)) : in.settings.mill_axis;
   if (axis < 0) return in.raise(Condition::mill_axis, name);
   if (!w.has(name)) return in.raise(Condition::format_error, name);
@@ -191,7 +191,7 @@ Execution do_cylinder(BlockContext& in) {
 Execution do_polar_on(BlockContext& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
-  if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
+  if (in.words.functions.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::polar_state, code);
   if (state.map.kind == AxisMap::Kind::cylinder) return in.raise_code(Condition::mill_code, code);
@@ -223,7 +223,7 @@ Execution do_polar_off(BlockContext& in) {
   State& state = in.state;
   const FunctionRow& code = *in.words.one_shot;
   if (state.map.kind == AxisMap::Kind::none) return Execution::done;
-  if (in.words.g.size() > 1) return in.raise_code(Condition::format_error, code);
+  if (in.words.functions.size() > 1) return in.raise_code(Condition::format_error, code);
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind != AxisMap::Kind::polar) return in.raise_code(Condition::mill_code, code);
   if (state.compensated()) return in.raise_code(Condition::polar_modal, code);
@@ -235,7 +235,7 @@ Execution check_mill_block(BlockContext& in) {
   const Command& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
   const Condition code = polar ? Condition::polar_code : Condition::mill_code, modal = polar ? Condition::polar_modal : Condition::mill_modal;
-  for (const FunctionRow* row : w.g) {
+  for (const FunctionRow* row : w.functions) {
     switch (row->function) {
       case Function::cylinder:
       case Function::polar_on:
@@ -273,7 +273,7 @@ Execution check_mill_move(BlockContext& in, uint32_t commanded) {
     if (axis >= 0) system |= 1u << axis;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.axis_words.word(i), in.words.axis[i]);
+    if (((commanded & ~system) >> i & 1) != 0) return in.raise(Condition::mill_axis, in.axis_words.word(i), in.words.target[i]);
   if (is_arc(motion) && in.words.any({Role::vector_x, Role::vector_y, Role::vector_z})) return in.raise(Condition::format_error, in.words.has(Role::vector_x) ? Role::vector_x : in.words.has(Role::vector_y) ? Role::vector_y : Role::vector_z);
   return Execution::done;
 }

@@ -47,7 +47,7 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   uint32_t order = n.order = in.state.nurbs_order != 0 && !w.has(Role::curve_order) && w.motion == nullptr ? in.state.nurbs_order : uint8_t{4};
   if (w.has(Role::curve_order) && (!whole_number(w.get(Role::curve_order), &order) || order < 2 || order > 4)) return in.raise(Condition::value_range, Role::curve_order, w.get(Role::curve_order));
   n.order = in.state.nurbs_order = static_cast<uint8_t>(order);
-  n.axes = static_cast<uint8_t>(w.axes);
+  n.axes = static_cast<uint8_t>(w.target.axes());
   const AxisVec at = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (std::fabs(target[i] - at[i]) > kReached) return in.raise(Condition::nurbs_start, in.axis_words.word(i));
@@ -56,8 +56,8 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   uint32_t basic = 0;
   for (const uint8_t a : axis)
     if (a < kMaxAxes) basic |= 1u << a;
-  if (w.axes == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone after a curve begins the next curve at the end of that one
-  if ((w.axes & ~basic) != 0) return in.raise(Condition::illegal_address, Role::basic_x);
+  if (w.target.axes() == 0) n.axes = static_cast<uint8_t>(basic);  // a knot alone after a curve begins the next curve at the end of that one
+  if ((w.target.axes() & ~basic) != 0) return in.raise(Condition::illegal_address, Role::basic_x);
   return Execution::done;
 }
 
@@ -136,8 +136,8 @@ Execution check_nurbs_block(BlockContext& in) {
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Execution::done;
   // Until the curve is closed a block may have no other codes, and no F, M, S or T.
-  if (!w.g.empty()) return in.raise_code(Condition::format_error, *w.g.back());
-  if (!w.m.empty()) return in.raise(Condition::format_error, Role::misc_code, w.m.back());
+  if (!w.functions.empty()) return in.raise_code(Condition::format_error, *w.functions.back());
+  if (!w.auxiliary.empty()) return in.raise(Condition::format_error, Role::misc_code, w.auxiliary.back().number);
   for (const Role word : {Role::feed, Role::spindle_speed, Role::tool, Role::curve_order})
     if (w.has(word)) return in.raise(Condition::format_error, word, w.get(word));
   return Execution::done;
@@ -158,9 +158,9 @@ Execution move_nurbs(BlockContext& in, const AxisVec& target) {
     if (did != Execution::done) return did;
   }
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((w.axes >> i) & 1) != 0 && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.axis_words.word(i), w.axis[i]);
+    if (w.target.commands(i) && ((n.axes >> i) & 1) == 0) return in.raise(Condition::illegal_address, in.axis_words.word(i), w.target[i]);
   if (n.knots > 0 && p.knot < point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);
-  const bool closes = w.axes == 0 && n.knots > 0;
+  const bool closes = w.target.axes() == 0 && n.knots > 0;
   // The first knot and the last knot are repeated as often as the order says, so that the curve begins and ends on control points.
   const bool must_repeat = closes ? n.knots > n.points : n.knots > 0 && n.knots < n.order;
   if (must_repeat && p.knot != point(in, n.knots - 1).knot) return in.raise(Condition::nurbs_knot, Role::curve_knot, p.knot);

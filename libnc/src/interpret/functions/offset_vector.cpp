@@ -81,11 +81,11 @@ Execution do_corner_turn(BlockContext& in) {
   Compensation& comp = in.state.comp;
   if (comp.side == 0) return in.raise_code(Condition::outside_compensation, row);
   if (const Execution did = check_corner_motion(in); did != Execution::done) return did;
-  const uint32_t plane = 1u << comp.axis[0] | 1u << comp.axis[1], others = in.words.axes & ~plane;
+  const uint32_t plane = 1u << comp.axis[0] | 1u << comp.axis[1], others = in.words.target.axes() & ~plane;
   if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
   const PlaneAxes words = plane_axes(in);
-  const bool by_vector = in.words.axes == 0 && in.words.any({words.center[0], words.center[1]});
-  if (in.words.axes == 0 && !by_vector) return in.raise_code(Condition::words_missing, row);
+  const bool by_vector = in.words.target.axes() == 0 && in.words.any({words.center[0], words.center[1]});
+  if (in.words.target.axes() == 0 && !by_vector) return in.raise_code(Condition::words_missing, row);
   AxisVec position = in.position(), target = target_of_words(in);
   if (program_mapped(in)) {  // the vector of the move is mapped as the move is
     position = to_program(in, position);
@@ -97,7 +97,7 @@ Execution do_corner_turn(BlockContext& in) {
     comp.vector[i] = given ? length_of(in, words.center[i]) : by_vector ? 0 : target[comp.axis[i]] - position[comp.axis[i]];
   }
   if (std::hypot(comp.vector[0], comp.vector[1]) < kNoRadius_mm) return in.raise_code(Condition::words_missing, row);
-  in.words.axes = 0;
+  in.words.target.clear();
   comp.has_vector = comp.corner_arc = true;
   move_nowhere(in);
   return Execution::done;

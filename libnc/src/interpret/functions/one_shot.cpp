@@ -95,7 +95,7 @@ bool machine_in_figure(const BlockContext& in) {
   uint32_t axes = 0;
   if (plane.h >= 0) axes |= 1u << plane.h;
   if (plane.v >= 0) axes |= 1u << plane.v;
-  return (in.words.axes & axes) != 0;
+  return (in.words.target.axes() & axes) != 0;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ bool turns_work(const BlockContext& in, uint32_t number) {
 }
 
 bool ends_input(const BlockContext& in) {
-  return in.words.g.size() == 1 && ends_data_input(in.words.g[0]->function) && word_count(*in.block) == 1;
+  return in.words.functions.size() == 1 && ends_data_input(in.words.functions[0]->function) && word_count(*in.block) == 1;
 }
 
 /// Note 1: number, part system, axis and data stand in the order of the format; when a word comes twice the last one counts.
@@ -86,8 +86,8 @@ Execution begin_parameter_input(BlockContext& in) {
 
 Execution parameter_block(BlockContext& in) {
   const Command& w = in.words;
-  if (!w.g.empty() || !w.m.empty()) {
-    if (!ends_input(in)) return refuse(in, w.g.empty() ? Role::misc_code : Role::code);
+  if (!w.functions.empty() || !w.auxiliary.empty()) {
+    if (!ends_input(in)) return refuse(in, w.functions.empty() ? Role::misc_code : Role::code);
     in.state.parameter_input = false;
     return Execution::done;
   }

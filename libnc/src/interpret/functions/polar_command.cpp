@@ -17,11 +17,20 @@ bool reads_plain_words(const BlockContext& in) {
   const Command& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
   if (in.dialect->rules.coordinate.pole_stays && is_arc(in.state.modal.of(Mode::motion)) && w.cycle == nullptr && in.state.cycle.kind == CycleKind::none) return true;
-  for (const FunctionRow* row : w.g) {
+  for (const FunctionRow* row : w.functions) {
     const Mode mode = mode_of(row->function);
     if (mode == Mode::scaling || mode == Mode::rotation || mode == Mode::mirror || mode == Mode::macro) return true;
   }
   return false;
+}
+
+/// The targets of the plane's axes are meant as radius and angle.
+void name_polar_targets(BlockContext& in, unsigned h, unsigned v) {
+  Targets& target = in.words.target;
+  if (target.commands(h)) target.set(h, target.counts_on(h) ? TargetKind::radius_increment : TargetKind::radius, target[h]);
+  if (!target.commands(v)) return;
+  const double angle = length_value(in, in.words.written(in.axis_words.word(v)), true, false);  // in degrees, also in inch mode
+  target.set(v, target.counts_on(v) ? TargetKind::angle_increment : TargetKind::angle, angle);
 }
 
 }  // namespace
@@ -43,16 +52,17 @@ void resolve_polar_words(BlockContext& in) {
   State& state = in.state;
   in.polar_holes.on = false;
   if (reads_plain_words(in)) {
-    if (w.axes != 0) state.polar_angle_known = false;
+    if (w.target.axes() != 0) state.polar_angle_known = false;
     return;
   }
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
-  const bool has_radius = ((w.axes >> h) & 1) != 0, has_angle = ((w.axes >> v) & 1) != 0;
+  name_polar_targets(in, h, v);
+  const bool has_radius = w.target.commands(h), has_angle = w.target.commands(v);
   if (!has_radius && !has_angle) return;  // there is nothing to convert
   const AxisVec position = program_mapped(in) ? to_program(in, in.position()) : in.position();
-  const bool stays = in.dialect->rules.coordinate.pole_stays, moves = has_radius && ((w.incremental >> h) & 1) != 0;
+  const bool stays = in.dialect->rules.coordinate.pole_stays, moves = w.target.kind(h) == TargetKind::radius_increment;
   double pole[2] = {0, 0};
   if (moves) {
     pole[0] = position[h], pole[1] = position[v];
@@ -61,15 +71,17 @@ void resolve_polar_words(BlockContext& in) {
   }
   for (unsigned i = 0; i < 2; ++i) state.polar_pole[i] = stays ? pole[i] : 0;
   const double out[2] = {position[h] - (stays ? pole[0] : 0), position[v] - (stays ? pole[1] : 0)};
-  const double radius = has_radius ? w.axis[h] : std::hypot(out[0], out[1]);
+  const double radius = has_radius ? w.target[h] : std::hypot(out[0], out[1]);
   const double seen = stays && moves ? 0 : std::atan2(out[1], out[0]) * 180 / kPi;
   double angle = seen;
   PolarHoles& holes = in.polar_holes;
   holes = PolarHoles{};
   if (has_angle) {
-    angle = length_value(in, w.written(in.axis_words.word(v)), true, false);  // in degrees, also in inch mode
-    if (((w.incremental >> v) & 1) != 0) holes.angle_step = angle;
-    if (((w.incremental >> v) & 1) != 0) angle += state.polar_angle_known ? state.polar_angle : seen;
+    angle = w.target[v];
+    if (w.target.kind(v) == TargetKind::angle_increment) {
+      holes.angle_step = angle;
+      angle += state.polar_angle_known ? state.polar_angle : seen;
+    }
   }
   if (moves && holes.angle_step == 0) holes.radius_step = radius;
   holes.on = holes.angle_step != 0 || holes.radius_step != 0;
@@ -79,10 +91,8 @@ void resolve_polar_words(BlockContext& in) {
   state.polar_angle = angle;
   state.polar_angle_known = true;
   // A negative radius leads to the other side, as |r| at 180 degrees more.
-  w.axis[h] = pole[0] + radius * std::cos(angle * kPi / 180);
-  w.axis[v] = pole[1] + radius * std::sin(angle * kPi / 180);
-  w.axes |= 1u << h | 1u << v;
-  w.incremental &= ~(1u << h | 1u << v);
+  w.target.set(h, TargetKind::absolute, pole[0] + radius * std::cos(angle * kPi / 180));
+  w.target.set(v, TargetKind::absolute, pole[1] + radius * std::sin(angle * kPi / 180));
 }
 
 /// Words that count on do so from hole to hole of their block, too (M700 13.1.1, L; HX 12.1.2, K): a step of the angle leads round the pole, one of the
@@ -92,8 +102,8 @@ void step_polar_hole(BlockContext& in) {
   polar.radius += polar.radius_step;
   polar.angle += polar.angle_step;
   in.state.polar_angle = polar.angle;
-  in.holes.increment[polar.axis[0]] = polar.pole[0] + polar.radius * std::cos(polar.angle * kPi / 180);
-  in.holes.increment[polar.axis[1]] = polar.pole[1] + polar.radius * std::sin(polar.angle * kPi / 180);
+  in.holes.target.set(polar.axis[0], TargetKind::absolute, polar.pole[0] + polar.radius * std::cos(polar.angle * kPi / 180));
+  in.holes.target.set(polar.axis[1], TargetKind::absolute, polar.pole[1] + polar.radius * std::sin(polar.angle * kPi / 180));
 }
 
 }  // namespace nc

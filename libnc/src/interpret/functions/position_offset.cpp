@@ -38,16 +38,15 @@ void lengthen_ways(BlockContext& in, double amount, bool arc) {
   AxisVec target = target_of_words(in);
   if (mapped) target = to_program(in, target);
   const double ways = is_twice(w.one_shot->function) ? 2 * amount : amount;
-  for (uint32_t left = w.axes; left != 0; left &= left - 1) {
+  for (uint32_t left = w.target.axes(); left != 0; left &= left - 1) {
     const unsigned i = first_of(left);
-    const bool by_increment = (w.incremental >> i & 1) != 0;
-    const double way = by_increment ? w.axis[i] : target[i] - position[i];
+    const bool by_increment = w.target.counts_on(i);
+    const double way = by_increment ? w.target[i] : target[i] - position[i];
     // Precaution (3): the sign of an incremental 0 counts; an absolute word without a way stays, and so does the axis on which a half circle ends where it
     // began.
     const bool stays = way == 0 && (!by_increment || arc);
-    w.axis[i] = stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i)));
+    w.target.set(i, TargetKind::incremental, stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i))));
   }
-  w.incremental = w.axes;
 }
 
 /// Makes the arc that the programmed one becomes. It has the same centre where the arc begins beside its programmed start by the same amount.
@@ -57,7 +56,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   Execution did = check_feed(in, in.state.modal.of(Mode::motion));
   ArcWords words;
-  if (did == Execution::done) did = read_arc_words(in, plane, in.words.axes, &words);
+  if (did == Execution::done) did = read_arc_words(in, plane, in.words.target.axes(), &words);
   if (did != Execution::done) return did;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   lengthen_ways(in, amount, true);
@@ -66,7 +65,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   for (double& center : words.center)
     if (center != 0) center = longer(center, by);
   const double start[2] = {0, 0};
-  const double end[2] = {(in.words.axes >> h & 1) != 0 ? in.words.axis[h] : 0, (in.words.axes >> v & 1) != 0 ? in.words.axis[v] : 0};
+  const double end[2] = {in.words.target.commands(h) ? in.words.target[h] : 0, in.words.target.commands(v) ? in.words.target[v] : 0};
   Circle circle;
   bool straight = false;
   const Condition bad = make_circle(start, end, words, ccw, kOnAxis_mm, &circle, &straight);
@@ -76,7 +75,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const long quarters = std::lround(std::fabs(circle.sweep) / (kPi / 2));
   const bool fits = is_twice(row.function) ? quarters == 2 : quarters == 1 || quarters == 3;
   if (bad != Condition::none || straight || !on_axis(start) || !on_axis(end) || !fits) return in.raise_code(Condition::offset_arc, row);
-  return move_arc_by(in, plane, target_of_words(in), in.words.axes, words, ccw);
+  return move_arc_by(in, plane, target_of_words(in), in.words.target.axes(), words, ccw);
 }
 
 }  // namespace
@@ -88,7 +87,7 @@ Execution do_position_offset(BlockContext& in) {
   if (in.state.rotated) return in.raise_code(Condition::offset_in_figure, row);  // App. 1, P141
   const Function motion = in.state.modal.of(Mode::motion);
   if (!plain_motion(motion)) return in.raise_mode(Condition::illegal_g, Mode::motion);
-  if (in.words.axes == 0 && !in.words.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z})) return Execution::done;
+  if (in.words.target.axes() == 0 && !in.words.any({Role::arc_radius, Role::vector_x, Role::vector_y, Role::vector_z})) return Execution::done;
   double amount = 0;
   const Execution did = amount_of(in, &amount);
   if (did != Execution::done) return did;

@@ -98,7 +98,7 @@ void cancel_length_of(BlockContext& in, uint32_t axes) {
 }
 
 Execution do_reference_return(BlockContext& in) {
-  uint32_t axes = in.words.axes;
+  uint32_t axes = in.words.target.axes();
   AxisVec mid = target_of_words(in);
   const Rules& rules = in.dialect->rules;
   if (in.state.comp.side != 0 && rules.compensation.bars_reference_return) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
@@ -117,20 +117,20 @@ Execution do_second_reference(BlockContext& in) {
   }
   if (in.dialect->rules.reference.place_is_checked && in.words.has(Role::return_place) && in.words.get(Role::return_place) != place)
     return in.raise(Condition::value_range, Role::return_place, in.words.get(Role::return_place));  // P2.6
-  return go_to_reference(in, place - 1, target_of_words(in), in.words.axes);
+  return go_to_reference(in, place - 1, target_of_words(in), in.words.target.axes());
 }
 
 Execution do_start_return(BlockContext& in) {
   const Command& w = in.words;
-  if (!w.m.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.m[0]);  // App.1 P436
-  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
+  if (!w.auxiliary.empty()) return in.raise(Condition::start_return_m, Role::misc_code, w.auxiliary[0].number);  // App.1 P436
+  if (w.target.axes() == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   // M700 14.7 (5), (8): the intermediate points of the newest G28 or G30 of each axis.
   const AxisVec position = in.position();
   AxisVec mid = position;
   uint32_t known = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const OptionalDouble given = in.records->midpoints.axis[i];
-    if (((w.axes >> i) & 1) == 0 || !given.has_value()) continue;
+    if (!w.target.commands(i) || !given.has_value()) continue;
     mid[i] = *given;
     if (((in.settings.turning >> i) & 1) != 0)
       mid[i] = position[i] + turn_to(within_one_turn(mid[i]), within_one_turn(position[i]), ((in.settings.short_cut >> i) & 1) != 0);
@@ -139,7 +139,7 @@ Execution do_start_return(BlockContext& in) {
   if (known == 0) {
     in.raise_code(Condition::no_reference, *w.one_shot);
     for (unsigned i = 0; i < in.axis_count && in.fault.axis < 0; ++i)
-      if (((w.axes >> i) & 1) != 0) in.fault.axis = static_cast<int8_t>(i);
+      if (w.target.commands(i)) in.fault.axis = static_cast<int8_t>(i);
     return Execution::fault;
   }
   LinearStyle style;
@@ -150,19 +150,19 @@ Execution do_start_return(BlockContext& in) {
     move_linear(in, mid, known, style);
   }
   style.transparent = false;  // 14.8 (5): from the intermediate point on radius compensation acts again
-  move_linear(in, target_of_words(in), w.axes, style);  // incremental words count from the intermediate point
+  move_linear(in, target_of_words(in), w.target.axes(), style);  // incremental words count from the intermediate point
   return Execution::done;
 }
 
 Execution do_reference_check(BlockContext& in) {
   const Command& w = in.words;
   uint32_t place = 1;
-  if (!w.m.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.m[0]);  // App.1 P435
-  if (w.axes == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
+  if (!w.auxiliary.empty()) return in.raise(Condition::reference_check_m, Role::misc_code, w.auxiliary[0].number);  // App.1 P435
+  if (w.target.axes() == 0) return in.raise_code(Condition::words_missing, *w.one_shot);
   if (!place_of_p(in, 1, &place) || place < 1 || place > 4) return in.raise(Condition::value_range, Role::return_place, w.get(Role::return_place));
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  move_linear(in, target_of_words(in), w.axes, style);
+  move_linear(in, target_of_words(in), w.target.axes(), style);
   // The comparison comes after the move, because only then it is known where radius compensation has led.
   in.next_step = Step::reference_check;
   return in.state.compensated() ? in.need(NC_SYNC_POSITION) : Execution::later;
@@ -173,7 +173,7 @@ Execution compare_reference(BlockContext& in) {
   uint32_t place = 1;
   place_of_p(in, 1, &place);
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
+    if (!w.target.commands(i)) continue;
     const double at = in.state.compensated() ? in.world.machine.v[i] : in.state.machine[i];
     double apart = at - in.reference(place - 1, i);
     if (((in.settings.machine_turn >> i) & 1) != 0) apart -= 360 * std::nearbyint(apart / 360);
@@ -190,8 +190,8 @@ Execution compare_reference(BlockContext& in) {
 Execution clear_shift(BlockContext& in) {
   const Command& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (((w.axes >> i) & 1) == 0) continue;
-    if (w.axis[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.axis[i]);
+    if (!w.target.commands(i)) continue;
+    if (w.target[i] != 0) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
     in.set_table(Frames::shift_key(i), 0);
   }
   return Execution::done;
@@ -199,10 +199,10 @@ Execution clear_shift(BlockContext& in) {
 
 Execution do_machine_move(BlockContext& in) {
   const Command& w = in.words;
-  for (const FunctionRow* row : w.g)
+  for (const FunctionRow* row : w.functions)
     if (row->function == Function::coordinate_set && in.dialect->rules.coordinate.machine_code_ends_shift) return clear_shift(in);
   const bool absolute_here = in.dialect->rules.coordinate.machine_move_is_absolute;
-  const bool incremental = !absolute_here && (w.incremental != 0 || in.state.modal.is(Function::incremental));
+  const bool incremental = !absolute_here && (w.target.incremental() != 0 || in.state.modal.is(Function::incremental));
   in.state.map_begins = false;
   if (incremental && in.dialect->rules.coordinate.incremental_machine_move_rests) return Execution::done;
   if (incremental && !in.dialect->rules.coordinate.machine_move_may_be_incremental) return in.raise_code(Condition::code_in_incremental, *w.one_shot);
@@ -210,16 +210,16 @@ Execution do_machine_move(BlockContext& in) {
   uint32_t absolute = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const uint32_t bit = 1u << i;
-    if ((w.axes & bit) == 0) continue;
-    if ((w.incremental & bit) != 0 && !absolute_here) {  // M700 14.4 (4): in G91 it is a plain incremental rapid, on which mirror image does not act (13.6 (7))
-      machine[i] += w.axis[i];
+    if ((w.target.axes() & bit) == 0) continue;
+    if ((w.target.incremental() & bit) != 0 && !absolute_here) {  // M700 14.4 (4): in G91 it is a plain incremental rapid, on which mirror image does not act (13.6 (7))
+      machine[i] += w.target[i];
       continue;
     }
     absolute |= bit;
-    machine[i] = machine_target(in, i, w.axis[i]);
+    machine[i] = machine_target(in, i, w.target[i]);
   }
   if (!in.dialect->rules.coordinate.machine_move_by_motion || in.state.modal.is(Function::rapid)) {
-    move_machine(in, machine, w.axes, absolute);
+    move_machine(in, machine, w.target.axes(), absolute);
     return Execution::done;
   }
   const Function motion = in.state.modal.of(Mode::motion);
@@ -228,12 +228,12 @@ Execution do_machine_move(BlockContext& in) {
   if (fed != Execution::done) return fed;
   AxisVec target = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((w.axes >> i) & 1) != 0) target[i] = machine[i] - in.zero()[i] - in.state.applied[i];
+    if (w.target.commands(i)) target[i] = machine[i] - in.zero()[i] - in.state.applied[i];
   LinearStyle style;
   style.feed_mm_min = feed_mm_min(in);
   style.special_feed = special_feed(in);
   style.exact_stop = asks_exact_stop(in);
-  move_linear(in, target, w.axes, style);
+  move_linear(in, target, w.target.axes(), style);
   return Execution::done;
 }
 

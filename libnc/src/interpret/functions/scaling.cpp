@@ -54,7 +54,7 @@ Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockCon
   in.state.map_begins = true;
   in.program_changed();
   w.present &= ~in.set_of({word});
-  if (w.axes == 0) return Execution::done;
+  if (w.target.axes() == 0) return Execution::done;
   const Function motion = in.state.modal.of(Mode::motion);
   return is_line(motion) ? move_by_words(in) : in.raise_code(Condition::not_accepted, row);
 }
@@ -98,13 +98,13 @@ Execution do_scaling(BlockContext& in) {
   if (!good) return in.raise(Condition::value_range, word, w.get(word));
   for (unsigned i = 0; i < in.axis_count && !rules.factor_by_axis; ++i) factors[i] = factor;  // (8): the newest counts for all axes
   const AxisVec at = to_program(in, in.position());
-  if (rules.all_linear_axes && (w.axes & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));  // it has no length
-  const uint32_t axes = rules.all_linear_axes ? ~in.rotary & ((1u << in.axis_count) - 1) : w.axes;
+  if (rules.all_linear_axes && (w.target.axes() & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.target.axes() & in.rotary));  // it has no length
+  const uint32_t axes = rules.all_linear_axes ? ~in.rotary & ((1u << in.axis_count) - 1) : w.target.axes();
   ProgramMaps maps = in.records->maps;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((axes >> i) & 1) == 0) continue;
-    const bool given = ((w.axes >> i) & 1) != 0, incremental = ((w.incremental >> i) & 1) != 0;
-    maps.scaling_center[i] = !given ? at[i] : incremental ? at[i] + w.axis[i] : w.axis[i];
+    const bool given = w.target.commands(i), incremental = w.target.counts_on(i);
+    maps.scaling_center[i] = !given ? at[i] : incremental ? at[i] + w.target[i] : w.target[i];
   }
   maps.scaling_factor = factors;
   in.change(&ProgramRecords::maps, maps);
@@ -126,14 +126,14 @@ Execution do_rotation(BlockContext& in) {
   const Command& w = in.words;
   if (in.dialect->rules.rotation.about_zero) return begin_map_about_zero(in, Role::rotation_angle, set_turn_of_plane);
   if (w.has(Role::vector_x) && w.has(Role::vector_y) && w.has(Role::vector_z)) {
-    for (const FunctionRow* row : w.g)  // 12.3, interference with other functions (1)
+    for (const FunctionRow* row : w.functions)  // 12.3, interference with other functions (1)
       if (row->function == Function::length_along_tool) return in.raise_code(Condition::space_conversion_block, *row);
     const bool along = in.state.modal.is(Function::length_along_tool);
     return in.raise_code(along ? Condition::tool_axis_code : Condition::space_conversion, *w.one_shot);  // 13.22
   }
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_code(Condition::plane_mismatch, *w.one_shot);
-  for (const FunctionRow* row : w.g)
+  for (const FunctionRow* row : w.functions)
     if (is_plane(row->function) && !in.dialect->rules.rotation.plane_in_block) return in.raise_code(Condition::plane_in_rotation, *row);  // (13)
   ProgramMaps maps = in.records->maps;
   const bool by_parameter = !w.has(Role::rotation_angle) && in.dialect->rules.rotation.angle_by_parameter;
@@ -146,9 +146,9 @@ Execution do_rotation(BlockContext& in) {
   const int axes[2] = {plane.h, plane.v};
   for (unsigned i = 0; i < 2; ++i) {
     const auto axis = static_cast<unsigned>(axes[i]);
-    const bool given = ((w.axes >> axis) & 1) != 0;  // the word is absolute, also in G91
+    const bool given = w.target.commands(axis);  // the word is absolute, also in G91
     const bool scaled = given && in.dialect->rules.rotation.centre_is_scaled && (in.state.scaled >> axis & 1) != 0;
-    const double point = scaled ? maps.scaling_center[axis] + maps.scaling_factor[axis] * (w.axis[axis] - maps.scaling_center[axis]) : w.axis[axis];
+    const double point = scaled ? maps.scaling_center[axis] + maps.scaling_factor[axis] * (w.target[axis] - maps.scaling_center[axis]) : w.target[axis];
     maps.rotation_center[i] = given ? point : at[axis];
   }
   in.change(&ProgramRecords::maps, maps);

@@ -43,7 +43,7 @@ bool make_pass(BlockContext& in) {
   }
   arc.radius = way / 2;
   arc.sweep = 2 * std::numbers::pi;
-  Move& move = emit_shaped(in, frame_of_move(in, from, in.words.axes), shape, NC_MOVE_SPLINE);
+  Move& move = emit_shaped(in, frame_of_move(in, from, in.words.target.axes()), shape, NC_MOVE_SPLINE);
   move.exact_stop = true;
   set_modal_feed(in, move, feed_mm_min(in));
   return true;
@@ -54,8 +54,8 @@ bool make_pass(BlockContext& in) {
 Execution do_sine_loop(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   const Command& w = in.words;
-  if (w.axes == 0) return in.raise_code(Condition::words_missing, row);
-  if ((w.axes & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.axes & in.rotary));
+  if (w.target.axes() == 0) return in.raise_code(Condition::words_missing, row);
+  if ((w.target.axes() & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(w.target.axes() & in.rotary));
   if (in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);
   const Execution did = check_feed(in, Function::linear);
   if (did != Execution::done) return did;

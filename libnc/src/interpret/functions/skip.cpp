@@ -48,7 +48,7 @@ void store_skip_position(BlockContext& in, const AxisVec& machine) {
 Execution do_skip(BlockContext& in) {
   const Command& w = in.words;
   // M700 9.3 (8): an index table that can be clamped only at certain positions (#2106) could not be clamped where the signal comes.
-  for (uint32_t tables = w.axes & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
+  for (uint32_t tables = w.target.axes() & in.settings.index_axes & in.rotary; tables != 0; tables &= tables - 1) {
     const auto axis = static_cast<unsigned>(std::countr_zero(tables));
     if (in.settings.index_increment[axis] > 0) return in.raise(Condition::no_function, in.axis_words.word(axis));
   }
@@ -79,7 +79,7 @@ Execution do_skip(BlockContext& in) {
   style.skip_mask = static_cast<uint8_t>(mask);
   style.skip_away = w.one_shot->function == Function::probe_away || w.one_shot->function == Function::probe_away_try;
   const AxisVec before = in.state.machine;
-  move_linear(in, target_of_words(in), w.axes, style);
+  move_linear(in, target_of_words(in), w.target.axes(), style);
   if (in.state.machine == before) {  // there is no way on which a signal could come
     if (wants_signal(in) || in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
     store_skip_position(in, in.state.machine);

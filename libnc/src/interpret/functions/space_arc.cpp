@@ -141,7 +141,7 @@ Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
 Execution check_space_arc_block(BlockContext& in) {
   State& state = in.state;
   const Command& w = in.words;
-  const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.axes != 0 && is_space_arc(state.modal.of(Mode::motion));
+  const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.target.axes() != 0 && is_space_arc(state.modal.of(Mode::motion));
   if (state.arc_step == ArcStep::middle_given && !goes_on) return in.raise(Condition::space_arc_blocks);
   if (w.motion == nullptr || !is_space_arc(w.motion->function)) return Execution::done;
   // 6.14 (b)

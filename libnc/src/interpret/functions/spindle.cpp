@@ -41,7 +41,7 @@ bool is_clamp_command(const BlockContext& in) {
 /// LinuxCNC G96: D of the block is the highest speed, and it holds until the next G96.
 bool limits_surface_speed(const BlockContext& in) {
   if (!in.dialect->rules.spindle.limit_beside_surface) return false;
-  for (const FunctionRow* row : in.words.g)
+  for (const FunctionRow* row : in.words.functions)
     if (row->function == Function::surface_on) return true;
   return false;
 }
@@ -57,7 +57,7 @@ Execution set_surface_speed(BlockContext& in) {
     in.state.spindle_clamped = largest != 0;
     emit_control(in, NC_CONTROL_SPINDLE_CLAMP, largest != 0 ? NC_CLAMP_S : 0, 0, largest);
   }
-  for (const FunctionRow* row : in.words.g) {
+  for (const FunctionRow* row : in.words.functions) {
     if (mode_of(row->function) != Mode::surface_speed) continue;
     state.modal.set(*row);
     if (row->function == Function::surface_off) {

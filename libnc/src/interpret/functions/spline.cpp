@@ -88,12 +88,12 @@ bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* 
     ComingMove move;
     if (!read_coming_move(*block, in.front, in.state.spline.axes, *relative, &move)) return false;
     *relative = move.relative;
-    AxisVec value;
-    for (uint32_t left = move.axes; left != 0; left &= left - 1) value[first_of(left)] = axis_value(in, first_of(left), move.value[first_of(left)], false);
-    const uint32_t kept = in.words.incremental;
-    in.words.incremental = move.incremental;
-    const AxisVec end = target_of(in, *at, move.axes, value);
-    in.words.incremental = kept;
+    Targets targets;
+    for (uint32_t left = move.axes; left != 0; left &= left - 1) {
+      const unsigned moved = first_of(left);
+      targets.set(moved, (move.incremental >> moved & 1) != 0 ? TargetKind::incremental : TargetKind::absolute, axis_value(in, moved, move.value[moved], false));
+    }
+    const AxisVec end = target_of(in, *at, targets);
     *chord = chord_between(*at, end, axis);
     *at = end;
     return chord->length > kNoMotion;

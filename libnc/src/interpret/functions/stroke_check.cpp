@@ -24,7 +24,7 @@ Execution do_stroke_check(BlockContext& in) {
     // (2): a word that is omitted is 0. The words are machine coordinates in the unit of the program, in G90 and in G91.
     const auto index = static_cast<unsigned>(axis);
     const bool turns = ((in.rotary >> index) & 1) != 0;
-    const double upper_point = w.has(name) ? w.axis[index] : 0;
+    const double upper_point = w.has(name) ? w.target[index] : 0;
     const double lower_point = w.has(lower) ? axis_value(in, index, w.written(lower), turns) : 0;
     if (upper_point == lower_point) continue;  // (3)
     box.axis[i] = static_cast<int8_t>(axis);

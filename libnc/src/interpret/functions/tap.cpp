@@ -28,7 +28,7 @@ bool synchronous(const BlockContext& in) {
   if (w.has_tap_control) return w.tap_control == 1;
   if (modal != TapControl::by_parameter) return modal == TapControl::synchronous;
   bool by_code = in.state.tap_code || in.settings.tap_synchronous;
-  for (const uint32_t m : w.m) by_code = by_code || m == in.settings.tap_m;
+  for (const Auxiliary& m : w.auxiliary) by_code = by_code || m.taps_synchronously;
   return by_code;
 }
 

@@ -69,11 +69,8 @@ Execution set_length_along_tool(BlockContext& in, double length) {
   state.tool_length = length;
   // The length that has been compensated so far goes: its axis is commanded to where it is.
   const uint32_t bit = 1u << state.length_axis;
-  if (state.applied[state.length_axis] != 0 && (in.words.axes & bit) == 0) {
-    in.words.axis[state.length_axis] = in.position()[state.length_axis];
-    in.words.incremental &= ~bit;
-    in.words.axes |= bit;
-  }
+  if (state.applied[state.length_axis] != 0 && (in.words.target.axes() & bit) == 0)
+    in.words.target.set(state.length_axis, TargetKind::absolute, in.position()[state.length_axis]);
   state.length_value = 0;
   // The vector is gone to at once, even where the block names no axis, as the printed example of 12.3 needs it.
   in.words.comp_command = true;

@@ -31,7 +31,7 @@ uint32_t axes_of(const BlockContext& in, uint8_t basic) {
 }  // namespace
 
 Execution do_tool_change_return(BlockContext& in) {
-  if (in.words.axes != 0) return in.raise_code(Condition::format_error, *in.words.one_shot);
+  if (in.words.target.axes() != 0) return in.raise_code(Condition::format_error, *in.words.one_shot);
   const auto& order = kOrder[in.words.one_shot->number];
   AxisVec place;
   for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.settings.tool_change[i];

@@ -109,10 +109,10 @@ Execution begin_tool_life_input(BlockContext& in) {
 
 Execution tool_life_block(BlockContext& in) {
   const Command& w = in.words;
-  if (!w.g.empty() || !w.m.empty()) {
-    const bool ends = w.g.size() == 1 && ends_data_input(w.g[0]->function) && word_count(*in.block) == 1;
-    if (!ends && w.g.empty()) return in.raise(Condition::illegal_address, Role::misc_code, w.m[0]);
-    if (!ends) return in.raise_code(Condition::illegal_address, *w.g[0]);
+  if (!w.functions.empty() || !w.auxiliary.empty()) {
+    const bool ends = w.functions.size() == 1 && ends_data_input(w.functions[0]->function) && word_count(*in.block) == 1;
+    if (!ends && w.functions.empty()) return in.raise(Condition::illegal_address, Role::misc_code, w.auxiliary[0].number);
+    if (!ends) return in.raise_code(Condition::illegal_address, *w.functions[0]);
     in.state.life_input = {};
     return Execution::done;
   }

@@ -12,7 +12,7 @@ AxisVec before_creep(const BlockContext& in, const AxisVec& target, uint32_t axe
 }
 
 Execution do_unidirectional(BlockContext& in) {
-  const uint32_t axes = in.words.axes;
+  const uint32_t axes = in.words.target.axes();
   const AxisVec target = target_of_words(in), before = before_creep(in, target, axes);
   uint32_t creeps = 0;
   for (unsigned i = 0; i < in.axis_count; ++i)

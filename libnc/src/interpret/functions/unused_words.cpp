@@ -71,8 +71,8 @@ Execution check_unused_words(BlockContext& in) {
                                  Role::cycle_depth_step, Role::cycle_count}) & ~in.axis_words.all();
   if (!w.any(all)) return Execution::done;
   WordSet used = words_of_motion(in);
-  for (const FunctionRow* row : w.g) used |= words_of_mode(in, row->function);
-  for (const uint32_t m : w.m) used |= words_of_misc(in, misc_function(*in.dialect, m));
+  for (const FunctionRow* row : w.functions) used |= words_of_mode(in, row->function);
+  for (const Auxiliary& m : w.auxiliary) used |= words_of_misc(in, m.function);
   const WordSet unused = w.present & all & ~used;
   return unused == 0 ? Execution::done : in.raise_first(Condition::illegal_address, unused);
 }

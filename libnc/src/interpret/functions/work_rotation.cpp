@@ -28,7 +28,7 @@ bool store(BlockContext& in, ParameterOf parameter, double value) {
 Execution do_work_rotation(BlockContext& in) {
   const Command& w = in.words;
   // Axis words, P and R belong to another G10.
-  if (w.axes != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
+  if (w.target.axes() != 0 || w.any({Role::input_number, Role::input_amount})) return in.raise_code(Condition::format_error, *w.one_shot);
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, *w.one_shot);
   // A component that is not commanded keeps its value.
   const double i = w.has(Role::vector_x) ? length_of(in, Role::vector_x) : in.settings.work_turn_vector[0];
