@@ -121,6 +121,24 @@ TEST(PositionOffset, NumberMissingOrIllegalAndNoFeed) {
   EXPECT_EQ(bench.at(0, 0, 0).run("G91 G1 G45 X10. D1\nM30").alarm, "P62");
 }
 
+// 12.6: "D omitted: the number previously stored in the memory is used".
+TEST(PositionOffset, ABlockWithoutNumberTakesTheLastOneAlsoWhereItIsZero) {
+  Bench bench;
+  bench.tool(1, 2);
+  EXPECT_EQ(bench.run("G0 G46 X10. D1\nG46 X20. D0\nG45 X30.\nM30").path(), (Path{"rapid 8 0 0", "rapid 20 0 0", "rapid 30 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("D0\nG0 G45 X30.\nM30").path(), (Path{"rapid 30 0 0"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 G45 X30.\nM30").alarm, "P170");  // the reset has taken the number away
+}
+
+TEST(PositionOffset, RadiusCompensationWithoutNumberBehindD0StartsNothing) {
+  Bench bench;
+  bench.tool(1, 2);
+  EXPECT_EQ(bench.run("G41 D0 G1 X10. F100\nG40 X0\nG41 G1 X10.\nY10.\nM30").path(),
+            (Path{"line 10 0 0 F100", "line 0 0 0 F100", "line 10 0 0 F100", "line 10 10 0 F100"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("D0\nG1 G41 X10. I1. J1. K1. F100\nM30").path(), (Path{"line 10 0 0 F100"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("G1 G41 X10. F100\nM30").alarm, "P170");
+}
+
 TEST(PositionOffset, WithoutAWordToMoveByItDoesNothing) {
   Bench bench;
   bench.tool(1, 2);

@@ -39,8 +39,8 @@ class Hash {
   }
   void add_one(const AxisVec& at) { add_one(at.v); }
   void add_one(const ModalState& modal) {
-    const auto& [in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given] = modal;
-    add(in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given);
+    const auto& [in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given, d_given] = modal;
+    add(in_force, number, extended, feed_digit, feed, spindle, tool, d, h, m, n, o, b, h_given, d_given);
   }
   void add_one(const Repeat& repeat) {
     const auto& [active, items] = repeat;

@@ -22,7 +22,8 @@ struct ModalState {
   double feed = 0;                 ///< F as programmed (its unit is that of the block that moves: M700 5.2 note 1); 0 = none yet
   double spindle = 0;              ///< S as programmed
   uint32_t tool = 0, d = 0, h = 0, m = 0, n = 0, o = 0, b = 0;  ///< the last of each; b: second auxiliary function
-  uint32_t h_given = 0;            ///< 1: an H has been commanded, also H0
+  uint16_t h_given = 0;            ///< 1: an H has been commanded, also H0
+  uint16_t d_given = 0;            ///< 1: a D of radius compensation or position offset has been commanded, also D0
 
   Function of(Mode mode) const { return in_force[static_cast<unsigned>(mode)]; }
   /// The modal function is in force.

@@ -138,10 +138,11 @@ Execution set_compensation(BlockContext& in, Function function) {
   if (in.words.has(Role::offset_number)) {
     const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
+    state.modal.d_given = 1;
   } else if (rules.number_is_that_of_tool) {
     const Execution did = number_of_tool(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
-  } else if (state.modal.d == 0) {
+  } else if (state.modal.d_given == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
   if (!rules.vector_by_words && in.words.has(Role::vector_x) && in.words.has(Role::vector_y) && in.words.has(Role::vector_z))
@@ -196,6 +197,7 @@ Execution change_radius(BlockContext& in) {
   if (in.state.space.on) return change_space_number(in);
   const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
   if (did != Execution::done) return did;
+  in.state.modal.d_given = 1;
   const bool left = in.state.modal.is(Function::comp_left);
   if (!left && !in.state.modal.is(Function::comp_right)) return Execution::done;
   // M700 12.4.5: the amount changes with the block; D00 cancels (12.4.1).

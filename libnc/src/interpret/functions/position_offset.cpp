@@ -17,10 +17,10 @@ constexpr double kOnAxis_mm = 0.001;
 
 bool is_twice(Function function) { return function == Function::offset_twice_longer || function == Function::offset_twice_shorter; }
 
-/// The amount by which G45 makes a way longer and G46 shorter (12.6): the offset of D in the block, or else of the last D.
+/// The amount by which G45 makes a way longer and G46 shorter (12.6): the offset of D in the block, or else of the last D, which may be D0.
 Execution amount_of(BlockContext& in, double* amount) {
   const ModalState& modal = in.state.modal;
-  if (modal.d == 0 && !in.words.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
+  if (modal.d_given == 0 && !in.words.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
   *amount = radius_amount(in, modal.d);
   const Function function = in.words.one_shot->function;
   if (function == Function::offset_shorter || function == Function::offset_twice_shorter) *amount = -*amount;

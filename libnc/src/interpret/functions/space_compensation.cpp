@@ -70,7 +70,8 @@ Execution set_space_compensation(BlockContext& in, Function function) {
   if (in.words.has(Role::offset_number)) {
     const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
-  } else if (state.modal.d == 0) {
+    state.modal.d_given = 1;
+  } else if (state.modal.d_given == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
   if (state.modal.d == 0) {  // D00 cancels, and starts nothing
