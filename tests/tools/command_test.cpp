@@ -134,6 +134,50 @@ TEST_F(CommandTest, AProgramOfAnotherFamilyIsRecognised) {
   }
 }
 
+// The parts that are shipped, each as a program of each other family: with a slip of its own, a sub program that is missing, and a code that needs a parameter
+// (G101 of bracket.nc), it is of its own family all the same. In its own family a slip is no sign of another one.
+TEST_F(CommandTest, APartWithMistakesIsRecognised) {
+  struct Part {
+    const char *family, *file, *slip, *call;
+  };
+  const std::vector<Part> parts = {{"hx", "bracket.nc", "G01 X\n", "M98 P7777\n"},
+                                   {"dgshape", "keytag.nc", "G01X1.Y\n", ""},
+                                   {"iso", "plate.ngc", "G1 X\n", "M98 P7777\n"},
+                                   {"series8", "jig-plate.s8", "G02X1Y1I-3\n", ""},
+                                   {"m700", "every-cycle.nc", "G01 X\n", "M98 P7777\n"}};
+  for (const Part& part : parts) {
+    const std::string text = content(std::string(nc::test::kSourceDir) + "/examples/parts/" + part.file);
+    const size_t middle = text.find('\n', text.size() / 2) + 1;
+    file("part.nc", text.substr(0, middle) + part.slip + part.call + text.substr(middle));
+    const Outcome own = ncsim(std::string("check --dialect ") + part.family + " part.nc");
+    EXPECT_EQ(own.code, 2) << part.family;
+    EXPECT_EQ(own.err.find("looks like"), std::string::npos) << part.family << own.err;
+    for (const std::string& other : dialect_names()) {
+      if (other == part.family) continue;
+      const Outcome check = ncsim("check --dialect " + other + " part.nc");
+      EXPECT_NE(check.err.find(std::string("note: this looks like a program of ") + part.family + ", as which "), std::string::npos)
+          << part.family << " as " << other << ": " << check.out << check.err;
+    }
+  }
+}
+
+// A mistake of its own that another family has another rule for is no sign of that family.
+TEST_F(CommandTest, AMistakeIsNoSignOfAnotherFamily) {
+  const std::vector<std::pair<std::string, std::string>> programs = {
+      {"m700", "G00 X0 Y0\nG02 X10. Y0 R2. F100\nM30\n"},         // Series 8 takes half the chord
+      {"m700", "G91 G00 X1.\nG31 X5. F0\nM30\n"},                 // no feed of the skip
+      {"dgshape", "%\nG21G90\nG00X1.\nG81X1.Z-1.R2.F100.\nM02\n%\n"},  // the spindle stands
+      {"hx", "G00 X0 Y0\nG03 X10. Y0 R2. F100\nM30\n"},
+      {"iso", "G0 X1\nG1 X2\nM2\n"},
+  };
+  for (const auto& [family, text] : programs) {
+    file("p.nc", text);
+    const Outcome check = ncsim("check --dialect " + family + " p.nc");
+    EXPECT_EQ(check.code, 2) << family << text;
+    EXPECT_EQ(check.err.find("looks like"), std::string::npos) << family << text << check.err;
+  }
+}
+
 TEST_F(CommandTest, CheckNotesParametersThatDoNothing) {
   file("p.nc", kPart);
   file("s.json", "{\"params\":\n {\"8033\": 1,\n  \"8092\": 1}}");

@@ -276,7 +276,7 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   if (result.how == RunResult::How::kAlarmed || foreign_numbers) {
     const std::string own = nc_dialect_name(static_cast<nc_dialect>(session.config().dialect));
     const bool alarmed = result.how == RunResult::How::kAlarmed;
-    const std::string other = dialect_note(dialects_without_alarm(options, limits, own, !alarmed));
+    const std::string other = other_dialect_note(options, limits, own, !alarmed);
     if (!other.empty()) std::fprintf(err, "%s\n", other.c_str());
   }
   if (result.how == RunResult::How::kAlarmed)

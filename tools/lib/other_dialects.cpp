@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/lib/other_dialects.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <vector>
+
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/virtual_world.hpp"
@@ -8,7 +13,30 @@
 namespace nc::tools {
 namespace {
 
-bool ends_well(const SessionOptions& options, const RunLimits& limits, bool whole_numbers) {
+constexpr size_t kMostRefused = 12;          // so many lines show well enough that a family does not read a text
+constexpr size_t kLongestText = 1024 * 1024;  // a longer one is run once by each family: it is not run again without lines
+constexpr uint64_t kWholePart = 12;          // a program of so many blocks is a part: that a family reads it without an alarm is no accident
+
+/** What a family makes of a text. */
+struct Reading {
+  std::set<uint32_t> refused;  // lines of the main program that have an alarm
+  bool ends = false;           // without them the program comes to its end
+  uint64_t moves = 0, blocks = 0;
+};
+
+/** Takes a line out of a text, in which the numbers of the others stay. @return false when there is nothing in it. */
+bool take_out(std::string* text, uint32_t line) {
+  size_t begin = 0;
+  for (uint32_t i = 1; i < line && begin != std::string::npos; ++i) begin = text->find('\n', begin) == std::string::npos ? std::string::npos : text->find('\n', begin) + 1;
+  if (line == 0 || begin == std::string::npos) return false;
+  const size_t end = std::min(text->find('\n', begin), text->size());
+  if (text->find_first_not_of(" \r", begin) >= end) return false;
+  text->replace(begin, end - begin, end - begin, ' ');
+  return true;
+}
+
+/** Runs the program once. @return false when it cannot be run at all. */
+bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole_numbers, RunResult* result, bool* in_main) {
   Session session;
   std::string error;
   if (!session.configure(options, &error) || !session.start(options, &error)) return false;
@@ -17,35 +45,103 @@ bool ends_well(const SessionOptions& options, const RunLimits& limits, bool whol
   ControlSource items(session.control(), session.dialect());
   VirtualWorld world(session.setup(), session.config().system[0]);
   RunSink nothing;
-  const RunResult result = run_offline(&items, &world, &nothing, session.decides(), limits.silent_blocks, true, {}, limits.loops);
-  // A program without moves does not show that it is of this family, even when it has no alarm.
-  return result.how == RunResult::How::kEnded && result.moves > 0;
+  *result = run_offline(&items, &world, &nothing, session.decides(), limits.silent_blocks, true, {}, limits.loops);
+  *in_main = result->alarm.source.file == session.main_file();
+  return true;
+}
+
+Reading read_as(const std::string& family, const SessionOptions& given, const std::string& text, const RunLimits& limits, bool whole_numbers) {
+  SessionOptions options = given;
+  options.dialect = family;
+  options.dialect_given = true;
+  options.print.clear();
+  options.setup.clear();  // they belong to the family of the program as it was given
+  options.machine.clear();
+  const bool again = !text.empty() && text.size() <= kLongestText;
+  if (again) options.text = text;
+  Reading reading;
+  while (reading.refused.size() < kMostRefused) {
+    RunResult result;
+    bool in_main = false;
+    if (!run_once(options, limits, whole_numbers, &result, &in_main)) break;
+    reading.ends = result.how == RunResult::How::kEnded;
+    reading.moves = result.moves;
+    reading.blocks = result.blocks;
+    if (result.how != RunResult::How::kAlarmed || !in_main) break;
+    if (again && !take_out(&*options.text, result.alarm.source.line)) break;
+    reading.refused.insert(result.alarm.source.line);
+    if (!again) break;
+  }
+  return reading;
+}
+
+std::vector<uint32_t> only_in(const std::set<uint32_t>& these, const std::set<uint32_t>& those) {
+  std::vector<uint32_t> lines;
+  std::set_difference(these.begin(), these.end(), those.begin(), those.end(), std::back_inserter(lines));
+  return lines;
+}
+
+/** Mistakes that lines show: an alarm in the line behind another one may be its consequence. */
+size_t mistakes(const std::vector<uint32_t>& lines) {
+  size_t count = 0;
+  for (size_t i = 0; i < lines.size(); ++i)
+    if (i == 0 || lines[i] != lines[i - 1] + 1) ++count;
+  return count;
+}
+
+/** The family reads the program clearly better than the own one. A program without moves does not show that it is of a family. */
+bool clearly_better(const Reading& other, const Reading& own) {
+  if (!other.ends || other.moves == 0) return false;
+  const std::vector<uint32_t> gained = only_in(own.refused, other.refused);
+  std::vector<uint32_t> lost = only_in(other.refused, own.refused);
+  size_t signs = mistakes(gained);
+  if (!own.ends) {  // of what lies behind, the own family says nothing; and what it refuses line by line is no consequence of one mistake
+    std::erase_if(lost, [&](uint32_t line) { return line > *own.refused.rbegin(); });
+    signs = gained.size();
+  }
+  constexpr size_t kEnough = 2, kFactor = 3;
+  if (lost.empty()) return signs >= kEnough || (signs > 0 && other.blocks >= kWholePart);
+  return signs >= std::max(kEnough, kFactor * lost.size());
+}
+
+struct Found {
+  std::string family;
+  size_t refused;
+};
+
+std::string note(const std::vector<Found>& found) {
+  if (found.empty()) return "";
+  std::string names;
+  for (size_t i = 0; i < found.size(); ++i) names += (i == 0 ? "" : i + 1 == found.size() ? " or " : ", ") + found[i].family;
+  const size_t refused = found.front().refused;
+  const std::string how = refused == 0 ? "it ends without an alarm" : std::to_string(refused) + (refused == 1 ? " line has an alarm" : " lines have an alarm");
+  return "note: this looks like a program of " + names + ", as which " + how + "; try --dialect " + found.front().family;
 }
 
 }  // namespace
 
-std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers) {
-  std::vector<std::string> found;
-  if (options.program == "-" || !options.tape.empty()) return found;
-  for (const std::string& name : dialect_names()) {
-    SessionOptions other = options;
-    other.dialect = name;
-    other.dialect_given = true;
-    other.print.clear();
-    other.setup.clear();  // they belong to the family of the program as it was given
-    other.machine.clear();
-    if (!ends_well(other, limits, whole_numbers)) continue;
-    if (name == own) return {};  // it is one of this family, and what is wrong comes from the setup or the machine
-    found.push_back(name);
+std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers) {
+  if (options.program == "-" || !options.tape.empty()) return "";
+  std::string text;
+  {
+    Session session;
+    std::string error;
+    if (!session.configure(options, &error) || !session.start(options, &error)) return "";
+    text = session.main_text();
   }
-  return found;
-}
-
-std::string dialect_note(const std::vector<std::string>& dialects) {
-  if (dialects.empty()) return "";
-  std::string names;
-  for (size_t i = 0; i < dialects.size(); ++i) names += (i == 0 ? "" : i + 1 == dialects.size() ? " or " : ", ") + dialects[i];
-  return "note: this looks like a program of " + names + ", as which it ends without an alarm; try --dialect " + dialects.front();
+  const Reading as_own = read_as(own, options, text, limits, false);
+  if (as_own.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
+  std::vector<Found> found;
+  for (const std::string& family : dialect_names()) {
+    if (family == own) continue;
+    const Reading other = read_as(family, options, text, limits, whole_numbers);
+    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own);
+    if (looks_so) found.push_back({family, other.refused.size()});
+  }
+  size_t least = ~size_t{0};
+  for (const Found& one : found) least = std::min(least, one.refused);
+  std::erase_if(found, [least](const Found& one) { return one.refused != least; });
+  return note(found);
 }
 
 }  // namespace nc::tools

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "tools/lib/commands.hpp"
 #include "tools/lib/session.hpp"
@@ -11,13 +10,12 @@
 namespace nc::tools {
 
 /**
- * Families other than `own` with which the program runs to its end without an alarm, with a default setup and no machine, because these belong to one
- * family. There are none for a program from standard input, for a tape, and for one that has no alarm in its own family with a default setup: then the
- * alarm comes from the setup or the machine. `whole_numbers`: only families that read lengths without a decimal point in whole mm or inch, whatever `own` does.
+ * A note such as "note: this looks like a program of iso, as which it ends without an alarm; try --dialect iso" when another family reads the program clearly
+ * better than `own`, "" otherwise. Each family runs the program with a default setup and no machine, because these belong to one family, and again without each
+ * line that has had an alarm; the lines that only one of two families refuses are compared. So a slip that every family sees, or a sub program that is
+ * missing, counts for nobody. A text from standard input and a tape have no note.
+ * @param whole_numbers the program has no alarm, but lengths that look like whole mm or inch: only families that read them so, and have no alarm, are named
  */
-std::vector<std::string> dialects_without_alarm(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers = false);
-
-/** A note such as "note: this looks like a program of iso, as which it ends without an alarm; try --dialect iso"; "" when there are no such families. */
-std::string dialect_note(const std::vector<std::string>& dialects);
+std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers);
 
 }  // namespace nc::tools

@@ -29,6 +29,7 @@ struct SessionOptions {
   std::string external;     // folder of the programs that M198 calls; "" = that of sub programs
   std::string machine;      // configuration of the machine that the program is for (TOML); "" = none
   std::optional<std::string> programs;  // folder of sub programs; default: the program's own
+  std::optional<std::string> text;      // of the main program, instead of what is in its file; must outlive the session
 };
 
 /** Owns the memory of the control and everything it refers to. */
