@@ -164,6 +164,8 @@ def judge(contour, result):
     paths = [(block, LineString(move.points())) for block, move, *_ in result.moves if move.length() > 1e-9]
     if contour.depth:  # the way in lies above the walls
         paths = [each for each in paths if each[0] > (1 if contour.way or contour.along else 0)]
+    if not paths:  # the radius of the tool is that of the hole: it stands in the middle
+        paths = [(0, LineString([at, at]))]
     radius = min(contour.radius, contour.other[1]) if contour.other else contour.radius
     bad = judge_gouge(paths, contour.wall(), radius)
     return bad if bad or contour.other else judge_uncut(contour, together(paths), contour.radius, contour.inside, contour.elements, 0)  # with two amounts there is no one offset curve
