@@ -59,7 +59,7 @@ int length_axis_of_block(const BlockContext& in) {
   if (!in.dialect->rules.length.axis_by_words || in.settings.drilling_axis_z) return z;
   for (const unsigned pair : {2u, 1u, 0u}) {
     const int axis = axis_of_pair(in, pair);
-    if (axis >= 0 && in.words.target.commands(axis)) return axis;
+    if (axis >= 0 && in.words.target.commands(static_cast<unsigned>(axis))) return axis;
   }
   return z;
 }

@@ -21,8 +21,8 @@ Execution choose_space(BlockContext& in, SpaceVector* space) {
   for (unsigned pair = 0; pair < 3; ++pair) {
     const int basic = in.axis_called(basic_along(pair));
     int axis = axis_of_pair(in, pair);
-    const bool names_parallel = axis >= 0 && axis != basic && in.words.target.commands(axis);
-    const bool names_basic = basic >= 0 && in.words.target.commands(basic);
+    const bool names_parallel = axis >= 0 && axis != basic && in.words.target.commands(static_cast<unsigned>(axis));
+    const bool names_basic = basic >= 0 && in.words.target.commands(static_cast<unsigned>(basic));
     if (!names_parallel) {
       const int of_plane = pair == plane.first ? in_plane.h : pair == plane.second ? in_plane.v : basic;
       const bool of_plane_named = of_plane >= 0 && in.words.target.commands(of_plane);
