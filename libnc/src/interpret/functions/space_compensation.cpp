@@ -25,7 +25,7 @@ Execution choose_space(BlockContext& in, SpaceVector* space) {
     const bool names_basic = basic >= 0 && in.words.target.commands(static_cast<unsigned>(basic));
     if (!names_parallel) {
       const int of_plane = pair == plane.first ? in_plane.h : pair == plane.second ? in_plane.v : basic;
-      const bool of_plane_named = of_plane >= 0 && in.words.target.commands(of_plane);
+      const bool of_plane_named = of_plane >= 0 && in.words.target.commands(static_cast<unsigned>(of_plane));
       axis = names_basic && !of_plane_named ? basic : of_plane;
     }
     if (axis < 0 || (in.rotary >> axis & 1) != 0) return in.raise(Condition::illegal_axis, basic_along(pair));
