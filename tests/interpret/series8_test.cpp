@@ -299,6 +299,14 @@ TEST(Series8Pattern, LiesOnTheSidesOfARectangle) {  // G49, G50
   for (const char* block : {"G49I30J-1", "G49I30J10K1"}) EXPECT_EQ(alarm_of(block), "NC-RANGE") << block;
 }
 
+TEST(Series8Cavity, ItsNumberOfTheOffsetHoldsBehindIt) {
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 2, NC_TOOL_RADIUS);
+  const Outcome run = bench.run("F300\nG00Z20\nG34X100Y50Z-8R2I60J40D1\nG00X0Y0\nG41X40\nG01X50\nM30");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_EQ(run.path().back(), "line 50 2 2 F300");
+}
+
 TEST(Series8Cavity, IsMilledInRingsAndDepths) {  // G34 to G36
   Bench bench(NC_DIALECT_SERIES8);
   bench.tool(1, 5, NC_TOOL_RADIUS);

@@ -53,7 +53,7 @@ Execution take_shape(BlockContext& in, Function function, double scale) {
   shape.circle = function == Function::cavity_circle;
   shape.ccw = function != Function::cavity_cw;
   if (w.has(Role::offset_number)) {
-    const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
+    const Execution did = take_radius_number(in);
     if (did != Execution::done) return did;
   }
   const double cutter = radius_amount(in, in.state.modal.d) / scale;

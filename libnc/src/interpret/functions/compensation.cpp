@@ -97,6 +97,12 @@ Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
   return Execution::done;
 }
 
+Execution take_radius_number(BlockContext& in) {
+  const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
+  if (did == Execution::done) in.state.modal.d_given = 1;
+  return did;
+}
+
 double radius_amount(const BlockContext& in, uint32_t number) { return amount(in, number, true); }
 
 void take_changed_amounts(BlockContext& in) {
@@ -136,9 +142,8 @@ Execution set_compensation(BlockContext& in, Function function) {
   if (comp.side == -side && !rules.may_change_side) return in.raise_function(Condition::not_in_compensation, function);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_function(Condition::plane_mismatch, function);
   if (in.words.has(Role::offset_number)) {
-    const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
+    const Execution did = take_radius_number(in);
     if (did != Execution::done) return did;
-    state.modal.d_given = 1;
   } else if (rules.number_is_that_of_tool) {
     const Execution did = number_of_tool(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
@@ -195,9 +200,8 @@ Execution take_length_in_cycle(BlockContext& in) {
 
 Execution change_radius(BlockContext& in) {
   if (in.state.space.on) return change_space_number(in);
-  const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
+  const Execution did = take_radius_number(in);
   if (did != Execution::done) return did;
-  in.state.modal.d_given = 1;
   const bool left = in.state.modal.is(Function::comp_left);
   if (!left && !in.state.modal.is(Function::comp_right)) return Execution::done;
   // M700 12.4.5: the amount changes with the block; D00 cancels (12.4.1).

@@ -138,8 +138,9 @@ Execution set_compensation(BlockContext& in, Function function);          // com
 Execution change_radius(BlockContext& in);                                // compensation.cpp: a D word in the mode
 Execution set_length(BlockContext& in, Function function);                // compensation.cpp
 /// Turns a word into the number of an offset; Condition::no_offset_number when there is no such offset. radius_amount(): the radius of an offset, mm, 0 for
-/// number 0.
+/// number 0. take_radius_number(): the D of the block holds until the next one; D0 is one, too (M700 12.4.1, 12.6).
 Execution offset_number(BlockContext& in, Role word, uint32_t* number);   // compensation.cpp
+Execution take_radius_number(BlockContext& in);                           // compensation.cpp
 double radius_amount(const BlockContext& in, uint32_t number);      // compensation.cpp
 /// Series 8 G41, G81: compensation.cpp.
 Execution go_beside_start(BlockContext& in);             ///< the line before the first move with compensation

@@ -68,9 +68,8 @@ bool means_space(const BlockContext& in) {
 Execution set_space_compensation(BlockContext& in, Function function) {
   State& state = in.state;
   if (in.words.has(Role::offset_number)) {
-    const Execution did = offset_number(in, Role::offset_number, &state.modal.d);
+    const Execution did = take_radius_number(in);
     if (did != Execution::done) return did;
-    state.modal.d_given = 1;
   } else if (state.modal.d_given == 0) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
