@@ -34,16 +34,12 @@ struct Auxiliary {
   bool is_output() const { return goes_out(function) && !switches_interrupt(); }
 };
 
-/// What the M code with this number means, where parameters give meanings to `codes`.
-inline Auxiliary auxiliary_of(const Dialect& dialect, const MiscCodes& codes, uint32_t number) {
+/// What the M code with this number means, where parameters give meanings to `codes`. `row`: the family's row of it, nullptr = it has none.
+inline Auxiliary auxiliary_of(const Dialect& dialect, const MiscCodes& codes, const MiscRow* row, uint32_t number) {
   Auxiliary auxiliary;
   auxiliary.number = number;
-  if (const MiscRow* const row = find_misc(dialect, number); row != nullptr) {
-    auxiliary.function = row->function;
-    auxiliary.which = row->number;
-  } else {
-    auxiliary.function = misc_function(dialect, number);
-  }
+  auxiliary.function = row != nullptr ? row->function : misc_function(dialect, number);
+  if (row != nullptr) auxiliary.which = row->number;
   if (auxiliary.switches_interrupt()) auxiliary.function = MiscFunction::output;
   if (number == codes.interrupt_on) auxiliary.function = MiscFunction::interrupt_on;
   if (number == codes.interrupt_off) auxiliary.function = MiscFunction::interrupt_off;

@@ -95,7 +95,7 @@ Reading CommandReader::take_misc(double value) {
   const Dialect& dialect = *front_.dialect;
   if (row == nullptr && dialect.rules.auxiliary.codes_are_listed && !puts_out(dialect, code)) return front_.refuse(Condition::illegal_g, Role::misc_code, code);
   if (row != nullptr && row->missing != nullptr) return front_.refuse(Condition::no_function, Role::misc_code, code);
-  return w_.auxiliary.push_back(auxiliary_of(dialect, *front_.misc_codes, code)) ? Reading::done : front_.refuse(Condition::format_error, Role::misc_code, value);
+  return w_.auxiliary.push_back(auxiliary_of(dialect, *front_.misc_codes, row, code)) ? Reading::done : front_.refuse(Condition::format_error, Role::misc_code, value);
 }
 
 /// A word behind a comma.

@@ -28,7 +28,7 @@ Execution read_measurement(BlockContext& in, Measurement* m) {
   for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
     if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
   if (w.target.axes() == 0 || (w.target.axes() & (w.target.axes() - 1)) != 0) return in.raise_code(Condition::measure_axis, *w.one_shot);
-  while (((w.target.axes() >> m->axis) & 1) == 0) ++m->axis;
+  while (!w.target.commands(m->axis)) ++m->axis;
   const ModalState& modal = in.state.modal;
   const bool offset_given = (modal.is(Function::length_plus) || modal.is(Function::length_minus)) && modal.h != 0 && in.state.length_axis == m->axis;
   if (!offset_given) return in.raise_code(Condition::measure_no_length, *w.one_shot);
