@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -20,7 +19,6 @@
 
 #include "places/places.hpp"
 #include "tools/command_fixture.hpp"
-#include "tools/lib/dialect_names.hpp"
 
 namespace nc::tools {
 namespace {
@@ -85,97 +83,6 @@ TEST_F(CommandTest, CheckSaysWhatAGoodProgramDoes) {
   const Outcome check = ncsim("check p.nc");
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(check.out.rfind("p.nc: no alarm; 5 blocks, 4 moves, ", 0), 0u) << check.out;
-}
-
-TEST_F(CommandTest, CheckSaysWhichOtherDialectReadsTheProgram) {
-  file("ngc.nc", "G21 ; millimetres\n#<depth> = 2\nG0 X1\nG1 Z[-#<depth>] F100\nM2\n");
-  const Outcome ngc = ncsim("check ngc.nc");
-  EXPECT_EQ(ngc.code, 2);
-  EXPECT_NE(ngc.err.find("note: this looks like a program of iso, as which it ends without an alarm; try --dialect iso\n"), std::string::npos) << ngc.err;
-  file("m700.nc", "#500=1\nWHILE [#500 LE 3] DO1\nG0 X#500\n#500=#500+1\nEND1\nM30\n");
-  EXPECT_EQ(ncsim("check m700.nc").err, "");
-  EXPECT_NE(ncsim("check --dialect iso m700.nc").err.find("looks like a program of m700 or hx,"), std::string::npos);
-  file("s8.nc", "G71G90G94\nF100\nG00X10Y0Z5\nG01Z-1\nG03X0Y10I10\nG00XYZ5 ; BACK\nM30\n");
-  for (const char* other : {"m700", "dgshape", "iso", "hx"})
-    EXPECT_NE(ncsim(std::string("check --dialect ") + other + " s8.nc").err.find("looks like a program of series8,"), std::string::npos) << other;
-  EXPECT_EQ(ncsim("check --dialect series8 s8.nc").err, "");
-  EXPECT_NE(ncsim("check --dialect series8 ngc.nc").err.find("looks like a program of iso,"), std::string::npos);
-  // What no family reads has no such note.
-  file("none.nc", "G0 X1.\nG1 X2.\nM30\n");
-  EXPECT_EQ(ncsim("check none.nc").err.find("looks like a program of"), std::string::npos);
-  // A setup belongs to the family of before: the others are tried without it. What it does wrong is no sign of another family.
-  file("s.json", "{\"axes\": [\"X\", \"Y\"]}");
-  EXPECT_NE(ncsim("check --setup s.json ngc.nc").err.find("looks like a program of iso,"), std::string::npos);
-  file("z.nc", "G00 X1.\nZ1.\nM30\n");
-  EXPECT_EQ(ncsim("check --setup s.json z.nc").code, 2);
-  EXPECT_EQ(ncsim("check --setup s.json z.nc").err.find("looks like a program of"), std::string::npos);
-}
-
-// A program of each family, as it is written there, has an alarm in each other one, and its own is named.
-TEST_F(CommandTest, AProgramOfAnotherFamilyIsRecognised) {
-  const std::map<std::string, std::string> programs = {
-      {"m700", "O1\n#100=1\nWHILE [#100 LE 3] DO1\nG00 G90 X[#100*10.] Y0\nG43 H1 Z5.\nG99 G81 Z-2. R1. F100\n#100=#100+1\nEND1\nG80\nG51.1 X0\nG00 X5.\nG50.1 X0\nG28 Z0\nM30\n"},
-      {"dgshape", "%\nO0001\nG21G17G90\nG28G91Z0\nG90\nG10P1R1.5\nM06T1\nG54\nS60\nM03\nG00X10000Y10000\nZ5000\nG01Z-1000F600000\nX20000\nG00Z5000\nM05\nM06T0\nM30\n%\n"},
-      {"iso", "%\n(pocket)\nG21 G17 G90 G64 P0.02 G40 G49 G80\nM6 T1 G43\nS12000 M3\nG0 X10 Y10\nG0 Z5\nG1 Z-1 F300\nG2 X20 Y20 I10 J0 F800\nG4 P0.5\n#<top> = 5 ; up\nG0 Z#<top>\nM5\nM2\n%\n"},
-      {"hx", "O0200\nG17 G21 G90 G54 G113\nT1 M06\nS900 M03\nG00 X10. Y10. ; START\nG51 X0 Y0 I-1000 J1000\nG01 Z-1. F100\nX20.\nG50\nG84.2 X5. Z-3. R1. F450\nG80\nG00 Z5.\nM30\n"},
-      {"series8", "; PLATE\nG71G90G17G94\nT01D01\nM06\nM03 S6000\nG00X10Y0Z5\nF400\nG01Z-1\nG03X0Y10I10\nG01G10X-20L2\nY20\nG00XYZ5\nM30\n"},
-  };
-  ASSERT_EQ(programs.size(), dialect_names().size());
-  for (const auto& [name, text] : programs) {
-    file(name + ".nc", text);
-    EXPECT_EQ(ncsim("check --dialect " + name + " " + name + ".nc").code, 0) << name << ncsim("check --dialect " + name + " " + name + ".nc").out;
-    for (const std::string& other : dialect_names()) {
-      if (other == name) continue;
-      const Outcome check = ncsim("check --dialect " + other + " " + name + ".nc");
-      EXPECT_EQ(check.code, 2) << name << " as " << other << check.out;
-      const size_t says = check.err.find("note: this looks like a program of "), names = check.err.find(name, says), end = check.err.find(", as which", says);
-      EXPECT_TRUE(says != std::string::npos && names < end) << name << " as " << other << ": " << check.out << check.err;
-    }
-  }
-}
-
-// The parts that are shipped, each as a program of each other family: with a slip of its own, a sub program that is missing, and a code that needs a parameter
-// (G101 of bracket.nc), it is of its own family all the same. In its own family a slip is no sign of another one.
-TEST_F(CommandTest, APartWithMistakesIsRecognised) {
-  struct Part {
-    const char *family, *file, *slip, *call;
-  };
-  const std::vector<Part> parts = {{"hx", "bracket.nc", "G01 X\n", "M98 P7777\n"},
-                                   {"dgshape", "keytag.nc", "G01X1.Y\n", ""},
-                                   {"iso", "plate.ngc", "G1 X\n", "M98 P7777\n"},
-                                   {"series8", "jig-plate.s8", "G02X1Y1I-3\n", ""},
-                                   {"m700", "every-cycle.nc", "G01 X\n", "M98 P7777\n"}};
-  for (const Part& part : parts) {
-    const std::string text = content(std::string(nc::test::kSourceDir) + "/examples/parts/" + part.file);
-    const size_t middle = text.find('\n', text.size() / 2) + 1;
-    file("part.nc", text.substr(0, middle) + part.slip + part.call + text.substr(middle));
-    const Outcome own = ncsim(std::string("check --dialect ") + part.family + " part.nc");
-    EXPECT_EQ(own.code, 2) << part.family;
-    EXPECT_EQ(own.err.find("looks like"), std::string::npos) << part.family << own.err;
-    for (const std::string& other : dialect_names()) {
-      if (other == part.family) continue;
-      const Outcome check = ncsim("check --dialect " + other + " part.nc");
-      EXPECT_NE(check.err.find(std::string("note: this looks like a program of ") + part.family + ", as which "), std::string::npos)
-          << part.family << " as " << other << ": " << check.out << check.err;
-    }
-  }
-}
-
-// A mistake of its own that another family has another rule for is no sign of that family.
-TEST_F(CommandTest, AMistakeIsNoSignOfAnotherFamily) {
-  const std::vector<std::pair<std::string, std::string>> programs = {
-      {"m700", "G00 X0 Y0\nG02 X10. Y0 R2. F100\nM30\n"},         // Series 8 takes half the chord
-      {"m700", "G91 G00 X1.\nG31 X5. F0\nM30\n"},                 // no feed of the skip
-      {"dgshape", "%\nG21G90\nG00X1.\nG81X1.Z-1.R2.F100.\nM02\n%\n"},  // the spindle stands
-      {"hx", "G00 X0 Y0\nG03 X10. Y0 R2. F100\nM30\n"},
-      {"iso", "G0 X1\nG1 X2\nM2\n"},
-  };
-  for (const auto& [family, text] : programs) {
-    file("p.nc", text);
-    const Outcome check = ncsim("check --dialect " + family + " p.nc");
-    EXPECT_EQ(check.code, 2) << family << text;
-    EXPECT_EQ(check.err.find("looks like"), std::string::npos) << family << text << check.err;
-  }
 }
 
 TEST_F(CommandTest, CheckNotesParametersThatDoNothing) {

@@ -27,8 +27,12 @@ struct Reading {
 /** Takes a line out of a text, in which the numbers of the others stay. @return false when there is nothing in it. */
 bool take_out(std::string* text, uint32_t line) {
   size_t begin = 0;
-  for (uint32_t i = 1; i < line && begin != std::string::npos; ++i) begin = text->find('\n', begin) == std::string::npos ? std::string::npos : text->find('\n', begin) + 1;
-  if (line == 0 || begin == std::string::npos) return false;
+  if (line == 0) return false;
+  for (uint32_t i = 1; i < line; ++i) {
+    begin = text->find('\n', begin);
+    if (begin == std::string::npos) return false;
+    ++begin;
+  }
   const size_t end = std::min(text->find('\n', begin), text->size());
   if (text->find_first_not_of(" \r", begin) >= end) return false;
   text->replace(begin, end - begin, end - begin, ' ');
