@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # How the rooms around libnc (hal, runtime, tools, tests, bench) make their targets.
 
-# nc_room_around(TARGET): for a room around libnc. Under the sanitizers several of its files are compiled as one source, and with clang the
-# headers of the standard library are precompiled: most of the compilation goes into what they have in common. Other builds do neither, so that a
-# missing include is found there, and because GCC 12 gives false warnings about std::string when it optimizes precompiled headers. So a name in an
-# unnamed namespace occurs once in its folder. A build with the sanitizer but without fuzzers (by hand, with GCC) is not optimized either; fuzzers
-# need it, since they run a room a million times.
+# nc_room_around(TARGET): for a room around libnc. Several of its files are compiled as one source, since most of the compilation goes into headers that
+# they have in common; so a name in an unnamed namespace occurs once in its folder. scripts/tidy compiles each file that has changed by itself, and
+# finds an include that is missing. Under the sanitizers clang's precompiled headers of the standard library help once more; GCC 12 gives false
+# warnings about std::string when it optimizes precompiled headers. A build with the sanitizer but without fuzzers (by hand, with GCC) is not
+# optimized either; fuzzers need it, since they run a room a million times.
 function(nc_room_around target)
+  if(NC_FILES_PER_SOURCE GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${NC_FILES_PER_SOURCE})
+  endif()
   if(NOT NC_SANITIZE)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <charconv> <cmath> <functional> <map> <memory> <mutex> <optional>
                               <string> <string_view> <vector>)
