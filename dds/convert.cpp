@@ -66,6 +66,7 @@ nc_StopCause cause_of(std::uint32_t cause) {
     case NC_CAUSE_NO_LAW: return nc_CAUSE_NO_LAW;
     case NC_CAUSE_RESET: return nc_CAUSE_RESET;
     case NC_CAUSE_SPINDLE_REVERSED: return nc_CAUSE_SPINDLE_REVERSED;
+    case NC_CAUSE_TAP_IN_HOLE: return nc_CAUSE_TAP_IN_HOLE;
   }
   return nc_CAUSE_OTHER;
 }

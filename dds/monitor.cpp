@@ -55,6 +55,7 @@ const char* cause_name(nc_StopCause cause) {
     case nc_CAUSE_NO_LAW: return "no motion within the limits";
     case nc_CAUSE_RESET: return "reset";
     case nc_CAUSE_SPINDLE_REVERSED: return "spindle turns the wrong way";
+    case nc_CAUSE_TAP_IN_HOLE: return "tap in its hole";
     default: return "other";
   }
 }

@@ -70,6 +70,7 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
     CAUSE_NO_LAW = 19
     CAUSE_RESET = 20
     CAUSE_SPINDLE_REVERSED = 21
+    CAUSE_TAP_IN_HOLE = 22
 
 
 @annotate.appendable

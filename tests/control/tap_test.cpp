@@ -398,6 +398,31 @@ TEST_P(Retract, AFeedHoldGivesTheWayUp) {
   ASSERT_TRUE(until([&] { return z() > 1.99; }));
 }
 
+TEST_P(Retract, AStartIsRefusedWhileTheTapStandsInItsHole) {
+  into_the_hole();
+  EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE) << "nobody has pressed start";
+  const double stands = z();
+  const auto press = [&] {
+    drive->in.cycle_start = true;
+    drive->step(50);
+    spindle.step(drive->out, kCycle_s);
+    read();
+    rest();
+  };
+  press();
+  EXPECT_EQ(drive->out.state, NC_STATE_IDLE);
+  EXPECT_EQ(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+  EXPECT_NEAR(z(), stands, 1e-3);
+  drive->in.tap_retract = true;
+  ASSERT_TRUE(until([&] { return !drive->out.tap_retract_possible && drive->out.state == NC_STATE_IDLE; }));
+  drive->in.tap_retract = false;
+  rest();
+  EXPECT_EQ(drive->out.cause, NC_CAUSE_NONE) << "it is out";
+  press();
+  EXPECT_NE(drive->out.state, NC_STATE_IDLE) << "and the program begins";
+  EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+}
+
 TEST_P(Retract, NothingIsDrawnOutWhereNoTapStands) {
   start("G1 Z-3. F3000");
   drive->in.tap_retract = true;

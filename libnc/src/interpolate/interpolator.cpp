@@ -229,6 +229,7 @@ void Interpolator::take_start(const nc_inputs& in) {
   if (in.cycle_start && !last_start_ && !in.reset && (!reset_ || shown_ == NC_STATE_IDLE)) start_ = true;
   last_start_ = in.cycle_start;
   if (!in.feed_hold) start_refused_ = false;
+  if (!tap_stands_in_hole()) tap_refuses_ = false;
 }
 
 void Interpolator::states(const nc_inputs& in) {
@@ -279,6 +280,10 @@ void Interpolator::states(const nc_inputs& in) {
   if (start_ && in.feed_hold && !(disable_ & 1)) {  // feed hold refuses a start, also one that still waits
     start_ = false;
     start_refused_ = true;
+  }
+  if (start_ && tap_stands_in_hole()) {  // whatever the program does first, the tap would break, or the thread
+    start_ = false;
+    tap_refuses_ = true;
   }
   if (start_ && !frozen_ && !rereading_) {
     if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // axes were moved by hand: the start acts when blocks have been read again
@@ -567,6 +572,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.cause = static_cast<uint8_t>(alarmed_                                              ? NC_CAUSE_ALARM
                                    : reset_ && shown_ != NC_STATE_IDLE                   ? NC_CAUSE_RESET
                                    : state_ == NC_STATE_HOLD || start_refused_           ? NC_CAUSE_FEED_HOLD
+                                   : tap_refuses_                                        ? NC_CAUSE_TAP_IN_HOLE
                                    : interlock_ && moving_ && state_ == NC_STATE_RUNNING ? NC_CAUSE_INTERLOCK
                                    : index_waits_ || index_lost_                         ? NC_CAUSE_FIN
                                                                                          : cause_);

@@ -145,7 +145,7 @@ class Interpolator {
   void follow_tap(const nc_inputs& in) NC_RT;
   void take_tap_where_it_stands(const nc_inputs& in) NC_RT;
   bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
-  bool tap_in_hole() const NC_RT;
+  bool tap_stands_in_hole() const NC_RT;
   void turn_tap_spindle(nc_outputs& out) NC_RT;
   nc_tap tap() const NC_RT;
 
@@ -294,6 +294,7 @@ class Interpolator {
   bool last_start_ = false, last_reset_ = false;
   bool start_ = false;  ///< cycle start was pressed and not yet acted upon
   bool start_refused_ = false;  ///< a cycle start was refused because feed hold was on, and feed hold still is
+  bool tap_refuses_ = false;    ///< a cycle start was refused because a tap stands in its hole, and it still does
   nc_run_state shown_ = NC_STATE_IDLE;  ///< nc_outputs::state of the cycle before
   ScanFault faulted_ = ScanFault::none;  ///< the alarm that the scan has raised; until reset
   bool placed_ = false;         ///< source_ is a block of this run

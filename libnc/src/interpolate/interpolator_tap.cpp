@@ -162,16 +162,17 @@ bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Ru
   return true;
 }
 
-/// The tap stands in the hole and could be drawn out.
-bool Interpolator::tap_in_hole() const {
+/// A tap was given up, and its axis is not yet back at R.
+bool Interpolator::tap_stands_in_hole() const {
   constexpr double kOut = 1e-3;  // mm
+  if (!tap_.held) return false;
   const double way = tap_.entry - wanted_[tap_.axis] - tap_follower_.beside();  // the axis is where its spindle is
-  return tap_.held && manual_allowed_ && way * tap_.speed < 0 && std::fabs(way) > kOut;
+  return way * tap_.speed < 0 && std::fabs(way) > kOut;
 }
 
 /// The angle that belongs to the place on the path, or of the axis that is moved by hand.
 void Interpolator::turn_tap_spindle(nc_outputs& out) {
-  out.tap_retract_possible = tap_in_hole();
+  out.tap_retract_possible = manual_allowed_ && tap_stands_in_hole();
   const bool taps = (tapping_ & NC_TAPPING_SYNCHRONOUS) != 0;
   const double turns = taps || tap_.held ? tap_turns() : 0;
   const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : law_.v * (moving_ ? current().segment.tap_rev_per_mm : 0);
