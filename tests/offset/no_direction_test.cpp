@@ -127,5 +127,50 @@ TEST(WithoutDirection, OneThatChangesTheSide) {
   EXPECT_NEAR(with[1], without[1], 1e-3);
 }
 
+// Behind a vector that the program gives no joint leads to the other side. The tool goes there before the block begins; an arc was a spiral through its wall.
+TEST(WithoutDirection, OneThatChangesTheSideBehindAVectorOfTheProgram) {
+  for (const double tiny : {0.0, 5e-5}) {
+    PathBuilder path(-5, 0);
+    path.side(1, 1);
+    path.one_shot(path.vector(1, 0)).line(0, 0);
+    path.comp.side = -1;
+    if (tiny > 0) path.by(tiny, 0);
+    else path.command();
+    path.arc_by(true, 0, 20, 0, 10);
+    path.cancel().line(-20, 20);
+    path.end();
+    const std::vector<Item> out = run_stage(path);
+    ASSERT_EQ(alarm_of(out), nullptr) << tiny;
+    unsigned arcs = 0;
+    for (const Move& move : moves_of(out)) {
+      if (!move.circular) continue;
+      ++arcs;
+      EXPECT_NEAR(move.start[1], -1, 1e-3) << tiny;
+      EXPECT_NEAR(std::hypot(move.start[0] - tiny, move.start[1] - 10), std::hypot(move.end[0] - tiny, move.end[1] - 10), 1e-6) << "no spiral, " << tiny;
+    }
+    EXPECT_EQ(arcs, 1u);
+  }
+}
+
+// Where the path goes on straight, the side changes at right angles, into an arc as into a line: the curves beside would meet far ahead, through the wall.
+TEST(WithoutDirection, AChangeOfSideWhereTheArcIsTangent) {
+  for (const double bend : {0.0, 1e-8, 1e-6, 1e-3}) {
+    PathBuilder path(-15, 0);
+    path.side(1, 2);
+    path.line(-10, 0).line(0, 0);
+    path.comp.side = -1;
+    path.arc_by(true, 20 * std::sin(bend), 20 + 20 * std::cos(bend), -20 * std::sin(bend), 20 * std::cos(bend));
+    path.cancel().line(-20, 50);
+    path.end();
+    const std::vector<Item> out = run_stage(path);
+    ASSERT_EQ(alarm_of(out), nullptr) << bend;
+    for (const Move& move : moves_of(out)) {
+      if (!move.circular) continue;
+      EXPECT_NEAR(move.start[0], 0, 0.01) << bend;
+      EXPECT_NEAR(move.start[1], -2, 0.01) << bend;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -222,11 +222,20 @@ def judge_change(contour, moves, paths):
     for i, line, last in ((a, before, True), (b, behind, False)):
         of_block = [move for block, move in moves if block == line]
         if elements[i].length() > 0.01 and not (elements[i].center and abs(elements[i].radius() - r) < 0.01):
-            off = max(off, beside_curve(elements[i], of_block[0].end if last else of_block[0].start, r, contour.left_at(i)))
+            off = max(off, min(beside_curve(elements[i], point, r, contour.left_at(i)) for point in ends_beside(of_block, last, r)))
     if off > 1e-5:
         return f"off the offset curve by {off:.6f} mm at the change of side"
     return (judge_uncut(contour, together([each for each in paths if each[0] <= before]), r, contour.inside, elements[:a], 0)
             or judge_uncut(contour, together([each for each in paths if each[0] >= behind]), r, not contour.inside, elements[b + 1:], -1))
+
+
+def ends_beside(moves, last, r):
+    """Where a block beside a change of side may end or begin. The step to the other side, a line of twice the radius, belongs to the block before, and so is
+    its first move where nothing is left of it otherwise; behind a vector that the program gives it belongs to the block behind, in front of its own path."""
+    first = moves[0]
+    crosses = abs(math.dist(first.start[:2], first.end[:2]) - 2 * r) < 1e-3 and abs(first.length() - 2 * r) < 1e-3
+    own = first.end if last else first.start
+    return [own, first.start if last else first.end] if crosses else [own]
 
 
 def beside_curve(element, point, r, left):
@@ -294,7 +303,7 @@ def main():
                     print(f"seed {contour.seed} ({contour.kind}, {'inside' if contour.inside else 'outside'}, r {contour.radius}): {bad}")
                 if show:
                     print("\n".join(contour.blocks()))
-    tried = [contour_of(seed) for seed in range(first, first + count, int(os.environ.get("NC_EVERY", "20")))]
+    tried = [contour_of(seed) for seed in range(first, first + count, int(os.environ.get("NC_EVERY", "5")))]
     results = run_all([c.blocks() for c in tried])
     for way in [*TRANSFORMS, "back"]:
         programs = [run_backwards(c) if way == "back" else transformed(c.blocks(), way) for c in tried]

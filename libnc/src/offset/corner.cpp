@@ -39,11 +39,13 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
 
 // M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there
 // is none, both perpendiculars. An intersection that lies far off, or cuts more off a block than there is,
-// counts as none.
+// counts as none. Two lines that go on nearly straight meet |offset| / sin(angle / 2) away; arcs with such tangents count as these lines do. Their curves
+// may meet nearer, but only ahead, where the tool would come to through the wall, and where is a matter of rounding.
 ContourJoint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
                                   double offset_behind, double length_behind) {
   Vec2 w;
-  const bool meets = offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
+  const double square_of_sin = (1 - dot(before.u, behind.u)) / 2;  // of half the angle
+  const bool meets = square_of_sin * kExtremelyLarge * kExtremelyLarge >= 1 && offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&
                      norm(w) <= kExtremelyLarge * std::abs(offset_before) &&
                      -dot(w, before.u) <= length_before && dot(w, behind.u) <= length_behind;

@@ -103,6 +103,8 @@ bool OffsetStage::push(const Item& item, NoRule) {
   held.cancelled = cancelled_;
   held.level = level_end_;
   held.approach = approach_;
+  held.side_changed = side_changed_;
+  held.given = given_ && open() == nullptr;
   held.in_contour = memory_.state().open;
   if (held.in_contour) contour_at(held) = memory_.state();
   settle();
@@ -151,7 +153,8 @@ void OffsetStage::reset() {
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
-  trim_next_ = out_trim_ = bound_ = false;
+  trim_next_ = out_trim_ = bound_ = side_changed_ = false;
+  given_ = true;
   doubt_ = {};
   memory_.reset();
   level_ = level_end_ = 0;
@@ -183,6 +186,8 @@ void OffsetStage::restore(const OffsetResume& resume) {
   start_commanded_ = out_commanded_ = resume.commanded;
   trim_next_ = out_trim_ = resume.trim;
   approach_ = {resume.approach[0], resume.approach[1]};
+  side_changed_ = resume.side_changed;
+  given_ = resume.given;
   feed_scale_ = resume.feed_scale;
   mode_ = resume.pending ? Mode::pending : Mode::on;
   vector_ = {resume.vector[0], resume.vector[1]};
@@ -288,6 +293,7 @@ void OffsetStage::intake_move(Held* held) {
     cancelled_ = false;
   }
   const double offset_before = signed_offset(comp_);
+  const bool other_side = mode_ == Mode::on && move.comp.side != 0 && offset_before * signed_offset(move.comp) < 0;
   if (move.comp.side != 0) comp_ = move.comp;
   Leg begin, end;
   const bool moves = make_legs(move, &begin, &end);
@@ -299,8 +305,11 @@ void OffsetStage::intake_move(Held* held) {
     moved_ = true;  // the block of the command itself is not one of the blocks without movement
   }
   const bool commands = without_length(move) || move.comp.has_vector || move.comp.corner_arc;
-  if (!moves) return commands ? intake_command(held) : intake_carried(held);
-  if (!starts && !commands && intake_without_direction(held, offset_before, &begin, &end)) return;
+  if (!moves || (!starts && !commands && intake_without_direction(held, offset_before, &begin, &end))) {
+    side_changed_ = side_changed_ != other_side;
+    if (!moves) return commands ? intake_command(held) : intake_carried(held);
+    return;
+  }
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
     // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next
     // moving block.
@@ -309,6 +318,17 @@ void OffsetStage::intake_move(Held* held) {
     start_commanded_ = false;
     mode_ = Mode::on;
   }
+  // The vector in front of a change of side that comes without a direction was given by the program, so no joint leads to the other side: the tool goes
+  // there at right angles before the block begins, as it does where no intersection is found. An arc would become a spiral through its own wall.
+  if (side_changed_ && !other_side && mode_ == Mode::on && move.comp.side != 0 && !move.comp.transparent && given_ && open() == nullptr) {
+    close();
+    if (failed_) return;
+    held->has_lead = true;
+    held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
+    start_commanded_ = false;
+  }
+  side_changed_ = false;
+  given_ = true;
   moved_ = true;
   idle_blocks_ = 0;
   intake_section(held, begin, end);
@@ -396,6 +416,7 @@ void OffsetStage::intake_command(Held* held) {
     if (last) bend_behind(last->index, held->item);
     if (failed_) return;
   } else if (comp.has_vector) {
+    side_changed_ = false;
     mode_ = Mode::on;
     tail_ = commanded_vector(comp);
     if (last && !last->vanished) {

@@ -51,6 +51,8 @@ struct OffsetResume {
   bool cancelled = false; ///< G40 was commanded, no movement in the plane has taken the vector away yet
   bool trim = false;      ///< an arc that comes next loses what is beyond a full circle
   double approach[2] = {0, 0};  ///< lines without a direction since the last joint
+  bool side_changed = false;    ///< ... and what stands between them has changed the side
+  bool given = true;            ///< the vector goes by no block behind it
   double feed_scale = 0;
 };
 
@@ -116,6 +118,7 @@ class OffsetStage {
     bool passed = false;      ///< marks: a read that comes behind it has gone in front of it
     ContourMemory::Doubt doubt;  ///< section: what was in doubt about the contour when its path was settled
     Vec2 approach;            ///< marks: lines without a direction since the joint
+    bool side_changed = false, given = true;  ///< marks
     Mode mode = Mode::off;    ///< marks: state behind them
     uint8_t idle_blocks = 0;  ///< marks
     bool cancelled = false;   ///< marks
@@ -183,6 +186,8 @@ class OffsetStage {
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
   Vec2 approach_;        ///< of the next section
+  bool given_ = true;          ///< restored: the vector goes by no block behind it
+  bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side
   bool start_commanded_ = true;  ///< it may lie anywhere
   bool trim_next_ = false;       ///< restored: the section that comes
   ContourMemory memory_;

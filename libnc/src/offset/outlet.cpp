@@ -369,6 +369,8 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.trim = out_trim_;
   resume_.approach[0] = held.approach.h;
   resume_.approach[1] = held.approach.v;
+  resume_.side_changed = held.side_changed;
+  resume_.given = held.given;
   resume_.feed_scale = feed_scale_;
   resume_.comp = out_comp_;
   resume_.programmed = programmed_;
