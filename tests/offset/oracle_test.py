@@ -16,7 +16,7 @@ to a micrometre and the error of the fine polygons. Then the contour is mirrored
 many may end in an alarm is bounded for each kind of contour.
 
 NC_CONTOURS=n   how many (default 10000, 200 under a sanitizer; a long run takes 1000000); NC_FIRST_SEED=n   the first of them; NC_EVERY=n   which
-of them are transformed (default 20: each twentieth); NC_SHOW=1   prints the program of each that fails
+of them are transformed (default 5: each fifth); NC_SHOW=1   prints the program of each that fails
 Exit 77: no shapely.
 """
 import copy
