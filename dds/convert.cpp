@@ -67,6 +67,7 @@ nc_StopCause cause_of(std::uint32_t cause) {
     case NC_CAUSE_RESET: return nc_CAUSE_RESET;
     case NC_CAUSE_SPINDLE_REVERSED: return nc_CAUSE_SPINDLE_REVERSED;
     case NC_CAUSE_TAP_IN_HOLE: return nc_CAUSE_TAP_IN_HOLE;
+    case NC_CAUSE_MDI_ENDED: return nc_CAUSE_MDI_ENDED;
   }
   return nc_CAUSE_OTHER;
 }

@@ -56,6 +56,7 @@ const char* cause_name(nc_StopCause cause) {
     case nc_CAUSE_RESET: return "reset";
     case nc_CAUSE_SPINDLE_REVERSED: return "spindle turns the wrong way";
     case nc_CAUSE_TAP_IN_HOLE: return "tap in its hole";
+    case nc_CAUSE_MDI_ENDED: return "MDI done";
     default: return "other";
   }
 }

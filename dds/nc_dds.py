@@ -71,6 +71,7 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
     CAUSE_RESET = 20
     CAUSE_SPINDLE_REVERSED = 21
     CAUSE_TAP_IN_HOLE = 22
+    CAUSE_MDI_ENDED = 23
 
 
 @annotate.appendable

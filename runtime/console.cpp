@@ -165,6 +165,8 @@ std::string state_alone(const nc_outputs& outputs) {
       return "thread waits: spindle turns the other way round";
     case NC_CAUSE_TAP_IN_HOLE:
       return "start refused: a tap stands in its hole";
+    case NC_CAUSE_MDI_ENDED:
+      return "MDI done, program interrupted";
     case NC_CAUSE_FEED_HOLD:
       return "feed hold";
     case NC_CAUSE_ALARM:

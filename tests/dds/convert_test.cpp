@@ -35,7 +35,7 @@ Shown shown(std::uint32_t cause, std::uint32_t refusal) {
 }
 
 // The last cause. That convert.cpp has all of them is checked by the compiler (-Wswitch).
-constexpr std::uint32_t kLastCause = NC_CAUSE_TAP_IN_HOLE;
+constexpr std::uint32_t kLastCause = NC_CAUSE_MDI_ENDED;
 
 TEST(DdsConvert, EveryStopCauseHasItsOwn) {
   std::set<int> seen;
@@ -48,6 +48,7 @@ TEST(DdsConvert, EveryStopCauseHasItsOwn) {
   }
   EXPECT_EQ(shown(NC_CAUSE_RESET, 0).cause, nc_CAUSE_RESET);
   EXPECT_EQ(shown(NC_CAUSE_SPINDLE_REVERSED, 0).cause, nc_CAUSE_SPINDLE_REVERSED);
+  EXPECT_EQ(shown(NC_CAUSE_MDI_ENDED, 0).cause, nc_CAUSE_MDI_ENDED);
   for (const std::uint32_t later : {kLastCause + 1, 255u, ~0u}) {
     EXPECT_EQ(shown(later, 0).cause, nc_CAUSE_OTHER) << later << ": a cause was added, and this test does not know it";
     EXPECT_EQ(shown(later, 0).core, static_cast<std::uint32_t>(nc_CAUSE_OTHER));

@@ -530,12 +530,12 @@ NC_API nc_status nc_program_tape(nc_control* control, unsigned file, uint8_t tap
 NC_API nc_status nc_program_select(nc_control* control, unsigned system, unsigned file);
 
 /**
- * Take the blocks of an MDI program and select it as the main program. Feeder thread.
+ * Take blocks of MDI. They become the main program; in a block stop they run with the next start, before the program. Feeder thread.
  * @param control the control
  * @param system part system, from 0
- * @param text the blocks; copied
+ * @param text the blocks; copied. In a block stop blank ones take back what waits, and the machine stops behind the blocks (NC_CAUSE_MDI_ENDED)
  * @param length bytes of `text`, at most 1024
- * @return NC_OK; NC_E_STATE: a program runs in this part system; NC_E_ARGUMENT: no such part system, `text` is NULL, or it is too long
+ * @return NC_OK; NC_E_STATE: a program runs, or cannot be interrupted here (M700 12.4.4); NC_E_ARGUMENT: no such part system, `text` is NULL, or too long
  */
 NC_API nc_status nc_mdi_load(nc_control* control, unsigned system, const char* text, size_t length);
 

@@ -352,13 +352,22 @@ nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
 nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t length) {
   if (!known(c, system) || text == nullptr || length > sizeof(c->mdi[0]) - 6) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
-  if (part.occupied()) return NC_E_STATE;
-  // A line end is put behind the blocks, and the start mark before them where the dialect requires one.
+  const bool interrupts = part.occupied();
+  if (interrupts && !part.may_take_mdi()) return NC_E_STATE;
+  // A line end is put behind the blocks, and the start mark before them where the dialect requires one. A program that is interrupted has had it.
   char* mdi = c->mdi[system];
   size_t at = 0;
   size_t first = 0;
   while (first < length && std::strchr(" \t\r\n", text[first]) != nullptr) ++first;
-  if (c->dialect->percent_required && (first == length || text[first] != '%')) {
+  if (interrupts && first == length) {
+    part.take_mdi({});
+    return NC_OK;
+  }
+  const bool marked = first < length && text[first] == '%';
+  if (interrupts && marked) {
+    text += first + 1;
+    length -= first + 1;
+  } else if (!interrupts && c->dialect->percent_required && !marked) {
     mdi[at++] = '%';
     mdi[at++] = '\n';
   }
@@ -371,12 +380,14 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
   nc::TextEntry entry;
   entry.memory = mdi;
   entry.size = at;
-  const nc_status status = add_entry(c, name, entry, &file, true);
+  const nc_status status = interrupts ? c->store.add(entry, name, &file, true) : add_entry(c, name, entry, &file, true);
   if (status != NC_OK) return status;
   c->store.set_mdi(file);
   nc::ProgramRef program;
   program.file = static_cast<uint16_t>(file);
-  return part.select(program, true);
+  if (!interrupts) return part.select(program, true);
+  part.take_mdi(program);
+  return NC_OK;
 }
 
 // ---- state ------------------------------------------------------------------------------------------------------------------

@@ -560,6 +560,7 @@ nc_status PartSystem::rewind(Serial serial) {
 }
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
+  forget_mdi();
   stop_ = Stop::none;
   interpreter.set_feeding(run_.active());
   publish_all();
@@ -597,6 +598,22 @@ nc_status PartSystem::select(const ProgramRef& program, bool mdi) {
   restart(online_ ? executor.commanded() : commit_.machine(), keep_modal);
   commit_.restart();
   return NC_OK;
+}
+
+bool PartSystem::may_take_mdi() {
+  BlockSeq behind = 0;
+  return occupied() && run_.active() && !interpreter.in_vendor_function() && !executor.reread_asked() && executor.block_stop(&behind) &&
+         interpreter.takes_mdi(behind);
+}
+
+void PartSystem::take_mdi(const ProgramRef& blocks) {
+  mdi_blocks_ = blocks;
+  mdi_stop_ = blocks.valid() ? executor.starts() : 0;
+  executor.let_mdi_wait(mdi_stop_);
+}
+
+void PartSystem::forget_mdi() {
+  if (mdi_stop_ != 0) take_mdi({});
 }
 
 void PartSystem::set_position(const AxisVec& machine) {
@@ -773,14 +790,19 @@ nc_status PartSystem::feed(uint32_t budget) {
   }
   if (executor.reread_asked()) {
     const bool interrupt = executor.interrupt_asked();
+    const ProgramRef blocks = executor.mdi_asked() ? mdi_blocks_ : ProgramRef{};
+    if (executor.mdi_asked()) forget_mdi();
     if (!read_again(executor.give_up_ahead())) {
       // stopped with an alarm
     } else if (interrupt) {
       interrupt_online();
     } else {
       displace(executor.commanded(), executor.left_at(), executor.shift_asked());
+      if (blocks.valid()) interpreter.enter_mdi(blocks);  // they are read first, and then the program
     }
     executor.reread_done();
+  } else if (mdi_stop_ != 0 && executor.starts() != mdi_stop_) {
+    forget_mdi();  // the program had been started when they came
   }
   if (!executor.answer(&left)) return NC_BUDGET;
   return feed_program(left);

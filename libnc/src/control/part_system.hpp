@@ -31,6 +31,10 @@ class PartSystem {
 
   /// `mdi`: MDI blocks, which go on with the modal state that the MDI blocks before them have left.
   nc_status select(const ProgramRef& program, bool mdi = false);
+  /// A program stands in a block stop, in which blocks of MDI may interrupt it (M700 12.4.4). `take_mdi()`: the next start executes them; an invalid program
+  /// takes back what waits.
+  bool may_take_mdi();
+  void take_mdi(const ProgramRef& blocks);
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
   nc_status move_point(double share, nc_axes* machine) const;
@@ -138,6 +142,7 @@ class PartSystem {
   void displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
+  void forget_mdi();
   /// Offline: an interrupt signal would be accepted after the items that have been given out; what has been read beyond them does not count.
   bool interruptible() const { return (uit_mode_ & (NC_INTERRUPT_ENABLED | NC_INTERRUPT_IN_SERVICE)) == NC_INTERRUPT_ENABLED && pulled_ < ItemKind::alarm; }
   bool interrupt_between();
@@ -206,6 +211,8 @@ class PartSystem {
   /// and nothing more is read until the machine has executed it.
   enum class Stop : uint8_t { none, committed, passed };
   Stop stop_ = Stop::none;
+  ProgramRef mdi_blocks_;    ///< online: blocks of MDI that wait for the start ...
+  uint32_t mdi_stop_ = 0;    ///< ... that comes behind this number of starts; 0 = there are none
   AxisParameters told_axes_; ///< online: the axis parameters that the scan has been told
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   nc_source sync_source_{};

@@ -224,6 +224,18 @@ bool Executor::interrupt_asked() const {
   return state_->shared.reread_interrupt.load(std::memory_order_relaxed) != 0;
 }
 
+bool Executor::mdi_asked() const { return state_->shared.reread_mdi.load(std::memory_order_relaxed) != 0; }
+
+bool Executor::block_stop(BlockSeq* behind) const {
+  const ScanStatus& status = state_->shared.status.read();
+  *behind = status.stop_behind;
+  return status.block_stop;
+}
+
+uint32_t Executor::starts() const { return state_->shared.status.read().starts; }
+
+void Executor::let_mdi_wait(uint32_t starts) { state_->shared.mdi_waits.store(starts, std::memory_order_release); }
+
 AxisVec Executor::left_at() const { return state_->shared.reread_from; }
 
 AxisVec Executor::shift_asked() const {

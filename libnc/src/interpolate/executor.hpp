@@ -96,6 +96,14 @@ class Executor {
   bool reread_asked() const;
   /// The request of reread_asked() is for a macro interrupt (M700 13.12); cut() says where the machine stands.
   bool interrupt_asked() const;
+  /// The request of reread_asked() is for the blocks of MDI that wait.
+  bool mdi_asked() const;
+  /// The machine stands in a block stop, between two blocks; *behind is the block behind which the program goes on.
+  bool block_stop(BlockSeq* behind) const;
+  /// Number of starts so far, never 0 behind the first: it tells one stop from another.
+  uint32_t starts() const;
+  /// The next start begins with blocks of MDI, if it is the one behind this number of starts; 0 = none does.
+  void let_mdi_wait(uint32_t starts);
   Cut cut() const;
   /// Gives up every committed record behind the block stop. Returns the mark behind which reading goes on, as truncate() does.
   Serial give_up_ahead();

@@ -219,6 +219,7 @@ void Interpolator::ask_for_interrupt() {
   shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
   tell_where_left();
   shared_->reread_shift = {};
+  shared_->reread_mdi.store(0, std::memory_order_relaxed);
   shared_->reread_request.store(++reread_, std::memory_order_release);
 }
 
@@ -286,8 +287,11 @@ void Interpolator::states(const nc_inputs& in) {
     tap_refuses_ = true;
   }
   if (start_ && !frozen_ && !rereading_) {
-    if (displaced_ && still && state_ == NC_STATE_STOPPED) {  // axes were moved by hand: the start acts when blocks have been read again
+    const bool mdi = starts_ != 0 && shared_->mdi_waits.load(std::memory_order_acquire) == starts_;
+    // Axes were moved by hand, or there are blocks of MDI: the start acts when blocks have been read again.
+    if ((displaced_ || mdi) && still && state_ == NC_STATE_STOPPED) {
       rereading_ = true;
+      shared_->reread_mdi.store(mdi ? 1 : 0, std::memory_order_relaxed);
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
       tell_where_left();
@@ -306,6 +310,7 @@ void Interpolator::states(const nc_inputs& in) {
 }
 
 void Interpolator::start(const nc_inputs& in) {
+  if (++starts_ == 0) ++starts_;
   switch (state_) {
     case NC_STATE_IDLE:
       path_length_ = 0;
@@ -361,6 +366,14 @@ void Interpolator::give_up() {
   shared_->world.write({});
 }
 
+/// Behind the last block of MDI single block has stopped already: this stop and the one behind the text are one.
+void Interpolator::end_mdi() {
+  serial_ = current().serial;
+  cause_ = NC_CAUSE_MDI_ENDED;
+  block_begun_ = true;
+  leave(current(), true);
+}
+
 /// Throws records of an older epoch away.
 void Interpolator::drop_old() {
   for (unsigned n = 0; n < kRecordsPerCycle && tail_ != end_ && !is_current(current()); ++n)
@@ -375,6 +388,8 @@ void Interpolator::run(const nc_inputs& in) {
     run_.end();
     run_ended_ = true;
   }
+  if (state_ == NC_STATE_STOPPED && at_rest() && tail_ != end_ && is_current(current()) && current().kind == ItemKind::gate && current().gate.behind_mdi)
+    end_mdi();
   if (state_ != NC_STATE_RUNNING && at_rest()) return;
   const unsigned most = optimal_ != nullptr ? kRecordsPassed : kRecordsPerCycle;
   unsigned n = 0;
@@ -440,15 +455,26 @@ void Interpolator::leave(const Record& r, bool executed) {
   ++tail_;
 }
 
-/// In a block stop: no move of the block in execution is left, so the next block can begin from any place.
-bool Interpolator::between_blocks() const {
+/// In a block stop: no move of the block in execution is left, so the next block can begin from any place. *behind: the block that is in execution, or has
+/// been executed.
+bool Interpolator::between_blocks(BlockSeq* behind) const {
+  *behind = last_block_;
   if (!block_begun_) return true;
   for (uint32_t at = tail_; at != end_; ++at) {
     const Record& r = ring_[at & mask_];
-    if (r.kind == ItemKind::mark && r.mark.resume) return true;
+    if (r.kind == ItemKind::mark && r.mark.resume) {
+      *behind = r.mark.seq;
+      return true;
+    }
     if (r.kind == ItemKind::move || r.kind == ItemKind::sync) return false;
   }
   return false;  // its end is not committed yet
+}
+
+/// While the feeder uses the ring, what was found last stands.
+void Interpolator::note_block_stop() {
+  if (frozen_ || rereading_) return;
+  block_stop_ = state_ == NC_STATE_STOPPED && stands() && !manual_.active() && !alarmed_ && !reset_ && between_blocks(&stop_behind_);
 }
 
 /// Jog, step, handle and reference return, while no program moves. When the path has come to its end within this cycle, manual motion waits for the
@@ -502,6 +528,10 @@ void Interpolator::publish(const nc_inputs& in) {
   status.stopped = stopped_;
   status.stopped_at = stopped_at_;
   status.stopped_behind = stopped_behind_;
+  note_block_stop();
+  status.starts = starts_;
+  status.block_stop = block_stop_;
+  status.stop_behind = stop_behind_;
   shared_->status.write(status);
   shared_->ordinal.store(ordinal_, std::memory_order_relaxed);
   shared_->run.store(run_.word(), std::memory_order_release);

@@ -44,6 +44,9 @@ struct ScanStatus {
   BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
   nc_tap tap{};  ///< nc_tap_get()
   uint8_t tool = 0;  ///< number of the tool in the spindle in the table of tool life, 0 = none
+  uint32_t starts = 0;       ///< number of starts so far, which is that of the stop behind the last one; 0 = there was none
+  bool block_stop = false;   ///< the machine stands in a block stop, between two blocks; and
+  BlockSeq stop_behind = 0;  ///< the block behind which a program that is interrupted there goes on
 };
 
 /// What has become of a record that the scan has gone past.
@@ -71,6 +74,8 @@ struct ScanShared {
   alignas(64) std::atomic<uint32_t> run_taken{0};  ///< by the feeder: the newest run word that it has acted upon
   std::atomic<uint32_t> reread_request{0};  ///< by the scan: number of its newest request to read again from where the axes are; it waits for the answer
   std::atomic<uint32_t> reread_interrupt{0};  ///< by the scan: 1: the feeder is to begin with the interrupt program
+  std::atomic<uint32_t> mdi_waits{0};  ///< by the feeder: the start behind start number this is to begin with blocks of MDI, 0 = none
+  std::atomic<uint32_t> reread_mdi{0};  ///< by the scan, with the request: 1: the feeder is to begin with them
   AxisVec reread_from;                      ///< by the scan, with the request: where the program has left the axes, before they were moved by hand
   AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
   std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
@@ -111,7 +116,13 @@ class Interpolator {
   void give_up() NC_RT;
   void answer_truncate() NC_RT;
   void await_reread() NC_RT;
-  bool between_blocks() const NC_RT;
+  bool between_blocks(BlockSeq* behind) const NC_RT;
+  bool between_blocks() const NC_RT {
+    BlockSeq behind = 0;
+    return between_blocks(&behind);
+  }
+  void note_block_stop() NC_RT;
+  void end_mdi() NC_RT;
   void follow(const nc_inputs& in) NC_RT;
   void run(const nc_inputs& in) NC_RT;
   void manual(const nc_inputs& in, bool rested) NC_RT;
@@ -257,6 +268,9 @@ class Interpolator {
   AxisVec path_end_;  ///< end of the newest move that has been executed
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
+  uint32_t starts_ = 0;       ///< ScanStatus::starts, and below block_stop and stop_behind
+  bool block_stop_ = false;
+  BlockSeq stop_behind_ = 0;
   uint32_t reread_ = 0;     ///< number of requests to read again so far
 
   InputBorder border_;

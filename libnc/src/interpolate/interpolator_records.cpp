@@ -470,7 +470,7 @@ Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
       return optional_stop(in);
     case NC_GATE_STOP:
       state_ = NC_STATE_STOPPED;
-      cause_ = NC_CAUSE_PROGRAM_STOP;
+      cause_ = g.behind_mdi ? NC_CAUSE_MDI_ENDED : NC_CAUSE_PROGRAM_STOP;
       return Done::yes;
   }
   return Done::yes;

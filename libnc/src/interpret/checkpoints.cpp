@@ -74,6 +74,8 @@ bool Checkpoints::keeps(BlockSeq seq) const {
   return begin >= end ? begin - end >= kRoom : begin >= kRoom || capacity_ - end >= kRoom;
 }
 
+void Checkpoints::values(BlockSeq seq, StateValues* out) const { std::memcpy(static_cast<void*>(out), bytes_ + entry(seq).begin, sizeof(StateValues)); }
+
 bool Checkpoints::frames(BlockSeq seq, unsigned count, CallFrame* out) const {
   const char* const kept = bytes_ + entry(seq).begin;
   uint8_t depth = 0;

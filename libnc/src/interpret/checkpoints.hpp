@@ -23,6 +23,8 @@ class Checkpoints {
   void clear();
   /// The block after which the newest kept state is; holds() is false for it when no state is kept.
   BlockSeq newest() const { return next_ - 1; }
+  /// The values of the state after block `seq`, which must be kept.
+  void values(BlockSeq seq, StateValues* out) const;
   /// The outermost `count` frames of the state after block `seq`, which must be kept; false when it has fewer.
   bool frames(BlockSeq seq, unsigned count, CallFrame* out) const;
   /// The program is in the call stack of a state that is kept.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the program goes on: GOTO, WHILE, sub programs, macro calls, the ends of texts (M700 13.3, 13.5.1, 13.5.7).
+#include <algorithm>
 #include <cmath>
 
 #include "interpret/calls.hpp"
@@ -192,7 +193,9 @@ Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, P
 
 Execution find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
   if (number == 0) return in.raise(Condition::program_missing, Role::call_program, number);
-  *program = in.reader.find_program(number, top(in).program.file);
+  // Blocks of MDI find the sub programs in the file of the program that they interrupt.
+  const CallFrame& caller = top(in).origin == CallOrigin::mdi ? in.state.frame[in.state.depth - 1] : top(in);
+  *program = in.reader.find_program(number, caller.program.file);
   if (!program->valid()) return in.raise(Condition::program_missing, Role::call_program, number);
   program->number = number;
   return Execution::done;
@@ -212,14 +215,16 @@ bool only_calls(const Interpreter& in) {
 /// One more sub program would be too many in one another.
 static bool too_many_subs(const Interpreter& in) {
   unsigned subs = 1;
-  for (unsigned level = 1; level <= in.state.depth; ++level) subs += in.state.frame[level].kind == CallKind::sub ? 1u : 0u;
+  for (unsigned level = 1; level <= in.state.depth; ++level)
+    subs += in.state.frame[level].kind == CallKind::sub && in.state.frame[level].origin != CallOrigin::mdi ? 1u : 0u;
   return subs > in.dialect->rules.program.sub_programs_in_one_another;
 }
 
 Execution enter(Interpreter& in, const Entry& entry) {
   State& s = in.state;
-  if (entry.kind == CallKind::sub && too_many_subs(in)) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
-  if (s.depth + 1u > in.dialect->call_depth || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
+  const bool mdi = entry.origin == CallOrigin::mdi;  // takes a level (M700 13.3.1), also in a family without calls, but is no sub program
+  if (!mdi && entry.kind == CallKind::sub && too_many_subs(in)) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
+  if (s.depth + 1u > (mdi ? std::max(in.dialect->call_depth, 1u) : in.dialect->call_depth) || s.depth + 1u >= kMaxFrames) return in.raise(Condition::nesting, Role::call_program, entry.program.number);
   const CallFrame& caller = top(in);
   const uint8_t level = caller.macro_level;
   const uint8_t modal = entry.slot == 0 ? caller.modal_call : modal_call(in, entry.slot).below;
@@ -257,17 +262,17 @@ void figure_center(const Interpreter& in, double center[2]) {
   if (in.words.has(v)) center[1] = length_of(in, v);
 }
 
-/// The program in hand has ended: the program that has called it goes on. A modal call that was commanded or cancelled stays so in that program.
-void leave(Interpreter& in) {
+}  // namespace
+
+/// A modal call that was commanded or cancelled stays so in the program that goes on.
+void leave_program(Interpreter& in) {
   State& s = in.state;
   const CallFrame& frame = top(in);
   s.codes_left &= ~(1u << s.depth);
-  if (frame.modal_slot == 0 && frame.origin != CallOrigin::interrupt) s.frame[s.depth - 1].modal_call = frame.modal_call;
+  if (frame.modal_slot == 0 && frame.origin != CallOrigin::interrupt && frame.origin != CallOrigin::mdi) s.frame[s.depth - 1].modal_call = frame.modal_call;
   --s.depth;
   show_modal_call(in);
 }
-
-}  // namespace
 
 Execution execute_statement(Interpreter& in, const Statement& statement) {
   const bool jumps = statement.kind == StatementKind::if_goto || statement.kind == StatementKind::go_to || statement.kind == StatementKind::while_do;
@@ -352,7 +357,7 @@ static Execution find_end(Interpreter& in, const ProgramRef& program, uint64_t o
 
 Execution call_sub(Interpreter& in) {
   const Command& w = in.words;
-  if (in.mdi && in.state.depth == 0 && in.dialect->rules.program.no_call_in_mdi) return in.raise_misc(Condition::call_in_mdi, MiscFunction::call_sub);
+  if (in_mdi(in) && in.dialect->rules.program.no_call_in_mdi) return in.raise_misc(Condition::call_in_mdi, MiscFunction::call_sub);
   if (top(in).figure != 0) return in.raise_misc(Condition::nesting, MiscFunction::call_sub);  // M700 13.3.3 (6): no branch from a rotating program
   uint32_t passes = 1;
   Execution did = repetitions(in, w.has(Role::call_repeats), w.has(Role::call_repeats) ? w.get(Role::call_repeats) : 1, &passes);
@@ -445,7 +450,7 @@ Execution return_sub(Interpreter& in) {
   State& s = in.state;
   const Command& w = in.words;
   if (check_loops_closed(in) != Execution::done) return Execution::fault;
-  if (s.depth == 0) {  // M700 13.3.1: M99 in the main program goes to the beginning of the program
+  if (is_text_of_its_own(in)) {  // M700 13.3.1 (3): M99 in the main program, and in MDI, goes to the beginning of the program
     CallFrame& frame = top(in);
     if (w.has(Role::return_passes) && in.dialect->rules.program.main_program_counts) {
       bool goes_back = false;
@@ -453,7 +458,7 @@ Execution return_sub(Interpreter& in) {
       if (did != Execution::done || !goes_back) return did;
     }
     if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
-    s.loop_count = 0;
+    s.loop_count = frame.loop_base;
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;
     frame.started = false;
@@ -487,7 +492,7 @@ Execution return_sub(Interpreter& in) {
     const Execution did = called_number(in, Role::return_sequence, w.get(Role::return_sequence), &n);
     if (did != Execution::done) return did;
     if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, Role::return_sequence, n);
-    leave(in);
+    leave_program(in);
     s.codes_left &= ~(1u << s.depth);
     leave_loops(in, offset);
     if (in.reader.failure() != Condition::none) return in.raise(Condition::read_failed);
@@ -495,7 +500,7 @@ Execution return_sub(Interpreter& in) {
     caller.line = line;
   } else {
     if (s.interrupt_depth == s.depth) in.leave_interrupt(false);
-    leave(in);
+    leave_program(in);
   }
   const bool stops = !only_calls(in);
   s.owes_mark = !interrupted && (s.codes_left >> s.depth & 1) == 0;
@@ -517,7 +522,7 @@ Execution return_behind_last(Interpreter& in) {
     frame.line = frame.begin_line;
     frame.started = frame.begin != frame.program.offset;
   } else {
-    leave(in);
+    leave_program(in);
     s.owes_mark = (s.codes_left >> s.depth & 1) == 0;
   }
   in.keep_call();
@@ -525,6 +530,7 @@ Execution return_behind_last(Interpreter& in) {
 }
 
 Execution text_ended(Interpreter& in) {
+  if (top(in).origin == CallOrigin::mdi) return in.leave_mdi();
   // M700 App.1 P36: '%', the end of the text, or the next O number was read before M02, M30 or M99.
   if (in.state.depth > 0) return in.raise_misc(Condition::sub_without_return, MiscFunction::return_sub);
   // A text of MDI may end without a code for it, but not within a loop.

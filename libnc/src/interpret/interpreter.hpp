@@ -12,6 +12,7 @@
 //   flow.cpp              GOTO, WHILE, M98/M99, the ends of programs
 //   macro_call.cpp        G65, G66, G66.1, G67
 //   interrupt.cpp         M96, M97 and the interrupt program
+//   mdi_interrupt.cpp     blocks of MDI in a block stop
 //   code_call.cpp         G M S T B and ASCII codes that call programs
 //   system_variables.cpp  #1000 and up
 #pragma once
@@ -86,6 +87,12 @@ struct Interpreter : BlockContext {
   /// Online: the machine has stopped inside the next block, of which it has executed `items` items. False: no interrupt is accepted any more, and the block
   /// goes on.
   bool interrupt_inside(const AxisVec& machine, unsigned items);
+  /// Whether blocks of MDI may interrupt the program behind block `seq`, which the machine has executed (mdi_interrupt.cpp).
+  bool takes_mdi(BlockSeq seq) const;
+  /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
+  void enter_mdi(const ProgramRef& blocks);
+  /// The blocks of MDI that interrupt a program have ended: the program, in which they were entered, goes on with the next start.
+  Execution leave_mdi();
   /// The next block goes on where it was cut (State::repeat).
   void go_on_inside(unsigned items) {
     note_world();
@@ -244,6 +251,11 @@ Execution return_sub(Interpreter& in);        ///< M99
 Execution call_external(Interpreter& in);     ///< M198
 Execution check_loops_closed(Interpreter& in);  ///< at the end of a program: a DO without END is P294
 Execution text_ended(Interpreter& in);        ///< the end of the text, or '%'
+void leave_program(Interpreter& in);          ///< the program in hand has ended: the one that has called it goes on
+/// The program in hand is a text that is read from its beginning: the main program, or blocks of MDI that interrupt it.
+inline bool is_text_of_its_own(const Interpreter& in) { return in.state.depth == 0 || in.state.frame[in.state.depth].origin == CallOrigin::mdi; }
+/// The program in hand is blocks of MDI, whether a program is interrupted by them or not.
+inline bool in_mdi(const Interpreter& in) { return in.state.depth == 0 ? in.mdi : in.state.frame[in.state.depth].origin == CallOrigin::mdi; }
 Execution return_behind_last(Interpreter& in);  ///< the last block of a pass has been run: as M99
 
 /// interpret/program_control.cpp: what the M codes of the block do behind its moves: stops, ends, calls.

@@ -171,6 +171,10 @@ class PartInterpreter {
   /// Online: the machine has stopped inside the next block, of which it has executed `items` items. False: no interrupt is accepted any more, and the block
   /// goes on.
   bool interrupt_inside(const AxisVec& machine, unsigned items);
+  /// Whether blocks of MDI may interrupt the program behind block `seq`, which the machine has executed.
+  bool takes_mdi(uint64_t seq) const;
+  /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
+  void enter_mdi(const ProgramRef& blocks);
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
   /// Tells whether the next block was cut by an interrupt, and how many of its items have been executed.

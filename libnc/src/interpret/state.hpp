@@ -52,7 +52,8 @@ enum class CallOrigin : uint8_t {
   modal,      ///< G66, G66.1
   code,       ///< a registered G M S T B or ASCII code; in the program that it calls such codes do not call (M700 13.5.2, 13.5.3)
   external,   ///< M198
-  interrupt   ///< M96
+  interrupt,  ///< M96
+  mdi         ///< the operator has entered blocks of MDI in a block stop (M700 12.4.4)
 };
 
 /// Values of CallFrame::figure: this pass has not moved yet, or it has moved.

@@ -202,6 +202,7 @@ struct Gate {
   bool announce = false;
   double value = 0;
   uint8_t skip_mask = 0;  ///< dwell: ends where one of these signals is on (M700 8.1 (8))
+  bool behind_mdi = false;  ///< stop: blocks of MDI that interrupt a program have ended (M700 12.4.4)
 };
 
 struct Sync {
@@ -263,7 +264,8 @@ inline bool inhibits_read_ahead(const Item& item) {
     case ItemKind::sync:
     case ItemKind::alarm:
     case ItemKind::end: return true;
-    case ItemKind::gate: return item.gate.kind == NC_GATE_STOP || item.gate.kind == NC_GATE_OPTIONAL_STOP;
+    // The last block of MDI meets the program that goes on behind it.
+    case ItemKind::gate: return (item.gate.kind == NC_GATE_STOP && !item.gate.behind_mdi) || item.gate.kind == NC_GATE_OPTIONAL_STOP;
     default: return false;
   }
 }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blocks of MDI in a block stop (M700 12.4.4 "MDI interrupt"): the operator enters them, a start executes them, and the next start goes on with the program.
+//
+// They act as if they stood in the program behind the block of the stop: they begin in the modal state of the program, radius compensation included, and what
+// they change stays changed. In radius compensation "the offset vectors are automatically re-calculated at the movement block after the interrupt": the stage
+// of compensation goes on from the vector at the stop, with the blocks that come now. Without a movement the path of the program stays as it was.
+//
+// They are a call without a block that makes it (CallOrigin::mdi), and count as one level of calls (M700 13.3.1 (3) (5)).
+#include "interpret/calls.hpp"
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+namespace {
+
+/// The block behind is a part of something that has begun, and blocks in between would tear it apart or would be read as a part of it. M700 6.15 says it of a
+/// NURBS ("MDI interruption: invalid"), 13.3.3 (6) of a rotating sub program, from which nothing branches.
+bool inside_something(const StateValues& s) {
+  return s.repeat.active || s.nurbs.active() || s.arc_step != ArcStep::none || s.meeting.kind != MeetingFirst::Kind::none || s.parameter_input ||
+         s.life_input.kind != LifeInput::Kind::none;
+}
+
+}  // namespace
+
+bool Interpreter::takes_mdi(BlockSeq seq) const {
+  if (mdi || !main_program.valid() || !checkpoints_.holds(seq)) return false;
+  for (unsigned level = 0; level <= state.depth; ++level)
+    if (state.frame[level].origin == CallOrigin::mdi) return false;  // what has been read last is a text of MDI, which is not to be changed while it is read
+  StateValues values;
+  checkpoints_.values(seq, &values);
+  if (values.end_seen || inside_something(values)) return false;
+  CallFrame levels[kMaxFrames];
+  unsigned count = 0;
+  while (count < kMaxFrames && checkpoints_.frames(seq, count + 1, levels)) ++count;
+  for (unsigned level = 0; level < count; ++level)
+    if (levels[level].origin == CallOrigin::mdi || levels[level].figure != 0) return false;  // one text of MDI at a time
+  return true;
+}
+
+void Interpreter::enter_mdi(const ProgramRef& blocks) {
+  place_at_next_block();
+  if (state.owes_mark) {  // the block that called the program which has just returned ends before them
+    finish_call();
+    place_at_next_block();
+  }
+  Entry entry;
+  entry.program = blocks;
+  entry.origin = CallOrigin::mdi;
+  if (enter(*this, entry) == Execution::fault) {
+    note_calls(source, state.frame);
+    stop(fault, source);
+    return;
+  }
+  state.frame[state.depth].modal_call = 0;  // no macro is called behind the moves of blocks that do not belong to the program
+  state.spline_way = {};                    // the curve of fine segments begins again
+  show_modal_call(*this);
+  checkpoints_.save(state);
+}
+
+Execution Interpreter::leave_mdi() {
+  if (check_loops_closed(*this) != Execution::done) return Execution::fault;
+  if (inside_something(state)) return raise(Condition::program_end);
+  state.loop_count = state.frame[state.depth].loop_base;
+  leave_program(*this);
+  state.spline_way = {};
+  Gate& stop_here = emit(ItemKind::gate).gate;
+  stop_here.kind = NC_GATE_STOP;
+  stop_here.behind_mdi = true;
+  finish_block(false, false);
+  return Execution::later;
+}
+
+}  // namespace nc
