@@ -63,6 +63,7 @@ void Feeder::step() {
   complete_reset();
   rewind_ended();
   restore_parts();
+  follow_mdi();
   follow_ladder();
   follow_outputs();
   leave_kept();
@@ -207,7 +208,7 @@ Answer Feeder::apply(const Command& command) {
   }
   if (command.kind == CommandKind::kLook) return look(command);
   if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
-  if (seen_.program_active()) return Answer::kNotWhileRunning;
+  if (seen_.program_active()) return command.kind == CommandKind::kLoadMdi ? interrupt_by_mdi(command) : Answer::kNotWhileRunning;
   if (command.kind == CommandKind::kChange) return change(command);
   if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
   if (seen_.alarms.waits_for_reset()) return Answer::kWarningActive;
@@ -267,6 +268,50 @@ Answer Feeder::load_mdi(const Command& command) {
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);
   return Answer::kDone;
+}
+
+// M700 12.4.4: blocks of MDI that interrupt a program in a block stop.
+Answer Feeder::interrupt_by_mdi(const Command& command) {
+  const unsigned s = command.system;
+  const nc_outputs& out = seen_.system[s].nc;
+  if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
+  if (seen_.mode != Mode::kMdi) return out.state == NC_STATE_RUNNING || out.state == NC_STATE_IDLE ? Answer::kNotWhileRunning : Answer::kNotInThisMode;
+  if (out.state == NC_STATE_HOLD) return Answer::kMiddleOfBlock;
+  if (out.state != NC_STATE_STOPPED || !system_[s].selected || system_[s].mdi) return Answer::kNotWhileRunning;
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    text = std::move(mdi_text_);
+    mdi_text_.clear();
+  }
+  System& system = system_[s];
+  system.mdi_waits = 0;
+  scan_->set_mdi_waits(s, 0);
+  const nc_status status = nc_->load_mdi(s, text.data(), text.size());
+  if (status == NC_E_STATE)
+    return refuse(Answer::kRefusedByControl, "the next block belongs to what has begun, or other blocks of MDI have not come to their end");
+  if (status < 0) return refuse(Answer::kRefusedByControl, status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return Answer::kDone;  // it takes back what waits
+  if (++mdi_texts_ == 0) ++mdi_texts_;
+  system.mdi_waits = mdi_texts_;
+  system.mdi_behind = out.serial;
+  scan_->set_mdi_waits(s, system.mdi_waits);
+  return Answer::kDone;
+}
+
+// Blocks of MDI do not wait any more when they have begun, when the program has been given up, or when the mode is AUTO again.
+void Feeder::follow_mdi() {
+  for (unsigned s = 0; s < systems_; ++s) {
+    System& system = system_[s];
+    if (system.mdi_waits == 0) continue;
+    const nc_outputs& out = seen_.system[s].nc;
+    const bool waits = out.state == NC_STATE_STOPPED && out.serial == system.mdi_behind;
+    if (waits && seen_.mode != Mode::kAuto) continue;
+    if (waits) (void)nc_->load_mdi(s, "", 0);
+    system.mdi_waits = 0;
+    scan_->set_mdi_waits(s, 0);
+  }
 }
 
 Answer Feeder::look(const Command& command) {

@@ -138,6 +138,8 @@ class Feeder {
   Answer apply(const Command& command);
   Answer select(const Command& command);
   Answer load_mdi(const Command& command);
+  Answer interrupt_by_mdi(const Command& command);
+  void follow_mdi();
   Answer look(const Command& command);
   Answer change(const Command& command);
   nc_status read_again();
@@ -175,14 +177,18 @@ class Feeder {
     bool part = false;     // a part program was selected, perhaps before the MDI blocks
     std::uint32_t part_file = 0;  // index of that part program in the store
     std::string blocks;           // text of the MDI blocks that were loaded
+    // Blocks of MDI that wait for a start in the block stop of the program: their number (0 = none), and the item that was executed last when they came.
+    std::uint32_t mdi_waits = 0;
+    std::uint64_t mdi_behind = 0;
     // Nothing is selected any more; only the part program that was selected before is remembered.
-    void clear() { *this = {false, false, 0, false, false, part, part_file, {}}; }
-    void take_part(std::uint32_t number) { *this = {true, false, number, false, false, true, number, {}}; }
-    void take_mdi(std::string text) { *this = {true, true, 0, false, false, part, part_file, std::move(text)}; }
+    void clear() { *this = {false, false, 0, false, false, part, part_file, {}, 0, 0}; }
+    void take_part(std::uint32_t number) { *this = {true, false, number, false, false, true, number, {}, 0, 0}; }
+    void take_mdi(std::string text) { *this = {true, true, 0, false, false, part, part_file, std::move(text), 0, 0}; }
   };
   void restore_parts();
   void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
+  std::uint32_t mdi_texts_ = 0;  // number of texts of MDI that have come in block stops so far
   Snapshot seen_;  // snapshot of the scan that this step goes by
 
   static constexpr unsigned kCommands = 64;  // at most so many are executed in one step

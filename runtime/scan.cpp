@@ -237,12 +237,14 @@ void Scan::hold(std::uint32_t systems) noexcept {
   for (unsigned s = 0; s < systems_; ++s)
     if ((taken_back >> s & 1u) != 0) refuse(s, Asked::kCycleStart, Answer::kTakenBack, -1, false, start_by_[s]);
   start_pulse_ &= ~systems;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((taken_back & mdi_beginning() & 1u << s) != 0) mdi_started_[s] = 0, mdi_runs_ &= ~(1u << s);
   hold_request_ |= systems;
   held_now_ |= systems;
 }
 
-// A program that is stopped at the end of a block may be interrupted by manual motion. To go on, it needs the mode in which it was
-// started.
+// A program that is stopped at the end of a block may be interrupted by manual motion, and one that was started in AUTO by blocks of MDI. To go on, each needs
+// the mode in which it was started.
 Answer Scan::set_mode(Mode mode) noexcept {
   if (mode == mode_) return Answer::kDone;
   const bool active = program_active();
@@ -252,10 +254,9 @@ Answer Scan::set_mode(Mode mode) noexcept {
     if (state == NC_STATE_RUNNING) return Answer::kNotWhileRunning;
     if (state == NC_STATE_MANUAL) return Answer::kAxesMove;
     if (!active) continue;
-    if (mode == Mode::kManual && (state == NC_STATE_HOLD || state == NC_STATE_STOPPED) &&
-        !out_[s].manual_allowed)
-      return Answer::kMiddleOfBlock;
-    if (mode != Mode::kManual && mode != program_mode_) return Answer::kNotWhileRunning;
+    if (mode == mode_to_go_on()) continue;
+    if (mode == Mode::kAuto || (mode == Mode::kMdi && mode_to_go_on() != Mode::kAuto)) return Answer::kNotWhileRunning;
+    if ((state == NC_STATE_HOLD || state == NC_STATE_STOPPED) && !out_[s].manual_allowed) return Answer::kMiddleOfBlock;
   }
   mode_ = mode;
   return Answer::kDone;
@@ -270,8 +271,41 @@ std::uint32_t Scan::ready_systems(std::uint32_t systems, bool all) const noexcep
   std::uint32_t begins = 0;
   for (unsigned s = 0; s < systems_ && (active == 0 || !all); ++s)
     if ((loaded >> kLoadedBits * s & wanted) != 0) begins |= 1u << s;
-  const std::uint32_t goes_on = in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
+  std::uint32_t goes_on = in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
+  // In MDI the interrupted program of AUTO does not go on, but blocks of MDI begin in it, or go on.
+  if (mode_ == Mode::kMdi && program_mode_ == Mode::kAuto) goes_on &= (mdi_waiting() & in_state(NC_STATE_STOPPED)) | (mdi_runs_ & ~mdi_beginning());
   return systems & (goes_on | (begins & ~active));
+}
+
+// Blocks of MDI that wait for a start.
+std::uint32_t Scan::mdi_waiting() const noexcept {
+  std::uint32_t waiting = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const std::uint32_t text = mdi_waits_[s].load(std::memory_order_acquire);
+    if (text != 0 && text != mdi_started_[s]) waiting |= 1u << s;
+  }
+  return waiting;
+}
+
+// Blocks of MDI that have been started, and of which the NC has executed nothing yet.
+std::uint32_t Scan::mdi_beginning() const noexcept {
+  std::uint32_t beginning = 0;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((mdi_runs_ >> s & 1u) != 0 && out_[s].state == NC_STATE_STOPPED && out_[s].serial == mdi_serial_[s]) beginning |= 1u << s;
+  return beginning;
+}
+
+// Notices that blocks of MDI have come to their end, or that the NC has refused their start because of a feed hold.
+void Scan::follow_mdi() noexcept {
+  for (unsigned s = 0; s < systems_; ++s) {
+    const nc_outputs& out = out_[s];
+    const bool stopped = out.state == NC_STATE_STOPPED, begun = out.serial != mdi_serial_[s];
+    if (stopped && ((begun && out.cause == NC_CAUSE_MDI_ENDED) || (!begun && in_[s].feed_hold))) {
+      if (!begun) mdi_started_[s] = 0;
+      mdi_runs_ &= ~(1u << s);
+    }
+  }
+  mdi_runs_ &= active_systems();
 }
 
 Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
@@ -295,6 +329,12 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;
   if (starts == 0) return Answer::kTakenBack;
   if (active == 0) program_mode_ = mode_;
+  for (unsigned s = 0; s < systems_ && mode_ == Mode::kMdi && program_mode_ == Mode::kAuto; ++s) {
+    if ((starts & mdi_waiting() & ~mdi_runs_ & 1u << s) == 0) continue;
+    mdi_started_[s] = mdi_waits_[s].load(std::memory_order_relaxed);
+    mdi_serial_[s] = out_[s].serial;
+    mdi_runs_ |= 1u << s;
+  }
   start_pulse_ |= starts;
   hold_request_ &= ~starts;
   for (unsigned s = 0; s < systems_; ++s) {
@@ -314,10 +354,12 @@ bool Scan::is_spindle_now(unsigned system, unsigned axis) const noexcept {
 
 void Scan::build_nc_inputs() noexcept {
   const std::int64_t local_ms = clock_->local_ms();
+  // The blocks of MDI that were entered and not started are taken back before the program goes on in AUTO.
+  const std::uint32_t waits = mode_ == Mode::kAuto && reset_phase_ == ResetPhase::kNone ? mdi_waiting() & in_state(NC_STATE_STOPPED) : 0;
   for (unsigned s = 0; s < systems_; ++s) {
     nc_inputs& in = in_[s];
     const hal::SystemFeedback& machine = feedback_.system[s];
-    in.cycle_start = (start_pulse_ >> s & 1u) != 0;
+    in.cycle_start = ((start_pulse_ & ~waits) >> s & 1u) != 0;
     in.feed_hold = (hold_request_ >> s & 1u) != 0;  // run_ladder() adds the feed hold of the machine
     in.reset = reset_phase_ == ResetPhase::kStopping;
     in.single_block = (single_block_ >> s & 1u) != 0;
@@ -348,7 +390,7 @@ void Scan::build_nc_inputs() noexcept {
     in.clock_ms = local_ms;
     give_commands_by_hand(s);
   }
-  start_pulse_ = 0;
+  start_pulse_ &= waits;
 }
 
 // ---- 4 outputs ----
@@ -411,6 +453,7 @@ void Scan::follow_requests() noexcept {
     if (alarm && !alarm_was_given_[s] && reset_phase_ == ResetPhase::kNone) raise(AlarmId::kProgram, s, -1);
   }
   hold_request_ &= in_state(NC_STATE_RUNNING);
+  follow_mdi();
   watch_manual();
   for (unsigned s = 0; s < systems_; ++s) publish_axes(s);
   if (reset_phase_ == ResetPhase::kStopping) {

@@ -82,6 +82,9 @@ class Scan {
   enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2 };
   static constexpr unsigned kLoadedBits = 2;
   void set_loaded(std::uint32_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
+  // Blocks of MDI wait that are to interrupt the program of a part system, which stands in a block stop (M700 12.4.4): `text` is their number, 0 = there are
+  // none. They begin with a start in MDI; a start in AUTO waits until they are taken back.
+  void set_mdi_waits(unsigned system, std::uint32_t text) noexcept { mdi_waits_[system].store(text, std::memory_order_release); }
   // The machine has come to rest after a reset: now the feeder resets the interpreter and calls reset_finished().
   bool reset_waits() const noexcept {
     return reset_rest_.load(std::memory_order_acquire) != reset_done_.load(std::memory_order_relaxed);
@@ -236,6 +239,10 @@ class Scan {
     alarms_.count = kept;
   }
   bool program_active() const noexcept { return active_systems() != 0; }
+  std::uint32_t mdi_waiting() const noexcept;
+  std::uint32_t mdi_beginning() const noexcept;
+  void follow_mdi() noexcept;
+  Mode mode_to_go_on() const noexcept { return mdi_runs_ != 0 ? Mode::kMdi : program_mode_; }
   std::uint32_t active_systems() const noexcept;
   std::uint32_t in_state(std::uint8_t state) const noexcept;
   bool at_rest() const noexcept;
@@ -289,6 +296,10 @@ class Scan {
   std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // number of scans for which it has waited for the clamp of an index table
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // strobes of the previous scan
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that have been completed by the FIN that is on now
+  std::atomic<std::uint32_t> mdi_waits_[NC_MAX_SYSTEMS] = {};  // set_mdi_waits()
+  std::uint32_t mdi_started_[NC_MAX_SYSTEMS] = {};  // number of the text that was started last
+  std::uint32_t mdi_runs_ = 0;                      // bit s: blocks of MDI that interrupt the program of part system s have been started and have not ended
+  std::uint64_t mdi_serial_[NC_MAX_SYSTEMS] = {};   // newest item that was executed before them
   std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on in this scan
   Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for the last start
   std::uint32_t hold_request_ = 0;  // bit per part system: its program is to be held, until it stands

@@ -142,7 +142,8 @@ class Session {
         break;
       case 5: {
         mdi_ = PartMaker(dice_, 20).mdi();
-        if (nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size()) == NC_OK) tally_.mdi();
+        // In a block stop the blocks interrupt the program, which stays the one that is counted.
+        if (nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size()) == NC_OK && out_.state != NC_STATE_STOPPED) tally_.mdi();
         break;
       }
       case 6: nc_recalculate(machine_, 0); break;

@@ -316,7 +316,7 @@ TEST_F(InterventionTest, InTheMiddleOfABlockManualIsRefusedByName) {
   steps(400);
   ASSERT_EQ(out().state, NC_STATE_HOLD);
   EXPECT_EQ(set_mode(Mode::kManual), Answer::kMiddleOfBlock);
-  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kNotWhileRunning);
+  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kMiddleOfBlock);
   single_block(true);  // the way out that the answer names
   press();
   ASSERT_TRUE(until_state(NC_STATE_STOPPED));
@@ -384,11 +384,105 @@ TEST_F(InterventionTest, AnInterruptedProgramGoesOnInItsOwnMode) {
   start("G90 G0 X10.\nG1 X40. F3000.\nM30\n");
   ASSERT_TRUE(until_state(NC_STATE_STOPPED));
   steps(2);
-  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kNotWhileRunning);
-  ASSERT_EQ(set_mode(Mode::kManual), Answer::kDone);
-  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNotInThisMode);
-  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kNotWhileRunning);
+  for (const Mode other : {Mode::kManual, Mode::kMdi}) {
+    ASSERT_EQ(set_mode(other), Answer::kDone);
+    EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), other == Mode::kManual ? Answer::kNotInThisMode : Answer::kNoProgram);
+    steps(20);
+    EXPECT_EQ(out().state, NC_STATE_STOPPED);
+  }
   EXPECT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+  single_block(false);
+  press();
+  EXPECT_TRUE(to_end()) << alarms();
+  expect_at(40, 0, 0);
+}
+
+// M700 12.4.4: blocks of MDI run in the block stop of a program, which goes on in its own mode behind them.
+TEST_F(InterventionTest, BlocksOfMdiInABlockStop) {
+  for (const bool single : {false, true}) {
+    build();
+    single_block(true);
+    start("G90 G0 X10.\nG1 X40. F3000.\nM30\n");
+    ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+    steps(2);
+    EXPECT_EQ(runtime->load_mdi("Y1.\n"), Answer::kNotInThisMode);
+    ASSERT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+    ASSERT_EQ(runtime->load_mdi("G1 Y5. F3000.\nY7.\n"), Answer::kDone);
+    single_block(single);
+    press();
+    ASSERT_TRUE(until_state(NC_STATE_RUNNING));
+    EXPECT_EQ(runtime->load_mdi("Y9.\n"), Answer::kNotWhileRunning);
+    ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+    steps(3);
+    if (single) {
+      expect_at(10, 5, 0);
+      EXPECT_EQ(set_mode(Mode::kAuto), Answer::kNotWhileRunning) << "the blocks of MDI have not come to their end";
+      EXPECT_EQ(runtime->load_mdi("Y9.\n"), Answer::kRefusedByControl);
+      EXPECT_NE(runtime->explain(Answer::kRefusedByControl).find("not come to their end"), std::string::npos);
+      press();
+      ASSERT_TRUE(until_state(NC_STATE_RUNNING));
+      ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+      steps(3);
+    }
+    EXPECT_EQ(out().cause, NC_CAUSE_MDI_ENDED);
+    expect_at(10, 7, 0);
+    EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram) << "in MDI the program does not go on";
+    steps(20);
+    ASSERT_EQ(runtime->load_mdi("#1=1\n"), Answer::kDone) << "a text that takes no time";
+    press();
+    EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram) << "a second press does not reach the program";
+    steps(60);
+    EXPECT_EQ(out().state, NC_STATE_STOPPED);
+    expect_at(10, 7, 0);
+    ASSERT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+    single_block(false);
+    press();
+    EXPECT_TRUE(to_end()) << alarms();
+    expect_at(40, 7, 0);
+    runtime.reset();
+  }
+}
+
+TEST_F(InterventionTest, BlocksOfMdiThatWereNotStartedAreDroppedInAuto) {
+  build();
+  single_block(true);
+  start("G90 G0 X10.\nG1 X40. F3000.\nM30\n");
+  ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+  steps(2);
+  ASSERT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+  ASSERT_EQ(runtime->load_mdi("G1 Y5. F3000.\n"), Answer::kDone);
+  ASSERT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+  single_block(false);
+  press();
+  EXPECT_TRUE(to_end()) << alarms();
+  expect_at(40, 0, 0);
+}
+
+TEST_F(InterventionTest, AResetDropsBlocksOfMdi) {
+  for (const bool started : {false, true}) {
+    build();
+    single_block(true);
+    start("G90 G0 X10.\nG1 X40. F3000.\nM30\n");
+    ASSERT_TRUE(until_state(NC_STATE_STOPPED));
+    steps(2);
+    ASSERT_EQ(set_mode(Mode::kMdi), Answer::kDone);
+    ASSERT_EQ(runtime->load_mdi("G1 Y50. F3000.\n"), Answer::kDone);
+    if (started) {
+      press();
+      ASSERT_TRUE(until_state(NC_STATE_RUNNING));
+      steps(50);
+    }
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    steps(600);
+    ASSERT_EQ(out().state, NC_STATE_IDLE);
+    EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kNoProgram);
+    ASSERT_EQ(set_mode(Mode::kAuto), Answer::kDone);
+    single_block(false);
+    press();
+    EXPECT_TRUE(to_end()) << alarms();
+    EXPECT_NEAR(out().command.v[0], 40, 1e-9);
+    runtime.reset();
+  }
 }
 
 // The same in real time, the scan and the feeder in their threads.

@@ -454,22 +454,41 @@ TEST_F(TwoSystems, ModeAndResetAreOfTheWholeControl) {
   EXPECT_EQ(runtime->snapshot().mode, Mode::kMdi);
 }
 
-// M700 12.4.4 (1): there are no MDI blocks in the block stop of a program. The operator is told, and the program goes on from there.
-TEST_F(TwoSystems, NoBlocksOfMdiInABlockStop) {
+// M700 12.4.4: blocks of MDI interrupt the program of one part system; that of the other stays where it is, also when it stands in a block stop.
+TEST_F(TwoSystems, BlocksOfMdiInTheBlockStopOfOne) {
   build();
-  ASSERT_EQ(select(1, "G1 X1. F6000\nG1 X2.\nM30\n"), Answer::kDone);
-  ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 1), Answer::kDone);
-  ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
-  steps(600);
-  ASSERT_EQ(now(1).nc.state, NC_STATE_STOPPED);
+  for (const unsigned s : {0u, 1u}) ASSERT_EQ(select(s, "G1 X1. F6000\nG1 X2.\nG1 X50.\nM30\n"), Answer::kDone);
+  for (const unsigned s : {0u, 1u}) {
+    ASSERT_EQ(give(CommandKind::kSingleBlock, s, 0, 1), Answer::kDone);
+    ASSERT_EQ(give(CommandKind::kCycleStart, s), Answer::kDone);
+    steps(600);
+    ASSERT_EQ(now(s).nc.state, NC_STATE_STOPPED);
+  }
+  // While the other one runs there is no other mode.
+  ASSERT_EQ(give(CommandKind::kSingleBlock, 0, 0, 0), Answer::kDone);
+  ASSERT_EQ(give(CommandKind::kCycleStart, 0), Answer::kDone);
+  steps(20);
   EXPECT_EQ(mode(Mode::kMdi), Answer::kNotWhileRunning);
   const Answer answer = runtime->load_mdi("S1000 M3\n", 1);
-  EXPECT_EQ(answer, Answer::kNotWhileRunning);
-  EXPECT_NE(runtime->explain(answer).find("interrupted"), std::string::npos) << runtime->explain(answer);
+  EXPECT_EQ(answer, Answer::kNotInThisMode);
+  for (unsigned n = 0; n < 20000 && now(0).nc.state != NC_STATE_IDLE; ++n) runtime->step();
+  steps(5);
+  // The other one has ended: nothing of it begins again, and it takes no blocks of MDI of its own.
+  ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+  EXPECT_EQ(runtime->load_mdi("G1 X7. F6000\n", 0), Answer::kNotWhileRunning);
+  ASSERT_EQ(runtime->load_mdi("G1 X5. F6000\n", 1), Answer::kDone);
+  const double other = x(0);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(600);
+  EXPECT_EQ(now(1).nc.cause, NC_CAUSE_MDI_ENDED);
+  EXPECT_NEAR(x(1), 5, 1e-9);
+  EXPECT_NEAR(x(0), other, 1e-9);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
   ASSERT_EQ(give(CommandKind::kSingleBlock, 1, 0, 0), Answer::kDone);
   ASSERT_EQ(give(CommandKind::kCycleStart, 1), Answer::kDone);
-  finish();
-  EXPECT_NEAR(x(1), 2, 1e-9);
+  steps(2000);
+  EXPECT_EQ(now(1).nc.state, NC_STATE_IDLE);
+  EXPECT_NEAR(x(1), 50, 1e-9);
 }
 
 // Each has its own count of runs, which counts also a block that ends before anybody looks.
