@@ -315,7 +315,7 @@ RC_GTEST_PROP(LexerProperty, RoundTrip, ()) {
   RC_ASSERT(block->has_n == (n != 0));
   RC_ASSERT(block->n == n);
   for (unsigned i = 0; i < words.size(); ++i) {
-    RC_ASSERT(block->words[i].letter == words[i].letter);
+    RC_ASSERT(letter_of(block->words[i].slot) == words[i].letter);
     RC_ASSERT(block->words[i].value == words[i].value);
   }
 }

@@ -60,7 +60,7 @@ class PermutedDialect {
  private:
   Dialect dialect_;
   LexRules lex_;
-  uint8_t argument_of_[26] = {};
+  uint8_t argument_of_[kAddresses] = {};
   FamilyParameters parameters_;
   FamilyVariables variables_;
   ParameterPlaces places_;

@@ -86,7 +86,7 @@ inline std::string dump(const Block& b) {
   add("fault", b.has_fault ? static_cast<int>(b.fault.condition) : 0);
   for (const Word& w : b.words) {
     s += "\n word ";
-    s += w.letter;
+    s += letter_of(w.slot);
     char number[48];
     std::snprintf(number, sizeof number, " %a", w.value);
     s += number;

@@ -17,7 +17,7 @@ TEST(Lexer, WordsOfALine) {
   const char* letters = "GXYZF";
   const double values[] = {1, -12.5, 3, 0.25, 500};
   for (unsigned i = 0; i < 5; ++i) {
-    EXPECT_EQ(b->words[i].letter, letters[i]);
+    EXPECT_EQ(letter_of(b->words[i].slot), letters[i]);
     EXPECT_EQ(b->words[i].value, values[i]);
     EXPECT_EQ(b->words[i].code, kNoCode);
   }
@@ -34,7 +34,7 @@ TEST(Lexer, LowerCaseAndBlanksAnywhere) {
   ASSERT_EQ(loose->words.size(), 3u);
   EXPECT_EQ(loose->n, 7u);
   for (unsigned i = 0; i < 3; ++i) {
-    EXPECT_EQ(loose->words[i].letter, plain->words[i].letter);
+    EXPECT_EQ(letter_of(loose->words[i].slot), letter_of(plain->words[i].slot));
     EXPECT_EQ(loose->words[i].value, plain->words[i].value);
     EXPECT_EQ(loose->words[i].flags, plain->words[i].flags);
   }
@@ -192,7 +192,7 @@ TEST(Lexer, ProgramAndSequenceNumbers) {  // M700 3.5
   const auto later = lex("G65 P9100 A1 N5 O6\n");
   EXPECT_FALSE(later->has_n);
   ASSERT_EQ(later->words.size(), 5u);
-  EXPECT_EQ(later->words[3].letter, 'N');
+  EXPECT_EQ(letter_of(later->words[3].slot), 'N');
   EXPECT_EQ(later->words[4].value, 6);
   EXPECT_EQ(fault_of("G65 P1 N#1"), Condition::variable_use);
 }
@@ -218,7 +218,7 @@ TEST(Lexer, NulAndDeleteAreIgnored) {
     const std::string expected = [&] {
       const auto block = lex(text);
       std::string all;
-      for (const Word& w : block->words) all += w.letter + std::to_string(w.value) + std::to_string(w.flags) + " ";
+      for (const Word& w : block->words) all += letter_of(w.slot) + std::to_string(w.value) + std::to_string(w.flags) + " ";
       for (const Statement& t : block->statements) all += std::to_string(static_cast<int>(t.kind)) + text_of(*block, t.text, t.text_length);
       return all + std::to_string(block->n) + std::to_string(block->skip) + std::to_string(block->code.size());
     }();
@@ -228,7 +228,7 @@ TEST(Lexer, NulAndDeleteAreIgnored) {
         changed.insert(at, 1, ignored);
         const auto block = lex(changed);
         std::string all;
-        for (const Word& w : block->words) all += w.letter + std::to_string(w.value) + std::to_string(w.flags) + " ";
+        for (const Word& w : block->words) all += letter_of(w.slot) + std::to_string(w.value) + std::to_string(w.flags) + " ";
         for (const Statement& t : block->statements) all += std::to_string(static_cast<int>(t.kind)) + text_of(*block, t.text, t.text_length);
         all += std::to_string(block->n) + std::to_string(block->skip) + std::to_string(block->code.size());
         EXPECT_EQ(all, expected) << at;
@@ -288,7 +288,7 @@ TEST(Lexer, CountedAndCommaWords) {
   EXPECT_EQ(b->words[0].value, 500);
   EXPECT_EQ(b->words[1].index, 2);
   EXPECT_EQ(b->words[1].value, 10.5);
-  EXPECT_EQ(b->words[4].letter, 'R');
+  EXPECT_EQ(letter_of(b->words[4].slot), 'R');
   EXPECT_EQ(b->words[4].flags, kWordComma | kWordPoint);
   EXPECT_EQ(b->words[5].flags, kWordComma);
   const auto expression = lex("S3=#1*2");

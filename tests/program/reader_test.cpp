@@ -79,7 +79,7 @@ TEST(BlockReader, TooMuchForTheWindow) {
   EXPECT_EQ(b->next_line, 2u);
   b = t.reader.read(file, b->next, b->next_line);
   EXPECT_FALSE(b->has_fault);
-  EXPECT_EQ(b->words[0].letter, 'M');
+  EXPECT_EQ(letter_of(b->words[0].slot), 'M');
 }
 
 TEST(BlockReader, TheCutOfATooLongBlockIsNotTakenForAnotherFault) {
@@ -216,7 +216,7 @@ TEST(BlockReader, ReplacedTextIsReadAfresh) {
     EXPECT_EQ(t.reader.read(file, 3, 2)->words[0].value, 2);
     EXPECT_EQ(add("Y5\nY6\nY7 M30\n"), file);
     const Block* b = t.reader.read(file, 3, 2);
-    EXPECT_EQ(b->words[0].letter, 'Y');
+    EXPECT_EQ(letter_of(b->words[0].slot), 'Y');
     EXPECT_EQ(b->words[0].value, 6);
     EXPECT_EQ(t.all(file).size(), 3u);
   }

@@ -65,7 +65,7 @@ Reading read_vendor_words(const Block& block, FrontEnd& front, unsigned at, Vend
     Value value;
     const Reading read = front.value_of(block, word, &value);
     if (read != Reading::done) return read;
-    if (!value.vacant) words.push_back(nc_word{word.letter, value.number});  // M700 13.5.4
+    if (!value.vacant) words.push_back(nc_word{letter_of(word.slot), value.number});  // M700 13.5.4
   }
   return Reading::done;
 }

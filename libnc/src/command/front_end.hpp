@@ -46,7 +46,7 @@ struct FrontEnd {
   Refusal refusal;                    ///< the reason of Reading::refused
 
   /// The word has this meaning. A word may have several.
-  bool is(const Word& word, Role role) const { return dialect->addresses.is(word.letter, role); }
+  bool is(const Word& word, Role role) const { return dialect->addresses.is(word.slot, role); }
   const FunctionRow* code_of(const Word& word) const { return is(word, Role::code) && (word.flags & kWordExpression) == 0 ? codes->find(word.value) : nullptr; }
   Reading evaluate_code(const Block& block, uint16_t code, Value* value) const {
     const Evaluation by = questions->evaluation(core);
@@ -75,6 +75,6 @@ struct FrontEnd {
 };
 
 /// The word of a compiled block as the rest of the control knows it.
-inline WordSlot slot_of(const Word& word) { return word_named(word.letter); }
+inline WordSlot slot_of(const Word& word) { return word.slot; }
 
 }  // namespace nc

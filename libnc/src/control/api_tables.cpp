@@ -457,7 +457,7 @@ unsigned nc_modal_codes_get(const nc_control* c, const nc_modal* given, char (*c
   unsigned count = 0;
   for (unsigned group = 1; group < NC_GROUPS && count < capacity; ++group) {
     if (modal.code[group] < 0) continue;
-    nc::g_code_text(c->dialect->addresses.letter(nc::Role::code), modal.code[group], codes[count++], sizeof(codes[0]));
+    nc::g_code_text(*c->dialect, modal.code[group], codes[count++], sizeof(codes[0]));
   }
   return count;
 }

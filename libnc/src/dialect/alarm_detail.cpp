@@ -381,21 +381,21 @@ bool about_code(const Dialect& dialect, const Fault& fault) {
 }
 
 // The fault has a letter that can be shown. Bytes outside printable ASCII are not shown: they may be a part of a character.
-bool has_letter(const Fault& fault) {
-  return fault.letter > ' ' && fault.letter <= '~';
+bool has_letter(const Dialect& dialect, const Fault& fault) {
+  return (fault.letter > ' ' && fault.letter <= '~') || dialect.addresses.name(word_named(fault.letter)) != nullptr;
 }
 
 // Writes the offending word: "G54.1", "X12.5", "P" if it has no value. A sign that is no address is put in quotes.
 void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
-  char code[12];
+  char code[24];
   if (about_code(dialect, fault) && fault.has_value && fault.value >= 0 && fault.value < 1e6) {
     // The value of no_function is the code of a table row, which is times 10 for a G code. In all other faults it is the number as programmed.
     const bool misc = dialect.addresses.is(fault.letter, Role::misc_code);
     const bool times_ten = misc || fault.condition == C::no_function;
     const double number = times_ten ? fault.value : fault.value * 10;
     if (std::fabs(number - std::nearbyint(number)) < 1e-6) {  // G0.15 and M3.5 cannot be codes and are shown as they were programmed
-      if (misc) m_code_text(fault.letter, static_cast<unsigned>(std::lround(number)), code, sizeof code);
-      else g_code_text(fault.letter, static_cast<int>(std::lround(number)), code, sizeof code);
+      if (misc) m_code_text(dialect, static_cast<unsigned>(std::lround(number)), code, sizeof code);
+      else g_code_text(dialect, static_cast<int>(std::lround(number)), code, sizeof code);
       out.put(code);
       return;
     }
@@ -403,6 +403,11 @@ void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
   if (fault.letter == '#' && fault.condition != C::illegal_character) {
     // The value is not shown: it may be the number of the variable or what was written into it.
     out.put(out.used() == 0 ? "The variable" : "the variable");
+    return;
+  }
+  if (const char* const name = dialect.addresses.name(word_named(fault.letter)); name != nullptr) {
+    out.put(name);
+    if (fault.has_value) out.put(' ').put_number(fault.value);
     return;
   }
   const bool is_address = fault.letter >= 'A' && fault.letter <= 'Z';
@@ -416,7 +421,7 @@ void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
 bool complete(const Dialect& dialect, const char* sentence, const Fault& fault) {
   for (; *sentence != 0; ++sentence) {
     if (*sentence != '{') continue;
-    if (is_key(sentence, "word") && !has_letter(fault)) return false;
+    if (is_key(sentence, "word") && !has_letter(dialect, fault)) return false;
     if (is_key(sentence, "function") && fault.function == nullptr) return false;
     if (is_key(sentence, "value") && (!fault.has_value || about_code(dialect, fault))) return false;
   }
@@ -447,22 +452,21 @@ const char* choose(const Dialect& dialect, const Fault& fault) {
 // Writes the family's code for a function. A family without such a code does not raise an alarm that names it, but the sentence has to be
 // readable all the same.
 void put_code(TextWriter& out, const Dialect& dialect, Function function) {
-  char code[12];
+  char code[24];
   const FunctionRow* const row = find_function(dialect, function);
   if (row == nullptr) {
     out.put("its code");
     return;
   }
-  g_code_text(dialect.addresses.letter(Role::code), row->code, code, sizeof code);
+  g_code_text(dialect, row->code, code, sizeof code);
   out.put(code);
 }
 
 void put_misc(TextWriter& out, const Dialect& dialect, MiscFunction function) {
-  const char letter = dialect.addresses.letter(Role::misc_code);
-  char code[12];
+  char code[24];
   bool any = false;
   const auto put = [&](unsigned number) {
-    m_code_text(letter, number, code, sizeof code);
+    m_code_text(dialect, number, code, sizeof code);
     out.put(any ? " or " : "").put(code);
     any = true;
   };
@@ -475,7 +479,8 @@ void put_misc(TextWriter& out, const Dialect& dialect, MiscFunction function) {
 
 void put_letter(TextWriter& out, const Dialect& dialect, Role role) {
   const char letter = dialect.addresses.letter(role);
-  if (letter != 0) out.put(letter);
+  if (const char* const name = dialect.addresses.name(dialect.addresses.word(role)); name != nullptr) out.put(name);
+  else if (letter != 0) out.put(letter);
   else out.put("its word");
 }
 

@@ -96,6 +96,7 @@ struct Dialect {
   const uint8_t* argument_of = nullptr;  ///< by address: local variable that takes its word in a macro call, 0 = none; nullptr = no macros
   WordSet calling_words = 0;         ///< words that a parameter may register to call a program
   char device_letter = 0;            ///< letter in front of the number of a device that holds sub programs, 0 = there are no such devices
+  bool codes_by_name = false;        ///< a code is shown by the name in its row ("LINE"); otherwise by letter and number
   Table<FunctionRow> functions;      ///< G codes, sorted by code
   Table<MiscRow> misc;               ///< M codes that the control keeps for itself, sorted by code
   Table<OutputRow> outputs;          ///< those that go out and mean something besides, or are all there are (AuxiliaryRules::codes_are_listed), sorted by code

@@ -24,6 +24,33 @@ void m_code_text(char letter, unsigned code, char* text, size_t size) {
 
 namespace {
 
+/// Writes the name of a code, or where it has no row the word of codes and its number.
+void code_name(const Dialect& dialect, Role role, const char* name, unsigned long long number, char* text, size_t size) {
+  TextWriter out(text, size);
+  if (name != nullptr) {
+    out.put(name);
+    return;
+  }
+  const char* const word = dialect.addresses.name(dialect.addresses.word(role));
+  out.put(word != nullptr ? word : "").put(' ').put_integer(number);
+}
+
+}  // namespace
+
+void g_code_text(const Dialect& dialect, int code, char* text, size_t size) {
+  if (!dialect.codes_by_name || code < 0) return g_code_text(dialect.addresses.letter(Role::code), code, text, size);
+  const FunctionRow* const row = find_function(dialect, code);
+  code_name(dialect, Role::code, row != nullptr ? row->name : nullptr, static_cast<unsigned>(code) / 10, text, size);
+}
+
+void m_code_text(const Dialect& dialect, unsigned code, char* text, size_t size) {
+  if (!dialect.codes_by_name) return m_code_text(dialect.addresses.letter(Role::misc_code), code, text, size);
+  const MiscRow* const row = find_misc(dialect, code);
+  code_name(dialect, Role::misc_code, row != nullptr ? row->name : nullptr, code, text, size);
+}
+
+namespace {
+
 nc_code_role code_role(Function function) {
   if (function == Function::dwell) return NC_CODE_DWELL;
   if (function == Function::data_input) return NC_CODE_DATA_INPUT;
@@ -79,7 +106,7 @@ nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) 
   nc_function found{};
   if (index < family.functions.size) {
     const nc::FunctionRow& from = family.functions.row[index];
-    nc::g_code_text(family.addresses.letter(nc::Role::code), from.code, found.code, sizeof found.code);
+    nc::g_code_text(family, from.code, found.code, sizeof found.code);
     nc::set(&found, from.group, from.missing, from.name, from.section);
     found.part = from.part;
     nc::give_struct(found, row);
@@ -88,7 +115,7 @@ nc_status nc_function_row(nc_dialect dialect, unsigned index, nc_function* row) 
   index -= family.functions.size;
   if (index >= family.misc.size) return NC_E_NOT_FOUND;
   const nc::MiscRow& from = family.misc.row[index];
-  nc::m_code_text(family.addresses.letter(nc::Role::misc_code), from.code, found.code, sizeof found.code);
+  nc::m_code_text(family, from.code, found.code, sizeof found.code);
   nc::set(&found, 0, from.missing, from.name, from.section);
   found.part = from.part;
   nc::give_struct(found, row);

@@ -198,7 +198,7 @@ class Lexer {
       }
       Word* word = new_word(name);
       if (word == nullptr) return false;
-      fill(word, name, plain.flags, p, value);
+      fill(word, WordSlot{static_cast<uint8_t>(letter)}, plain.flags, p, value);
       p = q;
     }
     at_.p = p;
@@ -249,7 +249,7 @@ class Lexer {
       if (next == Behind::more) break;
       // At most fourteen digits, so mantissa and power are exact in a double and the division rounds once.
       const double value = static_cast<double>(static_cast<int64_t>(mantissa)) / kExactPowersOfTen[fraction];
-      fill(word, static_cast<char>('A' + letter), flags, p, minus ? -value : value);
+      fill(word, WordSlot{static_cast<uint8_t>(letter)}, flags, p, minus ? -value : value);
       p = q;
     }
     const auto count = static_cast<unsigned>(word - first);
@@ -260,8 +260,8 @@ class Lexer {
 
   /// Writes the members of a word in its place. If the word were put together from bytes and then copied as a whole, the copy would wait for
   /// the store buffer.
-  void fill(Word* word, char letter, uint8_t flags, const char* at, double value) const {
-    word->letter = letter;
+  void fill(Word* word, WordSlot slot, uint8_t flags, const char* at, double value) const {
+    word->slot = slot;
     word->flags = flags;
     word->index = 0;
     word->column = column(at);
@@ -319,7 +319,7 @@ class Lexer {
     if (!format.known && (flags & kWordComma) == 0) return fault(unknown(format), letter);
     // A small e directly behind a number, as in "X1e2", is meant as an exponent and not as the address E.
     if (*at_.p == 'e' && at_.p != text_ && (is_digit(at_.p[-1]) || at_.p[-1] == '.')) flags |= kWordExponent;
-    Word word{letter, flags, 0, column(at_.p), kNoCode, 0};
+    Word word{word_named(letter), flags, 0, column(at_.p), kNoCode, 0};
     ++at_.p;
     if (!value(format, &word, true)) return false;
     Word* const place = new_word(letter);
@@ -348,7 +348,7 @@ class Lexer {
       at_ = start;
       return expression_value(word);
     }
-    if (sign || !may_count) return fault(Condition::format_error, word->letter);
+    if (sign || !may_count) return fault(Condition::format_error, letter_of(word->slot));
     at_ = start;
     word->flags |= kWordNoValue;
     return true;
@@ -356,15 +356,15 @@ class Lexer {
 
   bool number_value(const WordFormat& format, Word* word, bool may_count, const Cursor& start) {
     const Decimal d = at_.number();
-    if (d.digits == 0) return fault(Condition::format_error, word->letter);
+    if (d.digits == 0) return fault(Condition::format_error, letter_of(word->slot));
     const char next = at_.peek();
-    if (rules_.macros && !rules_.bare_sums && (next == '+' || next == '-' || next == '*')) return fault(Condition::format_error, word->letter);
+    if (rules_.macros && !rules_.bare_sums && (next == '+' || next == '-' || next == '*')) return fault(Condition::format_error, letter_of(word->slot));
     if (rules_.macros && rules_.bare_sums && rules_.formula == Formula::macro && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
       at_ = start;
       return expression_value(word);
     }
     if (next == '=' && may_count) return count_value(format, word, d);
-    if (out_of_range(format, d)) return fault(refusal(format, d.fraction_digits), word->letter, d.value);
+    if (out_of_range(format, d)) return fault(refusal(format, d.fraction_digits), letter_of(word->slot), d.value);
     if (d.point) word->flags |= kWordPoint;
     word->value = format.integer ? static_cast<double>(d.integer) : d.value;
     if ((word->flags & kWordNegative) != 0) word->value = -word->value;
@@ -373,9 +373,9 @@ class Lexer {
 
   /// Reads words such as S1=500 and F1=10, in which the number before '=' chooses the spindle or the speed.
   bool count_value(const WordFormat& format, Word* word, const Decimal& count) {
-    if ((word->letter != 'S' && word->letter != 'F') || count.point)
-      return fault(Condition::format_error, word->letter);
-    if (count.integer > UINT8_MAX) return fault(Condition::value_range, word->letter, count.value);
+    if ((letter_of(word->slot) != 'S' && letter_of(word->slot) != 'F') || count.point)
+      return fault(Condition::format_error, letter_of(word->slot));
+    if (count.integer > UINT8_MAX) return fault(Condition::value_range, letter_of(word->slot), count.value);
     word->index = static_cast<uint8_t>(count.integer);
     word->flags |= kWordCount;
     ++at_.p;
@@ -383,12 +383,12 @@ class Lexer {
   }
 
   bool expression_value(Word* word) {
-    if (word->letter == rules_.sequence_letter || word->letter == rules_.program_letter)
-      return fault(Condition::variable_use, word->letter);  // M700 13.4 (3)
+    if (letter_of(word->slot) == rules_.sequence_letter || letter_of(word->slot) == rules_.program_letter)
+      return fault(Condition::variable_use, letter_of(word->slot));  // M700 13.4 (3)
     word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
     ExpressionCompiler compiler(block_, &at_, rules_.formula);
-    if (!compiler.word_value(&word->code)) return fault(compiler.fault(), word->letter);
-    if (at_.peek() == '=') return fault(Condition::macro_and_words, word->letter);  // X#1=#3+100
+    if (!compiler.word_value(&word->code)) return fault(compiler.fault(), letter_of(word->slot));
+    if (at_.peek() == '=') return fault(Condition::macro_and_words, letter_of(word->slot));  // X#1=#3+100
     return true;
   }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 
+#include "program/word_slot.hpp"
+
 namespace nc {
 
 enum class Role : uint8_t {
@@ -70,35 +72,6 @@ enum class Role : uint8_t {
 };
 inline constexpr unsigned kRoles = static_cast<unsigned>(Role::count_);
 
-/// The number of addresses. An address is the number of its letter, from 0 = A.
-inline constexpr unsigned kAddresses = 26;
-/// The address of a meaning that has no letter. No word ever has this address.
-inline constexpr uint8_t kNoAddress = kAddresses;
-
-/// A word of a family as the rooms that execute programs know it: a handle by which it can be compared, looked for and shown in an alarm. Which letter it has
-/// is known to dialect/ and command/ only.
-enum class WordSlot : uint8_t {};
-/// No word.
-inline constexpr WordSlot kNoWord{kNoAddress};
-/// A set of words, one bit for each.
-using WordSet = uint32_t;
-constexpr unsigned index_of(WordSlot word) { return static_cast<unsigned>(word); }
-/// The set of one word; of kNoWord it is empty.
-constexpr WordSet set_of(WordSlot word) { return (1u << index_of(word)) & ((1u << kNoAddress) - 1); }
-constexpr bool holds(WordSet words, WordSlot word) { return (words >> index_of(word) & 1) != 0; }
-/// The word with this capital letter, kNoWord for any other character.
-constexpr WordSlot word_named(char letter) { return letter >= 'A' && letter <= 'Z' ? WordSlot{static_cast<uint8_t>(letter - 'A')} : kNoWord; }
-/// The capital letter of a word, 0 for kNoWord.
-constexpr char letter_of(WordSlot word) { return word == kNoWord ? char{0} : static_cast<char>('A' + index_of(word)); }
-/// The word whose capital letter has this code of a character, kNoWord for any other number.
-constexpr WordSlot word_of_capital(uint32_t code) { return code <= 'Z' ? word_named(static_cast<char>(code)) : kNoWord; }
-/// The word whose letter, small or capital, has this code of a character, as parameters give it; kNoWord for any other number.
-constexpr WordSlot word_of_character(double code) {
-  if (!(code >= 'A' && code <= 'z')) return kNoWord;
-  const char letter = static_cast<char>(code);
-  return word_named(letter >= 'a' ? static_cast<char>(letter - 'a' + 'A') : letter);
-}
-
 /// vector_along() is the vector component along basic axis 0, 1 or 2; basic_along() is the name of this axis.
 constexpr Role vector_along(unsigned axis) { return static_cast<Role>(static_cast<unsigned>(Role::vector_x) + axis); }
 constexpr Role basic_along(unsigned axis) { return static_cast<Role>(static_cast<unsigned>(Role::basic_x) + axis); }
@@ -108,28 +81,51 @@ struct RoleRow {
   char letter;
 };
 
-/// The address of each meaning.
+/// A meaning and its word, for families whose words are not letters.
+struct SlotRow {
+  Role role;
+  WordSlot slot;
+};
+
+/// How a family spells a word that is not a letter.
+struct WordName {
+  WordSlot slot;
+  const char* name;  ///< "FEED"
+};
+
+/// The address of each meaning, and the spelling of the words.
 class AddressTable {
  public:
-  /// A meaning that no row names has no address: the family has no such word.
+  /// A meaning that no row names has no address: the family has no such word. Every word is spelled as its letter.
   template <unsigned n>
   explicit constexpr AddressTable(const RoleRow (&rows)[n]) {
     for (uint8_t& address : at_) address = kNoAddress;
-    for (const RoleRow& row : rows) at_[static_cast<unsigned>(row.role)] = static_cast<uint8_t>(row.letter - 'A');
+    for (const RoleRow& row : rows) at_[static_cast<unsigned>(row.role)] = static_cast<uint8_t>(index_of(word_named(row.letter)));
+  }
+  /// The same for words that need not be letters. A word that `names` does not list is spelled as its letter; one that has no letter has to be listed.
+  template <unsigned n, unsigned m>
+  constexpr AddressTable(const SlotRow (&rows)[n], const WordName (&names)[m]) {
+    for (uint8_t& address : at_) address = kNoAddress;
+    for (const SlotRow& row : rows) at_[static_cast<unsigned>(row.role)] = static_cast<uint8_t>(index_of(row.slot));
+    for (const WordName& row : names) name_[index_of(row.slot)] = row.name;
   }
   /// Gives a meaning another letter.
-  constexpr void bind(Role role, char letter) { at_[static_cast<unsigned>(role)] = static_cast<uint8_t>(letter - 'A'); }
+  constexpr void bind(Role role, char letter) { at_[static_cast<unsigned>(role)] = static_cast<uint8_t>(index_of(word_named(letter))); }
   /// The set of the addresses in the string `of`, which consists of capital letters; bit n = address n.
   static constexpr uint32_t letters(const char* of) {
     uint32_t set = 0;
-    for (; *of != 0; ++of) set |= 1u << (*of - 'A');
+    for (; *of != 0; ++of) set |= set_of(word_named(*of));
     return set;
   }
-  /// The address of a meaning, 0 to 25 for A to Z, or kNoAddress.
+  /// The address of a meaning, below kNoAddress, or kNoAddress.
   constexpr unsigned at(Role role) const { return at_[static_cast<unsigned>(role)]; }
-  /// The letter of a meaning for the text of alarms, 0 = it has none.
-  constexpr char letter(Role role) const { return at(role) == kNoAddress ? char{0} : static_cast<char>('A' + at(role)); }
-  constexpr bool is(char letter_of_word, Role role) const { return static_cast<unsigned>(letter_of_word - 'A') == at(role); }
+  /// The character by which a fault names the word with this meaning, 0 = the family has none. In a family of letters it is the letter.
+  constexpr char letter(Role role) const { return letter_of(word(role)); }
+  constexpr bool is(WordSlot slot, Role role) const { return index_of(slot) == at(role); }
+  /// The same of the character by which a fault names a word.
+  constexpr bool is(char named_by, Role role) const { return has(role) && word(role) == word_named(named_by); }
+  /// The name of a word that is not spelled as its letter, nullptr = it is.
+  constexpr const char* name(WordSlot slot) const { return slot == kNoWord ? nullptr : name_[index_of(slot)]; }
   /// The word with a meaning, kNoWord = the family has none.
   constexpr WordSlot word(Role role) const { return WordSlot{at_[static_cast<unsigned>(role)]}; }
   constexpr bool has(Role role) const { return at(role) != kNoAddress; }
@@ -138,12 +134,13 @@ class AddressTable {
   /// The set of the addresses of these meanings, bit n = address n. A meaning without an address adds nothing.
   constexpr uint32_t set(std::initializer_list<Role> roles) const {
     uint32_t set = 0;
-    for (const Role role : roles) set |= 1u << at(role);
-    return set & ((1u << kNoAddress) - 1);
+    for (const Role role : roles) set |= set_of(word(role));
+    return set;
   }
 
  private:
   uint8_t at_[kRoles]{};
+  const char* name_[kAddresses]{};
 };
 
 }  // namespace nc

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/fixed.hpp"
+#include "program/word_slot.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
@@ -48,6 +49,10 @@ using ReadBlock = LexResult (*)(const char* text, size_t size, const LexRules& r
 
 struct LexRules {
   ReadBlock read = nullptr;        ///< reads a block of the language; never null in a family
+  /// A text of the language is one of ISO 6983: a block ends with its line or ';', comments stand in ( ), blanks mean nothing, and program and sequence numbers
+  /// stand with their letters at the head of a block. Searches then pass over what is behind the head, and a block that is longer than the window is read
+  /// without its blanks and comments. Otherwise searches read every block, and a block ends at the latest with its line.
+  bool iso_text = false;
   char program_letter = 0, sequence_letter = 0;  ///< letters of the program and sequence numbers at the head of a block
   bool macros = false;             ///< '#' and '[ ]' exist
   bool statements = false;         ///< with `macros`: IF, WHILE, GOTO, ... exist, too
@@ -79,7 +84,7 @@ enum WordFlag : uint8_t {
 };
 
 struct Word {
-  char letter = 0;
+  WordSlot slot = kNoWord;
   uint8_t flags = 0;
   uint8_t index = 0;
   uint8_t column = 0;  ///< from 1; 255 = this or any column further right

@@ -295,11 +295,36 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
       if (!window_.advance(entry)) return failed();
       result = rules_->read(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
     }
-    if (result.ran_out && !window_.last()) return compile_long(entry, offset, block, newline);
+    if (result.ran_out && !window_.last()) return rules_->iso_text ? compile_long(entry, offset, block, newline) : refuse_long(entry, offset, block, newline);
   }
   block.begin = offset;
   block.next = offset + result.used;
   *newline = result.newline;
+  return true;
+}
+
+/// A block that is longer than the window, of a language whose blocks cannot be shortened: it is passed over up to the end of its line.
+bool BlockReader::refuse_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline) {
+  char chunk[512];
+  uint64_t at = offset;
+  *newline = false;
+  while (!*newline) {
+    const long got = TextWindow::read(entry, at, chunk, sizeof chunk);
+    if (got < 0) {
+      failure_ = got;
+      return false;
+    }
+    if (got == 0) break;
+    const void* const line_end = std::memchr(chunk, '\n', static_cast<size_t>(got));
+    *newline = line_end != nullptr;
+    at += *newline ? static_cast<uint64_t>(static_cast<const char*>(line_end) - chunk) + 1 : static_cast<uint64_t>(got);
+  }
+  block.clear();
+  block.empty = false;
+  block.has_fault = true;
+  block.fault.condition = Condition::block_too_long;
+  block.begin = offset;
+  block.next = at;
   return true;
 }
 

@@ -29,18 +29,21 @@ struct Head {
   bool blank = true;  ///< the block holds only blanks and comments
 };
 
-/// Goes from block to block of a text, through the window of its reader.
+}  // namespace
+
+/// Goes from block to block of a text, through the window of its reader. In a text that is not one of ISO 6983 it reads the whole blocks.
 class HeadScanner {
  public:
-  HeadScanner(TextWindow& window, const TextEntry& entry, const LexRules& rules, Semicolon semicolon,
+  HeadScanner(BlockReader& reader, TextWindow& window, const TextEntry& entry, const LexRules& rules, Semicolon semicolon,
               uint64_t offset, uint32_t line)
-      : window_(window), entry_(entry), rules_(rules), semicolon_(semicolon), next_(offset), line_(line) {}
+      : reader_(reader), window_(window), entry_(entry), rules_(rules), semicolon_(semicolon), next_(offset), line_(line) {}
 
   /// The next block. False at the end of the text, or when reading failed.
   bool next(Head* head) {
     *head = Head{};
     head->offset = offset();
     head->line = line_;
+    if (!rules_.iso_text) return next_whole(head);
     int c = significant();
     if (c < 0) return false;
     if (c == '/') {
@@ -65,6 +68,22 @@ class HeadScanner {
   bool failed() const { return failed_; }
 
  private:
+  bool next_whole(Head* head) {
+    Block& block = *reader_.searched_;
+    if (!reader_.compile(entry_, 0, next_, line_, block)) {
+      failed_ = true;
+      return false;
+    }
+    if (block.end_of_text || block.next <= next_) return false;
+    head->o = block.has_o ? block.o : 0;
+    head->n = block.has_n ? block.n : 0;
+    head->percent = block.percent;
+    head->blank = block.percent || (block.empty && !block.has_o && !block.has_n && block.skip == 0 && !block.has_fault);
+    next_ = block.next;
+    line_ = block.next_line;
+    return true;
+  }
+
   bool more() {
     if (!window_.seek(entry_, next_)) {
       failed_ = true;
@@ -155,6 +174,7 @@ class HeadScanner {
     }
   }
 
+  BlockReader& reader_;
   TextWindow& window_;
   const TextEntry& entry_;
   const LexRules& rules_;
@@ -165,8 +185,6 @@ class HeadScanner {
   uint32_t line_;
   bool failed_ = false;
 };
-
-}  // namespace
 
 BlockReader::Index& BlockReader::index(const TextEntry& entry) {
   for (unsigned i = 0; i < kIndexes; ++i) {
@@ -193,7 +211,7 @@ ProgramRef BlockReader::find_o_line(uint32_t number, unsigned file) {
     if (known.at[i].number == number) return known.at[i];
   }
   if (known.complete) return {};
-  HeadScanner scanner(window_, *entry, *rules_, semicolon_of(*entry), known.scanned, known.scanned_line);
+  HeadScanner scanner(*this, window_, *entry, *rules_, semicolon_of(*entry), known.scanned, known.scanned_line);
   ProgramRef found;
   for (Head head; !found.valid() && scanner.next(&head);) {
     if (head.o == 0 || head.o > UINT32_MAX) continue;
@@ -313,7 +331,7 @@ bool BlockReader::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uin
 BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_t line, const Jump& wanted,
                                                  uint64_t budget, bool* again, bool* failed) {
   Jump jump = wanted;
-  HeadScanner scanner(window_, entry, *rules_, semicolon_of(entry), wanted.from, line);
+  HeadScanner scanner(*this, window_, entry, *rules_, semicolon_of(entry), wanted.from, line);
   bool at_head = wanted.from_head;  // so far only blocks have been seen that may stand before a program
   bool o_seen = false;
   for (Head head;;) {

@@ -104,6 +104,7 @@ class BlockReader {
   void forget(unsigned file);
 
  private:
+  friend class HeadScanner;
   static constexpr unsigned kWays = 4;     ///< number of slots of the cache in which a block may lie; power of two
   static constexpr unsigned kSeen = 8;     ///< number of texts for which it is remembered how far they have been read
   static constexpr unsigned kIndexes = 2;  ///< number of texts whose O lines are remembered
@@ -141,6 +142,7 @@ class BlockReader {
   bool compile(const TextEntry& entry, unsigned file, uint64_t offset, uint32_t line, Block& block);
   bool compile_here(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool compile_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
+  bool refuse_long(const TextEntry& entry, uint64_t offset, Block& block, bool* newline);
   bool failed();
   Condition parity_fault(const TextEntry& entry, uint64_t begin, uint64_t end) const;
   static bool has_parity(const TextEntry& entry, uint64_t begin);

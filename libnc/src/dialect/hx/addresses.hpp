@@ -52,7 +52,7 @@ inline constexpr RoleRow kRoleRows[] = {
 inline constexpr AddressTable kAddressTable(kRoleRows);
 
 /// 14.1.1 (1): G L N O P are no arguments.
-inline constexpr uint8_t kArgumentOf[26] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7, /*E*/ 8, /*F*/ 9, /*G*/ 0,  /*H*/ 11, /*I*/ 4,
+inline constexpr uint8_t kArgumentOf[kAddresses] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7, /*E*/ 8, /*F*/ 9, /*G*/ 0,  /*H*/ 11, /*I*/ 4,
                                             /*J*/ 5,  /*K*/ 6,  /*L*/ 0,  /*M*/ 13, /*N*/ 0, /*O*/ 0, /*P*/ 0,  /*Q*/ 17, /*R*/ 18,
                                             /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
 

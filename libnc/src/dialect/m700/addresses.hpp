@@ -112,7 +112,7 @@ inline constexpr RoleRow kRoleRows[] = {
 inline constexpr AddressTable kAddressTable(kRoleRows);
 
 /// Local variable of each address (13.5.1, designation I). G, L, N, O and P are arguments only in the mode of G66.1.
-inline constexpr uint8_t kArgumentOf[26] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7,  /*E*/ 8,  /*F*/ 9,  /*G*/ 10, /*H*/ 11, /*I*/ 4,
+inline constexpr uint8_t kArgumentOf[kAddresses] = {/*A*/ 1,  /*B*/ 2,  /*C*/ 3,  /*D*/ 7,  /*E*/ 8,  /*F*/ 9,  /*G*/ 10, /*H*/ 11, /*I*/ 4,
                                             /*J*/ 5,  /*K*/ 6,  /*L*/ 12, /*M*/ 13, /*N*/ 14, /*O*/ 15, /*P*/ 16, /*Q*/ 17, /*R*/ 18,
                                             /*S*/ 19, /*T*/ 20, /*U*/ 21, /*V*/ 22, /*W*/ 23, /*X*/ 24, /*Y*/ 25, /*Z*/ 26};
 
