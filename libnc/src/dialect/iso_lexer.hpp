@@ -17,7 +17,7 @@ LexResult lex_block(const char* text, size_t size, const LexRules& rules, Semico
 constexpr LexRules iso_rules() {
   LexRules rules{};
   rules.read = lex_block;
-  rules.iso_text = true;
+  rules.heads_scanned = true;
   rules.program_letter = 'O';
   rules.sequence_letter = 'N';
   return rules;

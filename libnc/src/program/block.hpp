@@ -52,7 +52,7 @@ struct LexRules {
   /// A text of the language is one of ISO 6983: a block ends with its line or ';', comments stand in ( ), blanks mean nothing, and program and sequence numbers
   /// stand with their letters at the head of a block. Searches then pass over what is behind the head, and a block that is longer than the window is read
   /// without its blanks and comments. Otherwise searches read every block, and a block ends at the latest with its line.
-  bool iso_text = false;
+  bool heads_scanned = false;
   char program_letter = 0, sequence_letter = 0;  ///< letters of the program and sequence numbers at the head of a block
   bool macros = false;             ///< '#' and '[ ]' exist
   bool statements = false;         ///< with `macros`: IF, WHILE, GOTO, ... exist, too

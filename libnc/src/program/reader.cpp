@@ -295,7 +295,7 @@ bool BlockReader::compile_here(const TextEntry& entry, uint64_t offset, Block& b
       if (!window_.advance(entry)) return failed();
       result = rules_->read(window_.text(), window_.size(), *rules_, semicolon, nullptr, block);
     }
-    if (result.ran_out && !window_.last()) return rules_->iso_text ? compile_long(entry, offset, block, newline) : refuse_long(entry, offset, block, newline);
+    if (result.ran_out && !window_.last()) return rules_->heads_scanned ? compile_long(entry, offset, block, newline) : refuse_long(entry, offset, block, newline);
   }
   block.begin = offset;
   block.next = offset + result.used;

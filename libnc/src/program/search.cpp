@@ -43,7 +43,7 @@ class HeadScanner {
     *head = Head{};
     head->offset = offset();
     head->line = line_;
-    if (!rules_.iso_text) return next_whole(head);
+    if (!rules_.heads_scanned) return next_whole(head);
     int c = significant();
     if (c < 0) return false;
     if (c == '/') {

@@ -30,8 +30,8 @@ constexpr WordSlot word_behind_z(unsigned i) { return WordSlot{static_cast<uint8
 /// The word that an alarm names by this character: a capital letter, or one of the first control characters for those behind Z. kNoWord for any other one.
 constexpr WordSlot word_named(char letter) {
   if (letter >= 'A' && letter <= 'Z') return WordSlot{static_cast<uint8_t>(letter - 'A')};
-  if (letter >= 1 && letter <= static_cast<char>(kAddresses - kLetters)) return word_behind_z(static_cast<unsigned>(letter) - 1);
-  return kNoWord;
+  const unsigned behind_z = static_cast<unsigned char>(letter) - 1u;  // very large for NUL
+  return behind_z < kAddresses - kLetters ? word_behind_z(behind_z) : kNoWord;
 }
 /// The character by which an alarm names a word, 0 for kNoWord.
 constexpr char letter_of(WordSlot word) {
