@@ -477,9 +477,16 @@ void put_misc(TextWriter& out, const Dialect& dialect, MiscFunction function) {
   if (!any) out.put("its code");
 }
 
-void put_letter(TextWriter& out, const Dialect& dialect, Role role) {
+/// Behind the key at `at` stands the value of the fault.
+bool a_number_follows(const char* at) {
+  while (*at != '}') ++at;
+  return at[1] == '{' && is_key(at + 1, "value");
+}
+
+/// Writes the word with a meaning. A name is kept apart from a number behind it; between a letter and its number nothing stands.
+void put_letter(TextWriter& out, const Dialect& dialect, Role role, bool number_follows) {
   const char letter = dialect.addresses.letter(role);
-  if (const char* const name = dialect.addresses.name(dialect.addresses.word(role)); name != nullptr) out.put(name);
+  if (const char* const name = dialect.addresses.name(dialect.addresses.word(role)); name != nullptr) out.put(name).put(number_follows ? " " : "");
   else if (letter != 0) out.put(letter);
   else out.put("its word");
 }
@@ -503,7 +510,7 @@ void put_axis(TextWriter& out, const char* axis_name) {
 void put_key(TextWriter& out, const char* at, const Dialect& dialect, const Fault& fault, const char* axis_name) {
   if (const NamedCode* const code = named(kNamedCodes, at); code != nullptr) put_code(out, dialect, code->function);
   else if (const NamedMisc* const misc = named(kNamedMisc, at); misc != nullptr) put_misc(out, dialect, misc->function);
-  else if (const NamedWord* const word = named(kNamedWords, at); word != nullptr) put_letter(out, dialect, word->role);
+  else if (const NamedWord* const word = named(kNamedWords, at); word != nullptr) put_letter(out, dialect, word->role, a_number_follows(at));
   else if (is_key(at, kAlarmVariable)) put_alarm_variable(out, dialect);
   else if (is_key(at, "word")) put_word(out, dialect, fault);
   else if (is_key(at, "function")) out.put(fault.function);
