@@ -149,6 +149,22 @@ TEST(IsoCodes, RefuseWhatTheyCannotHave) {
     }
 }
 
+// RS-274/NGC 3.4: of each group a block has one code at most, also of group 0, whose codes are no modes. Codes of two groups are no such fault.
+TEST(IsoCodes, OfOneGroupStandAlone) {
+  for (const char* block : {"G4 P1 G53 G0 X1", "G28 G30 X1", "G53 G28 X1", "G92 X1 G53 G0 X2", "G92 X2 G92.1", "G10 L2 P1 X1 G4 P1", "G17 G18", "G54 G55", "G61 G64", "G43 H1 G49", "G93 G94 X1", "G98 G99"})
+    EXPECT_EQ(run_of(std::string("F100\n") + block).alarm, "NC-FORMAT") << block;
+  for (const FunctionRow& one : dialect(NC_DIALECT_ISO).functions)
+    for (const FunctionRow& other : dialect(NC_DIALECT_ISO).functions) {
+      if (one.missing != nullptr || other.missing != nullptr || one.group != other.group) continue;
+      char first[12], second[12];
+      g_code_text('G', one.code, first, sizeof first);
+      g_code_text('G', other.code, second, sizeof second);
+      const Outcome run = run_of(std::string("F100\n") + first + " " + second);
+      EXPECT_EQ(run.alarm, "NC-FORMAT") << first << " " << second << ": " << run.alarm_detail;
+    }
+  for (const char* block : {"G17 G20 G90 G94 G54 G40 G49 G80 G98 G64 G97 G0", "G91 G28 X1", "G90 G53 G0 X1", "G21 G4 P0", "G18 G92 X0"}) EXPECT_EQ(run_of(block).alarm, "") << block;
+}
+
 TEST(IsoCodes, AreThoseOfTheTable) {
   std::set<std::string> here, there;
   for (const CodeRow& row : kRows) here.insert(row.code);

@@ -158,13 +158,14 @@ bool CommandReader::calls_another(unsigned first) const {
   return false;
 }
 
-/// Checks words that may stand only once. `twice`: those that the block has more than once.
+/// Checks words that may stand only once. `twice`: those that the block has more than once. The codes that are no modes are a group of their own, of which a
+/// block has one, too (RS-274/NGC 3.4, table 4, group 0).
 Reading CommandReader::check_words_stand_once(WordSet twice) {
   const Command& w = w_;
   if (twice != 0) return front_.refuse(Condition::format_error, first_word(twice), w.get(first_word(twice)));
   for (unsigned i = 1; i < w.functions.size(); ++i)
     for (unsigned k = 0; k < i; ++k)
-      if (mode_of(w.functions[i]->function) != Mode::none && mode_of(w.functions[i]->function) == mode_of(w.functions[k]->function)) return front_.refuse_code(Condition::format_error, *w.functions[i]);
+      if (mode_of(w.functions[i]->function) == mode_of(w.functions[k]->function)) return front_.refuse_code(Condition::format_error, *w.functions[i]);
   return Reading::done;
 }
 
