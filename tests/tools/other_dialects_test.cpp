@@ -2,7 +2,10 @@
 // Of which other family a program with an alarm is, as `ncsim check` says it.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +13,7 @@
 #include "places/places.hpp"
 #include "tools/command_fixture.hpp"
 #include "tools/lib/dialect_names.hpp"
+#include "tools/lib/other_dialects.hpp"
 
 namespace nc::tools {
 namespace {
@@ -105,6 +109,78 @@ TEST_F(OtherDialects, AMistakeIsNoSignOfAnotherFamily) {
     EXPECT_EQ(check.code, 2) << family << text;
     EXPECT_EQ(check.err.find("looks like"), std::string::npos) << family << text << check.err;
   }
+}
+
+/// The note about `text` as a program of `own`, and how much was read for it.
+std::string note_about(const std::string& own, const std::string& text, uint64_t* work = nullptr) {
+  SessionOptions options;
+  options.program = "p.nc";
+  options.dialect = own;
+  options.dialect_given = true;
+  options.text = text;
+  return other_dialect_note(options, RunLimits(), own, false, work);
+}
+
+// What is read for the note has a bound, however long the program is, and whatever it does; a long program is recognised all the same.
+TEST(OtherDialectsOfALongProgram, AreFoundByABoundedNumberOfBlocks) {
+  const uint64_t bound = kMostReadByFamily * dialect_names().size();
+  std::string lines = "G21G90\nG1X0.F200\n";
+  for (int i = 0; i < 100'000; ++i) lines += i % 2 == 0 ? "X1.Y2.\n" : "X2.Y1.\n";
+  std::string slips;
+  for (int i = 0; i < 12; ++i) slips += "G01 X\n";
+  uint64_t work = 0;
+  EXPECT_NE(note_about("m700", lines + slips + "M30\n", &work).find("looks like a program of series8,"), std::string::npos);
+  EXPECT_GE(work, 400'000u) << "both have read it to its end";
+  EXPECT_LE(work, bound);
+  // The lines of slips are behind the loop, which each run of each family would go through again.
+  const std::string loop = "#1=0\nWHILE [#1 LT 100000] DO1\nG00 X[#1*0.001]\n#1=#1+1\nEND1\n";
+  note_about("m700", loop + slips + "M30\n", &work);
+  EXPECT_LE(work, bound);
+  // A hole of very many pecks is one block.
+  note_about("m700", "G00 X0 Y0 Z10.\nG83 X1. Z-800. R2. Q0.001 F100\n" + slips + "M30\n", &work);
+  EXPECT_LE(work, bound);
+}
+
+// The cases made from the manuals: what one of a family does wrong is hardly ever a sign of another family, and where a program is said to be of another
+// one than that in which it is read, that is its own, nearly always. Many are a few blocks that two families read alike.
+TEST(OtherDialectsOfTheManuals, AreRecognised) {
+  const std::string folder = nc::test::kSharedDir + "/conformance";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is not here";
+  unsigned faults = 0, wrong = 0, read_as_other = 0, named = 0, third = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream file(entry.path());
+    const Json all = Json::parse(file);
+    unsigned count = 0;
+    for (const Json& one : all["cases"]) {
+      if (!one.contains("program") || !one["program"].is_string()) continue;
+      const std::string own = one.value("dialect", "m700"), text = one["program"];
+      if (own == "m700" && count++ % 4 != 0) continue;  // there are many of them
+      const bool plain = !one.contains("setup") || one["setup"].empty();
+      if (plain) {  // a note only where it has an alarm in its own family
+        const bool alarmed = one["expect"].dump().find("\"alarm\"") != std::string::npos;
+        const std::string note = note_about(own, text);
+        faults += alarmed;
+        wrong += !note.empty();
+        EXPECT_EQ(note, "") << one["id"] << "\n" << text;
+      }
+      for (const std::string& other : dialect_names()) {
+        if (other == own) continue;
+        const std::string note = note_about(other, text);
+        ++read_as_other;
+        if (note.empty()) continue;
+        ++named;
+        third += note.substr(0, note.find(", as which")).find(own) == std::string::npos;
+      }
+    }
+  }
+  RecordProperty("faults", static_cast<int>(faults));
+  RecordProperty("named", static_cast<int>(named));
+  RecordProperty("third", static_cast<int>(third));
+  EXPECT_GT(faults, 10u);
+  EXPECT_EQ(wrong, 0u) << "of " << faults;
+  EXPECT_GE(named * 100, read_as_other) << named << " of " << read_as_other << ": most are too short for a note, which needs two lines that show it";
+  EXPECT_LE(third * 10, named) << third << " of " << named << " are said to be of a third family";
 }
 
 }  // namespace

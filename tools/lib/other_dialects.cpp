@@ -15,13 +15,27 @@ namespace {
 
 constexpr size_t kMostRefused = 12;          // so many lines show well enough that a family does not read a text
 constexpr size_t kLongestText = 1024 * 1024;  // a longer one is run once by each family: it is not run again without lines
+constexpr uint64_t kLongestRun = 400'000;    // blocks and moves of one run, which shows enough of a program; the same for each family, so that they are compared fairly
 constexpr uint64_t kWholePart = 12;          // a program of so many blocks is a part: that a family reads it without an alarm is no accident
 
 /** What a family makes of a text. */
 struct Reading {
   std::set<uint32_t> refused;  // lines of the main program that have an alarm
-  bool ends = false;           // without them the program comes to its end
+  bool ends = false;           // without them the program comes to its end, or goes on for longer than a run is
   uint64_t moves = 0, blocks = 0;
+  uint64_t work = 0;  // blocks and moves of all its runs
+};
+
+/** Ends a run that is long enough. Cycles are counted by their moves, too: one block may make very many. */
+class ShortRun : public RunSink {
+ public:
+  void move(const nc_source&, const nc_move&) override { ++work_; }
+  void block(const nc_source&, const nc_axes&, const nc_axes&) override { ++work_; }
+  bool stop() const override { return work_ >= kLongestRun; }
+  uint64_t work() const { return work_; }
+
+ private:
+  uint64_t work_ = 0;
 };
 
 /** Takes a line out of a text, in which the numbers of the others stay. @return false when there is nothing in it. */
@@ -40,7 +54,7 @@ bool take_out(std::string* text, uint32_t line) {
 }
 
 /** Runs the program once. @return false when it cannot be run at all. */
-bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole_numbers, RunResult* result, bool* in_main) {
+bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole_numbers, RunResult* result, bool* in_main, uint64_t* work) {
   Session session;
   std::string error;
   if (!session.configure(options, &error) || !session.start(options, &error)) return false;
@@ -48,9 +62,10 @@ bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole
   if (whole_numbers && (nc_undotted_get(session.control(), kPartSystem, &whole) != NC_OK || !whole)) return false;
   ControlSource items(session.control(), session.dialect());
   VirtualWorld world(session.setup(), session.config().system[0]);
-  RunSink nothing;
-  *result = run_offline(&items, &world, &nothing, session.decides(), limits.silent_blocks, true, {}, limits.loops);
+  ShortRun sink;
+  *result = run_offline(&items, &world, &sink, session.decides(), limits.silent_blocks, true, {}, limits.loops);
   *in_main = result->alarm.source.file == session.main_file();
+  *work += sink.work();
   return true;
 }
 
@@ -64,11 +79,11 @@ Reading read_as(const std::string& family, const SessionOptions& given, const st
   const bool again = !text.empty() && text.size() <= kLongestText;
   if (again) options.text = text;
   Reading reading;
-  while (reading.refused.size() < kMostRefused) {
+  while (reading.refused.size() < kMostRefused && reading.work < kMostReadByFamily - kLongestRun) {
     RunResult result;
     bool in_main = false;
-    if (!run_once(options, limits, whole_numbers, &result, &in_main)) break;
-    reading.ends = result.how == RunResult::How::kEnded;
+    if (!run_once(options, limits, whole_numbers, &result, &in_main, &reading.work)) break;
+    reading.ends = result.how == RunResult::How::kEnded || result.how == RunResult::How::kStopped;
     reading.moves = result.moves;
     reading.blocks = result.blocks;
     if (result.how != RunResult::How::kAlarmed || !in_main) break;
@@ -124,7 +139,7 @@ std::string note(const std::vector<Found>& found) {
 
 }  // namespace
 
-std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers) {
+std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers, uint64_t* work) {
   if (options.program == "-" || !options.tape.empty()) return "";
   std::string text;
   {
@@ -134,11 +149,13 @@ std::string other_dialect_note(const SessionOptions& options, const RunLimits& l
     text = session.main_text();
   }
   const Reading as_own = read_as(own, options, text, limits, false);
+  if (work != nullptr) *work = as_own.work;
   if (as_own.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
   std::vector<Found> found;
   for (const std::string& family : dialect_names()) {
     if (family == own) continue;
     const Reading other = read_as(family, options, text, limits, whole_numbers);
+    if (work != nullptr) *work += other.work;
     const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own);
     if (looks_so) found.push_back({family, other.refused.size()});
   }
