@@ -324,7 +324,8 @@ std::vector<Signal> machine_signals(const nc_config& nc) {
         all.push_back({&row, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(index), name});
       };
       if (row.scope == SignalScope::kSpindle) {
-        for (unsigned n = 0; nc.system[s].spindle_count > 1 && n < nc.system[s].spindle_count; ++n) add(n, base + "." + std::to_string(n + 1));
+        const unsigned from = row.direction == SignalDirection::kFromNc ? 1 : 2;  // a single spindle has a speed, too, and nothing selects it
+        for (unsigned n = 0; nc.system[s].spindle_count >= from && n < nc.system[s].spindle_count; ++n) add(n, base + "." + std::to_string(n + 1));
       } else if (row.scope == SignalScope::kAxis || row.scope == SignalScope::kSpindleAxis) {
         for (unsigned a = 0; a < nc.system[s].axis_count; ++a)
           if (row.scope == SignalScope::kAxis || nc.system[s].axis[a].spindle != 0) add(a, base + "." + std::string(1, nc.system[s].axis[a].name));

@@ -19,8 +19,8 @@ namespace nc::rt {
 
 enum class SignalDirection : std::uint8_t { kFromNc, kToNc };
 // How often a signal exists. kControl: once for the machine; kNumberedControl: `count` times for the machine. kSystem: once for each part system. kAxis,
-// kNumbered, kSpindle and kSpindleAxis: in each part system once for each axis, `count` times, once for each spindle if it has more than one, and once for each
-// axis that is also a spindle.
+// kNumbered, kSpindle and kSpindleAxis: in each part system once for each axis, `count` times, once for each spindle (what goes to the control only if there is
+// more than one), and once for each axis that is also a spindle.
 enum class SignalScope : std::uint8_t { kControl, kNumberedControl, kSystem, kAxis, kNumbered, kSpindle, kSpindleAxis };
 
 struct SignalRow {

@@ -119,6 +119,16 @@ TEST_F(FamilyInterface, PmiVariablesOfTheSeries8) {  // G06: @RUNG6; S: @SCODE
   EXPECT_NEAR(runtime->snapshot().system[0].nc.command.v[0], 0, 1e-6) << "it ends at the start, wherever it was: " << there;
 }
 
+TEST_F(FamilyInterface, TheWantedSpeedOfTheSeries8) {  // @LCRPM: of G97, and of G96, where the S code is a surface speed (R of G92: the radius at X)
+  build("series8", "[signals]\n\"nc.spindle_command.1\" = \"word_out\"\n", "G71G90\nG97M03S600\nG04X.5\nG92R10S5000\nG96S63\nG04X.5\nG04X.5\nM30\n");
+  start();
+  EXPECT_FALSE(run(300));
+  EXPECT_EQ(machine->word_out, 600u);
+  EXPECT_FALSE(run(500));
+  EXPECT_NEAR(machine->word_out, 1000, 15) << "63 m/min at a radius of 10 mm";
+  EXPECT_TRUE(run());
+}
+
 TEST_F(FamilyInterface, NumbersOfTheM700) {  // M700 13.5.3
   build("m700", "[macro_interface]\n\"#1000\" = \"in0\"\n\"#1033\" = \"word_in\"\n\"#1100\" = \"out0\"\n\"#1133\" = \"word_out\"\n", "#100=#1000\n#101=#1033\n#1100=#100\n#1133=#101+1\nG04 P20\nM30\n");
   machine->in0 = true;

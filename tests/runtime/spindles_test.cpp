@@ -237,7 +237,8 @@ TEST_F(LadderSpindles, WithoutALadderTheFirstIsSelected) {
 TEST(SpindleSignals, AreThoseOfTheMachine) {
   std::set<std::string> names;
   for (const nc::rt::Signal& signal : nc::rt::machine_signals(nc::test::parse_or_fail(nc::test::base_toml()).nc)) names.insert(signal.name);
-  for (const char* name : {"plc.spindle_select.1", "nc.spindle_command.1", "plc.servo_on.X", "plc.servo_on.C"}) EXPECT_EQ(names.count(name), 0u) << name;
+  for (const char* name : {"plc.spindle_select.1", "nc.spindle_command.2", "plc.servo_on.X", "plc.servo_on.C"}) EXPECT_EQ(names.count(name), 0u) << name;
+  for (const char* name : {"nc.spindle_command.1", "nc.spindle_actual.1", "nc.spindle_at_speed.1"}) EXPECT_EQ(names.count(name), 1u) << name << ": a single spindle has them, too";
   nc_config nc = nc::test::parse_or_fail(nc::test::base_toml()).nc;
   nc.system[0].spindle_count = 2;
   nc.system[0].axis[2].spindle = 1;
