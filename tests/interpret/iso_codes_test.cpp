@@ -93,7 +93,7 @@ const CodeRow kRows[] = {
     {"G92.2", "G0 X5\nG92 X0\nG92.2\nX1", {"rapid 5 0 0 0", "rapid 1 0 0 0"}, "M2", {}},
     {"G92.3", "G0 X5\nG92 X0\nG92.2\nG92.3\nX1", {"rapid 5 0 0 0", "rapid 6 0 0 0"}, "M2", {}},
     {"G93", "G93 G1 X10 F2", {"line 10 0 0 0 F20"}, "M2", {{"G93 F1\nG1 X10", "NC-FEED"}}},
-    {"G94", "G93\nG94 G1 X10 F20", {"line 10 0 0 0 F20"}, "M2", {}},
+    {"G94", "G93\nG94 G1 X10 F20", {"line 10 0 0 0 F20"}, "M2", {{"G93 G1 X10 F2\nG94\nX20", "NC-FEED"}}},
     {"G95", "S100 M3\nG95 G1 X10 F.5", {"line 10 0 0 0 F0"}, "S100 M3 M2", {}},
     {"G96", "G96 D2500 S100", {}, "S100 M2", {{"G96", "NC-SPINDLE"}, {"G96 D-1 S100", "NC-RANGE"}}},
     {"G97", "G97 S100", {}, "S100 M2", {}},
@@ -147,6 +147,12 @@ TEST(IsoCodes, RefuseWhatTheyCannotHave) {
       EXPECT_EQ(run.alarm, refused.alarm) << row.code << ": " << refused.program << ": " << run.alarm_detail;
       EXPECT_EQ(run.alarm_line, lines_of(refused.program)) << row.code << ": " << refused.program;
     }
+}
+
+// RS-274/NGC 3.5.19: the F of inverse time ends with it; the code that ends it may stand alone.
+TEST(IsoCodes, OfFeedMayStandAloneBehindInverseTime) {
+  EXPECT_EQ(run_of("G93 G1 X10 F2\nG94\nF100\nX20").path(), (Path{"line 10 0 0 0 F20", "line 20 0 0 0 F100"}));
+  EXPECT_EQ(run_of("G93 G1 X10 F2\nG94\nG0 X20").alarm, "");
 }
 
 // RS-274/NGC 3.4: of each group a block has one code at most, also of group 0, whose codes are no modes. Codes of two groups are no such fault.

@@ -85,7 +85,7 @@ const CodeRow kRows[] = {
     {"G91", "G91\nX1\nX1", {"rapid 1 0 0", "rapid 2 0 0"}, "M30", {}},
     {"G92", "X20Y30\nG92X0\nX5", {"rapid 20 30 0", "rapid 25 30 0"}, "M30", {{"G41D1X5\nG92X1", "NC-OFFSET-CODE"}}},
     {"G93", "G93F2\nG01X10", {"line 10 0 0 F20"}, "M30", {{"G93\nG01X10", "NC-FEED"}}},
-    {"G94", "G95F1\nG94F50\nG01X1", {"line 1 0 0 F50"}, "M30", {}},
+    {"G94", "G93F2\nG01X0Y1\nG94\nF50\nG01X1", {"line 0 1 0 F2", "line 1 1 0 F50"}, "M30", {{"G93F2\nG01X0Y1\nG94\nX1", "NC-FEED"}}},
     {"G95", "M03S500\nG95F.5\nG01X1", {"line 1 0 0 F0"}, "S500 M3 M30", {}},
     {"G96", "G92X8\nG96S100\nX4", {"rapid -4 0 0"}, "S100 M30", {{"G96S-1", "NC-SPINDLE"}}},
     {"G97", "G97S500M03", {}, "S500 M3 M30", {}},

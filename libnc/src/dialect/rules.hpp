@@ -112,6 +112,9 @@ struct FeedRules {
   bool rotary_by_radius = false;
   /// F in inverse-time feed holds until the next one (Series 8 G93 prints it in a block of its own). Otherwise each cut has its own (M700 7.5).
   bool inverse_time_is_modal = false;
+  /// The code that ends inverse-time feed needs an F in its block (M700 7.5, precaution (4)). Otherwise it may stand alone, and the next cut needs one
+  /// (Series 8 prints G95 in a block of its own; RS-274/NGC 3.5.19).
+  bool end_of_inverse_time_needs_feed = false;
 };
 
 /// Skip: a straight line at feed that a signal ends.

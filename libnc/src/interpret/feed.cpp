@@ -108,8 +108,7 @@ Execution take_feed_word(BlockContext& in) {
 Execution change_feed_mode(BlockContext& in, Function before) {
   State& state = in.state;
   const Function now = state.modal.of(Mode::feed);
-  // M700 7.5, precaution (4)
-  if (before == Function::inverse_time_feed && !in.words.has(Role::feed)) return in.raise(Condition::no_feed, Role::feed);
+  if (in.dialect->rules.feed.end_of_inverse_time_needs_feed && before == Function::inverse_time_feed && !in.words.has(Role::feed)) return in.raise(Condition::no_feed, Role::feed);
   if (now == Function::inverse_time_feed) state.last_feed = before == Function::feed_per_minute ? feed_mm_min(in) : 0;
   state.vacant_feed = 0;
   state.modal.feed = 0;  // an F of one mode means nothing in another one
