@@ -298,17 +298,27 @@ TEST(ContourCheck, TheManualsExceptions) {
 }
 
 TEST(ContourCheck, BlocksWithoutMovementBeyondThePreRead) {
-  // Four of them close the contour: the vectors at their joint stand at right angles, which cuts into the wall. The manual's check does not see that;
-  // the vectors are what the program asks for, so the two blocks beside them are not compared with CONTOUR_CHECK either.
+  // Four of them close the contour: the vectors at their joint stand at right angles, which cuts into the wall. The manual's check does not see that.
+  // With CONTOUR_CHECK the block behind them is compared with its own path, which begins in its wall.
   const std::string corner = "G0 X-40. Y20.\nG41 D1 G1 X-30. Y0 F500\nX0\nM20\nM21\nM22\nM23\nM24\nY30.\nX-40.\nG40 X-50. Y50.\nM30\n";
   EXPECT_EQ(alarm_of_program(corner, 5, {}), "");
-  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
+  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "P153");
 }
 
-TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is computed for G41 I J, and nothing is checked beside it
+TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is computed for G41 I J, and the manual checks nothing beside it
   const std::string corner = "G0 X-40. Y20.\nG41 D1 G1 X-30. Y0 F500\nG41 X0 I1. J0\nY30.\nX-40.\nG40 X-50. Y50.\nM30\n";
   EXPECT_EQ(alarm_of_program(corner, 5, {}), "");
-  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "");
+  EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // the block behind begins in its own wall
+}
+
+// The vector of the start stands at right angles to a line that has no direction; the arc behind it begins there, nearer to its own wall than the radius.
+TEST(ContourCheck, AnArcBesideAVectorOfTheProgramCutsItsOwnWall) {
+  const auto round = [](const char* vector) {
+    return std::string("G0 X-0.061154 Y-0.067259\nG42 D1 G1 X0.494681 Y0.241538 ") + vector + " F1000\nG1 X0.494686 Y0.241529\nG2 X0.494681 Y0.241538 I-0.494686 J-0.241529\nG1 G40 X-0.006274 Y0.154226\nM30\n";
+  };
+  EXPECT_EQ(alarm_of_program(round("I0.485643 J-0.874157"), 0.367, {}), "");
+  EXPECT_EQ(alarm_of_program(round("I0.485643 J-0.874157"), 0.367, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(round("I0.241538 J-0.494681"), 0.367, {{"CONTOUR_CHECK", "1"}}), "");  // at right angles to the arc
 }
 
 // At an inner corner the arc of G39 leads the tool into the block in front of it. A movement across the plane puts the block behind on another level.

@@ -122,7 +122,8 @@ bool ContourMemory::across_given(const Path& path, uint64_t number, const Wall& 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
   const uint64_t between = apart(path.number, number);
-  if (between == 0 && !path.bends) return false;  // a path lies beside its own wall; the arc of G39 at an inner corner turns into it
+  // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
+  if (between == 0 && !path.bends && !path.crosses_own) return false;
   if (between == 1 && (path.offset * wall.offset < 0 || across_given(path, number, wall))) return false;
   OpenEnds open;
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
@@ -189,8 +190,10 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     ahead.to_given = from_given;
     add(ahead, lead);
   }
+  // Where the vector has been taken away (G28) the tool stands on the contour, as at a start: that is no wall which it cuts.
+  path.crosses_own = (path.from_given && norm(from) > 0) || (path.to_given && norm(section.joint.v[0]) > 0);
   add(path, path_of(section, start, from, section.joint.v[0]));
-  path.from_given = false;
+  path.from_given = path.crosses_own = false;
   path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
     Piece piece;

@@ -8,7 +8,7 @@
 // three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
-// What is not compared: a path with its own wall (but for the arc of G39), blocks on other levels (the axis across the plane), and of vectors that the program gives itself
+// What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given), blocks on other levels (the axis across the plane), and of vectors that the program gives itself
 // (I J K, G38, what stops the pre-read, a change of side) the block before and the block behind, each with the path of the other.
 //
 // Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
@@ -86,6 +86,7 @@ class ContourMemory {
     double low = 0, high = 0;
     bool from_given = false, to_given = false;  ///< by the program: the vector at this end may lie anywhere
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
+    bool crosses_own = false;  ///< the move of a block, one of whose ends is given: it need not lie beside its own wall
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
 
