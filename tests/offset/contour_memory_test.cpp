@@ -338,6 +338,16 @@ TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
   EXPECT_EQ(alarm_of_program(behind("X10. Y-30."), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // across the path of the tool
 }
 
+// The joint at the end of a short block behind the change leads back beside the next block, and there comes too near to the block in front of the change.
+TEST(ContourCheck, TheJointBehindAShortBlockAtAChangeOfSide) {
+  const auto star = [](const char* tip) {
+    return std::string("G0 X40. Y40.\nG42 D1 G1 X23.904656 Y11.024765 F500\nX19.142321 Y15.831631\nX9.099936 Y22.306487\nG41 ") + tip + "\nX-12.370215 Y18.738496\nX-20.516452 Y10.972188\nG40 X-40.\nM30\n";
+  };
+  EXPECT_EQ(alarm_of_program(star("X9.892601 Y20.750080"), 1.12, {}), "");
+  EXPECT_EQ(alarm_of_program(star("X9.892601 Y20.750080"), 1.12, {{"CONTOUR_CHECK", "1"}}), "P153");  // 1.072 mm from the third block
+  EXPECT_EQ(alarm_of_program(star("X9.6 Y20.3"), 1.12, {{"CONTOUR_CHECK", "1"}}), "");
+}
+
 // I J of a start give the vector at its end. What the tool meets on its way there, and on the way behind it, is checked.
 TEST(ContourCheck, VectorOfAStart) {
   const auto hole = [](const char* from, const char* start) { return std::string("G0 ") + from + "\nG41 D1 " + start + "\nG3 J-6.\nG1 G40 X0 Y0\nM30\n"; };

@@ -121,7 +121,7 @@ bool ContourMemory::across_given(const Path& path, uint64_t number, const Wall& 
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
-  const uint64_t between = apart(path.number, number);
+  const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
   if (between == 0 && !path.bends && !path.crosses_own) return false;
   if (between == 1 && (path.offset * wall.offset < 0 || across_given(path, number, wall))) return false;
@@ -199,6 +199,8 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     Piece piece;
     piece.from = end + section.joint.v[k - 1];
     piece.to = end + section.joint.v[k];
+    path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
+    path.to_given = path.to_given && !path.of_next;
     add(path, section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
   }
   if (!section.cancel || section.transparent) return found;

@@ -87,6 +87,7 @@ class ContourMemory {
     bool from_given = false, to_given = false;  ///< by the program: the vector at this end may lie anywhere
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
     bool crosses_own = false;  ///< the move of a block, one of whose ends is given: it need not lie beside its own wall
+    bool of_next = false;      ///< the last piece of a lengthened joint: it lies beside the block behind, and so is compared like that one's path
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
 
