@@ -112,6 +112,7 @@ class Session {
     if (dice_.chance(0.002)) in_.skip ^= 1u << dice_.draw(4);
     if (dice_.chance(0.01)) in_.input[0] ^= 1u << dice_.draw(3);
     by_hand();
+    if (out_.state == NC_STATE_STOPPED && dice_.chance(0.03)) enter_mdi();
     if (dice_.chance(haste_ * 0.004)) call();
   }
 
@@ -129,6 +130,12 @@ class Session {
     return dice_.chance(0.05) ? dice_.one_of(kOdd) : usual;
   }
 
+  void enter_mdi() {
+    mdi_ = PartMaker(dice_, 20).mdi();
+    // In a block stop the blocks interrupt the program, which stays the one that is counted.
+    if (nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size()) == NC_OK && out_.state != NC_STATE_STOPPED) tally_.mdi();
+  }
+
   /// Calls of the feeder's thread at any time; each may be refused, none may do harm.
   void call() {
     const unsigned axis = dice_.draw(config_.system[0].axis_count);
@@ -140,12 +147,7 @@ class Session {
       case 4:
         if (nc_program_select(machine_, 0, dice_.draw(3)) == NC_OK) tally_.selected();
         break;
-      case 5: {
-        mdi_ = PartMaker(dice_, 20).mdi();
-        // In a block stop the blocks interrupt the program, which stays the one that is counted.
-        if (nc_mdi_load(machine_, 0, mdi_.data(), mdi_.size()) == NC_OK && out_.state != NC_STATE_STOPPED) tally_.mdi();
-        break;
-      }
+      case 5: enter_mdi(); break;
       case 6: nc_recalculate(machine_, 0); break;
       case 7: nc_reset(machine_, 0); break;
       case 8: nc_rewind(machine_, 0, dice_.draw(200)); break;
