@@ -423,6 +423,41 @@ TEST_P(Retract, AStartIsRefusedWhileTheTapStandsInItsHole) {
   EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
 }
 
+TEST_P(Retract, ASpindleThatDoesNotTurnAnyMoreLocksNobodyOut) {
+  into_the_hole();
+  const double stands = spindle.turns();
+  const auto cycle = [&](bool start) {  // the encoder answers, and shows a spindle that stands
+    drive->in.spindle[0].rev_per_s = 0;
+    drive->in.spindle[0].turns = stands;
+    drive->in.spindle[0].turns_valid = true;
+    drive->in.cycle_start = start;
+    drive->step(50);
+  };
+  const auto wait = [&] {
+    for (unsigned n = 0; n < 3000; ++n) cycle(false);
+  };
+  cycle(true);
+  wait();
+  EXPECT_EQ(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+  drive->in.tap_retract = true;
+  wait();
+  drive->in.tap_retract = false;
+  EXPECT_EQ(drive->out.state, NC_STATE_ALARM) << "NC-TAP";
+  drive->in.reset = true;
+  cycle(false);
+  drive->in.reset = false;
+  wait();
+  EXPECT_EQ(drive->out.state, NC_STATE_IDLE);
+  EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+  cycle(true);
+  bool began = false;
+  for (unsigned n = 0; n < 500; ++n) {
+    began = began || drive->out.state == NC_STATE_RUNNING;
+    cycle(false);
+  }
+  EXPECT_TRUE(began);
+}
+
 TEST_P(Retract, NothingIsDrawnOutWhereNoTapStands) {
   start("G1 Z-3. F3000");
   drive->in.tap_retract = true;

@@ -364,6 +364,7 @@ class Interpolator {
     bool known = false;              ///< a stroke has begun: what stands below is its
     bool held = false;               ///< in the hole without a program: the spindle turns with its axis by hand, and not else
     bool drawing = false;            ///< it is drawn out
+    bool stuck = false;              ///< held, and its spindle has not followed: it cannot be drawn out with it
     bool pressed = false;            ///< level of the signal for that
     int c_axis = -1;                 ///< its spindle is this axis
     unsigned axis = 0;               ///< that the tap moves

@@ -90,6 +90,7 @@ void Interpolator::hold_tap() {
   if (tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += tap_.added;
   tap_.added = 0;
   tap_.held = true;
+  tap_.stuck = false;
 }
 
 /// The next code for the spindle ends it.
@@ -128,6 +129,7 @@ void Interpolator::follow_tap(const nc_inputs& in) {
   if (tap_follower_.trouble() == TapFollower::Trouble::none || faulted_ != ScanFault::none) return;
   if (!alarmed_ && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
   faulted_ = tap_follower_.trouble() == TapFollower::Trouble::jumped ? ScanFault::encoder : ScanFault::tap;
+  tap_.stuck = tap_.held;
   alarmed_ = true;
 }
 
