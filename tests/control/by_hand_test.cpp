@@ -5,58 +5,16 @@
 
 #include <random>
 
-#include "support/drive.hpp"
 #include "support/seeds.hpp"
+#include "support/watched_machine.hpp"
 
 namespace nc::test {
 namespace {
 
-constexpr double kVelocity[4] = {100, 100, 100, 360};
-constexpr double kCycle = 0.001;
-
-std::function<void(nc_config&)> machine(bool optimal) {
-  return [optimal](nc_config& c) {
-    axes("XYZc")(c);
-    c.cycle_s = kCycle;
-    c.look_ahead = 128;
-    c.motion_mode = optimal ? NC_MOTION_OPTIMAL : NC_MOTION_TRAPEZOID;
-    for (unsigned i = 0; i < 4; ++i) {
-      nc_axis_config& axis = c.system[0].axis[i];
-      axis.rapid = axis.max_velocity = kVelocity[i];
-      axis.max_acceleration = 20 * kVelocity[i];
-      axis.max_jerk = optimal ? 400 * kVelocity[i] : 0;
-    }
-  };
-}
-
-/// A machine, and the largest step that it gave to an axis, divided by the step that the axis' velocity allows.
-class HandMachine {
+class HandMachine : public WatchedMachine {
  public:
-  explicit HandMachine(bool optimal, double x = 20) : bench(NC_DIALECT_M700, machine(optimal)) {
+  explicit HandMachine(bool optimal, double x = 20) : WatchedMachine(NC_DIALECT_M700, "XYZc", {100, 100, 100, 360}, optimal, 20) {
     bench.param("1516", "C").param("8025", "1").param("1084", "0.1").tool(4, 1.5).at(x, 0, 0);
-  }
-  void start(const std::string& text) {
-    drive = std::make_unique<Drive>(bench, text);
-    drive->in.single_block = true;
-    first_ = true;
-    press();
-  }
-  void press() {
-    drive->in.cycle_start = true;
-    step(2);
-    drive->in.cycle_start = false;
-  }
-  void step(unsigned cycles = 1) {
-    for (; cycles > 0; --cycles) {
-      drive->step(20);
-      for (unsigned i = 0; i < 4 && !first_; ++i) {
-        const double way = std::fabs(drive->out.command.v[i] - last_.v[i]);
-        const double part = std::isfinite(way) ? way / (kVelocity[i] * kCycle) : INFINITY;
-        if (part > worst) worst = part, worst_axis = i, worst_line = drive->out.source.line;
-      }
-      last_ = drive->out.command;
-      first_ = false;
-    }
   }
   bool until_stop() {
     for (unsigned n = 0; n < 200000; ++n) {
@@ -70,19 +28,10 @@ class HandMachine {
     drive->in.manual[axis] = {NC_MANUAL_STEP, 0, by};
     step();
     drive->in.manual[axis] = {};
-    const unsigned settle = static_cast<unsigned>(std::fabs(by) / kVelocity[axis] / kCycle) + 400;
+    const unsigned settle = static_cast<unsigned>(std::fabs(by) / (axis < 3 ? 100 : 360) / kCycle) + 400;
     step(settle);
   }
   double at(unsigned axis) const { return drive->out.command.v[axis]; }
-
-  Bench bench;
-  std::unique_ptr<Drive> drive;
-  double worst = 0;
-  unsigned worst_axis = 0, worst_line = 0;
-
- private:
-  nc_axes last_{};
-  bool first_ = true;
 };
 
 class ByHand : public testing::TestWithParam<bool> {};

@@ -5,53 +5,15 @@
 
 #include <random>
 
-#include "support/drive.hpp"
 #include "support/seeds.hpp"
+#include "support/watched_machine.hpp"
 
 namespace nc::test {
 namespace {
 
-constexpr double kVelocity[3] = {200, 200, 200};
-constexpr double kCycle = 0.001;
-
-class Machine {
+class Machine : public WatchedMachine {
  public:
-  explicit Machine(bool optimal, nc_dialect dialect = NC_DIALECT_M700)
-      : bench(dialect, [optimal](nc_config& c) {
-          axes("XYZ")(c);
-          c.cycle_s = kCycle;
-          c.look_ahead = 128;
-          c.motion_mode = optimal ? NC_MOTION_OPTIMAL : NC_MOTION_TRAPEZOID;
-          for (unsigned i = 0; i < 3; ++i) {
-            nc_axis_config& axis = c.system[0].axis[i];
-            axis.rapid = axis.max_velocity = kVelocity[i];
-            axis.max_acceleration = 20 * kVelocity[i];
-            axis.max_jerk = optimal ? 400 * kVelocity[i] : 0;
-          }
-        }) {
-    bench.tool(1, 4);
-  }
-  void start(const std::string& text) {
-    drive = std::make_unique<Drive>(bench, text);
-    drive->in.single_block = true;
-    press();
-  }
-  void press() {
-    drive->in.cycle_start = true;
-    step(2);
-    drive->in.cycle_start = false;
-  }
-  void step(unsigned cycles = 1) {
-    for (; cycles > 0; --cycles) {
-      drive->step(40);
-      for (unsigned i = 0; i < 3 && known_; ++i) {
-        const double way = std::fabs(drive->out.command.v[i] - last_.v[i]);
-        worst = std::max(worst, std::isfinite(way) ? way / (kVelocity[i] * kCycle) : INFINITY);
-      }
-      last_ = drive->out.command;
-      known_ = true;
-    }
-  }
+  explicit Machine(bool optimal, nc_dialect dialect = NC_DIALECT_M700) : WatchedMachine(dialect, "XYZ", {200, 200, 200}, optimal, 40) { bench.tool(1, 4); }
   bool stands() const { return drive->out.state != NC_STATE_RUNNING && drive->out.state != NC_STATE_HOLD; }
   bool until_stop() {
     step(12);
@@ -91,14 +53,6 @@ class Machine {
     EXPECT_NEAR(drive->out.command.v[2], z, near);
   }
   std::string state() const { return "state " + std::to_string(drive->out.state) + " cause " + std::to_string(drive->out.cause) + " line " + std::to_string(drive->out.source.line); }
-
-  Bench bench;
-  std::unique_ptr<Drive> drive;
-  double worst = 0;
-
- private:
-  nc_axes last_{};
-  bool known_ = false;
 };
 
 class MdiInterrupt : public testing::TestWithParam<bool> {};
