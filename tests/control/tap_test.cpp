@@ -449,6 +449,18 @@ TEST_P(Retract, ASpindleThatDoesNotTurnAnyMoreLocksNobodyOut) {
   wait();
   EXPECT_EQ(drive->out.state, NC_STATE_IDLE);
   EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+  ASSERT_TRUE(drive->out.tap_retract_possible);
+  drive->in.tap_retract = true;  // another attempt has begun: what it finds counts, and meanwhile a start is refused again
+  cycle(false);
+  cycle(true);
+  EXPECT_EQ(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+  wait();
+  drive->in.tap_retract = false;
+  EXPECT_EQ(drive->out.state, NC_STATE_ALARM);
+  drive->in.reset = true;
+  cycle(false);
+  drive->in.reset = false;
+  wait();
   cycle(true);
   bool began = false;
   for (unsigned n = 0; n < 500; ++n) {

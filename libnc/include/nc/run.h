@@ -337,7 +337,7 @@ typedef enum nc_stop_cause {
                                        not taken before IDLE */
   NC_CAUSE_SPINDLE_REVERSED = 20, /**< the spindle turns the other way round than the program has commanded (M03, M04): a thread does not begin */
   NC_CAUSE_TAP_IN_HOLE = 21,      /**< a cycle start was refused because a synchronous tap stands in its hole: it is drawn out first, by the signal
-                                       or by hand (nc_inputs::tap_retract) */
+                                       or by hand (nc_inputs::tap_retract). Not behind NC-TAP in such an attempt, since its spindle does not follow */
   NC_CAUSE_MDI_ENDED = 22         /**< the blocks of MDI that interrupt a program have been executed: cycle start goes on with the program */
 } nc_stop_cause;
 

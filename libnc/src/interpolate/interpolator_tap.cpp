@@ -157,7 +157,7 @@ bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Ru
   const bool rises = in.tap_retract && !tap_.pressed;
   tap_.pressed = in.tap_retract;
   if (there || rules->stop || (in.unlimited >> tap_.axis & 1) != 0) tap_.drawing = false;
-  else if (rises) tap_.drawing = true;
+  else if (rises) tap_.drawing = true, tap_.stuck = false;  // the spindle may turn again: this attempt tells
   if (!tap_.drawing) return false;
   if (!in.tap_retract) rules->held |= bit;
   wish[tap_.axis] = {NC_MANUAL_STEP, std::fabs(tap_.speed), way};
