@@ -14,8 +14,8 @@
 
 namespace {
 
-nc::LexRules m700_like() {
-  nc::LexRules rules = nc::iso_rules();
+nc::IsoRules m700_like() {
+  nc::IsoRules rules = nc::iso_rules();
   rules.semicolon = nc::Semicolon::ends_line;
   rules.macros = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.slash_only_at_head = false;
@@ -39,11 +39,11 @@ std::string surface(unsigned lines) {
 struct Reader {
   std::unique_ptr<char[]> memory = std::make_unique<char[]>(4 << 20);
   nc::Arena arena{memory.get(), 4 << 20};
-  nc::LexRules rules = m700_like();
+  nc::IsoRules rules = m700_like();
   nc::ProgramStore store;
   nc::BlockReader reader;
   Reader() {
-    store.create(8, 0, arena);
+    store.create(8, 0, rules.program_letter, arena);
     reader.create(&store, &rules, 65536, 256, arena);
   }
 };
@@ -73,7 +73,7 @@ void run(benchmark::State& state, Reader& reader, size_t bytes) {
 
 void lexer_alone(benchmark::State& state) {
   const std::string text = surface(1000);
-  const nc::LexRules rules = m700_like();
+  const nc::IsoRules rules = m700_like();
   auto block = std::make_unique<nc::Block>();
   int64_t blocks = 0;
   for (auto _ : state) {

@@ -12,6 +12,7 @@
 
 #include "dialect/dialect.hpp"
 #include "dialect/function_table.hpp"
+#include "dialect/iso_lexer.hpp"
 #include "modal/modal_state.hpp"
 #include "places/places.hpp"
 
@@ -366,9 +367,9 @@ TEST(M700Manual, ConditionsHaveTheCodesThatTheSectionsPrint) {
 }
 
 TEST(M700Manual, WordsTakeTheDigitsOf32) {
-  const auto digits = [](char letter) { return m700().lex->word[letter - 'A'].integer_digits; };
+  const auto digits = [](char letter) { return iso_rules_of(*m700().lex).word[letter - 'A'].integer_digits; };
   for (char letter = 'A'; letter <= 'Z'; ++letter)
-    EXPECT_TRUE(m700().lex->word[letter - 'A'].known) << letter;
+    EXPECT_TRUE(iso_rules_of(*m700().lex).word[letter - 'A'].known) << letter;
   EXPECT_EQ(digits('O'), 8);
   EXPECT_EQ(digits('N'), 6);
   EXPECT_EQ(digits('G'), 3);
@@ -381,7 +382,7 @@ TEST(M700Manual, WordsTakeTheDigitsOf32) {
 TEST(DgshapeManual, WordsAreThoseOf27) {
   const std::string known = "AIJKNORXYZGMFSTPDHLQ";
   for (char letter = 'A'; letter <= 'Z'; ++letter) {
-    EXPECT_EQ(dgshape().lex->word[letter - 'A'].known, known.find(letter) != std::string::npos) << letter;
+    EXPECT_EQ(iso_rules_of(*dgshape().lex).word[letter - 'A'].known, known.find(letter) != std::string::npos) << letter;
   }
   EXPECT_FALSE(dgshape().lex->macros);
   EXPECT_EQ(dgshape().lex->semicolon, Semicolon::unknown);
@@ -394,7 +395,7 @@ TEST(IsoManual, GCodesAndGroupsAreThoseOfTheLists) {
 }
 
 TEST(IsoManual, WordsAreThoseOfTable2) {  // RS-274/NGC 3.3.2; E of M66 to M68 and U V W are LinuxCNC's, O begins a control structure
-  for (char letter = 'A'; letter <= 'Z'; ++letter) EXPECT_EQ(iso().lex->word[letter - 'A'].known, letter != 'O') << letter;
+  for (char letter = 'A'; letter <= 'Z'; ++letter) EXPECT_EQ(iso_rules_of(*iso().lex).word[letter - 'A'].known, letter != 'O') << letter;
   EXPECT_EQ(iso().lex->semicolon, Semicolon::comment);
   EXPECT_FALSE(iso().percent_required);
 }

@@ -32,8 +32,8 @@ long read_at(void* user, uint64_t offset, char* buffer, size_t size) {
   return static_cast<long>(size);
 }
 
-nc::LexRules rules_of(uint8_t choice) {
-  nc::LexRules rules = nc::iso_rules();
+nc::IsoRules rules_of(uint8_t choice) {
+  nc::IsoRules rules = nc::iso_rules();
   const bool macros = (choice & 1) == 0;
   rules.macros = rules.statements = rules.skip_numbers = rules.comma_words = rules.angle_names = macros;
   if ((choice & 0x80) != 0) rules.formula = nc::Formula::ngc;
@@ -76,10 +76,10 @@ struct Fixture {
   std::unique_ptr<char[]> memory{new char[kMemory]};
   nc::Arena arena{memory.get(), kMemory};
   nc::ProgramStore store;
-  nc::LexRules rules;
+  nc::IsoRules rules;
   nc::BlockReader whole, narrow;
   Fixture(uint8_t choice) : rules(rules_of(choice)) {
-    store.create(2, 0, arena);
+    store.create(2, 0, rules.program_letter, arena);
     whole.create(&store, &rules, 64, 8, arena);
     narrow.create(&store, &rules, 16 + choice / 2, choice % 16, arena);
   }

@@ -60,7 +60,7 @@ class Interpreted {
  private:
   void lay_out(Arena& arena) {
     const Dialect& family = dialect(static_cast<nc_dialect>(config_.dialect));
-    store.create(config_.programs, 1, arena);
+    store.create(config_.programs, 1, family.lex->program_letter, arena);
     common_.create(CommonRanges{}, arena);
     vendor_.create(nullptr, 0, family, nullptr, arena);
     InterpreterConfig in_config;

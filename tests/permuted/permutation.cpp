@@ -165,12 +165,12 @@ PermutedDialect::PermutedDialect(const Dialect& family, const Permutation& permu
   parameters_.machine = table(machine_);
   parameters_.of_axes = table(of_axes_);
   variables_.rows = table(variable_rows_);
-  lex_ = *family.lex;
+  lex_ = iso_rules_of(*family.lex);
   dialect_.length_addresses = 0;
   for (unsigned i = 0; i < 26; ++i) {
     const char letter = permutation.letter(static_cast<char>('A' + i));
     const auto to = static_cast<unsigned>(letter - 'A');
-    lex_.word[to] = family.lex->word[i];
+    lex_.word[to] = iso_rules_of(*family.lex).word[i];
     argument_of_[to] = family.argument_of[i];
     if ((family.length_addresses >> i & 1) != 0) dialect_.length_addresses |= 1u << to;
     if ((family.calling_words >> i & 1) != 0) dialect_.calling_words |= 1u << to;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dialect/dialect.hpp"
+#include "dialect/iso_lexer.hpp"
 
 namespace nc::permuted {
 
@@ -59,7 +60,7 @@ class PermutedDialect {
 
  private:
   Dialect dialect_;
-  LexRules lex_;
+  IsoRules lex_;
   uint8_t argument_of_[kAddresses] = {};
   FamilyParameters parameters_;
   FamilyVariables variables_;

@@ -18,8 +18,8 @@
 
 namespace nc::test {
 
-inline LexRules m700_rules() {
-  LexRules rules = iso_rules();
+inline IsoRules m700_rules() {
+  IsoRules rules = iso_rules();
   rules.macros = rules.statements = rules.skip_numbers = rules.comma_words = rules.angle_names = true;
   rules.semicolon = rules.mdi_semicolon = Semicolon::ends_block;
   rules.slash_only_at_head = false;
@@ -31,8 +31,8 @@ inline LexRules m700_rules() {
   return rules;
 }
 
-inline LexRules dgshape_rules() {
-  LexRules rules = iso_rules();
+inline IsoRules dgshape_rules() {
+  IsoRules rules = iso_rules();
   for (char c :
        {'A', 'D', 'F', 'G', 'H', 'I', 'J', 'K', 'L', 'M', 'N', 'O', 'P', 'Q', 'R', 'S', 'T', 'X', 'Y', 'Z'}) {
     rules.word[c - 'A'].known = true;
@@ -41,13 +41,13 @@ inline LexRules dgshape_rules() {
   return rules;
 }
 
-inline LexRules with_semicolon(Semicolon semicolon) {
-  LexRules rules = m700_rules();
+inline IsoRules with_semicolon(Semicolon semicolon) {
+  IsoRules rules = m700_rules();
   rules.semicolon = semicolon;
   return rules;
 }
 
-inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules = m700_rules(),
+inline std::unique_ptr<Block> lex(const std::string& text, const IsoRules& rules = m700_rules(),
                                   LexResult* result = nullptr) {
   auto block = std::make_unique<Block>();
   // A copy of exactly this size, so that a sanitizer finds a read beyond it.
@@ -57,7 +57,7 @@ inline std::unique_ptr<Block> lex(const std::string& text, const LexRules& rules
   return block;
 }
 
-inline Condition fault_of(const std::string& text, const LexRules& rules = m700_rules()) {
+inline Condition fault_of(const std::string& text, const IsoRules& rules = m700_rules()) {
   const auto block = lex(text, rules);
   return block->has_fault ? block->fault.condition : Condition::none;
 }
@@ -114,11 +114,11 @@ inline std::string dump(const Block& b) {
 /// A store with its reader; texts in memory or through a callback that gives few bytes at a time.
 class Texts {
  public:
-  explicit Texts(unsigned window = 65536, unsigned cached = 32, LexRules lex_rules = m700_rules())
+  explicit Texts(unsigned window = 65536, unsigned cached = 32, IsoRules lex_rules = m700_rules())
       : rules(lex_rules),
         memory_(std::make_unique_for_overwrite<char[]>(kMemory)),
         arena_(memory_.get(), kMemory) {
-    store.create(16, 0, arena_);
+    store.create(16, 0, rules.program_letter, arena_);
     reader.create(&store, &rules, window, cached, arena_);
   }
 
@@ -171,7 +171,7 @@ class Texts {
     }
   }
 
-  LexRules rules;
+  IsoRules rules;
   ProgramStore store;
   BlockReader reader;
 

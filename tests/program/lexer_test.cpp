@@ -154,7 +154,7 @@ TEST(Lexer, OptionalSkip) {  // M700 3.4
 }
 
 TEST(Lexer, NumbersAtTheHeadHaveTheLettersOfTheFamily) {
-  LexRules rules = m700_rules();
+  IsoRules rules = m700_rules();
   rules.program_letter = 'L';
   rules.sequence_letter = 'Q';
   const auto both = lex("L5 Q7 G3\n", rules);

@@ -100,7 +100,7 @@ TEST(Number, EightCharactersAtOnceCountAndConvert) {
 /// every word format.
 TEST(Number, WordsEqualStrtodNearAndFarFromTheEnd) {
   std::mt19937_64 random(10);
-  const LexRules rules = m700_rules();
+  const IsoRules rules = m700_rules();
   for (int i = 0; i < 100000; ++i) {
     std::string number = random_digits(random, static_cast<unsigned>(random() % 9));
     if (random() % 2 != 0) number += "." + random_digits(random, static_cast<unsigned>(random() % 12));

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Semicolons, ReaderOfRandomTexts,
                          testing::Values(Semicolon::unknown, Semicolon::ends_line, Semicolon::comment, Semicolon::ends_block));
 
 TEST_P(ReaderOfRandomTexts, AreTheSameThroughEveryWindow) {
-  const LexRules rules = with_semicolon(GetParam());
+  const IsoRules rules = with_semicolon(GetParam());
   std::mt19937 random(3);
   const char alphabet[] = "GXYZN0123456789.-#[]()=;%/ \n\r,<>IFDOMQ\t+*\x80?O\"";
   for (int round = 0; round < 1000; ++round) {

@@ -33,6 +33,24 @@ TEST(ProgramStore, NumbersFromNames) {
   EXPECT_EQ(t.store.find_number(0), -1);
 }
 
+// The letter of program numbers is the family's, in names of files as in texts; O where its texts have none.
+TEST(ProgramStore, NumbersHaveTheLetterOfTheFamily) {
+  for (const char letter : {'L', '\0'}) {
+    IsoRules rules = m700_rules();
+    rules.program_letter = letter;
+    Texts t(65536, 32, rules);
+    const std::string with_l = letter != 0 ? "L" : "O", other = letter != 0 ? "O" : "L";
+    EXPECT_EQ(t.store.entry(t.add_memory((with_l + "20.nc").c_str(), "G1\n"))->number, 20u);
+    EXPECT_EQ(t.store.entry(t.add_memory((other + "30.nc").c_str(), "G1\n"))->number, 0u);
+    EXPECT_EQ(t.store.entry(t.add_memory("40.nc", "G1\n"))->number, 40u);
+    std::string asked;
+    t.store.on_missing([](void* user, nc_control*, const char* name) { return *static_cast<std::string*>(user) += std::string(name) + " ", false; }, &asked, nullptr);
+    EXPECT_FALSE(t.reader.find_program(5, t.add_memory("main.nc", "M30\n")).valid());
+    EXPECT_FALSE(t.reader.find_external("198:", nullptr, 0, 6).valid());
+    EXPECT_EQ(asked, with_l + "5 198:" + with_l + "6 ");
+  }
+}
+
 TEST(ProgramStore, NamesIgnoreCaseFolderAndAMissingEnding) {
   Texts t;
   const int a = static_cast<int>(t.add_memory("dir/Parts-12.RAF", "G1\n"));

@@ -408,8 +408,8 @@ typedef long (*nc_read_at)(void* user, uint64_t offset, char* buffer, size_t siz
  * or watches the file: this library's own hosts (ncrtd, ncsim) keep a copy of a file of up to 16 MiB, and for a larger one compare size, time,
  * place and a hash of each part with what they were; their `read` gives NC_READ_CHANGED when one of them differs. Feeder thread.
  * @param control the control
- * @param name file name without folder, at most NC_MAX_NAME - 1 bytes; "O1000", "1000", "1000.nc" make it program 1000 even when the text
- *             has no O line. Copied. An entry of the same name is replaced.
+ * @param name file name without folder, at most NC_MAX_NAME - 1 bytes; "O1000", "1000", "1000.nc" make it program 1000 even when the text has no O
+ *             line. In a family whose program numbers have another letter it is that letter. Copied. An entry of the same name is replaced.
  * @param read gives pieces of the text, in the feeder thread
  * @param user handed to `read`
  * @param size bytes of the text

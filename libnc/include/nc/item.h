@@ -156,7 +156,7 @@ typedef struct nc_action {
   uint32_t index;      /**< what it means is said at each nc_action_kind */
   uint32_t text;       /**< NC_ACTION_MESSAGE: id for nc_text_get() */
   uint8_t kind;        /**< nc_action_kind */
-  char letter;         /**< address as programmed */
+  char letter;         /**< address as programmed; 0 where the language spells it with more than a letter */
 } nc_action;
 
 /** Payload of a gate. */

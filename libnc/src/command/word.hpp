@@ -47,7 +47,7 @@ enum class Sign : char { none = 0, variable = '#', file_name = '<' };
 /// Puts into an alarm what it is about.
 inline void name_word(Fault& fault, WordSlot word) { fault.letter = letter_of(word); }
 /// Puts into an action the word that commands it.
-inline void name_word(Action& action, WordSlot word) { action.letter = letter_of(word); }
+inline void name_word(Action& action, WordSlot word) { action.letter = index_of(word) < kLetters ? letter_of(word) : char{0}; }
 inline void name_sign(Fault& fault, Sign sign) { fault.letter = static_cast<char>(sign); }
 /// The word that an alarm is about, kNoWord = none.
 inline WordSlot word_of(const Fault& fault) { return word_named(fault.letter); }

@@ -83,7 +83,7 @@ constexpr ptrdiff_t kShortReach = 20;
 
 class Lexer {
  public:
-  Lexer(const char* text, size_t size, const LexRules& rules, Semicolon semicolon, const uint8_t* columns,
+  Lexer(const char* text, size_t size, const IsoRules& rules, Semicolon semicolon, const uint8_t* columns,
         Block& block)
       : rules_(rules), block_(block), text_(text), columns_(columns), semicolon_(semicolon) {
     at_.p = text;
@@ -692,7 +692,7 @@ class Lexer {
     return fault(f, letter);
   }
 
-  const LexRules& rules_;
+  const IsoRules& rules_;
   Block& block_;
   const char* const text_;
   const uint8_t* const columns_;
@@ -705,7 +705,7 @@ class Lexer {
 LexResult lex_block(const char* text, size_t size, const LexRules& rules, Semicolon semicolon,
                     const uint8_t* columns, Block& block) {
   block.clear();
-  return Lexer(text, size, rules, semicolon, columns, block).run();
+  return Lexer(text, size, iso_rules_of(rules), semicolon, columns, block).run();
 }
 
 }  // namespace nc

@@ -10,6 +10,21 @@
 
 namespace nc {
 
+void AlarmSubject::name_in(Fault& fault, const AddressTable& addresses) const {
+  if (kind_ == Kind::word) name_word(fault, WordSlot{number_});
+  if (kind_ == Kind::role) name_word(fault, addresses.word(static_cast<Role>(number_)));
+  if (kind_ == Kind::sign) name_sign(fault, static_cast<Sign>(number_));
+}
+
+Execution BlockContext::raise(Condition condition, AlarmSubject about, std::optional<double> value) {
+  fault = Fault{};
+  fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
+  about.name_in(fault, dialect->addresses);
+  fault.has_value = value.has_value();
+  if (value) fault.value = *value;
+  return Execution::fault;
+}
+
 void BlockContext::refresh_axis_words() {
   axis_words.name(system->axis, axis_count);
   if (state.mill.hypothetical_word != kNoWord) axis_words.add(state.mill.hypothetical_word, state.map.rotary);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstring>
+#include <optional>
 
 #include "base/intern_pool.hpp"
 #include "command/words_of_block.hpp"
@@ -33,6 +34,22 @@ enum class Execution : uint8_t {
   fault,   ///< Interpreter::fault says what is wrong
   sync,    ///< Interpreter::sync_needed says what is missing; the same is executed again when the answer is there
   later    ///< the block goes on at the next call (a cycle, an answer)
+};
+
+/// What an alarm is about: nothing, a word, given by itself or by its meaning, or a variable, a name or a character of a text.
+class AlarmSubject {
+ public:
+  constexpr AlarmSubject() = default;
+  constexpr AlarmSubject(WordSlot word) : kind_(Kind::word), number_(static_cast<uint8_t>(word)) {}    // NOLINT(google-explicit-constructor): a call names its subject
+  constexpr AlarmSubject(Role role) : kind_(Kind::role), number_(static_cast<uint8_t>(role)) {}        // NOLINT(google-explicit-constructor)
+  constexpr AlarmSubject(Sign sign) : kind_(Kind::sign), number_(static_cast<uint8_t>(sign)) {}        // NOLINT(google-explicit-constructor)
+  /// Puts it into an alarm of a family.
+  void name_in(Fault& fault, const AddressTable& addresses) const;
+
+ private:
+  enum class Kind : uint8_t { nothing, word, role, sign };
+  Kind kind_ = Kind::nothing;
+  uint8_t number_ = 0;
 };
 
 /// A text on its way to the operator or to an output.
@@ -220,47 +237,16 @@ struct BlockContext {
   }
 
   // ---- alarms and questions
-  /// Raises an alarm. Where the text could not be read, that is the alarm, because `condition` (something is missing) may only follow from it.
-  Execution raise(Condition condition) {
-    fault = Fault{};
-    fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
-    return Execution::fault;
-  }
-  /// An alarm about a word of the block.
-  Execution raise(Condition condition, WordSlot word) {
-    raise(condition);
-    name_word(fault, word);
-    return Execution::fault;
-  }
-  Execution raise(Condition condition, WordSlot word, double value) {
-    raise(condition, word);
-    return with_value(value);
-  }
-  /// The same for a word that is given by its meaning.
-  Execution raise(Condition condition, Role role) { return raise(condition, word(role)); }
-  Execution raise(Condition condition, Role role, double value) { return raise(condition, word(role), value); }
-  /// An alarm about a variable, or about a name or a character of a text.
-  Execution raise(Condition condition, Sign sign) {
-    raise(condition);
-    name_sign(fault, sign);
-    return Execution::fault;
-  }
-  Execution raise(Condition condition, Sign sign, double value) {
-    raise(condition, sign);
-    return with_value(value);
-  }
+  /// Raises an alarm, with what it is about and with the value that it shows. Where the text could not be read, that is the alarm, because `condition`
+  /// (something is missing) may only follow from it.
+  Execution raise(Condition condition, AlarmSubject about = {}, std::optional<double> value = {});
   /// An alarm about the first word of the block that is one of `of` (not empty).
   Execution raise_first(Condition condition, WordSet of) {
     const WordSlot first = first_of_block(*block, of);
     return raise(condition, first, words.get(first));
   }
   /// An alarm about an axis, given by its index.
-  Execution raise_axis(Condition condition, unsigned axis) {
-    raise(condition, axis_words.word(axis));
-    fault.axis = static_cast<int8_t>(axis);
-    return Execution::fault;
-  }
-  Execution raise_axis(Condition condition, unsigned axis, double value) {
+  Execution raise_axis(Condition condition, unsigned axis, std::optional<double> value = {}) {
     raise(condition, axis_words.word(axis), value);
     fault.axis = static_cast<int8_t>(axis);
     return Execution::fault;
@@ -282,7 +268,7 @@ struct BlockContext {
   Execution raise_misc(Condition condition, MiscFunction function) { return raise(condition, Role::misc_code, misc_code(*dialect, function)); }
   /// What reading words with `front` has come to.
   Execution executed(Reading reading) {
-    if (reading == Reading::refused) return front.refusal.has_value ? raise(front.refusal.condition, front.refusal.word, front.refusal.value) : raise(front.refusal.condition, front.refusal.word);
+    if (reading == Reading::refused) return raise(front.refusal.condition, front.refusal.word, front.refusal.has_value ? std::optional(front.refusal.value) : std::nullopt);
     return reading == Reading::done ? Execution::done : reading == Reading::sync ? Execution::sync : Execution::fault;
   }
   /// The data that part systems share can be read now: the machine has come to this block, or there is only one part system. False: a sync is needed
@@ -312,11 +298,6 @@ struct BlockContext {
   void keep_call();
 
  protected:
-  Execution with_value(double value) {
-    fault.has_value = true;
-    fault.value = value;
-    return Execution::fault;
-  }
   static constexpr unsigned kReserve = 24;  ///< the most items that one step of a block makes
 
   void note_parameter(unsigned index, ParameterValue old);

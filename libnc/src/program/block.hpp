@@ -15,15 +15,6 @@ enum class Formula : uint8_t {
   ngc     ///< RS-274/NGC 3.3.2.3, 3.3.2.4, and LinuxCNC's comparisons and named parameters
 };
 
-/// What the words of a dialect look like; a table in dialect/<family>/.
-struct WordFormat {
-  bool known = false;           ///< the address exists (else Condition::illegal_address)
-  Condition refusal{};          ///< alarm for a word of an unknown address; none = Condition::illegal_address
-  bool integer = false;         ///< decimals are cut off (M700 5.3: D H L M N O S T)
-  uint8_t integer_digits = 8;   ///< most digits before the point, up to 19; a word with more is Condition::value_range
-  uint8_t fraction_digits = 8;  ///< most digits behind the point; where it is 8, more are accepted, too
-};
-
 /// The meaning of ';' in a text.
 enum class Semicolon : uint8_t {
   unknown,     ///< the family does not have this character
@@ -47,6 +38,8 @@ struct LexRules;
 /// meaning of ';' in this text (LexRules has the one of the family).
 using ReadBlock = LexResult (*)(const char* text, size_t size, const LexRules& rules, Semicolon semicolon, const uint8_t* columns, Block& block);
 
+/// What everybody but the reader itself goes by of a family's language. The reader gets these rules back and may have put more behind them (IsoRules in
+/// dialect/iso_lexer.hpp).
 struct LexRules {
   ReadBlock read = nullptr;        ///< reads a block of the language; never null in a family
   /// A text of the language is one of ISO 6983: a block ends with its line or ';', comments stand in ( ), blanks mean nothing, and program and sequence numbers
@@ -54,22 +47,13 @@ struct LexRules {
   /// without its blanks and comments. Otherwise searches read every block, and a block ends at the latest with its line.
   bool heads_scanned = false;
   char program_letter = 0, sequence_letter = 0;  ///< letters of the program and sequence numbers at the head of a block
-  bool macros = false;             ///< '#' and '[ ]' exist
-  bool statements = false;         ///< with `macros`: IF, WHILE, GOTO, ... exist, too
-  Formula formula = Formula::macro;
-  bool zero_numbers = false;       ///< a number at the head of a block may be 0
+  bool skip_numbers = false;       ///< true: "/1" to "/9" name the skip switch; false: only "/" exists
+  bool angle_names = false;        ///< <FILE.NC> behind M98 G65, in which a blank is a character
+  bool macros = false;             ///< the language has variables and formulas: '#' and '[ ]' in one of ISO words
+  Formula formula = Formula::macro;              ///< of which kind
+  uint32_t most_loop_number = 127; ///< of DO and END (M700 13.5.7)
   Semicolon semicolon = Semicolon::unknown;      ///< meaning in program texts; a parameter of the machine may make it a comment
   Semicolon mdi_semicolon = Semicolon::unknown;  ///< meaning in blocks of MDI
-  bool skip_numbers = false;       ///< true: "/1" to "/9" name the skip switch; false: only "/" exists
-  Condition skip_misuse{};         ///< of a block skip that is written wrong, or not at the head; none = as any number or character
-  bool bare_sums = true;           ///< with `macros`: "X4.-1." is a sum; else formulas stand in brackets, and what follows a number begins a word
-  bool slash_only_at_head = true;  ///< '/' skips a block only at its head; elsewhere it is an error (dgshape) or division (with macros)
-  bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
-  bool angle_names = false;        ///< <FILE.NC> behind M98 G65
-  bool jump_letter = false;        ///< the letter of sequence numbers may stand in front of the number behind GOTO (HX 14.5.1)
-  uint32_t most_loop_number = 127; ///< of DO and END (M700 13.5.7)
-  bool percent_alone = false;      ///< no word may stand behind '%' in its block (DGSHAPE 2-6); else it is text
-  WordFormat word[26];             ///< by address, 0 = A
 };
 
 enum WordFlag : uint8_t {

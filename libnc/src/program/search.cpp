@@ -238,7 +238,7 @@ ProgramRef BlockReader::find_program(uint32_t number, unsigned own_file) {
   if (file < 0) {
     const ProgramRef own = find_o_line(number, own_file);
     if (own.valid() || failure_ != 0) return own;  // where the text could not be read the program may be in it, so no other one is taken instead
-    char name[16] = "O";
+    char name[16] = {store_->number_letter()};
     unsigned length = 1;
     char digits[10];
     unsigned count = 0;
@@ -286,7 +286,7 @@ ProgramRef BlockReader::find_external(const char* place, const char* name, size_
     unsigned count = 0;
     for (uint32_t n = number; n != 0; n /= 10) digits[count++] = static_cast<char>('0' + n % 10);
     if (count == 0) return {};
-    text[used++] = rules_->program_letter;
+    text[used++] = store_->number_letter();
     while (count != 0) text[used++] = digits[--count];
   }
   text[used] = '\0';

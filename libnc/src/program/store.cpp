@@ -27,11 +27,11 @@ size_t stem_length(const char* name, size_t length) {
   return length;
 }
 
-/// The program number of "O1000", "o0100.nc" or "1000.nc"; 0 = none. Without the O a number with leading zeros counts as a name: the file "0100" can only
-/// be called as <0100> (M700 13.3.1).
-uint32_t number_of_name(const char* name) {
+/// The program number of "O1000", "o0100.nc" or "1000.nc", O being the `number_letter`; 0 = none. Without the letter a number with leading zeros counts as a
+/// name: the file "0100" can only be called as <0100> (M700 13.3.1).
+uint32_t number_of_name(const char* name, char number_letter) {
   const size_t length = stem_length(name, std::strlen(name));
-  const bool letter = upper(name[0]) == 'O';
+  const bool letter = upper(name[0]) == number_letter;
   size_t i = letter ? 1 : 0;
   if (i == length || (!letter && name[i] == '0')) return 0;
   uint64_t number = 0;
@@ -53,10 +53,11 @@ bool same_name(const char* a, size_t a_length, const char* b, size_t b_length) {
 
 }  // namespace
 
-void ProgramStore::create(unsigned capacity, unsigned reserved, Arena& arena) {
+void ProgramStore::create(unsigned capacity, unsigned reserved, char letter, Arena& arena) {
   entries_ = arena.make<TextEntry>(capacity + reserved);
   capacity_ = capacity;
   reserved_ = reserved;
+  number_letter_ = letter != 0 ? letter : 'O';
   count_ = given_ = 0;
 }
 
@@ -81,7 +82,7 @@ nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* 
   place = entry;
   place.own = was_own;
   std::memcpy(place.name, base, length + 1);
-  if (place.number == 0) place.number = number_of_name(base);
+  if (place.number == 0) place.number = number_of_name(base, number_letter_);
   place.generation = ++generation_;
   touch(at);
   if (file != nullptr) *file = at;

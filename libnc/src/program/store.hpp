@@ -23,8 +23,10 @@ struct ProgramRef {
 /// Shared by all part systems of a control.
 class ProgramStore {
  public:
-  /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters.
-  void create(unsigned capacity, unsigned reserved, Arena& arena);
+  /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters. `letter` is that of program numbers, which
+  /// names of files begin with; 0 = O, where the language has none.
+  void create(unsigned capacity, unsigned reserved, char letter, Arena& arena);
+  char number_letter() const { return number_letter_; }
   nc_status add(const TextEntry& entry, const char* name, unsigned* file, bool own = false);
   /// Frees the place of an entry that nothing refers to.
   void remove(unsigned file);
@@ -52,6 +54,7 @@ class ProgramStore {
  private:
   TextEntry* entries_ = nullptr;
   unsigned capacity_ = 0, reserved_ = 0, count_ = 0;  ///< places behind count_ have never been used
+  char number_letter_ = 'O';
   unsigned given_ = 0;                                ///< number of entries of the host
   uint64_t uses_ = 0;
   uint32_t generation_ = 0;  ///< of the newest entry; unique in the store

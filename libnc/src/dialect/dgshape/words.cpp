@@ -13,8 +13,8 @@ constexpr unsigned at(char letter) {
   return static_cast<unsigned>(letter - 'A');
 }
 
-constexpr LexRules make_rules() {
-  LexRules rules = iso_rules();
+constexpr IsoRules make_rules() {
+  IsoRules rules = iso_rules();
   rules.percent_alone = true;       // 2-6: "Never specify any word other than % in this block"
   rules.slash_only_at_head = true;  // 2-6: "/" at the start of the block
   // P and K are real numbers in some functions (G51 P 0.5, arc centre K) and integers in others, so they are read as written.
@@ -31,6 +31,6 @@ constexpr LexRules make_rules() {
 
 }  // namespace
 
-constexpr LexRules kLex = make_rules();
+constexpr IsoRules kLex = make_rules();
 
 }  // namespace nc::dgshape

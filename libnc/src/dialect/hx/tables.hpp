@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dialect/dialect.hpp"
+#include "dialect/iso_lexer.hpp"
 
 namespace nc::hx {
 
@@ -17,7 +18,7 @@ extern const MiscRow kMisc[kMiscRows];
 extern const OutputRow kOutputs[kOutputRows];
 extern const AlarmText kAlarms[kAlarmRows];
 extern const AlarmRow kConditions[kConditionRows];
-extern const LexRules kLex;
+extern const IsoRules kLex;
 extern const FamilyParameters kParameters;
 extern const FamilyVariables kVariables;
 

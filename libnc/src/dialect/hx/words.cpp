@@ -10,8 +10,8 @@ constexpr unsigned at(char letter) {
   return static_cast<unsigned>(letter - 'A');
 }
 
-constexpr LexRules make_rules() {
-  LexRules rules = iso_rules();
+constexpr IsoRules make_rules() {
+  IsoRules rules = iso_rules();
   rules.macros = rules.statements = true;        // 14
   rules.semicolon = Semicolon::comment;          // 14.5: programs have a comment behind the end of a block
   rules.mdi_semicolon = Semicolon::ends_block;
@@ -33,6 +33,6 @@ constexpr LexRules make_rules() {
 
 }  // namespace
 
-constexpr LexRules kLex = make_rules();
+constexpr IsoRules kLex = make_rules();
 
 }  // namespace nc::hx

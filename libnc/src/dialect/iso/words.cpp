@@ -12,8 +12,8 @@ constexpr unsigned at(char letter) {
   return static_cast<unsigned>(letter - 'A');
 }
 
-constexpr LexRules make_rules() {
-  LexRules rules = iso_rules();
+constexpr IsoRules make_rules() {
+  IsoRules rules = iso_rules();
   rules.program_letter = 0;  // LinuxCNC "O-codes": O does not begin a program but a control structure, which is not built
   rules.macros = true;       // RS-274/NGC 3.3.2.2, 3.3.2.3
   rules.formula = Formula::ngc;
@@ -35,6 +35,6 @@ constexpr LexRules make_rules() {
 
 }  // namespace
 
-constexpr LexRules kLex = make_rules();
+constexpr IsoRules kLex = make_rules();
 
 }  // namespace nc::iso

@@ -19,8 +19,8 @@ constexpr WordFormat kCoordinate{.known = true, .integer = false, .integer_digit
 constexpr WordFormat kNumber8{.known = true, .integer = false, .integer_digits = 8, .fraction_digits = 8};
 constexpr WordFormat kWhole8{.known = true, .integer = true, .integer_digits = 8, .fraction_digits = 8};
 
-constexpr LexRules make_rules() {
-  LexRules rules = iso_rules();
+constexpr IsoRules make_rules() {
+  IsoRules rules = iso_rules();
   rules.macros = rules.statements = true;  // 13.4, 13.5
   // 3.2 (2): ';' is printed where a block ends. In a line no other block begins behind it, since programs of other families have comments there.
   rules.semicolon = Semicolon::ends_line;
@@ -48,6 +48,6 @@ constexpr LexRules make_rules() {
 
 }  // namespace
 
-constexpr LexRules kLex = make_rules();
+constexpr IsoRules kLex = make_rules();
 
 }  // namespace nc::m700

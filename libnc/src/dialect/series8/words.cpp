@@ -8,8 +8,8 @@ namespace {
 
 constexpr unsigned at(char letter) { return static_cast<unsigned>(letter - 'A'); }
 
-constexpr LexRules make_rules() {
-  LexRules rules = iso_rules();
+constexpr IsoRules make_rules() {
+  IsoRules rules = iso_rules();
   rules.program_letter = 0;
   rules.semicolon = Semicolon::comment;
   rules.mdi_semicolon = Semicolon::comment;
@@ -23,6 +23,6 @@ constexpr LexRules make_rules() {
 
 }  // namespace
 
-constexpr LexRules kLex = make_rules();
+constexpr IsoRules kLex = make_rules();
 
 }  // namespace nc::series8
