@@ -130,8 +130,10 @@ void SerialDevice::serve() {
       if (silent_.contains(unit)) answer.bytes.clear();
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(answer.delay_ms));
-    send(answer.bytes, answer.drip_ms);
+    // The gap is counted from before the answer goes out: taken behind it, a thread that the kernel puts aside between the two would
+    // make the gap seem shorter than the one that the other end has kept. Late either way, it seems longer and never shorter.
     last = steady_clock::now();
+    send(answer.bytes, answer.drip_ms);
   }
 }
 
