@@ -54,7 +54,7 @@ class ProgramStore {
  private:
   TextEntry* entries_ = nullptr;
   unsigned capacity_ = 0, reserved_ = 0, count_ = 0;  ///< places behind count_ have never been used
-  char number_letter_ = 'O';
+  char number_letter_ = 0;
   unsigned given_ = 0;                                ///< number of entries of the host
   uint64_t uses_ = 0;
   uint32_t generation_ = 0;  ///< of the newest entry; unique in the store
