@@ -136,7 +136,7 @@ void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   axis->raw = raw;
   axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
   axis->known = true;
-  if (axis->fresh) axis->twice += 2;
+  ++axis->ahead;
   axis->fresh = true;
 }
 
@@ -178,7 +178,8 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
     for (Axis& axis : axes_) {
       if (axis.node != n) continue;
       if (operational && !node.operational) {
-        axis.missed = axis.twice = 0;
+        axis.missed = 0;
+        axis.ahead = 0;
         axis.status = 0;
         axis.fresh = true;
       }

@@ -117,7 +117,8 @@ class Cyclic {
     std::int32_t raw = 0;
     std::int64_t position = 0;
     bool known = false, fresh = false;
-    unsigned missed = 0, twice = 0;
+    unsigned missed = 0;
+    int ahead = 0;               // positions received minus SYNCs sent
     std::int64_t target[3] = {};  // set-points of the last SYNC and of the two before it, the newest first
     unsigned on_syncs = 0;       // SYNCs since the axis was to be switched on
     bool was_on = false;         // the drive has followed since then

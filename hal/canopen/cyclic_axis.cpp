@@ -8,7 +8,9 @@
 namespace nc::hal::canopen {
 namespace {
 
-constexpr unsigned kTwiceLimit = 20;      // SYNCs with two positions of one axis, minus those with one, until that is a fault
+// A drive answers each SYNC with one position, so it never sends more of them than there were SYNCs, however late they come. Two drives under one identifier do.
+constexpr int kAheadLimit = 20;   // positions more than SYNCs until that is a fault
+constexpr int kMostOwed = 200;    // positions fewer than SYNCs that are remembered: as late as a drive can be without looking like two
 constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which the status may still be that of the previous homing
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
 constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
@@ -37,11 +39,11 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   Axis& axis = axes_[index];
   if (!nodes_[axis.node].operational) return;
   axis.missed = axis.fresh ? 0 : axis.missed + 1;
-  axis.twice = axis.twice > 0 ? axis.twice - 1 : 0;
+  axis.ahead = std::max(axis.ahead - 1, -kMostOwed);
   if (!axis.fresh) statistics_.missed_positions.fetch_add(1, std::memory_order_relaxed);
   axis.fresh = false;
   if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
-  if (axis.twice >= kTwiceLimit) fault(&axis, DriveTrouble::kTwice);
+  if (axis.ahead >= kAheadLimit) fault(&axis, DriveTrouble::kTwice);
   const DriveState state = drive_state(axis.status);
   if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
     axis.following_fault |= axis.was_on && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
@@ -66,7 +68,8 @@ DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) 
     axis->faulty = axis->following_fault = false;
     axis->trouble = DriveTrouble::kNone;
     axis->reset_left = static_cast<unsigned>(syncs_of(kResetMs));
-    axis->twice = axis->on_syncs = 0;
+    axis->ahead = std::min(axis->ahead, 0);
+    axis->on_syncs = 0;
     nodes_[axis->node].emergency = 0;
     axis->was_on &= drive_state(axis->status) == DriveState::kOperationEnabled;
   }

@@ -127,6 +127,39 @@ TEST(CanFault, PositionsThatDoNotComeStopTheAxes) {
   expect_runs_again(&rig);
 }
 
+bool is_position_of_y(const nc::hal::canopen::CanFrame& frame) { return frame.id == 0x182; }
+
+// Its positions come in bursts, as those of a drive with a busy processor or of a gateway do: never more than there were SYNCs.
+TEST(CanFault, PositionsThatComeLateAndTogetherAreNotTwoNodes) {
+  CanRig rig;
+  start_moving(&rig);
+  std::vector<nc::hal::canopen::CanFrame> held;
+  unsigned frames = 0;
+  rig.drives[1]->out = [&held, &frames, send = rig.drives[1]->out](const nc::hal::canopen::CanFrame& frame) {
+    if (!is_position_of_y(frame)) return send(frame);
+    held.push_back(frame);
+    if (++frames % 3 != 0) return;
+    for (const auto& late : held) send(late);
+    held.clear();
+  };
+  rig.step(600);
+  EXPECT_EQ(rig.alarms(), "");
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 9000)) << rig.alarms();
+  EXPECT_NEAR(rig.plant_mm(1), 150.0, 0.001);
+}
+
+TEST(CanFault, TwoNodesUnderOneNumberStopTheAxes) {
+  CanRig rig;
+  start_moving(&rig);
+  rig.drives[1]->out = [send = rig.drives[1]->out](const nc::hal::canopen::CanFrame& frame) {
+    send(frame);
+    if (is_position_of_y(frame)) send(frame);
+  };
+  rig.step(30);
+  expect_in(rig.alarms(), "R12 Drive fault: two nodes send under its identifier, axis Y");
+  expect_stopped(&rig, "R12");
+}
+
 TEST(CanFault, ABlockedAxisIsAFollowingError) {
   CanRig rig;
   start_moving(&rig);

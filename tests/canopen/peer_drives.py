@@ -132,4 +132,5 @@ def main():
     network.disconnect()
 
 
-main()
+if __name__ == "__main__":
+    main()
