@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "alarm/condition.hpp"
+#include "base/units.hpp"
 #include "offset/corner.hpp"
 
 namespace nc {
@@ -11,7 +12,6 @@ namespace {
 
 /// 1 + cosine of a turn that is a way back: no circle touches both lines.
 constexpr double kWayBack = 1e-12;
-constexpr double kPi = 3.14159265358979323846;
 /// Longer than any block.
 constexpr double kBeyond_mm = 1e9;
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The derivations stand in docs/compensation.md.
 #include "contour/meeting.hpp"
+#include "base/units.hpp"
 
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
 namespace nc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kNoLength_mm = 1e-9;
 /// A line that passes a circle by less than this touches it: words have their last digit at a micrometre, and a slope its at a thousandth of a
 /// degree.

@@ -7,7 +7,6 @@
 #include "control/control.hpp"
 
 namespace {
-bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
 
 /// Element `index` of an array whose elements are `bytes` apart, which may be another size than T has here.
 template <class T>
@@ -47,7 +46,7 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
 }  // namespace
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
-  if (!known(c, system) || item == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || item == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
   c->system[system].publish_all();
   const uint32_t bytes = nc::caller_bytes(item);
@@ -60,17 +59,17 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
 }
 
 nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {
-  if (!known(c, system) || machine == nullptr || !(share >= 0 && share <= 1)) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || machine == nullptr || !(share >= 0 && share <= 1)) return NC_E_ARGUMENT;
   return c->system[system].move_point(share, machine);
 }
 
 nc_status nc_move_zero(const nc_control* c, unsigned system, nc_axes* zero) {
-  if (!known(c, system) || zero == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || zero == nullptr) return NC_E_ARGUMENT;
   return c->system[system].move_zero(zero);
 }
 
 nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
-  if (!known(c, system) || given == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || given == nullptr) return NC_E_ARGUMENT;
   nc_world world{};
   if (!nc::take_struct(given, &world)) return NC_E_ARGUMENT;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
@@ -81,26 +80,26 @@ nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
 }
 
 nc_status nc_rewind(nc_control* c, unsigned system, uint64_t serial) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!has_system(c, system)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;
   c->system[system].interpreter.forget_vendor_call();
   return c->system[system].rewind(serial);
 }
 
 nc_status nc_recalculate(nc_control* c, unsigned system) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!has_system(c, system)) return NC_E_ARGUMENT;
   if (c->system[system].interpreter.in_vendor_function()) return NC_E_STATE;
   return c->system[system].recalculate();
 }
 
 nc_status nc_interrupt_signal(nc_control* c, unsigned system, bool on, bool* take_back) {
-  if (!known(c, system) || take_back == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || take_back == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // the signal comes with nc_inputs
   return c->system[system].interrupt_signal(on, take_back);
 }
 
 nc_status nc_reset(nc_control* c, unsigned system) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!has_system(c, system)) return NC_E_ARGUMENT;
   return c->system[system].reset();
 }
 
@@ -125,7 +124,7 @@ nc_status nc_feed(nc_control* c, uint32_t budget) {
 }
 
 nc_status nc_event_poll(nc_control* c, unsigned system, nc_event* event, uint64_t* dropped) {
-  if (!known(c, system) || event == nullptr || nc::caller_bytes(event) == 0) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || event == nullptr || nc::caller_bytes(event) == 0) return NC_E_ARGUMENT;
   uint64_t lost = 0;
   nc_event known;
   const bool any = c->system[system].executor.poll_event(&known, &lost);
@@ -135,31 +134,31 @@ nc_status nc_event_poll(nc_control* c, unsigned system, nc_event* event, uint64_
 }
 
 nc_status nc_sync_get(const nc_control* c, unsigned system, nc_source* source, uint32_t* main_line) {
-  if (!known(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
   return c->system[system].sync_place(source, main_line) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_main_line_get(const nc_control* c, unsigned system, const nc_source* source, uint32_t* main_line) {
-  if (!known(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || source == nullptr || main_line == nullptr) return NC_E_ARGUMENT;
   *main_line = c->system[system].main_line(*source);
   return NC_OK;
 }
 
 nc_status nc_commit_watch_set(nc_control* c, unsigned system, nc_commit_watch watch, void* user) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!has_system(c, system)) return NC_E_ARGUMENT;
   c->system[system].watch_commits(watch, user);
   return NC_OK;
 }
 
 nc_status nc_tap_get(const nc_control* c, unsigned system, nc_tap* tap) {
-  if (!known(c, system) || tap == nullptr || nc::caller_bytes(tap) == 0) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || tap == nullptr || nc::caller_bytes(tap) == 0) return NC_E_ARGUMENT;
   nc::give_struct(c->system[system].executor.tap(), tap);
   return NC_OK;
 }
 
 nc_status nc_tap_set(nc_control* c, unsigned system, const nc_tap* given) {
   nc_tap tap = NC_INIT(nc_tap);
-  if (!known(c, system) || given == nullptr || !nc::take_struct(given, &tap)) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || given == nullptr || !nc::take_struct(given, &tap)) return NC_E_ARGUMENT;
   const auto sane = [](double value) { return std::fabs(value) < 1e9; };
   const bool moves = tap.turns_per_mm != 0 && sane(tap.turns_per_mm) && tap.speed != 0 && sane(tap.speed);
   const bool good = moves && sane(tap.entry) && tap.acceleration >= 0 && sane(tap.acceleration);

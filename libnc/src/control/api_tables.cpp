@@ -17,11 +17,9 @@ using nc::Frames;
 /// The number is small enough to be added to a position.
 bool sane(double value) { return std::fabs(value) < 1e9; }
 
-bool known(const nc_control* c, unsigned system) { return c != nullptr && system < c->config.system_count; }
-
 /// Key of a work offset in the frames' table; false = no such offset.
 bool work_key(const nc_control* c, unsigned system, unsigned index, unsigned axis, unsigned* key) {
-  if (!known(c, system) || axis >= c->config.system[system].axis_count) return false;
+  if (!has_system(c, system) || axis >= c->config.system[system].axis_count) return false;
   if (index == 0) {
     *key = Frames::external_key(axis);
   } else if (index <= 6) {
@@ -94,7 +92,7 @@ nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsign
 // ---- parameters -------------------------------------------------------------------------------------------------------------
 
 nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char axis, const char* text) {
-  if (!known(c, system) || key == nullptr || text == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || key == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::HostTables in = c->system[system].interpreter.tables();
   const int index = in.axis_named(axis);
   if (axis != 0 && index < 0) return NC_E_ARGUMENT;
@@ -104,7 +102,7 @@ nc_status nc_parameter_set(nc_control* c, unsigned system, const char* key, char
 }
 
 nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key, char axis, double* value) {
-  if (!known(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || key == nullptr || value == nullptr) return NC_E_ARGUMENT;
   const nc::HostTables in = c->system[system].interpreter.tables();
   const int index = in.axis_named(axis);
   if (axis != 0 && index < 0) return NC_E_ARGUMENT;
@@ -112,7 +110,7 @@ nc_status nc_parameter_get(const nc_control* c, unsigned system, const char* key
 }
 
 nc_status nc_undotted_get(const nc_control* c, unsigned system, bool* whole) {
-  if (!known(c, system) || whole == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || whole == nullptr) return NC_E_ARGUMENT;
   *whole = c->system[system].interpreter.tables().whole_positions();
   return NC_OK;
 }
@@ -133,7 +131,7 @@ nc_status nc_parameter_key_get(const nc_control* c, nc_parameter_role role, char
 
 nc_status nc_parameter_next(const nc_control* c, unsigned system, unsigned from, unsigned* place, char key[24], char* axis, double* value,
                             char text[64]) {
-  if (!known(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || place == nullptr || key == nullptr || axis == nullptr || value == nullptr || text == nullptr) return NC_E_ARGUMENT;
   const nc::HostTables in = c->system[system].interpreter.tables();
   unsigned at = from;
   int of_axis = -1;
@@ -240,12 +238,12 @@ nc_status nc_tool_life_get(const nc_control* c, unsigned number, nc_life_column 
 // ---- variables --------------------------------------------------------------------------------------------------------------
 
 nc_status nc_variable_set(nc_control* c, unsigned system, uint32_t number, double value, bool vacant) {
-  if (!known(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || (!vacant && !std::isfinite(value))) return NC_E_ARGUMENT;
   return c->system[system].interpreter.tables().set_variable(number, {value, vacant}) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number, double* value, bool* vacant) {
-  if (!known(c, system) || value == nullptr || vacant == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || value == nullptr || vacant == nullptr) return NC_E_ARGUMENT;
   nc::Value v;
   if (!c->system[system].interpreter.tables().variable(number, &v)) return NC_E_NOT_FOUND;
   *value = v.number;
@@ -271,18 +269,18 @@ void nc_device_on_read(nc_control* c, nc_device_read callback, void* user) {
 }
 
 nc_status nc_variable_next(const nc_control* c, unsigned system, uint32_t from, uint32_t* number, double* value) {
-  if (!known(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || number == nullptr || value == nullptr) return NC_E_ARGUMENT;
   return c->system[system].interpreter.tables().next_variable(from, number, value) ? NC_OK : NC_E_NOT_FOUND;
 }
 
 nc_status nc_program_state_hash(const nc_control* c, unsigned system, uint64_t* hash) {
-  if (!known(c, system) || hash == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || hash == nullptr) return NC_E_ARGUMENT;
   *hash = c->system[system].interpreter.state_hash();
   return NC_OK;
 }
 
 nc_status nc_interface_output_get(const nc_control* c, unsigned system, unsigned word, uint32_t* bits) {
-  if (!known(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || word >= NC_WORDS || bits == nullptr) return NC_E_ARGUMENT;
   *bits = c->system[system].interpreter.tables().interface_output(word);
   return NC_OK;
 }
@@ -341,7 +339,7 @@ void nc_program_on_missing(nc_control* c, nc_program_missing callback, void* use
 }
 
 nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
-  if (!known(c, system)) return NC_E_ARGUMENT;
+  if (!has_system(c, system)) return NC_E_ARGUMENT;
   if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
   nc::ProgramRef program;
   program.file = static_cast<uint16_t>(file);
@@ -350,7 +348,7 @@ nc_status nc_program_select(nc_control* c, unsigned system, unsigned file) {
 }
 
 nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t length) {
-  if (!known(c, system) || text == nullptr || length > sizeof(c->mdi[0]) - 6) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || text == nullptr || length > sizeof(c->mdi[0]) - 6) return NC_E_ARGUMENT;
   nc::PartSystem& part = c->system[system];
   const bool interrupts = part.occupied();
   if (interrupts && !part.may_take_mdi()) return NC_E_STATE;
@@ -393,7 +391,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
 // ---- state ------------------------------------------------------------------------------------------------------------------
 
 nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine) {
-  if (!known(c, system) || machine == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || machine == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].occupied()) return NC_E_STATE;
   nc::AxisVec position;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) {
@@ -405,7 +403,7 @@ nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine
 }
 
 void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, nc_axes* work) {
-  if (!known(c, system)) return;
+  if (!has_system(c, system)) return;
   const nc::PartInterpreter& in = c->system[system].interpreter;
   const auto show = [&in](nc_axes* axes, nc::AxisVec (nc::PartInterpreter::*shown)(const nc::AxisVec&) const) {
     if (axes == nullptr) return;
@@ -419,12 +417,12 @@ void nc_position_shown(const nc_control* c, unsigned system, nc_axes* machine, n
 }
 
 void nc_switches_set(nc_control* c, unsigned system, uint32_t optional_skip, uint32_t mirror_axes) {
-  if (!known(c, system)) return;
+  if (!has_system(c, system)) return;
   c->system[system].interpreter.set_switches(optional_skip, mirror_axes);
 }
 
 nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
-  if (!known(c, system) || alarm == nullptr || nc::caller_bytes(alarm) == 0) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || alarm == nullptr || nc::caller_bytes(alarm) == 0) return NC_E_ARGUMENT;
   nc_alarm known;
   if (!c->system[system].alarm(&known)) return NC_E_NOT_FOUND;
   nc::own_text(c->config, known.code, known.message, sizeof known.message);
@@ -433,12 +431,12 @@ nc_status nc_alarm_get(const nc_control* c, unsigned system, nc_alarm* alarm) {
 }
 
 unsigned nc_alarm_calls_get(const nc_control* c, unsigned system, nc_source* calls, unsigned capacity) {
-  if (!known(c, system) || (calls == nullptr && capacity != 0)) return 0;
+  if (!has_system(c, system) || (calls == nullptr && capacity != 0)) return 0;
   return c->system[system].alarm_calls(calls, capacity);
 }
 
 nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_modal* modal) {
-  if (!known(c, system) || modal == nullptr || nc::caller_bytes(modal) == 0) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || modal == nullptr || nc::caller_bytes(modal) == 0) return NC_E_ARGUMENT;
   nc_modal known;
   if (!c->system[system].interpreter.modal(id, &known)) return NC_E_NOT_FOUND;
   nc::give_struct(known, modal);
@@ -446,7 +444,7 @@ nc_status nc_modal_get(const nc_control* c, unsigned system, uint32_t id, nc_mod
 }
 
 nc_status nc_text_get(const nc_control* c, unsigned system, uint32_t id, nc_text* text) {
-  if (!known(c, system) || text == nullptr) return NC_E_ARGUMENT;
+  if (!has_system(c, system) || text == nullptr) return NC_E_ARGUMENT;
   return c->system[system].interpreter.text(id, text) ? NC_OK : NC_E_NOT_FOUND;
 }
 

@@ -4,15 +4,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 #include "frame/rotary.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A circle in machine coordinates, where the map from the compensated path to the machine keeps its plane. That map may turn and reflect but never
 /// stretch: it would stretch the radius of the tool together with the path.

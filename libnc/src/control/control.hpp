@@ -17,3 +17,6 @@ struct nc_control {
   bool any_joints;
   char mdi[NC_MAX_SYSTEMS][1024 + 6];  // the MDI blocks of each part system; 6 bytes for what is put before and behind them
 };
+
+/// Whether there is a control, with this part system (from 0).
+inline bool has_system(const nc_control* control, unsigned system) { return control != nullptr && system < control->config.system_count; }

@@ -2,14 +2,13 @@
 // Circles from the words of a block (M700 6.4-6.6, DGSHAPE G02/G03).
 #include <cmath>
 #include <initializer_list>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "interpret/motion.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSamePoint = 1e-9;   // mm: points that are no farther apart are the same; far below every command unit
 
 /// Centre of an arc of radius |radius| through start and end: on the perpendicular bisector of the chord, at distance

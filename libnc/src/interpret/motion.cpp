@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "frame/rotary.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -123,7 +124,7 @@ bool off_increment(const BlockContext& in, unsigned axis, double value) {
 
 double feed_mm_min(const BlockContext& in) {
   const bool inch = in.state.modal.is(Function::inch);
-  return in.state.modal.feed * (inch ? 25.4 : 1.0);
+  return in.state.modal.feed * (inch ? kMillimetresPerInch : 1.0);
 }
 
 namespace {

@@ -4,13 +4,13 @@
 #include <cstdint>
 
 #include "alarm/condition.hpp"
+#include "base/units.hpp"
 #include "macro/compile.hpp"
 #include "macro/named_parameters.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180.0;
 
 /// Relative difference that a control which calculates with about ten digits (M700 13.5.6, table of accuracy) does not notice.

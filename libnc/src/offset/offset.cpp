@@ -8,6 +8,7 @@
 
 #include "alarm/condition.hpp"
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 #include "stream/copy_item.hpp"
 
 namespace nc {
@@ -15,8 +16,6 @@ namespace nc {
 static_assert(std::is_trivially_copyable_v<OffsetStage>);
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 bool same_plane(const Compensation& a, const Compensation& b) {
   return a.axis[0] == b.axis[0] && a.axis[1] == b.axis[1];

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 #include "offset/offset.hpp"
 #include "stream/copy_item.hpp"
 
@@ -12,7 +13,6 @@ namespace nc {
 namespace {
 
 constexpr double kSamePoint_mm = 1e-8;
-constexpr double kPi = 3.14159265358979323846;
 
 AxisVec shifted(const AxisVec& p, const uint8_t axis[2], Vec2 w) {
   AxisVec q = p;

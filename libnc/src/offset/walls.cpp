@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFull = 2 * kPi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Radii that differ by less count as one.

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "path/shape_ahead.hpp"
 
 namespace nc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDegrees = 180 / kPi;
 constexpr double kAtPole = 1e-9;  // mm
 

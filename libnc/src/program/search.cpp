@@ -367,10 +367,10 @@ BlockReader::Jump BlockReader::scan_for_sequence(const TextEntry& entry, uint32_
 }
 
 bool BlockReader::find_loop_end(unsigned file, uint32_t m, uint64_t* offset, uint32_t* line) {
-  constexpr unsigned kMaxLoops = 27;  // M700 13.5.7 (3)
+  constexpr unsigned kMostOpen = 27;  // M700 13.5.7 (3)
   const TextEntry* entry = store_->entry(file);
   if (entry == nullptr) return false;
-  FixedVector<uint32_t, kMaxLoops> open;
+  FixedVector<uint32_t, kMostOpen> open;
   failure_ = 0;
   for (uint64_t at = *offset;;) {
     const Block* block = cached(*entry, at, *line);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -35,7 +36,7 @@ Execution take_words(BlockContext& in, ExponentialWords* words) {
   did = feed_of(in, &words->feed);
   if (did != Execution::done) return did;
   if (!(words->feed > 0)) return in.raise(Condition::value_range, Role::feed, w.get(Role::feed));
-  const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
+  const double unit = in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1.0;
   words->feed *= unit;
   words->feed_end = words->feed;
   if (w.has(Role::exponential_end_feed)) {

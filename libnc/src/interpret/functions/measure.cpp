@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -38,7 +39,7 @@ Execution read_measurement(BlockContext& in, Measurement* m) {
   if (w.has(Role::feed)) {
     const Execution did = feed_of(in, &m->feed_mm_min);
     if (did != Execution::done) return did;
-    if (inch) m->feed_mm_min *= 25.4;
+    if (inch) m->feed_mm_min *= kMillimetresPerInch;
   }
   if (!(m->feed_mm_min > 0)) m->feed_mm_min = 1;  // (3)
   m->deceleration = distance(in, Role::measure_deceleration, in.settings.measure_deceleration);

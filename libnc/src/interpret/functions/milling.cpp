@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// Raises an alarm (P485, P486) in modes in which neither of the two can be commanded.
-Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
+Execution check_modes_before_milling(BlockContext& in, const FunctionRow& row) {
   const State& state = in.state;
   const bool polar = row.function == Function::polar_on;
   const Condition modal = polar ? Condition::polar_modal : Condition::mill_modal, mode = polar ? Condition::polar_state : Condition::mill_state;
@@ -168,7 +168,7 @@ Execution do_cylinder(BlockContext& in) {
     return Execution::done;
   }
   if (state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, code);
-  const Execution did = check_modes_before(in, code);
+  const Execution did = check_modes_before_milling(in, code);
   if (did != Execution::done) return did;
   begin_mode(in, code);
   state.map.kind = AxisMap::Kind::cylinder;
@@ -195,7 +195,7 @@ Execution do_polar_on(BlockContext& in) {
   if (const Execution did = stands_alone(in, 0); did != Execution::done) return did;
   if (state.map.kind == AxisMap::Kind::polar) return in.raise_code(Condition::polar_state, code);
   if (state.map.kind == AxisMap::Kind::cylinder) return in.raise_code(Condition::mill_code, code);
-  const Execution did = check_modes_before(in, code);
+  const Execution did = check_modes_before_milling(in, code);
   if (did != Execution::done) return did;
   const int axis = rotary_axis(in);
   if (axis < 0) return in.raise(Condition::polar_axis, in.settings.mill_axis);

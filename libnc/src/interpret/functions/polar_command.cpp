@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // G15, G16: the axis words of the plane are radius and angle (M700 6.12).
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// M700 6.12: the words of this block are not radius and angle: those of data, machine positions, returns, measurements, and codes that set up other modes.
 bool reads_plain_words(const BlockContext& in) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // G45 to G48: the way of the block is made longer or shorter by an offset (M700 12.6).
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
@@ -11,7 +11,6 @@
 namespace nc {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// An end of an arc counts as lying on an axis of its circle when it is no farther away than this, mm: the coarsest least input increment.
 constexpr double kOnAxis_mm = 0.001;
 

@@ -3,6 +3,7 @@
 // Where the move has ended is known only after it was executed, so the block goes on after a sync.
 #include <bit>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -12,7 +13,7 @@ namespace {
 Execution take_speeds(BlockContext& in, uint32_t* stops) {
   const Command& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // F1= to F8= say already which signals count
-  const double unit = in.state.modal.is(Function::inch) ? 25.4 : 1.0;
+  const double unit = in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1.0;
   in.skip_speeds = SkipSpeeds{};
   *stops = 0;
   for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
@@ -64,7 +65,7 @@ Execution do_skip(BlockContext& in) {
   } else if (w.has(Role::feed)) {
     const Execution did = feed_of(in, &feed);
     if (did != Execution::done) return did;
-    if (inch) feed *= 25.4;
+    if (inch) feed *= kMillimetresPerInch;
   }
   if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, Role::feed);
   LinearStyle style;

@@ -2,13 +2,12 @@
 // The words of the tapping cycles (M700 13.1.1 (6), G84 and G74): whether a tap goes with the angle of the spindle, and what it then needs.
 #include <cmath>
 
+#include "base/units.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/cycle.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kMillimetresPerInch = 25.4;
 
 /// Series 8 G84: each tap goes with the spindle, and its lead has a word of its own.
 bool lead_has_word(const BlockContext& in) { return in.dialect->addresses.has(Role::tap_lead); }

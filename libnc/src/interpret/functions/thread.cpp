@@ -2,12 +2,11 @@
 // G33: threads of constant lead, metric and inch, straight and tapered (M700 6.7).
 #include <cmath>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
 namespace {
-
-constexpr double kMillimetresPerInch = 25.4;
 
 /// M700 6.7.1: a lead is below 1000 mm, or below 100 inch by F and below 39.370079 inch by E.
 bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
