@@ -94,6 +94,7 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_NOT_HOMED: return "not homed";
     case nc_REFUSED_HOMING: return "homing";
     case nc_REFUSED_LIMIT_SWITCH: return "limit switch";
+    case nc_REFUSED_TAP_IN_HOLE: return "tap in its hole";
     default: return "other";
   }
 }

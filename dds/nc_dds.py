@@ -108,6 +108,7 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_NOT_HOMED = 29
     REFUSED_HOMING = 30
     REFUSED_LIMIT_SWITCH = 31
+    REFUSED_TAP_IN_HOLE = 32
 
 
 @annotate.appendable

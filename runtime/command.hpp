@@ -98,6 +98,7 @@ enum class Answer : std::uint8_t {
   kNoHoming,          // there is no homing for it
   kHoming,            // the axis is being homed
   kLimitSwitch,       // an axis stands on its limit switch
+  kTapInHole,         // a tap that was given up stands in its hole
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -174,6 +175,8 @@ constexpr const char* answer_text(Answer answer) {
       return "the axis is being homed";
     case Answer::kLimitSwitch:
       return "an axis is on its limit switch, or the switch cannot be read: only the other way is free";
+    case Answer::kTapInHole:
+      return "a tap stands in its hole: draw it out first, by the retract or by hand along its own axis";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

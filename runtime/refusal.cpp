@@ -63,6 +63,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kNoHoming: return RefusalCause::kAxis;
     case Answer::kHoming: return RefusalCause::kHoming;
     case Answer::kLimitSwitch: return RefusalCause::kLimitSwitch;
+    case Answer::kTapInHole: return RefusalCause::kTapInHole;
     case Answer::kNoAnswer: return RefusalCause::kNoAnswer;
   }
   return RefusalCause::kOther;

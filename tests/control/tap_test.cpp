@@ -423,6 +423,49 @@ TEST_P(Retract, AStartIsRefusedWhileTheTapStandsInItsHole) {
   EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
 }
 
+// Whatever asks for X or Y by hand would tear the tap sideways out of its hole. Its own axis goes, and the spindle with it.
+TEST_P(Retract, OnlyItsOwnAxisIsMovedByHandWhileItStandsInItsHole) {
+  into_the_hole();
+  EXPECT_EQ(drive->out.tap_holds, 0b011u);
+  const nc_manual wishes[] = {{NC_MANUAL_JOG, 20, 0}, {NC_MANUAL_STEP, 20, 5}, {NC_MANUAL_HANDLE, 0, 0.1}, {NC_MANUAL_REFERENCE, 0, 0}};
+  const double x = drive->out.command.v[0], y = drive->out.command.v[1];
+  uint64_t dropped = 0;
+  for (const nc_manual& wish : wishes) {
+    drive->in.manual[0] = drive->in.manual[1] = wish;
+    for (unsigned n = 0; n < 50; ++n) step(), dropped |= drive->out.handle_dropped;
+    drive->in.manual[0] = drive->in.manual[1] = {};
+    rest();
+  }
+  EXPECT_EQ(drive->out.command.v[0], x);
+  EXPECT_EQ(drive->out.command.v[1], y);
+  EXPECT_EQ(dropped, 0b011u) << "the wheel is told";
+  drive->in.manual[0] = {NC_MANUAL_JOG, 20, 0};  // stays pressed
+  drive->in.manual[2] = {NC_MANUAL_JOG, 10, 0};
+  ASSERT_TRUE(until([&] { return z() > 2.5; }));
+  EXPECT_EQ(drive->out.tap_holds, 0u) << "it is out";
+  drive->in.manual[2] = {};
+  rest();
+  EXPECT_EQ(drive->out.command.v[0], x) << "a button that was refused is let go first";
+  drive->in.manual[0] = {};
+  rest();
+  drive->in.manual[0] = {NC_MANUAL_JOG, 20, 0};
+  ASSERT_TRUE(until([&] { return drive->out.command.v[0] > x + 1; }));
+}
+
+// Behind a power cut an axis without its place cannot tell whether the tap is still in the hole.
+TEST_P(Retract, AnAxisThatDoesNotKnowItsPlaceHoldsTheOthersUntilItDoes) {
+  into_the_hole();
+  drive->in.unlimited = 0b100;
+  drive->in.manual[2] = {NC_MANUAL_JOG, 10, 0};
+  ASSERT_TRUE(until([&] { return z() > 2.5; }));
+  drive->in.manual[2] = {};
+  rest();
+  EXPECT_EQ(drive->out.tap_holds, 0b011u);
+  drive->in.unlimited = 0;
+  rest();
+  EXPECT_EQ(drive->out.tap_holds, 0u);
+}
+
 TEST_P(Retract, ASpindleThatDoesNotTurnAnyMoreLocksNobodyOut) {
   into_the_hole();
   const double stands = spindle.turns();
@@ -450,6 +493,7 @@ TEST_P(Retract, ASpindleThatDoesNotTurnAnyMoreLocksNobodyOut) {
   EXPECT_EQ(drive->out.state, NC_STATE_IDLE);
   EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
   ASSERT_TRUE(drive->out.tap_retract_possible);
+  EXPECT_EQ(drive->out.tap_holds, 0u) << "it has to be freed by hand, and the machine moved for that";
   drive->in.tap_retract = true;  // another attempt has begun: what it finds counts, and meanwhile a start is refused again
   cycle(false);
   cycle(true);

@@ -77,6 +77,28 @@ TEST_F(SimTap, ACommandDrawsTheTapOut) {
   EXPECT_EQ(runtime->execute(CommandKind::kTapRetract, 0, 1), Answer::kRefusedByControl) << "there is none in a hole any more";
 }
 
+TEST_F(SimTap, OtherAxesAreRefusedWithTheReasonWhileItStandsInItsHole) {
+  into_the_hole();
+  ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kManual)), Answer::kDone);
+  const double x = out().command.v[0];
+  const auto ask = [&](CommandKind kind, unsigned axis, double value) {
+    nc::rt::Command command;
+    command.kind = kind;
+    command.axis = static_cast<std::uint8_t>(axis);
+    command.value = value;
+    return runtime->execute(command);
+  };
+  EXPECT_EQ(ask(CommandKind::kJog, 0, 10), Answer::kTapInHole);
+  EXPECT_EQ(ask(CommandKind::kStep, 1, 1), Answer::kTapInHole);
+  EXPECT_EQ(ask(CommandKind::kReference, 0, 0), Answer::kTapInHole);
+  for (unsigned n = 0; n < 100; ++n) runtime->step();
+  EXPECT_EQ(out().command.v[0], x);
+  EXPECT_EQ(ask(CommandKind::kStep, 2, 8), Answer::kDone);
+  ASSERT_GE(until([&] { return out().tap_holds == 0; }), 0);
+  ASSERT_GE(until([&] { return out().state == NC_STATE_IDLE; }), 0);
+  EXPECT_EQ(ask(CommandKind::kStep, 0, 1), Answer::kDone);
+}
+
 TEST_F(SimTap, WhatIsKeptDrawsItOutBehindAPowerCut) {
   build();
   const nc::rt::TableRows configured = nc::rt::read_tables(runtime->control(), config.nc);

@@ -200,7 +200,8 @@ NC_API nc_status nc_commit_watch_set(nc_control* control, unsigned system, nc_co
 /* ---- online: scan ------------------------------------------------------------------------------------------------- */
 
 /**
- * Manual motion of one axis. While manual motion cannot act (nc_outputs::manual_allowed is off, feed hold, interlock, the axis is a spindle now)
+ * Manual motion of one axis. While manual motion cannot act (nc_outputs::manual_allowed is off, feed hold, interlock, the axis is a spindle now, a tap
+ * stands in its hole: nc_outputs::tap_holds)
  * commands are refused, and a motion that is under way comes to rest and is given up. It does not begin again by itself: a kind that stays
  * commanded until manual motion is possible again does nothing until another kind, or NC_MANUAL_NONE, or a jog at velocity 0 has been commanded in
  * between. The operator has to release the button first.
@@ -425,6 +426,8 @@ typedef struct nc_outputs {
   bool tap_retract_possible; /**< a tap was given up in its hole and stands there: nc_inputs::tap_retract draws it out, by hand it turns with its axis */
   uint8_t tool_life;        /**< nc_tool_life_bits of the tool in the spindle */
   uint32_t tool_group;      /**< its group of tool life management, 0 = none */
+  uint32_t tap_holds;       /**< bit n: axis n is not moved by hand, because a tap that was given up stands in its hole and would break, or tear the hole.
+                                 The axis of the tap is free, and the way out; when its spindle does not follow, that is an alarm, which ends this */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

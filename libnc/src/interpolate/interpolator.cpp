@@ -621,7 +621,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   for (unsigned i = 0; i < config_.spindle_count; ++i) out.spindle_rev_min[i] = spindles_.now(i);
   for (unsigned i = 0; c_axes_ != 0 && i < config_.axis_count; ++i)
     if ((servo_on_ >> i & 1) != 0) out.spindle_rev_min[config_.axis_spindle[i] - 1] = 0;  // M700 10.5 (1): spindle control is not possible
-  turn_tap_spindle(out);
+  turn_tap_spindle(in, out);
   out.tool_life = static_cast<uint8_t>(shared_->tool_life.load(std::memory_order_relaxed));
   out.tool_group = shared_->tool_group.load(std::memory_order_relaxed);
   out.spindle_selected = spindles_.selected();

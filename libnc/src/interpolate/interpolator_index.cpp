@@ -95,6 +95,7 @@ void Interpolator::manual_cycle(const nc_inputs& in) {
   Manual::Rules rules;
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
   rules.dropped = spindles_now();  // M700 10.5 (1): an axis that is a spindle is not moved; the command does not go on later either (precaution (3))
+  rules.refused = tap_holds(in);
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   rules.unlimited = static_cast<uint32_t>(in.unlimited);

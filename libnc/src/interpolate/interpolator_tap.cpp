@@ -172,9 +172,18 @@ bool Interpolator::tap_stands_in_hole() const {
   return way * tap_.speed < 0 && std::fabs(way) > kOut;
 }
 
+/// The axes that would tear the tap sideways out of its hole. As long as its own axis does not know where it stands, the tap may be in it. Where its spindle does
+/// not follow any more there is no other way than to free it by hand, and the machine has to be moved for that.
+uint32_t Interpolator::tap_holds(const nc_inputs& in) const {
+  const bool lost = tap_.held && (in.unlimited >> tap_.axis & 1) != 0;
+  if (tap_.stuck || (!lost && !tap_stands_in_hole())) return 0;
+  return ((1u << config_.axis_count) - 1) & ~(1u << tap_.axis);
+}
+
 /// The angle that belongs to the place on the path, or of the axis that is moved by hand.
-void Interpolator::turn_tap_spindle(nc_outputs& out) {
+void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
   out.tap_retract_possible = manual_allowed_ && tap_stands_in_hole();
+  out.tap_holds = tap_holds(in);
   const bool taps = (tapping_ & NC_TAPPING_SYNCHRONOUS) != 0;
   const double turns = taps || tap_.held ? tap_turns() : 0;
   const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : law_.v * (moving_ ? current().segment.tap_rev_per_mm : 0);

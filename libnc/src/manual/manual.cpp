@@ -158,7 +158,7 @@ void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* positio
   active_ = moved_ = handle_dropped_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const bool dropped = (rules.dropped >> i & 1) != 0;
-    if (dropped || rules.stop) refuse(i, wishes[i]);
+    if (dropped || rules.stop || (rules.refused >> i & 1) != 0) refuse(i, wishes[i]);
     else if (let_go(i, wishes[i])) wish(i, wishes[i], rules, (*position)[i]);
     if (dropped) axis_[i].velocity = 0;
     if (axis_[i].velocity == 0 && !axis_[i].going) continue;

@@ -26,6 +26,7 @@ class Manual {
     // Bit i of each stands for axis i.
     uint32_t held = 0;       ///< axes that come to rest and keep their targets until they may move
     uint32_t dropped = 0;    ///< axes that stand at once, and whose targets are given up: they are no axes now
+    uint32_t refused = 0;    ///< axes that brake to rest, and whose targets are given up
     uint32_t turning = 0;    ///< axes whose positions count within one turn (M700 14.13)
     uint32_t short_cut = 0;  ///< axes among those that go to a position by the shorter way
     uint32_t gentle = 0;     ///< axes that accelerate no faster than `gentle_acceleration`
