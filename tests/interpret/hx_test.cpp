@@ -727,7 +727,7 @@ TEST(Hx, EveryAlarmOfTheManualIsRaisedByWhatItIsFor) {  // the numbers of the sp
 
 TEST(Hx, WhatIsNotBuiltOfAParameterIsRefused) {
   ParameterKey key;
-  for (const char* text : {"3133", "27308"}) {
+  for (const char* text : {"3133", "27308"}) {  // of PI 133 the value 1; 2 is tests/control/program_restart_test.cpp
     ASSERT_TRUE(parse_parameter_key(text, &key));
     EXPECT_TRUE(parameter_takes(dialect(NC_DIALECT_HX), key, 0)) << text;
     EXPECT_FALSE(parameter_takes(dialect(NC_DIALECT_HX), key, 1)) << text;

@@ -583,7 +583,9 @@ nc_status PartSystem::reset() {
   if (occupied()) return NC_E_STATE;
   if (!online_ && !interpreter.ended()) {  // blocks that the stages hold back have not been executed
     const MarkPoint* last = commit_.newest();
-    rewind(last != nullptr ? last->serial : 0);
+    interpreter.keep_place(rewind(last != nullptr ? last->serial : 0) == NC_OK);
+  } else if (!online_) {
+    interpreter.keep_place(false);
   }
   interpreter.clear_by_reset();
   restart(online_ ? executor.commanded() : commit_.machine());  // online the machine may have been moved by hand, or while its drives were off
@@ -704,12 +706,14 @@ void PartSystem::follow_run() {
     nc_source calls[NC_MAX_CALLS];
     const unsigned count = stop_calls(calls);
     // Blocks beyond the last one that was executed have been read but not executed: offsets, variables and outputs become as before them.
-    if (before.active() && !executor.ended()) rewind(executor.last_mark());
+    const bool stopped = before.active() && !executor.ended() && rewind(executor.last_mark()) == NC_OK;
+    if (before.active()) interpreter.keep_place(stopped);  // further resets leave it there
     interpreter.clear_by_reset();
     restart(executor.commanded());
     commit_.restart();
     interpreter.set_alarm_calls(calls, count);
   }
+  if (!now.active() && now.epoch() == before.epoch()) interpreter.keep_place(false);  // the program has ended
   if (now.active()) {
     interpreter.set_mirror_signal(executor.mirror());
     restart(executor.commanded(), interpreter.is_mdi());

@@ -188,6 +188,7 @@ enum class Parameter : uint8_t {
   inner_arc_least,             ///< least factor, in percent, of the feed of an arc that the tool cuts from the inside; 0 = the feed of the tool's centre is F
   shift_axis, shift_direction, ///< of cycles beside the hole: 0 the first, 1 the second axis of the plane; 0 plus, 1 minus
   start_scaling, start_rotation,
+  stays_behind_reset,          ///< a reset leaves the program where it was stopped, with its modes
   stitch_length,               ///< [7] ends of the ranges of lengths
   stitch_feed, stitch_feed_2,  ///< [8] feed of each range, of the first and of the second axis of the plane
   stitch_wait, stitch_wait_2,  ///< [8] time behind a move of each range, the same

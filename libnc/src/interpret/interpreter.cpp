@@ -145,15 +145,22 @@ void Interpreter::refresh_derived() {
   refresh_work_rotation(*this);
 }
 
-/// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1).
+/// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1). Where the place of a program is kept
+/// (program_restart.cpp), that program goes on there in its modes.
 void Interpreter::reset(bool keep_modal) {
+  keep_modal = keep_modal || place_.kept;
   begin_program(state, initial_values(), keep_modal);
   if (dialect->rules.coordinate.shift_ends_with_program && !keep_modal)
     for (unsigned i = 0; i < axis_count; ++i) set_table_from_outside(Frames::shift_key(i), 0);
-  state.frame[0].program = main_program;
-  state.frame[0].offset = state.frame[0].begin = main_program.offset;
-  state.frame[0].line = state.frame[0].begin_line = main_program.line;
-  variables.clear_locals(1);
+  if (place_.kept) {
+    static_cast<CallStack&>(state) = place_.stack;
+    state.percent_seen = true;  // a '%' to come is the end
+  } else {
+    state.frame[0].program = main_program;
+    state.frame[0].offset = state.frame[0].begin = main_program.offset;
+    state.frame[0].line = state.frame[0].begin_line = main_program.line;
+    variables.clear_locals(1);
+  }
   if (shared != nullptr) {
     shared->publish(*this, ~BlockSeq{0});  // everything that has not been taken back by now has been executed
     shared->keep_for_good(*this);

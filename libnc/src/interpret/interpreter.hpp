@@ -53,6 +53,10 @@ struct Interpreter : BlockContext {
   /// Clears what a reset by the operator clears and the end of a program does not: what the end has left in force, and, where a parameter says so, #100
   /// to #199 (M700 13.4, #1128 RstVC1).
   void clear_by_reset();
+  /// HX 2.3.4, where a parameter says so: the resets to come go to the block behind the newest one, not to the head of the program, and leave its modes in
+  /// force (program_restart.cpp). `stands` is false where the newest block is not the last one that the machine has executed: the place is forgotten.
+  void keep_place(bool stands);
+  void forget_place() { place_.kept = false; }
   /// The next block is read again and has to be executed anew as a whole: also its vendor's function is called again.
   void forget_vendor_call() { vendor_call_ = {}; }
   /// Whether the vendor's function of the block in hand has been called already; and notes that it has.
@@ -187,6 +191,12 @@ struct Interpreter : BlockContext {
     nc_world world{};
     ProgramMaps maps;            ///< centres and factors of the maps that are in force in `state`
   };
+  /// Where a reset goes back to, in place of the head of the program.
+  struct Place {
+    bool kept = false;
+    CallStack stack;
+  };
+  bool may_begin_here() const;
   Execution enter_interrupt();
   /// Called at the beginning of a block that is going to be cut: notes the answers that it has.
   void note_world() {
@@ -231,6 +241,7 @@ struct Interpreter : BlockContext {
   unsigned made_ = 0;          ///< number of items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< number of the block before it
   InterruptReturn interrupted_;
+  Place place_;
   VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for
 };

@@ -155,6 +155,7 @@ struct Settings {
   bool corners_always = false;            ///< HX PI 131
   int8_t shift_axis = -1, shift_direction = 0;  ///< HX PI 70, 71: axis of the plane, -1 = not set; 1 or -1, 0 = not set
   bool start_scaling = false, start_rotation = false;  ///< HX PI 149, 150
+  bool stays_behind_reset = false;        ///< HX PI 133
   double stitch_length[7] = {};           ///< HX PM 7321 to 7327, mm
   double stitch_feed[2][8] = {};          ///< HX PM 7328 to 7335, 7344 to 7351: by axis of the plane, mm/min, 0 = any
   double stitch_wait_s[2][8] = {};        ///< HX PM 7336 to 7343, 7352 to 7359

@@ -76,11 +76,13 @@ void PartInterpreter::count_from(uint32_t first) { in_->count_from(first); }
 void PartInterpreter::select(const ProgramRef& program, bool mdi) {
   in_->main_program = program;
   in_->mdi = mdi;
+  in_->forget_place();
 }
 bool PartInterpreter::is_selected() const { return in_->main_program.valid(); }
 bool PartInterpreter::is_mdi() const { return in_->mdi; }
 void PartInterpreter::reset(bool keep_modal) { in_->reset(keep_modal); }
 void PartInterpreter::clear_by_reset() { in_->clear_by_reset(); }
+void PartInterpreter::keep_place(bool stands) { in_->keep_place(stands); }
 bool PartInterpreter::refers_to(unsigned file) const { return in_->refers_to(file); }
 bool PartInterpreter::ended() const { return in_->ended; }
 bool PartInterpreter::alarmed() const { return in_->alarmed; }

@@ -112,6 +112,8 @@ class PartInterpreter {
   void reset(bool keep_modal);
   /// Clears what a reset by the operator clears and the end of a program does not.
   void clear_by_reset();
+  /// The resets to come go to the block behind the newest one where a parameter says so; not `stands`: to the head of the program.
+  void keep_place(bool stands);
   /// The program is selected, is in the call stack (now, or after a rewind), or is the program of a modal call or of the macro interrupt.
   bool refers_to(unsigned file) const;
   bool ended() const;

@@ -326,6 +326,7 @@ void SettingsReader::feeds() {
   s_.corner_feed = value(P::corner_feed, 0);
   s_.inner_arc_least = value(P::inner_arc_least, 0) / 100;
   s_.corners_always = flag(P::corner_always);
+  s_.stays_behind_reset = flag(P::stays_behind_reset);
   for (unsigned i = 0; i < 7; ++i) s_.stitch_length[i] = value({P::stitch_length, i}, 0);
   for (unsigned i = 0; i < 8; ++i) {
     s_.stitch_feed[0][i] = value({P::stitch_feed, i}, 0);

@@ -18,7 +18,7 @@ const FunctionRow kFunctions[] = {
     {90, 0, F::exact_stop_once, nullptr, "exact stop", "5.3.1"},
     {100, 0, F::data_input, nullptr, "tool offsets by program", "13.1.3"},
     {103, 21, F::high_speed_on, nullptr, "high-speed machining", "15.1",
-     "a state and nothing else: reading ahead and smooth speed are there without it; PM 680 to 740 do nothing"},
+     "a state and nothing else: reading ahead and smooth speed are there without it; PM 680 to 740 are not taken, the configuration of the machine says what they would"},
     {113, 21, F::high_speed_off, nullptr, "high-speed machining off", "15.1"},
     {150, 17, F::polar_command_off, nullptr, "polar coordinate command off", "8.3"},
     {160, 17, F::polar_command_on, nullptr, "polar coordinate command", "8.3"},

@@ -29,6 +29,11 @@ double plane_number(double value) { return value + 1; }
 /// 0 means that it is on.
 double unless(double value) { return value == 0 ? 1 : 0; }
 
+/// 2.3.4: of 1 nothing but the number is left.
+bool zero_or_two(double value) { return value == 0 || value == 2; }
+/// 2 is what the meaning counts as yes.
+double is_two(double value) { return value == 2 ? 1 : 0; }
+
 /// What the manual has and is not built: only the value that leaves it off is accepted.
 constexpr bool (*kOffOnly)(double) = whole<0, 0>;
 
@@ -53,7 +58,7 @@ constexpr ParameterRow kNumbers[] = {
     {3130, 3130, 1, kAll, false,    P::corner_override_angle,   between<2, 178>,   "2-178 deg", "G62: largest inner angle", "5.3.5"},
     {3131, 3131, 1, kAll, false,    P::corner_always,           whole<0, 1>,       kOffOn, "the override of inner corners and arcs acts in G64, too", "5.3.5"},
     {3132, 3132, 1, kAll, false,    P::inner_arc_least,         between<0, 100>,   "0 off; 1-100 %", "G62: least Rc/Rp by which the feed of an inner arc is lowered", "5.3.6"},
-    {3133, 3133, 1, kAll, false,    P::none,                    kOffOnly,          "0", "program restart: a reset goes back to the beginning; only 0 is taken", "2.3.4"},
+    {3133, 3133, 1, kAll, false,    P::stays_behind_reset,      zero_or_two,       "0, 2", "program restart: a start behind a reset begins 0 at the head of the program, 2 with the block that was stopped, in the modes of before", "2.3.4", 0, 0, is_two},
     {3134, 3134, 1, kAll, false,    P::none,                    whole<0, 1>,       kOffOn, "search of sequence numbers: with either value through the whole program", "2.3.3"},
     {3141, 3141, 1, kAll, false,    P::measure_deceleration,    at_least_0,        "mm", "G37: distance from which on the measuring feed is in force", "4.10"},
     {3142, 3142, 1, kAll, false,    P::measure_range,           at_least_0,        "mm", "G37: range around the point where the signal may come", "4.10"},

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Program restart (HX 2.3.4): a start behind a reset goes on with the block that the reset has stopped, in the modes and with the feed that were in force. That
+// block is executed anew from where the machine stands then: an absolute word goes to its place, an increment counts from there.
+//
+// What ends with a reset in spite of that are the modes that need the blocks in front: radius compensation, cycles, modal calls, maps of the axes. Going on
+// in the middle of these would cut beside the path, so there the program begins at its head, as it does without the parameter.
+#include "interpret/interpreter.hpp"
+
+namespace nc {
+
+bool Interpreter::may_begin_here() const {
+  if (mdi || ended || state.end_seen || state.repeat.active || state.owes_mark) return false;
+  if (state.compensated() || state.moved_side != 0 || !state.modal.is(Function::cycle_off)) return false;
+  if (state.map.active() || state.spline.on || state.nurbs.active() || state.arc_step != ArcStep::none || state.meeting.kind != MeetingFirst::Kind::none) return false;
+  if (state.parameter_input || state.life_input.kind != LifeInput::Kind::none) return false;
+  if (state.interrupt_depth != 0 || state.codes_left != 0) return false;
+  for (unsigned level = 0; level <= state.depth; ++level) {
+    const CallFrame& frame = state.frame[level];
+    if (frame.modal_call != 0 || frame.modal_slot != 0 || frame.figure != 0) return false;
+    if (frame.origin == CallOrigin::interrupt || frame.origin == CallOrigin::mdi) return false;
+  }
+  return true;
+}
+
+void Interpreter::keep_place(bool stands) {
+  if (!settings.stays_behind_reset || !stands) return forget_place();
+  if (state.seq == 0) return;  // nothing has been executed since the place was kept, or since the head of the program
+  place_.kept = may_begin_here();
+  if (place_.kept) place_.stack = state;
+}
+
+}  // namespace nc

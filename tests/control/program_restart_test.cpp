@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// HX 2.3.4, PI 133: where a start behind a reset begins. 0: at the head of the program; 2: with the block that the reset has stopped, in the modes of before.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "online_helpers.hpp"
+
+namespace nc::test {
+namespace {
+
+class ProgramRestart : public testing::Test {
+ protected:
+  /// Runs `text` until the axis X is beyond `x`, and presses reset.
+  void stop_beyond(double x, const char* pi_133, const std::string& text) {
+    bench.emplace(NC_DIALECT_HX, machine(64));
+    bench->tool(1, 3, NC_TOOL_RADIUS).param("3133", pi_133);
+    drive.emplace(*bench, text);
+    for (unsigned n = 0; n < kMost && drive->out.command.v[0] < x; ++n) drive->press_start(), drive->step();
+    EXPECT_GE(drive->out.command.v[0], x);
+    reset();
+  }
+  void reset() {
+    drive->in.cycle_start = false;
+    drive->in.reset = true;
+    drive->step();
+    drive->in.reset = false;
+    for (unsigned n = 0; n < kMost && drive->out.state != NC_STATE_IDLE; ++n) drive->step();
+    drive->step();
+    ASSERT_EQ(drive->out.state, NC_STATE_IDLE);
+  }
+  /// Presses start, and runs to the end. @return the lines of the blocks that have ended
+  std::vector<unsigned> go_on() {
+    const size_t before = drive->events.size();
+    drive->ended = false;
+    for (unsigned n = 0; n < kMost && !drive->ended; ++n) drive->in.cycle_start = n == 2, drive->step();
+    EXPECT_TRUE(drive->ended);
+    std::vector<unsigned> lines;
+    for (size_t i = before; i < drive->events.size(); ++i)
+      if (drive->events[i].kind == NC_ITEM_MARK) lines.push_back(drive->events[i].source.line);
+    return lines;
+  }
+  double x() const { return drive->out.command.v[0]; }
+  double y() const { return drive->out.command.v[1]; }
+
+  static constexpr unsigned kMost = 20000;
+  std::optional<Bench> bench;
+  std::optional<Drive> drive;
+};
+
+const char kPart[] = "G90 G00 X10.\n#100=#100+1\nG01 X20. F1200\nX40.\nY5.\nM30\n";
+
+TEST_F(ProgramRestart, BeginsAtTheHeadWhereNothingElseIsSaid) {
+  stop_beyond(25, "0", kPart);
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(bench->var_now(100), 2);
+}
+
+TEST_F(ProgramRestart, GoesOnWithTheBlockThatWasStopped) {
+  stop_beyond(25, "2", kPart);
+  const double stopped = x();
+  EXPECT_LT(stopped, 39);
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{4, 5, 6})) << "G01 and F are in force";
+  EXPECT_EQ(drive->alarm(), "");
+  EXPECT_EQ(x(), 40);
+  EXPECT_EQ(y(), 5);
+  EXPECT_EQ(bench->var_now(100), 1);
+  // A program that has ended begins at its head again.
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST_F(ProgramRestart, FurtherResetsLeaveThePlaceAndASelectionDoesNot) {
+  stop_beyond(25, "2", kPart);
+  reset();
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{4, 5, 6}));
+  stop_beyond(25, "2", kPart);
+  bench->start(kPart);
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST_F(ProgramRestart, GoesOnInAnIncrementFromWhereTheAxesAre) {
+  stop_beyond(5, "2", "G91 G01 X20. F1200\nG90 Y5.\nM30\n");
+  const double stopped = x();
+  EXPECT_EQ(go_on(), (std::vector<unsigned>{1, 2, 3}));
+  EXPECT_NEAR(x(), stopped + 20, 1e-9) << "the whole increment, from where the axes stood";
+}
+
+TEST_F(ProgramRestart, GoesOnInSubProgramsLoopsAndMacros) {
+  stop_beyond(25, "2", "G90 G01 F1200\n#1=7\nG65 P2 A20.\nX[#1]\nM30\nO2\n#2=0\nWHILE [#2 LT 3] DO 1\nX[#1+#2*10]\n#2=#2+1\nEND 1\nM99\n");
+  EXPECT_EQ(drive->alarm(), "");
+  const std::vector<unsigned> lines = go_on();
+  ASSERT_FALSE(lines.empty());
+  EXPECT_EQ(lines.front(), 9u);
+  EXPECT_EQ(lines.back(), 5u);
+  EXPECT_EQ(x(), 7) << "each level has its variables";
+}
+
+// Going on in the middle of these would cut beside the path.
+TEST_F(ProgramRestart, BeginsAtTheHeadWhereTheModesNeedTheBlocksInFront) {
+  stop_beyond(25, "2", "G90 G01 F1200 X1.\nG41 D1 X10. Y5.\nX40.\nG40 X50. Y9.\nM30\n");
+  EXPECT_EQ(go_on().front(), 1u) << "radius compensation";
+  stop_beyond(25, "2", "G90 G00 X1.\nG99 G81 X10. Z-1. R1. F1200\nX40.\nG80\nM30\n");
+  EXPECT_EQ(go_on().front(), 1u) << "a cycle";
+  stop_beyond(25, "2", "G90 G01 F1200 X1.\nG66 P2\nX40.\nG67\nM30\nO2\nY1.\nM99\n");
+  EXPECT_EQ(go_on().front(), 1u) << "a modal call";
+}
+
+TEST_F(ProgramRestart, NothingIsKeptBehindBlocksOfMdi) {
+  stop_beyond(25, "2", kPart);
+  static constexpr char kText[] = "G00 Y1.\n";
+  ASSERT_EQ(nc_mdi_load(bench->control(), 0, kText, sizeof kText - 1), NC_OK);
+  go_on();
+  EXPECT_EQ(y(), 1);
+}
+
+TEST(ProgramRestartOffline, IsTheSameWhereBlocksArePulled) {
+  for (const char* pi_133 : {"0", "2"}) {
+    Bench bench(NC_DIALECT_HX);
+    bench.param("3133", pi_133);
+    bench.start("G90 G01 X10. F100\nX20.\nX30.\nX40.\nM30\n");
+    for (unsigned marks = 0; marks < 2;) {
+      Step step;
+      ASSERT_EQ(bench.pull(&step), NC_OK);
+      marks += step.item.kind == NC_ITEM_MARK ? 1 : 0;
+    }
+    ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+    ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+    const Outcome rest = bench.finish(1000, 1000);
+    EXPECT_EQ(rest.path().front(), *pi_133 == '2' ? "line 30 0 0 F100" : "line 10 0 0 F100");
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
