@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // DGSHAPE 2-7: every code of the list, one row for each. What a row says stands in the section of the code: what a program with it does, and which words and
 // neighbours it cannot have, with the alarm on the line of the block.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "dialect/dialect.hpp"
-#include "support/pull.hpp"
+#include "support/code_rows.hpp"
 
 namespace nc::test {
 namespace {
-
-struct Refused {
-  const char *program, *alarm;
-};
-struct CodeRow {
-  const char* code;
-  const char* program;  ///< behind "%" and "G21G90"
-  Path path;            ///< X Y Z A
-  const char* aux;      ///< with the M30 of the end
-  std::vector<Refused> refused;
-};
 
 Outcome run_of(const std::string& text) {
   Bench bench(NC_DIALECT_DGSHAPE, axes("XYZa"));
@@ -105,41 +88,15 @@ const CodeRow kRows[] = {
     {"M17", "M17", {}, "M17 M30", {{"M18", "NC-NO-SUCH-CODE"}, {"M98P1", "NC-NO-SUCH-CODE"}, {"M99", "NC-NO-SUCH-CODE"}}},
 };
 
-unsigned lines_of(const std::string& text) { return static_cast<unsigned>(std::count(text.begin(), text.end(), '\n')) + 1; }
-
 TEST(DgshapeCodes, DoWhatTheirSectionSays) {
-  for (const CodeRow& row : kRows) {
-    const Outcome run = run_of(row.program);
-    EXPECT_EQ(run.alarm, "") << row.code << ": " << run.alarm_detail;
-    EXPECT_EQ(run.path(), row.path) << row.code;
-    EXPECT_EQ(run.aux(), row.aux) << row.code;
-  }
+  expect_done(kRows, run_of);
   EXPECT_EQ(run_of("G04P1500\nG04X2.5\nG04X500").dwells(), (std::vector<double>{1.5, 2.5, 0.5}));
   EXPECT_EQ(run_of("M03S1000F100.\nG82X1.Z-1.R1.P500\nG89X1.Z-1.R1.P1500").dwells(), (std::vector<double>{0.5, 1.5}));
 }
 
-TEST(DgshapeCodes, RefuseWhatTheyCannotHave) {
-  for (const CodeRow& row : kRows)
-    for (const Refused& refused : row.refused) {
-      const Outcome run = run_of(refused.program);
-      EXPECT_EQ(run.alarm, refused.alarm) << row.code << ": " << refused.program << ": " << run.alarm_detail;
-      EXPECT_EQ(run.alarm_line, 2 + lines_of(refused.program)) << row.code << ": " << refused.program;
-    }
-}
+TEST(DgshapeCodes, RefuseWhatTheyCannotHave) { expect_refused(kRows, run_of, 2); }
 
-TEST(DgshapeCodes, AreThoseOfTheTable) {
-  std::set<std::string> here, there;
-  for (const CodeRow& row : kRows) here.insert(row.code);
-  char text[12];
-  for (const FunctionRow& row : dialect(NC_DIALECT_DGSHAPE).functions) {
-    std::snprintf(text, sizeof text, "G%02d", row.code / 10);
-    there.insert(text);
-  }
-  for (const MiscRow& row : dialect(NC_DIALECT_DGSHAPE).misc)
-    if (row.missing == nullptr) std::snprintf(text, sizeof text, "M%02d", row.code), there.insert(text);
-  for (const OutputRow& row : dialect(NC_DIALECT_DGSHAPE).outputs) std::snprintf(text, sizeof text, "M%02d", row.code), there.insert(text);
-  EXPECT_EQ(here, there);
-}
+TEST(DgshapeCodes, AreThoseOfTheTable) { expect_codes_of(NC_DIALECT_DGSHAPE, kRows); }
 
 }  // namespace
 }  // namespace nc::test

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // HX 3.1: every code of the table, one row for each: what a program with it does by its section, and which words and neighbours it cannot have, with the alarm
 // on the line of the block. Where sentences of the manual are lost, docs/decisions.md says what was chosen.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "dialect/dialect.hpp"
-#include "dialect/function_table.hpp"
-#include "support/pull.hpp"
+#include "support/code_rows.hpp"
 
 namespace nc::test {
 namespace {
-
-struct Refused {
-  const char *program, *alarm;
-};
-struct CodeRow {
-  const char* code;
-  const char* program;
-  Path path;        ///< X Y Z C
-  const char* aux;  ///< with the M30 of the end
-  std::vector<Refused> refused;
-};
 
 /// D1 is 3 mm, H1 is 10 mm; the 2nd reference position is at 100, 200, 300.
 Outcome run_of(const std::string& text) {
@@ -150,15 +132,8 @@ const CodeRow kRows[] = {
     {"M19", "M19", {}, "M19 M30", {}},
 };
 
-unsigned lines_of(const std::string& text) { return static_cast<unsigned>(std::count(text.begin(), text.end(), '\n')) + 1; }
-
 TEST(HxCodes, DoWhatTheirSectionSays) {
-  for (const CodeRow& row : kRows) {
-    const Outcome run = run_of(row.program);
-    EXPECT_EQ(run.alarm, "") << row.code << ": " << run.alarm_detail;
-    EXPECT_EQ(run.path(), row.path) << row.code;
-    EXPECT_EQ(run.aux(), row.aux) << row.code;
-  }
+  expect_done(kRows, run_of);
   EXPECT_EQ(run_of("G04 P1500\nG04 X2.5").dwells(), (std::vector<double>{1.5, 2.5}));
   EXPECT_EQ(run_of("G82 X1. Z-1. R1. P500 F100\nG89 X2. P250").dwells(), (std::vector<double>{0.5, 0.25}));
   EXPECT_TRUE(run_of("G09 G01 X1. F100\nX2.").moves()[0].exact_stop);
@@ -169,24 +144,9 @@ TEST(HxCodes, DoWhatTheirSectionSays) {
   for (unsigned i = 1; i <= 4; ++i) EXPECT_EQ(run_of("G31." + std::to_string(i) + " Z-1. F1.").moves().back().skip_mask, 1u << (i - 1));
 }
 
-TEST(HxCodes, RefuseWhatTheyCannotHave) {
-  for (const CodeRow& row : kRows)
-    for (const Refused& refused : row.refused) {
-      const Outcome run = run_of(refused.program);
-      EXPECT_EQ(run.alarm, refused.alarm) << row.code << ": " << refused.program << ": " << run.alarm_detail;
-      EXPECT_EQ(run.alarm_line, lines_of(refused.program)) << row.code << ": " << refused.program;
-    }
-}
+TEST(HxCodes, RefuseWhatTheyCannotHave) { expect_refused(kRows, run_of, 0); }
 
-TEST(HxCodes, AreThoseOfTheTable) {
-  std::set<std::string> here, there;
-  for (const CodeRow& row : kRows) here.insert(row.code);
-  char text[12];
-  for (const FunctionRow& row : dialect(NC_DIALECT_HX).functions) g_code_text('G', row.code, text, sizeof text), there.insert(text);
-  for (const MiscRow& row : dialect(NC_DIALECT_HX).misc) m_code_text('M', row.code, text, sizeof text), there.insert(text);
-  for (const OutputRow& row : dialect(NC_DIALECT_HX).outputs) m_code_text('M', row.code, text, sizeof text), there.insert(text);
-  EXPECT_EQ(here, there);
-}
+TEST(HxCodes, AreThoseOfTheTable) { expect_codes_of(NC_DIALECT_HX, kRows); }
 
 }  // namespace
 }  // namespace nc::test

@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The codes of RS-274/NGC and LinuxCNC that the iso family has, one row for each: what a program with the code does by its document, and which words and
 // neighbours it cannot have, with the alarm on the line of the block. The codes that are not built are all alarms (Iso.WhatIsNotBuiltSaysSo).
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "dialect/dialect.hpp"
-#include "dialect/function_table.hpp"
-#include "support/pull.hpp"
+#include "support/code_rows.hpp"
 
 namespace nc::test {
 namespace {
-
-struct Refused {
-  const char *program, *alarm;
-};
-struct CodeRow {
-  const char* code;
-  const char* program;
-  Path path;        ///< X Y Z A
-  const char* aux;  ///< with the M2 of the end
-  std::vector<Refused> refused;
-};
 
 Outcome run_of(const std::string& text) {
   Bench bench(NC_DIALECT_ISO, axes("XYZa"));
@@ -125,29 +107,15 @@ const CodeRow kRows[] = {
     {"M19", "M19", {}, "M19 M2", {{"M19 R90", "NC-NOT-BUILT"}}},
 };
 
-unsigned lines_of(const std::string& text) { return static_cast<unsigned>(std::count(text.begin(), text.end(), '\n')) + 1; }
-
 TEST(IsoCodes, DoWhatTheirDocumentSays) {
-  for (const CodeRow& row : kRows) {
-    const Outcome run = run_of(row.program);
-    EXPECT_EQ(run.alarm, "") << row.code << ": " << run.alarm_detail;
-    EXPECT_EQ(run.path(), row.path) << row.code;
-    EXPECT_EQ(run.aux(), row.aux) << row.code;
-  }
+  expect_done(kRows, run_of);
   EXPECT_EQ(run_of("G4 P1.5").dwells(), (std::vector<double>{1.5}));
   EXPECT_TRUE(run_of("G61\nG1 X1 F1\nX2").moves()[0].exact_stop && run_of("G61.1\nG1 X1 F1\nX2").moves()[0].exact_stop);
   EXPECT_FALSE(run_of("G61\nG64\nG1 X1 F1\nX2").moves()[0].exact_stop);
   EXPECT_EQ(run_of("S100 M3\nG95 G1 X10 F.5").moves()[0].feed_mm_rev, 0.5);
 }
 
-TEST(IsoCodes, RefuseWhatTheyCannotHave) {
-  for (const CodeRow& row : kRows)
-    for (const Refused& refused : row.refused) {
-      const Outcome run = run_of(refused.program);
-      EXPECT_EQ(run.alarm, refused.alarm) << row.code << ": " << refused.program << ": " << run.alarm_detail;
-      EXPECT_EQ(run.alarm_line, lines_of(refused.program)) << row.code << ": " << refused.program;
-    }
-}
+TEST(IsoCodes, RefuseWhatTheyCannotHave) { expect_refused(kRows, run_of, 0); }
 
 // RS-274/NGC 3.5.19: the F of inverse time ends with it; the code that ends it may stand alone.
 TEST(IsoCodes, OfFeedMayStandAloneBehindInverseTime) {
@@ -171,17 +139,7 @@ TEST(IsoCodes, OfOneGroupStandAlone) {
   for (const char* block : {"G17 G20 G90 G94 G54 G40 G49 G80 G98 G64 G97 G0", "G91 G28 X1", "G90 G53 G0 X1", "G21 G4 P0", "G18 G92 X0"}) EXPECT_EQ(run_of(block).alarm, "") << block;
 }
 
-TEST(IsoCodes, AreThoseOfTheTable) {
-  std::set<std::string> here, there;
-  for (const CodeRow& row : kRows) here.insert(row.code);
-  char text[12];
-  for (const FunctionRow& row : dialect(NC_DIALECT_ISO).functions)
-    if (row.missing == nullptr) g_code_text('G', row.code, text, sizeof text), there.insert(text);
-  for (const MiscRow& row : dialect(NC_DIALECT_ISO).misc)
-    if (row.missing == nullptr) m_code_text('M', row.code, text, sizeof text), there.insert(text);
-  for (const OutputRow& row : dialect(NC_DIALECT_ISO).outputs) m_code_text('M', row.code, text, sizeof text), there.insert(text);
-  EXPECT_EQ(here, there);
-}
+TEST(IsoCodes, AreThoseOfTheTable) { expect_codes_of(NC_DIALECT_ISO, kRows); }
 
 }  // namespace
 }  // namespace nc::test

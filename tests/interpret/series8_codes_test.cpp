@@ -1,27 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of codes of the Series 8, one row for each: what a program with the code does by its page (or by docs/series8.md, where the page is only a title),
 // and which words and neighbours it cannot have, with the alarm on the line of the block. In a table of its own so that it can be laid beside the list.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "dialect/dialect.hpp"
-#include "support/pull.hpp"
+#include "support/code_rows.hpp"
 
 namespace nc::test {
 namespace {
-
-struct Refused {
-  const char *program, *alarm;
-};
-struct CodeRow {
-  const char* code;
-  const char* program;
-  Path path;
-  const char* aux;
-  std::vector<Refused> refused;
-};
 
 Outcome run_of(const std::string& text) {
   Bench bench(NC_DIALECT_SERIES8);
@@ -45,11 +28,11 @@ const CodeRow kRows[] = {
     {"G21", "F50\nG21X1\nX2", {"line 1 0 0 F50", "line 2 0 0 F50"}, "M30", {{"G21X1", "NC-FEED"}}},
     {"G22", "F50\nG22X2R1", {"cw 2 0 0 c1,0 F50"}, "M30", {{"F50\nG22X1Y1I-1", "INVALIDARC"}}},
     {"G23", "F50\nG23X2R1", {"ccw 2 0 0 c1,0 F50"}, "M30", {{"F50\nX5\nG23X-5Y1I5", "INVALIDARC"}}},
-    {"G34", "F50\nG34Z-1R1I8J6Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50"}, "M30",
+    {"G34", "F50\nG34Z-1R1I8J6Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50", kGoesOn}, "M30",
      {{"F50\nG34Z-1R1I8J6", "NC-WORDS"}, {"F50\nG34Z-1R1I8D1", "NC-WORDS"}, {"F50\nG34Z-1R1I5J6D1", "NC-RANGE"}, {"F50\nG34Z1R1I8J6D1", "NC-RANGE"}, {"F50\nG18\nG34Z-1R1I8J6D1", "NC-PLANE"},
       {"G34Z-1R1I8J6D1", "NC-FEED"}}},
-    {"G35", "F50\nG35Z-1R1I8J6Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50"}, "M30", {{"F50\nG35Z-1R1J6D1", "NC-WORDS"}}},
-    {"G36", "F50\nG36Z-1R1I4Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50", "ccw 1 0 -1 c0,0 F50"}, "M30", {{"F50\nG36Z-1R1D1", "NC-WORDS"}, {"F50\nG36Z-1R1I3D1", "NC-RANGE"}}},
+    {"G35", "F50\nG35Z-1R1I8J6Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50", kGoesOn}, "M30", {{"F50\nG35Z-1R1J6D1", "NC-WORDS"}}},
+    {"G36", "F50\nG36Z-1R1I4Q9D1", {"rapid 0 0 1", "line 0 0 -1 F50", "line 1 0 -1 F50", "ccw 1 0 -1 c0,0 F50", kGoesOn}, "M30", {{"F50\nG36Z-1R1D1", "NC-WORDS"}, {"F50\nG36Z-1R1I3D1", "NC-RANGE"}}},
     {"G40", "G41D1\nX10\nX20\nG40X30", {"rapid 0 3 0", "rapid 10 3 0", "rapid 20 3 0", "rapid 30 0 0"}, "M30", {}},
     {"G41", "G41D1X10\nX20", {"rapid 0 3 0", "rapid 10 3 0", "rapid 20 3 0"}, "M30", {{"G41X1", "NC-OFFSET-DATA"}, {"F50\nG41D1G02X2R1", "NC-OFFSET-START"}, {"F50\nG41D1X5\nG81Z-1R1", "NC-OFFSET-CODE"}}},
     {"G42", "G42D1X10\nX20", {"rapid 0 -3 0", "rapid 10 -3 0", "rapid 20 -3 0"}, "M30", {{"G42D201X1", "NC-OFFSET-DATA"}}},
@@ -103,17 +86,8 @@ const CodeRow kRows[] = {
     {"M59", "M59", {}, "M59 M30", {}},
 };
 
-unsigned lines_of(const std::string& text) { return static_cast<unsigned>(std::count(text.begin(), text.end(), '\n')) + 1; }
-
 TEST(Series8Codes, DoWhatTheirPageSays) {
-  for (const CodeRow& row : kRows) {
-    const Outcome run = run_of(row.program);
-    EXPECT_EQ(run.alarm, "") << row.code << ": " << run.alarm_detail;
-    Path path = run.path();
-    if (row.code[1] == '3' && path.size() > row.path.size()) path.resize(row.path.size());  // a cavity goes on in rings
-    EXPECT_EQ(path, row.path) << row.code;
-    EXPECT_EQ(run.aux(), row.aux) << row.code;
-  }
+  expect_done(kRows, run_of);
   EXPECT_EQ(run_of("G04X1.5\nG04F.5").dwells(), (std::vector<double>{1.5, 0.5}));
   EXPECT_EQ(run_of("F50\nG82X1Z-1R1P1.5\nG85P.25X2").dwells(), (std::vector<double>{1.5, 0.25}));
   EXPECT_EQ(run_of("M03S500\nG95F.5\nG01X1").moves().back().feed_mm_rev, 0.5);
@@ -123,25 +97,9 @@ TEST(Series8Codes, DoWhatTheirPageSays) {
   EXPECT_TRUE(run_of("F50\nG22X2R1\nG01X3").moves()[0].exact_stop && run_of("F50\nG23X2R1\nG01X3").moves()[0].exact_stop);
 }
 
-TEST(Series8Codes, RefuseWhatTheyCannotHave) {
-  for (const CodeRow& row : kRows)
-    for (const Refused& refused : row.refused) {
-      const Outcome run = run_of(refused.program);
-      EXPECT_EQ(run.alarm, refused.alarm) << row.code << ": " << refused.program << ": " << run.alarm_detail;
-      EXPECT_EQ(run.alarm_line, 1 + lines_of(refused.program)) << row.code << ": " << refused.program;
-    }
-}
+TEST(Series8Codes, RefuseWhatTheyCannotHave) { expect_refused(kRows, run_of, 1); }
 
-TEST(Series8Codes, AreThoseOfTheTable) {
-  std::set<std::string> here, there;
-  for (const CodeRow& row : kRows) here.insert(row.code);
-  char text[12];
-  for (const FunctionRow& row : dialect(NC_DIALECT_SERIES8).functions) std::snprintf(text, sizeof text, "G%02d", row.code / 10), there.insert(text);
-  for (const MiscRow& row : dialect(NC_DIALECT_SERIES8).misc)
-    if (row.missing == nullptr) std::snprintf(text, sizeof text, "M%02d", row.code), there.insert(text);
-  for (const OutputRow& row : dialect(NC_DIALECT_SERIES8).outputs) std::snprintf(text, sizeof text, "M%02d", row.code), there.insert(text);
-  EXPECT_EQ(here, there);
-}
+TEST(Series8Codes, AreThoseOfTheTable) { expect_codes_of(NC_DIALECT_SERIES8, kRows); }
 
 }  // namespace
 }  // namespace nc::test
