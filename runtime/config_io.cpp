@@ -74,12 +74,40 @@ struct InterfaceNumber {
 
 constexpr unsigned kBits = 32;  // bits of a word
 
-// Calls `use` for every range of variable numbers that the dialect has in its macro interface.
+// The signal that a family has a name for among its inputs and outputs, nullptr = such a row is none.
+const char* signal_of_role(unsigned role) {
+  if (role == NC_VARIABLE_SPEED_CODE) return "nc.s_code";
+  return role == NC_VARIABLE_SPINDLE_SPEED ? "nc.spindle_command.1" : nullptr;
+}
+
 template <class Use>
-void each_interface_range(nc_dialect dialect, const Use& use) {
+void each_row(nc_dialect dialect, const Use& use) {
   nc_system_variable row{};
   for (unsigned i = 0; nc_system_variable_row(dialect, i, &row) == NC_OK; ++i)
     if (row.role != NC_VARIABLE_OTHER) use(row);
+}
+
+// Calls `use` for every range of variable numbers that the dialect has in its macro interface.
+template <class Use>
+void each_interface_range(nc_dialect dialect, const Use& use) {
+  each_row(dialect, [&](const nc_system_variable& row) {
+    if (signal_of_role(row.role) == nullptr) use(row);
+  });
+}
+
+// What a row is called: "@RUNG6" begins its name where the family has names in place of numbers.
+std::string_view key_of(const nc_system_variable& row) {
+  const std::string_view name = row.name;
+  return name.substr(0, name.find(' '));
+}
+
+// The signal that a key such as "@SCODE" is the family's name of, nullptr = it is none.
+const char* named_signal(nc_dialect dialect, std::string_view key) {
+  const char* signal = nullptr;
+  each_row(dialect, [&](const nc_system_variable& row) {
+    if (key_of(row) == key && signal == nullptr) signal = signal_of_role(row.role);
+  });
+  return signal;
 }
 
 // Where the name of a row ends in "-00", each of its places has that name with its number: "@motion.digital-in-07". 0 = the key is none of them.
@@ -95,10 +123,9 @@ unsigned numbered(const nc_system_variable& row, std::string_view name, std::str
 std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_view key) {
   unsigned n = 0;
   std::optional<InterfaceNumber> found;
-  if (!key.empty() && key[0] == '@') {  // a family whose inputs and outputs have names: "@RUNG6" begins what the row is called
+  if (!key.empty() && key[0] == '@') {  // a family whose inputs and outputs have names
     each_interface_range(dialect, [&](const nc_system_variable& row) {
-      std::string_view name = row.name;
-      name = name.substr(0, name.find(' '));
+      const std::string_view name = key_of(row);
       if (name == key) n = row.first;
       n = std::max(n, numbered(row, name, key));
     });
@@ -121,7 +148,12 @@ std::optional<InterfaceNumber> interface_number(nc_dialect dialect, std::string_
 
 // The error text for a number outside the macro interface. It lists the ranges that exist; ranges that adjoin are listed as one.
 std::string no_interface_number(nc_dialect dialect) {
-  std::string text;
+  std::string text, names;
+  each_row(dialect, [&](const nc_system_variable& row) {
+    const std::string_view name = key_of(row);
+    if (!name.empty() && name[0] == '@') names.append(names.empty() ? "" : ", ").append(name);
+  });
+  if (!names.empty()) return "is no name of the macro interface (" + names + ")";
   std::uint32_t last = 0;
   each_interface_range(dialect, [&](const nc_system_variable& row) {
     if (last != 0 && row.first == last + 1) text.resize(text.rfind('-'));
@@ -151,6 +183,7 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
   std::string name;
   if (!reader->string(key, &name)) return;
   const auto dialect = static_cast<nc_dialect>(config->nc.dialect);
+  if (const char* signal = named_signal(dialect, key); signal != nullptr) return connect_signal(reader, key, signal, config);
   const auto number = interface_number(dialect, key);
   if (!number) {
     reader->error(key, no_interface_number(dialect));
@@ -177,6 +210,10 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
   std::string& owner = (*mapped_by)[static_cast<std::size_t>(index)];
   if (!owner.empty()) {
     reader->error(key, "point \"" + name + "\" is mapped twice (also by " + owner + ")");
+    return;
+  }
+  if (number->output && config->is_wired_output(static_cast<unsigned>(index))) {
+    reader->error(key, "point \"" + name + "\" has a signal already");
     return;
   }
   if (overlaps(config->macro, *number)) {

@@ -14,11 +14,12 @@ bool macro_output(const MacroMap& map, int point) {
   return has(map.output_word) || std::any_of(map.output_bit.begin(), map.output_bit.end(), has);
 }
 
-void connect(TableReader* reader, const std::string& key, const std::vector<Signal>& signals, Config* config) {
+// `called`: the name of the signal, which a family may have a name of its own for, the key.
+void connect(TableReader* reader, const std::string& key, const std::string& called, const std::vector<Signal>& signals, Config* config) {
   std::string name;
   if (!reader->string(key, &name)) return;
   const auto signal =
-      std::find_if(signals.begin(), signals.end(), [&](const Signal& each) { return each.name == key; });
+      std::find_if(signals.begin(), signals.end(), [&](const Signal& each) { return each.name == called; });
   if (signal == signals.end())
     return reader->error(key, "no signal of this machine has this name; docs/signals.md lists them");
   const int index = config->points.find(name);
@@ -47,8 +48,12 @@ void connect(TableReader* reader, const std::string& key, const std::vector<Sign
 void read_signals(TableReader* root, Config* config) {
   root->table("signals", [&](TableReader& reader) {
     const std::vector<Signal> signals = machine_signals(config->nc);
-    reader.each([&](const std::string& key, const toml::node&) { connect(&reader, key, signals, config); });
+    reader.each([&](const std::string& key, const toml::node&) { connect(&reader, key, key, signals, config); });
   });
+}
+
+void connect_signal(TableReader* reader, const std::string& key, const std::string& signal, Config* config) {
+  connect(reader, key, signal, machine_signals(config->nc), config);
 }
 
 bool Config::is_wired_output(unsigned point) const {

@@ -108,7 +108,7 @@ TEST_F(FamilyInterface, NamesOfLinuxCnc) {  // M62 to M68
 }
 
 TEST_F(FamilyInterface, PmiVariablesOfTheSeries8) {  // G06: @RUNG6; S: @SCODE
-  build("series8", "[macro_interface]\n\"@RUNG6\" = \"in0\"\n[signals]\n\"nc.s_code\" = \"word_out\"\n", "G71G90\nM03S600\nG06X5F3000\nM30\n");
+  build("series8", "[macro_interface]\n\"@RUNG6\" = \"in0\"\n\"@SCODE\" = \"word_out\"\n", "G71G90\nM03S600\nG06X5F3000\nM30\n");
   machine->in0 = true;
   start();
   EXPECT_FALSE(run(6000)) << "to and fro as long as it is on";
@@ -120,13 +120,33 @@ TEST_F(FamilyInterface, PmiVariablesOfTheSeries8) {  // G06: @RUNG6; S: @SCODE
 }
 
 TEST_F(FamilyInterface, TheWantedSpeedOfTheSeries8) {  // @LCRPM: of G97, and of G96, where the S code is a surface speed (R of G92: the radius at X)
-  build("series8", "[signals]\n\"nc.spindle_command.1\" = \"word_out\"\n", "G71G90\nG97M03S600\nG04X.5\nG92R10S5000\nG96S63\nG04X.5\nG04X.5\nM30\n");
+  build("series8", "[macro_interface]\n\"@LCRPM\" = \"word_out\"\n", "G71G90\nG97M03S600\nG04X.5\nG92R10S5000\nG96S63\nG04X.5\nG04X.5\nM30\n");
   start();
   EXPECT_FALSE(run(300));
   EXPECT_EQ(machine->word_out, 600u);
   EXPECT_FALSE(run(500));
   EXPECT_NEAR(machine->word_out, 1000, 15) << "63 m/min at a radius of 10 mm";
   EXPECT_TRUE(run());
+}
+
+TEST(FamilyInterfaceErrors, NamesOfTheSeries8AreSaidAndCheckedAsSignals) {
+  const auto error_of = [](const std::string& names) {
+    std::string toml = nc::test::base_toml();
+    const size_t from = toml.find("[macro_interface]"), to = toml.find("[sim]");
+    toml = toml.substr(0, from) + names + toml.substr(to);
+    toml.insert(toml.find("name = \"test\"\n"), "dialect = \"series8\"\n");
+    nc::rt::Config config;
+    std::string all;
+    for (const nc::rt::ConfigError& error : nc::rt::parse_config(toml, "test.toml", &config)) all += error.text() + "\n";
+    return all;
+  };
+  const auto has = [&](const std::string& names, const char* text) { EXPECT_NE(error_of("[macro_interface]\n" + names + "\n").find(text), std::string::npos) << error_of("[macro_interface]\n" + names + "\n"); };
+  has("\"@SPEED\" = \"word_out\"", "is no name of the macro interface (@RUNG6, @SCODE, @LCRPM)");
+  has("\"@SCODE\" = \"word_in\"", "comes from the NC, but point \"word_in\" is an input");
+  has("\"@SCODE\" = \"out0\"", "is a word, but point \"out0\" is a bit");
+  has("\"@LCRPM\" = \"nowhere\"", "no point is named");
+  has("\"@SCODE\" = \"word_out\"\n\"@LCRPM\" = \"word_out\"", "point \"word_out\" has a signal already");
+  has("\"#1100\" = \"word_out\"", "is no name of the macro interface");
 }
 
 TEST_F(FamilyInterface, NumbersOfTheM700) {  // M700 13.5.3

@@ -805,7 +805,9 @@ typedef enum nc_variable_role {
   NC_VARIABLE_INPUT_BIT = 1,   /**< each variable is one bit of the macro interface inputs; 32 variables are one word */
   NC_VARIABLE_INPUT_WORD = 2,  /**< each variable is one word of the macro interface inputs */
   NC_VARIABLE_OUTPUT_BIT = 3,  /**< each variable is one bit of the macro interface outputs; 32 variables are one word */
-  NC_VARIABLE_OUTPUT_WORD = 4  /**< each variable is one word of the macro interface outputs */
+  NC_VARIABLE_OUTPUT_WORD = 4, /**< each variable is one word of the macro interface outputs */
+  NC_VARIABLE_SPEED_CODE = 5,  /**< a name by which the machine asks for the S code; programs have no such variable */
+  NC_VARIABLE_SPINDLE_SPEED = 6 /**< a name by which the machine asks for the speed that the spindle is wanted at, r/min; programs have no such variable */
 } nc_variable_role;
 
 /** One range of system variables (M700 13.5.5), for documentation and HMIs. */

@@ -36,6 +36,7 @@ enum class SystemVariable : uint8_t {
   parameter_itself,            ///< the parameter that has the number of the variable
   reference_position,          ///< parts are the reference positions, from 0; a place for each axis
   input_answer,                ///< what the last wait for an input has found
+  speed_code, spindle_speed,   ///< names of the machine's side, which no program reads: the S code, the speed that the spindle is wanted at
   count_
 };
 
@@ -88,6 +89,8 @@ constexpr nc_variable_role interface_role(SystemVariable what) {
     case SystemVariable::input_word: return NC_VARIABLE_INPUT_WORD;
     case SystemVariable::output_bit: return NC_VARIABLE_OUTPUT_BIT;
     case SystemVariable::output_word: return NC_VARIABLE_OUTPUT_WORD;
+    case SystemVariable::speed_code: return NC_VARIABLE_SPEED_CODE;
+    case SystemVariable::spindle_speed: return NC_VARIABLE_SPINDLE_SPEED;
     default: return NC_VARIABLE_OTHER;
   }
 }

@@ -426,6 +426,8 @@ constexpr VariableHandler kHandlers[kSystemVariables] = {
     {V::parameter_itself, read_parameter_itself, write_parameter_itself, 0},
     {V::reference_position, read_reference, nullptr, 0},
     {V::input_answer, read_input_answer, nullptr, 0},
+    {V::speed_code, nullptr, nullptr, 0},
+    {V::spindle_speed, nullptr, nullptr, 0},
 };
 constexpr bool in_order() {
   for (unsigned i = 0; i < kSystemVariables; ++i)

@@ -23,9 +23,12 @@ constexpr FixedParameter kFixed[] = {
     {P::clamp_in_surface_speed, 1},  // G92 S: while G96 is in force
 };
 
-// Programs have no variables. The row gives the first input of the macro interface the name that the manual has for it.
+// Programs have no variables. The rows give the first input of the macro interface, and what the machine is told of the spindle, the names that the manual has
+// for them.
 constexpr VariableRow kRows[] = {
     {1000, 1000, SystemVariable::input_bit, 0, 0, "0/1", "@RUNG6 keeps the loop of G06 going", "G06"},
+    {1100, 1100, SystemVariable::speed_code, 0, 0, "r/min", "@SCODE the S code, for the machine", "G96"},
+    {1101, 1101, SystemVariable::spindle_speed, 0, 0, "r/min", "@LCRPM the speed that the spindle is wanted at, in G96, too, for the machine", "G96"},
 };
 
 }  // namespace
