@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The faults of docs/safety.md, brought about while the axes move: each comes to rest, says what it is, and nothing moves before the operator starts."""
+import os
+import random
+import signal
+import socket
+import struct
+import time
+
+from machine import INTERFACE, Failed, run, until
+
+CAN_ERROR, CAN_BUS_OFF = 0x20000000, 0x40
+QUIET_S = 1.0  # for so long nothing may move
+
+
+class Faults:
+    def __init__(self, control, gpio, drives, kills):
+        self.control, self.gpio, self.drives, self.kills = control, gpio, drives, kills
+
+    # ---- what the faults have in common ----
+
+    def in_motion(self):
+        """Starts the long program, and waits until two axes have moved and one moves fast."""
+        before = self.drives.places()
+        self.control.start("long.nc")
+        begun = time.monotonic()
+
+        def moves():
+            return abs(self.drives[0].place() - before[0]) > 0.5 and time.monotonic() - begun > 1.0 and max(abs(drive.gauge()[1]) for drive in self.drives) > 5.0
+        if not until(moves, 30, every=0.02):
+            raise Failed(f"it does not move when it is started: {self.control.says()}")
+
+    def alarmed(self, *codes_and_texts, seconds=20):
+        """Waits for these alarms, (code, text)."""
+        def there():
+            alarms = self.control.alarms()
+            return alarms if all(any(each.startswith(code) and text in each for each in alarms) for code, text in codes_and_texts) else None
+        found = until(there, seconds)
+        if not found:
+            raise Failed(f"no {codes_and_texts}: {self.control.says()}")
+        return "; ".join(found)
+
+    def rests(self, what, seconds=20):
+        if not until(lambda: self.drives.stand(0.5), seconds):
+            raise Failed(f"{what}: the axes do not come to rest, {[drive.gauge() for drive in self.drives]}")
+
+    def quiet(self, what):
+        """Nothing moves, and no program is in execution."""
+        if not self.drives.stand(QUIET_S):
+            raise Failed(f"{what}: something moves: {self.control.says()}, {[drive.gauge() for drive in self.drives]}")
+        if self.control.state() in ("running", "manual"):
+            raise Failed(f"{what}: {self.control.says()}")
+
+    def refuses(self, what):
+        """Cycle start does nothing while the cause is there, or has not been acknowledged."""
+        said = self.control.press("start", good=False)
+        self.quiet(f"{what}, behind a cycle start that is to be refused ({said})")
+
+    def acknowledge(self, what):
+        """Behind a reset the drives come on, the alarms are gone, and nothing moves by itself."""
+        def clean():
+            self.control.press("reset", good=False)
+            return until(lambda: not self.control.alarms() and set(self.drives.states()) == {"enabled"} and self.control.state() == "idle", 4)
+        if not until(clean, 45):
+            raise Failed(f"{what}: a reset does not bring it back: {self.control.says()}, drives {self.drives.states()}")
+        self.quiet(f"{what}, behind a reset")
+
+    def quick_stop(self, *others):
+        """The drives without a fault have stopped, and are off then."""
+        if not until(lambda: all(self.drives[n].gauge()[2] not in ("enabled", "stop") for n in others), 15):
+            raise Failed(f"the other drives are not off: {self.drives.states()}")
+
+    # ---- the faults ----
+
+    def chain(self):
+        """The contact of the emergency stop chain alone opens: R16, category 1 on the path, drives hold."""
+        self.in_motion()
+        self.gpio.drive("CHAIN", False)
+        said = self.alarmed(("R16", "The emergency stop chain is open"))
+        self.rests("chain open")
+        x, y, _ = (place - offset for place, offset in zip(self.drives.places(), (1.25, -2.5, 0.75)))
+        if min(abs(x), abs(x - 30), abs(y), abs(y - 20)) > 0.011:  # the tolerance of the corners
+            raise Failed(f"the axes stand beside the path, at {x:.3f} {y:.3f} of G54")
+        if set(self.drives.states()) != {"enabled"}:
+            raise Failed(f"the drives do not hold: {self.drives.states()}")
+        self.refuses("chain open")
+        self.gpio.drive("CHAIN", True)
+        time.sleep(0.5)
+        self.refuses("chain closed again, no reset")
+        self.acknowledge("chain closed again")
+        return said
+
+    def emergency_stop(self):
+        """Emergency stop in motion: safe torque off at all drives, their EMCY, and the contact of the chain."""
+        self.in_motion()
+        self.drives.sto(True)
+        self.gpio.drive("CHAIN", False)
+        said = self.alarmed(("R16", "The emergency stop chain is open"), ("R12", "EMCY 5400h"))
+        self.rests("emergency stop")
+        self.refuses("emergency stop")
+        self.control.press("reset", good=False)
+        time.sleep(1)
+        if not self.control.alarms() or "enabled" in self.drives.states():
+            raise Failed(f"a reset with the chain open: {self.control.says()}, drives {self.drives.states()}")
+        self.drives.sto(False)
+        self.gpio.drive("CHAIN", True)
+        self.quiet("the button pulled out")
+        self.acknowledge("the button pulled out")
+        return said
+
+    def drive_fault(self):
+        """One drive trips: its text is in the alarm, the others make a quick stop and are off when they stand."""
+        self.in_motion()
+        self.drives[1].trip()
+        said = self.alarmed(("R12", "EMCY 3210h: DC link over-voltage (error register 05h), axis Y"))
+        self.rests("a drive in fault")
+        self.quick_stop(0, 2)
+        self.refuses("a drive in fault")
+        self.acknowledge("a drive that was in fault")
+        return said
+
+    def node_killed(self):
+        """The process of a node gets SIGKILL: the control names what does not come any more; the node is set up again by itself, and works behind a reset."""
+        self.in_motion()
+        self.drives[1].kill()
+        said = self.alarmed(("R12", "does not come"))
+        if "axis Y" not in said:
+            raise Failed(f"the axis is not named: {said}")
+        self.rests("a node is gone")
+        self.quick_stop(0, 2)
+        self.refuses("a node is gone")
+        self.drives[1].begin()
+        self.drives[1].wait()
+        self.quiet("a node that comes back")
+        self.acknowledge("a node that is back")
+        return said
+
+    def interface_down(self):
+        """The interface goes down: every drive stops by its own supervision of the heartbeat, the control has R12 of the positions and R14 of the bus."""
+        self.in_motion()
+        run("ip", "link", "set", INTERFACE, "down")
+        said = self.alarmed(("R12", "do"), ("R14", ""))
+        self.rests("interface down")
+        if not until(lambda: "enabled" not in self.drives.states(), 10):
+            raise Failed(f"drives without a control are still on: {self.drives.states()}")
+        self.refuses("interface down")
+        run("ip", "link", "set", INTERFACE, "up")
+        self.quiet("interface up again")
+        self.acknowledge("interface up again")
+        return said
+
+    def bus_off(self):
+        """The controller reports bus-off, and the interface is without a bus until it has restarted: R14."""
+        self.in_motion()
+        with socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW) as controller:
+            controller.bind((INTERFACE,))
+            controller.send(struct.pack("<IB3x8s", CAN_ERROR | CAN_BUS_OFF, 8, bytes(8)))
+        run("ip", "link", "set", INTERFACE, "down")
+        said = self.alarmed(("R14", ""))
+        self.rests("bus off")
+        self.refuses("bus off")
+        run("ip", "link", "set", INTERFACE, "up")
+        self.quiet("bus back")
+        self.acknowledge("bus back")
+        return said
+
+    def chip_pulled_out(self):
+        """The GPIO chip vanishes: R18 stops the machine, and behind a reset its lines are the control's again."""
+        self.in_motion()
+        self.gpio.pull_out()
+        said = self.alarmed(("R18", ""))
+        self.rests("chip pulled out")
+        self.refuses("chip pulled out")
+        self.gpio.plug()
+        self.quiet("chip back")
+        if not until(lambda: "the lines of target-board are there" in self.control.log(3), 10):
+            raise Failed(f"the lines are not requested again: {self.control.log(5)}")
+        self.acknowledge("chip back")
+        self.control.mdi("#1100=1")
+        if not until(lambda: self.gpio.level("CLAMP"), 5):
+            raise Failed("#1100 does not reach the line of the chip that is back")
+        self.control.mdi("#1100=0")
+        return said
+
+    # A power-fail INPUT belongs here, as a fault of its own: an input of the control that comes before the power goes.
+
+    def power_cuts(self):
+        """ncrtd gets SIGKILL in motion: the drives stop by themselves, what is kept is intact, and the service comes back with nothing running."""
+        counted, most_lost = 0, 0.0
+        self.control.ctl("variables", "set", "520", "--value", "123.456")
+        self.control.ctl("tools", "set", "3", "--length", "81.25")
+        time.sleep(1.5)
+        for n in range(self.kills):
+            self.in_motion()
+            time.sleep(random.uniform(0.0, 1.5))
+            process = int(self.control.shown("MainPID"))
+            seen = self.control.variable(501)
+            os.kill(process, signal.SIGKILL)
+            self.rests(f"kill {n}")
+            run("systemctl", "reset-failed", "ncrtd", good=False)  # many cuts in a minute are no reason to give up here
+            if not until(lambda: self.control.shown("MainPID") not in ("0", str(process)) and self.control.state() == "idle", 120, every=0.3):
+                raise Failed(f"kill {n}: the service does not come back: {self.control.log(8)}")
+            if self.control.alarms():
+                raise Failed(f"kill {n}: {self.control.says()}")
+            self.quiet(f"kill {n}: behind the start of the service")
+            kept = self.control.variable(501) or 0
+            offset = self.control.ask("offsets.list", **{"from": 2, "count": 1})["offsets"][0]["axes"][0]["value"]
+            tool = self.control.ask("tools.list", **{"from": 3, "count": 1})["tools"][0]["length"]
+            if not (counted <= kept <= seen + 1 and seen - kept <= 1 and abs(offset - kept) <= 1 and self.control.variable(520) == 123.456 and tool == 81.25):
+                raise Failed(f"kill {n}: #501 was {seen} and is {kept}, X of G55 {offset}, #520 {self.control.variable(520)}, length of tool 3 {tool}")
+            counted, most_lost = kept, max(most_lost, seen - kept)
+            self.control.up(self.drives)
+        return f"{self.kills} cuts; #501 came to {counted:.0f} and was {most_lost:.0f} behind at most, the rest of what is kept is what it was"
+
+    def all(self):
+        return [self.chain, self.emergency_stop, self.drive_fault, self.node_killed, self.interface_down, self.bus_off, self.chip_pulled_out, self.power_cuts]
