@@ -118,11 +118,14 @@ void to(Program* p, double x, double y, double z, double feed) {
   p->mark();
 }
 
-/// Without a bend a hold is later only by the time that the change of the plan needs.
+/// Without a bend a hold is later only by the time that the change of the plan needs: a cycle, since cells are cut where it has come to.
 TEST(PlannedHold, OnAStraightLineItIsTheStopOfTheAxes) {
   Program p(config_of());
   for (unsigned n = 1; n <= 100; ++n) to(&p, n, 0.5 * n, 0, kFeed);
-  EXPECT_LE(holds_in("line", ended(p), 20, 37).ms.back(), 25);
+  const Holds all = holds_in("line", ended(p), 20, 37);
+  EXPECT_LE(all.quantile(0.5), 3);
+  EXPECT_LE(all.quantile(0.9), 3);
+  EXPECT_LE(all.ms.back(), 12);
 }
 
 /// On these circles the curvature uses all of the axes' limits at every place.

@@ -38,6 +38,8 @@ class Follower {
       begins_ = true;
       at_end_ = false;
       u_ = store_->at(cell_).u;
+    } else if (enters_cut(offer)) {
+      cell_ = offer.first;  // the same motion, which ends sooner: t_ stays
     } else {
       next(offer.after) = offer.first;
     }
@@ -220,10 +222,11 @@ class Follower {
   bool fits(const optimal::Proposal& offer) const NC_RT {
     if (braking_) return false;
     if (offer.fresh) return at_rest();
-    if (cell_ == optimal::kNoCell || offer.after < cell_) return false;
-    // The offer goes on behind the end of the plan, where it rests, or behind a cell that has not been left yet.
-    return true;
+    if (cell_ == optimal::kNoCell) return false;
+    // The offer goes on behind the end of the plan, where it rests, or behind a cell that has not been left yet, or amid one before the place comes.
+    return enters_cut(offer) || (offer.after != optimal::kNoCell && offer.after >= cell_);
   }
+  bool enters_cut(const optimal::Proposal& offer) const NC_RT { return cell_ == offer.cuts && !at_end_ && t_ < store_->at(offer.first).seconds; }
   AxisVec point(const optimal::PlanCell& c, double x) const NC_RT { return on_piece(c.piece, c.x + x); }
   AxisVec on_piece(uint32_t piece, double x) const NC_RT {
     const optimal::Piece& p = store_->piece_at(piece);

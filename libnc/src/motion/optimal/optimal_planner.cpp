@@ -22,6 +22,7 @@ constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law 
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;         ///< mm
+constexpr double kLeastPart = 0.25;    ///< of a cycle, that either part of a cell takes at least that is cut in two
 // Instructions: of a law in closed form, of a cell that is copied, and of one of the chain that is looked at.
 constexpr int64_t kLineCost = 15000, kCopyCost = 300, kChainCost = 20;
 
@@ -64,6 +65,7 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   down_b_ = arena.make<double>(kMaxCells + 1);
   records_ = records;
   lead_ = least_lead();
+  line_lead_ = least_line_lead();
 }
 
 void OptimalPlanner::count_from(uint64_t first) {
@@ -96,8 +98,9 @@ void OptimalPlanner::begin_again(const Following& f) {
   open_ = false;
   chain_ = {};
   lead_ = least_lead();
+  line_lead_ = least_line_lead();
   tried_at_ = kNoCell;
-  offer_.first = offer_.last = offer_.after = offer_.rests = kNoCell;
+  offer_.first = offer_.last = offer_.after = offer_.cuts = offer_.rests = kNoCell;
   offer_.failed = false;
 }
 
@@ -115,13 +118,15 @@ bool OptimalPlanner::answered(const Following& f) {
   if (f.answered != offer_.number) return false;
   open_ = false;
   if (f.taken) {
-    if (!offer_.fresh) chain_next_[offer_.after & store_.cell_mask] = offer_.first;
+    if (!offer_.fresh && offer_.after != kNoCell) chain_next_[offer_.after & store_.cell_mask] = offer_.first;
     chain_ = next_chain_;
     fresh_ = false;
     lead_ = std::max(0.9 * lead_, least_lead());
+    line_lead_ = std::max(0.9 * line_lead_, least_line_lead());
   } else {
     write_ = offer_.first;
     lead_ = std::min(2 * lead_, kLongestLead);
+    line_lead_ = std::min(2 * line_lead_, kLongestLead);
   }
   return true;
 }
@@ -335,6 +340,57 @@ bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) c
   return false;
 }
 
+/// The place `lead` seconds ahead, in the midst of a cell or, where that is as good as one, at its end; or the next rest, as above.
+bool OptimalPlanner::find_amid(const Following& f, double lead, Start* start) const {
+  if (!find_ahead(f, lead, start)) return false;
+  if (start->from_rest || start->after == chain_.last) return true;
+  const CellIndex k = start->after;
+  const PlanCell& c = store_.at(k);
+  const double cut = c.seconds - (ahead(f, k) - lead), least = kLeastPart * setup_.cycle_s;
+  CellIndex before = kNoCell;
+  for (CellIndex n = f.cell; n != k; n = chain_next_[n & store_.cell_mask]) before = n;
+  if (cut < least && before != kNoCell) {
+    const Start sooner = behind(before);
+    if (!sooner.from_rest) *start = sooner;
+    return true;
+  }
+  if (!can_be_cut(c) || !(cut > least) || !(cut < c.seconds - least)) return true;
+  const CellState q = state_in(c, cut);
+  if (!(q.v > 0) || !(q.x > 0) || !(q.x < c.h)) return true;
+  start->cut = cut;
+  start->before = before;
+  start->piece = c.piece;
+  start->x = c.x + q.x;
+  start->u = c.u + q.x;
+  start->v = q.v;
+  start->a = q.a;
+  return true;
+}
+
+/// Writes the part of a cell of the chain that is gone before a law that begins amid it.
+void OptimalPlanner::cut_cell(const Start& start) {
+  PlanCell& c = store_.cell[write_ & store_.cell_mask];
+  c = store_.at(start.after);
+  c.seconds = start.cut;
+  c.h = start.x - c.x;
+  chain_next_[write_ & store_.cell_mask] = write_ + 1;
+  chain_end_[write_ & store_.cell_mask] = begins_at(start);
+  ++write_;
+}
+
+/// Seconds from the start of the chain to a place of it.
+double OptimalPlanner::begins_at(const Start& start) const {
+  if (start.fresh) return 0;
+  return chain_end_[start.after & store_.cell_mask] - (start.cut > 0 ? store_.at(start.after).seconds - start.cut : 0);
+}
+
+/// Seconds from a place that is passed at speed to the next rest of the chain.
+double OptimalPlanner::rests_in(const Start& start) const {
+  CellIndex k = start.after;
+  while (k != chain_.last && store_.at(k).kind != PlanCell::Kind::land) k = chain_next_[k & store_.cell_mask];
+  return chain_end_[k & store_.cell_mask] - begins_at(start);
+}
+
 /// The cell of the chain that lies `count` cells before another one, not before the one in execution.
 CellIndex OptimalPlanner::before(const Following& f, CellIndex cell, unsigned count) const {
   unsigned between = 0;
@@ -489,7 +545,7 @@ Task<bool> OptimalPlanner::copy_law(Work& work, const Start& start, Start* end) 
   const Law& law = windows_->law();
   if (write_ + law.cells - free_from_ >= kCells) co_return false;
   const bool ends = path_ends();
-  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
+  double time = begins_at(start);
   for (unsigned k = 0; k < law.cells; ++k) {
     copy_cell(start, k, ends && k + 1 == law.cells, &time);
     co_await work.pause(kCopyCost);
@@ -627,7 +683,8 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
   next_chain_.scale = limits_.scale;
   next_chain_.stops = stops;
   ++offer_.number;
-  offer_.after = start.after;
+  offer_.after = start.cut > 0 ? start.before : start.after;
+  offer_.cuts = start.cut > 0 ? start.after : kNoCell;
   offer_.fresh = start.fresh;
   offer_.first = offer_first_;
   offer_.last = write_ - 1;
@@ -686,14 +743,7 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
 Task<bool> OptimalPlanner::change_from(Work& work, const Following& f, const Start& start) {
   bool done = false;
   if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
-    if (chain_.stops) co_return false;
-    done = co_await stop_there(work, start, false);
-    if (done) co_return true;
-    if (f.brake && no_room_) {
-      offer_.rests = chain_.last;
-    } else {
-      co_await stop_later(work, start);
-    }
+    if (!chain_.stops) co_await stop_soon(work, f, start);
   } else if (f.block_rests && !chain_.block_rests) {
     co_await stop_at_block(work, f, start);
   } else if (lower(limits_.scale, chain_.scale)) {
@@ -736,14 +786,14 @@ Task<bool> OptimalPlanner::slow_down(Work& work, const Following& f, const Start
   }
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool stops = co_await stop_law(work, start, HUGE_VAL, false);
+  const bool stops = co_await stop_law(work, start, HUGE_VAL, Stops::any);
   limits_ = now;
   if (!stops) co_return false;
   WayDown down;
   way_down(&down);
   done = co_await extend(work, f, start, most, &down);
   if (!done) done = co_await extend_later(work, f, start, most);
-  if (!done) done = co_await stop_there(work, start, false);
+  if (!done) done = co_await stop_there(work, start, Stops::any);
   co_return done;
 }
 

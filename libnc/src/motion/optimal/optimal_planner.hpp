@@ -43,9 +43,11 @@ class OptimalPlanner {
 
  private:
   static constexpr uint32_t kCells = 8192;  ///< in the ring
-  /// A place where a law may begin: behind a cell of the chain, or at rest without one.
+  /// A place where a law may begin: behind a cell of the chain, or amid it, or at rest without one.
   struct Start {
     CellIndex after = kNoCell;
+    double cut = 0;                  ///< s: so long after it is entered the cell `after` ends; 0 = at its end
+    CellIndex before = kNoCell;      ///< of a cell that is cut: the one in front of it; kNoCell where it is in execution
     bool fresh = false, from_rest = true;
     uint32_t piece = 0;
     double x = 0, u = 0, v = 0, a = 0;
@@ -77,6 +79,10 @@ class OptimalPlanner {
   Task<bool> change_from(Work& work, const Following& f, const Start& start);
   CellIndex before(const Following& f, CellIndex cell, unsigned count) const;
   bool find_ahead(const Following& f, double lead, Start* start) const;
+  bool find_amid(const Following& f, double lead, Start* start) const;
+  void cut_cell(const Start& start);
+  double begins_at(const Start& start) const;
+  double rests_in(const Start& start) const;
   Start at_end() const;
   Start behind(CellIndex cell) const;
   double ahead(const Following& f, CellIndex cell) const;
@@ -92,7 +98,9 @@ class OptimalPlanner {
   bool whole() const;
   double law_seconds() const;
   Task<bool> shortest_stop(Work& work, const Start& start, double distance, double most, double seconds);
-  Task<bool> stop_law(Work& work, const Start& start, double most, bool closed);
+  /// What is looked for: the stop on a straight line alone; that and those of the solver; that and those in phases; all.
+  enum class Stops : uint8_t { line, solved, closed, any };
+  Task<bool> stop_law(Work& work, const Start& start, double most, Stops which);
   double ahead_of_end(const Start& start) const;
   struct Along {
     double acceleration, jerk;
@@ -120,7 +128,8 @@ class OptimalPlanner {
   template <class PhasesOf>
   Task<bool> copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
-  Task<bool> stop_there(Work& work, const Start& start, bool closed);
+  Task<bool> stop_there(Work& work, const Start& start, Stops which);
+  Task<bool> stop_soon(Work& work, const Following& f, const Start& start);
   Task<bool> stop_later(Work& work, const Start& from);
   void reuse_cells(const Following& f);
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
@@ -129,6 +138,7 @@ class OptimalPlanner {
   double way_to(const Start& at, double u) const;
   double block_most(const Following& f, const Start& at) const;
   double least_lead() const { return 4 * setup_.cycle_s; }
+  double least_line_lead() const { return setup_.cycle_s; }
   void publish();
   Limits with(const Following& f) const;
 
@@ -164,6 +174,7 @@ class OptimalPlanner {
   uint32_t fresh_piece_ = 0;    ///< where it begins then
   double fresh_x_ = 0;
   double lead_ = 0.004;
+  double line_lead_ = 0.001;    ///< the same for the stop on a line, which is found at once
   uint32_t head_ = 0;
   unsigned failed_ = 0;          ///< laws from the chain on that were not found
   CellIndex tried_at_ = kNoCell; ///< cell of the scan when no law was found

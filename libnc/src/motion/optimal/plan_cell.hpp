@@ -48,6 +48,9 @@ inline CellState state_in(const PlanCell& c, double t) NC_RT {
   return q;
 }
 
+/// The motion of a cell is known at any time in it, so it may end sooner. Those beside rest are what they are as a whole.
+inline bool can_be_cut(const PlanCell& c) { return c.kind == PlanCell::Kind::level || c.kind == PlanCell::Kind::ramp; }
+
 /// Cell k of a law.
 inline PlanCell plan_cell(const Law& law, const Mesh& mesh, unsigned k) {
   PlanCell c;
@@ -84,6 +87,7 @@ struct Proposal {
   uint32_t number = 0;      ///< counts offers
   uint32_t generation = 0;  ///< for a scan that has given up so often
   CellIndex after = kNoCell, first = kNoCell, last = kNoCell;
+  CellIndex cuts = kNoCell;  ///< cell `first` is the beginning of this one, behind `after` or in execution: it can be entered until it ends
   bool fresh = false;
   bool failed = false;      ///< no law was found for what follows
   bool stops = false;       ///< the way to rest that was asked for

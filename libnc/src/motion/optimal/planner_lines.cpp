@@ -178,7 +178,7 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
   const CellIndex first = write_;
   const double period = std::max(kPeriod, law.seconds() / kMostCells);
   const double way = start.x + law.distance();
-  double time = start.fresh ? 0 : chain_end_[start.after & store_.cell_mask];
+  double time = begins_at(start);
   uint32_t piece = start.piece;
   double begun = -start.x;  // where the piece begins on the line
   LineState from = law.start();

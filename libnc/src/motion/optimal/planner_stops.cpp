@@ -14,6 +14,7 @@ constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};  ///< o
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
 constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
 constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
+constexpr double kFarthestAmid = 4;    ///< of that distance, from amid a cell: where none so short is found, one from its end may be shorter
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
 constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
 constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
@@ -80,7 +81,7 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
 }
 
 /// The shortest way to rest that is found, shorter than `most`.
-Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most, bool closed) {
+Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most, Stops which) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
   no_room_ = false;
@@ -91,12 +92,15 @@ Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most,
     found_ = Found::line;
     co_return true;
   }
+  if (which == Stops::line) co_return false;
   found_ = Found::cells;
+  const bool closed = which == Stops::closed;
   if (!closed && seconds > kAtOnce) {
-    const bool found = co_await shortest_stop(work, start, distance, most, seconds);
+    const bool found = co_await shortest_stop(work, start, distance, which == Stops::solved ? std::min(most, kFarthestAmid * distance) : most, seconds);
     if (found) co_return true;
   }
   if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
+  if (which == Stops::solved) co_return false;
   found_ = Found::phases;
   for (const double farther : kFartherPhases) {
     const double reach = distance * farther;
@@ -109,7 +113,7 @@ Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most,
 
 /// Seconds of the chain behind a place of it.
 double OptimalPlanner::ahead_of_end(const Start& start) const {
-  return start.fresh ? 0 : chain_end_[chain_.last & store_.cell_mask] - chain_end_[start.after & store_.cell_mask];
+  return start.fresh ? 0 : chain_end_[chain_.last & store_.cell_mask] - begins_at(start);
 }
 
 /// Limits under which the feed does not matter on a way down from `start`: what is faster than it, is so already.
@@ -135,6 +139,28 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   return l;
 }
 
+/// A stop was asked for: on a line one cycle from now, because that one is found at once, else where a law has the time to be found; from amid the cell
+/// that is gone then, or from its end.
+Task<bool> OptimalPlanner::stop_soon(Work& work, const Following& f, const Start& start) {
+  Start at;
+  if (find_amid(f, line_lead_, &at) && !at.from_rest) {
+    const bool done = co_await stop_there(work, at, Stops::line);
+    if (done) co_return true;
+  }
+  if (find_amid(f, lead_, &at) && at.cut > 0) {
+    const bool done = co_await stop_there(work, at, Stops::solved);
+    if (done) co_return true;
+  }
+  const bool done = co_await stop_there(work, start, Stops::any);
+  if (done) co_return true;
+  if (f.brake && no_room_) {
+    offer_.rests = chain_.last;
+    co_return false;
+  }
+  const bool later = co_await stop_later(work, start);
+  co_return later;
+}
+
 /// Where the plan uses all of the limits no way to rest may begin: one from one of the next cells, of the solver behind few of them and in
 /// closed form behind each. In front of a rest of the path nothing is to be done.
 Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
@@ -148,29 +174,32 @@ Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
       co_return false;
     }
     const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
-    const bool stopped = co_await stop_there(work, start, closed);
+    const bool stopped = co_await stop_there(work, start, closed ? Stops::closed : Stops::any);
     if (stopped) co_return true;
   }
   co_return false;
 }
 
-/// Offers the shortest way to rest, if there is one shorter than the chain. `closed`: of those in closed form.
-Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, bool closed) {
+/// Offers the shortest way to rest, if there is one shorter than the chain.
+Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, Stops which) {
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool found = co_await stop_law(work, start, 0.99 * (chain_.u - start.u), closed);
+  const bool found = co_await stop_law(work, start, 0.99 * (chain_.u - start.u), which);
   limits_ = now;
   if (!found) co_return false;
-  const Followed* const chain = follow(start);
-  if (chain != nullptr && !(law_seconds() < chain->end.seconds)) {  // it comes to rest no later by itself
+  if (!start.fresh && !start.from_rest && !(law_seconds() < rests_in(start))) {  // it comes to rest no later by itself
     no_room_ = true;
     co_return false;
   }
   offer_first_ = write_;
   next_chain_ = {};
+  if (start.cut > 0) cut_cell(start);
   Start end;
   const bool copied = co_await copy_law(work, start, &end);
-  if (!copied) co_return false;
+  if (!copied) {
+    write_ = offer_first_;
+    co_return false;
+  }
   next_chain_.last = next_chain_.keep = end.after;
   next_chain_.piece = end.piece;
   next_chain_.x = end.x;
