@@ -24,14 +24,6 @@ constexpr double kHalfTurn = 3.14159265358979323846;
 /// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
 double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
 
-/// Is this point of a path as far from the wall as the vectors of the blocks are?
-bool lies_beside(const Piece& wall, double offset, Vec2 point) {
-  const Vec2 along = wall.to - wall.from;
-  if (!wall.round) return std::abs(cross(along, point - wall.from) - offset * norm(along)) <= kLevel_mm * norm(along);
-  const double inwards = wall.sweep > 0 ? offset : -offset;
-  return std::abs(norm(point - wall.center) - (wall.radius - inwards)) <= kLevel_mm;
-}
-
 uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
 
 }  // namespace
@@ -112,19 +104,15 @@ bool ContourMemory::no_way(uint64_t cancel) const {
   return state_.out != 0 && (state_.out <= state_.closure || cancel - state_.out > kWay);
 }
 
-/// Between the path and the wall, which are neighbours, lies a joint with a vector that the program gives. One of a start that stands at right angles to the
-/// wall behind it is what would have been computed.
-bool ContourMemory::across_given(const Path& path, uint64_t number, const Wall& wall) {
-  if (number < path.number) return path.from_given;
-  return path.to_given && !(path.starts && lies_beside(wall.piece, wall.offset, path.piece.to));
-}
+/// Between the path and the wall, which are neighbours, lies a joint at which the tool stands on the contour.
+bool ContourMemory::across_contour(const Path& path, uint64_t number) { return number < path.number ? path.from_contour : path.to_contour; }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
   if (between == 0 && !path.bends && !path.crosses_own) return false;
-  if (between == 1 && (path.offset * wall.offset < 0 || across_given(path, number, wall))) return false;
+  if (between == 1 && (path.offset * wall.offset < 0 || across_contour(path, number))) return false;
   OpenEnds open;
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
@@ -169,8 +157,12 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.high = std::max(section.level, section.level_end);
   path.starts = section.start;
   path.cancels = section.cancel;
-  path.from_given = from_given && !section.cancel;
-  path.to_given = section.commanded && !section.cancel;
+  const bool to_given = section.commanded && !section.cancel;
+  from_given = from_given && !section.cancel;
+  // Where no vector has been made, or it has been taken away (G28), the tool stands on the contour, as at a start: that is no wall which it cuts. A vector
+  // that the program gives is another matter: whatever it leads into is cut.
+  path.from_contour = from_given && from == Vec2{};
+  path.to_contour = to_given && section.joint.v[0] == Vec2{};
   const Vec2 start = section.contour_start, end = start + section.delta;
   path.slop = slop_of(wall_of(section, start));
   path.contour = section.start ? end : start;
@@ -187,20 +179,19 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     Path ahead = path;
     ahead.starts = true;
     ahead.contour = start;
-    ahead.to_given = from_given;
+    ahead.from_contour = true;
+    ahead.to_contour = from_given;
     add(ahead, lead);
   }
-  // Where the vector has been taken away (G28) the tool stands on the contour, as at a start: that is no wall which it cuts.
-  path.crosses_own = (path.from_given && norm(from) > 0) || (path.to_given && norm(section.joint.v[0]) > 0);
+  path.crosses_own = (from_given && !path.from_contour) || (to_given && !path.to_contour) || section.oblique;
   add(path, path_of(section, start, from, section.joint.v[0]));
-  path.from_given = path.crosses_own = false;
+  path.from_contour = path.crosses_own = false;
   path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
     Piece piece;
     piece.from = end + section.joint.v[k - 1];
     piece.to = end + section.joint.v[k];
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
-    path.to_given = path.to_given && !path.of_next;
     add(path, section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
   }
   if (!section.cancel || section.transparent) return found;

@@ -8,8 +8,8 @@
 // three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
-// What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given), blocks on other levels (the axis across the plane), and of vectors that the program gives itself
-// (I J K, G38, what stops the pre-read, a change of side) the block before and the block behind, each with the path of the other.
+// What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given or erased), blocks on other levels (the axis across the plane), and beside a change of
+// side, or where the tool stands on the contour without a vector, the block before and the block behind, each with the path of the other.
 //
 // Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
 // is not looked at.
@@ -84,9 +84,9 @@ class ContourMemory {
     uint64_t number = 0;  ///< of its block
     double offset = 0, slop = 0;
     double low = 0, high = 0;
-    bool from_given = false, to_given = false;  ///< by the program: the vector at this end may lie anywhere
+    bool from_contour = false, to_contour = false;  ///< without a vector
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
-    bool crosses_own = false;  ///< the move of a block, one of whose ends is given: it need not lie beside its own wall
+    bool crosses_own = false;  ///< the move of a block, one of whose ends is given, or has lost its vector: it need not lie beside its own wall
     bool of_next = false;      ///< the last piece of a lengthened joint: it lies beside the block behind, and so is compared like that one's path
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
@@ -95,7 +95,7 @@ class ContourMemory {
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   void follow(const Section& section, uint64_t number);
   bool is_way_in(uint64_t number) const;
-  static bool across_given(const Path& path, uint64_t number, const Wall& wall);
+  static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
   bool blame(uint64_t number);
   bool no_way(uint64_t cancel) const;

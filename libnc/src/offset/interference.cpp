@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "offset/walls.hpp"
+
 namespace nc {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr unsigned kReach = 2;
 // Below this the cosine of the angle between two vectors is rounding: at right angles is not "more than 90 degrees".
 constexpr double kRightAngle = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
+constexpr double kHalfTurn = 3.14159265358979323846 + 1e-9;
 
 // Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not. They cross in s a = d + t b, s and t compared without a
 // division.
@@ -116,9 +119,39 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   return sweep * sense * norm(now_start) < -kBackwards_mm;
 }
 
+// Where an arc has lost a vector of its own, a line leads between those that are left (12.4.8, the figure's "linear movement"). Not where it would go back, or cut
+// into the arc: vectors of lengthened corners inside of an arc lie beyond it. And around more than half a turn it would leave the arc out.
+bool line_fits(const Section& section, Vec2 from, Vec2 to) {
+  if (std::abs(section.sweep) > kHalfTurn || dot(section.delta + to - from, section.delta) < -kBackwards_mm * norm(section.delta)) return false;
+  Piece line;
+  line.from = from;
+  line.to = section.delta + to;
+  return !comes_nearer(line, wall_of(section, {}), std::abs(section.offset) - kEnters_mm);
+}
+
+// Can the tool not go along the block between these vectors?
+bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
+  if (section.oblique && section.begin.curvature != 0) return !line_fits(section, from, to);
+  return runs_backwards(section, from, to) || arc_runs_backwards(section, from, to);
+}
+
+// Does it begin or end with a vector that is not its own any more?
+bool runs_obliquely(const Section& section, bool erased_before) {
+  return !section.start && !section.cancel && !section.dead && (erased_before || section.joint.first_erased);
+}
+
+// The joint at the end of this section leads to the other side.
+bool changes_side(const Chain& chain, unsigned i) { return i + 1 < chain.size() && chain[i].offset * chain[i + 1].offset < 0; }
+
 // Joints have changed: all are compared again.
 void compare_again(Chain* chain) {
   for (unsigned i = 0; i < chain->size(); ++i) (*chain)[i].apart = false;
+}
+
+/// Section i, or the one that has taken its place where it is left out already.
+unsigned live_at(const Chain& chain, unsigned i) {
+  while (i > 0 && chain[i].dead) --i;
+  return i;
 }
 
 // Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be
@@ -126,7 +159,9 @@ void compare_again(Chain* chain) {
 bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   Section& before = (*chain)[i];
   const Section& behind = (*chain)[j];
-  if (before.start || before.vanished || behind.vanished || behind.cancel) return false;
+  if (before.start || before.dead || before.vanished || behind.dead || behind.vanished || behind.cancel) return false;
+  for (unsigned k = i; k < j; ++k)
+    if ((*chain)[k].commanded) return false;  // 12.4.3 precaution (2): never erased
   if (!offset_exists(before.end, before.offset) || !offset_exists(behind.begin, behind.offset)) return false;
   const Vec2 d = joint_distance(*chain, i, j - 1) + behind.approach;
   const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, d, behind.offset);
@@ -137,9 +172,9 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   const Vec2 x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
   // Blocks that run all but back beside each other meet far from both: no avoidance vector (12.4.8 alarm (2)(b)).
   if (norm(x) > kExtremelyLarge * std::abs(before.offset) + norm(d)) return false;
-  if (runs_backwards(before, start_vector(*chain, i, first_vector), x)) return false;
-  const Vec2 leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
-  if (runs_backwards(behind, x - d, leave)) return false;
+  const Vec2 from = start_vector(*chain, i, first_vector), leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
+  if (runs_backwards(before, from, x) || arc_runs_backwards(before, from, x)) return false;
+  if (runs_backwards(behind, x - d, leave) || arc_runs_backwards(behind, x - d, leave)) return false;
   compare_again(chain);
   before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
@@ -154,6 +189,8 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
 // Erases the vectors from `keep_before` on at the end of section i and up to `last_erased` at the end of
 // section j.
 void erase_vectors(ContourJoint* before, unsigned keep_before, ContourJoint* behind, unsigned last_erased) {
+  before->last_erased = before->last_erased || keep_before < before->n;
+  behind->first_erased = true;
   before->n = static_cast<uint8_t>(keep_before);
   unsigned n = 0;
   for (unsigned k = last_erased + 1; k < behind->n; ++k) behind->v[n++] = behind->v[k];
@@ -194,8 +231,10 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
   compare_again(chain);
   for (unsigned k = i + 1; k <= j; ++k) (*chain)[k].bound = true;
-  if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1) {  // what remains is the path
-    if (!runs_backwards(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;
+  // What remains is the path, but for a change of side: without a vector of it a block would begin or end on the side of the other.
+  if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1 && !changes_side(*chain, i) && !changes_side(*chain, j)) {
+    behind.oblique = runs_obliquely(behind, before.joint.last_erased);
+    if (!leads_astray(behind, before.joint.v[before.joint.n - 1], behind.joint.v[0])) return Finding::none;
     *at = j;
     return Finding::alarm;
   }
@@ -224,7 +263,7 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
     *at = i;
     bool done = false;
     for (unsigned target = i + 1; target <= i + kReach && target < chain->size() && !done; ++target) {
-      done = go_round(chain, i - 1, target, first_vector);
+      done = go_round(chain, live_at(*chain, i - 1), target, first_vector);
     }
     if (!done && (i < last_call || chain->size() > i + kReach || (*chain)[chain->size() - 1].cancel))
       return Finding::alarm;
@@ -240,11 +279,11 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   if (!along_contour || !section.check || section.commanded) return Finding::none;
   if (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
   const Vec2 from = start_vector(*chain, i, start.vector), to = section.joint.v[0];
-  if (!runs_backwards(section, from, to) && !arc_runs_backwards(section, from, to)) return Finding::none;
+  if (!leads_astray(section, from, to)) return Finding::none;
   *at = i;
   if (!section.avoid || i == 0) return Finding::alarm;
   for (unsigned target = i + 1; target <= i + kReach && target < chain->size(); ++target)
-    if (go_round(chain, i - 1, target, start.vector)) return Finding::none;
+    if (go_round(chain, live_at(*chain, i - 1), target, start.vector)) return Finding::none;
   return Finding::alarm;
 }
 
@@ -260,8 +299,7 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
     for (unsigned span = 1; span <= kMaxSpan && span <= j; ++span) {
       const unsigned i = j - span;
       if (span > 1 && (*chain)[i + 1].dead) continue;  // seen from the section left out already
-      unsigned live = i;
-      while (live > 0 && (*chain)[live].dead) --live;
+      const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
       const bool may_wait = live >= last_call;
       if (check_pair(chain, live, i, j, may_wait, first_vector, at, &crosses) == Finding::alarm) return Finding::alarm;
@@ -271,6 +309,7 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
   }
   for (unsigned i = 1; i < chain->size(); ++i)  // the vector that is held may have been changed
     if ((*chain)[i].holds) (*chain)[i].joint = ContourJoint::single(start_vector(*chain, i, first_vector));
+  for (unsigned i = 0; i < chain->size(); ++i) (*chain)[i].oblique = runs_obliquely((*chain)[i], i == 0 ? start.erased : (*chain)[i - 1].joint.last_erased);
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
     if (check_direction(chain, i, start, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;

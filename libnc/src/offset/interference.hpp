@@ -27,6 +27,7 @@ struct Section {
   bool cancel = false;       ///< nor does a block without compensation at its end
   bool vanished = false;     ///< an arc whose offset circle does not exist
   bool dead = false;         ///< left out by the avoidance: start and end of its compensated path coincide
+  bool oblique = false;      ///< has lost a vector of its own: the way between those that are left does not lie beside the block, and is a line
   bool merge_first = false;  ///< lengthened corner: this line runs straight into joint.v[1]
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, walls = false, avoid = false;
@@ -61,6 +62,7 @@ class Chain {
     front_ = (front_ + count) % kMost;
     size_ -= count;
   }
+  void keep_front(unsigned count) { size_ = count; }
 
  private:
   Section ring_[kMost];
@@ -73,6 +75,7 @@ enum class Finding : uint8_t { none, alarm };
 struct ChainStart {
   Vec2 vector;
   bool commanded = false;  ///< it may lie anywhere
+  bool erased = false;     ///< as ContourJoint::last_erased
 };
 
 /// Checks the joints of the chain against each other and repairs what may be repaired. An interference that blocks still to come may repair is left for the next call;

@@ -60,6 +60,17 @@ bool vanishes(const Leg& begin, const Leg& end, double offset) {
 // Does a line that begins with this vector run parallel to its programmed one? Not where another amount, or the program, has made the vector.
 bool runs_beside(const Section& line, Vec2 from) { return std::abs(dot(from, left_of(line.end.u)) - line.offset) <= kNoLength; }
 
+Item alarm_in(const nc_source& source, Condition condition) {
+  Item alarm;
+  alarm.kind = ItemKind::alarm;
+  alarm.source = source;
+  alarm.alarm = Fault{};
+  alarm.alarm.condition = condition;
+  return alarm;
+}
+
+Condition condition_of(Clearance found) { return found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference; }
+
 // How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
 double reach(const Leg& leg, Vec2 delta) {
   return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature);
@@ -82,16 +93,12 @@ bool OffsetStage::push(const Item& item, NoRule) {
   if (item.kind == ItemKind::move) {
     intake_move(&held);
   } else {
-    if (item.kind == ItemKind::alarm && open() != nullptr && open()->start) {  // the vector at its end is that of a block that there is not
-      stop_by(open()->index, item);
+    if (item.kind == ItemKind::alarm && mode_ != Mode::off) {
+      stop_by(next_index(), item);
       return true;
     }
     if (item.kind == ItemKind::sync) held.item.sync.ahead = false;  // all in front of it is executed first
-    if (item.kind == ItemKind::alarm) {
-      if (mode_ != Mode::off && !end_before(item)) return true;
-    } else if (inhibits_read_ahead(item)) {
-      close();
-    }
+    if (inhibits_read_ahead(item)) close();
     if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) fail(next_index(), Condition::comp_interference, item.source);
     if (!failed_) ++count_;
   }
@@ -135,7 +142,7 @@ OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
   Held& held = held_at(index);
   copy_item(item, &held.item);
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.dead = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = held.passed = false;
+  held.has_lead = held.lead_arc = held.straight = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = held.passed = false;
   held.commanded = true;
   held.doubt = {};
   held.lead = Vec2{};
@@ -152,6 +159,7 @@ void OffsetStage::reset() {
   comp_ = out_comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
+  start_erased_ = false;
   trim_next_ = out_trim_ = bound_ = side_changed_ = false;
   given_ = true;
   doubt_ = {};
@@ -220,44 +228,8 @@ void OffsetStage::close() {
   if (check_joints(chain_.size())) release(chain_.size());
 }
 
-// The block behind has an alarm. An interference between blocks in front of it comes first, unless the avoidance could still join them to a block that there is
-// not (App. 1, P40). Then, and where the vector at right angles leads the last block into the contour, the alarm stands in front of the block that cannot be
-// machined. False: the program stops in front of a block that is held.
-bool OffsetStage::end_before(const Item& alarm) {
-  unsigned at = 0;
-  if (interferes(&at)) {
-    if (chain_[at].avoid && !chain_[at].vanished) {
-      stop_by(chain_[at].index, alarm);
-    } else {
-      fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
-    }
-    return false;
-  }
-  if (!look_at_walls(chain_.size())) return false;
-  if (mode_ == Mode::pending) mode_ = Mode::on;
-  if (Section* last = open()) {
-    if (last->vanished) {
-      fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
-      return false;
-    }
-    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
-    last->jointed = true;
-    const unsigned before = chain_.size() - 2;
-    const Vec2 from = chain_.size() == 1 ? chain_start_ : chain_[before].joint.v[chain_[before].joint.n - 1];
-    const bool from_given = chain_.size() == 1 ? start_commanded_ : chain_[before].commanded;
-    if (interferes(&at) || (last->walls && memory_.settle(*last, from, from_given) == Clearance::enters)) {
-      stop_by(last->index, alarm);
-      return false;
-    }
-    last->commanded = last->settled = true;
-    tail_ = last->joint.v[0];
-  }
-  release(chain_.size());
-  return true;
-}
-
 bool OffsetStage::interferes(unsigned* at) {
-  return !chain_.empty() && check_interference(&chain_, chain_.size(), {chain_start_, start_commanded_}, at) == Finding::alarm;
+  return !chain_.empty() && check_interference(&chain_, chain_.size(), chain_start(), at) == Finding::alarm;
 }
 
 // ---- moves ----
@@ -500,11 +472,7 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   if (behind.vanished) {  // M700 12.4.8: only the avoidance can leave such an arc out, once the block behind
                           // it is known
     const bool avoidable = last && !last->vanished && !last->start && last->check && last->avoid;
-    if (!avoidable) {
-      if (last) close();
-      if (!failed_) fail(behind.index, Condition::comp_interference, source_behind);
-      return;
-    }
+    if (!avoidable) return fail(behind.index, Condition::comp_interference, source_behind);
   }
   if (!last) return;
   Held& held_last = held_at(last->index);
@@ -553,7 +521,7 @@ ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& 
 bool OffsetStage::check_joints(unsigned last_call) {
   if (chain_.size() < 2) return look_at_walls(last_call);
   unsigned at = 0;
-  if (check_interference(&chain_, last_call, {chain_start_, start_commanded_}, &at) == Finding::alarm) {
+  if (check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
@@ -565,26 +533,33 @@ bool OffsetStage::check_joints(unsigned last_call) {
 
 // The paths of these sections, which have their joints for good, against all blocks of the contour that have been read.
 bool OffsetStage::look_at_walls(unsigned sections) {
+  Clearance found = Clearance::fits;
+  const unsigned at = first_too_near(sections, &found);
+  if (found == Clearance::fits) return true;
+  fail(chain_[at].index, condition_of(found), held_at(chain_[at].index).item.source);
+  return false;
+}
+
+// The first of these sections whose path comes too near to a block, as `found` says; `sections`: none does.
+unsigned OffsetStage::first_too_near(unsigned sections, Clearance* found) {
   for (unsigned i = 0; i < sections && i < chain_.size(); ++i) {
     Section& section = chain_[i];
     if (!section.walls || section.settled || section.joint.n == 0) continue;
     section.settled = true;
     const ContourJoint* before = i == 0 ? nullptr : &chain_[i - 1].joint;
     const bool from_given = !section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded);
-    const Clearance found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], from_given);
+    *found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], from_given);
     held_at(section.index).doubt = memory_.doubt();
-    if (found == Clearance::fits) continue;
-    fail(section.index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, held_at(section.index).item.source);
-    return false;
+    if (*found != Clearance::fits) return i;
   }
-  return true;
+  return sections;
 }
 
 // The section as a wall, against the paths in front of it.
 void OffsetStage::read_wall(Section* section, const nc_source& source) {
   const Clearance found = memory_.read(section);
   if (found == Clearance::fits || !check_joints(chain_.size())) return;
-  fail(section->index, found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference, source);
+  fail(section->index, condition_of(found), source);
 }
 
 // ---- letting go ----
@@ -630,10 +605,11 @@ void OffsetStage::release(unsigned sections) {
     }
     Held& held = held_at(section.index);
     held.joint = joint;
-    held.dead = section.dead;
+    held.straight = section.dead || section.oblique;
     held.commanded = start_commanded_ = section.commanded || !section.check;
     held.bound_next = i + 1 < chain_.size() && chain_[i + 1].bound;
     chain_start_ = joint.v[joint.n - 1];
+    start_erased_ = joint.last_erased;
   }
   chain_.drop_front(sections);
   released_ = chain_.empty() ? next_index() : chain_[0].index;
@@ -642,18 +618,41 @@ void OffsetStage::release(unsigned sections) {
 // The program stops before the move `index`: an alarm takes its place, and what was read behind it is
 // forgotten.
 void OffsetStage::fail(uint32_t index, Condition condition, const nc_source& source) {
-  Item alarm;
-  alarm.kind = ItemKind::alarm;
-  alarm.source = source;
-  alarm.alarm = Fault{};
-  alarm.alarm.condition = condition;
-  stop_by(index, alarm);
+  stop_by(index, alarm_in(source, condition));
 }
 
-void OffsetStage::stop_by(uint32_t index, const Item& alarm) {
-  unsigned before = 0;
-  while (before < chain_.size() && static_cast<int32_t>(chain_[before].index - index) < 0) ++before;
-  release(before);
+// What is in front of an alarm is still driven, though not all of it has been looked at, and the last block of it ends at right angles, or otherwise than had
+// been thought. Only blocks that can be machined without those behind them stay in the chain. Where one cannot, the alarm stands in front of it; it is P153
+// in that block where the blocks around it are known, and the avoidance could not join it to one that there is not (App. 1, P40). Returns the item that the
+// alarm takes the place of.
+uint32_t OffsetStage::stop_at(uint32_t index, Item* alarm) {
+  unsigned size = 0;
+  while (size < chain_.size() && static_cast<int32_t>(chain_[size].index - index) < 0) ++size;
+  chain_.keep_front(size);
+  const auto cut = [&](unsigned at, bool by_itself, Condition condition) {
+    index = chain_[at].index;
+    if (by_itself) *alarm = alarm_in(held_at(index).item.source, condition);
+    chain_.keep_front(at);
+  };
+  if (Section* last = open()) {
+    if (last->start) {  // the vector at its end is that of a block that is not reached
+      cut(size - 1, false, Condition::none);
+    } else {
+      last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
+      last->jointed = true;
+    }
+  }
+  for (unsigned at = 0; interferes(&at);) cut(at, chain_[at].vanished || (!chain_[at].avoid && at + 1 < chain_.size()), Condition::comp_interference);
+  Clearance found = Clearance::fits;
+  const unsigned near = first_too_near(chain_.size(), &found);
+  if (found != Clearance::fits) cut(near, near + 1 < chain_.size(), condition_of(found));
+  return index;
+}
+
+void OffsetStage::stop_by(uint32_t index, const Item& because) {
+  Item alarm = because;
+  index = stop_at(index, &alarm);
+  release(chain_.size());
   chain_.clear();
   held_at(index) = Held();
   held_at(index).item = alarm;

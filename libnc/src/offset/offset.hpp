@@ -108,7 +108,7 @@ class OffsetStage {
     Role role = Role::pass;
     bool has_lead = false;    ///< displacement before the move, from the vector in force to `lead`
     bool lead_arc = false;    ///< on an arc about the programmed point
-    bool dead = false;        ///< left out by the interference avoidance
+    bool straight = false;    ///< what the interference check leaves of an arc is a line, or a point
     bool inner = false;       ///< section: the joint at its end is a corner that the tool cuts from the inside (M700 7.10)
     bool behind_inner = false;  ///< section: so is the one at its start
     bool trim = false;        ///< an arc longer than a full circle loses the part beyond (M700 12.4.2)
@@ -142,21 +142,23 @@ class OffsetStage {
                           const Compensation& comp_behind, bool* found) const;
   bool check_joints(unsigned last_call);
   bool look_at_walls(unsigned sections);
+  unsigned first_too_near(unsigned sections, Clearance* found);
+  uint32_t stop_at(uint32_t index, Item* alarm);
   void read_wall(Section* section, const nc_source& source);
   void count_block_end();
-  bool end_before(const Item& alarm);
   bool interferes(unsigned* at);
   void close();
   void settle();
   void make_room();
   bool may_release(unsigned section) const;
   void release(unsigned sections);
-  void stop_by(uint32_t index, const Item& alarm);
+  void stop_by(uint32_t index, const Item& because);
   void fail(uint32_t index, Condition condition, const nc_source& source);
   uint32_t next_index() const { return first_ + count_; }
   Held& held_at(uint32_t index) { return held_[index % kHeld]; }
   Held& new_slot(uint32_t index, const Item& item);
   ContourMemory::State& contour_at(const Held& held) { return contour_[&held - held_]; }
+  ChainStart chain_start() const { return {chain_start_, start_commanded_, start_erased_}; }
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 
   // Outlet: pop() (outlet.cpp).
@@ -189,6 +191,7 @@ class OffsetStage {
   bool given_ = true;          ///< restored: the vector goes by no block behind it
   bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side
   bool start_commanded_ = true;  ///< it may lie anywhere
+  bool start_erased_ = false;    ///< ContourJoint::last_erased of the joint that it belongs to
   bool trim_next_ = false;       ///< restored: the section that comes
   ContourMemory memory_;
   double level_ = 0, level_end_ = 0;  ///< of the last move, across the plane

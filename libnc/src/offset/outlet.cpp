@@ -263,7 +263,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   move.start = joined(shifted(programmed.start, axis_, vector_), compensated_);
   move.end = shifted(programmed.end, axis_, end_vector);
   const bool in_plane = move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1];
-  if (in_plane && (held.dead || !goes_round(programmed))) {  // only axes off the plane still move; a straight line
+  if (in_plane && (held.straight || !goes_round(programmed))) {  // only axes off the plane still move; a straight line
     make_line(&move);
   } else if (in_plane) {
     const Vec2 start{programmed.start[axis_[0]], programmed.start[axis_[1]]};
