@@ -25,6 +25,8 @@ enum class AlarmId : std::uint8_t {
   kPrinter,   // what a program prints (DPRNT) does not arrive
   kLimitSwitch,  // detail: LimitDetail
   kHoming,       // detail: HomingFault
+  kPowerFails,   // detail: PowerDetail; code: PowerWatch::times()
+  kPowerFailedBefore,  // the power failed in a program before this start
   kProgram,  // an alarm of libnc; code and text come from there
   kCount
 };
@@ -56,6 +58,8 @@ inline constexpr AlarmRow kAlarmTable[] = {
     {AlarmId::kPrinter, "", "lines of the external output are lost", false},
     {AlarmId::kLimitSwitch, "R22", "Limit switch"},
     {AlarmId::kHoming, "R23", "Homing has failed"},
+    {AlarmId::kPowerFails, "R24", "The power fails"},
+    {AlarmId::kPowerFailedBefore, "R25", "The power failed in a program", false},
     {AlarmId::kProgram, "", "Program alarm"},
 };
 
@@ -72,7 +76,7 @@ constexpr bool is_warning(AlarmId id) { return !alarm_row(id).stops; }
 
 // What has gone wrong with retained data (R19, R20). The `detail` of the alarm holds it together with the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
-inline constexpr unsigned kRetainedData = 3;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters
+inline constexpr unsigned kRetainedData = 4;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters, 3 places in programs
 // The troubles of R19: something was lost in the past. The others are of R20, which describes a condition that lasts.
 constexpr bool is_lost(RetainTrouble trouble) { return trouble == RetainTrouble::kLost || trouble == RetainTrouble::kOlder; }
 constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {
@@ -102,8 +106,8 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits; R22: LimitDetail; R23: HomingFault
-  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R12: hal/drive_fault.hpp; R17: ladder::Fault
+  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits; R22: LimitDetail; R23: HomingFault; R24: PowerDetail
+  std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R12: hal/drive_fault.hpp; R24: PowerWatch::times(); R17: ladder::Fault
   bool acknowledged = false;  // a warning, or a limit switch, whose cause goes on: a reset has been made since, and it stops nothing any more
 };
 

@@ -87,6 +87,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_macro_interface(&reader, &read);
   read_ladder(&reader, &read);
   read_signals(&reader, &read);
+  read_power(&reader, &read);
   resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
@@ -124,6 +125,7 @@ std::vector<ConfigError> check_host(const Config& config) {
   };
   if (!config.variables.empty()) check_file(config.variables_path(), config.variables_place);
   if (!config.offsets.empty()) check_file(config.offsets_path(), config.offsets_place);
+  if (!config.place.empty()) check_file(config.place_path(), config.place_place);
   if (!config.ladder.retain.empty() && !config.ladder.program.empty()) check_file(config.retain_path(), config.ladder.retain_place);
   return errors.take();
 }

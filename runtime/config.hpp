@@ -20,6 +20,7 @@
 #include "hal/sim/sim_machine.hpp"
 #include "nc/control.h"
 #include "runtime/axes/equipment.hpp"
+#include "runtime/power/power_watch.hpp"
 #include "runtime/programs/program_text.hpp"
 
 namespace nc::rt {
@@ -212,6 +213,9 @@ struct Config {
   std::vector<ModbusLinkConfig> modbus;
   std::vector<GpioBankConfig> gpio;
   LadderConfig ladder;
+  PowerConfig power;
+  std::string place;           // file of the places in the programs when the power failed, relative like `print`; empty = see place_path()
+  ConfigPlace place_place;
   std::vector<SignalWire> wires;
   std::array<std::array<SpindleFeedback, NC_MAX_SPINDLES>, NC_MAX_SYSTEMS> spindle_feedback;
   std::array<std::array<AxisEquipment, NC_MAX_AXES>, NC_MAX_SYSTEMS> equipment;
@@ -237,6 +241,8 @@ struct Config {
   std::string variables_path() const;
   // File of the changed offsets and parameters in the same way.
   std::string offsets_path() const;
+  // File of the places in the programs when the power failed, in the same way.
+  std::string place_path() const;
   // File in which the services write who has changed what, in the same way.
   std::string changes_path() const;
   // True when the point is an output that a wire connects with a signal of the NC.
@@ -250,6 +256,9 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
 
 // Settings of the spindles that are allowed but probably not intended, each as a sentence with its line.
 std::vector<std::string> spindle_warnings(const Config& config);
+
+// What the configuration promises of a failing supply and cannot keep, each as a sentence with its line.
+std::vector<std::string> power_warnings(const Config& config);
 
 // Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);

@@ -75,6 +75,11 @@ std::string Config::offsets_path() const {
   return state_file(name, ".offsets");
 }
 
+std::string Config::place_path() const {
+  if (!place.empty()) return (std::filesystem::path(file).parent_path() / place).string();
+  return state_file(name, ".place");
+}
+
 std::string Config::changes_path() const {
   if (!services.changes.empty()) return (std::filesystem::path(file).parent_path() / services.changes).string();
   return state_file(name, ".changes");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "runtime/retain/place.hpp"
+
 namespace nc::rt {
 namespace {
 
@@ -168,12 +170,32 @@ nc_status Feeder::read_again() {
 void Feeder::leave_kept() {
   for (KeptCopy& copy : kept_) {
     if (!copy.wanted.load(std::memory_order_acquire)) continue;
-    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : nc_->tables();
+    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : &copy == &kept_[kTables] ? nc_->tables() : place_bytes();
     copy.wanted.store(false, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     copy.bytes = std::move(bytes);
     copy.ready = true;
   }
+}
+
+std::string Feeder::place_bytes() {
+  const std::uint32_t failed = scan_->power_failed_in();
+  const Snapshot now = scan_->snapshot();
+  std::vector<ProgramPlace> places;
+  for (unsigned s = 0; s < systems_; ++s) {
+    if ((failed >> s & 1u) == 0) continue;
+    const nc_outputs& out = now.system[s].nc;
+    ProgramPlace& place = places.emplace_back();
+    place.system = s;
+    place.program = system_[s].mdi ? "MDI" : nc_->program_name(system_[s].file);
+    place.main_line = info_.system[s].main_line;  // only this thread writes it
+    place.line = out.source.line;
+    place.number = out.source.program;
+    place.depth = out.source.depth;
+    const std::string letters = nc_->axis_letters(s);
+    for (unsigned a = 0; a < letters.size(); ++a) place.at.emplace_back(letters[a], out.command.v[a]);
+  }
+  return encode_places(places);
 }
 
 bool Feeder::take(Kept what, std::string* bytes) {

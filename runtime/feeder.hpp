@@ -119,9 +119,11 @@ class Feeder {
 
   // ---- the thread that keeps retained data ----
   // want() asks for a copy of the data as the executed blocks have left them; take() fetches it and is false until it is there.
-  enum Kept { kVariables, kTables, kKeptCount };
+  enum Kept { kVariables, kTables, kPlace, kKeptCount };
   void want(Kept what) { kept_[what].wanted.store(true, std::memory_order_release); }
   bool take(Kept what, std::string* bytes);
+  // The places in the programs while a failure of the power is not acknowledged, else "" (runtime/retain/place.hpp). Feeder thread, or when it has ended.
+  std::string place_bytes();
 
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }

@@ -21,6 +21,7 @@ struct LadderStatus {
   const std::uint32_t* macro_output = nullptr;  // NC_WORDS words of #1132..., as the machine has them
   const AxisFlags* axes = nullptr;              // of each part system
   bool all_homed = true;
+  bool power_failed = false, power_done = false;  // runtime/power/power_watch.hpp
 };
 
 inline constexpr unsigned kLadderAlarms = 8;
@@ -30,6 +31,7 @@ inline constexpr unsigned kLadderAlarms = 8;
 struct LadderRequests {
   bool cycle_start = false;
   bool reset = false;
+  bool power_fails = false;  // the supply says so
   bool home = false;       // every axis that can be homed, in order
   bool mode[3] = {};       // by Mode
   std::uint8_t alarm = 0;  // bit n: the ladder's alarm n+1

@@ -57,4 +57,16 @@ nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
   return status;
 }
 
+std::string LibNc::axis_letters(unsigned system) {
+  std::string letters;
+  for (unsigned a = 0; a < config_.system[system].axis_count; ++a) letters += config_.system[system].axis[a].name;
+  return letters;
+}
+
+std::string LibNc::program_name(unsigned file) {
+  nc_program_info info;
+  nc_program_info_init(&info);
+  return nc_program_get(control_, file, &info) == NC_OK ? info.name : "";
+}
+
 }  // namespace nc::rt

@@ -43,6 +43,9 @@ class NcPort {
   // (runtime/retain/variables.hpp); offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
   virtual std::string tables() { return {}; }
+  // Letters of the axes, and the name of a program in the store; "" when they are not known.
+  virtual std::string axis_letters(unsigned /*system*/) { return {}; }
+  virtual std::string program_name(unsigned /*file*/) { return {}; }
   // Calls `job` with the control, to read its tables or to write into them. False when there is no control behind this port.
   virtual bool with_control(const std::function<void(nc_control*)>& job) {
     (void)job;
@@ -70,6 +73,8 @@ class LibNc final : public NcPort {
   void shown(unsigned system, nc_axes* machine, nc_axes* work) override;
   std::string variables() override;
   std::string tables() override;
+  std::string axis_letters(unsigned system) override;
+  std::string program_name(unsigned file) override;
   bool with_control(const std::function<void(nc_control*)>& job) override {
     job(control_);
     return true;

@@ -14,7 +14,9 @@
 
 #include "hal/drive_fault.hpp"
 #include "runtime/nc_system.hpp"
+#include "runtime/power/power_text.hpp"
 #include "runtime/retain/ladder_data.hpp"
+#include "runtime/retain/place.hpp"
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
 
@@ -95,6 +97,7 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
                                                      ": feed per revolution (G95), threads and dwells in revolutions will wait; [[spindle]] feedback"}.text());
   }
   for (const std::string& warning : spindle_warnings(config)) runtime->warnings_.push_back(warning);
+  for (const std::string& warning : power_warnings(config)) runtime->warnings_.push_back(warning);
   if (runtime->own_ladder_ != nullptr) {
     runtime->parts_.ladder = runtime->own_ladder_.get();
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);
@@ -158,7 +161,17 @@ bool Runtime::start_stepping(std::string* error) {
 
 void Runtime::step() {
   feeder_->step();
+  save_when_asked();
   scan_->loop_step();
+}
+
+// Passes a request of the scan, which may not wake a thread, on to the keeper. On virtual time nothing is kept.
+void Runtime::save_when_asked() {
+  const std::uint32_t asked = scan_->save_asked();
+  if (asked == save_told_) return;
+  save_told_ = asked;
+  if (keeper_ != nullptr) keeper_->hurry(asked);
+  else scan_->save_finished(asked, SaveResult::kNothingKept);
 }
 
 // ---- real time ----
@@ -176,14 +189,24 @@ bool Runtime::start(std::string* error) {
         if (begins) scan_->post_retain_trouble(detail);
         else scan_->end_retain_trouble(detail);
       },
-      [this] { return scan_->retain_loss_seen(); });
+      [this] { return scan_->retain_loss_seen(); }, [this](std::uint32_t request, SaveResult result) { scan_->save_finished(request, result); });
   if (own_ladder_ != nullptr && !config_.retain_path().empty())
     keeper_->add(0, std::make_unique<LadderData>(own_ladder_.get()), config_.retain_path());
   if (control_ != nullptr && !config_.variables_path().empty())
     keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get(), config_.not_kept), config_.variables_path());
   if (control_ != nullptr && !config_.offsets_path().empty())
     keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
+  PlaceData* places = nullptr;
+  if (control_ != nullptr && !config_.place_path().empty()) {
+    auto data = std::make_unique<PlaceData>(feeder_.get(), scan_.get());
+    places = data.get();
+    keeper_->add(3, std::move(data), config_.place_path());
+  }
   keeper_->restore(&warnings_);
+  if (places != nullptr && !places->found().empty()) {
+    found_place_ = place_text(places->found(), config_.nc.system_count > 1);
+    scan_->post_found_place();
+  }
   feeder_->step();  // reads the first blocks before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {
     parts_.hal->stop();
@@ -235,6 +258,7 @@ void Runtime::feeder_thread() {
   const long period_ns = static_cast<long>(config_.scheduling.feeder_us) * 1000;
   while (!stop_feeder_.load(std::memory_order_relaxed)) {
     feeder_->step();
+    save_when_asked();
     pollfd wake{wake_fd_, POLLIN, 0};
     const timespec timeout{0, period_ns};
     if (ppoll(&wake, 1, &timeout, nullptr) <= 0) continue;
@@ -495,6 +519,8 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kHoming) text += std::string(": ") + homing_fault_text(static_cast<HomingFault>(alarm.detail));
   if (alarm.id == AlarmId::kLimitSwitch) text += limit_text(alarm.detail);
   if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);
+  if (alarm.id == AlarmId::kPowerFails) text += ": " + power_text(alarm.detail, alarm.code);
+  if (alarm.id == AlarmId::kPowerFailedBefore) text += ": " + found_place_;
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.id == AlarmId::kDriveFault)
     if (const std::string why = hal::drive_fault_text(alarm.code); !why.empty()) text += ": " + why;

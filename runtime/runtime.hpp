@@ -119,6 +119,7 @@ class Runtime {
   static void read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value);
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();
+  void save_when_asked();
 
   const Config& config_;
   RuntimeParts parts_;
@@ -126,6 +127,8 @@ class Runtime {
   std::unique_ptr<LadderTask> own_ladder_;
   std::unique_ptr<SignalBoard> board_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
+  std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of
+  std::string found_place_;               // where the power failed before this start; "" = nowhere
   std::string refused_;                   // why a force was refused; guarded by operator_
   struct FreeMemory {
     void operator()(void* memory) const;

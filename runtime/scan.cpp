@@ -62,6 +62,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
     feedback_.system[s].actual = config.start[s];
   }
   create_axes();
+  power_.create(config.power, has_brakes());
   std::uint32_t mapped[NC_WORDS];
   macro_.mapped(mapped);
   tell_found_outputs(mapped);  // the points of macro outputs may begin with another value than 0

@@ -28,6 +28,7 @@
 #include "runtime/ladder_hook.hpp"
 #include "runtime/macro_interface.hpp"
 #include "runtime/nc_port.hpp"
+#include "runtime/power/power_watch.hpp"
 #include "runtime/seqlock.hpp"
 #include "runtime/snapshot.hpp"
 #include "runtime/spsc.hpp"
@@ -126,6 +127,18 @@ class Scan {
     retain_trouble_.fetch_or(1u << detail, std::memory_order_release);
   }
   void end_retain_trouble(unsigned detail) noexcept { retain_holds_.fetch_and(~(1u << detail), std::memory_order_relaxed); }
+  // The retained data are to be written at once. save_asked() counts the requests; save_finished() answers all of them up to `request`.
+  std::uint32_t save_asked() const noexcept { return save_asked_.load(std::memory_order_acquire); }
+  void save_finished(std::uint32_t request, SaveResult result) noexcept {
+    save_answered_.store(request * kSaveResults + static_cast<std::uint32_t>(result), std::memory_order_release);
+  }
+  // The power has failed and nobody has acknowledged it: kPowerFailed, and a bit for each part system whose program was in execution or interrupted. Else 0.
+  static constexpr std::uint32_t kPowerFailed = 0x80000000u;
+  std::uint32_t power_failed_in() const noexcept { return power_in_.load(std::memory_order_relaxed); }
+  // Raises warning R25 with the next scan: the power failed in a program before this start.
+  void post_found_place() noexcept { found_place_.store(true, std::memory_order_release); }
+  // True once R25 has been acknowledged by an operator.
+  bool place_seen() const noexcept { return place_seen_.load(std::memory_order_acquire); }
   // True once R19 has been acknowledged by an operator.
   bool retain_loss_seen() const noexcept { return retain_loss_seen_.load(std::memory_order_acquire); }
 
@@ -177,6 +190,9 @@ class Scan {
   void watch_links() noexcept;
   void watch_retained() noexcept;
   void watch_printer() noexcept;
+  void watch_power(bool fails) noexcept;
+  bool all_braked() const noexcept;
+  bool has_brakes() const noexcept;
   void decide_overrides(const LadderRequests& requests) noexcept;
   Answer set_override(std::uint32_t systems, double value, double most, const bool* machines, double* operators) noexcept;
   void follow_ladder_manual(const LadderRequests& requests) noexcept;
@@ -349,6 +365,10 @@ class Scan {
   std::atomic<std::uint32_t> retain_trouble_{0};  // bit per retain_detail(): the trouble was reported since the last scan
   std::atomic<std::uint32_t> retain_holds_{0};    // bit per retain_detail() of R20: the trouble has not ended
   std::atomic<bool> retain_loss_seen_{false};
+  static constexpr std::uint32_t kSaveResults = 4;  // a request and its result in one word
+  PowerWatch power_;
+  std::atomic<std::uint32_t> save_asked_{0}, save_answered_{0}, power_in_{0};
+  std::atomic<bool> found_place_{false}, place_seen_{false};
   std::atomic<std::uint32_t> reset_rest_{0}, reset_done_{0};
   std::atomic<std::uint32_t> output_found_[NC_WORDS] = {}, output_value_[NC_WORDS] = {};
   SeqLock<Snapshot> snapshot_;

@@ -16,7 +16,7 @@ void Scan::run_ladder() noexcept {
   const bool stopped = alarms_.stops();
   const LadderStatus status{mode_,       stopped, !stopped && alarms_.count != 0, reset_phase_ != ResetPhase::kNone,
                             !drives_off_, scan_,   macro_.output(),                           flags_,
-                            all_homed()};
+                            all_homed(),  power_.failed(),  power_.phase() == PowerWatch::Phase::kDone};
   LadderRequests requests;
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;
@@ -53,6 +53,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   for (unsigned n = 0; n < kLadderAlarms; ++n)
     if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
   if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line, requests.stopped_fault);
+  watch_power(requests.power_fails);
   // Alarms that were raised above stop the machine already in this scan.
   for (unsigned s = 0; s < systems_; ++s)
     for (unsigned i = 0; i < alarms_.count; ++i) in_[s].alarm |= stops_the_nc(alarms_.alarm[i]);

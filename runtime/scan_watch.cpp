@@ -73,7 +73,7 @@ bool Scan::drives_not_following() const noexcept {
 bool Scan::machine_faulty() const noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kDriveFault || alarms_.alarm[i].id == AlarmId::kHalLost) return true;
-  return false;
+  return power_.drives_off();
 }
 
 void Scan::watch_machine() noexcept {
@@ -146,6 +146,7 @@ void Scan::watch_links() noexcept {
 void Scan::watch_retained() noexcept {
   std::uint32_t found = 0;
   if (retain_trouble_.load(std::memory_order_relaxed) != 0) found = retain_trouble_.exchange(0, std::memory_order_acquire);
+  if (found_place_.load(std::memory_order_relaxed) && found_place_.exchange(false, std::memory_order_acquire)) raise(AlarmId::kPowerFailedBefore, 0, -1);
   const auto comes_again = [found](const ActiveAlarm& alarm) {
     return alarm.id == AlarmId::kRetainedUnwritable && (found >> alarm.detail & 1u) != 0;
   };
@@ -231,12 +232,14 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.code = code;
   alarm.acknowledged = false;
   // Alarms that belong to no block, or are found only after their block has been executed, get no source.
-  if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable && id != AlarmId::kPrinter) alarm.source = out_[system].source;
+  if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable && id != AlarmId::kPrinter && id != AlarmId::kPowerFailedBefore) alarm.source = out_[system].source;
 }
 
 void Scan::acknowledge_alarms() noexcept {
   for (std::uint64_t& scans : fin_scans_) scans = 0;
   for (std::uint64_t& scans : clamp_scans_) scans = 0;
+  for (unsigned i = 0; i < alarms_.count; ++i)
+    if (alarms_.alarm[i].id == AlarmId::kPowerFailedBefore && !ending_) place_seen_.store(true, std::memory_order_release);
   for (unsigned i = 0; i < alarms_.count; ++i)
     if (alarms_.alarm[i].id == AlarmId::kRetainedLost && !ending_)  // the reset at the end of the control is not an operator's acknowledgement
       retain_loss_seen_.store(true, std::memory_order_release);

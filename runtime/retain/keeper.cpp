@@ -8,7 +8,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr unsigned kLookMs = 5;
+constexpr unsigned kLookMs = 5, kHurryMs = 1;  // between two looks at whether a copy is there
 
 }  // namespace
 
@@ -91,17 +91,64 @@ bool RetainKeeper::pause_ms(unsigned time) {
   return !wake_.wait_for(lock, std::chrono::milliseconds(time), [this] { return stopping_; });
 }
 
-void RetainKeeper::run() {
-  std::string bytes;
-  while (pause_ms(every_ms_)) {
-    for (const auto& entry : entries_) {
-      if (!entry->usable || !may_save(entry.get())) continue;
-      entry->data->want();
-      while (!entry->data->take(&bytes))
-        if (!pause_ms(kLookMs)) return;
-      save(entry.get(), bytes);
-    }
+bool RetainKeeper::wait_for_turn() {
+  std::unique_lock lock(mutex_);
+  wake_.wait_for(lock, std::chrono::milliseconds(every_ms_), [this] { return stopping_ || request_ != answered_; });
+  return !stopping_;
+}
+
+void RetainKeeper::hurry(std::uint32_t request) {
+  if (!running_) return answer(request);
+  {
+    const std::lock_guard lock(mutex_);
+    request_ = request;
   }
+  wake_.notify_all();
+}
+
+// A copy that was asked for before a request may be older than it. So a request that comes in the middle of a round is answered by the next one.
+void RetainKeeper::run() {
+  while (wait_for_turn()) {
+    std::uint32_t request = 0;
+    bool hurried = false;
+    {
+      const std::lock_guard lock(mutex_);
+      request = request_;
+      hurried = request_ != answered_;
+    }
+    if (!save_all()) return;
+    if (!hurried) continue;
+    {
+      const std::lock_guard lock(mutex_);
+      answered_ = request;
+    }
+    answer(request);
+  }
+}
+
+bool RetainKeeper::save_all() {
+  std::string bytes;
+  for (const auto& entry : entries_) {
+    if (!entry->usable || !may_save(entry.get())) continue;
+    entry->data->want();
+    while (!entry->data->take(&bytes)) {
+      bool hurried = false;
+      {
+        const std::lock_guard lock(mutex_);
+        hurried = request_ != answered_;
+      }
+      if (!pause_ms(hurried ? kHurryMs : kLookMs)) return false;
+    }
+    save(entry.get(), bytes);
+  }
+  return true;
+}
+
+void RetainKeeper::answer(std::uint32_t request) {
+  if (!finished_) return;
+  bool all = true;
+  for (const auto& entry : entries_) all &= entry->usable && !entry->unseen && !entry->failed;
+  finished_(request, entries_.empty() ? SaveResult::kNothingKept : all ? SaveResult::kSaved : SaveResult::kNotSaved);
 }
 
 // After a loss nothing is written until an operator has acknowledged it: otherwise the next control would start as if nothing had happened.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "runtime/alarms.hpp"
+#include "runtime/power/power_watch.hpp"
 #include "runtime/retain/retained_data.hpp"
 #include "runtime/retain/store.hpp"
 #include "runtime/rt_thread.hpp"
@@ -28,9 +29,11 @@ class RetainKeeper {
 
   // Returns whether a reported loss has been acknowledged. Any thread.
   using Seen = std::function<bool()>;
+  // How hurry() has ended.
+  using Finished = std::function<void(std::uint32_t request, SaveResult result)>;
 
-  RetainKeeper(unsigned every_ms, Trouble trouble, Seen seen)
-      : every_ms_(every_ms), trouble_(std::move(trouble)), seen_(std::move(seen)) {}
+  RetainKeeper(unsigned every_ms, Trouble trouble, Seen seen, Finished finished = nullptr)
+      : every_ms_(every_ms), trouble_(std::move(trouble)), seen_(std::move(seen)), finished_(std::move(finished)) {}
   ~RetainKeeper() { stop(); }
 
   // `number`: the number of these data in alarms (kRetainedData).
@@ -42,6 +45,9 @@ class RetainKeeper {
   void restore(std::vector<std::string>* warnings);
   // Starts the thread. False with a sentence in *error.
   bool start(std::string* error);
+  // Everything is written at once that has changed; `request` is a number that rises. The answer comes in the keeper's thread, or, when there is nothing to
+  // keep, from here. Any thread.
+  void hurry(std::uint32_t request);
   // Ends the thread and writes the data once more; to be called after the last scan.
   void stop();
   // The last trouble with these data as a sentence, "" = none. Any thread.
@@ -60,6 +66,9 @@ class RetainKeeper {
   void restore(Entry* entry, std::vector<std::string>* warnings);
   void run();
   bool pause_ms(unsigned time);  // false: the thread is to end
+  bool wait_for_turn();          // the interval, or until hurry(); false: the thread is to end
+  bool save_all();               // false: the thread is to end
+  void answer(std::uint32_t request);
   bool may_save(Entry* entry);
   void save(Entry* entry, const std::string& bytes);
   void tell(Entry* entry, RetainTrouble what, const std::string& why, std::vector<std::string>* warnings);
@@ -67,10 +76,12 @@ class RetainKeeper {
   const unsigned every_ms_;
   const Trouble trouble_;
   const Seen seen_;
+  const Finished finished_;
   std::vector<std::unique_ptr<Entry>> entries_;
   RtThread thread_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
+  std::uint32_t request_ = 0, answered_ = 0;  // guarded by mutex_
   bool running_ = false, stopping_ = false;
 };
 

@@ -12,7 +12,7 @@
 namespace nc::rt::services {
 namespace {
 
-constexpr unsigned kDefaultCount = 500;
+constexpr unsigned kDefaultRows = 500;
 constexpr unsigned kPlainSets = 6, kExtended = 100;  // as nc_work_offset_set() counts
 constexpr Field kColumnFields[] = {Field::kLength, Field::kLengthWear, Field::kRadius, Field::kRadiusWear};  // in the order of nc_tool_column
 
@@ -26,7 +26,7 @@ struct Page {
   unsigned from, count;
 };
 Page page_of(const Call& call) {
-  return {static_cast<unsigned>(call.value_or(Field::kFrom, 0)), static_cast<unsigned>(call.value_or(Field::kCount, kDefaultCount))};
+  return {static_cast<unsigned>(call.value_or(Field::kFrom, 0)), static_cast<unsigned>(call.value_or(Field::kCount, kDefaultRows))};
 }
 
 std::string shown(double value) {

@@ -29,7 +29,7 @@ std::uint64_t fnv(const void* data, std::size_t size, std::uint64_t hash) {
   return hash;
 }
 
-std::string system_error(const std::string& what) {
+std::string segment_error(const std::string& what) {
   return what + ": " + std::strerror(errno);
 }
 
@@ -138,7 +138,7 @@ bool SegmentOwner::create(const std::string& name, bool group, bool commands, co
   if (memory_ < 0) return false;
   void* memory = mmap(nullptr, sizeof(Segment), PROT_READ | PROT_WRITE, MAP_SHARED, memory_, 0);
   if (memory == MAP_FAILED) {
-    *error = system_error("shared memory " + path + " cannot be mapped");
+    *error = segment_error("shared memory " + path + " cannot be mapped");
     remove();
     return false;
   }

@@ -302,6 +302,12 @@ const SignalRow kSignals[] = {
      NC_READ { return static_cast<std::int32_t>(out(image, s).tool_group); }, nullptr},
     {"tap_retract", kBit, kTo, kSystem, 0, 0, "the tap that stands in a hole is drawn out, the spindle with it, as long as it is on", "begins when it rises, in manual mode",
      nullptr, NC_WRITE { image->nc_in[s].tap_retract |= value != 0; }},
+    {"power_failed", kBit, kFrom, kControl, 0, 0, "the supply has said that it fails (plc.power_fail_n)", "until reset, with the supply good again",
+     NC_READ { return image.status->power_failed; }, nullptr},
+    {"power_fail_done", kBit, kFrom, kControl, 0, 0, "and what is to be done then is done: axes at rest or drives off, brakes closed, retained data written", "with power_failed",
+     NC_READ { return image.status->power_done; }, nullptr},
+    {"power_fail_n", kBit, kTo, kControl, 0, 1, "0: the supply fails: all paths come to rest, retained data are written, brakes close, drives go off (R24)",
+     "level; latched until reset; [power] has its times", nullptr, NC_WRITE { image->requests->power_fails = value == 0; }},
     {"tool_broken", kBit, kTo, kSystem, 0, 0, "the tool in the spindle is not to be used any more (tool life management)", "acts when it rises", nullptr,
      NC_WRITE { image->nc_in[s].tool_broken |= value != 0; }},
 };

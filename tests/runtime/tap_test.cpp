@@ -99,6 +99,35 @@ TEST_F(SimTap, OtherAxesAreRefusedWithTheReasonWhileItStandsInItsHole) {
   EXPECT_EQ(ask(CommandKind::kStep, 0, 1), Answer::kDone);
 }
 
+// The supply fails in the hole: axis and spindle come to rest together, and behind the reset the tap is drawn out.
+TEST_F(SimTap, WhenThePowerFailsInTheHoleItIsDrawnOutBehindTheReset) {
+  config = nc::test::parse_or_fail(tapping_toml() + "[[point]]\nname = \"power_good\"\ndirection = \"input\"\ninitial = 1\n[signals]\n\"plc.power_fail_n\" = \"power_good\"\n"
+                                   "[power]\nstop_s = 2.0\nsettle_s = 0.05\n");
+  const auto power = [&](bool good) { machine->set_input(static_cast<unsigned>(config.points.find("power_good")), good ? 1 : 0); };
+  build();
+  start(kTap);
+  ASSERT_GE(until([&] { return out().tapping && z() < -3; }), 0);
+  const double began = turns(), stood = z();
+  power(false);
+  double worst = 0;
+  ASSERT_GE(until([&] {
+              if (out().spindle_synchronous != 0) worst = std::max(worst, std::fabs(stood - z() - kLead * (turns() - began)));
+              return alarm().find("came to rest on their paths") != std::string::npos;
+            }),
+            0)
+      << alarm();
+  EXPECT_LT(worst, 2e-3) << "mm";
+  power(true);
+  for (unsigned n = 0; n < 100; ++n) runtime->step();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  ASSERT_GE(until([&] { return out().state == NC_STATE_IDLE && out().tap_retract_possible && !runtime->snapshot().resetting; }), 0) << alarm();
+  ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kManual)), Answer::kDone);
+  for (unsigned n = 0; n < 100; ++n) runtime->step();
+  ASSERT_EQ(runtime->execute(CommandKind::kTapRetract, 0, 1), Answer::kDone);
+  ASSERT_GE(until([&] { return !out().tap_retract_possible && out().state == NC_STATE_IDLE; }), 0);
+  EXPECT_NEAR(z(), 2, 2e-3);
+}
+
 TEST_F(SimTap, WhatIsKeptDrawsItOutBehindAPowerCut) {
   build();
   const nc::rt::TableRows configured = nc::rt::read_tables(runtime->control(), config.nc);

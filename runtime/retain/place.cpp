@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places in programs as text. See place.hpp.
+//
+//   ncplace 1
+//   system 0
+//   program part.nc
+//   block 12 0 0 11          line, O number, depth, line of the main program that was finished last
+//   at X 1.5
+//   end
+#include "runtime/retain/place.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace nc::rt {
+namespace {
+
+constexpr const char* kHead = "ncplace 1";
+
+// A name without what would end its line.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return text;
+}
+
+std::string number(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
+  std::istringstream words(line);
+  std::string key;
+  words >> key;
+  if (key == "system") {
+    unsigned system = 0;
+    if (!(words >> system) || system >= NC_MAX_SYSTEMS) return false;
+    places->emplace_back().system = system;
+    return true;
+  }
+  if (places->empty()) return false;
+  ProgramPlace& place = places->back();
+  if (key == "program") {
+    place.program = line.size() > 8 ? line.substr(8) : "";
+    return true;
+  }
+  if (key == "block") return static_cast<bool>(words >> place.line >> place.number >> place.depth >> place.main_line);
+  std::string axis;
+  double value = 0;
+  if (key != "at" || !(words >> axis >> value) || axis.size() != 1 || !std::isfinite(value) || place.at.size() >= NC_MAX_AXES) return false;
+  place.at.emplace_back(axis[0], value);
+  return true;
+}
+
+}  // namespace
+
+std::string encode_places(const std::vector<ProgramPlace>& places) {
+  if (places.empty()) return {};
+  std::ostringstream text;
+  text << kHead << '\n';
+  for (const ProgramPlace& place : places) {
+    text << "system " << place.system << "\nprogram " << one_line(place.program) << "\nblock " << place.line << ' ' << place.number << ' '
+         << place.depth << ' ' << place.main_line << '\n';
+    for (const auto& [axis, value] : place.at) text << "at " << axis << ' ' << number("%.9g", value) << '\n';
+  }
+  text << "end\n";
+  return text.str();
+}
+
+bool decode_places(const std::string& bytes, std::vector<ProgramPlace>* places) {
+  places->clear();
+  if (bytes.empty()) return true;
+  std::istringstream lines(bytes);
+  std::string line;
+  bool good = std::getline(lines, line) && line == kHead, ended = false;
+  while (good && !ended && std::getline(lines, line)) {
+    ended = line == "end";
+    good = ended || (places->size() <= NC_MAX_SYSTEMS && read_line(line, places));
+  }
+  if (good && ended) return true;
+  places->clear();
+  return false;
+}
+
+std::string place_text(const std::vector<ProgramPlace>& places, bool systems) {
+  std::string text;
+  for (const ProgramPlace& place : places) {
+    if (!text.empty()) text += "; ";
+    if (systems) text += "part system " + std::to_string(place.system + 1) + ": ";
+    text += place.program;
+    if (place.depth != 0 && place.main_line != 0) text += ", behind line " + std::to_string(place.main_line);
+    if (place.depth != 0) text += place.number != 0 ? ", in O" + std::to_string(place.number) : std::string(", in a sub program");
+    if (place.line != 0) text += ", line " + std::to_string(place.line);
+    for (std::size_t i = 0; i < place.at.size(); ++i)
+      text += (i == 0 ? ", " : " ") + std::string(1, place.at[i].first) + number("%.3f", place.at[i].second);
+  }
+  return text;
+}
+
+bool PlaceData::restore(const std::string& bytes) { return decode_places(bytes, &found_); }
+
+bool PlaceData::take(std::string* bytes) {
+  if (!feeder_.take(Feeder::kPlace, bytes)) return false;
+  *bytes = kept_or(std::move(*bytes));
+  return true;
+}
+
+}  // namespace nc::rt
