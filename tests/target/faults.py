@@ -112,7 +112,7 @@ class Faults:
         """One drive trips: its text is in the alarm, the others make a quick stop and are off when they stand."""
         self.in_motion()
         self.drives[1].trip()
-        said = self.alarmed(("R12", "EMCY 3210h: DC link over-voltage (error register 05h), axis Y"))
+        said = self.alarmed(("R12", "EMCY 3210h: DC link over-voltage (error register 05h) (Y)"))
         self.rests("a drive in fault")
         self.quick_stop(0, 2)
         self.refuses("a drive in fault")
@@ -124,7 +124,7 @@ class Faults:
         self.in_motion()
         self.drives[1].kill()
         said = self.alarmed(("R12", "does not come"))
-        if "axis Y" not in said:
+        if "(Y)" not in said:
             raise Failed(f"the axis is not named: {said}")
         self.rests("a node is gone")
         self.quick_stop(0, 2)
