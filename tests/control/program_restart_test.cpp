@@ -105,6 +105,23 @@ TEST_F(ProgramRestart, BeginsAtTheHeadWhereTheModesNeedTheBlocksInFront) {
   EXPECT_EQ(go_on().front(), 1u) << "a modal call";
 }
 
+// From the middle of an arc its centre would be another one, and a cycle would take the height in the hole for its initial level.
+TEST_F(ProgramRestart, WhatIsNoLineDoesNotBeginInItsMiddle) {
+  for (const char* text : {"G90 G01 F1200 X1.\nG02 X21. I10.\nM30\n", "G90 G01 F1200 X1.\nG02 X21. R10.\nM30\n", "G90 G00 X1. F1200\nG99 G81 X20. Z-1. R1.\nM30\n",
+                           "G90 G00 X1. F1200\nG28 X30.\nM30\n", "G90 G00 X1. F1200\nG31 X20.\nM30\n"}) {
+    stop_beyond(5, "2", text);
+    drive->in.cycle_start = true;
+    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
+    EXPECT_EQ(drive->alarm(), "NC-MODE") << text;
+    nc_alarm alarm{};
+    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
+    EXPECT_EQ(alarm.source.line, 2u) << text;
+    EXPECT_NE(std::string(alarm.detail.s).find("in its middle"), std::string::npos) << alarm.detail.s;
+    reset();
+    EXPECT_EQ(go_on().front(), 1u) << "behind the alarm it begins at its head";
+  }
+}
+
 TEST_F(ProgramRestart, NothingIsKeptBehindBlocksOfMdi) {
   stop_beyond(25, "2", kPart);
   static constexpr char kText[] = "G00 Y1.\n";

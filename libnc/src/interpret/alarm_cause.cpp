@@ -243,6 +243,11 @@ bool put_vacant(Interpreter& in, TextWriter& out) {
 void note_cause(Interpreter& in) {
   AlarmStory& story = in.alarm_story;
   TextWriter out(story.cause.s, sizeof story.cause.s);
+  if (in.fault.condition == Condition::not_accepted && in.begins_inside()) {  // HX 2.3.4
+    out.put("A reset has stopped this block in its middle, where only a line can begin. Select the program to begin at its head.");
+    story.instead = true;
+    return;
+  }
   if (put_option(in, out, &story.instead)) return;
   if (put_foreign(in, out)) {
     story.instead = true;

@@ -381,6 +381,10 @@ Execution execute_words(Interpreter& in) {
   Execution did = read_block_command(in);
   if (did != Execution::done) return did;
   Command& w = in.words;
+  if (in.begins_inside()) [[unlikely]] {
+    did = check_begun_inside(in);
+    if (did != Execution::done) return did;
+  }
   if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);

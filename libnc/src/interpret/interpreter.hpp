@@ -57,6 +57,8 @@ struct Interpreter : BlockContext {
   /// force (program_restart.cpp). `stands` is false where the newest block is not the last one that the machine has executed: the place is forgotten.
   void keep_place(bool stands);
   void forget_place() { place_.kept = false; }
+  /// The next block begins at such a place, and the axes do not stand where the block before it has led them.
+  bool begins_inside() const { return state.seq == 0 && place_.kept && !(state.machine == place_.machine); }
   /// The next block is read again and has to be executed anew as a whole: also its vendor's function is called again.
   void forget_vendor_call() { vendor_call_ = {}; }
   /// Whether the vendor's function of the block in hand has been called already; and notes that it has.
@@ -194,6 +196,7 @@ struct Interpreter : BlockContext {
   /// Where a reset goes back to, in place of the head of the program.
   struct Place {
     bool kept = false;
+    AxisVec machine;  ///< where the block in front of it has led the axes
     CallStack stack;
   };
   bool may_begin_here() const;
@@ -246,6 +249,8 @@ struct Interpreter : BlockContext {
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for
 };
 
+/// interpret/program_restart.cpp: whether the block in hand may begin in its middle.
+Execution check_begun_inside(Interpreter& in);
 /// interpret/execute_block.cpp: a block of words.
 Execution execute_words(Interpreter& in);
 /// interpret/plain_line.cpp: executes a straight line in absolute millimetres. False: nothing has been done, and the block needs execute_words().

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Program restart (HX 2.3.4): a start behind a reset goes on with the block that the reset has stopped, in the modes and with the feed that were in force. That
-// block is executed anew from where the machine stands then: an absolute word goes to its place, an increment counts from there.
+// block is executed anew from where the machine stands then: an absolute word goes to its place, an increment counts from there. Stopped in the middle of a
+// block that is no straight line, that is an alarm.
 //
 // What ends with a reset in spite of that are the modes that need the blocks in front: radius compensation, cycles, modal calls, maps of the axes. Going on
 // in the middle of these would cut beside the path, so there the program begins at its head, as it does without the parameter.
+#include "command/words_of_block.hpp"
 #include "interpret/interpreter.hpp"
 
 namespace nc {
@@ -26,7 +28,17 @@ void Interpreter::keep_place(bool stands) {
   if (!settings.stays_behind_reset || !stands) return forget_place();
   if (state.seq == 0) return;  // nothing has been executed since the place was kept, or since the head of the program
   place_.kept = may_begin_here();
-  if (place_.kept) place_.stack = state;
+  if (!place_.kept) return;
+  place_.stack = state;
+  place_.machine = state.machine;
+}
+
+/// From where the axes stand now only a straight line leads to the end of its block as it did before. An arc would have another centre, and a cycle would
+/// take the height in the hole for its initial level.
+Execution check_begun_inside(Interpreter& in) {
+  const Function motion = motion_behind(*in.block, in.front, in.state.modal.of(Mode::motion));
+  const bool straight = motion == Function::linear || motion == Function::rapid;
+  return straight && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
 }
 
 }  // namespace nc
