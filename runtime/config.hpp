@@ -164,6 +164,8 @@ struct ServicesConfig {
   // Names of the groups that may view, operate, set up and maintain, in the order of services::Right.
   std::array<std::vector<std::string>, 4> holders = {{{"nc-view"}, {"nc-operate"}, {"nc-setup"}, {"nc-maintain"}}};
   std::string changes;         // file of the changes, relative like Config::print; empty = see Config::changes_path()
+  std::string history;         // file of the history, likewise; empty = see Config::history_path()
+  unsigned history_entries = 200'000, history_days = 730, history_mb = 256;  // its bounds
   unsigned program_mb = 4096;  // size that one program may have
   unsigned programs_mb = 16384;  // size that all programs in the folder may have together
 };
@@ -245,6 +247,7 @@ struct Config {
   std::string place_path() const;
   // File in which the services write who has changed what, in the same way.
   std::string changes_path() const;
+  std::string history_path() const;
   // True when the point is an output that a wire connects with a signal of the NC.
   bool is_wired_output(unsigned point) const;
 };

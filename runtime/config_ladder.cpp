@@ -85,4 +85,9 @@ std::string Config::changes_path() const {
   return state_file(name, ".changes");
 }
 
+std::string Config::history_path() const {
+  if (!services.history.empty()) return (std::filesystem::path(file).parent_path() / services.history).string();
+  return state_file(name, ".history");
+}
+
 }  // namespace nc::rt

@@ -54,6 +54,8 @@ class Runtime {
   // Code of an alarm: of the table of the runtime, or of the family. Not for kProgram, whose code comes with it.
   std::string alarm_code(AlarmId id) const;
   void set_printer(Printer printer) { feeder_->set_printer(std::move(printer)); }
+  // The tap of the history (runtime/history/), told of every scan. To be set before the start.
+  void set_history(history::ScanTap* tap) { scan_->set_history(tap); }
   void set_path_sink(PathSink* sink) { feeder_->set_path_sink(sink); }
 
   // ---- real time ----

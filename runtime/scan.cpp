@@ -510,6 +510,7 @@ void Scan::publish() noexcept {
     out.interface_output[w] = macro_.output()[w];
   }
   snapshot_.store(out);
+  if (history_ != nullptr) history_->look(out);
 }
 
 template class SeqLock<Snapshot>;

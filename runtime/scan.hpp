@@ -25,6 +25,7 @@
 #include "runtime/command.hpp"
 #include "runtime/config.hpp"
 #include "runtime/histogram.hpp"
+#include "runtime/history/scan_tap.hpp"
 #include "runtime/ladder_hook.hpp"
 #include "runtime/macro_interface.hpp"
 #include "runtime/nc_port.hpp"
@@ -103,6 +104,8 @@ class Scan {
   void post_print_trouble(unsigned system) noexcept { print_trouble_.fetch_or(1u << system, std::memory_order_release); }
   // Positions are recorded from now on, one per scan in which an axis moves. Before the threads start.
   void record_positions() { recording_ = true; }
+  // Told of every scan. Before the threads start.
+  void set_history(history::ScanTap* tap) { history_ = tap; }
   bool poll_position(PositionSample* sample) noexcept { return positions_.pop(sample); }
   // The optional block skips that the ladder sets for a part system; below, how often it has asked for a recalculation.
   std::uint32_t skip_switches(unsigned system) const noexcept {
@@ -358,6 +361,7 @@ class Scan {
   unsigned answered_count_ = 0;
   SpscQueue<Message, 64> messages_;
   bool recording_ = false;
+  history::ScanTap* history_ = nullptr;
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<std::uint32_t> loaded_{kNothingLoaded};
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};

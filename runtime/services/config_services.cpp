@@ -36,6 +36,11 @@ void read_services(TableReader* root, Config* config) {
     constexpr const char* kKeys[services::kRightCount] = {"view", "operate", "setup", "maintain"};
     for (unsigned right = 0; right < services::kRightCount; ++right) read_groups(&reader, kKeys[right], &services.holders[right]);
     reader.string("changes", &services.changes);
+    reader.string("history", &services.history);
+    if (!services.history.empty() && services.history == services.changes) reader.error("history", "is the file of the changes too");
+    reader.integer("history_entries", &services.history_entries, 1000, 10'000'000);
+    reader.integer("history_days", &services.history_days, 1, 36'500);
+    reader.integer("history_mb", &services.history_mb, 1, 100'000);
     reader.integer("program_mb", &services.program_mb, 1, 1'000'000);
     reader.integer("programs_mb", &services.programs_mb, 1, 100'000'000);
   });

@@ -23,6 +23,7 @@ namespace {
 constexpr int kWaiting = 16;                // peers that may connect at the same time
 constexpr int kLookMs = 500;                // interval at which clients that do not go on are looked for
 constexpr std::size_t kReadBytes = 65536;
+constexpr std::size_t kMostDenied = 1000;     // users whose refusals are counted
 
 bool address_of(const std::string& path, sockaddr_un* address) {
   *address = {};
@@ -192,6 +193,7 @@ void LocalServer::greet() {
   if (!why.empty()) {
     greeting["error"] = refused_name(refused);
     greeting["text"] = why;
+    if (refused == Refused::kNoRight) deny(connection->session, Call());
     connection->closing = true;
   }
   put(connection.get(), greeting.dump());
@@ -238,13 +240,34 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   Outcome outcome;
   if (!decode_call(frame, &job.call, &outcome)) return put(connection, encode_reply(job.call.id, outcome));
   const Session& session = *connection->session;
-  if (const std::string lacks = Services::lack(session, *job.call.row); !lacks.empty())
+  if (const std::string lacks = Services::lack(session, *job.call.row); !lacks.empty()) {
+    deny(connection->session, job.call);
     return put(connection, encode_reply(job.call.id, Outcome::refused(Refused::kNoRight, lacks)));
+  }
   if (job.call.row->lane == Lane::kNow) return put(connection, encode_reply(job.call.id, services_.show(session, job.call)));
   ++connection->outstanding;
   job.session = connection->session;
   const Lane lane = job.call.row->lane;
   post(lane, std::move(job));
+}
+
+// Has it written down who was refused, in a thread that may look up his name.
+void LocalServer::deny(const std::shared_ptr<Session>& session, const Call& call) {
+  const std::int64_t now = now_ns();
+  if (denied_.size() >= kMostDenied) denied_.clear();
+  const auto [place, first] = denied_.try_emplace(session->user);
+  Denied& denied = place->second;
+  if (!first && now - denied.written_ns < kDenyNs) {
+    ++denied.more;
+    return;
+  }
+  Job job;
+  job.session = session;
+  job.call.row = call.row;
+  job.denied = true;
+  job.more = denied.more;
+  denied = {now, 0};
+  post(Lane::kData, std::move(job));
 }
 
 void LocalServer::put(Connection* connection, const std::string& text) {
@@ -329,6 +352,7 @@ void LocalServer::work(Worker* worker, Lane lane) {
 
 void LocalServer::execute(const Job& job, Lane lane) {
   if (job.gone) return lane == Lane::kCommand ? services_.command_gone(*job.session) : services_.data_gone(*job.session);
+  if (job.denied) return services_.notes()->denied(job.session->user, job.session->client, job.call.row == nullptr ? "" : job.call.row->name, job.more);
   if (!job.session->open) return;  // its client has gone before its turn came
   if (lane == Lane::kCommand) return execute_command(job);
   answer(job.session->number, job.call.id, services_.data(*job.session, job.call));

@@ -37,6 +37,7 @@ class LocalServer {
   static constexpr unsigned kConnections = 64, kPerUser = 24, kOutstanding = 8;
   static constexpr std::size_t kMostOut = 1u << 20;
   static constexpr std::int64_t kPatienceNs = 10'000'000'000;
+  static constexpr std::int64_t kDenyNs = 60'000'000'000;  // a user's refusals are written down once in this time
 
   // `services` must outlive the server. `control`: name of the control, for the greeting.
   LocalServer(Services* services, std::string control, Judge judge);
@@ -67,6 +68,8 @@ class LocalServer {
     std::shared_ptr<Session> session;
     Call call;
     bool gone = false;  // the client has gone, and there is no call
+    bool denied = false;  // it had not the right; `more` refusals to its user before this one were not written down
+    unsigned more = 0;
   };
   // A thread with a queue. It is bounded, because each connection has a bounded number of requests.
   struct Worker {
@@ -88,6 +91,7 @@ class LocalServer {
   void take_frames(Connection* connection);
   void take(Connection* connection, const std::string& frame);
   void send_out(Connection* connection);
+  void deny(const std::shared_ptr<Session>& session, const Call& call);
   void put(Connection* connection, const std::string& text);
   void close_connection(Connection* connection);
   void deliver();
@@ -109,6 +113,11 @@ class LocalServer {
   Worker command_, data_;
   std::vector<std::unique_ptr<Connection>> connections_;
   std::uint64_t next_session_ = 1;
+  struct Denied {
+    std::int64_t written_ns = 0;
+    unsigned more = 0;
+  };
+  std::map<uid_t, Denied> denied_;  // who was refused, so that nobody fills the history by it
   bool full_ = false;  // no descriptors are left: nobody is let in for a while
 
   std::mutex mutex_;  // guards what follows

@@ -15,6 +15,7 @@ using share::RequestKind;
 constexpr double kMost32 = 2147483647.0;
 constexpr double kMostPercent = 10.0 * 100;  // nc_config::max_feed_override
 constexpr double kMostOffset = 1e6;  // mm, as in the configuration
+constexpr double kMostTime = 9e9;      // s; in ns it fits into 63 bits
 constexpr double kMostSize = 9007199254740992.0;  // bytes; whole numbers up to here are exact
 
 // In the order of Field.
@@ -53,6 +54,10 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kReplace, "replace", Kind::kFlag, 0, 1, "", "true: a program of this name is replaced; otherwise it is refused"},
     {Field::kUpload, "upload", Kind::kWhole, 1, kMost32, "", "number that programs.begin gave"},
     {Field::kData, "data", Kind::kData, 1, kChunkBytes, "bytes", "bytes in base64"},
+    {Field::kSince, "since", Kind::kNumber, 0, kMostTime, "s", "only what came at this time or later: seconds since 1970"},
+    {Field::kUntil, "until", Kind::kNumber, 0, kMostTime, "s", "only what came at this time or earlier: seconds since 1970"},
+    {Field::kEntryKind, "kind", Kind::kText, 1, 8, "", "only entries of this kind: alarm, message, action, change, run or system"},
+    {Field::kUser, "user", Kind::kText, 1, 64, "", "only what this user has done"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -61,6 +66,7 @@ constexpr Wanted may(Field field) { return {field, false}; }
 
 // ---- requests ----
 constexpr Wanted kPage[] = {may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kHistoryArguments[] = {may(Field::kSince), may(Field::kUntil), may(Field::kEntryKind), may(Field::kUser), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kSystemPage[] = {may(Field::kSystem), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kReadArguments[] = {must(Field::kFile), must(Field::kBegin), must(Field::kBytes)};
 constexpr Wanted kLeaseOnly[] = {may(Field::kLease)};
@@ -146,20 +152,49 @@ constexpr ReplyRow kStatusReply[] = {{"scan", "whole", "number of the scan that 
                                      {"systems[].axes[].work", "number", "commanded position in workpiece coordinates"},
                                      {"systems[].axes[].to_go", "number", "distance to go"},
                                      {"systems[].axes[].velocity", "number", "mm/s or deg/s"}};
-#define NC_ENTRY_ROWS                                                                                  \
-  {"alarms[].sequence", "whole", "number of this occurrence, from 1"},                                 \
-      {"alarms[].code", "text", "the manual's code"},                                                  \
-      {"alarms[].text", "text", "what is wrong"},                                                      \
-      {"alarms[].axis", "text", "axis, empty = none"},                                                 \
-      {"alarms[].system", "whole", "part system, from 1"},                                             \
-      {"alarms[].line", "whole", "line of the block that was in execution, 0 = none"},                 \
-      {"alarms[].warning", "flag", "lets a program go on to its end"},                                 \
-      {"alarms[].message", "flag", "a message and no alarm"},                                          \
-      {"alarms[].raised_ns", "whole", "time of day, ns since 1970"},                                   \
-      {"alarms[].cleared_ns", "whole", "time of day at its end, 0 = active"}
-constexpr ReplyRow kAlarmsReply[] = {NC_ENTRY_ROWS, {"left_out", "whole", "active alarms that are not in the list, which holds 16"}};
-constexpr ReplyRow kHistoryReply[] = {NC_ENTRY_ROWS, {"last", "whole", "number of the newest occurrence"}};
-#undef NC_ENTRY_ROWS
+constexpr ReplyRow kAlarmsReply[] = {{"alarms[].sequence", "whole", "number of this occurrence, from 1"},
+                                     {"alarms[].code", "text", "the manual's code"},
+                                     {"alarms[].text", "text", "what is wrong"},
+                                     {"alarms[].axis", "text", "axis, empty = none"},
+                                     {"alarms[].system", "whole", "part system, from 1"},
+                                     {"alarms[].line", "whole", "line of the block that was in execution, 0 = none"},
+                                     {"alarms[].warning", "flag", "lets a program go on to its end"},
+                                     {"alarms[].message", "flag", "a message and no alarm"},
+                                     {"alarms[].raised_ns", "whole", "time of day, ns since 1970"},
+                                     {"alarms[].cleared_ns", "whole", "time of day at its end, 0 = active"},
+                                     {"left_out", "whole", "active alarms that are not in the list, which holds 16"}};
+constexpr ReplyRow kHistoryReply[] = {{"entries[].number", "whole", "number of the entry, in the order in which they came; one that is missing was dropped"},
+                                      {"entries[].time_ns", "whole", "time of day as it was set then, ns since 1970"},
+                                      {"entries[].end_ns", "whole", "of alarms and runs: time of day at the end, 0 = not yet, -1 = ncrtd ended before it"},
+                                      {"entries[].kind", "text", "alarm, message, action, change, run or system"},
+                                      {"entries[].system", "whole", "part system, from 1; 0 = none"},
+                                      {"entries[].code", "text", "of an alarm: the manual's code; of a system entry: begin, end, clock, lost or damaged"},
+                                      {"entries[].text", "text", "what it is about"},
+                                      {"entries[].axis", "text", "axis, empty = none"},
+                                      {"entries[].warning", "flag", "an alarm that lets a program go on to its end"},
+                                      {"entries[].program", "text", "program in execution, empty = none"},
+                                      {"entries[].line", "whole", "line of the block that was in execution, 0 = none"},
+                                      {"entries[].user", "text", "name of the user, or his number when it has no name; empty = nobody, or one that DDS does not name"},
+                                      {"entries[].client", "text", "name of the client"},
+                                      {"entries[].service", "text", "service that was used"},
+                                      {"entries[].outcome", "text", "of an action: done, accepted or why it was refused; of a run: completed, alarm or interrupted"},
+                                      {"entries[].seconds", "number", "of a run: time in execution"},
+                                      {"missing", "whole", "entries that were dropped since ncrtd began"},
+                                      {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kCountersReply[] = {{"counters[].name", "text", "on: time that the machine has been on; running: time in execution; spindle: time that a spindle turned whose speed is measured; runs: programs that came to "
+                                                                  "their end without an alarm; alarms: alarms, without warnings"},
+                                       {"counters[].system", "whole", "part system, from 1; 0 = the whole machine"},
+                                       {"counters[].number", "whole", "number of the spindle, 0 = none"},
+                                       {"counters[].value", "number", "its value"},
+                                       {"counters[].unit", "text", "s, or empty for a number"}};
+constexpr ReplyRow kProgramTimesReply[] = {{"programs[].name", "text", "name of the program"},
+                                           {"programs[].runs", "whole", "runs that came to their end without an alarm"},
+                                           {"programs[].last_s", "number", "time in execution of the last one"},
+                                           {"programs[].shortest_s", "number", "of the shortest one"},
+                                           {"programs[].longest_s", "number", "of the longest one"},
+                                           {"programs[].total_s", "number", "of all of them together"},
+                                           {"programs[].last_ns", "whole", "time of day at the end of the last one, ns since 1970"},
+                                           {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kChangesReply[] = {{"changes[].time_ns", "whole", "time of day, ns since 1970"},
                                       {"changes[].user", "text", "name of the user, or his number when it has no name"},
                                       {"changes[].client", "text", "name of the client"},
@@ -210,7 +245,10 @@ constexpr ServiceRow kRows[] = {
     {Service::kMachine, "machine", Right::kView, Lane::kNow, kNo, {}, kMachineReply, "what does not change while ncrtd runs: axes, limits, period"},
     {Service::kStatus, "status", Right::kView, Lane::kNow, kNo, {}, kStatusReply, "one consistent picture of the machine, at most 10 ms old"},
     {Service::kAlarms, "alarms", Right::kView, Lane::kNow, kNo, {}, kAlarmsReply, "the active alarms and warnings"},
-    {Service::kHistory, "history", Right::kView, Lane::kNow, kNo, kPage, kHistoryReply, "the last alarms and messages, the newest first; at most 256 are kept"},
+    {Service::kHistory, "history.list", Right::kView, Lane::kData, kNo, kHistoryArguments, kHistoryReply,
+     "the memory of the machine, the newest first: alarms, messages, actions of operators, changes, runs of programs; `from`: the number of the newest entry that is wanted"},
+    {Service::kCounters, "history.counters", Right::kView, Lane::kData, kNo, {}, kCountersReply, "hours of the machine and of its spindles, runs, alarms, over all starts"},
+    {Service::kProgramTimes, "history.programs", Right::kView, Lane::kData, kNo, kPage, kProgramTimesReply, "how often each program ran to its end, and how long"},
     {Service::kChanges, "changes", Right::kView, Lane::kData, kNo, kPage, kChangesReply, "who has changed what through the services, the newest first"},
     {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them"},
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},

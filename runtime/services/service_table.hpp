@@ -16,7 +16,7 @@ namespace nc::rt::services {
 // A field of requests. It has the same meaning and the same limits in each of them.
 enum class Field : std::uint8_t {
   kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
-  kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kFields
+  kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -45,7 +45,7 @@ struct ReplyRow {
 };
 
 enum class Service : std::uint8_t {
-  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kChanges, kTools, kOffsets, kVariables, kParameters, kPrograms, kProgramRead,
+  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kPrograms, kProgramRead,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
   kSetTool, kSetOffset, kSetVariable, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
   kForce, kRelease, kSetParameter, kProgramProtect, kServiceCount

@@ -42,13 +42,17 @@ Refused refused_of(const share::Ack& ack) {
 
 }  // namespace
 
-Services::Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment)
+Services::Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment, history::Recorder* history)
     : runtime_(*runtime),
       programs_(*programs),
       desk_(*desk),
       segment_(*segment),
       store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this] { return use(); }),
-      log_(runtime->config().changes_path()) {}
+      log_(runtime->config().changes_path()),
+      history_(history),
+      notes_(history) {
+  desk->set_witness([this](const share::Request* request, const share::Ack& ack) { notes_.answered(request, ack); });
+}
 
 void Services::open(std::string* warning) {
   store_.clean();
@@ -74,11 +78,6 @@ Outcome Services::show(const Session& session, const Call& call) const {
       return Outcome::with(services_json());
     case Service::kMachine:
       return Outcome::with(machine_json(segment_.machine));
-    case Service::kHistory: {
-      const auto block = std::make_unique<share::HistoryBlock>();
-      if (!segment_.history.load(block.get())) return hung;
-      return Outcome::with(history_json(*block, static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, share::kHistory))));
-    }
     default: {
       const auto block = std::make_unique<share::StatusBlock>();
       if (!segment_.status.load(block.get())) return hung;
@@ -134,6 +133,7 @@ bool Services::command(Session* session, const Call& call, const std::function<v
   request->sequence = ++session->sequence;
   request->issued_ns = share::wall_ns();
   expect(request->sequence);
+  notes_.came(session->number, session->user);
   std::vector<share::Ack> acks;
   desk_.take(*request, {share::wall_ns(), RealClock().now_ns()}, share::Way::kLocal, &acks);
   if (acks.empty()) {
@@ -158,6 +158,7 @@ void Services::command_gone(const Session& session) {
   share::set_text(&request->client, session.client);
   std::vector<share::Ack> none;
   desk_.take(*request, {share::wall_ns(), RealClock().now_ns()}, share::Way::kLocal, &none);
+  notes_.gone(session.number);
 }
 
 // ---- data ----
@@ -190,6 +191,9 @@ Outcome Services::data(const Session& session, const Call& call) {
   switch (call.row->service) {
     case Service::kChanges:
       return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500))));
+    case Service::kHistory: return list_history(history_, call);
+    case Service::kCounters: return list_counters(history_);
+    case Service::kProgramTimes: return list_program_times(history_, call);
     case Service::kTools: return list_tools(&runtime_, call);
     case Service::kOffsets: return list_offsets(&runtime_, call);
     case Service::kVariables: return list_variables(&runtime_, call);
@@ -250,9 +254,10 @@ Outcome Services::program(const Session& session, const Call& call) {
 void Services::note(const Session& session, const Call& call, const Changes& changes, Outcome* outcome) {
   for (Change change : changes) {
     change.time_ns = share::wall_ns();
-    change.user = user_name(session.user);
+    change.user = notes_.name_of(session.user);
     change.client = session.client;
     change.service = call.row->name;
+    notes_.changed(change);
     std::string error;
     if (!log_.add(change, &error) && outcome->ok) outcome->reply["text"] = "done, but not written down: " + error;
   }

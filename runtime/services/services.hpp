@@ -11,6 +11,7 @@
 #include "runtime/runtime.hpp"
 #include "runtime/services/call.hpp"
 #include "runtime/services/change_log.hpp"
+#include "runtime/services/history.hpp"
 #include "runtime/services/program_store.hpp"
 #include "runtime/share/intake_desk.hpp"
 #include "runtime/share/program_table.hpp"
@@ -29,8 +30,8 @@ struct Session {
 
 class Services {
  public:
-  // All must outlive the services. The segment shows the state, and must exist before the first call.
-  Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment);
+  // All must outlive the services. The segment shows the state, and must exist before the first call. `history` may be null: then there is none.
+  Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment, history::Recorder* history);
   // Prepares the files of the services. A sentence in *warning when changes cannot be written down.
   void open(std::string* warning);
 
@@ -49,6 +50,8 @@ class Services {
   void data_gone(const Session& session) { store_.abandon_all(session.number); }
 
   static Outcome outcome_of(const share::Ack& ack);
+  // Where commands are written down, and who was refused.
+  ActionNotes* notes() { return &notes_; }
 
  private:
   bool fill(const Call& call, share::Request* request, Outcome* outcome) const;
@@ -63,6 +66,8 @@ class Services {
   const share::Segment& segment_;
   ProgramStore store_;
   ChangeLog log_;
+  history::Recorder* const history_;
+  ActionNotes notes_;
 };
 
 }  // namespace nc::rt::services

@@ -138,13 +138,6 @@ Json alarms_json(const share::StatusBlock& status) {
   return {{"alarms", std::move(alarms)}, {"left_out", status.alarms_left_out}};
 }
 
-Json history_json(const share::HistoryBlock& history, std::uint64_t from, std::uint64_t count) {
-  Json alarms = Json::array();
-  const std::uint64_t kept = std::min<std::uint64_t>(history.last_sequence, share::kHistory);
-  for (std::uint64_t i = from; i < kept && i - from < count; ++i) alarms.push_back(entry_json(history.entry[(history.last_sequence - i - 1) % share::kHistory]));
-  return {{"alarms", std::move(alarms)}, {"last", history.last_sequence}};
-}
-
 Json services_json() {
   Json services = Json::array();
   for (const ServiceRow& row : service_table()) {

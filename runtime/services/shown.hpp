@@ -15,7 +15,6 @@ Json machine_json(const share::MachineBlock& machine);
 Json status_json(const share::StatusBlock& status, const share::MachineBlock& machine, const std::string& control);
 Json alarms_json(const share::StatusBlock& status);
 // At most `count` entries behind the `from` newest ones.
-Json history_json(const share::HistoryBlock& history, std::uint64_t from, std::uint64_t count);
 Json services_json();
 
 }  // namespace nc::rt::services

@@ -18,6 +18,8 @@
 #include <cstring>
 #include <vector>
 
+#include "runtime/services/system_error.hpp"
+
 namespace nc::rt::share {
 namespace {
 
@@ -25,9 +27,7 @@ constexpr int kSeals = F_SEAL_SHRINK | F_SEAL_GROW;
 constexpr int kWaiting = 16;                 // readers that may connect at the same time
 constexpr timeval kPatience = {0, 500'000};  // time for which a reader waits for an owner that hangs
 
-std::string system_error(const std::string& what) {
-  return what + ": " + std::strerror(errno);
-}
+using services::system_error;
 
 // Makes an address without a NUL at its end, so its length, which is returned, must be passed with it.
 socklen_t address_of(const std::string& name, sockaddr_un* address) {

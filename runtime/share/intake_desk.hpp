@@ -20,10 +20,18 @@ class IntakeDesk {
   // Called in the thread of tick() with an answer for a local client that came later than its command. To be set before the threads start.
   void set_local(std::function<void(const Ack&)> local) { local_ = std::move(local); }
 
+  // Called with each answer: with the request in the thread of take(), or with null in that of tick(). To be set before the threads start.
+  void set_witness(std::function<void(const Request*, const Ack&)> witness) { witness_ = std::move(witness); }
+
   void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks) {
-    const std::lock_guard lock(mutex_);
-    intake_.take(request, now, acks, way);
-    show();
+    const std::size_t before = acks->size();
+    {
+      const std::lock_guard lock(mutex_);
+      intake_.take(request, now, acks, way);
+      show();
+    }
+    if (witness_)
+      for (std::size_t i = before; i < acks->size(); ++i) witness_(&request, (*acks)[i]);
   }
   // As Intake::tick(). *acks gets the answers for the gateway.
   void tick(const Now& now, std::vector<Ack>* acks) {
@@ -34,6 +42,7 @@ class IntakeDesk {
       show();
     }
     for (const Ack& ack : late_) {
+      if (witness_) witness_(nullptr, ack);
       if (static_cast<Way>(ack.way) == Way::kGateway) acks->push_back(ack);
       else if (local_) local_(ack);
     }
@@ -57,6 +66,7 @@ class IntakeDesk {
   Intake intake_;
   std::vector<Ack> late_;  // of the thread of tick()
   std::function<void(const Ack&)> local_;
+  std::function<void(const Request*, const Ack&)> witness_;
 };
 
 }  // namespace nc::rt::share

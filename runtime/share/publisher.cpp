@@ -6,6 +6,7 @@
 
 #include "runtime/axis_shown.hpp"
 #include "runtime/console.hpp"
+#include "runtime/share/alarm_entry.hpp"
 #include "runtime/share/segment.hpp"
 #include "runtime/share/text.hpp"
 
@@ -19,17 +20,6 @@ std::string modal_text(const nc_control* control, const nc_modal& modal) {
   const unsigned count = nc_modal_codes_get(control, &modal, codes, NC_GROUPS);
   std::string text;
   for (unsigned i = 0; i < count; ++i) text += (i == 0 ? "" : " ") + std::string(codes[i]);
-  return text;
-}
-
-// Takes code, axis and line out of a text such as "R11 Following error beyond its limit, axis X (line 7)", because they have fields of
-// their own.
-std::string without_place(std::string text, const std::string& code, const std::string& axis) {
-  if (text.rfind(code + " ", 0) == 0) text.erase(0, code.size() + 1);
-  if (const std::size_t line = text.rfind(" (line "); line != std::string::npos) text.erase(line);
-  const std::string end = ", axis " + axis;
-  if (!axis.empty() && text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0)
-    text.erase(text.size() - end.size());
   return text;
 }
 
@@ -234,34 +224,7 @@ void Publisher::fill_alarms(const Snapshot& snapshot, const FeederInfo& info) {
   segment_.history.store(log_.history());
 }
 
-bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) {
-  const auto axis_name = [&](int axis) {
-    if (axis >= 0 && axis < static_cast<int>(config_.nc.system[alarm.system].axis_count))
-      set_text(&entry->axis, std::string(1, config_.nc.system[alarm.system].axis[axis].name));
-  };
-  const AlarmRow& row = alarm_row(alarm.id);
-  entry->is_warning = is_warning(alarm.id);
-  if (alarm.id != AlarmId::kProgram) {
-    const std::string code = runtime_.alarm_code(alarm.id);
-    set_text(&entry->code, code);
-    axis_name(alarm.axis);
-    set_text(&entry->text, without_place(runtime_.alarm_text(alarm), code, std::string(text_of(entry->axis))));
-    return true;
-  }
-  set_text(&entry->text, row.text);
-  if (!info_.system[alarm.system].alarm) return false;
-  const nc_alarm& details = info_.system[alarm.system].program_alarm;
-  set_text(&entry->code, details.code);
-  std::string text = details.message;
-  if (details.detail.s[0] != 0) text += std::string(": ") + details.detail.s;
-  set_text(&entry->text, text);
-  if (details.source.line != 0) {
-    entry->line = details.source.line;
-    entry->program_number = details.source.program;
-  }
-  axis_name(details.axis);
-  return true;
-}
+bool Publisher::describe(const ActiveAlarm& alarm, Entry* entry) { return describe_alarm(runtime_, info_, alarm, entry); }
 
 void Publisher::fill_points(const Snapshot& snapshot) {
   bool lost = false;

@@ -17,6 +17,7 @@
 #include <iterator>
 #include <new>
 
+#include "runtime/services/system_error.hpp"
 #include "runtime/share/door.hpp"
 #include "runtime/share/text.hpp"
 
@@ -29,9 +30,7 @@ std::uint64_t fnv(const void* data, std::size_t size, std::uint64_t hash) {
   return hash;
 }
 
-std::string segment_error(const std::string& what) {
-  return what + ": " + std::strerror(errno);
-}
+using services::system_error;
 
 // What is wrong with an existing segment of this size, "" = nothing.
 std::string fault_of(const Segment& segment, std::uint64_t size) {
@@ -138,7 +137,7 @@ bool SegmentOwner::create(const std::string& name, bool group, bool commands, co
   if (memory_ < 0) return false;
   void* memory = mmap(nullptr, sizeof(Segment), PROT_READ | PROT_WRITE, MAP_SHARED, memory_, 0);
   if (memory == MAP_FAILED) {
-    *error = segment_error("shared memory " + path + " cannot be mapped");
+    *error = system_error("shared memory " + path + " cannot be mapped");
     remove();
     return false;
   }

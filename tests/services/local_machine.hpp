@@ -107,7 +107,7 @@ class LocalMachine : public testing::Test {
   }
 
   virtual std::string machine_text() {
-    return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nprogram_mb = 4\nprograms_mb = 8\n";
+    return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nhistory = \"history\"\nprogram_mb = 4\nprograms_mb = 8\n";
   }
   void start() {
     std::string text = machine_text();
@@ -125,7 +125,12 @@ class LocalMachine : public testing::Test {
     share_ = std::make_unique<rt::share::Service>(runtime_.get(), programs_.get(), nullptr, options);
     std::string error;
     ASSERT_TRUE(share_->create(&error)) << error;
-    services_ = std::make_unique<rt::services::Services>(runtime_.get(), programs_.get(), share_->desk(), share_->segment());
+    history_ = std::make_unique<rt::history::Recorder>(runtime_.get(), programs_.get(), config_.history_path(), rt::history::StoreLimits{}, [this](const std::string& what) {
+      const std::lock_guard lock(mutex_);
+      said_ += what + "\n";
+    });
+    runtime_->set_history(history_->tap());
+    services_ = std::make_unique<rt::services::Services>(runtime_.get(), programs_.get(), share_->desk(), share_->segment(), history_.get());
     services_->open(&error);
     ASSERT_EQ(error, "");
     server_ = std::make_unique<rt::services::LocalServer>(services_.get(), options.name, [this](const rt::services::Credentials&) {
@@ -135,6 +140,7 @@ class LocalMachine : public testing::Test {
     ASSERT_TRUE(server_->open(path_, &error)) << error;
     share_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
     ASSERT_TRUE(runtime_->start(&error)) << error;
+    ASSERT_TRUE(history_->start(&error)) << error;
     ASSERT_TRUE(share_->start(&error)) << error;
     ASSERT_TRUE(server_->start(&error)) << error;
   }
@@ -142,9 +148,11 @@ class LocalMachine : public testing::Test {
     if (server_ != nullptr) server_->stop();
     if (share_ != nullptr) share_->stop();
     if (runtime_ != nullptr) runtime_->stop();
+    if (history_ != nullptr) history_->stop();
     server_.reset();
     services_.reset();
     share_.reset();
+    history_.reset();
     runtime_.reset();
   }
   // The rights of clients that connect from now on.
@@ -172,6 +180,8 @@ class LocalMachine : public testing::Test {
   std::unique_ptr<rt::Runtime> runtime_;
   std::unique_ptr<rt::share::ProgramTable> programs_;
   std::unique_ptr<rt::share::Service> share_;
+  std::unique_ptr<rt::history::Recorder> history_;
+  std::string said_;  // by the history; guarded by mutex_
   std::unique_ptr<rt::services::Services> services_;
   std::unique_ptr<rt::services::LocalServer> server_;
   std::mutex mutex_;

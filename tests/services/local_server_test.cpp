@@ -115,7 +115,7 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
     collect(reply["reply"], "", &found);
     for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
     if (row.service == Service::kTools || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
-        row.service == Service::kPrograms || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kMachine) {
+        row.service == Service::kPrograms || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kMachine) {
       EXPECT_EQ(found, known);
     }
   }

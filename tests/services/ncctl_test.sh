@@ -25,7 +25,7 @@ until_true() { until "$@" >/dev/null 2>&1; do kill -0 "$server" 2>/dev/null || {
 
 mkdir "$work/programs"
 # The machine has no ladder, so that nothing but the services operates it; group 0 stands for one that a peer may have.
-sed -e "s#^programs = .*#programs = \"$work/programs\"#" -e "s#^socket = \"\"#socket = \"$work/mill.sock\"#" -e "s#^changes = \"\"#changes = \"$work/changes\"#" \
+sed -e "s#^programs = .*#programs = \"$work/programs\"#" -e "s#^socket = \"\"#socket = \"$work/mill.sock\"#" -e "s#^changes = \"\"#changes = \"$work/changes\"#" -e "s#^history = \"\"#history = \"$work/history\"#" \
   -e 's#^policy = "fifo"#policy = "other"#' -e 's#^lock_memory = true#lock_memory = false#' -e 's#^operate = .*#operate = ["daemon"]#' -e 's#^view = .*#view = ["games"]#' \
   "$source/etc/machine.toml" >"$work/machine.toml"
 cp "$source/etc/mill.il" "$work/"
@@ -103,6 +103,20 @@ until_true sh -c "'$ncctl' status | grep -qxF 'forced M100 = 1'"  # the status i
 expect 0 "$ncctl" release
 expect 0 "$ncctl" alarms
 expect 0 "$ncctl" history
+grep -qE "mode manual: (done|accepted)" "$work/out" || { fail "the mode is not in the history"; cat "$work/out"; }
+grep -qE "run .*long.nc: interrupted" "$work/out" || { fail "the run is not in the history"; cat "$work/out"; }
+expect 0 "$ncctl" history --kind action --user "$(id -un)" --since 1h --count 3
+[ "$(wc -l <"$work/out")" = 3 ] || { fail "not three entries"; cat "$work/out"; }
+expect 0 "$ncctl" history --since 2200-01-01
+[ ! -s "$work/out" ] || { fail "entries of the future"; cat "$work/out"; }
+expect 0 "$ncctl" --json history --all
+python3 -c 'import json, sys; e = json.load(open(sys.argv[1]))["entries"]; assert e[-1]["code"] == "begin" and len(e) > 15, e' "$work/out" || fail "the history is not whole"
+expect 0 "$ncctl" history counters
+said out "running"
+expect 0 "$ncctl" history programs
+expect 1 "$ncctl" history --since 31-02-2026
+expect 1 "$ncctl" history --kind song
+expect 1 "$ncctl" history --count 0
 
 # Two that want control, over connections that stay.
 mkfifo "$work/one"

@@ -18,6 +18,7 @@ struct ControlCommand {
   enum class What { kService, kWatch, kJog, kMdi, kPut, kGet, kPipe, kDocument } what = What::kService;
   double seconds = 0;           ///< kJog: how long; kWatch: how long, 0 = until a signal
   double rate = 5;              ///< kWatch: lines per second
+  bool all = false;             ///< the history: all of it
   bool start = false;           ///< kMdi: the blocks are started as well
   std::string file;             ///< kPut, kGet: file on this side, "-" = standard input or output
   std::string document;         ///< kDocument: markdown, man or bash

@@ -2,6 +2,8 @@
 // The command line of ncctl, from the table of services. See control_command.hpp.
 #include <CLI/CLI.hpp>
 
+#include <ctime>
+
 #include "nc/control.h"
 #include "runtime/programs/encoding.hpp"
 #include "runtime/services/service_table.hpp"
@@ -93,6 +95,33 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
   watch->add_option("--rate", command->rate, "lines per second, at most 50")->check(CLI::Range(0.1, 50.0));
   watch->add_option("--for", command->seconds, "seconds, then end")->check(CLI::Range(0.01, 1e6));
   watch->callback([command] { command->what = What::kWatch; });
+
+  // Without one of its words it is the list.
+  CLI::App* history = subcommand(app, "history.counters", "")->get_parent();
+  history->description("the memory of the machine, the newest last; or one of these words (view)");
+  history->require_subcommand(0, 1);
+  const auto time = [command, history](const std::string& name, const char* member, const char* meaning) {
+    history->add_option_function<std::string>(
+        name,
+        [command, name, member](const std::string& text) {
+          double seconds = 0;
+          if (const std::string wrong = time_of(text, static_cast<double>(std::time(nullptr)), &seconds); !wrong.empty()) throw CLI::ValidationError(name, wrong);
+          command->args[member] = seconds;
+        },
+        meaning);
+  };
+  time("--since", "since", "only what came since this time: 15m, 8h, 7d ago, or a local date, '2026-01-31' or '2026-01-31 08:00'");
+  time("--until", "until", "only what came until this time");
+  history->add_option_function<std::string>("--kind", [command](const std::string& kind) { command->args["kind"] = kind; }, "alarm, message, action, change, run or system")
+      ->check(CLI::IsMember({"alarm", "message", "action", "change", "run", "system"}));
+  history->add_option_function<std::string>("--user", [command](const std::string& user) { command->args["user"] = user; }, "only what this user has done")->check(given());
+  CLI::Option* count = history->add_option_function<unsigned>("--count", [command](unsigned entries) { command->args["count"] = entries; }, "the newest ones, at most 500; 50 without it")->transform(whole(1, 500));
+  history->add_flag("--all", command->all, "all of them")->excludes(count);
+  history->callback([command, history] {
+    if (!history->get_subcommands().empty()) return;
+    command->service = "history.list";
+    if (!command->all && !command->args.contains("count")) command->args["count"] = 50;
+  });
 
   CLI::App* put = subcommand(app, "programs.put", "writes a file into the folder of programs (set up)");
   put->add_option("FILE", command->file, "file on this side")->required()->check(given());

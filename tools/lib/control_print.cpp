@@ -30,7 +30,7 @@ std::string shown_number(double value) {
 }
 
 std::string time_text(std::int64_t ns) {
-  if (ns == 0) return "-";
+  if (ns <= 0) return ns == 0 ? "-" : "?";
   const std::time_t seconds = static_cast<std::time_t>(ns / 1'000'000'000);
   std::tm local{};
   char text[32];
@@ -125,6 +125,38 @@ std::string status_text(const Json& status) {
   return text;
 }
 
+// One line for each entry, the newest last, as in a journal.
+std::string history_text(const Json& reply) {
+  std::vector<std::vector<std::string>> rows;
+  const Json entries = reply.value("entries", Json::array());
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    const std::string kind = text_at(*entry, "kind");
+    std::string who = text_at(*entry, "user");
+    if (who.empty()) who = text_at(*entry, "client");
+    std::string what;
+    const auto add = [&what](const std::string& before, const std::string& text) {
+      if (!text.empty()) what += (what.empty() ? "" : before) + text;
+    };
+    if (kind == "alarm") add("", entry->value("warning", false) ? "warning" : "");
+    if (kind != "system") add(" ", text_at(*entry, "code"));
+    add(" ", text_at(*entry, "service"));
+    add(" ", text_at(*entry, "text"));
+    add(", axis ", text_at(*entry, "axis"));
+    if (const std::string program = text_at(*entry, "program"); !program.empty()) {
+      const std::int64_t line = entry->value("line", std::int64_t{0});
+      add(", ", program + (line == 0 ? "" : " line " + std::to_string(line)));
+    }
+    add(": ", text_at(*entry, "outcome"));
+    const std::int64_t end = entry->value("end_ns", std::int64_t{0});
+    if (kind == "run" && end > 0) add(", ", text_at(*entry, "seconds") + " s");
+    if (kind == "alarm" || kind == "run") add(", ", end > 0 ? "until " + time_text(end) : end == 0 ? "until now" : "end not known");
+    rows.push_back({text_at(*entry, "time_ns"), kind, who, what});
+  }
+  std::string text = table_text(rows);
+  if (const std::uint64_t missing = reply.value("missing", std::uint64_t{0}); missing != 0) text += std::to_string(missing) + " entries are missing since ncrtd began\n";
+  return text;
+}
+
 }  // namespace
 
 std::string status_line(const Json& status) {
@@ -138,6 +170,7 @@ std::string status_line(const Json& status) {
 
 std::string reply_text(const ServiceRow& row, const Json& reply) {
   if (row.service == Service::kStatus) return status_text(reply);
+  if (row.service == Service::kHistory) return history_text(reply);
   std::string text;
   for (const auto& [key, value] : reply.items()) {
     if (key == "next") continue;  // ncctl has fetched the rest already

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <set>
 #include <vector>
@@ -22,6 +23,8 @@ struct OwnCommand {
 };
 // Commands that are no single service.
 constexpr OwnCommand kOwn[] = {
+    {"history", "[--since TIME] [--until TIME] [--kind KIND] [--user USER] [--count N | --all]", Right::kView,
+     "the memory of the machine, the newest last: alarms, messages, actions of operators, changes, runs of programs; 50 entries without --count. TIME is 90s, 15m, 8h or 7d ago, or a date and time as '2026-01-31 08:00' or '2026-01-31'"},
     {"watch", "[--rate N] [--for SECONDS]", Right::kView, "the status again and again, until Ctrl-C"},
     {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
     {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},
@@ -102,7 +105,7 @@ std::string joined(const std::set<std::string>& words) {
 }  // namespace
 
 bool is_command(const ServiceRow& row) {
-  constexpr Service kOthers[] = {Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  constexpr Service kOthers[] = {Service::kHistory, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
   return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
 }
 
@@ -113,6 +116,30 @@ std::string argument_name(const FieldInfo& row) {
 }
 
 std::string option_name(const FieldInfo& row) { return "--" + replaced(row.name, '_', '-'); }
+
+std::string time_of(const std::string& text, double now, double* seconds) {
+  const std::string wrong = "must be a time such as 15m, 8h, 7d, '2026-01-31' or '2026-01-31 08:00', is " + (text.empty() ? "empty" : text);
+  constexpr std::string_view kUnits = "smhd";
+  constexpr double kSeconds[] = {1, 60, 3600, 86400};
+  const std::size_t unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+  if (unit != std::string_view::npos && text.size() < 11 && text.find_first_not_of("0123456789") == text.size() - 1) {
+    *seconds = std::max(0.0, now - std::stod(text.substr(0, text.size() - 1)) * kSeconds[unit]);
+    return "";
+  }
+  for (const char* form : {"%Y-%m-%d %H:%M:%S", "%Y-%m-%d %H:%M", "%Y-%m-%dT%H:%M:%S", "%Y-%m-%dT%H:%M", "%Y-%m-%d"}) {
+    std::tm local{};
+    local.tm_isdst = -1;
+    const char* end = strptime(text.c_str(), form, &local);
+    if (end == nullptr || *end != '\0') continue;
+    const std::tm meant = local;
+    const std::time_t time = std::mktime(&local);
+    // A day that is not there (31 February) would silently become another one.
+    if (time < 0 || meant.tm_mday != local.tm_mday || meant.tm_mon != local.tm_mon) return wrong;
+    *seconds = static_cast<double>(time);
+    return "";
+  }
+  return wrong;
+}
 
 std::string group_meaning(const std::string& word) {
   return "services whose names begin with " + word;

@@ -15,6 +15,9 @@ bool is_command(const rt::services::ServiceRow& row);
 std::string argument_name(const rt::services::FieldInfo& row);
 /** "--lease-ms" */
 std::string option_name(const rt::services::FieldInfo& row);
+/** A time on the command line as seconds since 1970: "90s", "15m", "8h", "7d" before `now`, or a local date with or without a time. "" = it is good, else what is
+ * wrong. */
+std::string time_of(const std::string& text, double now, double* seconds);
 /** What the commands have in common whose first word this is. */
 std::string group_meaning(const std::string& word);
 

@@ -64,6 +64,7 @@ class Daemon {
   ~Daemon() {
     if (sharing_ != nullptr) sharing_->stop();
     if (runtime_ != nullptr) runtime_->stop();
+    if (sharing_ != nullptr) sharing_->stop_history();
   }
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
@@ -179,6 +180,7 @@ int Daemon::serve_to_signal() {
   service.leave = [this] { sharing_->stop(); };  // ends the commands as well
   const bool rest = serve(runtime_.get(), service);
   runtime_->stop();
+  sharing_->stop_history();
   return rest ? 0 : kDaemonAlarm;
 }
 

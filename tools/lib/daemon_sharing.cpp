@@ -39,11 +39,26 @@ bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std
     return true;
   });
   service_ = std::make_unique<rt::share::Service>(runtime, &programs_, &tap_, share_);
-  if (service_->create(error)) return open_services(runtime, error);
+  if (service_->create(error)) {
+    open_history(runtime);
+    return open_services(runtime, error);
+  }
   service_.reset();
   if (asked_) return false;
   std::fprintf(stderr, "warning: no shared memory, nothing for ncdds: %s\n", error->c_str());
   return true;
+}
+
+// Only a machine that is served has a history: it takes what operators do, and what runs on virtual time has no time of day.
+void DaemonSharing::open_history(rt::Runtime* runtime) {
+  if (!share_.local || share_.virtual_time) return;
+  const rt::ServicesConfig& limits = config_.services;
+  history_ = std::make_unique<rt::history::Recorder>(
+      runtime, &programs_, config_.history_path(), rt::history::StoreLimits{limits.history_entries, limits.history_days, std::uint64_t{limits.history_mb} << 20}, [](const std::string& what) {
+        std::fprintf(stderr, "warning: %s\n", what.c_str());
+        std::fflush(stderr);
+      });
+  runtime->set_history(history_->tap());
 }
 
 // A socket that the configuration does not name may be missing; the services are then not there, which is said.
@@ -53,7 +68,7 @@ bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
   std::vector<std::string> unknown;
   const rt::services::RightGroups groups = rt::services::find_groups(config_.services, &unknown);
   for (const std::string& name : unknown) std::fprintf(stderr, "warning: [services]: there is no group \"%s\": nobody has a right by it\n", name.c_str());
-  services_ = std::make_unique<rt::services::Services>(runtime, &programs_, service_->desk(), service_->segment());
+  services_ = std::make_unique<rt::services::Services>(runtime, &programs_, service_->desk(), service_->segment(), history_.get());
   server_ = std::make_unique<rt::services::LocalServer>(services_.get(), share_.name, [groups, owner = geteuid()](const rt::services::Credentials& peer) {
     return rt::services::rights_of(peer, groups, owner);
   });
@@ -73,6 +88,7 @@ bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
 }
 
 bool DaemonSharing::start(std::string* error) {
+  if (history_ != nullptr && !history_->start(error)) return false;
   if (service_ == nullptr) return true;
   return service_->start(error) && (server_ == nullptr || server_->start(error));
 }
@@ -80,6 +96,10 @@ bool DaemonSharing::start(std::string* error) {
 void DaemonSharing::stop() {
   if (server_ != nullptr) server_->stop();
   if (service_ != nullptr) service_->stop();
+}
+
+void DaemonSharing::stop_history() {
+  if (history_ != nullptr) history_->stop();
 }
 
 void DaemonSharing::executed(unsigned, const nc_event& event) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "runtime/history/recorder.hpp"
 #include "runtime/runtime.hpp"
 #include "runtime/services/local_server.hpp"
 #include "runtime/share/service.hpp"
@@ -25,12 +26,15 @@ class DaemonSharing final : public rt::EventSink {
   /** To be called after the start of the runtime. */
   bool start(std::string* error);
   void stop();
+  /** Writes the end of the history. To be called after the runtime has stopped. */
+  void stop_history();
   rt::share::ProgramTable& programs() { return programs_; }
 
   /** Called in the feeder thread, to which the files belong: a sub program gets its name when its first block has been executed. */
   void executed(unsigned system, const nc_event& event) override;
 
  private:
+  void open_history(rt::Runtime* runtime);
   bool open_services(rt::Runtime* runtime, std::string* error);
 
   const rt::Config& config_;
@@ -42,6 +46,7 @@ class DaemonSharing final : public rt::EventSink {
   unsigned last_file_ = ~0u;
   std::uint64_t last_entered_ = 0;
   std::unique_ptr<rt::share::Service> service_;
+  std::unique_ptr<rt::history::Recorder> history_;
   std::unique_ptr<rt::services::Services> services_;
   std::unique_ptr<rt::services::LocalServer> server_;
 };
