@@ -16,7 +16,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr const char* kHead = "ncplace 1";
+constexpr const char* kPlaceHead = "ncplace 1";
 
 // A name without what would end its line.
 std::string one_line(std::string text) {
@@ -60,7 +60,7 @@ bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
 std::string encode_places(const std::vector<ProgramPlace>& places) {
   if (places.empty()) return {};
   std::ostringstream text;
-  text << kHead << '\n';
+  text << kPlaceHead << '\n';
   for (const ProgramPlace& place : places) {
     text << "system " << place.system << "\nprogram " << one_line(place.program) << "\nblock " << place.line << ' ' << place.number << ' '
          << place.depth << ' ' << place.main_line << '\n';
@@ -75,7 +75,7 @@ bool decode_places(const std::string& bytes, std::vector<ProgramPlace>* places) 
   if (bytes.empty()) return true;
   std::istringstream lines(bytes);
   std::string line;
-  bool good = std::getline(lines, line) && line == kHead, ended = false;
+  bool good = std::getline(lines, line) && line == kPlaceHead, ended = false;
   while (good && !ended && std::getline(lines, line)) {
     ended = line == "end";
     good = ended || (places->size() <= NC_MAX_SYSTEMS && read_line(line, places));
