@@ -27,7 +27,7 @@ constexpr double kLongestPhases = 2;  ///< s, of a law in phases
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 constexpr unsigned kAtOnce = 8;      ///< cells, then others may have their turn
 // Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
-constexpr int64_t kCubicCost = 700, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
+constexpr int64_t kCubicCost = 800, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
 }  // namespace
 
@@ -104,6 +104,43 @@ struct Windows::Moments {
   return true;
 }
 
+namespace {
+
+/// The jerk of an axis by the place x in a cell, and its first two derivatives. With r = sqrt(b) and Q = q' w + 3 q'' u'' + q''' b it is r Q, where
+/// r' = u''/r, r'' = (w - u''^2/b)/r, and on a cubic Q' = 4 q'' w + 5 q''' u'', Q'' = 9 q''' w.
+struct JerkShape {
+  double jerk = 0, slope = 0, bend = 0;
+};
+JerkShape jerk_on_cubic(const Piece& p, double x, double b, double a, double w, unsigned axis) {
+  const double c1 = p.c[1][axis], c2 = 2 * p.c[2][axis], d3 = 6 * p.c[3][axis];
+  const double d2 = c2 + d3 * x, d1 = c1 + x * (c2 + 0.5 * d3 * x), r = std::sqrt(b);
+  const double q = d1 * w + 3 * d2 * a + d3 * b, slope = 4 * d2 * w + 5 * d3 * a, r1 = a / r, r2 = (w - a * a / b) / r;
+  return {r * q, r1 * q + r * slope, r2 * q + 2 * r1 * slope + 9 * r * d3 * w};
+}
+
+/// What the looks at a cell on a cubic have seen: places from x0 on, `step` apart, with the squared speed and u'' there.
+struct JerkLooks {
+  const Four *x, *v2, *a;
+  unsigned count;
+  double x0, step, w;
+};
+/// The largest jerk of an axis in a cell, between the looks, too: where its derivative changes its sign, the peak of the cubic that has the jerk and its
+/// derivative at both of them.
+[[gnu::noinline]] double peak_jerk(const Piece& p, const JerkLooks& looks, unsigned axis) {
+  double worst = 0;
+  JerkShape last;
+  for (unsigned n = 0; n < looks.count; ++n) {
+    const unsigned f = n / 4, e = n % 4;
+    const JerkShape now = jerk_on_cubic(p, looks.x0 + looks.x[f][e], looks.v2[f][e], looks.a[f][e], looks.w, axis);
+    worst = std::max(worst, std::fabs(now.jerk));
+    if (n > 0 && (now.slope > 0) != (last.slope > 0)) worst = std::max(worst, peaks_between({last.jerk, last.slope}, {now.jerk, now.slope}, looks.step).a);
+    last = now;
+  }
+  return worst;
+}
+
+}  // namespace
+
 /// Largest share of a limit of acceleration or jerk in a cell, from the path itself and not from the rows of
 /// the solver.
 [[gnu::always_inline]] inline Windows::Excess Windows::excess(unsigned k) const {
@@ -113,7 +150,7 @@ struct Windows::Moments {
   if (p.curve != nullptr || p.quintic) return excess_on_curve(k, m);
   const bool rests = (k == 0 && mesh_.from_rest) || k + 1 == law_.cells;
   const double h = mesh_.h[k], x0 = place(k).x, w = law_.half2[k], a0 = 0.5 * law_.slope[k], a1 = a0 + w * h;
-  double bulge = 0;  // largest second derivative by x of an acceleration, as a share of its limit
+  double bulge = 0, bulge_j = 0;  // largest second derivative by x of an acceleration and of a jerk at the ends, as a share of its limit
   Four velocity{}, acceleration{}, jerk{};
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     const double most = velocity_of(p, limits_, i);
@@ -126,10 +163,15 @@ struct Windows::Moments {
     }
     const double start = c2[0] + d3[0] * x0, end = start + d3[0] * h;  // q''
     bulge = std::max({bulge, std::fabs(4 * start * w + 5 * d3[0] * a0) * per_a[0], std::fabs(4 * end * w + 5 * d3[0] * a1) * per_a[0]});
+    if (rests) continue;
+    const JerkShape s0 = jerk_on_cubic(p, x0, law_.b[k], a0, w, i), s1 = jerk_on_cubic(p, x0 + h, law_.b[k + 1], a1, w, i);
+    bulge_j = std::max({bulge_j, std::fabs(s0.bend) * per_j[0], std::fabs(s1.bend) * per_j[0]});
   }
   Excess worst{largest(acceleration), largest(jerk), largest(velocity)};
   const double step = h / (kLooks - 1);
   if (rests || worst.acceleration + 0.125 * step * step * bulge > kExcess) worst.acceleration = peak_acceleration(k, m);
+  if (!rests && worst.jerk + 0.125 * step * step * bulge_j > kExcess)
+    for (unsigned i = 0; i < limits_.axis_count; ++i) worst.jerk = std::max(worst.jerk, per_jerk_[i] * peak_jerk(p, {m.x, m.v2, m.a, kLooks, x0, step, w}, i));
   return worst;
 }
 
