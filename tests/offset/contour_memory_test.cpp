@@ -153,7 +153,8 @@ TEST(ContourCheck, StartAndEndOfCompensationCutNoWall) {
   EXPECT_NE(square(0, 0), 0u);     // from within the part
 }
 
-TEST(ContourCheck, OtherLevelsAreNotCompared) {
+// A cutter cuts all that is above its tip: what lies below it is no wall, what lies above it is one.
+TEST(ContourCheck, WallsBelowThePathAreNotCompared) {
   const auto crossing = [](double down) {
     PathBuilder path(-40, 0);
     path.side(1, 3);
@@ -167,6 +168,7 @@ TEST(ContourCheck, OtherLevelsAreNotCompared) {
   };
   EXPECT_NE(crossing(0), 0u);
   EXPECT_EQ(crossing(10), 0u);
+  EXPECT_NE(crossing(-10), 0u);
 }
 
 TEST(ContourCheck, ArcsWhoseRadiiDiffer) {  // within #1084; the far side of the slot is such an arc
@@ -311,6 +313,13 @@ TEST(ContourCheck, VectorsOfTheProgram) {  // 12.4.3: no intersection is compute
   EXPECT_EQ(alarm_of_program(corner, 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // the block behind begins in its own wall
 }
 
+// A vector that G38 holds leads the first of two blocks through the second one, whose own path lies on its far side, beyond the amount.
+TEST(ContourCheck, BesideAGivenVectorTheTwoBlocksAreCompared) {
+  const std::string hook = "G0 X-40. Y60.\nG41 D1 G1 X-20.521 Y56.382 F500\nX0 Y0\nG38 X60.\nG38 X31.716 Y28.284\nX91.716\nG40 X100. Y60.\nM30\n";
+  EXPECT_EQ(alarm_of_program(hook, 5, {}), "");
+  EXPECT_EQ(alarm_of_program(hook, 5, {{"CONTOUR_CHECK", "1"}}), "P153");
+}
+
 // The vector of the start stands at right angles to a line that has no direction; the arc behind it begins there, nearer to its own wall than the radius.
 TEST(ContourCheck, AnArcBesideAVectorOfTheProgramCutsItsOwnWall) {
   const auto round = [](const char* vector) {
@@ -354,6 +363,20 @@ TEST(ContourCheck, VectorOfAStart) {
   EXPECT_EQ(alarm_of_program(hole("X0 Y0", "G1 X0 Y6. I-1. J0 F500"), 5, {{"CONTOUR_CHECK", "1"}}), "");
   EXPECT_EQ(alarm_of_program(hole("X1.5 Y0", "G1 X0 Y6. I-1. J0 F500"), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // 4.5 mm beside the wall
   EXPECT_EQ(alarm_of_program(hole("X10. Y-10.", "G1 X10. Y6. I-1. J0 F500\nX0"), 5, {{"CONTOUR_CHECK", "1"}}), "P153");  // through the wall
+}
+
+// The corner where a helix begins and ends is a concave one, and the way in comes along the first block: in front of the corner the tool is 25 um too near to the
+// last block, which lies 2.5 mm deeper and has its wall up to the top.
+TEST(ContourCheck, AHelixHasItsWallsUpToWhereItBegins) {
+  const auto round = [](const char* plunge, const char* down[4]) {
+    return std::string("G0 X-28.636072 Y10.991685\nG42 D1 G1 X-23.520950 Y11.163279 F1000\nX-23.299634 Y4.565990\n") + plunge + "G1 X-22.829915 Y-9.436050" + down[0] + "\nX25.777590 Y7.728136" + down[1] +
+           "\nG2 X-24.432849 Y11.783971 I-15.923018 J115.701762" + down[2] + "\nG1 X-23.299634 Y4.565990" + down[3] + "\nX-22.829915 Y-9.436050\nX25.777590 Y7.728136\n" +
+           "G2 X-24.432849 Y11.783971 I-15.923018 J115.701762\nG1 X-23.299634 Y4.565990\nX-23.299634 Y-2.035010\nG1 G40 X-28.636072 Y10.991685 Z0\nM30\n";
+  };
+  const char* helix[4] = {" Z-0.34", " Z-1.59", " Z-2.82", " Z-3."};
+  EXPECT_EQ(alarm_of_program(round("", helix), 3.412, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(round("", helix), 3.38, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(round("", helix), 3.412, {}), "");
 }
 
 // A second round is a part of the contour, not a way out: its wall holds for the way out behind it, which is an arc larger than the hole.

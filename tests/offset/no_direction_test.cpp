@@ -92,6 +92,28 @@ TEST(WithoutDirection, WhatIsLeftOfAnArcOfTheToolsRadiusIsALine) {  // rounding,
   EXPECT_NEAR(at[1], 5, 1e-6);
 }
 
+// Two half circles of the tool's own radius, whose centres the last digit of their words puts apart: each has a point left of it, and the tool stands there. No P152,
+// whichever way rounding has it, and whatever the size.
+TEST(WithoutDirection, ArcsOfTheToolsRadiusMeetInTheirCentre) {
+  for (const double scale : {1.0, 0.5}) {
+    for (const double digit : {0.0, 1e-6}) {
+      PathBuilder path(0, 0);
+      path.side(1, 2.019 * scale - 2e-6);
+      path.comp.check = true;
+      const double x = 1.896433 * scale, y = -0.692753 * scale;
+      path.line(x, y);
+      path.arc(true, -1.896372 * scale + digit, 0.692918 * scale, -x, -y);
+      path.by(-0.000121 * scale, -0.000331 * scale);
+      path.arc(true, x, y, 1.896493 * scale, -0.692587 * scale - digit);
+      path.cancel().line(0, 0);
+      path.end();
+      const std::vector<Item> out = run_stage(path);
+      EXPECT_EQ(alarm_of(out), nullptr) << scale << ' ' << digit;
+      for (const Move& move : moves_of(out)) EXPECT_LT(std::hypot(move.end[0], move.end[1]), 1e-3) << scale << ' ' << digit;
+    }
+  }
+}
+
 TEST(WithoutDirection, OneThatOpensTheContourWaitsForABlockWithADirection) {
   PathBuilder path(-20, -5);
   path.side(1, 3);

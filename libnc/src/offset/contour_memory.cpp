@@ -108,7 +108,10 @@ bool ContourMemory::no_way(uint64_t cancel) const {
 bool ContourMemory::across_contour(const Path& path, uint64_t number) { return number < path.number ? path.from_contour : path.to_contour; }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
-  if (wall.offset == 0 || path.low > wall.high + kLevel_mm || wall.low > path.high + kLevel_mm) return false;
+  if (wall.offset == 0) return false;
+  // The cutter cuts all that is above its tip, so a wall that ends below it is none for it; but where a contour goes down as it goes along (a helix, a ramp), its walls
+  // reach up to where it came from.
+  if (path.low > wall.high + kLevel_mm && !(path.goes_down && path.descent == wall.descent)) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
   if (between == 0 && !path.bends && !path.crosses_own) return false;
@@ -137,7 +140,9 @@ Clearance ContourMemory::read(Section* section) {
   state_.end = section->number + 1;
   Wall wall;
   wall.piece = wall_of(*section, start);
-  wall.low = std::min(section->level, section->level_end);
+  if (std::abs(section->level - state_.level) > kLevel_mm || section->level_end > section->level + kLevel_mm) ++state_.descent;  // by a plunge, or up
+  state_.level = section->level_end;
+  section->descent = wall.descent = state_.descent;
   wall.high = std::max(section->level, section->level_end);
   if (section->offset != 0 && !section->cancel) state_.offset = section->offset;
   if (!section->start && !section->cancel && section->cuts) wall.offset = section->offset;
@@ -154,7 +159,8 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.number = section.number;
   path.offset = section.cancel ? state_.offset : section.offset;
   path.low = std::min(section.level, section.level_end);
-  path.high = std::max(section.level, section.level_end);
+  path.descent = section.descent;
+  path.goes_down = !section.start && !section.cancel && section.level_end < section.level;
   path.starts = section.start;
   path.cancels = section.cancel;
   const bool to_given = section.commanded && !section.cancel;

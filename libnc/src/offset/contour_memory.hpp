@@ -8,7 +8,8 @@
 // three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
-// What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given or erased), blocks on other levels (the axis across the plane), and beside a change of
+// What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given or erased), blocks below it (along the axis across the plane; of a way down along
+// the contour all are on one level), and beside a change of
 // side, or where the tool stands on the contour without a vector, the block before and the block behind, each with the path of the other.
 //
 // Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
@@ -43,6 +44,8 @@ class ContourMemory {
     uint8_t closed = 0;      ///< bit i: ... and has come back to it, when it first closed
     uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in, or out
     double offset = 0;       ///< of the last block that has one
+    double level = 0;        ///< across the plane, at its end
+    uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, or changes its level by itself
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
     Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
   };
@@ -77,13 +80,16 @@ class ContourMemory {
     Piece piece;
     double offset = 0;  ///< 0: it is none
     double slop = 0;
-    double low = 0, high = 0;
+    double high = 0;
+    uint32_t descent = 0;
   };
   struct Path {
     Piece piece;
     uint64_t number = 0;  ///< of its block
     double offset = 0, slop = 0;
-    double low = 0, high = 0;
+    double low = 0;
+    uint32_t descent = 0;
+    bool goes_down = false;
     bool from_contour = false, to_contour = false;  ///< without a vector
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
     bool crosses_own = false;  ///< the move of a block, one of whose ends is given, or has lost its vector: it need not lie beside its own wall

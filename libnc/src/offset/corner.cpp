@@ -52,6 +52,22 @@ ContourJoint joint_of_side_change(const Leg& before, double offset_before, doubl
   return meets ? ContourJoint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
 }
 
+// The point of the offset curve beside this leg that is nearest to `point`; both are vectors.
+Vec2 nearest_on_curve(const Leg& leg, double offset, Vec2 point) {
+  if (leg.curvature == 0) return point + (offset - dot(point, left_of(leg.u))) * left_of(leg.u);
+  const Vec2 center = (1 / leg.curvature) * left_of(leg.u);
+  return center + std::abs(1 / leg.curvature - offset) * unit(point - center);
+}
+
+// Of an arc whose radius is the amount there is no more than a point, its centre, and rounding decides whether that lies on the other curve. It does as far as the
+// words can tell: the vector leads to the place of the other curve beside it.
+bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, double offset, Vec2* w) {
+  if (arc.curvature == 0 || !(std::abs(1 / arc.curvature - offset_of_arc) < kNoDirection_mm)) return false;
+  const Vec2 center = (1 / arc.curvature) * left_of(arc.u);
+  *w = nearest_on_curve(other, offset, center);
+  return norm(*w - center) < kNoDirection_mm;
+}
+
 }  // namespace
 
 ContourJoint ContourJoint::single(Vec2 w) {
@@ -145,7 +161,11 @@ bool joint_in_mode(const Leg& before, double offset_before, double length_before
     *joint = ContourJoint::single(w);
     return true;
   }
-  if (turn == Turn::inner) return false;
+  if (turn == Turn::inner) {
+    if (!curves || (!meets_in_a_point(before, o, behind, o, &w) && !meets_in_a_point(behind, o, before, o, &w))) return false;
+    *joint = ContourJoint::single(w);
+    return true;
+  }
   *joint = lengthened_joint(before, o, behind, o);
   return true;
 }

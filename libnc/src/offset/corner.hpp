@@ -53,6 +53,11 @@ struct ContourJoint {
   static ContourJoint single(Vec2 w);
 };
 
+/// A line shorter than this has no direction: the last digit of its words decides where it leads, and a corner beside it would take the tool
+/// anywhere. It goes along with the vector of the joint before it, which is that of the blocks around it, so the path is off by less than this,
+/// half of what the check of walls allows (kEnters_mm). Several in a row are a block as soon as they lead this far.
+inline constexpr double kNoDirection_mm = 5e-4;
+
 /// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a turn of
 /// 168.5 degrees.
 inline constexpr double kExtremelyLarge = 10;

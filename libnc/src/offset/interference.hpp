@@ -38,6 +38,7 @@ struct Section {
   uint64_t number = 0;        ///< in that memory
   Vec2 contour_start;         ///< programmed start, counted from the start of the contour
   double level = 0, level_end = 0;  ///< across the plane
+  uint32_t descent = 0;       ///< of the contour, which it belongs to
   bool transparent = false;   ///< `cancel`, but compensation goes on behind it
   bool cuts = false;          ///< not a rapid
   bool led = false;           ///< a displacement from the programmed start to the first vector goes before it

@@ -58,11 +58,6 @@ struct OffsetResume {
 
 inline bool in_force(const OffsetResume& resume) { return resume.active; }
 
-/// A line shorter than this has no direction: the last digit of its words decides where it leads, and a corner beside it would take the tool
-/// anywhere. It goes along with the vector of the joint before it, which is that of the blocks around it, so the path is off by less than this,
-/// half of what the check of walls allows (kEnters_mm). Several in a row are a block as soon as they lead this far.
-inline constexpr double kNoDirection_mm = 5e-4;
-
 class OffsetStage {
  public:
   /// Room for items; a power of two, so that the numbers of items may wrap.
