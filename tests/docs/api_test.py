@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every function and callback of the public headers says in its comment what each parameter is, what it returns and in which thread it may be
-called; every parameter has a name."""
+called; every parameter has a name. Every member of a public struct says what it is, and types.h names the structs that begin with their size. What the comments name is declared."""
 import os
 import pathlib
 import re
@@ -59,8 +59,48 @@ def check(text):
     return count, faults
 
 
+STRUCT = re.compile(r"typedef struct (nc_\w+) \{\n(.*?)\n\} \1;", re.S)
+
+
+def bare_members(text):
+    """The members of the structs of a header that have no comment behind them, as "struct: declaration". A nested struct or union may have one behind its end."""
+    bare = []
+    for name, body in STRUCT.findall(text):
+        body = re.sub(r"/\*[^*]((?!\*/).)*\*/", "", body, flags=re.S)  # a comment that belongs to no member
+        body = re.sub(r"/\*\*<((?!\*/).)*\*/", "///", body, flags=re.S)
+        bare += [f"{name}: {line.strip()}" for line in body.split("\n") if re.search(r"[;)]\s*$", line)]
+    return bare
+
+
+def unlisted_structs(headers):
+    """The structs that begin with NC_STRUCT_SIZE and that the comment of the macro does not name, and those that it names without reason."""
+    sized = {name for text in headers.values() for name, body in STRUCT.findall(text) if "NC_STRUCT_SIZE(" in body}
+    listed = re.search(r"may be of different versions: (.*?)\. Every other", headers["types.h"], re.S)
+    named = set(re.findall(r"nc_\w+", listed.group(1))) if listed else set()
+    return sorted(sized ^ named)
+
+
+NAME = re.compile(r"\b(?:nc_[a-z0-9_]+\(\)|NC_[A-Z0-9_]*[A-Z0-9]\b(?!_))")
+
+
+def unknown_names(headers):
+    """Functions (with their brackets) and constants that the comments of the headers mention and that are not declared, as "header: name"."""
+    code = {name: re.sub(r"/\*.*?\*/", "", text, flags=re.S) for name, text in headers.items()}
+    declared = {word for text in code.values() for word in re.findall(r"\w+", text)}
+    return sorted({f"{name}: {mention}" for name, text in headers.items() for mention in NAME.findall(text) if mention.rstrip("()") not in declared})
+
+
 def main():
     total, faults = 0, []
+    headers = {path.name: path.read_text(encoding="utf-8") for path in HEADERS.glob("*.h")}
+    faults += [f"{name}: says nothing of {member}" for name, text in headers.items() for member in bare_members(text)]
+    faults += [f"types.h: begins with its size, or is listed there, but not both: {name}" for name in unlisted_structs(headers)]
+    faults += [f"mentions what is not declared: {mention}" for mention in unknown_names(headers)]
+    if unknown_names({"a.h": "/* as nc_g() and NC_G, see nc_f() */ int nc_f(void);"}) != ["a.h: NC_G", "a.h: nc_g()"]:
+        faults.append("this check does not see a name that is not declared")
+    sample = "typedef struct nc_s {\n  NC_STRUCT_SIZE(nc_s); /**< size */\n  /* both */\n  int a; /**< x\n     y */\n  union {\n    int b;\n  } u; /**< z */\n} nc_s;"
+    if bare_members(sample) != ["nc_s: int b;"] or unlisted_structs({"types.h": sample}) != ["nc_s"]:
+        faults.append("this check does not see a member without a comment, or a struct that is not listed")
     for header in sorted(HEADERS.glob("*.h")):
         count, found = check(header.read_text(encoding="utf-8"))
         total += count

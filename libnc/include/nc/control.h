@@ -434,7 +434,7 @@ NC_API nc_status nc_program_add_text(nc_control* control, const char* name, cons
 /** What a place of the program store holds. */
 typedef struct nc_program_info {
   NC_STRUCT_SIZE(nc_program_info); /**< see NC_STRUCT_SIZE */
-  char name[NC_MAX_NAME];
+  char name[NC_MAX_NAME]; /**< as it was given to nc_program_add() or nc_program_add_text() */
   uint32_t number;      /**< O number that the name stands for, 0 = none */
   uint64_t size;        /**< bytes of the text */
   uint64_t used;        /**< value of a counter that the control advances each time a program is entered, selected or called: the place with the
@@ -755,7 +755,7 @@ NC_API nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t n
 typedef struct nc_plain_word {
   char letter;          /**< its address, a capital */
   bool comma;           /**< a comma stands before it */
-  double value;
+  double value;         /**< its number as written */
 } nc_plain_word;
 
 /** What kind of number a word has, as far as its decimal point makes a difference. */
@@ -780,7 +780,7 @@ NC_API nc_status nc_number_kinds(nc_dialect dialect, const char* axes, const nc_
 
 /** One row of a dialect's function table, for documentation and HMIs. */
 typedef struct nc_function {
-  NC_STRUCT_SIZE(nc_function);
+  NC_STRUCT_SIZE(nc_function); /**< see NC_STRUCT_SIZE */
   char code[8];         /**< "G02.1", "M98" */
   uint8_t group;        /**< modal group, 0 = the code acts in its own block only */
   bool supported;       /**< false: a block that uses the code stops with `alarm` */
@@ -812,11 +812,11 @@ typedef enum nc_variable_role {
 
 /** One range of system variables (M700 13.5.5), for documentation and HMIs. */
 typedef struct nc_system_variable {
-  NC_STRUCT_SIZE(nc_system_variable);
-  uint32_t first, last;
+  NC_STRUCT_SIZE(nc_system_variable); /**< see NC_STRUCT_SIZE */
+  uint32_t first, last; /**< first and last variable number of the range */
   uint8_t role;         /**< nc_variable_role */
   uint8_t word;         /**< macro interface: the word, 0 to NC_WORDS - 1, that the first number belongs to */
-  bool readable, writable;
+  bool readable, writable; /**< whether a program can read such a variable, and write it */
   uint32_t sync;        /**< nc_sync_what bits: a block that reads the variable waits until everything before it has been executed; 0 = the block is
                              read ahead like any other */
   const char* unit;     /**< unit or values, as text */
@@ -835,7 +835,7 @@ NC_API nc_status nc_system_variable_row(nc_dialect dialect, unsigned index, nc_s
 
 /** One parameter, or a row of parameters, that has an effect in the control; for documentation and HMIs. */
 typedef struct nc_parameter {
-  NC_STRUCT_SIZE(nc_parameter);
+  NC_STRUCT_SIZE(nc_parameter); /**< see NC_STRUCT_SIZE */
   const char* key;            /**< of one with a name of its own ("UNIT*10"), NULL = it has numbers */
   uint32_t first, last, step; /**< numbers: one, or several with the same meaning for one thing after the other */
   int8_t bit;                 /**< of the parameter, -1 = all of it */
@@ -876,7 +876,7 @@ NC_API nc_status nc_alarm_row(nc_dialect dialect, unsigned index, char code[16],
 
 /** Alarms of a family that a host finds, not the control. */
 typedef enum nc_alarm_role {
-  NC_ALARM_PRINTER = 0 /**< what a program prints (NC_ACTION_PRINT) does not arrive */
+  NC_ALARM_PRINTER = 0 /**< what a program prints (NC_ACTION_MESSAGE) does not arrive */
 } nc_alarm_role;
 
 /**

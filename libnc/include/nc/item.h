@@ -118,7 +118,7 @@ typedef enum nc_sync_what {
 
 /** A text that goes with an item; NUL-terminated, cut at NC_MAX_TEXT - 1 bytes. */
 typedef struct nc_text {
-  char s[NC_MAX_TEXT];
+  char s[NC_MAX_TEXT]; /**< the text, or the bytes of a BPRNT line */
   uint32_t size; /**< number of bytes of a BPRNT line, which may contain zeros; 0 = the text ends at its NUL */
 } nc_text;
 
@@ -215,22 +215,22 @@ static inline void nc_alarm_init(nc_alarm* alarm) {
 typedef struct nc_item {
   NC_STRUCT_SIZE(nc_item); /**< see NC_STRUCT_SIZE */
   uint64_t serial;  /**< strictly increasing, without gaps within a run */
-  nc_source source;
+  nc_source source; /**< block that has caused the item */
   uint8_t kind;     /**< nc_item_kind */
   union {
-    nc_move move;
-    nc_action action;
-    nc_gate gate;
+    nc_move move;     /**< of NC_ITEM_MOVE */
+    nc_action action; /**< of NC_ITEM_ACTION */
+    nc_gate gate;     /**< of NC_ITEM_GATE */
     struct {
       uint32_t what; /**< nc_sync_what bits */
-    } sync;
-    nc_mark mark;
+    } sync; /**< of NC_ITEM_SYNC */
+    nc_mark mark;     /**< of NC_ITEM_MARK */
     struct {
       bool ok;          /**< true: the program has ended by M02, M30 or another end that the dialect allows; false: by an alarm */
       nc_axes work;     /**< position at the end, active workpiece coordinates */
       uint32_t modal;   /**< id of the modal snapshot, see nc_modal_get() */
-    } end;
-  } u;
+    } end; /**< of NC_ITEM_END */
+  } u; /**< the payload that `kind` says; NC_ITEM_ALARM has none: nc_alarm_get() */
 } nc_item;
 /**
  * Clear it and set its size. Any thread.

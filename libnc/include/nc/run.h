@@ -159,7 +159,7 @@ NC_API nc_status nc_event_poll(nc_control* control, unsigned system, nc_event* e
  * @param control the control
  * @param system part system, from 0
  * @param source receives where the block stands
- * @param main_line receives the line of the main program to which the block belongs, as nc_main_line() gives it
+ * @param main_line receives the line of the main program to which the block belongs, as nc_main_line_get() gives it
  * @return NC_OK; NC_E_NOT_FOUND: reading does not stand at such a block; NC_E_ARGUMENT: no such part system, or a pointer is NULL
  */
 NC_API nc_status nc_sync_get(const nc_control* control, unsigned system, nc_source* source, uint32_t* main_line);
@@ -271,7 +271,7 @@ typedef struct nc_inputs {
   uint32_t input[NC_WORDS]; /**< macro interface inputs, words of #1032..#1035 */
   double feed_override;  /**< 0..max_feed_override, 1 = 100 %; a value nearer to 0 than 0.0001 counts as 0 */
   double rapid_override; /**< 0..1, 1 = 100 %; a value nearer to 0 than 0.0001 counts as 0 */
-  nc_spindle_inputs spindle[NC_MAX_SPINDLES];
+  nc_spindle_inputs spindle[NC_MAX_SPINDLES]; /**< what is measured of each spindle */
   uint8_t spindle_select;   /**< SWS, M700 10.6: bit n: spindle n+1 follows the S command; a spindle that is the only one always follows it */
   uint8_t spindle_encoder;  /**< number (from 1) of the spindle whose encoder is used by feed per revolution, threads and dwell; 0 = the selected spindle */
   uint8_t servo_on;         /**< M700 10.5: bit i: axis i, which is a spindle too, is to be a C axis */
