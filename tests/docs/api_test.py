@@ -43,6 +43,8 @@ def faults_of(comment, returns, name, parameters):
             faults.append(f"{name}: has no parameter {documented}")
     if returns.strip() != "void" and "@return" not in comment:
         faults.append(f"{name}: does not say what it returns")
+    if returns.split()[-1:] == ["nc_status"] and "@return" in comment and not re.search(r"NC_OK|as nc_\w+\(\)", comment.split("@return", 1)[1]):
+        faults.append(f"{name}: does not say which status means what")
     if not THREAD.search(comment):
         faults.append(f"{name}: does not say in which thread it may be called")
     return faults
@@ -109,7 +111,7 @@ def main():
     # The check itself finds what it must find.
     for comment, declaration in ((good, "NC_API int nc_f(int a, int b);"), (good, "NC_API int nc_f(int);"), ("", "NC_API int nc_f(int a);"),
                                  (good.replace("@return", ""), "NC_API int nc_f(int a);"), (good.replace("Any thread", ""), "NC_API int nc_f(int a);"),
-                                 (good, "NC_API int nc_f(void);")):
+                                 (good, "NC_API int nc_f(void);"), (good, "NC_API nc_status nc_f(int a);")):
         if not check(comment + declaration)[1]:
             faults.append(f"this check does not see what is missing here: {comment}{declaration}")
     if check(good + "NC_API int nc_f(int a);") != (1, []):
