@@ -3,8 +3,8 @@
 #include "command/words_of_block.hpp"
 
 #include "command/caller.hpp"
-#include "command/foreign_words.hpp"
 #include "command/plain_line.hpp"
+#include "dialect/foreign_words.hpp"
 #include "front_end_helpers.hpp"
 
 namespace nc::test {

@@ -107,6 +107,7 @@ PLANTED = {
     ],
     "number": [
         "if (number == 3003) return;",
+        "if (in_range(number, 150, 199)) return;",
         "if (a.number >= 7000) return;",
         "if (10000 <= variable) return;",
         "switch (number) { case 1012: return; default: break; }",
@@ -149,7 +150,7 @@ PLANTED = {
         '#include "program/block.hpp"',
         '#include "dialect/iso_lexer.hpp"',
     ],
-    "plain": ["if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
+    "plain": ["for (uint32_t n = 100; n <= 199; ++n) clear(n);", "if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
     "key": ['get("1078", -1, &value);', 'get("1267/bit0");', 'return number("8621");'],
     "text": ['say("no effect while #8107 is 0");', 'const char* why = R"(set #1037)";'],
     "alarm": ['if (alarm.code == "P62") return;', 'return !strcmp(code, "P130");'],
@@ -196,6 +197,8 @@ INNOCENT = [
     "const unsigned d = config.dialect;\nvoid f() { use(d); }",
     "use(table[5001]);",
     "const std::vector<double> lengths{200, 210};",
+    "for (unsigned i = 0; i < 200; ++i) use(i);",
+    "if (in_range(length, 100, 149)) return;",
     'say("G54 to G59, P62");',
 ]
 

@@ -183,6 +183,8 @@ TEST(AlarmCause, TheOptionThatIsOff) {
   // No option is named for what no option can provide, or what an option provides already.
   for (const char* program : {"#5004=1\nM30", "#1=#4129\nM30", "#1=#999999\nM30", "IF [1 EQ] GOTO 5\nM30", "SETVN 520[ABC]\nM30"})
     EXPECT_FALSE(says(detail(program), "option")) << program << ": " << detail(program);
+  // The common variables of the HX are those of its manual (14.2), whatever the option of the machine is.
+  EXPECT_FALSE(says(detail("#800=1\nM30", Bench(NC_DIALECT_HX, sets(100))), "option"));
   EXPECT_FALSE(says(detail("IF [1 EQ 1] THEN\nGOTO 77\nM30", std::move(Bench().param("macro_extensions", "1"))), "option"));
 }
 

@@ -8,6 +8,7 @@
 #include "control/config.hpp"
 #include "control/control.hpp"
 #include "control/vendor_check.hpp"
+#include "dialect/common_options.hpp"
 
 namespace {
 
@@ -125,9 +126,6 @@ constexpr SizeRule kSizeRules[] = {
 
 bool power_of_two(uint32_t n) { return n != 0 && (n & (n - 1)) == 0; }
 
-/// M700 13.4.
-bool is_option(uint32_t variable_sets) { return variable_sets == 100 || variable_sets == 200 || variable_sets == 300 || variable_sets == 600; }
-
 bool Check::passes() {
   if (!nc::known(c_.dialect)) return refuse(Path().member("dialect"), "must be an nc_dialect");
   if (c_.system_count < 1 || c_.system_count > NC_MAX_SYSTEMS) return refuse(Path().member("system_count"), "must be 1 to 4");
@@ -142,7 +140,7 @@ bool Check::sizes() {
     return refuse(Path().member("look_ahead"), "must be a power of two, 64 to 65536");
   for (const SizeRule& rule : kSizeRules)
     if (c_.*rule.value < rule.least || c_.*rule.value > rule.most) return refuse(Path().member(rule.name), rule.reason);
-  if (!is_option(c_.variable_sets)) return refuse(Path().member("variable_sets"), "must be 100, 200, 300 or 600");
+  if (!nc::is_common_option(c_.variable_sets)) return refuse(Path().member("variable_sets"), "must be 100, 200, 300 or 600");
   return within(Path().member("max_feed_override"), c_.max_feed_override, 1, 10, "must be 1 to 10; 1 = 100 %");
 }
 
@@ -270,18 +268,22 @@ bool nc::take_config(const nc_config* given, nc_config* known) {
 }
 
 nc::CommonRanges nc::ranges_of(const nc_config& c) {
-  const uint32_t sets = c.variable_sets;
   CommonRanges r;
-  r.first[0] = 100;
-  r.last[0] = sets <= 100 ? 149 : 199;
-  r.first[1] = 500;
-  r.last[1] = sets <= 100 ? 549 : sets <= 200 ? 599 : sets <= 300 ? 699 : 999;
+  for (uint32_t& last : r.last) last = 0;  // empty
+  for (const CommonOption& row : kCommonOptions) {
+    if (row.sets > c.variable_sets) continue;
+    unsigned i = 0;
+    while (r.last[i] != 0 && row.first != r.last[i] + 1) ++i;  // the range that the row makes longer, or a new one
+    if (r.last[i] == 0) r.first[i] = row.first;
+    r.last[i] = row.last;
+  }
   const FamilyVariables& family = *dialect(static_cast<nc_dialect>(c.dialect)).variables;
   for (unsigned i = 0; i < 2 && family.common[i].last != 0; ++i) {
     r.first[i] = family.common[i].first;
     r.last[i] = family.common[i].last;
   }
-  if (c.extended_variables) r.last[CommonRanges::kExtended] = 907399;
+  r.first[CommonRanges::kExtended] = kExtendedCommon.first;
+  r.last[CommonRanges::kExtended] = c.extended_variables ? kExtendedCommon.last : 0;
   for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) {
     r.first[CommonRanges::kExtended + 1 + i] = c.variable_ranges[i].first;
     r.last[CommonRanges::kExtended + 1 + i] = c.variable_ranges[i].last;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "command/foreign_words.hpp"
+#include "dialect/foreign_words.hpp"
 
 #include <cstring>
 

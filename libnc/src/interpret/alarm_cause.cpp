@@ -3,9 +3,10 @@
 // found when the block is given up; while programs run nothing is noted for it, except a vacant F.
 #include <cstring>
 
-#include "command/foreign_words.hpp"
 #include "dialect/alarms.hpp"
+#include "dialect/common_options.hpp"
 #include "dialect/foreign_codes.hpp"
+#include "dialect/foreign_words.hpp"
 #include "dialect/text.hpp"
 #include "interpret/interpreter.hpp"
 
@@ -16,13 +17,10 @@ namespace {
 
 bool in_range(uint32_t number, uint32_t first, uint32_t last) { return number >= first && number <= last; }
 
-/// The smallest value of nc_config::variable_sets with which the common variable `number` exists (M700 13.4), 0 = there is none.
-unsigned sets_with(uint32_t number) {
-  constexpr struct {
-    uint32_t first, last;
-    unsigned sets;
-  } kSets[] = {{100, 149, 100}, {500, 549, 100}, {150, 199, 200}, {550, 599, 200}, {600, 699, 300}, {700, 999, 600}};
-  for (const auto& row : kSets)
+/// The smallest value of nc_config::variable_sets with which the common variable `number` exists, 0 = there is none.
+unsigned sets_with(const Dialect& dialect, uint32_t number) {
+  if (dialect.variables->common[0].last != 0) return 0;  // the family fixes its common variables
+  for (const CommonOption& row : kCommonOptions)
     if (in_range(number, row.first, row.last)) return row.sets;
   return 0;
 }
@@ -53,12 +51,12 @@ bool put_system_variable_option(const Interpreter& in, uint32_t number, TextWrit
 /// For P241: writes which option would give the variable. False: there is no such option.
 bool put_variable_option(const Interpreter& in, uint32_t number, TextWriter& out) {
   const bool exists = in.common->exists(number);  // then the alarm has another cause: it cannot have a name, for example
-  const unsigned sets = exists ? 0 : sets_with(number);
+  const unsigned sets = exists ? 0 : sets_with(*in.dialect, number);
   if (sets != 0) {
     out.put("It comes with the option variable_sets = ").put_integer(sets).put(" or more.");
-  } else if (!exists && in_range(number, 900000, 907399)) {
+  } else if (!exists && in_range(number, kExtendedCommon.first, kExtendedCommon.last)) {
     out.put("The option extended_variables is off.");
-  } else if (!exists && in_range(number, kLocals + 1, 499)) {
+  } else if (!exists && in_range(number, kLocals + 1, kLastOfMachine)) {
     out.put("The option variable_ranges can give it to the machine.");
   } else {
     return put_system_variable_option(in, number, out);
