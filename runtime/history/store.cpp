@@ -153,16 +153,20 @@ bool Store::make_tables(std::string* error) {
 // Renames a damaged file and its log.
 bool Store::put_aside(std::string* error, std::string* told) {
   close();
+  std::string why = "there are " + std::to_string(kMostAside) + " such files already";
   for (unsigned n = 1; n <= kMostAside; ++n) {
     const std::string aside = path_ + ".damaged-" + std::to_string(n);
     struct stat info {};
     if (lstat(aside.c_str(), &info) == 0) continue;
-    if (rename(path_.c_str(), aside.c_str()) != 0) break;
+    if (rename(path_.c_str(), aside.c_str()) != 0) {
+      why = services::system_error(aside);
+      break;
+    }
     (void)rename((path_ + "-wal").c_str(), (aside + "-wal").c_str());  // may be missing
     *told = "the history " + path_ + " is damaged: it was put aside as " + aside + ", and a new one begins" + (counters_.empty() ? "; its counters could not be read" : "");
     return true;
   }
-  *error = "the history " + path_ + " is damaged, and cannot be put aside: " + (errno == 0 || errno == EEXIST ? "there are " + std::to_string(kMostAside) + " such files already" : services::system_error(path_));
+  *error = "the history " + path_ + " is damaged, and cannot be put aside: " + why;
   return false;
 }
 
