@@ -184,8 +184,8 @@ void Recorder::settle_runs(std::int64_t steady_ns, bool last) {
 
 void Recorder::settle(Run* run) {
   const unsigned s = run->entry.system - 1;
-  const bool completed = info_.system[s].runs > run->runs, well = completed && info_.system[s].ended_ok;
-  run->entry.outcome = well ? "completed" : completed ? "completed, with an alarm" : run->state == NC_STATE_ALARM ? "alarm" : "interrupted";
+  const bool completed = info_.system[s].runs > run->runs, well = completed && info_.system[s].ended_ok;  // the feeder counts those that an alarm has ended, too
+  run->entry.outcome = well ? "completed" : completed || run->state == NC_STATE_ALARM ? "alarm" : "interrupted";
   put(&run->entry);
   if (well) {
     completed_[s] += 1;

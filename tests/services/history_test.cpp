@@ -10,6 +10,7 @@
 namespace nc::rt::history {
 namespace {
 
+using services::Json;
 using services::Right;
 using test::LocalMachine;
 using test::ServiceClient;
@@ -88,10 +89,18 @@ TEST_F(MachineHistory, RemembersRunsAlarmsAndWhoHasDoneWhatBehindARestart) {
   EXPECT_GE(programs[0]["shortest_s"].get<double>(), 0.3);
   const Json counters = client.call("history.counters")["reply"]["counters"];
   for (const Json& counter : counters) {
-    if (counter["name"] == "runs") { EXPECT_EQ(counter["value"], 2); }
-    if (counter["name"] == "running") { EXPECT_GE(counter["value"].get<double>(), 0.6); }
-    if (counter["name"] == "alarms") { EXPECT_GE(counter["value"].get<double>(), 1); }
-    if (counter["name"] == "on") { EXPECT_GE(counter["value"].get<double>(), 0.6); }
+    if (counter["name"] == "runs") {
+      EXPECT_EQ(counter["value"], 2);
+    }
+    if (counter["name"] == "running") {
+      EXPECT_GE(counter["value"].get<double>(), 0.6);
+    }
+    if (counter["name"] == "alarms") {
+      EXPECT_GE(counter["value"].get<double>(), 1);
+    }
+    if (counter["name"] == "on") {
+      EXPECT_GE(counter["value"].get<double>(), 0.6);
+    }
   }
 }
 

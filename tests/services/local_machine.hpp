@@ -20,6 +20,7 @@
 #include "runtime/services/local_server.hpp"
 #include "runtime/share/service.hpp"
 #include "runtime/test_config.hpp"
+#include "tools/lib/program_files.hpp"
 
 namespace nc::test {
 
@@ -119,6 +120,14 @@ class LocalMachine : public testing::Test {
     runtime_ = rt::Runtime::create(config_, {&clock_, sim_.get(), nullptr, nullptr}, &refused);
     ASSERT_NE(runtime_, nullptr);
     programs_ = std::make_unique<rt::share::ProgramTable>(static_cast<nc_dialect>(config_.nc.dialect));
+    files_ = std::make_unique<tools::ProgramFiles>(config_.programs_folder(), config_.program_text);
+    files_->attach(runtime_->control());
+    runtime_->set_program_loader([this](const std::string& name, unsigned* file, std::string* why) {
+      const std::string path = config_.programs_folder() + "/" + name;
+      if (files_->add(runtime_->control(), path, file, why) != NC_OK) return false;
+      programs_->add(*file, path, files_->text_of(*file));
+      return true;
+    });
     rt::share::ServiceOptions options;
     options.name = "unit-s" + std::to_string(getpid());
     options.local = true;
@@ -178,6 +187,7 @@ class LocalMachine : public testing::Test {
   rt::RealClock clock_;
   std::unique_ptr<hal::SimMachine> sim_;
   std::unique_ptr<rt::Runtime> runtime_;
+  std::unique_ptr<tools::ProgramFiles> files_;
   std::unique_ptr<rt::share::ProgramTable> programs_;
   std::unique_ptr<rt::share::Service> share_;
   std::unique_ptr<rt::history::Recorder> history_;
