@@ -352,7 +352,7 @@ class SignalInfo(IdlStruct, typename="nc.SignalInfo"):
 class SignalTable(IdlStruct, typename="nc.SignalTable"):
     machine: types.bounded_str[63]
     annotate.key("machine")
-    signals: types.sequence[SignalInfo, 2048]
+    signals: types.sequence[SignalInfo, 2304]
 
 
 @dataclass
@@ -382,7 +382,7 @@ class SignalImage(IdlStruct, typename="nc.SignalImage"):
     scan: types.uint64
     signals: types.sequence[Signal, 1024]
     control_scan: types.uint64
-    control: types.sequence[ControlSignal, 1024]
+    control: types.sequence[ControlSignal, 1280]
 
 
 @dataclass
