@@ -109,8 +109,9 @@ bool ContourMemory::across_contour(const Path& path, uint64_t number) { return n
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0) return false;
-  // The cutter cuts all that is above its tip, so a wall that ends below it is none for it; but where a contour goes down as it goes along (a helix, a ramp), its walls
-  // reach up to where it came from.
+  // The cutter cuts all that is above its tip, so what has been cut above a path is a wall for it; a block above it that comes later is a way across the part. A wall
+  // that ends below the tip is none; but where a contour goes down as it goes along (a helix, a ramp), its walls reach up to where it came from.
+  if (wall.low > path.high + kLevel_mm && number > path.number) return false;
   if (path.low > wall.high + kLevel_mm && !(path.goes_down && path.descent == wall.descent)) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
@@ -143,6 +144,7 @@ Clearance ContourMemory::read(Section* section) {
   if (std::abs(section->level - state_.level) > kLevel_mm || section->level_end > section->level + kLevel_mm) ++state_.descent;  // by a plunge, or up
   state_.level = section->level_end;
   section->descent = wall.descent = state_.descent;
+  wall.low = std::min(section->level, section->level_end);
   wall.high = std::max(section->level, section->level_end);
   if (section->offset != 0 && !section->cancel) state_.offset = section->offset;
   if (!section->start && !section->cancel && section->cuts) wall.offset = section->offset;
@@ -159,6 +161,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.number = section.number;
   path.offset = section.cancel ? state_.offset : section.offset;
   path.low = std::min(section.level, section.level_end);
+  path.high = std::max(section.level, section.level_end);
   path.descent = section.descent;
   path.goes_down = !section.start && !section.cancel && section.level_end < section.level;
   path.starts = section.start;

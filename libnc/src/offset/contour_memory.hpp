@@ -80,14 +80,14 @@ class ContourMemory {
     Piece piece;
     double offset = 0;  ///< 0: it is none
     double slop = 0;
-    double high = 0;
+    double low = 0, high = 0;
     uint32_t descent = 0;
   };
   struct Path {
     Piece piece;
     uint64_t number = 0;  ///< of its block
     double offset = 0, slop = 0;
-    double low = 0;
+    double low = 0, high = 0;
     uint32_t descent = 0;
     bool goes_down = false;
     bool from_contour = false, to_contour = false;  ///< without a vector
