@@ -130,6 +130,10 @@ Chain around_an_arc(const Section& arc, Vec2 second, Vec2 third) {
 TEST(Avoidance, ALineLeadsBetweenTheVectorsThatAreLeftOfAnArc) {
   Chain chain = around_an_arc(arc_section(100, 0.1, 10), {-10, 11}, {10, 11});
   unsigned at = 99;
+  EXPECT_EQ(check_interference(&chain, 3, {}, &at), Finding::alarm);  // it leaves something uncut, which only the avoidance may
+  EXPECT_EQ(at, 1u);
+  chain = around_an_arc(arc_section(100, 0.1, 10), {-10, 11}, {10, 11});
+  chain[1].avoid = true;
   EXPECT_EQ(check_interference(&chain, 3, {}, &at), Finding::none);
   EXPECT_EQ(chain[0].joint.v[chain[0].joint.n - 1], (Vec2{-10, 11}));
   EXPECT_EQ(chain[1].joint.v[0], (Vec2{10, 11}));
@@ -140,6 +144,7 @@ TEST(Avoidance, ALineLeadsBetweenTheVectorsThatAreLeftOfAnArc) {
 // ... and where that line would cut into the arc, it is an alarm: the vectors of lengthened corners lie beyond it.
 TEST(Avoidance, ALineThroughTheArcIsAnAlarm) {
   Chain chain = around_an_arc(arc_section(100, 0.1, 10), {-10, 5}, {10, 5});
+  chain[1].avoid = true;
   unsigned at = 99;
   EXPECT_EQ(check_interference(&chain, 3, {}, &at), Finding::alarm);
   EXPECT_EQ(at, 1u);

@@ -120,7 +120,8 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
 }
 
 // Where an arc has lost a vector of its own, a line leads between those that are left (12.4.8, the figure's "linear movement"). Not where it would go back, or cut
-// into the arc: vectors of lengthened corners inside of an arc lie beyond it. And around more than half a turn it would leave the arc out.
+// into the arc: vectors of lengthened corners inside of an arc lie beyond it. And around more than half a turn it would leave the arc out. The line leaves something of
+// the arc uncut, as the avoidance may; without it that is an alarm.
 bool line_fits(const Section& section, Vec2 from, Vec2 to) {
   if (std::abs(section.sweep) > kHalfTurn || dot(section.delta + to - from, section.delta) < -kBackwards_mm * norm(section.delta)) return false;
   Piece line;
@@ -131,7 +132,7 @@ bool line_fits(const Section& section, Vec2 from, Vec2 to) {
 
 // Can the tool not go along the block between these vectors?
 bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
-  if (section.oblique && section.begin.curvature != 0) return !line_fits(section, from, to);
+  if (section.oblique && section.begin.curvature != 0) return !section.avoid || !line_fits(section, from, to);
   return runs_backwards(section, from, to) || arc_runs_backwards(section, from, to);
 }
 
