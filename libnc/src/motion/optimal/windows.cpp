@@ -27,7 +27,7 @@ constexpr double kLongestPhases = 2;  ///< s, of a law in phases
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 constexpr unsigned kAtOnce = 8;      ///< cells, then others may have their turn
 // Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
-constexpr int64_t kCubicCost = 800, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
+constexpr int64_t kCubicCost = 800, kCurveCost = 40000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
 }  // namespace
 
@@ -177,20 +177,22 @@ struct JerkLooks {
 
 /// The largest share of a limit of acceleration in a cell, between the looks, too. On a cubic piece q' u'' + q'' u'^2 is a cubic of x, which is
 /// no farther from its chords than an eighth of the square of their length times its second derivative 4 q'' w + 5 q''' u'', linear in x
-/// (w = b''/2); where that may be too much its peaks are found. Beside rest it is a polynomial of time. On other curves it is nearly one.
-[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m) const {
+/// (w = b''/2); where that may be too much its peaks are found. Beside rest it is a polynomial of time. On other curves it is nearly one; `points` are the
+/// derivatives at the looks where they are known, because on a curve they cost more than all the rest.
+[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m, const CurvePoint* points) const {
   const Piece& p = piece_of(k);
   const bool launch = k == 0 && mesh_.from_rest, land = k + 1 == law_.cells;
   // By time beside rest, else by x, where the jerk is the speed times the derivative of the acceleration.
   const double v1 = std::sqrt(launch ? law_.b[1] : law_.b[k]), back = land ? -1 : 1;  // landing is looked at from its end
   const double step = (launch || land ? 3 * mesh_.h[k] / v1 : mesh_.h[k]) / (kLooks - 1);
   double worst = 0;
-  CurvePoint q;
+  CurvePoint here;
   Rates last[kMaxAxes];
   for (unsigned n = 0; n < kLooks; ++n) {
     const unsigned f = n / 4, e = n % 4;
     const double per = launch || land ? back : 1 / m.v[f][e];
-    derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
+    if (points == nullptr) derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &here);
+    const CurvePoint& q = points != nullptr ? points[n] : here;
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       if (per_acceleration_[i] == 0) continue;
       const Rates now{q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e], per * (q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e])};
@@ -205,9 +207,10 @@ struct JerkLooks {
 [[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
   const Piece& p = piece_of(k);
   Excess worst;
-  CurvePoint q;
+  CurvePoint points[kLooks];
   for (unsigned n = 0; n < kLooks; ++n) {
     const unsigned f = n / 4, e = n % 4;
+    CurvePoint& q = points[n];
     derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       const double most = velocity_of(p, limits_, i);
@@ -215,7 +218,7 @@ struct JerkLooks {
       worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e]) * per_jerk_[i]);
     }
   }
-  worst.acceleration = peak_acceleration(k, m);
+  worst.acceleration = peak_acceleration(k, m, points);
   return worst;
 }
 

@@ -96,7 +96,7 @@ class Windows {
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
   Excess excess_on_curve(unsigned cell, const Moments& m) const;
-  double peak_acceleration(unsigned cell, const Moments& m) const;
+  double peak_acceleration(unsigned cell, const Moments& m, const CurvePoint* points = nullptr) const;
   int64_t look_cost(unsigned cell) const;
 
   MeshRequest request_;
