@@ -7,42 +7,42 @@ namespace {
 
 using F = Function;
 
-constexpr Precedence kBoth = Precedence::both, kIgnored = Precedence::ignored, kModal = Precedence::modal, kLoses = Precedence::loses;
+constexpr Precedence kBoth = Precedence::both, kIgnored = Precedence::ignored, kOfAMode = Precedence::modal, kLoses = Precedence::loses;
 
 // M700 appendix 2: one row for each commanded code, in the order of the appendix. The cells that are alarms are checked elsewhere, where the state
 // decides: arc with G41 G42 P151 and with G43 G44 P70, G31 under compensation P608, cycles under compensation P155, planes P112.
 constexpr PrecedenceRow kInOneBlock[] = {
     // function            motion  radius    length    cycle     work    macro   mirror
-    {F::dwell,             kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::data_input,        kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::data_input_end,    kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::parameter_input_end, kModal, kIgnored, kIgnored, kIgnored, kBoth, kLoses, kIgnored},
-    {F::reference_check,   kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::reference_return,  kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::start_return,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::second_reference,  kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
-    {F::tool_change_return, kModal, kBoth,   kBoth,    kIgnored, kBoth,  kLoses, kIgnored},
-    {F::skip,              kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::multi_skip,        kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::probe_once,        kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::probe,             kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::probe_try,         kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::probe_away,        kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::probe_away_try,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::measure_length,    kModal, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::dwell,             kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::data_input,        kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::data_input_end,    kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::parameter_input_end, kOfAMode, kIgnored, kIgnored, kIgnored, kBoth, kLoses, kIgnored},
+    {F::reference_check,   kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::reference_return,  kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::start_return,      kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::second_reference,  kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
+    {F::tool_change_return, kOfAMode, kBoth,   kBoth,    kIgnored, kBoth,  kLoses, kIgnored},
+    {F::skip,              kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::multi_skip,        kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe_once,        kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe,             kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe_try,         kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe_away,        kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::probe_away_try,    kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::measure_length,    kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kLoses, kIgnored},
     {F::mirror_on,         kBoth,  kBoth,    kBoth,    kIgnored, kBoth,  kLoses, kBoth},
     {F::mirror_off,        kBoth,  kBoth,    kBoth,    kIgnored, kBoth,  kLoses, kBoth},
-    {F::local_system,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::machine_move,      kModal, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::holes_on_circle,   kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},  // 13.2, notes 4 and 5
-    {F::holes_on_line,     kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::holes_on_arc,      kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::holes_on_grid,     kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::macro_call,        kModal, kBoth,    kModal,   kIgnored, kBoth,  kBoth,  kIgnored},
-    {F::macro_modal,       kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},
-    {F::macro_every_block, kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},
-    {F::macro_modal_off,   kModal, kBoth,    kModal,   kIgnored, kModal, kBoth,  kIgnored},
-    {F::coordinate_set,    kModal, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::local_system,      kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::machine_move,      kOfAMode, kIgnored, kIgnored, kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_circle,   kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},  // 13.2, notes 4 and 5
+    {F::holes_on_line,     kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_arc,      kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::holes_on_grid,     kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::macro_call,        kOfAMode, kBoth,    kOfAMode,   kIgnored, kBoth,  kBoth,  kIgnored},
+    {F::macro_modal,       kOfAMode, kBoth,    kOfAMode,   kIgnored, kOfAMode, kBoth,  kIgnored},
+    {F::macro_every_block, kOfAMode, kBoth,    kOfAMode,   kIgnored, kOfAMode, kBoth,  kIgnored},
+    {F::macro_modal_off,   kOfAMode, kBoth,    kOfAMode,   kIgnored, kOfAMode, kBoth,  kIgnored},
+    {F::coordinate_set,    kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
 /// Any other code that uses the axis words of the block, so that mirror cannot use them, too.
 constexpr PrecedenceRow kAnyOther{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};

@@ -177,48 +177,66 @@ struct JerkLooks {
 
 /// The largest share of a limit of acceleration in a cell, between the looks, too. On a cubic piece q' u'' + q'' u'^2 is a cubic of x, which is
 /// no farther from its chords than an eighth of the square of their length times its second derivative 4 q'' w + 5 q''' u'', linear in x
-/// (w = b''/2); where that may be too much its peaks are found. Beside rest it is a polynomial of time. On other curves it is nearly one; `points` are the
-/// derivatives at the looks where they are known, because on a curve they cost more than all the rest.
-[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m, const CurvePoint* points) const {
-  const Piece& p = piece_of(k);
-  const bool launch = k == 0 && mesh_.from_rest, land = k + 1 == law_.cells;
-  // By time beside rest, else by x, where the jerk is the speed times the derivative of the acceleration.
-  const double v1 = std::sqrt(launch ? law_.b[1] : law_.b[k]), back = land ? -1 : 1;  // landing is looked at from its end
-  const double step = (launch || land ? 3 * mesh_.h[k] / v1 : mesh_.h[k]) / (kLooks - 1);
-  double worst = 0;
-  CurvePoint here;
-  Rates last[kMaxAxes];
-  for (unsigned n = 0; n < kLooks; ++n) {
+/// (w = b''/2); where that may be too much its peaks are found. Beside rest it is a polynomial of time. On other curves it is nearly one.
+class Windows::AccelerationPeaks {
+ public:
+  AccelerationPeaks(const Windows& windows, unsigned k, const Moments& m) : windows_(windows), m_(m) {
+    const bool launch = k == 0 && windows.mesh_.from_rest, land = k + 1 == windows.law_.cells;
+    rests_ = launch || land;
+    // By time beside rest, else by x, where the jerk is the speed times the derivative of the acceleration.
+    const double v1 = std::sqrt(launch ? windows.law_.b[1] : windows.law_.b[k]);
+    back_ = land ? -1 : 1;  // landing is looked at from its end
+    step_ = (rests_ ? 3 * windows.mesh_.h[k] / v1 : windows.mesh_.h[k]) / (kLooks - 1);
+  }
+  /// The looks in their order, each with the derivatives of the path there.
+  void look(unsigned n, const CurvePoint& q) {
     const unsigned f = n / 4, e = n % 4;
-    const double per = launch || land ? back : 1 / m.v[f][e];
-    if (points == nullptr) derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &here);
-    const CurvePoint& q = points != nullptr ? points[n] : here;
-    for (unsigned i = 0; i < limits_.axis_count; ++i) {
-      if (per_acceleration_[i] == 0) continue;
-      const Rates now{q.d1[i] * m.a[f][e] + q.d2[i] * m.v2[f][e], per * (q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e])};
-      worst = std::max(worst, std::fabs(now.a) * per_acceleration_[i]);
-      if (n > 0 && (now.j > 0) != (last[i].j > 0)) worst = std::max(worst, peaks_between(last[i], now, step).a * per_acceleration_[i]);
-      last[i] = now;
+    const double per = rests_ ? back_ : 1 / m_.v[f][e];
+    for (unsigned i = 0; i < windows_.limits_.axis_count; ++i) {
+      if (windows_.per_acceleration_[i] == 0) continue;
+      const Rates now{q.d1[i] * m_.a[f][e] + q.d2[i] * m_.v2[f][e], per * (q.d1[i] * m_.j[f][e] + q.d2[i] * m_.va[f][e] + q.d3[i] * m_.v3[f][e])};
+      worst_ = std::max(worst_, std::fabs(now.a) * windows_.per_acceleration_[i]);
+      if (n > 0 && (now.j > 0) != (last_[i].j > 0)) worst_ = std::max(worst_, peaks_between(last_[i], now, step_).a * windows_.per_acceleration_[i]);
+      last_[i] = now;
     }
   }
-  return worst;
+  double worst() const { return worst_; }
+
+ private:
+  const Windows& windows_;
+  const Moments& m_;
+  bool rests_ = false;
+  double back_ = 1, step_ = 0, worst_ = 0;
+  Rates last_[kMaxAxes];
+};
+
+[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m) const {
+  const Piece& p = piece_of(k);
+  AccelerationPeaks peaks(*this, k, m);
+  CurvePoint q;
+  for (unsigned n = 0; n < kLooks; ++n) {
+    derivatives(p, std::min(p.length, place(k).x + m.x[n / 4][n % 4]), limits_.axis_count, &q);
+    peaks.look(n, q);
+  }
+  return peaks.worst();
 }
 
 [[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
   const Piece& p = piece_of(k);
   Excess worst;
-  CurvePoint points[kLooks];
+  AccelerationPeaks peaks(*this, k, m);
+  CurvePoint q;
   for (unsigned n = 0; n < kLooks; ++n) {
     const unsigned f = n / 4, e = n % 4;
-    CurvePoint& q = points[n];
     derivatives(p, std::min(p.length, place(k).x + m.x[f][e]), limits_.axis_count, &q);
     for (unsigned i = 0; i < limits_.axis_count; ++i) {
       const double most = velocity_of(p, limits_, i);
       if (most > 0) worst.velocity = std::max(worst.velocity, std::fabs(q.d1[i] * m.v[f][e]) / most);
       worst.jerk = std::max(worst.jerk, std::fabs(q.d1[i] * m.j[f][e] + q.d2[i] * m.va[f][e] + q.d3[i] * m.v3[f][e]) * per_jerk_[i]);
     }
+    peaks.look(n, q);
   }
-  worst.acceleration = peak_acceleration(k, m, points);
+  worst.acceleration = peaks.worst();
   return worst;
 }
 

@@ -93,10 +93,11 @@ class Windows {
   };
   static constexpr unsigned kFours = 4, kLooks = 4 * kFours;  ///< places of a cell that are looked at
   struct Moments;
+  class AccelerationPeaks;
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
   Excess excess_on_curve(unsigned cell, const Moments& m) const;
-  double peak_acceleration(unsigned cell, const Moments& m, const CurvePoint* points = nullptr) const;
+  double peak_acceleration(unsigned cell, const Moments& m) const;
   int64_t look_cost(unsigned cell) const;
 
   MeshRequest request_;
