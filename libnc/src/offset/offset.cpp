@@ -634,15 +634,14 @@ uint32_t OffsetStage::stop_at(uint32_t index, Item* alarm) {
     if (by_itself) *alarm = alarm_in(held_at(index).item.source, condition);
     chain_.keep_front(at);
   };
+  if (const Section* first = open(); first != nullptr && first->start) cut(size - 1, false, Condition::none);  // the vector at its end is that of a block that is not reached
+  for (unsigned at = 0; interferes(&at);) cut(at, chain_[at].vanished || !chain_[at].avoid, Condition::comp_interference);
   if (Section* last = open()) {
-    if (last->start) {  // the vector at its end is that of a block that is not reached
-      cut(size - 1, false, Condition::none);
-    } else {
-      last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
-      last->jointed = true;
-    }
+    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
+    last->jointed = true;
+    // Whether it would have fitted with the vector that it does not get is not known, so it is not to blame.
+    if (unsigned at = 0; interferes(&at)) cut(chain_.size() - 1, false, Condition::none);
   }
-  for (unsigned at = 0; interferes(&at);) cut(at, chain_[at].vanished || (!chain_[at].avoid && at + 1 < chain_.size()), Condition::comp_interference);
   Clearance found = Clearance::fits;
   const unsigned near = first_too_near(chain_.size(), &found);
   if (found != Clearance::fits) cut(near, near + 1 < chain_.size(), condition_of(found));
