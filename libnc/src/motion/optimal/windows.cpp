@@ -27,7 +27,7 @@ constexpr double kLongestPhases = 2;  ///< s, of a law in phases
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 constexpr unsigned kAtOnce = 8;      ///< cells, then others may have their turn
 // Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
-constexpr int64_t kCubicCost = 800, kCurveCost = 40000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
+constexpr int64_t kCubicCost = 800, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
 }  // namespace
 
