@@ -20,6 +20,12 @@ std::string state_file(const std::string& machine, const char* ending) {
   return first + "/" + share::share_name(machine) + ending;
 }
 
+// A file whose name the configuration gives, relative to its own folder, or that has its place in the state directory.
+std::string kept_file(const Config& config, const std::string& given, const char* ending) {
+  if (!given.empty()) return (std::filesystem::path(config.file).parent_path() / given).string();
+  return state_file(config.name, ending);
+}
+
 }  // namespace
 
 void read_ladder(TableReader* root, Config* config) {
@@ -61,33 +67,27 @@ std::string Config::ladder_file() const {
 
 std::string Config::retain_path() const {
   if (ladder.program.empty()) return {};
-  if (!ladder.retain.empty()) return (std::filesystem::path(file).parent_path() / ladder.retain).string();
-  return state_file(name, ".retain");
+  return kept_file(*this, ladder.retain, ".retain");
 }
 
 std::string Config::variables_path() const {
-  if (!variables.empty()) return (std::filesystem::path(file).parent_path() / variables).string();
-  return state_file(name, ".variables");
+  return kept_file(*this, variables, ".variables");
 }
 
 std::string Config::offsets_path() const {
-  if (!offsets.empty()) return (std::filesystem::path(file).parent_path() / offsets).string();
-  return state_file(name, ".offsets");
+  return kept_file(*this, offsets, ".offsets");
 }
 
 std::string Config::place_path() const {
-  if (!place.empty()) return (std::filesystem::path(file).parent_path() / place).string();
-  return state_file(name, ".place");
+  return kept_file(*this, place, ".place");
 }
 
 std::string Config::changes_path() const {
-  if (!services.changes.empty()) return (std::filesystem::path(file).parent_path() / services.changes).string();
-  return state_file(name, ".changes");
+  return kept_file(*this, services.changes, ".changes");
 }
 
 std::string Config::history_path() const {
-  if (!services.history.empty()) return (std::filesystem::path(file).parent_path() / services.history).string();
-  return state_file(name, ".history");
+  return kept_file(*this, services.history, ".history");
 }
 
 }  // namespace nc::rt

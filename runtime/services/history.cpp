@@ -8,6 +8,7 @@
 
 #include "runtime/clock.hpp"
 #include "runtime/services/service_table.hpp"
+#include "runtime/services/shown.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::services {
@@ -40,7 +41,7 @@ std::string words_of(const share::Request& r) {
   const std::string system = r.system == share::kEverySystem ? "" : " in part system " + std::to_string(r.system + 1);
   const std::string text(share::text_of(r.text));
   switch (static_cast<share::RequestKind>(r.kind)) {
-    case share::RequestKind::kSetMode: return r.number == 0 ? "auto" : r.number == 1 ? "mdi" : r.number == 2 ? "manual" : number_text(r.number);
+    case share::RequestKind::kSetMode: return mode_name(r.number);
     case share::RequestKind::kFeedOverride:
     case share::RequestKind::kRapidOverride: return number_text(100 * r.value) + " %" + system;
     case share::RequestKind::kSingleBlock:

@@ -16,15 +16,6 @@ std::string shown(const share::Text<kSize>& text) {
   return std::string(share::text_of(text));
 }
 
-const char* mode_name(std::uint32_t mode) {
-  switch (static_cast<Mode>(mode)) {
-    case Mode::kAuto: return "auto";
-    case Mode::kMdi: return "mdi";
-    case Mode::kManual: return "manual";
-  }
-  return "?";
-}
-
 const char* state_name(std::uint32_t state) {
   switch (state) {
     case NC_STATE_IDLE: return "idle";
@@ -91,6 +82,15 @@ Json system_json(const share::StatusBlock& status, unsigned s, const share::Mach
 }
 
 }  // namespace
+
+const char* mode_name(std::uint32_t mode) {
+  switch (static_cast<Mode>(mode)) {
+    case Mode::kAuto: return "auto";
+    case Mode::kMdi: return "mdi";
+    case Mode::kManual: return "manual";
+  }
+  return "?";
+}
 
 Json machine_json(const share::MachineBlock& machine) {
   Json systems = Json::array();

@@ -14,7 +14,8 @@ Json machine_json(const share::MachineBlock& machine);
 // `control`: the client that has control.
 Json status_json(const share::StatusBlock& status, const share::MachineBlock& machine, const std::string& control);
 Json alarms_json(const share::StatusBlock& status);
-// At most `count` entries behind the `from` newest ones.
 Json services_json();
+// The name of a Mode, "?" for any other number.
+const char* mode_name(std::uint32_t mode);
 
 }  // namespace nc::rt::services

@@ -230,7 +230,7 @@ void Interpolator::take_start(const nc_inputs& in) {
   if (in.cycle_start && !last_start_ && !in.reset && (!reset_ || shown_ == NC_STATE_IDLE)) start_ = true;
   last_start_ = in.cycle_start;
   if (!in.feed_hold) start_refused_ = false;
-  if (!tap_stands_in_hole() || tap_.stuck) tap_refuses_ = false;
+  if (!tap_bars()) tap_refuses_ = false;
 }
 
 void Interpolator::states(const nc_inputs& in) {
@@ -284,7 +284,7 @@ void Interpolator::states(const nc_inputs& in) {
   }
   // Whatever the program does first, the tap would break, or the thread. Where the spindle does not follow any more there is no other way out of the hole
   // than for somebody to free the tap, so the alarm that says so ends the refusal.
-  if (start_ && tap_stands_in_hole() && !tap_.stuck) {
+  if (start_ && tap_bars()) {
     start_ = false;
     tap_refuses_ = true;
   }

@@ -157,6 +157,7 @@ class Interpolator {
   void take_tap_where_it_stands(const nc_inputs& in) NC_RT;
   bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
   bool tap_stands_in_hole() const NC_RT;
+  bool tap_bars() const NC_RT;
   uint32_t tap_holds(const nc_inputs& in) const NC_RT;
   void turn_tap_spindle(const nc_inputs& in, nc_outputs& out) NC_RT;
   nc_tap tap() const NC_RT;

@@ -172,11 +172,14 @@ bool Interpolator::tap_stands_in_hole() const {
   return way * tap_.speed < 0 && std::fabs(way) > kOut;
 }
 
-/// The axes that would tear the tap sideways out of its hole. As long as its own axis does not know where it stands, the tap may be in it. Where its spindle does
-/// not follow any more there is no other way than to free it by hand, and the machine has to be moved for that.
+/// It stands there, and can be drawn out. Where its spindle does not follow any more there is no other way than to free it by hand, and the machine has to be
+/// moved for that.
+bool Interpolator::tap_bars() const { return !tap_.stuck && tap_stands_in_hole(); }
+
+/// The axes that would tear the tap sideways out of its hole. As long as its own axis does not know where it stands, the tap may be in it.
 uint32_t Interpolator::tap_holds(const nc_inputs& in) const {
-  const bool lost = tap_.held && (in.unlimited >> tap_.axis & 1) != 0;
-  if (tap_.stuck || (!lost && !tap_stands_in_hole())) return 0;
+  const bool lost = tap_.held && !tap_.stuck && (in.unlimited >> tap_.axis & 1) != 0;
+  if (!lost && !tap_bars()) return 0;
   return ((1u << config_.axis_count) - 1) & ~(1u << tap_.axis);
 }
 

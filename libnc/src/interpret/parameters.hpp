@@ -4,6 +4,7 @@
 
 #include "base/arena.hpp"
 #include "base/optional_double.hpp"
+#include "base/units.hpp"
 #include "command/auxiliary.hpp"
 #include "dialect/accuracy.hpp"
 #include "dialect/dialect.hpp"
@@ -31,7 +32,7 @@ struct Settings {
   // Largest coordinate and length, in mm or deg: +-99999.999 mm or deg, +-9999.9999 inch, and with more decimals in finer units (M700 2.1, 5.3). kNoise
   // allows for the rounding of inches to mm, far below the finest unit.
   static constexpr double kNoise = 1e-9;
-  double last_mm = 100000 - 0.001 + kNoise, last_inch = (10000 - 0.0001) * 25.4 + kNoise, last_deg = 100000 - 0.001 + kNoise;
+  double last_mm = 100000 - 0.001 + kNoise, last_inch = (10000 - 0.0001) * kMillimetresPerInch + kNoise, last_deg = 100000 - 0.001 + kNoise;
   bool decimal_type_2 = false;        ///< #1078
   double tenfold = 1;                 ///< "UNIT*10"
   bool dwell_p_decimal = false;       ///< #8112

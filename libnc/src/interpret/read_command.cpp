@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/units.hpp"
 #include "command/reader.hpp"
 #include "command/words_of_block.hpp"
 #include "interpret/feed.hpp"
@@ -153,7 +154,7 @@ double length_value(const BlockContext& in, Written number, bool rotary, bool se
       value = scaled(tenfold ? raw * s.tenfold : raw, unit);
     }
   }
-  return in_inch ? value * 25.4 : value;
+  return in_inch ? value * kMillimetresPerInch : value;
 }
 
 double axis_value(const BlockContext& in, unsigned axis, Written number, bool rotary) {
@@ -161,7 +162,7 @@ double axis_value(const BlockContext& in, unsigned axis, Written number, bool ro
   if (((s.own_unit_axes >> axis) & 1) == 0 || number.pointed() || s.whole_positions()) return length_value(in, number, rotary, false);
   const bool in_inch = inch(in) && !rotary;
   const double value = scaled(number.value * s.tenfold, in_inch ? s.own_unit[axis] / 10 : s.own_unit[axis]);
-  return in_inch ? value * 25.4 : value;
+  return in_inch ? value * kMillimetresPerInch : value;
 }
 
 double length_of(const BlockContext& in, WordSlot word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "interpret/parameters.hpp"
 
 namespace nc {
@@ -88,7 +89,7 @@ void SettingsReader::units() {
   s_.setting_unit_deg = 0.001 / finer;
   s_.last_mm = 100000 - s_.setting_unit_mm + Settings::kNoise;
   s_.last_deg = 100000 - s_.setting_unit_deg + Settings::kNoise;
-  s_.last_inch = (10000 - s_.setting_unit_inch) * 25.4 + Settings::kNoise;
+  s_.last_inch = (10000 - s_.setting_unit_inch) * kMillimetresPerInch + Settings::kNoise;
   const double cunit = value(P::command_unit, 0);
   s_.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s_.setting_unit_mm;
   s_.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s_.setting_unit_inch;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "base/struct_size.hpp"
+#include "base/units.hpp"
 #include "base/utf8.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -21,7 +22,7 @@ bool reads_inch(const Interpreter& in, unsigned axis) {
 /// rounding of sums of offsets, of maps and of the division by 25.4 does not show.
 double position_read(const Interpreter& in, unsigned axis, double mm) {
   const Settings& s = in.settings;
-  if (reads_inch(in, axis)) return whole_units(mm / 25.4, s.setting_unit_inch);
+  if (reads_inch(in, axis)) return whole_units(mm / kMillimetresPerInch, s.setting_unit_inch);
   return whole_units(mm, ((in.rotary >> axis) & 1) != 0 ? s.setting_unit_deg : s.setting_unit_mm);
 }
 
@@ -88,7 +89,7 @@ bool tool_key(Access& a, uint32_t* key) {
 }
 /// mm of one unit of an offset that is read or written as a variable.
 double unit_of_offsets(const Access& a, bool length) {
-  return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? 25.4 : 1;
+  return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1;
 }
 Execution set_offset(Access& a, uint32_t key, bool length) {
   const double value = a.written * unit_of_offsets(a, length);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "base/units.hpp"
+
 namespace nc {
 
 static_assert(std::is_trivially_copyable_v<ContourMemory>);
@@ -19,7 +21,6 @@ constexpr double kAway_mm = 0.01;
 constexpr double kSameJoint_mm = 0.01;
 /// Levels that differ by less are one; so are distances from a wall.
 constexpr double kLevel_mm = 1e-3;
-constexpr double kHalfTurn = 3.14159265358979323846;
 
 /// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
 double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
@@ -61,7 +62,7 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
   const Vec2 start = state_.at + section.approach;
   state_.at = start + section.delta;
   const uint64_t place = behind_start(number);
-  const bool round = std::abs(section.sweep) > kHalfTurn && norm(start - wall_of(section, start).center) > kAway_mm;
+  const bool round = std::abs(section.sweep) > kPi && norm(start - wall_of(section, start).center) > kAway_mm;
   for (unsigned i = 0; i < state_.joints; ++i) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
 #include "offset/walls.hpp"
 
 namespace nc {
@@ -18,7 +19,7 @@ constexpr unsigned kReach = 2;
 // Below this the cosine of the angle between two vectors is rounding: at right angles is not "more than 90 degrees".
 constexpr double kRightAngle = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
-constexpr double kHalfTurn = 3.14159265358979323846 + 1e-9;
+constexpr double kHalfTurn = kPi + 1e-9;
 
 // Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not. They cross in s a = d + t b, s and t compared without a
 // division.
