@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <deque>
@@ -32,6 +33,27 @@ bool wait_until(Done done) {
   return false;
 }
 
+// The simulated machine with a supply that another thread switches; the scan's thread sees it with its next read.
+class SuppliedMachine final : public nc::hal::Hal {
+ public:
+  explicit SuppliedMachine(const Config& config)
+      : machine_(config.sim, config.points), point_(static_cast<unsigned>(config.points.find("power_good"))) {}
+  void power(bool good) { good_.store(good, std::memory_order_relaxed); }
+
+  bool start(const nc::hal::PointImage& initial, std::string* error) override { return machine_.start(initial, error); }
+  void read(nc::hal::Feedback* feedback, nc::hal::PointImage* image) noexcept override {
+    machine_.set_input(point_, good_.load(std::memory_order_relaxed) ? 1 : 0);
+    machine_.read(feedback, image);
+  }
+  void write(const nc::hal::Command& command, const nc::hal::PointImage& image) noexcept override { machine_.write(command, image); }
+  void stop() noexcept override { machine_.stop(); }
+
+ private:
+  nc::hal::SimMachine machine_;
+  unsigned point_;
+  std::atomic<bool> good_{true};
+};
+
 class PowerKeep : public testing::Test {
  protected:
   void SetUp() override {
@@ -51,14 +73,14 @@ class PowerKeep : public testing::Test {
                                      "[[point]]\nname = \"power_good\"\ndirection = \"input\"\ninitial = 1\n[signals]\n\"plc.power_fail_n\" = \"power_good\"\n"
                                      "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[power]\nstop_s = 20.0\nsettle_s = 0.01\n" + power);
     config.file = (folder / "test.toml").string();
-    machine = std::make_unique<nc::hal::SimMachine>(config.sim, config.points);
+    machine = std::make_unique<SuppliedMachine>(config);
     std::vector<ConfigError> errors;
     runtime = Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
     ASSERT_NE(runtime, nullptr) << (errors.empty() ? "" : errors[0].text());
     std::string error;
     ASSERT_TRUE(runtime->start(&error)) << error;
   }
-  void power(bool good) { machine->set_input(static_cast<unsigned>(config.points.find("power_good")), good ? 1 : 0); }
+  void power(bool good) { machine->power(good); }
   std::string alarms() const {
     std::string all;
     const Snapshot now = runtime->snapshot();
@@ -97,7 +119,7 @@ class PowerKeep : public testing::Test {
   std::filesystem::path folder;
   Config config;
   RealClock clock;
-  std::unique_ptr<nc::hal::SimMachine> machine;
+  std::unique_ptr<SuppliedMachine> machine;
   std::unique_ptr<Runtime> runtime;
   std::deque<std::string> texts;
 };
