@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program on the time-optimal mode with nc_feed in small slices, to be counted by callgrind (tests/motion/feed_slices_test.py):
 //
-//   feed_slices BUDGET CALLS CYCLES_PER_HOLD PROGRAM.nc
+//   feed_slices BUDGET CALLS CYCLES_PER_HOLD PROGRAM.nc [GROUP [CALL...]]
 //
 // In each cycle nc_feed(BUDGET) is called until it does not ask for more, at most CALLS times, so the axes go on while something is planned.
 // In every CYCLES_PER_HOLD-th cycle of the motion a feed hold begins, and it ends when the axes stand; the override changes in between.
+// The counter writes down what has gathered each time that group_ends() is called: behind every GROUPth call of nc_feed, and behind each call of the
+// groups that begin with one of the CALLs, counted from 0.
 // Standard output: the cycles and the calls. Exit status: 0; 1 with a sentence, where the program does not come to its end.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "nc/nc.h"
@@ -54,10 +57,16 @@ void configure(nc_config* config) {
 
 }  // namespace
 
+// Has a name of its own in the binary, by which callgrind knows it.
+extern "C" __attribute__((noinline)) void group_ends() { __asm__ volatile(""); }
+
 int main(int argc, char** argv) {
-  if (argc != 5) return complain("BUDGET CALLS CYCLES_PER_HOLD PROGRAM.nc");
+  if (argc < 5) return complain("BUDGET CALLS CYCLES_PER_HOLD PROGRAM.nc [GROUP [CALL...]]");
   const auto budget = static_cast<uint32_t>(std::strtoul(argv[1], nullptr, 10));
   const long calls_of_cycle = std::strtol(argv[2], nullptr, 10), hold_every = std::max(1L, std::strtol(argv[3], nullptr, 10));
+  const long group = argc > 5 ? std::max(1L, std::strtol(argv[5], nullptr, 10)) : 1;
+  std::set<long> apart;
+  for (int n = 6; n < argc; ++n) apart.insert(std::strtol(argv[n], nullptr, 10));
   std::string text;
   if (!read_file(argv[4], &text)) return complain(std::string("cannot read ") + argv[4]);
   nc_config config;
@@ -81,8 +90,10 @@ int main(int argc, char** argv) {
   bool ended = false;
   for (; cycle < kMostCycles && !ended; ++cycle) {
     for (long n = 0; n < calls_of_cycle; ++n) {
-      ++calls;
-      if (nc_feed(control, budget) != NC_BUDGET) break;
+      const bool asks = nc_feed(control, budget) == NC_BUDGET;
+      const long begin = calls / group * group;
+      if (++calls == begin + group || apart.count(begin) != 0) group_ends();
+      if (!asks) break;
     }
     const nc_axes before = out.command;
     in.cycle_start = !in.feed_hold && cycle % 4 == 2;
@@ -97,6 +108,7 @@ int main(int argc, char** argv) {
     in.actual = out.command;
     ended = out.state == NC_STATE_IDLE && out.blocks > 0;
   }
+  if (calls % group != 0) group_ends();
   if (!ended) return complain("the program does not come to its end");
   std::printf("%ld cycles, %ld calls\n", cycle, calls);
   return 0;
