@@ -80,7 +80,8 @@ class Recorder {
   bool trouble(const std::string& why);
   std::vector<Counter> count() const;
   bool working();
-  bool reach(std::unique_lock<std::timed_mutex>* lock, std::string* error);
+  bool lock_soon(std::unique_lock<std::mutex>* lock, std::string* error);
+  bool reach(std::unique_lock<std::mutex>* lock, std::string* error);
 
   Runtime& runtime_;
   const share::ProgramTable& programs_;
@@ -95,7 +96,7 @@ class Recorder {
   std::mutex given_mutex_;
   std::deque<Entry> given_;  // of operators; guarded by given_mutex_
 
-  std::timed_mutex mutex_;  // guards what follows; held while the disk is written, so readers wait for it a bounded time
+  std::mutex mutex_;  // guards what follows; held while the disk is written, so readers wait for it a bounded time
   Store store_;
   bool opened_ = false;  // once: the numbers go on behind those of the file
   std::string trouble_;  // why nothing is written, "" = it is
