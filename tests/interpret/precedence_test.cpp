@@ -2,7 +2,6 @@
 // M700 appendix 2: which G codes may be in one block, and what becomes of each. There is one test for each column of the table, over its rows.
 #include <gtest/gtest.h>
 
-#include "modal/precedence.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
@@ -113,18 +112,6 @@ TEST(Precedence, AWordOfACodeIsNotOneOfTheMotionInForce) {
   const auto dwells = [&](const std::string& block) { return behind("G82 X1. Z-1. R1. P500 F100", block).dwells(); };
   EXPECT_EQ(dwells("X2. P300"), (std::vector<double>{0.5, 0.3, 0.3}));
   for (const char* code : {"G54.1 P7 ", "G96 S100 P1 "}) EXPECT_EQ(dwells(std::string(code) + "X2."), (std::vector<double>{0.5, 0.5, 0.5})) << code;
-}
-
-TEST(Precedence, BarredByModes) {  // 6.12, 6.14 (a), 13.3.3
-  EXPECT_EQ(barred(kInPolarCommand, Function::high_speed_accuracy), Condition::illegal_g);
-  EXPECT_EQ(barred(kInPolarCommand, Function::high_speed), Condition::none);
-  EXPECT_EQ(barred(kInSpaceArc, Function::high_speed), Condition::illegal_g);
-  EXPECT_EQ(barred(kInSpaceArc, Function::macro_modal_off), Condition::cancel_without_call);
-  EXPECT_EQ(barred(kInSpaceArc, Function::cycle_off), Condition::none);
-  EXPECT_EQ(barred(kInSpaceArc, Function::cycle_bore_stop), Condition::space_arc_mode);
-  EXPECT_EQ(barred(kInFigure, Function::rotation_off), Condition::rotation_in_figure);
-  EXPECT_EQ(barred(kInFigure | kInSpaceArc, Function::linear), Condition::none);
-  EXPECT_EQ(barred(0, Function::rotation_on), Condition::none);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command/reader.hpp"
 
+#include "dialect/precedence.hpp"
 #include "modal/modes.hpp"
-#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -69,7 +69,7 @@ Reading CommandReader::take_code(double value) {
       return Reading::done;
     case Function::mirror_on:
     case Function::mirror_off:  // G51.1 and G50.1 take the words, unless by App. 2 they belong to another code of the block
-      if (w.one_shot != nullptr && precedence_of(w.one_shot->function).mirror == Precedence::ignored) return Reading::done;
+      if (w.one_shot != nullptr && precedence_of(*front_.dialect, w.one_shot->function).mirror == Precedence::ignored) return Reading::done;
       w.one_shot = row;
       return Reading::done;
     default: break;

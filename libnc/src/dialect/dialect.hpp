@@ -6,6 +6,7 @@
 #include "dialect/alarms.hpp"
 #include "dialect/function.hpp"
 #include "dialect/parameter_rows.hpp"
+#include "dialect/precedence.hpp"
 #include "dialect/role.hpp"
 #include "dialect/rules.hpp"
 #include "dialect/table.hpp"
@@ -102,6 +103,8 @@ struct Dialect {
   Table<OutputRow> outputs;          ///< those that go out and mean something besides, or are all there are (AuxiliaryRules::codes_are_listed), sorted by code
   Table<AlarmRow> conditions;        ///< condition -> code, at most one row for each; what has none is as dialect/default_alarms.hpp says
   Table<AlarmText> alarms;           ///< the manual's whole list
+  Table<PrecedenceRow> precedence{};  ///< what becomes of the codes of a block, where it is not as dialect/default_precedence.hpp says
+  Table<BarredRow> barred{};         ///< functions that are alarms in a mode, beside those that are so in every family
   Table<DataInputRow> data_input{};
   Table<SpeedModeRow> speed_modes{};
   Table<SpeedOptionRow> speed_options{};

@@ -173,9 +173,6 @@ struct CompensationRules {
   /// The plane cannot be changed while compensation is on, nor directly behind its end (M700 App. 1 P112). Otherwise it is no fault to select
   /// the plane again (DGSHAPE G40-G42).
   bool plane_is_fixed;
-  /// The codes of scaling and the cancel code of cycles are faults while compensation is on (DGSHAPE G40-G42). M700 13.19 compensates the
-  /// scaled shape.
-  bool bars_scaling_and_cycle_end;
   /// The codes of workpiece coordinate systems, of coordinate system setting and of data setting are faults while compensation is on (DGSHAPE
   /// G40-G42). M700 12.4.4 allows them.
   bool bars_systems_and_data;
@@ -324,9 +321,6 @@ struct CoordinateRules {
   bool incremental_machine_move_rests;
   /// Words of a move in machine coordinates are absolute in incremental mode, too (Series 8 G69).
   bool machine_move_is_absolute = false;
-  /// Returns to reference positions, their check and coordinate system setting are faults while coordinates are scaled or rotated (HX 15.2.2, 15.4.2).
-  /// Otherwise each has a rule of its own (M700 13.19, 13.20).
-  bool maps_bar_returns = false;
   /// A radius of G16 that is an increment makes the place where the axes are the pole, which stays it for words without a radius; the first angle counts from
   /// the first axis; the words of an arc are no radius and angle (HX 8.3). Otherwise the pole is there for that block alone, and is the zero point for others,
   /// and those of an arc are (M700 6.12).

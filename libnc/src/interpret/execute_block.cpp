@@ -11,7 +11,6 @@
 #include "interpret/interpreter.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/work_rotation.hpp"
-#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -48,22 +47,22 @@ Execution check_lead_word(Interpreter& in) {
 }
 
 /// M700 App.2: a code of radius or length compensation beside this one-shot function is ignored. G49 beside a reference return is not (12.2).
-bool ignores_compensation(const FunctionRow* one_shot, const FunctionRow& modal) {
+bool ignores_compensation(const Dialect& dialect, const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
   if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
-  const PrecedenceRow& beside = precedence_of(one_shot->function);
+  const PrecedenceRow& beside = precedence_of(dialect, one_shot->function);
   return (mode_of(modal.function) == Mode::length ? beside.length : beside.radius) == Precedence::ignored;
 }
 
-bool ignores_cycle(const FunctionRow* one_shot) { return one_shot != nullptr && precedence_of(one_shot->function).cycle == Precedence::ignored; }
+bool ignores_cycle(const Dialect& dialect, const FunctionRow* one_shot) { return one_shot != nullptr && precedence_of(dialect, one_shot->function).cycle == Precedence::ignored; }
 
 /// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
 void drop_beside_cancel(Interpreter& in) {
   Command& w = in.words;
   for (const FunctionRow* row : w.functions) {
     if (row->function != Function::macro_modal_off) continue;
-    const bool one_shot = w.one_shot != nullptr && precedence_of(w.one_shot->function).macro == Precedence::loses;
-    const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(row->function).cycle == Precedence::ignored;
+    const bool one_shot = w.one_shot != nullptr && precedence_of(*in.dialect, w.one_shot->function).macro == Precedence::loses;
+    const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(*in.dialect, row->function).cycle == Precedence::ignored;
     if (one_shot) w.one_shot = nullptr;
     if (cycle) w.cycle = nullptr;
     if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_words.all();  // the axis words belong to it and are dropped, too
@@ -174,8 +173,8 @@ Execution apply_systems(Interpreter& in) {
   const FunctionRow* length = nullptr;
   for (const FunctionRow* row : in.words.functions) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
     const Mode mode = mode_of(row->function);
-    if (mode == Mode::radius && !ignores_compensation(one_shot, *row)) radius = row;
-    if (mode == Mode::length && !ignores_compensation(one_shot, *row)) length = row;
+    if (mode == Mode::radius && !ignores_compensation(*in.dialect, one_shot, *row)) radius = row;
+    if (mode == Mode::length && !ignores_compensation(*in.dialect, one_shot, *row)) length = row;
   }
   if (radius != nullptr) {
     in.state.modal.set(*radius);
@@ -203,7 +202,7 @@ Execution apply_systems(Interpreter& in) {
 
 /// M700 App.2: codes of length compensation and of work systems before a macro call only become modal.
 Execution update_beside_call(Interpreter& in) {
-  const PrecedenceRow& beside = precedence_of(in.words.one_shot->function);
+  const PrecedenceRow& beside = precedence_of(*in.dialect, in.words.one_shot->function);
   for (const FunctionRow* row : in.words.functions) {
     Execution did = Execution::done;
     if (row->function == Function::work_system && beside.work == Precedence::modal) did = select_work_system(in, *row);
@@ -276,7 +275,7 @@ Execution execute_motion_of_words(BlockContext& in) {
     if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.cycle.beside == CycleBeside::fault)
       return in.raise_code(Condition::format_error, *w.cycle);
     cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
-  } else if (w.cycle != nullptr && !ignores_cycle(w.one_shot)) {
+  } else if (w.cycle != nullptr && !ignores_cycle(*in.dialect, w.one_shot)) {
     if (w.one_shot != nullptr && w.cycle->function != Function::cycle_off && has_places_of_its_own(w.one_shot->function)) return in.raise_code(Condition::format_error, *w.one_shot);
     return do_cycle(in);
   }

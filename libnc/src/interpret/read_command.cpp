@@ -13,7 +13,6 @@
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
-#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -29,9 +28,9 @@ Execution check_modes(Interpreter& in, const FunctionRow& row, double value) {
   const unsigned modes = (state.modal.is(Function::polar_command_on) ? unsigned{kInPolarCommand} : 0u) |
                          (state.frame[state.depth].figure != 0 ? unsigned{kInFigure} : 0u) |
                          (is_exponential(before) && is_exponential(motion) ? unsigned{kInExponential} : 0u) |
-                         ((state.scaled != 0 || state.rotated) && in.dialect->rules.coordinate.maps_bar_returns ? unsigned{kInMap} : 0u) |
-                         (state.comp.side != 0 && in.dialect->rules.compensation.bars_scaling_and_cycle_end ? unsigned{kInDiameterOffset} : 0u);
-  const Condition bad = modes != 0 ? barred(modes, row.function) : Condition::none;
+                         (state.scaled != 0 || state.rotated ? unsigned{kInMap} : 0u) |
+                         (state.comp.side != 0 ? unsigned{kInCompensation} : 0u);
+  const Condition bad = modes != 0 ? barred(*in.dialect, modes, row.function) : Condition::none;
   return bad == Condition::none ? Execution::done : in.raise(bad, Role::code, value);
 }
 

@@ -15,6 +15,14 @@ constexpr DataInputRow kDataInput[] = {
     {2, DataInput::work_offset},
 };
 
+// Fixed cycles and scaling are errors under diameter offset, and so are the codes that end them (G40-G42). M700 13.19 compensates the scaled shape. The codes
+// that begin a fixed cycle are checked where a cycle begins (interpret/functions/cycle.cpp).
+constexpr BarredRow kBarred[] = {
+    {kInCompensation, Function::scaling_off, Condition::not_in_compensation, "G41"},
+    {kInCompensation, Function::scaling_on, Condition::not_in_compensation, "G41"},
+    {kInCompensation, Function::cycle_off, Condition::cycle_in_compensation, "G41"},
+};
+
 // The manual does not say which codes are active at power on. G00, G17, G90 and mm are the safe ones; of every other group it is the cancel
 // code.
 const Function kInitial[] = {
@@ -38,6 +46,7 @@ const Dialect kDialect = {
     .outputs = kOutputs,
     .conditions = kConditions,
     .alarms = kAlarms,
+    .barred = kBarred,
     .data_input = kDataInput,
     .parameters = &kParameters,
     .variables = &kVariables,

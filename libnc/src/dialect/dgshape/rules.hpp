@@ -44,7 +44,6 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 3600, .x_is_seconds = false},
     .compensation = {.xy_plane_only = true,
                      .plane_is_fixed = false,
-                     .bars_scaling_and_cycle_end = true,
                      .bars_systems_and_data = true,
                      .bars_reference_return = true,
                      .may_change_side = false,

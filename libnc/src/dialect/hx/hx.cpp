@@ -12,6 +12,16 @@ namespace {
 // G10: 13.1.3.
 constexpr DataInputRow kDataInput[] = {{10, DataInput::tool_length}, {12, DataInput::tool_radius}};
 
+// Returns to reference positions, their check and coordinate system setting are faults while coordinates are scaled or rotated (15.2.2, 15.4.2). In other
+// families each has a rule of its own (M700 13.19, 13.20).
+constexpr BarredRow kBarred[] = {
+    {kInMap, Function::reference_check, Condition::not_accepted, "15.2.2"},
+    {kInMap, Function::reference_return, Condition::not_accepted, "15.2.2"},
+    {kInMap, Function::start_return, Condition::not_accepted, "15.2.2"},
+    {kInMap, Function::second_reference, Condition::not_accepted, "15.2.2"},
+    {kInMap, Function::coordinate_set, Condition::not_accepted, "15.2.2"},
+};
+
 // 3.2, by the parameters when they are not set; the cancel codes of the other groups.
 const Function kInitial[] = {
     Function::rapid, Function::surface_off, Function::absolute, Function::feed_per_minute, Function::metric, Function::comp_off,
@@ -36,6 +46,7 @@ const Dialect kDialect = {
     .outputs = kOutputs,
     .conditions = kConditions,
     .alarms = kAlarms,
+    .barred = kBarred,
     .data_input = kDataInput,
     .parameters = &kParameters,
     .variables = &kVariables,

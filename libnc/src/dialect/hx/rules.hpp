@@ -48,7 +48,6 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = true, .early_x_is_length = false, .longest_s = 99999.999, .x_is_seconds = true},  // 14.2.3 prints "G04;"
     .compensation = {.xy_plane_only = false,  // 7.4
                      .plane_is_fixed = true,
-                     .bars_scaling_and_cycle_end = false,
                      .bars_systems_and_data = false,  // 13.2.2 (3)
                      .bars_reference_return = false,
                      .may_change_side = true,  // 13.2.2 (3)
@@ -89,7 +88,6 @@ inline constexpr Rules kRules = {
                    .machine_code_ends_shift = false,
                    .machine_move_by_motion = false,
                    .incremental_machine_move_rests = true,
-                   .maps_bar_returns = true,
                    .pole_stays = true,
                    .stroke_check_sees_way = true},
     .scaling = {.all_linear_axes = true,  // 15.2.1: about the point of G51 where no word names it

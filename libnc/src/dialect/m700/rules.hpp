@@ -46,7 +46,6 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = true, .early_x_is_length = true, .longest_s = 99999.999, .x_is_seconds = false},
     .compensation = {.xy_plane_only = false,
                      .plane_is_fixed = true,
-                     .bars_scaling_and_cycle_end = false,
                      .bars_systems_and_data = false,
                      .bars_reference_return = false,
                      .may_change_side = true,

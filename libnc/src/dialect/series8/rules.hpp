@@ -49,7 +49,6 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = true},
     .compensation = {.xy_plane_only = false,  // G17: any plane
                      .plane_is_fixed = true,
-                     .bars_scaling_and_cycle_end = true,
                      .bars_systems_and_data = true,
                      .bars_reference_return = true,
                      .may_change_side = true,

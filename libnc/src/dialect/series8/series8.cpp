@@ -9,6 +9,14 @@
 namespace nc::series8 {
 namespace {
 
+// The manual does not say what scaling and the end of a cycle are under compensation, whose moves they would change in the middle of a contour: a fault, as
+// DGSHAPE G41 has it.
+constexpr BarredRow kBarred[] = {
+    {kInCompensation, Function::scaling_off, Condition::not_in_compensation, "G41, G58"},
+    {kInCompensation, Function::scaling_on, Condition::not_in_compensation, "G41, G57"},
+    {kInCompensation, Function::cycle_off, Condition::cycle_in_compensation, "G41, G80"},
+};
+
 // G17, G90, G94 and G97 are said to be the default. Of all else it is what cancels, and the motion that does not cut.
 const Function kInitial[] = {
     Function::rapid, Function::plane_xy, Function::absolute, Function::feed_per_minute, Function::metric, Function::comp_off,
@@ -30,6 +38,7 @@ const Dialect kDialect = {
     .outputs = kOutputs,
     .conditions = kConditions,
     .alarms = kAlarms,
+    .barred = kBarred,
     .parameters = &kParameters,
     .variables = &kVariables,
     .rules = kRules,

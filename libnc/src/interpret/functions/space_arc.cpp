@@ -6,7 +6,6 @@
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
-#include "modal/precedence.hpp"
 
 namespace nc {
 namespace {
@@ -133,7 +132,7 @@ bool names_centre(const BlockContext& in) { return has_any(*in.block, in.set_of(
 }  // namespace
 
 Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
-  Condition bad = barred(kInSpaceArc, row.function);  // 6.14 (a)
+  Condition bad = barred(*in.dialect, kInSpaceArc, row.function);  // 6.14 (a)
   if (row.function == Function::rotation_on && names_centre(in)) bad = Condition::space_conversion_code;  // with I J K it is a conversion in space
   return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of precedence.hpp.
-#include "modal/precedence.hpp"
+#include "dialect/default_precedence.hpp"
+
+#include <iterator>
 
 namespace nc {
 namespace {
@@ -44,8 +45,6 @@ constexpr PrecedenceRow kInOneBlock[] = {
     {F::macro_modal_off,   kOfAMode, kBoth,    kOfAMode,   kIgnored, kOfAMode, kBoth,  kIgnored},
     {F::coordinate_set,    kOfAMode, kBoth,    kBoth,    kIgnored, kBoth,  kBoth,  kIgnored},
 };
-/// Any other code that uses the axis words of the block, so that mirror cannot use them, too.
-constexpr PrecedenceRow kAnyOther{F::count_, kBoth, kBoth, kBoth, kBoth, kBoth, kBoth, kIgnored};
 
 constexpr BarredRow kBarred[] = {
     {kInPolarCommand, F::high_speed_accuracy, Condition::illegal_g, "6.12"},
@@ -90,30 +89,14 @@ constexpr BarredRow kBarred[] = {
     {kInExponential, F::scaling_on, Condition::exponential_mode, "6.11"},
     {kInExponential, F::mirror_on, Condition::exponential_mode, "6.11"},
     {kInExponential, F::rotation_on, Condition::exponential_mode, "6.11"},
-    // DGSHAPE: fixed cycles and scaling are errors under diameter offset, and so are the codes that end them. The codes that begin a fixed cycle are
-    // checked elsewhere.
-    {kInDiameterOffset, F::scaling_off, Condition::not_in_compensation, "DGSHAPE G41"},
-    {kInDiameterOffset, F::scaling_on, Condition::not_in_compensation, "DGSHAPE G41"},
-    {kInDiameterOffset, F::cycle_off, Condition::cycle_in_compensation, "DGSHAPE G41"},
-    {kInMap, F::reference_check, Condition::not_accepted, "HX 15.2.2"},
-    {kInMap, F::reference_return, Condition::not_accepted, "HX 15.2.2"},
-    {kInMap, F::start_return, Condition::not_accepted, "HX 15.2.2"},
-    {kInMap, F::second_reference, Condition::not_accepted, "HX 15.2.2"},
-    {kInMap, F::coordinate_set, Condition::not_accepted, "HX 15.2.2"},
 };
+
+constexpr unsigned modes_of(const BarredRow* row, const BarredRow* end) { return row == end ? 0u : row->mode | modes_of(row + 1, end); }
+static_assert(modes_of(std::begin(kBarred), std::end(kBarred)) == kDefaultBarringModes);
 
 }  // namespace
 
-const PrecedenceRow& precedence_of(Function function) {
-  for (const PrecedenceRow& row : kInOneBlock)
-    if (row.function == function) return row;
-  return kAnyOther;
-}
-
-Condition barred(unsigned modes, Function function) {
-  for (const BarredRow& row : kBarred)
-    if ((row.mode & modes) != 0 && function == row.function) return row.condition;
-  return Condition::none;
-}
+const Table<PrecedenceRow> kDefaultPrecedence = kInOneBlock;
+const Table<BarredRow> kDefaultBarred = kBarred;
 
 }  // namespace nc
