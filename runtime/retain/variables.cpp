@@ -20,9 +20,14 @@ namespace {
 constexpr std::uint32_t kMaxVariables = 200000;  // more than all part systems together can have
 constexpr unsigned kSystemShift = 24;
 constexpr std::uint32_t kNumber = (1u << kSystemShift) - 1;
-constexpr std::uint32_t kFirstName = 500, kNames = 20;          // M700 13.5.5
-constexpr std::uint32_t kFirstCleared = 100, kLastCleared = 199;  // M700 13.4, #1129 PwrVC1
-constexpr std::uint32_t kLastLocal = 33;                          // M700 13.5.5
+
+nc_variable_range kind_of(const nc_control* control, nc_variable_kind kind) {
+  nc_variable_range range{};
+  (void)nc_variable_kind_get(nc_control_dialect(control), kind, &range);
+  return range;
+}
+
+bool holds(const nc_variable_range& range, std::uint32_t number) { return number >= range.first && number <= range.last; }
 
 template <class T>
 void put(std::string* bytes, const T& value) {
@@ -54,7 +59,7 @@ bool decode(const std::string& bytes, std::vector<Variable>* variables, std::vec
     if (!get(bytes, &at, &variable.number) || !get(bytes, &at, &variable.value) || !std::isfinite(variable.value))
       return false;
   }
-  if (!get(bytes, &at, &count) || count > kNames) return false;
+  if (!get(bytes, &at, &count) || count > kMaxVariables) return false;
   for (std::uint32_t i = 0; i < count; ++i) {
     Name& name = names->emplace_back();
     if (!get(bytes, &at, &name.number) || !get(bytes, &at, &name.text) || name.text[7] != 0) return false;
@@ -74,7 +79,8 @@ std::string encode_variables(const nc_control* control) {
     }
   }
   std::vector<Name> names;
-  for (std::uint32_t number = kFirstName; number < kFirstName + kNames; ++number) {
+  const nc_variable_range named = kind_of(control, NC_VARIABLES_NAMED);
+  for (std::uint32_t number = named.first; number <= named.last; ++number) {
     Name name{number, {}};
     if (nc_variable_name_get(control, number, name.text) == NC_OK && name.text[0] != 0) names.push_back(name);
   }
@@ -99,9 +105,7 @@ std::string executed_variables(nc_control* control) {
   return bytes;
 }
 
-bool is_local_variable(std::uint32_t number) {
-  return number <= kLastLocal;
-}
+bool is_local_variable(const nc_control* control, std::uint32_t number) { return holds(kind_of(control, NC_VARIABLES_LOCAL), number); }
 
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {
   std::vector<Variable> variables;
@@ -111,11 +115,12 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
   char key[24];
   if (nc_parameter_key_get(control, NC_PARAMETER_POWER_OFF_CLEARS, key) == NC_OK)  // a dialect without it clears nothing
     (void)nc_parameter_get(control, api_system(0), key, 0, &cleared);
+  const nc_variable_range local = kind_of(control, NC_VARIABLES_LOCAL), clears = kind_of(control, NC_VARIABLES_CLEARED);
   for (const Variable& variable : variables) {
     const unsigned system = variable.number >> kSystemShift;
     const std::uint32_t number = variable.number & kNumber;
     const auto holds_number = [number](const VariableRangeSetting& range) { return number >= range.first && number <= range.last; };
-    if (is_local_variable(number) || (cleared != 0 && number >= kFirstCleared && number <= kLastCleared)) continue;
+    if (holds(local, number) || (cleared != 0 && holds(clears, number))) continue;
     if (std::any_of(not_kept.begin(), not_kept.end(), holds_number)) continue;
     (void)nc_variable_set(control, api_system(system), number, variable.value, false);
   }

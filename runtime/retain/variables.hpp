@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The common variables of the programs (#100 to #199, #500 to #999 ...) and their names as bytes, and back. They are
+// The common variables of the programs and their names as bytes, and back. They are
 // kept while the power is off (M700 13.4, 13.5.4), with the values that the executed blocks have left.
 #pragma once
 
@@ -19,11 +19,12 @@ std::string encode_variables(const nc_control* control);
 // The variables as they are after the blocks that the machine has executed, without what was only read ahead.
 std::string executed_variables(nc_control* control);
 // False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
-// more) are skipped, and so are those of `not_kept`, and #100 to #199 when #1129 PwrVC1 is on.
+// more) are skipped, and so are those of `not_kept`, and NC_VARIABLES_CLEARED when a
+// parameter says so (M700 #1129 PwrVC1).
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
 
 // M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
-bool is_local_variable(std::uint32_t number);
+bool is_local_variable(const nc_control* control, std::uint32_t number);
 
 class VariableData final : public RetainedData {
  public:

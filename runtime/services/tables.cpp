@@ -233,7 +233,7 @@ Outcome set_variable(Runtime* runtime, const Call& call, Changes* changes) {
     const auto number = static_cast<std::uint32_t>(call.value(Field::kVariable));
     double before = 0;
     bool was_vacant = false;
-    if (is_local_variable(number) || nc_variable_get(control, api_system(system), number, &before, &was_vacant) != NC_OK ||
+    if (is_local_variable(control, number) || nc_variable_get(control, api_system(system), number, &before, &was_vacant) != NC_OK ||
         nc_variable_set(control, api_system(system), number, call.value_or(Field::kVariableValue, 0), vacant) != NC_OK)
       return Outcome::refused(Refused::kNotFound, "there is no such common variable");
     done->push_back(changed("#" + std::to_string(number) + " of part system " + std::to_string(system + 1), was_vacant ? "" : shown(before),

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "dialect/dialect.hpp"
+#include "macro/variables.hpp"
 #include "nc/control.h"
 
 namespace nc {
@@ -82,6 +83,29 @@ TEST(VariableRows, ThePublicTableIsTheFamilys) {
   EXPECT_EQ(nc_system_variable_row(NC_DIALECT_DGSHAPE, 0, &row), NC_E_NOT_FOUND);  // it has no variables
   EXPECT_EQ(nc_system_variable_row(NC_DIALECT_M700, 0, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(nc_system_variable_row(static_cast<nc_dialect>(77), 0, &row), NC_E_ARGUMENT);
+}
+
+// What a host asks for by what holds for the variables.
+TEST(VariableRows, KindsAreThoseOfTheFamily) {
+  for (unsigned id = 0; id < NC_DIALECT_COUNT; ++id) {
+    const auto family = static_cast<nc_dialect>(id);
+    nc_variable_range range{};
+    ASSERT_EQ(nc_variable_kind_get(family, NC_VARIABLES_LOCAL, &range), NC_OK);
+    EXPECT_EQ(range.first, 1u);
+    EXPECT_EQ(range.last, kLocals);
+    ASSERT_EQ(nc_variable_kind_get(family, NC_VARIABLES_NAMED, &range), NC_OK);
+    EXPECT_EQ(range.first, dialect(family).variables->named.first);
+    EXPECT_EQ(range.last, dialect(family).variables->named.last);
+    EXPECT_LE(range.last - range.first + 1, kNames) << "there is room for the names";
+    ASSERT_EQ(nc_variable_kind_get(family, NC_VARIABLES_CLEARED, &range), NC_OK);
+    EXPECT_EQ(range.first, dialect(family).variables->cleared.first);
+    EXPECT_EQ(range.last, dialect(family).variables->cleared.last);
+    EXPECT_EQ(nc_variable_kind_get(family, static_cast<nc_variable_kind>(3), &range), NC_E_ARGUMENT);
+    EXPECT_EQ(nc_variable_kind_get(family, NC_VARIABLES_LOCAL, nullptr), NC_E_ARGUMENT);
+  }
+  nc_variable_range range{};
+  EXPECT_EQ(nc_variable_kind_get(NC_DIALECT_COUNT, NC_VARIABLES_LOCAL, &range), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_control_dialect(nullptr), kDefaultDialect);
 }
 
 }  // namespace

@@ -61,7 +61,9 @@ class Interpreted {
   void lay_out(Arena& arena) {
     const Dialect& family = dialect(static_cast<nc_dialect>(config_.dialect));
     store.create(config_.programs, 1, family.lex->program_letter, arena);
-    common_.create(CommonRanges{}, arena);
+    CommonRanges ranges;
+    ranges.first[0] = 100, ranges.last[0] = 199;
+    common_.create(ranges, arena);
     vendor_.create(nullptr, 0, family, nullptr, arena);
     InterpreterConfig in_config;
     in_config.dialect = &family;

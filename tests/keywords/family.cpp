@@ -58,6 +58,11 @@ constexpr OutputRow kOutputs[] = {{3, M::spindle_forward}, {5, M::spindle_stop}}
 constexpr AlarmText kAlarms[] = {{"FEEDLESS", "no feed"}};
 constexpr AlarmRow kConditions[] = {{C::no_feed, "FEEDLESS", nullptr}};
 constexpr Function kInitial[] = {F::rapid, F::plane_xy, F::metric, F::comp_off, F::cycle_off, F::absolute, F::feed_per_minute};
+// Unlike in other families a code of compensation counts beside a dwell, and increments are a fault in compensation.
+constexpr PrecedenceRow kPrecedence[] = {
+    {F::dwell, Precedence::both, Precedence::both, Precedence::both, Precedence::both, Precedence::both, Precedence::both, Precedence::both},
+};
+constexpr BarredRow kBarred[] = {{kInCompensation, F::incremental, C::not_in_compensation, "1"}};
 constinit const FamilyParameters kParameters = {.arc_tolerance_mm = 0.01, .checks_interference = true};
 constinit const FamilyVariables kVariables = {};
 
@@ -203,6 +208,8 @@ const Dialect kDialect = {
     .outputs = kOutputs,
     .conditions = kConditions,
     .alarms = kAlarms,
+    .precedence = kPrecedence,
+    .barred = kBarred,
     .parameters = &kParameters,
     .variables = &kVariables,
     .rules = m700::kRules,

@@ -104,6 +104,15 @@ TEST(Keywords, MoveAsTheSamePartInAnotherLanguage) {
   EXPECT_EQ(ours.dwells(), same.dwells());
 }
 
+/// What shares a block, and what a mode bars, is said by the family's own tables before those of all families.
+TEST(Keywords, TablesOfTheFamilySayWhatSharesABlock) {
+  const auto side = [](nc_dialect family, const char* text) { return Bench(family).tool(1, 3).run(text).last_modal().code[7]; };
+  EXPECT_EQ(side(kKeywordFamily, "FEED 100\nRIGHT OFFSET 1 WAIT 10\nEND\n"), 100);
+  EXPECT_EQ(side(NC_DIALECT_M700, "F100\nG42 D1 G4 P10\nM2\n"), 400) << "ignored: M700 appendix 2";
+  EXPECT_EQ(keywords("FEED 100\nRIGHT OFFSET 1 LINE X10\nINCREMENTAL X1\nEND\n").alarm, "NC-OFFSET-CODE");
+  EXPECT_EQ(keywords("FEED 100\nLINE X10\nINCREMENTAL X1\nEND\n").alarm, "");
+}
+
 TEST(Keywords, RewindAnywhereAndGoOnTheSameWay) {
   Bench bench(kKeywordFamily);
   const Outcome whole = bench.tool(1, 3).run(kPart);

@@ -12,9 +12,18 @@
 namespace nc::test {
 namespace {
 
+/// As the option of 600 sets of M700 13.4 has them.
+CommonRanges six_hundred_sets() {
+  CommonRanges ranges;
+  ranges.first[0] = 100, ranges.last[0] = 199;
+  ranges.first[1] = 500, ranges.last[1] = 999;
+  ranges.first_named = 500, ranges.named = 20;
+  return ranges;
+}
+
 class VariablesTest : public testing::Test {
  protected:
-  explicit VariablesTest(unsigned journal = 64, CommonRanges ranges = {}) {
+  explicit VariablesTest(unsigned journal = 64, CommonRanges ranges = six_hundred_sets()) {
     common.create(ranges, arena);
     variables.create(&common, journal, arena);
   }

@@ -337,6 +337,17 @@ TEST_F(CommandTest, VariablesOfAProgram) {
   EXPECT_EQ(run.code, 0) << run.err;
   for (const char* line : {"#500\tcommon variable\tp.nc:4\tp.nc:1\n", "#5001\t", "#1000\t", "\t\tp.nc:5\n", "#[#1+2]\tcomputed\t\t./O8:1\n"})
     EXPECT_NE(run.out.find(line), std::string::npos) << line << run.out;
+  // Which common variables there are the dialect says.
+  file("q.nc", "#100=1\n#250=1\n#999=1\n#1200=1\n#900000=1\n#34=1\n#999999999=1\nM30\n");
+  const std::string m700 = ncsim("variables --of q.nc").out, hx = ncsim("variables --dialect hx --of q.nc").out, iso = ncsim("variables --dialect iso --of q.nc").out;
+  EXPECT_NE(m700.find("#100\tcommon variable\t"), std::string::npos) << m700;
+  EXPECT_NE(m700.find("#250\tcommon variable of a machine\t"), std::string::npos) << m700;
+  EXPECT_NE(m700.find("#999\tcommon variable\t"), std::string::npos) << m700;
+  EXPECT_NE(m700.find("#900000\tcommon variable\t"), std::string::npos) << m700;
+  EXPECT_NE(m700.find("#999999999\t\t"), std::string::npos) << m700;
+  EXPECT_NE(hx.find("#250\tcommon variable\t"), std::string::npos) << hx;
+  EXPECT_NE(hx.find("#999\tcommon variable of a machine\t"), std::string::npos) << hx;
+  EXPECT_NE(iso.find("#34\tcommon variable\t"), std::string::npos) << iso;
   EXPECT_NE(run.err.find("p.nc:4: the number of the program called is computed"), std::string::npos) << run.err;
   EXPECT_EQ(ncsim("variables --of nowhere.nc").code, 1);
   EXPECT_EQ(ncsim("variables --programs .").code, 1);

@@ -9,7 +9,7 @@ namespace {
 
 std::string described(const std::string& text) {
   std::string all;
-  for (const VariableUse& use : uses_of(text, "f").uses)
+  for (const VariableUse& use : uses_of(text, "f", NC_DIALECT_M700).uses)
     all += use.text + (use.read.line ? "r" + std::to_string(use.read.line) : "w" + std::to_string(use.written.line)) + " ";
   return all;
 }
@@ -28,10 +28,13 @@ TEST(VariableUse, ComputedNumbers) {
 }
 
 TEST(VariableUse, Calls) {
-  const TextUses found = uses_of("O7\nM98 P0100\nG65 <CYCLE.NC> A1\nM198P5\nG66.1P9010\nM98 P#100\nM98 H5\nG43.4\nM98P6,D2\n", "f");
+  const TextUses found = uses_of("O7\nM98 P0100\nG65 <CYCLE.NC> A1\nM198P5\nG66.1P9010\nM98 P#100\nM98 H5\nG43.4\nM98P6,D2\n", "f", NC_DIALECT_M700);
   std::string calls;
   for (const TextUses::Call& call : found.calls) calls += call.name + "@" + std::to_string(call.line) + " ";
   EXPECT_EQ(calls, "O100@2 CYCLE.NC@3 198:O5@4 O9010@5 @6 D2:O6@9 ");
+  // Which codes call, the dialect says.
+  EXPECT_EQ(uses_of("G65 P1\nM98 P2\n", "f", NC_DIALECT_ISO).calls.size(), 0u);
+  EXPECT_EQ(uses_of("G650 P1\nM980 P2\nG66.5 P3\nM096 P4\nG0066. P5\n", "f", NC_DIALECT_M700).calls.size(), 2u);
   EXPECT_EQ(found.programs, std::vector<uint32_t>{7});
 }
 

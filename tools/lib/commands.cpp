@@ -117,8 +117,8 @@ class PrintSink final : public RunSink {
 /** Collects the moves for the drawing. */
 class PlotSink final : public RunSink {
  public:
-  PlotSink(ToolpathPlot* plot, const nc_system_config& system, ItemSource* items)
-      : plot_(*plot), system_(system), items_(*items) {}
+  PlotSink(ToolpathPlot* plot, nc_dialect dialect, const nc_system_config& system, ItemSource* items)
+      : plot_(*plot), dialect_(dialect), system_(system), items_(*items) {}
   void move(const nc_source&, const nc_move& move) override {
     nc_axes zero = {};
     if (plot_.coordinates() == PlotCoordinates::kWork) items_.move_zero(&zero);
@@ -134,11 +134,10 @@ class PlotSink final : public RunSink {
       piece.machine_start = piece.machine;
     }
   }
-  // T selects a tool and M06 changes it: after the first M06 a T alone only prepares the next tool. In a program without M06 the T changes the tool.
+  // T selects a tool and a code changes it (M06): behind the first such code a T alone only prepares the next tool. In a program without one T changes the tool.
   void aux(const nc_source&, char code, double value) override {
-    constexpr double kToolChange = 6;
     if (code == 'T') selected_ = value;
-    const bool changes = code == 'M' && value == kToolChange;
+    const bool changes = code == 'M' && nc_code_role_get(dialect_, 'M', static_cast<uint32_t>(value)) == NC_CODE_TOOL_CHANGE;
     changer_ = changer_ || changes;
     if (changes || (code == 'T' && !changer_)) plot_.set_tool(selected_);
   }
@@ -156,6 +155,7 @@ class PlotSink final : public RunSink {
   double selected_ = 0.0;
   bool changer_ = false;
   ToolpathPlot& plot_;
+  const nc_dialect dialect_;
   const nc_system_config& system_;
   ItemSource& items_;
 };
@@ -306,7 +306,7 @@ int plot_command(const SessionOptions& options, const RunLimits& limits, const P
   plot.set_title(options.program == "-" ? "standard input"
                                         : rt::valid_utf8(options.program.substr(slash == std::string::npos ? 0 : slash + 1)));
   ControlSource items(session.control(), session.dialect());
-  PlotSink sink(&plot, session.config().system[0], &items);
+  PlotSink sink(&plot, static_cast<nc_dialect>(session.config().dialect), session.config().system[0], &items);
   const RunResult result = run_session(&session, &sink, &items, limits, true, err);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how == RunResult::How::kEndless) {

@@ -13,8 +13,6 @@
 namespace nc::tools {
 namespace {
 
-constexpr uint32_t kLocals = 33;  // M700 13.4
-
 bool digit(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) { return c >= 'A' && c <= 'Z'; }
 
@@ -54,7 +52,7 @@ size_t behind_operand(const std::string& s, size_t at) {
 
 class TextReader {
  public:
-  explicit TextReader(std::string file) : file_(std::move(file)) {}
+  TextReader(std::string file, nc_dialect dialect) : file_(std::move(file)), dialect_(dialect) { (void)nc_variable_kind_get(dialect, NC_VARIABLES_LOCAL, &local_); }
 
   TextUses read(const std::string& text) {
     for (size_t begin = 0; begin < text.size();) {
@@ -78,7 +76,7 @@ class TextReader {
       use.text = text;
       const bool plain = text.size() > 1 && text.size() <= 9 && std::all_of(text.begin() + 1, text.end(), digit);
       if (plain) use.number = static_cast<uint32_t>(std::stoul(text.substr(1)));
-      if (text.size() == 1 || (plain && use.number <= kLocals)) continue;
+      if (text.size() == 1 || (plain && use.number <= local_.last)) continue;
       // A name may be in brackets, as in [#DEPTH]=5.
       const bool in_brackets = letter(text[1]) && end < block.size() && block[end] == ']';
       const size_t behind = in_brackets ? end + 1 : end;
@@ -89,13 +87,11 @@ class TextReader {
     }
   }
 
-  // Finds calls with M98, M198, G65, G66, G66.1 and M96: P and a number, or a name.
+  // Finds calls of programs: P and a number, or a name.
   void calls(const std::string& block, const std::string& name) {
     if (!block.empty() && block[0] == 'O' && block.size() > 1 && digit(block[1])) found_.programs.push_back(number(block, 1));
-    const bool external = has_code(block, 'M', "198");
-    bool call = external;
-    for (const auto& [address, code] : {std::pair{'M', "98"}, {'G', "65"}, {'G', "66"}, {'G', "66.1"}, {'M', "96"}})
-      call = call || has_code(block, address, code);
+    const bool external = has_code(block, NC_CODE_CALL_EXTERNAL);
+    const bool call = external || has_code(block, NC_CODE_CALL) || has_code(block, NC_CODE_MACRO_CALL) || has_code(block, NC_CODE_INTERRUPT);
     if (!call) return;
     const size_t device = block.find(",D");
     const std::string place = external                                                               ? "198:"
@@ -116,20 +112,22 @@ class TextReader {
     return static_cast<uint32_t>(n);
   }
 
-  static bool has_code(const std::string& block, char address, const std::string& code) {
-    for (size_t at = block.find(address); at != std::string::npos; at = block.find(address, at + 1)) {
-      size_t end = at + 1;
-      while (end < block.size() && block[end] == '0') ++end;
-      const size_t from = end;
-      while (end < block.size() && (digit(block[end]) || block[end] == '.')) ++end;
-      std::string found = block.substr(from, end - from);
-      if (!found.empty() && found.back() == '.') found.pop_back();
-      if (found == code) return true;
+  /** A code of the block has this role in the dialect. */
+  bool has_code(const std::string& block, nc_code_role role) const {
+    for (size_t at = block.find_first_of("GM"); at != std::string::npos; at = block.find_first_of("GM", at + 1)) {
+      if (at + 1 == block.size() || !digit(block[at + 1])) continue;
+      const uint32_t whole = number(block, at + 1);
+      const size_t point = std::min(block.find_first_not_of("0123456789", at + 1), block.size());
+      const bool tenth = point + 1 < block.size() && block[point] == '.' && digit(block[point + 1]);
+      const auto times_ten = std::min<uint64_t>(uint64_t{whole} * 10 + (tenth ? static_cast<uint64_t>(block[point + 1] - '0') : 0), UINT32_MAX);
+      if (nc_code_role_get(dialect_, block[at], block[at] == 'G' ? static_cast<uint32_t>(times_ten) : whole) == role) return true;
     }
     return false;
   }
 
   const std::string file_;
+  const nc_dialect dialect_;
+  nc_variable_range local_{};
   uint32_t line_ = 0;
   TextUses found_;
 };
@@ -137,8 +135,8 @@ class TextReader {
 /** Collects the main program and the programs that it calls, each text once. */
 class Collector {
  public:
-  Collector(const SessionOptions& options, std::FILE* err)
-      : err_(err), files_(options.programs ? *options.programs : folder_of(options.program)) {
+  Collector(const SessionOptions& options, nc_dialect dialect, std::FILE* err)
+      : err_(err), dialect_(dialect), files_(options.programs ? *options.programs : folder_of(options.program)) {
     files_.set_external(options.external);
     text_.encoding = options.encoding;
   }
@@ -156,7 +154,7 @@ class Collector {
       *error = path + ": cannot be read";
       return false;
     }
-    const TextUses found = uses_of(text, path);
+    const TextUses found = uses_of(text, path, dialect_);
     for (const VariableUse& use : found.uses) keep(use);
     for (const TextUses::Call& call : found.calls) follow(call, path, found.programs);
     return true;
@@ -192,6 +190,7 @@ class Collector {
   }
 
   std::FILE* err_;
+  nc_dialect dialect_;
   ProgramFiles files_;
   rt::ProgramText::Options text_;
   std::set<std::string> seen_;
@@ -199,14 +198,20 @@ class Collector {
   std::map<std::string, size_t> places_;
 };
 
-/** The meaning of a number according to the tables of the dialect. */
+/** The meaning of a number according to the tables of the dialect. A common variable that no option brings is there if the machine has a range with it. */
 std::string meaning(const VariableUse& use, nc_dialect dialect) {
   if (use.number == 0) return letter(use.text.size() > 1 ? use.text[1] : '\0') ? "by its name" : "computed";
   nc_system_variable row;
   for (unsigned i = 0; nc_system_variable_row(dialect, i, &row) == NC_OK; ++i)
     if (use.number >= row.first && use.number <= row.last) return row.name;
-  const bool common = (use.number >= 100 && use.number <= 199) || (use.number >= 400 && use.number <= 999) || use.number >= 900000;
-  return common ? "common variable" : "";
+  nc_config config;
+  nc_config_init(&config);
+  config.dialect = dialect;
+  config.extended_variables = true;
+  config.variable_ranges[0] = {use.number, use.number};
+  uint32_t taken = 0;
+  if (nc_variable_range_check(&config, 0, &taken) == NC_OK) return "common variable of a machine";
+  return taken != 0 ? "common variable" : "";
 }
 
 std::string place_text(const TextPlace& place) {
@@ -215,12 +220,12 @@ std::string place_text(const TextPlace& place) {
 
 }  // namespace
 
-TextUses uses_of(const std::string& text, const std::string& file) { return TextReader(file).read(text); }
+TextUses uses_of(const std::string& text, const std::string& file, nc_dialect dialect) { return TextReader(file, dialect).read(text); }
 
 int variable_use_command(const SessionOptions& options, std::FILE* out, std::FILE* err) {
   const std::optional<nc_dialect> dialect = dialect_from_name(options.dialect);
   if (!dialect) return complain(err, no_dialect(options.dialect));
-  Collector collector(options, err);
+  Collector collector(options, *dialect, err);
   std::string error;
   if (!collector.add(options.program, &error)) return complain(err, error);
   std::vector<VariableUse> uses = collector.uses();

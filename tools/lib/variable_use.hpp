@@ -36,8 +36,8 @@ struct TextUses {
   std::vector<uint32_t> programs;  // O numbers of the programs in the text
 };
 
-/** Local variables (#1 to #33) are not listed, because no other program can use them. */
-TextUses uses_of(const std::string& text, const std::string& file);
+/** Local variables are not listed, because no other program can use them. */
+TextUses uses_of(const std::string& text, const std::string& file, nc_dialect dialect);
 
 /** `ncsim variables --of PROGRAM`: prints a line for each variable on `out`, and on `err` the calls that could not be followed. */
 int variable_use_command(const SessionOptions& options, std::FILE* out, std::FILE* err);

@@ -186,7 +186,7 @@ typedef enum nc_parameter_role {
   NC_PARAMETER_DECIMAL_TYPE_2 = 0,   /**< a number without a decimal point is in mm (M700 5.3) */
   NC_PARAMETER_DWELL_POINT = 1,      /**< the decimal point of P in a dwell is not ignored (M700 8.1) */
   NC_PARAMETER_TOOL_MEMORY = 2,      /**< memory type of tool offsets, 1 or 2 (M700 12.1) */
-  NC_PARAMETER_POWER_OFF_CLEARS = 3, /**< power off clears the common variables from #100 on (M700 13.4) */
+  NC_PARAMETER_POWER_OFF_CLEARS = 3, /**< power off clears the common variables of NC_VARIABLES_CLEARED (M700 13.4) */
   NC_PARAMETER_DIGIT_FEED = 4        /**< speed of the one-digit feed F1; the parameters of F2 to F5 have the keys that follow (M700 7.3) */
 } nc_parameter_role;
 
@@ -561,6 +561,23 @@ NC_API nc_status nc_position_set(nc_control* control, unsigned system, const nc_
  */
 NC_API void nc_position_shown(const nc_control* control, unsigned system, nc_axes* machine, nc_axes* work);
 
+/** Variables that a host can ask for by what holds for them, whatever their numbers are in the dialect. */
+typedef enum nc_variable_kind {
+  NC_VARIABLES_LOCAL = 0,  /**< those of each program and macro level (M700 13.5.5) */
+  NC_VARIABLES_NAMED = 1,  /**< common variables that can have a name (M700 13.5.5) */
+  NC_VARIABLES_CLEARED = 2 /**< common variables that reset and power off clear where parameters say so; see NC_PARAMETER_POWER_OFF_CLEARS (M700 13.4) */
+} nc_variable_kind;
+
+/**
+ * The numbers of the variables of a kind. Not all of them need to exist: the options of nc_config say which common variables there are. Any thread;
+ * needs no control.
+ * @param dialect the controller family; of a control the one that nc_control_dialect() gives
+ * @param kind which variables
+ * @param range receives the first and the last number
+ * @return NC_OK; NC_E_ARGUMENT: an argument is not valid
+ */
+NC_API nc_status nc_variable_kind_get(nc_dialect dialect, nc_variable_kind kind, nc_variable_range* range);
+
 /**
  * Name of a common variable (SETVN; M700 13.5.5). Feeder thread.
  * @param control the control
@@ -573,7 +590,7 @@ NC_API nc_status nc_variable_name_get(const nc_control* control, uint32_t number
 /**
  * Give a common variable a name, for example one that was kept while the power was off. Feeder thread.
  * @param control the control
- * @param number of the variable, 500 to 519
+ * @param number of the variable, one of NC_VARIABLES_NAMED
  * @param name at most 7 capital letters and digits, a letter first; "" takes the name away. Copied.
  * @return NC_OK; NC_E_ARGUMENT: the variable can have no name, or the name is not a valid one
  */
@@ -711,6 +728,13 @@ NC_API nc_status nc_text_get(const nc_control* control, unsigned system, uint32_
 NC_API const char* nc_dialect_name(nc_dialect dialect);
 
 /**
+ * The dialect of a control, as it was configured. Any thread.
+ * @param control the control; NULL: the dialect that nc_config_init() writes
+ * @return the controller family
+ */
+NC_API nc_dialect nc_control_dialect(const nc_control* control);
+
+/**
  * Whose programs a dialect reads, in one short English line ("TurboTek HX, machining centre"). Any thread; needs no control.
  * @param dialect the controller family
  * @return constant text; NULL: there is no such dialect
@@ -731,7 +755,7 @@ typedef enum nc_code_role {
   NC_CODE_PROGRAM_STOP = 1,
   NC_CODE_OPTIONAL_STOP = 2,
   NC_CODE_PROGRAM_END = 3,
-  NC_CODE_CALL = 4,            /**< calls a sub program by its number: M98, M198 */
+  NC_CODE_CALL = 4,            /**< calls a sub program by its number or name: M98 */
   NC_CODE_RETURN = 5,          /**< returns from a sub program */
   NC_CODE_SPINDLE_FORWARD = 6, /**< this code and the next three are given out to the machine */
   NC_CODE_SPINDLE_REVERSE = 7,
@@ -739,7 +763,9 @@ typedef enum nc_code_role {
   NC_CODE_TOOL_CHANGE = 9,
   NC_CODE_DWELL = 10,
   NC_CODE_DATA_INPUT = 11,     /**< the words of its block are data for tables or parameters: G10 */
-  NC_CODE_MACRO_CALL = 12      /**< the words of its block are arguments: G65, G66, G66.1 */
+  NC_CODE_MACRO_CALL = 12,     /**< the words of its block are arguments: G65, G66, G66.1 */
+  NC_CODE_CALL_EXTERNAL = 13,  /**< calls a sub program of an external device: M198 */
+  NC_CODE_INTERRUPT = 14       /**< names the program that an interrupt calls: M96 */
 } nc_code_role;
 
 /**

@@ -254,6 +254,18 @@ nc_status nc_variable_get(const nc_control* c, unsigned system, uint32_t number,
   return NC_OK;
 }
 
+nc_dialect nc_control_dialect(const nc_control* c) { return c == nullptr ? nc::kDefaultDialect : static_cast<nc_dialect>(c->config.dialect); }
+
+nc_status nc_variable_kind_get(nc_dialect dialect, nc_variable_kind kind, nc_variable_range* range) {
+  if (!nc::known(dialect) || range == nullptr) return NC_E_ARGUMENT;
+  const nc::FamilyVariables& family = *nc::dialect(dialect).variables;
+  const nc::VariableRange kinds[] = {{1, nc::kLocals}, family.named, family.cleared};
+  const auto index = static_cast<unsigned>(kind);
+  if (index >= sizeof kinds / sizeof kinds[0]) return NC_E_ARGUMENT;
+  *range = {kinds[index].first, kinds[index].last};
+  return NC_OK;
+}
+
 nc_status nc_variable_name_get(const nc_control* c, uint32_t number, char name[8]) {
   if (c == nullptr || name == nullptr) return NC_E_ARGUMENT;
   const unsigned length = c->system[0].interpreter.tables().variable_name(number, name);

@@ -269,7 +269,6 @@ bool nc::take_config(const nc_config* given, nc_config* known) {
 
 nc::CommonRanges nc::ranges_of(const nc_config& c) {
   CommonRanges r;
-  for (uint32_t& last : r.last) last = 0;  // empty
   for (const CommonOption& row : kCommonOptions) {
     if (row.sets > c.variable_sets) continue;
     unsigned i = 0;
@@ -278,10 +277,12 @@ nc::CommonRanges nc::ranges_of(const nc_config& c) {
     r.last[i] = row.last;
   }
   const FamilyVariables& family = *dialect(static_cast<nc_dialect>(c.dialect)).variables;
-  for (unsigned i = 0; i < 2 && family.common[i].last != 0; ++i) {
+  for (unsigned i = 0; i < CommonRanges::kExtended && family.common[i].last != 0; ++i) {
     r.first[i] = family.common[i].first;
     r.last[i] = family.common[i].last;
   }
+  r.first_named = family.named.first;
+  r.named = family.named.last - family.named.first + 1;
   r.first[CommonRanges::kExtended] = kExtendedCommon.first;
   r.last[CommonRanges::kExtended] = c.extended_variables ? kExtendedCommon.last : 0;
   for (unsigned i = 0; i < NC_VARIABLE_RANGES; ++i) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which common variables exist where the family leaves it to the configuration of the machine (FamilyVariables::common is empty), and what of them a
-// parameter clears.
+// Which common variables exist where the family leaves it to the configuration of the machine (FamilyVariables::common is empty).
 #pragma once
 
 #include "dialect/variable_rows.hpp"
@@ -22,9 +21,6 @@ inline constexpr VariableRange kExtendedCommon = {900000, 907399};
 
 /// Behind the local variables the ranges of a machine (nc_config::variable_ranges) usually go up to here.
 inline constexpr uint32_t kLastOfMachine = 499;
-
-/// Those that Parameter::reset_clears_common clears (M700 13.4 #1128, HX 14.4).
-inline constexpr VariableRange kClearedCommon = {100, 199};
 
 constexpr bool is_common_option(uint32_t sets) {
   for (const CommonOption& row : kCommonOptions)

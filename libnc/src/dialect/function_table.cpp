@@ -62,15 +62,15 @@ nc_code_role code_role(MiscFunction function) {
     case MiscFunction::program_stop: return NC_CODE_PROGRAM_STOP;
     case MiscFunction::optional_stop: return NC_CODE_OPTIONAL_STOP;
     case MiscFunction::program_end: return NC_CODE_PROGRAM_END;
-    case MiscFunction::call_sub:
-    case MiscFunction::call_external: return NC_CODE_CALL;
+    case MiscFunction::call_sub: return NC_CODE_CALL;
+    case MiscFunction::call_external: return NC_CODE_CALL_EXTERNAL;
+    case MiscFunction::interrupt_on: return NC_CODE_INTERRUPT;
     case MiscFunction::return_sub: return NC_CODE_RETURN;
     case MiscFunction::spindle_forward: return NC_CODE_SPINDLE_FORWARD;
     case MiscFunction::spindle_reverse: return NC_CODE_SPINDLE_REVERSE;
     case MiscFunction::spindle_stop: return NC_CODE_SPINDLE_STOP;
     case MiscFunction::tool_change: return NC_CODE_TOOL_CHANGE;
     case MiscFunction::output:
-    case MiscFunction::interrupt_on:
     case MiscFunction::interrupt_off:
     case MiscFunction::override_allowed:
     case MiscFunction::override_barred:

@@ -61,8 +61,8 @@ enum class Parameter : uint8_t {
   spiral_type_2,
   asin_0_360,
   run_time_hours,
-  shared_100,
-  shared_500,
+  last_shared_of_first,        ///< last variable of the first range of common variables that part systems share
+  last_shared_of_second,       ///< the same of the second range
   one_position_check,
   checks_reversal,
   digit_most,
@@ -198,7 +198,7 @@ enum class Parameter : uint8_t {
 /// The parameter has one value for all part systems. Such parameters divide the common variables among the part systems (M700 13.4), or
 /// concern programs and variables that the part systems share (13.3, 13.4).
 constexpr bool is_common(Parameter parameter) {
-  return parameter == Parameter::shared_100 || parameter == Parameter::shared_500 || parameter == Parameter::protects_8000 ||
+  return parameter == Parameter::last_shared_of_first || parameter == Parameter::last_shared_of_second || parameter == Parameter::protects_8000 ||
          parameter == Parameter::protects_9000 || parameter == Parameter::power_off_clears_common;
 }
 

@@ -77,6 +77,9 @@ struct VariableRange {
 struct FamilyVariables {
   Table<VariableRow> rows = {};   ///< sorted by number; no two ranges overlap
   VariableRange common[2] = {};   ///< common variables if the family fixes them; empty if the configuration chooses them
+  VariableRange named = {500, 519};    ///< common variables that can have a name (M700 13.5.5 SETVN), at most kNames (macro/variables.hpp)
+  VariableRange cleared = {100, 199};  ///< those that Parameter::reset_clears_common and power_off_clears_common clear (M700 13.4 #1128, #1129, HX 14.4)
+  VariableRange divided[2] = {{100, 199}, {500, 999}};  ///< the values of Parameter::last_shared_of_first and last_shared_of_second (M700 13.4 #1303, #1304)
   Table<ModalWord> words = {};    ///< the places of the ranges `word`, `word_now` and `word_at_interrupt`, in this order
   Table<DeviceRow> devices = {};
   Table<DeviceWidth> device_widths = {};

@@ -64,7 +64,7 @@ void BlockContext::refresh_settings() {
   settings.mirror_axes &= (1u << axis_count) - 1;
   reader.check_block_parity(settings.parity_units);
   reader.semicolon_begins_comment(settings.semicolon_comments);
-  variables.share(settings.shared_100, settings.shared_500);
+  variables.share(settings.last_shared);
   code_calls = dialect->lex->macros ? read_code_calls(parameters, *dialect) : CodeCalls{};
   codes_call = code_calls.any || vendor->any();
 }

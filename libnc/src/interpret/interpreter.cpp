@@ -7,7 +7,6 @@
 #include <initializer_list>
 #include <new>
 
-#include "dialect/common_options.hpp"
 #include "interpret/journal_keys.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/shared_tables.hpp"
@@ -252,7 +251,8 @@ void Interpreter::set_machine(const AxisVec& machine) {
 void Interpreter::clear_by_reset() {
   end_by_operator(state);
   if (!settings.reset_clears_common) return;
-  for (uint32_t n = kClearedCommon.first; n <= kClearedCommon.last; ++n) {
+  const VariableRange cleared = dialect->variables->cleared;
+  for (uint32_t n = cleared.first; n <= cleared.last; ++n) {
     if (!common->exists(n)) continue;
     if (shared != nullptr && variables.shares(n)) {
       shared->set_variable(n, Value{});

@@ -92,7 +92,7 @@ struct Settings {
   bool interrupt_type_2 = false;      ///< #1113 INT_2
   bool interrupt_as_sub = false;      ///< #1229 bit 0
   bool reset_clears_common = false;   ///< #1128 RstVC1
-  uint32_t shared_100 = 0, shared_500 = 899999;  ///< #1303, #1304: last common variable that all part systems share
+  uint32_t last_shared[2] = {0, UINT32_MAX};  ///< #1303, #1304: last variable of each range of common variables that all part systems share
   bool print_blanks = false;          ///< DPRNT: leading zeros become blanks (M700 13.5.8 (4))
   bool asin_0_360 = false;            ///< #1273 bit 0
   bool start_absolute = true;

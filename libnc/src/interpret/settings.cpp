@@ -186,12 +186,12 @@ void SettingsReader::macros() {
   s_.interrupt_type_2 = flag(P::interrupt_type_2);
   s_.interrupt_as_sub = flag(P::interrupt_as_sub);
   s_.reset_clears_common = flag(P::reset_clears_common);
-  const auto last_shared = [this](Parameter parameter, uint32_t first, uint32_t last, uint32_t fallback) {
-    const double n = value(parameter, 0);
-    return n >= first && n <= last ? static_cast<uint32_t>(n) : fallback;
-  };
-  s_.shared_100 = last_shared(P::shared_100, 100, 199, 0);
-  s_.shared_500 = last_shared(P::shared_500, 500, 999, s_.shared_500);
+  constexpr Parameter kLastShared[] = {P::last_shared_of_first, P::last_shared_of_second};
+  for (unsigned i = 0; i < 2; ++i) {
+    const double n = value(kLastShared[i], 0);
+    const VariableRange range = dialect_.variables->divided[i];
+    if (n >= range.first && n <= range.last) s_.last_shared[i] = static_cast<uint32_t>(n);
+  }
 }
 
 /// M700 8.1, 13.1, 15: cycles, dwell, skip and measurement.

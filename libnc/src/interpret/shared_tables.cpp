@@ -45,8 +45,7 @@ unsigned SharedTables::number_of(const Interpreter& in) const {
 
 void SharedTables::join(Interpreter& in) {
   system_[count_++] = &in;
-  last_100_ = in.settings.shared_100;
-  last_500_ = in.settings.shared_500;
+  for (unsigned i = 0; i < CommonRanges::kExtended; ++i) last_[i] = in.settings.last_shared[i];
   in.shared = this;
   in.variables.journal().before_loss(&in, [](void* self, BlockSeq seq) {
     Interpreter& writer = *static_cast<Interpreter*>(self);
@@ -95,7 +94,7 @@ void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, Jo
     uint32_t there = 0;
     if (system_[i] != &writer && same_place(*system_[i], writer, key, &there)) take(*system_[i], there, value);
   }
-  if (key >= kParameterKey) divide_again(writer.settings.shared_100, writer.settings.shared_500);
+  if (key >= kParameterKey) divide_again(writer.settings.last_shared);
 }
 
 /// The host has changed a place of `in`: no rewind brings its old value back.
@@ -111,7 +110,7 @@ void SharedTables::set_variable(uint32_t number, Value value) {
 
 void SharedTables::set_name(uint32_t number, const char* name) {
   for (unsigned i = 0; i < count_; ++i) system_[i]->variables.name_from_outside(number, name);
-  changed_by_host(*system_[0], Variables::name_key(number));
+  changed_by_host(*system_[0], system_[0]->variables.name_key(number));
 }
 
 void SharedTables::set_tool(unsigned key, double value) {
@@ -130,28 +129,30 @@ void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {
     other.variables.changed_from_outside(kParameterKey + there, in.parameters.stored(index).journalled());
     other.refresh_settings();
   }
-  divide_again(in.settings.shared_100, in.settings.shared_500);
+  divide_again(in.settings.last_shared);
 }
 
 /// The parameters that say which common variables are shared have changed. A variable that becomes shared gets the value of the first part system in all of
 /// them; one that is not shared any more keeps its value in the first part system and becomes vacant in the others.
-void SharedTables::divide_again(uint32_t last_100, uint32_t last_500) {
+void SharedTables::divide_again(const uint32_t (&last)[2]) {
   const auto between = [this](uint32_t before, uint32_t now) {
     if (before < now) divide_again(before + 1, now + 1, true);
     if (now < before) divide_again(now + 1, before + 1, false);
   };
-  constexpr uint32_t kLast100 = 199, kLast500 = 999;
-  const auto up_to = [](uint32_t last, uint32_t begin, uint32_t end) { return last < begin ? begin - 1 : last < end ? last : end; };
-  between(up_to(last_100_, 100, kLast100), up_to(last_100, 100, kLast100));
-  between(up_to(last_500_, 500, kLast500), up_to(last_500, 500, kLast500));
-  last_100_ = last_100;
-  last_500_ = last_500;
+  const CommonRanges& ranges = system_[0]->common->ranges();
+  for (unsigned i = 0; i < CommonRanges::kExtended; ++i) {
+    if (ranges.size(i) == 0) continue;
+    const uint32_t first = ranges.first[i], end = ranges.last[i];
+    const auto up_to = [first, end](uint32_t number) { return number < first ? first - 1 : number < end ? number : end; };
+    between(up_to(last_[i]), up_to(last[i]));
+    last_[i] = last[i];
+  }
 }
 
 void SharedTables::divide_again(uint32_t first, uint32_t end, bool common) {
   Interpreter& one = *system_[0];
   for (uint32_t number = first; number < end; ++number) {
-    if (!one.common->exists(number) || !one.common->divided(number)) continue;
+    if (!one.common->exists(number) || one.common->divided(number) == CommonRanges::kExtended) continue;
     const JournalValue kept = one.variables.journal().published(number, Variables::journalled(one.common->get(number)));
     for (unsigned i = 1; i < count_; ++i) take(*system_[i], number, common ? kept : Variables::journalled(Value{}));
     history_.replace(number, kept);

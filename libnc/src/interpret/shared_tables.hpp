@@ -53,12 +53,12 @@ class SharedTables {
   unsigned number_of(const Interpreter& in) const;
   void publish_to_others(const Interpreter& writer, uint32_t key, JournalValue value);
   static bool same_place(Interpreter& to, const Interpreter& from, uint32_t key, uint32_t* there);
-  void divide_again(uint32_t last_100, uint32_t last_500);
+  void divide_again(const uint32_t (&last)[2]);
   void divide_again(uint32_t first, uint32_t end, bool common);
   Interpreter* system_[NC_MAX_SYSTEMS] = {};
   unsigned count_ = 0;
   SharedHistory history_;  ///< its keys are those of the first part system
-  uint32_t last_100_ = 0, last_500_ = 0;  ///< last shared variable of #100 up and of #500 up, as the copies are divided now
+  uint32_t last_[2] = {};  ///< last shared variable of each range of common variables, as the copies are divided now
 };
 
 }  // namespace nc

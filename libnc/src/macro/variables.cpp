@@ -25,8 +25,6 @@ void fill_vacant(double* slots, size_t count) {
   for (size_t i = 0; i < count; ++i) slots[i] = kVacant;
 }
 
-constexpr uint32_t kFirstWithName = 500;
-
 VariableName name_of_text(const char* text, size_t length) {
   VariableName name;
   std::memcpy(name.text, text, length);
@@ -160,25 +158,29 @@ void Variables::clear_locals(BlockSeq seq) {
   for (unsigned level = 0; level < kLocalLevels; ++level) enter(level, kNoArguments, seq);
 }
 
-uint32_t Variables::name_key(uint32_t number) { return kNameKey | (number - kFirstWithName); }
+bool Variables::name_place(uint32_t number, unsigned* place) const {
+  const CommonRanges& ranges = common_->ranges();
+  *place = number - ranges.first_named;
+  return *place < ranges.named && *place < kNames && common_->exists(number);
+}
 
 bool Variables::set_name(uint32_t number, const char* name, size_t length, BlockSeq seq) {
-  const uint32_t index = number - kFirstWithName;
-  if (index >= kNames || !common_->exists(number) || length > kNameLength) return false;
+  unsigned index = 0;
+  if (!name_place(number, &index) || length > kNameLength) return false;
   journal_.note(seq, name_key(number), JournalValue::of(common_->name(index)));
   common_->set_name(index, name_of_text(name, length));
   return true;
 }
 
 bool Variables::name_from_outside(uint32_t number, const char* name) {
-  const uint32_t index = number - kFirstWithName;
+  unsigned index = 0;
   size_t length = 0;
   for (; name[length] != 0; ++length) {
     const char c = name[length];
     const bool good = (c >= 'A' && c <= 'Z') || (length > 0 && c >= '0' && c <= '9');
     if (!good || length == kNameLength) return false;
   }
-  if (index >= kNames || !common_->exists(number)) return false;
+  if (!name_place(number, &index)) return false;
   const VariableName given = name_of_text(name, length);
   common_->set_name(index, given);
   journal_.replace(name_key(number), JournalValue::of(given));
@@ -190,15 +192,15 @@ bool Variables::find_name(const char* name, size_t length, uint32_t* number) con
   const VariableName wanted = name_of_text(name, length);
   for (unsigned i = 0; i < kNames; ++i) {
     if (!(common_->name(i) == wanted)) continue;
-    *number = kFirstWithName + i;
+    *number = common_->ranges().first_named + i;
     return true;
   }
   return false;
 }
 
 unsigned Variables::name_of(uint32_t number, char* name) const {
-  const uint32_t index = number - kFirstWithName;
-  if (index >= kNames) return 0;
+  unsigned index = 0;
+  if (!name_place(number, &index)) return 0;
   const VariableName& given = common_->name(index);
   const auto length = static_cast<unsigned>(std::strlen(given.text));
   std::memcpy(name, given.text, length);

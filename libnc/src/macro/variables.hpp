@@ -11,7 +11,7 @@
 namespace nc {
 
 inline constexpr unsigned kLocals = 33;      ///< #1..#33
-inline constexpr unsigned kNames = 20;       ///< number of variables that can have a name: #500..#519 (M700 13.5.5)
+inline constexpr unsigned kNames = 20;       ///< most variables that can have a name (M700 13.5.5)
 inline constexpr unsigned kNameLength = 7;   ///< most characters of a name
 /// A name, filled up with zeros; empty = none.
 struct VariableName {
@@ -20,12 +20,13 @@ struct VariableName {
 };
 inline constexpr unsigned kLocalLevels = 5;  ///< main program and four macro levels (M700 13.5.2)
 
-/// Which common variables exist (M700 13.4): two ranges by the option nc_config::variable_sets, #900000 up of later models, and the further ranges of the
-/// machine. The ranges do not overlap.
+/// Which common variables exist (M700 13.4): the two ranges of the family, that of later models, and the further ranges of the machine. The ranges do not
+/// overlap; one that does not exist is empty.
 struct CommonRanges {
   static constexpr unsigned kCount = 3 + NC_VARIABLE_RANGES, kExtended = 2;
-  uint32_t first[kCount] = {100, 500, 900000};
-  uint32_t last[kCount] = {199, 999, 899999};  ///< the third range is empty unless it is set (option: 907399)
+  uint32_t first[kCount] = {};
+  uint32_t last[kCount] = {};
+  uint32_t first_named = 0, named = 0;  ///< those that can have a name: the first, and how many
   uint32_t size(unsigned i) const { return first[i] == 0 || last[i] < first[i] ? 0 : last[i] - first[i] + 1; }
 };
 
@@ -35,15 +36,15 @@ class CommonVariables {
   void create(const CommonRanges& ranges, Arena& arena);
   const CommonRanges& ranges() const { return ranges_; }
   bool exists(uint32_t number) const;
-  /// The variable belongs to the ranges #100 up and #500 up, of which parameters decide what part systems share (13.4).
-  bool divided(uint32_t number) const {
-    for (unsigned i = 0; i < CommonRanges::kExtended; ++i)
-      if (number - ranges_.first[i] < size_[i]) return true;
-    return false;
+  /// Which of the two ranges of the family the variable belongs to, of which parameters decide what part systems share (M700 13.4); kExtended = none of them.
+  unsigned divided(uint32_t number) const {
+    unsigned i = 0;
+    while (i < CommonRanges::kExtended && number - ranges_.first[i] >= size_[i]) ++i;
+    return i;
   }
   Value get(uint32_t number) const;  ///< number must exist
   void set(uint32_t number, Value value);
-  /// Names of #500..#519.
+  /// Names of the variables that can have one, from the first of them on.
   const VariableName& name(unsigned index) const { return name_[index]; }
   void set_name(unsigned index, const VariableName& name) { name_[index] = name; }
   /// First number >= from that is not vacant; false = none.
@@ -61,25 +62,23 @@ class CommonVariables {
 class Variables {
  public:
   void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
-  /// Where there are several part systems, they share the common variables from #100 to `last_100` and from #500 to `last_500` (M700 13.4, #1303, #1304), and
-  /// all those of later models and of further ranges, and the names.
-  void share(uint32_t last_100, uint32_t last_500) {
-    shared_100_ = last_100;
-    shared_500_ = last_500;
+  /// Where there are several part systems, they share the common variables of the family's two ranges up to these (M700 13.4, #1303, #1304), and all those of
+  /// later models and of further ranges, and the names.
+  void share(const uint32_t (&last)[CommonRanges::kExtended]) {
+    for (unsigned i = 0; i < CommonRanges::kExtended; ++i) last_shared_[i] = last[i];
   }
-  uint32_t shared_100() const { return shared_100_; }
-  uint32_t shared_500() const { return shared_500_; }
   /// The key is that of a variable which part systems share, or of a name.
   bool shares(uint32_t key) const {
     if (key >= kNameKey) return key < kLocalKey;
     if (!common_->exists(key)) return false;
-    return !common_->divided(key) || key <= (key < 500 ? shared_100_ : shared_500_);
+    const unsigned range = common_->divided(key);
+    return range == CommonRanges::kExtended || key <= last_shared_[range];
   }
   /// The value of a variable as it is written into the journal, and back.
   static JournalValue journalled(Value value) { return JournalValue::of(value.number, value.vacant ? kVacantKind : kNumberKind); }
   static Value variable(JournalValue value) { return {value.as<double>(), value.kind == kVacantKind}; }
-  /// The key of a variable's name.
-  static uint32_t name_key(uint32_t number);
+  /// The key of the name of a variable that can have one.
+  uint32_t name_key(uint32_t number) const { return kNameKey | (number - common_->ranges().first_named); }
   /// The present value of the place that a key stands for. The key must not be a foreign one.
   JournalValue value_of(uint32_t key) const;
   Journal& journal() { return journal_; }
@@ -145,10 +144,12 @@ class Variables {
   static constexpr uint32_t kLocalKey = 0x20000000;
   static constexpr uint32_t local_key(unsigned level, unsigned number) { return kLocalKey | level << 8 | number; }
   static constexpr uint8_t kNumberKind = 0, kVacantKind = 1;  // JournalValue::kind
+  /// The place of a variable's name. False: the variable does not exist, or can have no name.
+  bool name_place(uint32_t number, unsigned* place) const;
   void put(uint32_t key, JournalValue value);
 
   CommonVariables* common_ = nullptr;
-  uint32_t shared_100_ = 0, shared_500_ = 0;
+  uint32_t last_shared_[CommonRanges::kExtended] = {};  ///< of each range that parameters divide
   Journal journal_;
   NamedParameters named_;
   double (*local_)[kLocals] = nullptr;
