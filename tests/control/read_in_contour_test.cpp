@@ -103,5 +103,70 @@ TEST(ReadInContour, OnlineAsOffline) {
     for (unsigned axis = 0; axis < 3; ++axis) EXPECT_NEAR(ends[i].v[axis], moves[i].machine.v[axis], 1e-9) << i;
 }
 
+/// Value of an input that is on from the place on where Y passes 5, read behind the block Y10, and how far that block has led.
+struct ReadOnTheWay {
+  double value = -1, corner = 0;
+};
+ReadOnTheWay read_on_the_way(const std::string& head, const std::string& compensation) {
+  Bench bench;
+  bench.tool(1, 3);
+  bench.add("O1000", "M99\n");
+  Drive drive(bench, head + "G90 G94 G17\n" + compensation + "G1 X10. F3000\nY10.\n#100=#1000\nX30.\nG40 X40.\nM30\n");
+  while (!drive.ended && drive.cycle < 100000) {
+    drive.press_start();
+    drive.in.input[0] = drive.out.command.v[1] > 5 ? 1 : 0;
+    drive.step();
+  }
+  EXPECT_EQ(drive.alarm(), "");
+  EXPECT_TRUE(drive.ended);
+  const std::vector<nc_axes> ends = drive.ends();
+  return {bench.var_now(100), ends.size() < 2 ? 0 : ends[1].v[1]};
+}
+
+// The input is that of the moment when the blocks in front of those that wait for their corner have been executed; so it is not what the place of the read in the
+// program says. Where M96 is in force the order of the program counts: the contour ends in front of the read, at right angles, and the corner is cut.
+TEST(ReadInContour, AnInputIsThatOfTheBlocksThatAreExecuted) {
+  const ReadOnTheWay without = read_on_the_way("", "");
+  EXPECT_EQ(without.value, 1);
+  EXPECT_EQ(without.corner, 10);
+  const ReadOnTheWay inside = read_on_the_way("", "G41 D1 ");
+  EXPECT_EQ(inside.value, 0);
+  EXPECT_EQ(inside.corner, 13);
+  const ReadOnTheWay outside = read_on_the_way("", "G42 D1 ");
+  EXPECT_EQ(outside.value, 0);
+  EXPECT_EQ(outside.corner, 7);
+  const ReadOnTheWay interrupted = read_on_the_way("M96 P1000\n", "G42 D1 ");
+  EXPECT_EQ(interrupted.value, 1);
+  EXPECT_EQ(interrupted.corner, 10);
+}
+
+// What closes the contour in front of the read, as M00 does: a read while M96 is in force, and one of what part systems share. One part system alone shares nothing.
+TEST(ReadInContour, WhatEndsTheBlockBeforeAtRightAngles) {
+  const auto path = [](const std::string& program, const std::string& between, unsigned systems) {
+    std::string text;
+    for (const char c : program) text += c == '%' ? between : std::string(1, c);
+    Bench bench(NC_DIALECT_M700, [systems](nc_config& c) {
+      c.system_count = static_cast<uint8_t>(systems);
+      for (unsigned n = 1; n < systems; ++n) c.system[n] = c.system[0];
+    });
+    bench.tool(1, 3);
+    bench.add("O1000", "M99\n");
+    const Outcome run = bench.run(text);
+    EXPECT_EQ(run.alarm, "") << text;
+    return run.path();
+  };
+  for (const std::string program : {kInner, kOuter, kAlone}) {
+    const Path plain = path(program, "", 1), stopped = path(program, "M0\n", 1);
+    EXPECT_NE(plain, stopped);
+    EXPECT_EQ(path(program, "#100=#500\n", 1), plain) << program;
+    EXPECT_EQ(path(program, "#100=#500\n", 2), stopped) << program;
+    EXPECT_EQ(path(program, "#100=#2001\n", 2), stopped) << program;
+    EXPECT_EQ(path(program, "#100=#1000\n", 2), plain) << program;
+    for (const char* read : {"#100=#1000\n", "#100=#5041\n", "#100=#3002\n"}) EXPECT_EQ(path("M96 P1000\n" + program, read, 1), stopped) << read << program;
+    EXPECT_EQ(path("M96 P1000\n" + program, "#100=#500\n", 1), plain) << "nothing is read of the machine";
+    EXPECT_EQ(path("M96 P1000\nM97\n" + program, "#100=#1000\n", 1), plain);
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -320,6 +320,95 @@ TEST(ContourCheck, BesideAGivenVectorTheTwoBlocksAreCompared) {
   EXPECT_EQ(alarm_of_program(hook, 5, {{"CONTOUR_CHECK", "1"}}), "P153");
 }
 
+// I J of a block without movement lead from one vector to another: the chord between them comes nearer to the corner than the ends of both, which lie where they should.
+TEST(ContourCheck, TheStepBetweenTwoGivenVectors) {
+  const auto corner = [](const char* steps) { return std::string("G0 X-40. Y-20.\nG41 D1 G1 X-30. Y0 F500\nG41 I1. J0 X0\n") + steps + "Y-30.\nG40 X40.\nM30\n"; };
+  const std::map<std::string, std::string> check = {{"CONTOUR_CHECK", "1"}};
+  for (const char* const steps : {"G41 I0 J-1.\n", "G41 I1. J-0.5\nG41 I0 J-1.\n"}) {
+    EXPECT_EQ(alarm_of_program(corner(steps), 5, {}), "") << steps;
+    EXPECT_EQ(alarm_of_program(corner(steps), 5, check), "P153") << steps;
+  }
+  EXPECT_EQ(alarm_of_program(corner("G39\n"), 5, check), "P153") << "behind a given vector there is no arc, and the block behind begins there";
+  EXPECT_EQ(alarm_of_program(corner("G38 I1. J1.\nG41 I0 J-1.\n"), 5, check), "P153");
+  // Not where there is nothing that a step could cut: as a start, and at a change of side, where the tool crosses the contour.
+  EXPECT_EQ(alarm_of_program("G0 X-30. Y0\nG41 D1 G1 F500\nG41 I1. J0\nX0\nY-30.\nG40 X40.\nM30\n", 5, check), "");
+  EXPECT_EQ(alarm_of_program("G0 X-40. Y-20.\nG41 D1 G1 X-30. Y0 F500\nG41 I1. J0 X0\nG42 I1. J0\nX30.\nG40 X40. Y-30.\nM30\n", 5, check), "");
+  // At an inner corner the step leads along within the contour, and the block behind has its vector at right angles: the tool has been in the wall before.
+  EXPECT_EQ(alarm_of_program("G0 X-40. Y20.\nG41 D1 G1 X-30. Y0 F500\nG41 I1. J1. X0\nG41 I0 J1.\nY30.\nG40 X-40.\nM30\n", 5, check), "P153");
+}
+
+// It is the step that is too near, whatever comes behind it, and in front of it the machine stops. The block before is none of the first three, which may be a way in.
+TEST(ContourCheck, TheAlarmStandsInTheBlockOfTheStep) {
+  Bench bench;
+  bench.tool(1, 5).param("CONTOUR_CHECK", "1");
+  const Outcome run = bench.run("G0 X-90. Y-20.\nG41 D1 G1 X-80. Y0 F500\nX-70.\nX-60.\nX-50.\nG41 I1. J0 X0\nG41 I0 J-1.\nX5. Y-30.\nG40 X40.\nM30\n");
+  EXPECT_EQ(run.alarm, "P153");
+  EXPECT_EQ(run.alarm_line, 7u);
+}
+
+// A step that comes too near to the block behind it only, since the one before is a rapid: where the program is read again from a mark between the two the
+// step is still known.
+TEST(ContourCheck, StepsStayBehindTheirMark) {
+  const auto contour = [](bool over_corner) {
+    PathBuilder path(-80, -20);
+    path.side(1, 5);
+    ask(&path);
+    path.kind = NC_MOVE_RAPID;
+    path.line(-60, 0).line(-40, 0).line(-20, 0).one_shot(path.vector(1, 0)).line(0, 0);
+    path.one_shot(over_corner ? path.vector(0, -1) : path.vector(1, 0)).command().idle();
+    path.kind = NC_MOVE_LINE;
+    path.one_shot(path.vector(0, -1)).line(0, -30);
+    path.cancel().line(40, -30);
+    path.end();
+    return path;
+  };
+  constexpr unsigned kBehind = 7;
+  EXPECT_EQ(line_of_alarm(contour(true)), kBehind);
+  const PathBuilder path = contour(true);
+  for (uint32_t mark = 5; mark < kBehind; ++mark) {
+    WithMemory with(200);
+    OffsetResume resume;
+    size_t behind = 0;
+    Item item;
+    for (size_t i = 0; i < path.items.size(); ++i) {
+      with.stage.push(path.items[i]);
+      while (with.stage.pop(item))
+        if (item.kind == ItemKind::mark && item.source.line == mark) resume = with.stage.resume_point();
+      if (path.items[i].kind == ItemKind::mark && path.items[i].source.line == mark) behind = i + 1;
+    }
+    ASSERT_TRUE(resume.active) << mark;
+    for (unsigned again = 0; again < 2; ++again) {  // and not twice as often
+      with.stage.restore(resume);
+      const std::vector<Item> out = run_stage(with.stage, {path.items.begin() + static_cast<std::ptrdiff_t>(behind), path.items.end()});
+      ASSERT_NE(alarm_of(out), nullptr) << mark;
+      EXPECT_EQ(alarm_of(out)->source.line, kBehind) << mark;
+    }
+  }
+}
+
+// G40 alone ends the contour, and another one starts from its vector: what was in doubt about the first is not forgotten. Here its last block, a rapid, leads
+// through the first, which has not shown to be a way in.
+TEST(ContourCheck, AContourThatEndsWithoutAMovement) {
+  const auto two = [](const char* last) {
+    return std::string("G0 X-40. Y20.\nG41 D1 G1 X-20. Y0 F500\nX30.\nY40.\nX-30.\n") + last + "G40\nG41 G1 X10. Y-30.\nX50.\nG40 X60. Y-20.\nM30\n";
+  };
+  EXPECT_EQ(alarm_of_program(two("G0 X10. Y-10.\n"), 3, {}), "");
+  EXPECT_EQ(alarm_of_program(two("G0 X10. Y-10.\n"), 3, {{"CONTOUR_CHECK", "1"}}), "P153");
+  EXPECT_EQ(alarm_of_program(two("G0 X-50. Y40.\n"), 3, {{"CONTOUR_CHECK", "1"}}), "");
+}
+
+// Half a turn of G39 goes round the outside, also where it is looked at.
+TEST(ContourCheck, HalfATurnOfACornerArc) {
+  for (const int left : {1, -1})
+    for (const auto& [x, y] : {std::pair{4.0, 0.0}, {-4.0, 0.0}, {2.5, 1.4}, {-0.7, 2.4}}) {
+      const auto at = [dx = x, dy = y](double along, double beside) { return " X" + std::to_string(dx * along - dy * beside) + " Y" + std::to_string(dy * along + dx * beside) + "\n"; };
+      std::string text = "G90 G0" + at(-6, 4 * left) + (left > 0 ? "G41" : "G42") + " D1 G1 F500" + at(0, 0);
+      for (int n = 1; n < 5; ++n) text += at(n, 0);
+      text += "G39" + at(5, 0) + at(4, 0) + at(0, 0) + "G40" + at(-6, -4 * left) + "M30\n";
+      EXPECT_EQ(alarm_of_program(text, 2, {{"CONTOUR_CHECK", "1"}}), "") << text;
+    }
+}
+
 // The vector of the start stands at right angles to a line that has no direction; the arc behind it begins there, nearer to its own wall than the radius.
 TEST(ContourCheck, AnArcBesideAVectorOfTheProgramCutsItsOwnWall) {
   const auto round = [](const char* vector) {

@@ -446,6 +446,22 @@ static Execution count_return(Interpreter& in, bool* goes_back) {
   return Execution::done;
 }
 
+/// The block in hand is the first of its text that is not blank.
+static bool heads_text(Interpreter& in) {
+  const ProgramRef& text = top(in).program;
+  const uint64_t begin = in.block->begin;
+  const uint32_t line = in.block->line;
+  uint64_t at = text.offset;
+  for (uint32_t at_line = text.line; at < begin;) {
+    const Block* before = in.reader.read(text.file, at, at_line);
+    if (before == nullptr || !before->empty || before->has_n || before->has_o || before->next <= at) break;
+    at = before->next;
+    at_line = before->next_line;
+  }
+  in.block = in.reader.read(text.file, begin, line);
+  return at == begin;
+}
+
 Execution return_sub(Interpreter& in) {
   State& s = in.state;
   const Command& w = in.words;
@@ -458,6 +474,8 @@ Execution return_sub(Interpreter& in) {
       if (did != Execution::done || !goes_back) return did;
     }
     if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
+    // Blocks of MDI that begin with it have nothing to go back for; the control would read it again and again, and nothing would show what it does.
+    if (in_mdi(in) && only_calls(in) && heads_text(in)) return Execution::done;
     s.loop_count = frame.loop_base;
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;

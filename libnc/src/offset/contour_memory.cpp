@@ -54,7 +54,13 @@ void ContourMemory::restore(const State& state) {
   state_.overlong = state.overlong || walls_.end() < state.end || !walls_.keeps(state.first);
   if (state_.overlong) return;
   walls_.cut(state.end);
-  while (paths_.end() > 0 && paths_.keeps(paths_.end() - 1) && paths_[paths_.end() - 1].number >= state.end) paths_.cut(paths_.end() - 1);
+  // The steps in front of the next block count with it, and come before its own path.
+  uint64_t kept = paths_.end();
+  const auto behind = [&](uint64_t number) { return kept > 0 && paths_.keeps(kept - 1) && paths_[kept - 1].number >= number; };
+  while (behind(state.end)) --kept;
+  const uint64_t last = paths_.end();
+  for (unsigned steps = state.steps; steps > 0 && kept < last && paths_[kept].number == state.end; --steps) ++kept;
+  paths_.cut(kept);
 }
 
 /// The joint at the end of a block: where the contour is, and whether it has closed.
@@ -129,6 +135,7 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
 
 Clearance ContourMemory::read(Section* section) {
   const bool ends = section->cancel && !section->transparent;
+  if (state_.open && section->start && no_way(state_.end)) return Clearance::enters;  // G40 without a movement has ended the contour in front of it
   if (!state_.open || section->start) begin(section->start);
   section->number = walls_.end();
   if (state_.overlong || !walls_.keeps(state_.first)) {
@@ -140,6 +147,7 @@ Clearance ContourMemory::read(Section* section) {
   section->contour_start = start;
   follow(*section, section->number);
   state_.end = section->number + 1;
+  state_.steps = 0;
   Wall wall;
   wall.piece = wall_of(*section, start);
   if (std::abs(section->level - state_.level) > kLevel_mm || section->level_end > section->level + kLevel_mm) ++state_.descent;  // by a plunge, or up
@@ -184,12 +192,12 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   };
   if (section.led) {
     Piece lead;
-    lead.from = start;
+    lead.from = start + section.led_from;
     lead.to = start + from;
     Path ahead = path;
-    ahead.starts = true;
+    ahead.starts = ahead.from_contour = section.led_from == Vec2{};
     ahead.contour = start;
-    ahead.from_contour = true;
+    ahead.crosses_own = section.led_turns;
     ahead.to_contour = from_given;
     add(ahead, lead);
   }
@@ -202,12 +210,34 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     piece.from = end + section.joint.v[k - 1];
     piece.to = end + section.joint.v[k];
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
-    add(path, section.joint.corner_arc ? arc_about(end, piece.from, piece.to) : piece);
+    const Vec2 from_vector = section.joint.v[k - 1], to_vector = section.joint.v[k];
+    add(path, path.bends && bendable(from_vector, to_vector) ? arc_about(end, from_vector, to_vector, section.offset) : piece);
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);
   state_.open = false;
   return found == Clearance::fits && no_way_in_or_out ? Clearance::enters : found;
+}
+
+Clearance ContourMemory::step(const Step& step) {
+  if (!state_.open) begin(false);
+  if (state_.overlong || !walls_.keeps(state_.first)) return Clearance::full;
+  Path path;
+  path.number = state_.end;
+  path.offset = step.offset;
+  path.low = path.high = state_.level;
+  path.descent = state_.descent;
+  path.contour = state_.at + step.approach;
+  // From the contour it is a start; else it cuts what it leads through, be it the block before it or the one behind.
+  path.starts = path.from_contour = step.from == Vec2{};
+  path.to_contour = step.to == Vec2{};
+  path.bends = step.bends;
+  path.crosses_own = !path.starts && !path.to_contour && !step.crosses;
+  path.piece.from = path.contour + step.from;
+  path.piece.to = path.contour + step.to;
+  if (step.bends && bendable(step.from, step.to)) path.piece = arc_about(path.contour, step.from, step.to, step.offset);
+  if (path.offset != 0) ++state_.steps;
+  return take(path);
 }
 
 /// A piece of a path: all walls that have been read.

@@ -39,6 +39,7 @@ class ContourMemory {
     uint64_t end = 0;        ///< ... of the next block
     uint64_t closure = 0;    ///< of the block in which the contour has closed last; 0: not yet
     uint64_t out = 0;        ///< of a block behind it that a path comes too near to: it has to be a way out; 0: none
+    uint32_t steps = 0;      ///< steps in front of the next block (step())
     uint8_t joints = 0;      ///< how many of `joint` are there
     uint8_t away = 0;        ///< bit i: the contour has left joint i
     uint8_t closed = 0;      ///< bit i: ... and has come back to it, when it first closed
@@ -74,6 +75,15 @@ class ContourMemory {
   Clearance read(Section* section);
   /// The path of the block is settled: it begins with this vector, which the program may have given.
   Clearance settle(const Section& section, Vec2 from, bool from_given);
+  /// A block without movement has given a vector (I J K, M700 12.4.3 (4); G39 of DGSHAPE): the tool goes there from the one before, where the contour stands.
+  struct Step {
+    Vec2 from, to;
+    bool bends = false;  ///< on an arc about the corner
+    double offset = 0;   ///< signed, of what is commanded
+    Vec2 approach;       ///< from the last joint to where the contour stands
+    bool crosses = false;  ///< from the other side
+  };
+  Clearance step(const Step& step);
 
  private:
   struct Wall {

@@ -41,7 +41,9 @@ struct Section {
   uint32_t descent = 0;       ///< of the contour, which it belongs to
   bool transparent = false;   ///< `cancel`, but compensation goes on behind it
   bool cuts = false;          ///< not a rapid
-  bool led = false;           ///< a displacement from the programmed start to the first vector goes before it
+  bool led = false;           ///< a displacement to the first vector goes before it
+  Vec2 led_from;              ///< ... from this vector
+  bool led_turns = false;     ///< ... which is one of another contour on the same side
   bool settled = false;       ///< its path has been looked at
 };
 

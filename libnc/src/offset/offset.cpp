@@ -145,7 +145,8 @@ OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
   held.has_lead = held.lead_arc = held.straight = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = held.passed = false;
   held.commanded = true;
   held.doubt = {};
-  held.lead = Vec2{};
+  held.lead = held.lead_from = Vec2{};
+  held.lead_crosses = false;
   held.joint.n = 0;
   return held;
 }
@@ -284,8 +285,7 @@ void OffsetStage::intake_move(Held* held) {
   if (mode_ == Mode::pending && !starts && !move.comp.transparent) {
     // M700 12.4.2 (1): the vector of a command without movement is perpendicular at the start of the next
     // moving block.
-    held->has_lead = true;
-    held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
+    lead(held, perpendicular(begin, signed_offset(move.comp)));
     start_commanded_ = false;
     mode_ = Mode::on;
   }
@@ -294,8 +294,7 @@ void OffsetStage::intake_move(Held* held) {
   if (side_changed_ && !other_side && mode_ == Mode::on && move.comp.side != 0 && !move.comp.transparent && given_ && open() == nullptr) {
     close();
     if (failed_) return;
-    held->has_lead = true;
-    held->lead = tail_ = perpendicular(begin, signed_offset(move.comp));
+    lead(held, perpendicular(begin, signed_offset(move.comp)));
     start_commanded_ = false;
   }
   side_changed_ = false;
@@ -371,6 +370,29 @@ void OffsetStage::bend_behind(uint32_t index, const Item& corner) {
   if (last.feed_mm_min <= 0 && last.feed_mm_rev <= 0) fail(index, Condition::no_feed, nc_source(corner.source));
 }
 
+// The tool goes from the vector in force to this one before the move.
+void OffsetStage::lead(Held* held, Vec2 vector) {
+  held->has_lead = true;
+  held->lead_from = tail_;
+  held->lead = tail_ = vector;
+  held->lead_crosses = side_changed_;
+}
+
+// Does the way to a vector that a block without movement gives cut into the contour? A chord between two vectors comes nearer to the corner than both of them.
+bool OffsetStage::look_at_step(const Held& held) {
+  if (!comp_.check || !comp_.walls) return true;
+  ContourMemory::Step step;
+  step.from = held.lead_from;
+  step.to = held.lead;
+  step.bends = held.lead_arc;
+  step.offset = signed_offset(comp_);
+  step.approach = approach_;
+  step.crosses = held.lead_crosses;
+  const Clearance found = memory_.step(step);
+  if (found != Clearance::fits) fail(next_index(), condition_of(found), nc_source(held.item.source));
+  return !failed_;
+}
+
 // A command that does not move in the plane: its vector, if it gives one, holds from here on (M700 12.4.3
 // (4)).
 void OffsetStage::intake_command(Held* held) {
@@ -381,25 +403,27 @@ void OffsetStage::intake_command(Held* held) {
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
     close();
     if (failed_) return;
-    start_commanded_ = held->has_lead = held->lead_arc = true;
-    held->lead = tail_ = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
+    start_commanded_ = held->lead_arc = true;
+    lead(held, signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]})));
+    if (!look_at_step(*held)) return;
   } else if (comp.corner_arc) {
     if (last) bend_behind(last->index, held->item);
     if (failed_) return;
   } else if (comp.has_vector) {
-    side_changed_ = false;
     mode_ = Mode::on;
-    tail_ = commanded_vector(comp);
+    const Vec2 vector = commanded_vector(comp);
     if (last && !last->vanished) {
+      tail_ = vector;
       last->joint = ContourJoint::single(tail_);
       last->jointed = last->commanded = true;
     } else {  // all joints in front are known
-      const Vec2 vector = tail_;
       close();
       if (failed_) return;
-      start_commanded_ = held->has_lead = true;
-      held->lead = tail_ = vector;
+      start_commanded_ = true;
+      lead(held, vector);
+      if (!look_at_step(*held)) return;
     }
+    side_changed_ = false;
   }
   ++count_;
 }
@@ -426,6 +450,8 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.transparent = comp.transparent;
   section.cuts = move.kind != NC_MOVE_RAPID;
   section.led = held->has_lead && !held->lead_arc;
+  section.led_from = held->lead_from;
+  section.led_turns = section.led && held->lead_from != Vec2{} && !held->lead_crosses;
   section.avoid = comp.avoid;
   if (!section.cancel && !section.start) {
     // It begins with the amount of the block before (M700 12.4.6).

@@ -120,6 +120,8 @@ class OffsetStage {
     bool in_contour = false;  ///< marks: contour_ has what the check of the walls has seen
     double level = 0;  ///< marks
     Vec2 lead;
+    Vec2 lead_from;           ///< the vector in force before it
+    bool lead_crosses = false;  ///< ... which lies on the other side
     ContourJoint joint;  ///< section: at its end
   };
 
@@ -131,6 +133,8 @@ class OffsetStage {
   void intake_uncompensated(Held* held);
   void bend_behind(uint32_t index, const Item& corner);
   void intake_command(Held* held);
+  void lead(Held* held, Vec2 vector);
+  bool look_at_step(const Held& held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
   ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,

@@ -167,8 +167,6 @@ void bend(const Move& like, const AxisVec& programmed, Vec2 from, Vec2 to, Item*
   move.feed_mm_min = like.feed_mm_min;
   move.feed_mm_rev = like.feed_mm_rev;
   const uint8_t* axis = move.comp.axis;
-  double sweep = turned_by(from, to);
-  if (kPi - std::abs(sweep) < 1e-6) sweep = signed_offset(move.comp) > 0 ? -std::abs(sweep) : std::abs(sweep);
   move.kind = NC_MOVE_ARC;
   move.circular = true;
   move.plane = plane;
@@ -179,12 +177,7 @@ void bend(const Move& like, const AxisVec& programmed, Vec2 from, Vec2 to, Item*
   move.circle.radius_start = norm(from);
   move.circle.radius_end = norm(to);
   move.circle.angle_start = std::atan2(from.v, from.h);
-  move.circle.sweep = sweep;
-}
-
-bool bendable(Vec2 from, Vec2 to) {
-  return norm(from) > kNoLength && std::abs(norm(from) - norm(to)) < 1e-6 &&
-         norm(to - from) > kNoLength;
+  move.circle.sweep = corner_sweep(from, to, signed_offset(move.comp));
 }
 
 }  // namespace

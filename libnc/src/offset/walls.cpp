@@ -16,6 +16,10 @@ constexpr double kFull = 2 * kPi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Radii that differ by less count as one.
 constexpr double kOneRadius_mm = 1e-4;
+/// Vectors whose lengths differ by less end on one circle about the corner.
+constexpr double kBends_mm = 1e-6;
+/// Which way a turn of 180 degrees goes is decided by rounding, from this near on.
+constexpr double kHalfTurn_rad = 1e-6;
 
 double turned(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 double mean_radius(const Piece& arc) { return 0.5 * (arc.radius + arc.radius_end); }
@@ -142,15 +146,23 @@ Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to) {
   return path;
 }
 
-Piece arc_about(Vec2 center, Vec2 from, Vec2 to) {
+bool bendable(Vec2 from, Vec2 to) { return norm(from) > kNoLength && std::abs(norm(from) - norm(to)) < kBends_mm && norm(to - from) > kNoLength; }
+
+double corner_sweep(Vec2 from, Vec2 to, double offset) {
+  const double sweep = turned(from, to);
+  if (kPi - std::abs(sweep) >= kHalfTurn_rad) return sweep;
+  return offset > 0 ? -std::abs(sweep) : std::abs(sweep);
+}
+
+Piece arc_about(Vec2 center, Vec2 from, Vec2 to, double offset) {
   Piece arc;
-  arc.from = from;
-  arc.to = to;
+  arc.from = center + from;
+  arc.to = center + to;
   arc.round = true;
   arc.center = center;
-  arc.radius = norm(from - center);
-  arc.radius_end = norm(to - center);
-  arc.sweep = turned(from - center, to - center);
+  arc.radius = norm(from);
+  arc.radius_end = norm(to);
+  arc.sweep = corner_sweep(from, to, offset);
   return arc;
 }
 

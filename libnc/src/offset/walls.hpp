@@ -21,8 +21,12 @@ struct Piece {
 Piece wall_of(const Section& section, Vec2 start);
 /// The tool's path along it, with these vectors at its ends.
 Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to);
-/// An arc about `center` the shorter way (G39).
-Piece arc_about(Vec2 center, Vec2 from, Vec2 to);
+/// Does an arc about the corner (G39) lead from one vector to the other? Else it is a line.
+bool bendable(Vec2 from, Vec2 to);
+/// Its angle, counter-clockwise positive: the shorter way, and half a turn round the outside of what is compensated by this amount.
+double corner_sweep(Vec2 from, Vec2 to, double offset);
+/// An arc about `center` from one vector to the other.
+Piece arc_about(Vec2 center, Vec2 from, Vec2 to, double offset);
 
 /// What it lies in.
 Box box_of(const Piece& piece);
