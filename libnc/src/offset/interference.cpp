@@ -139,7 +139,7 @@ bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
 
 // Does it begin or end with a vector that is not its own any more?
 bool runs_obliquely(const Section& section, bool erased_before) {
-  return !section.start && !section.cancel && !section.dead && (erased_before || section.joint.first_erased);
+  return (erased_before || section.joint.first_erased) && !section.start && !section.cancel && !section.dead;
 }
 
 // The joint at the end of this section leads to the other side.
@@ -309,9 +309,13 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
     }
     section.apart = !crosses;
   }
-  for (unsigned i = 1; i < chain->size(); ++i)  // the vector that is held may have been changed
-    if ((*chain)[i].holds) (*chain)[i].joint = ContourJoint::single(start_vector(*chain, i, first_vector));
-  for (unsigned i = 0; i < chain->size(); ++i) (*chain)[i].oblique = runs_obliquely((*chain)[i], i == 0 ? start.erased : (*chain)[i - 1].joint.last_erased);
+  bool erased_before = start.erased;
+  for (unsigned i = 0; i < chain->size(); ++i) {
+    Section& section = (*chain)[i];
+    if (section.holds && i > 0) section.joint = ContourJoint::single(start_vector(*chain, i, first_vector));  // the vector that is held may have been changed
+    section.oblique = runs_obliquely(section, erased_before);
+    erased_before = section.joint.last_erased;
+  }
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
     if (check_direction(chain, i, start, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;

@@ -163,6 +163,7 @@ void OffsetStage::reset() {
   start_erased_ = false;
   trim_next_ = out_trim_ = bound_ = side_changed_ = false;
   given_ = true;
+  unchecked_ = false;
   doubt_ = {};
   memory_.reset();
   level_ = level_end_ = 0;
@@ -486,7 +487,10 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   chain_.push_back(section);
   approach_ = {};
   ++count_;
-  check_joints(0);
+  // settle() compares its joints. Which sections it may let go depends on arcs that only the avoidance leaves out, so these are looked for first.
+  unchecked_ = true;
+  for (unsigned i = 0; i < chain_.size() && unchecked_; ++i) unchecked_ = !chain_[i].vanished;
+  if (!unchecked_) check_joints(0);
 }
 
 // ---- joints ----
@@ -604,7 +608,9 @@ void OffsetStage::settle() {
   } else {
     while (n < chain_.size() && may_release(n)) ++n;
   }
-  if (n > 0 && chain_[0].check && !check_joints(n)) return;
+  const bool checks = n > 0 && chain_[0].check;
+  if ((checks || unchecked_) && !check_joints(checks ? n : 0)) return;
+  unchecked_ = false;
   release(n);
 }
 

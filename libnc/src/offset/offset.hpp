@@ -187,6 +187,7 @@ class OffsetStage {
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
   Vec2 approach_;        ///< of the next section
+  bool unchecked_ = false;     ///< the last section has not been compared with those in front
   bool given_ = true;          ///< restored: the vector goes by no block behind it
   bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side
   bool start_commanded_ = true;  ///< it may lie anywhere
