@@ -118,9 +118,9 @@ class Plant(Drive):
             self.trip(POWER_SECTION, 0x81)
         if self.running and self.silence > 0 and now - self.heard > self.silence and not self.said_silent:
             self.said_silent = True
-            self.node.emcy.send(NO_HEARTBEAT, 0x11)
             if int.from_bytes(self.node.get_data(0x6007, 0), "little") == 3 and self.state == "enabled":
                 self.state = "stop"
+            self.node.emcy.send(NO_HEARTBEAT, 0x11)  # last: on a bus that is down it is an error
 
 
 def main():
