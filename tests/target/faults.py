@@ -2,6 +2,7 @@
 """The faults of docs/safety.md, brought about while the axes move: each comes to rest, says what it is, and nothing moves before the operator starts."""
 import os
 import random
+import re
 import signal
 import socket
 import struct
@@ -10,6 +11,7 @@ import time
 from machine import INTERFACE, Failed, run, until
 
 CAN_ERROR, CAN_BUS_OFF = 0x20000000, 0x40
+G54, CORNER = (1.25, -2.5, 0.75), 0.011  # of machine.toml: the offset, and the tolerance of the corners
 QUIET_S = 1.0  # for so long nothing may move
 
 
@@ -65,6 +67,20 @@ class Faults:
             raise Failed(f"{what}: a reset does not bring it back: {self.control.says()}, drives {self.drives.states()}")
         self.quiet(f"{what}, behind a reset")
 
+    def on_path(self):
+        """The lines of the program on whose path the axes stand."""
+        x, y, _ = (place - offset for place, offset in zip(self.drives.places(), G54))
+        sides = [line for line, away in ((6, y), (7, x - 30), (8, y - 20), (9, x)) if abs(away) <= CORNER]
+        if not sides:
+            raise Failed(f"the axes stand beside the path, at {x:.3f} {y:.3f} of G54")
+        return sides
+
+    def is_back(self, what, process):
+        """The service has another process than this one, which is gone, and nothing runs in it."""
+        run("systemctl", "reset-failed", "ncrtd", good=False)  # many cuts in a minute are no reason to give up here
+        if not until(lambda: self.control.shown("MainPID") not in ("0", str(process)) and self.control.state() == "idle", 120, every=0.3):
+            raise Failed(f"{what}: the service does not come back: {self.control.log(8)}")
+
     def quick_stop(self, *others):
         """The drives without a fault have stopped, and are off then."""
         if not until(lambda: all(self.drives[n].gauge()[2] not in ("enabled", "stop") for n in others), 15):
@@ -78,9 +94,7 @@ class Faults:
         self.gpio.drive("CHAIN", False)
         said = self.alarmed(("R16", "The emergency stop chain is open"))
         self.rests("chain open")
-        x, y, _ = (place - offset for place, offset in zip(self.drives.places(), (1.25, -2.5, 0.75)))
-        if min(abs(x), abs(x - 30), abs(y), abs(y - 20)) > 0.011:  # the tolerance of the corners
-            raise Failed(f"the axes stand beside the path, at {x:.3f} {y:.3f} of G54")
+        self.on_path()
         if set(self.drives.states()) != {"enabled"}:
             raise Failed(f"the drives do not hold: {self.drives.states()}")
         self.refuses("chain open")
@@ -182,7 +196,40 @@ class Faults:
         self.control.mdi("#1100=0")
         return said
 
-    # A power-fail INPUT belongs here, as a fault of its own: an input of the control that comes before the power goes.
+    def supply_fails(self, what):
+        """The line of the supply's monitor drops in motion: R24, rest on the path, data on the disk, then drives off, and a line that says so."""
+        self.in_motion()
+        self.gpio.drive("SUPPLY", False)
+        said = self.alarmed(("R24", "came to rest on their paths"), ("R24", "retained data were written"))
+        self.rests(what)
+        self.on_path()
+        self.quick_stop(0, 1, 2)
+        if not until(lambda: self.gpio.level("SAVED"), 5):
+            raise Failed(f"{what}: nc.power_fail_done does not reach its line: {self.control.says()}")
+        self.refuses(what)
+        return said
+
+    def power_fail(self):
+        """The supply says that it fails. Once it is good again, once the power goes, and the next start knows the place in the program."""
+        said = self.supply_fails("the supply fails")
+        self.gpio.drive("SUPPLY", True)
+        time.sleep(1.0)  # more than settle_s
+        self.refuses("the supply is good again, no reset")
+        self.acknowledge("the supply is good again")
+        self.supply_fails("the supply fails for good")
+        process, counted, places, sides = int(self.control.shown("MainPID")), self.control.variable(501), self.drives.places(), self.on_path()
+        os.kill(process, signal.SIGKILL)
+        self.gpio.drive("SUPPLY", True)
+        self.is_back("the power has gone", process)
+        told = self.alarmed(("R25", "The power failed in a program: long.nc, line "))
+        found = re.search(r"line (\d+), X([-.\d]+) Y([-.\d]+) Z([-.\d]+)", told)
+        if not found or int(found[1]) not in sides or max(abs(float(text) - place) for text, place in zip(found.groups()[1:], places)) > CORNER:
+            raise Failed(f"{told!r}, but the axes stand at {places}, on line {sides}")
+        if self.control.variable(501) != counted:
+            raise Failed(f"#501 was {counted}, and is {self.control.variable(501)}")
+        self.refuses("power on behind a failure in a program")
+        self.acknowledge("power on behind a failure in a program")
+        return f"{said}; {told}"
 
     def power_cuts(self):
         """ncrtd gets SIGKILL in motion: the drives stop by themselves, what is kept is intact, and the service comes back with nothing running."""
@@ -197,9 +244,7 @@ class Faults:
             seen = self.control.variable(501)
             os.kill(process, signal.SIGKILL)
             self.rests(f"kill {n}")
-            run("systemctl", "reset-failed", "ncrtd", good=False)  # many cuts in a minute are no reason to give up here
-            if not until(lambda: self.control.shown("MainPID") not in ("0", str(process)) and self.control.state() == "idle", 120, every=0.3):
-                raise Failed(f"kill {n}: the service does not come back: {self.control.log(8)}")
+            self.is_back(f"kill {n}", process)
             if self.control.alarms():
                 raise Failed(f"kill {n}: {self.control.says()}")
             self.quiet(f"kill {n}: behind the start of the service")
@@ -213,4 +258,5 @@ class Faults:
         return f"{self.kills} cuts; #501 came to {counted:.0f} and was {most_lost:.0f} behind at most, the rest of what is kept is what it was"
 
     def all(self):
-        return [self.chain, self.emergency_stop, self.drive_fault, self.node_killed, self.interface_down, self.bus_off, self.chip_pulled_out, self.power_cuts]
+        return [self.chain, self.emergency_stop, self.drive_fault, self.node_killed, self.interface_down, self.bus_off, self.chip_pulled_out, self.power_fail,
+                self.power_cuts]

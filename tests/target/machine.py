@@ -43,7 +43,7 @@ def until(what, seconds, every=0.1):
 class Gpio:
     """A chip of gpio-sim (configfs) with named lines."""
     FOLDER = pathlib.Path("/sys/kernel/config/gpio-sim/nc")
-    LINES = {0: "PART", 1: "CHAIN", 4: "CLAMP", 5: "LAMP", 6: "WATCHDOG"}
+    LINES = {0: "PART", 1: "CHAIN", 2: "SUPPLY", 4: "CLAMP", 5: "LAMP", 6: "WATCHDOG", 7: "SAVED"}
 
     def __init__(self):
         run("modprobe", "gpio-sim")
@@ -56,7 +56,7 @@ class Gpio:
         for offset, name in self.LINES.items():
             (bank / f"line{offset}").mkdir()
             (bank / f"line{offset}" / "name").write_text(name)
-        self.levels = {"PART": False, "CHAIN": True}
+        self.levels = {"PART": False, "CHAIN": True, "SUPPLY": True}
         self.plug()
 
     def plug(self):
