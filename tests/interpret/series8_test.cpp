@@ -259,7 +259,7 @@ TEST(Series8Cycle, WhatWouldCutTheWallIsAnAlarm) {  // G88, G89: "shifted off-ce
 }
 
 TEST(Series8Cycle, PlacesBesideItsCodeAreAnAlarm) {  // G49, G50 in a cycle: in a block of their own, where I and J are those of the pattern
-  for (const char* code : {"G49X0Y0I10J10K3L3", "G50X0Y0I10J10K3L3", "G34X0Y0I6J4D1", "G06X1Y1I1"}) {
+  for (const char* code : {"G49X0Y0I10J10K3L3", "G50X0Y0I10J10K3L3", "G34X0Y0I6J4D1", "G06X1Y1"}) {
     const Outcome run = series8(std::string("F100\nG00Z10\nG81") + code + "Z-1R1\nG80\nM30");
     EXPECT_EQ(run.alarm, "NC-FORMAT") << code;
     EXPECT_EQ(run.alarm_line, 3u) << code;

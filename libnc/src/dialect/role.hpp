@@ -65,6 +65,7 @@ enum class Role : uint8_t {
   surface_radius,                               ///< radius at the present position, for constant surface speed
   // ---- machine inputs and outputs by number
   output_number, word_number, word_value, input_wait, input_limit,   ///< a bit; a word and its value; how an input is waited for, and for how long, s
+  path_tolerance, line_tolerance,               ///< how far corners may be cut; how far lines that become one may lie off
   override_switch, named_tool, orient_angle,    ///< allows or bars one override; tool in the spindle; angle of an oriented spindle, deg
   // ---- tool life: of a group its number, the life of each tool and what is counted; of a tool its number and those of its offsets
   life_group, life_span, life_method, life_tool, life_length, life_radius,

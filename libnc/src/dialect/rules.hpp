@@ -59,7 +59,8 @@ struct BlockRules {
   bool assigns_at_once;
   /// A word without a number is 0, in any block (Series 8 G01, G41 print G00XY). Otherwise it is a fault, but for the blocks that M700 14.10, 6.9 print.
   bool bare_word_is_zero = false;
-  /// A word that no code of the block takes is a fault (LinuxCNC, its errors "D word with no G41", "L word with no canned cycle" and their like). Otherwise it
+  /// A word that no code of the block takes is a fault (LinuxCNC, its errors "D word with no G41", "L word with no canned cycle" and their like; the formats
+  /// of DGSHAPE, HX and Series 8 list the words of each code). Otherwise it
   /// is passed over.
   bool unused_words_are_faults = false;
 };
@@ -202,6 +203,9 @@ struct CompensationRules {
   /// In the mode the code of the other side may stand in the block of an arc (HX 13.2.2 (3): "N6 G41 G02 J-50.0"). Otherwise these codes and an arc
   /// do not go together (M700 App. 1 P151).
   bool side_changes_on_arc = false;
+  /// The offset number holds until the next one, whatever block it stands in (M700 12.1; HX 13.1.1; Series 8 G41 prints it beside T). Otherwise it counts
+  /// only beside the code of compensation (RS-274/NGC 3.5.10; DGSHAPE G41: "G41 D n").
+  bool number_in_any_block = true;
   /// Tool position offset stands neither in compensation nor in the block of a cycle (HX 12.2.2, 13.3). Otherwise a cycle is made without it, and in
   /// compensation it lengthens the programmed way (M700 12.6).
   bool bars_position_offset = false;
@@ -285,6 +289,9 @@ struct CycleRules {
   /// The shift beside the hole is that of the spindle, which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88).
   /// Otherwise it is mapped as other words are (M700 13.19).
   bool shift_is_of_spindle = false;
+  /// All cycles have one format: each takes the words of every other one and keeps them for it (HX 12.1.2). Otherwise each has its own (DGSHAPE G80 to G89;
+  /// Series 8 G81 to G89).
+  bool words_of_all = false;
   /// A bottom above R is a fault (LinuxCNC G81). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
 };

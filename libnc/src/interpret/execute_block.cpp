@@ -412,6 +412,7 @@ Execution execute_words(Interpreter& in) {
   if (did == Execution::done && in.state.map.kind != AxisMap::Kind::none) did = check_mill_block(in);
   if (did != Execution::done) return did;
   did = resolve_axes(in);
+  if (did == Execution::done && in.dialect->rules.block.unused_words_are_faults) did = check_unused_words(in);
   if (did != Execution::done) return did;
   if (is_space_arc(in.state.modal.of(Mode::motion)) || in.state.arc_step != ArcStep::none) did = check_space_arc_block(in);
   if (did == Execution::done && in.state.nurbs.active()) did = check_nurbs_block(in);

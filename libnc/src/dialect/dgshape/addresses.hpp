@@ -24,7 +24,6 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::vector_z, 'K'},
     {Role::turn_x, 'A'},          // 1-4: the axis that the rotary axis unit turns about
     {Role::arc_radius, 'R'},      // G02, G03
-    {Role::arc_turns, 'P'},
     {Role::dwell_seconds, 'X'},   // G04
     {Role::dwell_time, 'P'},
     {Role::cycle_level, 'R'},     // G80 to G89

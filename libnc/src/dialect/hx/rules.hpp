@@ -33,7 +33,8 @@ inline constexpr Rules kRules = {
               .stops_stand_alone = false,
               .dwell_stands_alone = false,
               .words_stand_once = false,  // 14.1.1 (3): the last one counts
-              .assigns_at_once = false},
+              .assigns_at_once = false,
+              .unused_words_are_faults = true},
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = true,  // 9.3
@@ -77,7 +78,8 @@ inline constexpr Rules kRules = {
               .rises_before_positioning = false,
               .longest_dwell_ms = 99999999,
               .shift_needs_words = true,
-              .shift_is_of_spindle = true},  // 12.3.9, 12.3.10
+              .shift_is_of_spindle = true,
+              .words_of_all = true},  // 12.3.9, 12.3.10
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,

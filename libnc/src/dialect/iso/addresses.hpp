@@ -41,6 +41,8 @@ inline constexpr RoleRow kRoleRows[] = {
     {Role::override_switch, 'P'}, // M50 to M53
     {Role::named_tool, 'Q'},      // M61
     {Role::orient_angle, 'R'},    // M19
+    {Role::path_tolerance, 'P'},  // G64
+    {Role::line_tolerance, 'Q'},
 };
 inline constexpr AddressTable kAddressTable(kRoleRows);
 

@@ -39,7 +39,7 @@ const FunctionRow kFunctions[] = {
     {580, 11, F::scaling_off, nullptr, "part scaling off", "G58"},
     {670, 0, F::absolute_once, nullptr, "absolute values in this block", "G67"},
     {680, 0, F::incremental_once, nullptr, "incremental values in this block", "G68"},
-    {690, 0, F::machine_move, nullptr, "machine coordinates in this block", "G69", "of an arc"},
+    {690, 0, F::machine_move, nullptr, "machine coordinates in this block", "G69"},
     {700, 6, F::inch, nullptr, "inch", "G70"},
     {710, 6, F::metric, nullptr, "millimetres", "G71"},
     {800, 9, F::cycle_off, nullptr, "cycle off", "G80"},

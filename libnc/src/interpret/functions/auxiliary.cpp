@@ -173,10 +173,6 @@ Execution check_precedence(BlockContext& in) {
     const Execution did = check_fractions(in);
     if (did != Execution::done) return did;
   }
-  if (rules.unused_words_are_faults) {
-    const Execution did = check_unused_words(in);
-    if (did != Execution::done) return did;
-  }
   if (in.dialect->rules.compensation.bars_position_offset && (w.cycle != nullptr || in.state.cycle.kind != CycleKind::none))
     for (const FunctionRow* row : w.functions)  // HX 12.2.2
       if (offsets_position(row->function)) return in.raise_code(Condition::not_accepted, *row);

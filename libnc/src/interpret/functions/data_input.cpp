@@ -143,6 +143,10 @@ Execution do_data_input(BlockContext& in) {
   const bool of_system = row->input == DataInput::work_offset || row->input == DataInput::work_offset_here;
   if (of_system && rules.data_input.amount_turns_system && w.has(Role::input_amount) && w.get(Role::input_amount) != 0)
     return in.raise(Condition::no_function, Role::input_amount, w.get(Role::input_amount));
+  if (rules.block.unused_words_are_faults && row->input != DataInput::missing) {  // the offset of a tool has no axes, a coordinate system no amount
+    const WordSet lost = of_system ? in.set_of({Role::input_amount}) : in.axis_words.all();
+    if (w.any(lost) && !(of_system && rules.data_input.amount_turns_system)) return in.raise_first(Condition::illegal_address, w.present & lost);
+  }
   switch (row->input) {
     case DataInput::missing: return in.raise(Condition::no_function, Role::input_kind, l);
     case DataInput::work_offset: return work_offset(in, false, l);

@@ -5,6 +5,7 @@
 #include "frame/rotary.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/program_map.hpp"
 
 namespace nc {
 namespace {
@@ -223,12 +224,15 @@ Execution do_machine_move(BlockContext& in) {
     return Execution::done;
   }
   const Function motion = in.state.modal.of(Mode::motion);
-  if (motion != Function::linear) return in.raise_code(Condition::not_accepted, *w.one_shot);
+  // An arc whose radius or centre a map of the program has turned or scaled has no place in machine coordinates.
+  const bool arc = is_arc(motion) && absolute_here && !program_mapped(in);
+  if (motion != Function::linear && !arc) return in.raise_code(Condition::not_accepted, *w.one_shot);
   const Execution fed = check_feed(in, motion);
   if (fed != Execution::done) return fed;
   AxisVec target = in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (w.target.commands(i)) target[i] = machine[i] - in.zero()[i] - in.state.applied[i];
+  if (arc) return move_arc(in, target, w.target.axes(), motion == Function::arc_ccw);
   LinearStyle style;
   style.feed_mm_min = feed_mm_min(in);
   style.special_feed = special_feed(in);

@@ -11,7 +11,12 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kRuns = 1;  ///< bit of the first word of inputs: @RUNG6
+/// The input that keeps the loop going is the first one that the family has a name for (Series 8: @RUNG6).
+bool goes_on(const BlockContext& in) {
+  for (const VariableRow& row : in.dialect->variables->rows)
+    if (row.what == SystemVariable::input_bit) return (in.world.input[row.part] & 1) != 0;
+  return false;
+}
 
 /// One way there and back. The axes go as the shadow of a point that goes round a circle at an even speed, so they turn round without a stop.
 bool make_pass(BlockContext& in) {
@@ -66,7 +71,7 @@ Execution do_sine_loop(BlockContext& in) {
 
 Execution continue_sine_loop(BlockContext& in) {
   if (!in.world_fresh) return in.need(NC_SYNC_INPUT);
-  if ((in.world.input[0] & kRuns) == 0) return Execution::done;
+  if (!goes_on(in)) return Execution::done;
   make_pass(in);
   return in.need(NC_SYNC_INPUT);
 }
