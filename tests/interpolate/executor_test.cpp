@@ -753,14 +753,14 @@ TEST(Executor, MessagesComeOneAtATimeWithAnEdgeEach) {
 TEST(Executor, ControlVariablesSuppressSingleBlockHoldAndOverride) {
   const ExecutorConfig c = standard_config();
   Program p(c);
-  p.action(NC_ACTION_CONTROL, 1, 3003);
-  p.action(NC_ACTION_CONTROL, 3, 3004);
+  p.action(NC_ACTION_CONTROL, NC_SUPPRESS_SINGLE_BLOCK, NC_CONTROL_SUPPRESS);
+  p.action(NC_ACTION_CONTROL, NC_DISABLE_FEED_HOLD | NC_DISABLE_OVERRIDE, NC_CONTROL_DISABLE);
   p.line(xyz(5), 50);
   p.mark();
   p.line(xyz(10), 50);
   p.mark();
-  p.action(NC_ACTION_CONTROL, 0, 3003);
-  p.action(NC_ACTION_CONTROL, 0, 3004);
+  p.action(NC_ACTION_CONTROL, 0, NC_CONTROL_SUPPRESS);
+  p.action(NC_ACTION_CONTROL, 0, NC_CONTROL_DISABLE);
   p.line(xyz(15), 50);
   p.mark();
   p.end();

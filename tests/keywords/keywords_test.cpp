@@ -113,6 +113,14 @@ TEST(Keywords, TablesOfTheFamilySayWhatSharesABlock) {
   EXPECT_EQ(keywords("FEED 100\nLINE X10\nINCREMENTAL X1\nEND\n").alarm, "");
 }
 
+// nc_action::letter: SPEED has the word of an axis that could be called S; commands have a word that no letter stands for.
+TEST(Keywords, AnActionHasALetterOnlyWhereItsWordHasOne) {
+  std::string ours;
+  for (const nc_item& item : keywords(kPart).of(NC_ITEM_ACTION))
+    if (item.u.action.kind <= NC_ACTION_B) ours += (item.u.action.letter == 0 ? "-" : std::string(1, item.u.action.letter)) + test::brief(item.u.action.value) + " ";
+  EXPECT_EQ(ours, "S1000 -3 -5 -2 ");
+}
+
 TEST(Keywords, RewindAnywhereAndGoOnTheSameWay) {
   Bench bench(kKeywordFamily);
   const Outcome whole = bench.tool(1, 3).run(kPart);

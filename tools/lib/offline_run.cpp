@@ -10,7 +10,6 @@ namespace {
 
 constexpr uint32_t kBudget = 4096;  // blocks that one pull may read
 constexpr uint64_t kMostMovesInBlock = 1000000;  // a cycle with a peck of a thousandth of what was meant
-constexpr uint32_t kMacroInterrupt = 96;  // index of the action of M96, M97 and the interrupt program
 
 class OfflineRun {
  public:
@@ -64,7 +63,7 @@ class OfflineRun {
     } else if (item.kind == NC_ITEM_SYNC) {
       if (item.u.sync.what & NC_SYNC_CLOCK) silent_ = 0;
     } else if (item.kind != NC_ITEM_ACTION || item.u.action.kind != NC_ACTION_CONTROL ||
-               item.u.action.index != kMacroInterrupt) {
+               item.u.action.index != NC_CONTROL_INTERRUPT) {
       silent_ = 0;
     }
   }

@@ -59,16 +59,29 @@ typedef enum nc_action_kind {
 
 /** nc_action::index of an NC_ACTION_CONTROL: what the action is about. */
 typedef enum nc_control_index {
-  NC_CONTROL_SUPPRESS = 3003,    /**< `value`: bit 0 no stop of single block, bit 1 FIN is not awaited (M700 13.5.9, #3003) */
-  NC_CONTROL_DISABLE = 3004,     /**< `value`: bit 0 no feed hold, bit 1 no override, bit 2 no exact stop (M700 13.5.10, #3004) */
-  NC_CONTROL_TAPPING = 63,       /**< tapping: `value` nc_tapping_bits, 0 = none (M700 7.11, 13.1.1) */
-  NC_CONTROL_SURFACE_RADIUS = 23, /**< constant surface speed: the radius at the present coordinate of the axis of `bits` is `value` mm, and its coordinates
-                                       are diameters */
-  NC_CONTROL_SURFACE_SPEED = 17, /**< constant surface speed G96: `value` m/min, `bits` bit n = by axis n, 0 = G97 */
-  NC_CONTROL_SPINDLE_CLAMP = 92, /**< G92 S Q of the selected spindles: `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
-  NC_CONTROL_TOOL_LIFE = 3,      /**< a tool has come into the spindle: `value` its number in the table of tool life, 0 = its life is not managed */
-  NC_CONTROL_INTERRUPT = 96      /**< macro interrupt: `value` nc_interrupt_bits */
+  NC_CONTROL_SUPPRESS = 0,       /**< `value`: nc_suppress_bits (M700 13.5.9, #3003) */
+  NC_CONTROL_DISABLE = 1,        /**< `value`: nc_disable_bits (M700 13.5.10, #3004) */
+  NC_CONTROL_TAPPING = 2,        /**< tapping: `value` nc_tapping_bits, 0 = none (M700 7.11, 13.1.1) */
+  NC_CONTROL_SURFACE_RADIUS = 3, /**< constant surface speed: the radius at the present coordinate of the axis of `bits` is `value` mm, and its coordinates
+                                      are diameters */
+  NC_CONTROL_SURFACE_SPEED = 4,  /**< constant surface speed (M700 10.3): `value` m/min, `bits` bit n = by axis n, 0 = it has ended */
+  NC_CONTROL_SPINDLE_CLAMP = 5,  /**< clamp of the selected spindles (M700 10.4): `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
+  NC_CONTROL_TOOL_LIFE = 6,      /**< a tool has come into the spindle: `value` its number in the table of tool life, 0 = its life is not managed */
+  NC_CONTROL_INTERRUPT = 7       /**< macro interrupt: `value` nc_interrupt_bits */
 } nc_control_index;
+
+/** What the program has suppressed, in `value` of NC_CONTROL_SUPPRESS: bits. */
+typedef enum nc_suppress_bits {
+  NC_SUPPRESS_SINGLE_BLOCK = 1, /**< no stop of single block */
+  NC_SUPPRESS_FIN = 2           /**< FIN is not awaited */
+} nc_suppress_bits;
+
+/** What the program has disabled, in `value` of NC_CONTROL_DISABLE: bits. */
+typedef enum nc_disable_bits {
+  NC_DISABLE_FEED_HOLD = 1, /**< no feed hold */
+  NC_DISABLE_OVERRIDE = 2,  /**< no override */
+  NC_DISABLE_EXACT_STOP = 4 /**< no exact stop */
+} nc_disable_bits;
 
 /** What of tapping is in force, in `value` of NC_CONTROL_TAPPING. */
 typedef enum nc_tapping_bits {

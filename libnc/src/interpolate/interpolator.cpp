@@ -179,7 +179,7 @@ void Interpolator::interrupt(const nc_inputs& in) {
 /// whose radius is compensated, in a contour (where the blocks cannot be told apart), in a skip move whose signal has come, behind a skip move,
 /// while a table is unclamped, or in a block that changes the state of the interrupt: all these are finished first.
 bool Interpolator::may_cut() const {
-  if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & 2))) return false;
+  if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN))) return false;
   if (tail_ == end_) return true;
   const Record& r = current();
   if (!is_current(r) || r.staged || r.kind == ItemKind::sync) return false;
@@ -269,7 +269,7 @@ void Interpolator::states(const nc_inputs& in) {
     }
     return;
   }
-  const bool holds = in.feed_hold && !(disable_ & 1) && (tapping_ & NC_TAPPING_MODE) == 0;  // M700 13.5.10: #3004 bit 0; 7.11 (3)
+  const bool holds = in.feed_hold && !(disable_ & NC_DISABLE_FEED_HOLD) && (tapping_ & NC_TAPPING_MODE) == 0;  // M700 13.5.10: #3004 bit 0; 7.11 (3)
   if (holds && state_ == NC_STATE_RUNNING && (tapping_ & NC_TAPPING_STROKES) != 0) {
     hold_behind_tap_ = true;
   } else if (holds && state_ == NC_STATE_RUNNING && cutting_thread()) {
@@ -278,7 +278,7 @@ void Interpolator::states(const nc_inputs& in) {
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
-  if (start_ && in.feed_hold && !(disable_ & 1)) {  // feed hold refuses a start, also one that still waits
+  if (start_ && in.feed_hold && !(disable_ & NC_DISABLE_FEED_HOLD)) {  // feed hold refuses a start, also one that still waits
     start_ = false;
     start_refused_ = true;
   }
@@ -519,7 +519,7 @@ void Interpolator::publish(const nc_inputs& in) {
   status.tool = tool_;
   status.feed_override = feed_override(in);
   // The plan also comes to rest at the end of a block when an interrupt waits for it, a hold was pressed in a thread, or blocks are to be read again.
-  status.single_block = (in.single_block && !(suppress_ & 1)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
+  status.single_block = (in.single_block && !(suppress_ & NC_SUPPRESS_SINGLE_BLOCK)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
   status.servo_ready = servo_ready_;
   status.referenced = referenced_;
   status.ended = run_ended_;
@@ -544,7 +544,7 @@ void Interpolator::publish(const nc_inputs& in) {
 
 /// Feed override in force for cuts in general: #3004 bit 1 switches overrides off.
 double Interpolator::feed_override(const nc_inputs& in) const {
-  return (disable_ & 2) != 0 ? 1 : in.feed_override;
+  return (disable_ & NC_DISABLE_OVERRIDE) != 0 ? 1 : in.feed_override;
 }
 
 /// Feed override of the move in execution, for displays. A thread (M700 6.7.1), the tapping mode (7.11) and a skip move (15.2) go at 100 %, except that
@@ -552,7 +552,7 @@ double Interpolator::feed_override(const nc_inputs& in) const {
 double Interpolator::override_in_force(const nc_inputs& in, nc_override_source* source) const {
   const Segment* s = moving_ ? &current().segment : nullptr;
   const bool fixed = s != nullptr && (s->thread || s->fixed_override || (s->skip && feed_override(in) > 0));
-  *source = (disable_ & 2) != 0 || fixed ? NC_OVERRIDE_PROGRAM : NC_OVERRIDE_INPUT;
+  *source = (disable_ & NC_DISABLE_OVERRIDE) != 0 || fixed ? NC_OVERRIDE_PROGRAM : NC_OVERRIDE_INPUT;
   return *source == NC_OVERRIDE_PROGRAM ? 1 : in.feed_override;
 }
 

@@ -326,8 +326,8 @@ class Interpolator {
   uint8_t fin1_groups_ = 0;  ///< bits of the codes that the FIN1 which is on completes when it falls
   bool fin_low_ = true;  ///< FIN has been off since a strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
-  uint32_t suppress_ = 0;  ///< #3003
-  uint32_t disable_ = 0;   ///< #3004
+  uint32_t suppress_ = 0;  ///< nc_suppress_bits
+  uint32_t disable_ = 0;   ///< nc_disable_bits
 
   // ---- index tables (M700 9.3)
   IndexClamp index_;

@@ -373,7 +373,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
 /// out while the axes move cannot wait for that.
 Interpolator::Done Interpolator::strobe(const Action& a) {
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
-  const bool awaited = !(suppress_ & 2);  // M700 13.5.9: #3003 bit 1
+  const bool awaited = !(suppress_ & NC_SUPPRESS_FIN);  // M700 13.5.9: #3003 bit 1
   if (awaited && at_rest() && (fin_ || (strobe_ & bit))) {
     held_ = bit;
     return wait(NC_CAUSE_FIN);
@@ -446,7 +446,7 @@ Interpolator::Done Interpolator::optional_stop(const nc_inputs& in) {
     if (strobe(m01) != Done::yes) return Done::no;
     gate_begun_ = true;
   }
-  if (fin_wait() != 0 && !(suppress_ & 2)) return wait(NC_CAUSE_FIN);
+  if (fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN)) return wait(NC_CAUSE_FIN);
   gate_begun_ = false;
   state_ = NC_STATE_STOPPED;
   cause_ = NC_CAUSE_PROGRAM_STOP;
@@ -456,7 +456,7 @@ Interpolator::Done Interpolator::optional_stop(const nc_inputs& in) {
 Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
   switch (g.kind) {
     case NC_GATE_FIN:
-      return fin_wait() != 0 && !(suppress_ & 2) ? wait(NC_CAUSE_FIN) : Done::yes;
+      return fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN) ? wait(NC_CAUSE_FIN) : Done::yes;
     case NC_GATE_DWELL_SECONDS:
     case NC_GATE_DWELL_TURNS:
       if ((in.skip & g.skip_mask) != 0) {  // M700 15.3 (2): the rest of the dwell is cancelled
@@ -534,7 +534,7 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
 
 /// But behind a thread.
 bool Interpolator::stops_at(const Mark& m, const nc_inputs& in) const {
-  return m.stop && at_rest() && state_ == NC_STATE_RUNNING && (hold_behind_thread_ || (in.single_block && !(suppress_ & 1)));
+  return m.stop && at_rest() && state_ == NC_STATE_RUNNING && (hold_behind_thread_ || (in.single_block && !(suppress_ & NC_SUPPRESS_SINGLE_BLOCK)));
 }
 
 }  // namespace nc

@@ -118,7 +118,7 @@ void BlockContext::emit_stop_point(bool resume) {
   Item& item = emit(ItemKind::mark);
   item.block_end = false;
   new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
-                        (state.control_3003 & 1) == 0 && !state.modal.is(Function::tapping_mode), false, resume, false, {}};
+                        (state.suppressed & NC_SUPPRESS_SINGLE_BLOCK) == 0 && !state.modal.is(Function::tapping_mode), false, resume, false, {}};
 }
 
 ModalId BlockContext::modal_now(bool executable) {
@@ -138,7 +138,7 @@ void BlockContext::finish_block(bool stop, bool executable) {
   if (state.interrupt_depth != 0) note_interrupt_items();
   if (stop && (state.end_seen ||             // the program has ended, so a start could not go on from here
                state.nurbs.active() ||       // M700 6.15: single block stops only at the last control point
-               (state.control_3003 & 1) ||   // M700 13.5.9: #3003 bit 0 suppresses single block
+               (state.suppressed & NC_SUPPRESS_SINGLE_BLOCK) ||   // M700 13.5.9: #3003 bit 0 suppresses single block
                (state.special != 0 && state.modal.is(Function::tapping_mode))))  // M700 7.11 (4)
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);

@@ -49,7 +49,7 @@ inline void set_modal_feed(BlockContext& in, Move& move, double mm_min) {
 inline bool asks_exact_stop(const BlockContext& in) {
   if (in.dialect->rules.motion.second_code_rests && in.state.modal.number[static_cast<unsigned>(Mode::motion)] != 0) return true;
   const Function mode = in.state.modal.of(Mode::cutting);
-  return mode == Function::exact_stop_mode || (in.words.exact_stop && mode != Function::tapping_mode && (in.state.control_3004 & 4) == 0);
+  return mode == Function::exact_stop_mode || (in.words.exact_stop && mode != Function::tapping_mode && (in.state.disabled & NC_DISABLE_EXACT_STOP) == 0);
 }
 
 }  // namespace nc

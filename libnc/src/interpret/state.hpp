@@ -262,7 +262,7 @@ struct ProgramLife {
   bool interrupt_on = false;    ///< M96 in force (M700 13.12: "to M97 or NC reset")
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none
-  uint8_t control_3003 = 0, control_3004 = 0;  ///< M700 13.5.5: cleared by a reset
+  uint8_t suppressed = 0, disabled = 0;  ///< nc_suppress_bits and nc_disable_bits (M700 13.5.5): cleared by a reset
 };
 
 /// What the machine has been commanded to do: it stays over an interrupt and over MDI blocks.

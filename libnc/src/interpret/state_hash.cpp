@@ -177,8 +177,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     if (nurbs.active()) hash.add(nurbs);
   }
   {
-    const auto& [end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004] = static_cast<const ProgramLife&>(values);
-    hash.add(end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, control_3003, control_3004);
+    const auto& [end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled] = static_cast<const ProgramLife&>(values);
+    hash.add(end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled);
   }
   {
     const auto& [spindle_on, spindle_reverse, spindle_clamped] = static_cast<const UntilReset&>(values);

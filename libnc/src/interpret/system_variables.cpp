@@ -263,7 +263,7 @@ struct ControlBits {
   double end;
   nc_control_index index;
 };
-constexpr ControlBits kControlBits[] = {{&State::control_3003, 4, NC_CONTROL_SUPPRESS}, {&State::control_3004, 8, NC_CONTROL_DISABLE}};
+constexpr ControlBits kControlBits[] = {{&State::suppressed, 4, NC_CONTROL_SUPPRESS}, {&State::disabled, 8, NC_CONTROL_DISABLE}};
 
 Execution write_control(Access& a) {
   const ControlBits& control = kControlBits[a.index];

@@ -152,7 +152,7 @@ Execution check_fractions(BlockContext& in) {
 
 /// M700 13.5.9: with #3003 bit 1 FIN is not waited for.
 void await_fin(BlockContext& in) {
-  if ((in.state.control_3003 & 2) != 0) return;
+  if ((in.state.suppressed & NC_SUPPRESS_FIN) != 0) return;
   in.emit(ItemKind::gate).gate.kind = NC_GATE_FIN;
 }
 
@@ -280,14 +280,13 @@ void auxiliary_behind(BlockContext& in, const Auxiliary& auxiliary) {
       break;
     case MiscFunction::override_allowed:
     case MiscFunction::override_barred: {
-      constexpr uint8_t kNoOverride = 2;  // NC_CONTROL_DISABLE
       const bool barred = function == MiscFunction::override_barred;
       in.state.modal.m = m;
-      in.state.control_3004 = static_cast<uint8_t>(barred ? in.state.control_3004 | kNoOverride : in.state.control_3004 & ~kNoOverride);
+      in.state.disabled = static_cast<uint8_t>(barred ? in.state.disabled | NC_DISABLE_OVERRIDE : in.state.disabled & ~NC_DISABLE_OVERRIDE);
       Action& action = in.emit(ItemKind::action).action;
       action.kind = NC_ACTION_CONTROL;
       action.index = NC_CONTROL_DISABLE;
-      action.value = in.state.control_3004;
+      action.value = in.state.disabled;
       break;
     }
     default: break;

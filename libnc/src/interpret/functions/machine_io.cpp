@@ -51,12 +51,12 @@ Execution switch_override(BlockContext& in, const Auxiliary& code) {
   }
   if (code.which == kAdaptive) return on == 0 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, code.number);
   if (code.which == kSpindle) return on == 1 ? Execution::done : in.raise(Condition::no_function, Role::misc_code, code.number);
-  const auto bit = static_cast<uint8_t>(code.which == kFeed ? 2 : 1);  // of NC_CONTROL_DISABLE
-  in.state.control_3004 = static_cast<uint8_t>(on != 0 ? in.state.control_3004 & ~bit : in.state.control_3004 | bit);
+  const int bit = code.which == kFeed ? NC_DISABLE_OVERRIDE : NC_DISABLE_FEED_HOLD;
+  in.state.disabled = static_cast<uint8_t>(on != 0 ? in.state.disabled & ~bit : in.state.disabled | bit);
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
   action.index = NC_CONTROL_DISABLE;
-  action.value = in.state.control_3004;
+  action.value = in.state.disabled;
   return Execution::done;
 }
 
