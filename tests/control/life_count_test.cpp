@@ -68,6 +68,47 @@ TEST_F(LifeCount, NothingGoesByWhatIsOnlyRead) {
   EXPECT_GE(told_at, 10U) << "with the second mount, and not before";
 }
 
+// What was registered in the place of the tool in the spindle is another tool.
+TEST_F(LifeCount, AToolThatIsNotRegisteredAnyMoreIsNotCounted) {
+  bench.at(0, 0, 0);
+  for (const char* removes : {"G10 L3\n", "G10 L3 P2\nP1\nG11\nG10 L3 P1\n", "G10 L3 P1\nP1 L9 Q2\nT12\n"}) {
+    SCOPED_TRACE(removes);
+    run("G10 L3\nP1 L9 Q2\nT11\nG11\nT1 M6\nG1 X10. F600\nM30");
+    EXPECT_NEAR(life(1, NC_LIFE_USED) * 60, 1, 0.05) << "s";
+    run(std::string(removes) + "P2 L9 Q2\nT21\nG11\nG1 X0 F600\nM30");
+    for (unsigned number = 1; number <= 2; ++number) EXPECT_EQ(life(number, NC_LIFE_USED), 0) << number;
+    EXPECT_EQ(drive->out.tool_group, 0U);
+  }
+}
+
+// A block that removes many tools writes more than any other. What is read ahead can be taken back all the same.
+TEST_F(LifeCount, AResetTakesBackThatAllToolsWereRemoved) {
+  bench.at(0, 0, 0);
+  std::string registers = "G10 L3\nP1 L9 Q2\n";
+  for (unsigned n = 1; n <= NC_TOOL_LIVES; ++n) registers += "T" + std::to_string(n) + "\n";
+  for (const char* removes : {"G10 L3\nG11\n", "G10 L3 P2\nP1\nG11\n", "G10 L3 P1\nP1 L1\nT7\nG11\n"}) {
+    SCOPED_TRACE(removes);
+    run(registers + "G11\n#149=#0\nM30");
+    std::string text = "G1 X" + std::to_string(drive->out.command.v[0] + 100) + " F600\n";
+    for (unsigned n = 0; n < 2400; ++n) text += "#" + std::to_string(100 + n % 50) + "=1" + (n % 10 == 9 ? "\n" : " ");
+    drive = std::make_unique<Drive>(bench, text + removes + "M30");
+    for (unsigned n = 0; n < 40; ++n) {
+      drive->press_start();
+      drive->step(1000);
+    }
+    ASSERT_EQ(drive->out.state, NC_STATE_RUNNING);
+    drive->in.reset = true;
+    for (unsigned n = 0; n < 5; ++n) drive->step(50);
+    drive->in.reset = false;
+    for (unsigned n = 0; n < 5; ++n) drive->step(50);
+    EXPECT_EQ(life(NC_TOOL_LIVES, NC_LIFE_TOOL), NC_TOOL_LIVES);
+    double value = 0;
+    bool vacant = false;
+    EXPECT_EQ(nc_variable_get(bench.control(), 0, 149, &value, &vacant), NC_OK);
+    EXPECT_TRUE(vacant);
+  }
+}
+
 TEST_F(LifeCount, AToolThatBreaksIsNotUsedAnyMore) {
   run("G10 L3\nP7 L100\nT11\nT12\nG11\nT7 M6\nM30");
   EXPECT_EQ(drive->out.t, 11U);

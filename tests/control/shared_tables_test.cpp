@@ -6,136 +6,11 @@
 #include <map>
 #include <random>
 
-#include "support/pull.hpp"
+#include "part_system_pair.hpp"
 #include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
-
-void two_systems(nc_config& c) {
-  c.look_ahead = 64;
-  c.cycle_s = 0.004;
-  c.system_count = 2;
-  c.system[1] = c.system[0];
-}
-
-/// Two part systems on one bench.
-class Pair {
- public:
-  Pair() : bench(NC_DIALECT_M700, two_systems) {}
-
-  void select(unsigned system, const std::string& text) {
-    EXPECT_EQ(nc_program_select(control(), system, bench.add("main" + std::to_string(system), text)), NC_OK);
-  }
-  nc_control* control() { return bench.control(); }
-  /// The value of a variable for a part system, with what it has read ahead; NaN = vacant.
-  double var(unsigned system, uint32_t number) {
-    double value = 0;
-    bool vacant = false;
-    EXPECT_EQ(nc_variable_get(control(), system, number, &value, &vacant), NC_OK);
-    return vacant ? NAN : value;
-  }
-  /// The same value as the executed blocks have left it.
-  double executed(unsigned system, uint32_t number) {
-    struct Look {
-      unsigned system;
-      uint32_t number;
-      double value;
-      bool vacant;
-    } look{system, number, 0, false};
-    nc_look_executed(
-        control(),
-        [](void* user, const nc_control* seen) {
-          Look& to = *static_cast<Look*>(user);
-          nc_variable_get(seen, to.system, to.number, &to.value, &to.vacant);
-        },
-        &look);
-    return look.vacant ? NAN : look.value;
-  }
-  void expect(uint32_t number, double value) {
-    for (unsigned system = 0; system < 2; ++system) {
-      EXPECT_EQ(brief(var(system, number)), brief(value)) << "#" << number << " in part system " << system + 1;
-    }
-  }
-
-  // ---- offline
-  /// Pulls the next item, and answers a sync; false if there is none.
-  bool pull(unsigned system, nc_item* item) {
-    nc_status status = NC_BUDGET;
-    while (status == NC_BUDGET) status = nc_pull(control(), system, 100, item);
-    if (status != NC_OK) return false;
-    if (item->kind == NC_ITEM_MOVE) machine_[system] = item->u.move.machine;
-    if (item->kind == NC_ITEM_SYNC) {
-      nc_world world{};
-      world.machine = machine_[system];
-      EXPECT_EQ(nc_answer(control(), system, &world), NC_OK);
-      ++syncs[system];
-    }
-    if (item->kind == NC_ITEM_ALARM) ADD_FAILURE() << "alarm in part system " << system + 1;
-    return true;
-  }
-  void finish(unsigned system) {
-    nc_item item{};
-    while (pull(system, &item)) {
-    }
-  }
-  void run(unsigned system, const std::string& text) {
-    select(system, text);
-    finish(system);
-  }
-  nc_axes machine(unsigned system) const { return machine_[system]; }
-
-  // ---- online
-  nc_inputs in[2] = {};
-  nc_outputs out[2] = {};
-  unsigned syncs[2] = {};
-  struct Mark {
-    unsigned system;
-    uint32_t line;
-  };
-  std::vector<Mark> marks;  ///< the executed blocks of both part systems, in the order of execution
-  /// One cycle of the machine; `start`: bit n starts part system n.
-  void cycle(unsigned start = 0, bool feed = true) {
-    if (feed) nc_feed(control(), 100);
-    for (unsigned i = 0; i < 2; ++i) {
-      in[i].feed_override = in[i].rapid_override = 1;
-      in[i].cycle_start = (start >> i & 1) != 0;
-      in[i].fin = out[i].strobe != 0;
-    }
-    nc_cycle(control(), in, out);
-    nc_event event;
-    uint64_t dropped = 0;
-    for (unsigned i = 0; i < 2; ++i) {
-      while (nc_event_poll(control(), i, &event, &dropped) == NC_OK)
-        if (event.kind == NC_ITEM_MARK) marks.push_back({i, event.source.line});
-    }
-  }
-  void cycles(unsigned count) {
-    for (unsigned n = 0; n < count; ++n) cycle();
-  }
-  void start(unsigned systems) {
-    cycles(2);
-    cycle(systems);
-    cycle();
-  }
-  bool idle() const { return out[0].state == NC_STATE_IDLE && out[1].state == NC_STATE_IDLE; }
-  void to_the_end() {
-    for (unsigned n = 0; n < 20000 && !idle(); ++n) cycle();
-    EXPECT_TRUE(idle());
-    cycles(2);
-  }
-  void reset(unsigned system) {
-    in[system].reset = true;
-    cycles(3);
-    in[system].reset = false;
-    cycles(2);
-  }
-
-  Bench bench;
-
- private:
-  nc_axes machine_[2] = {};
-};
 
 TEST(SharedTables, ToolDataOfTheOtherPartSystem) {
   Pair pair;
@@ -200,6 +75,37 @@ TEST(SharedTables, OnePartSystemDoesNotWait) {
   ASSERT_EQ(nc_pull(pair.control(), 0, 10, &item), NC_OK);
   EXPECT_EQ(item.kind, NC_ITEM_SYNC);
   EXPECT_EQ(item.u.sync.what, NC_SYNC_SHARED);
+}
+
+/// #1303 in a program decides what is shared from its block on. What comes before it is executed with what was shared until then, also where the machine
+/// is far behind.
+TEST(SharedTables, AProgramChangesWhatIsShared) {
+  for (const bool online : {false, true}) {
+    SCOPED_TRACE(online);
+    Pair more;  // #101 becomes common with the value of the first part system
+    nc_variable_set(more.control(), 0, 101, 3, false);
+    more.select(1, "#101=5\nG1 X4. F1000\nG10 L70\nP1303 D199\nG11\n#102=6\nM30");
+    more.select(0, "G4 X0.1\n#140=#101\nG4 X1.\n#1=#500\n#141=#101\n#142=#102\nM30");  // #500 waits for the machine
+    if (online) {
+      more.start(3);
+      more.to_the_end();
+    } else {
+      more.finish(1);
+      more.finish(0);
+    }
+    EXPECT_EQ(more.var(0, 140), 3);
+    EXPECT_EQ(more.var(0, 141), 3) << "it was system 2's own when #101=5 was executed";
+    EXPECT_EQ(more.var(0, 142), 6);
+    more.expect(101, 3);
+    if (!online) continue;
+    Pair less;  // #101 is common until #1303 says otherwise
+    less.bench.param("1303", "199");
+    less.select(1, "#101=5\nG1 X4. F100\nG10 L70\nP1303 D100\nG11\nM30");
+    less.select(0, "G4 X0.5\n#500=#101\nM30");
+    less.start(3);
+    less.to_the_end();
+    EXPECT_EQ(less.var(0, 500), 5) << "the second part system still moves";
+  }
 }
 
 /// The value before the first write comes back when both writes have been taken back, in whichever order.
@@ -430,6 +336,29 @@ TEST(SharedTables, TheHostWritesForAll) {
   double last = 0;
   EXPECT_EQ(nc_parameter_get(pair.control(), 0, "1304", 0, &last), NC_OK);
   EXPECT_EQ(last, 500);
+}
+
+/// A parameter that a program has written ahead and the host sets then: also one of a single part system.
+TEST(SharedTables, NoRewindTakesBackAParameterOfTheHost) {
+  Pair pair;
+  Bench one;
+  for (nc_control* const control : {one.control(), pair.control()}) {
+    const auto spiral_error = [control] {
+      double value = 0;
+      EXPECT_EQ(nc_parameter_get(control, 0, "8075", 0, &value), NC_OK);
+      return value;
+    };
+    constexpr char kText[] = "G10 L70\nP8075 D5.\nG11\nM30";
+    unsigned file = 0;
+    ASSERT_EQ(nc_program_add_text(control, "sets", kText, sizeof kText - 1, &file), NC_OK);
+    ASSERT_EQ(nc_program_select(control, 0, file), NC_OK);
+    nc_item item{};
+    while (nc_pull(control, 0, 100, &item) == NC_OK) {}
+    EXPECT_EQ(spiral_error(), 5);
+    EXPECT_EQ(nc_parameter_set(control, 0, "8075", 0, "7"), NC_OK);
+    ASSERT_EQ(nc_rewind(control, 0, 0), NC_OK);
+    EXPECT_EQ(spiral_error(), 7);
+  }
 }
 
 // ---- two random programs ---------------------------------------------------------------------------------------------------

@@ -128,6 +128,57 @@ TEST(Journalled, WhatStaysAsItIsTakesNoPlaceInTheJournal) {
   EXPECT_EQ(program.records->offset, 0u);
 }
 
+TEST(Journalled, FieldsOfRecordsOfAnArray) {
+  Program program;
+  program.records.change(1, &Records::points, 1, &Point::x, 5);
+  program.records.change(2, &Records::points, 1, &Point::file, 6);
+  program.records.change(2, &Records::points, 2, &Point::x, 7);
+  EXPECT_EQ(program.records->points[1].x, 5);
+  EXPECT_EQ(program.records->points[1].file, 6);
+  EXPECT_EQ(program.records->points[1].line, 2u);
+  EXPECT_EQ(program.records.key(&Records::points, 1, &Point::x), kFirstKey + 4);
+  EXPECT_EQ(program.records.key(&Records::points, 2, &Point::file), kFirstKey + 7);
+  program.records.change_from_outside(&Records::points, 1, &Point::x, 8);
+  program.rewind(1);
+  EXPECT_EQ(program.records->points[1].x, 8);
+  EXPECT_EQ(program.records->points[1].file, 3);
+  EXPECT_EQ(program.records->points[2].x, 1);
+  program.rewind(0);
+  EXPECT_EQ(program.records->points[1].x, 8) << "the host has written it";
+}
+
+/// Owns records that other part systems have copies of.
+class Shared {
+ public:
+  Shared() {
+    journal.create(16, arena_);
+    records.create(&journal, kFirstKey, arena_);
+  }
+  void rewind(BlockSeq to) {
+    journal.rewind(to, [this](uint32_t key, JournalValue old) { records.exchange(key - kFirstKey, old); });
+  }
+  Journalled<Records, Shared, true> records;
+  Journal journal;
+
+ private:
+  std::unique_ptr<char[]> memory_ = std::make_unique_for_overwrite<char[]>(8 << 10);
+  Arena arena_{memory_.get(), 8 << 10};
+};
+
+/// A block has written the value that was there already when it was read; then another part system has executed a write of another value.
+TEST(Journalled, AWriteOfTheSameValueCountsWhereOthersWriteToo) {
+  const uint32_t word = sizeof(FirstGroup) / 8 + 2;  // of `offset`
+  Shared shared;
+  shared.records.change(1, &Records::offset, 0);
+  shared.records.take_published(word, JournalValue{7});
+  EXPECT_EQ(shared.records->offset, 0u) << "the block comes behind";
+  shared.rewind(0);
+  EXPECT_EQ(shared.records->offset, 7u);
+  shared.records.take_published(word, JournalValue{9});
+  EXPECT_EQ(shared.records->offset, 9u);
+  EXPECT_EQ(shared.records.word(word).bytes, 9u);
+}
+
 TEST(Journalled, NoRewindTakesBackWhatComesFromOutside) {
   Program program;
   program.records.change(1, &Records::word, 0, {1});

@@ -222,19 +222,22 @@ bool life_value(const nc_control* c, nc_life_column column, double value) {
 
 }  // namespace
 
-static_assert(NC_TOOL_LIVES == nc::kLifeTools && NC_LIFE_AUXILIARY + 1 == nc::kLifeColumns);
+static_assert(NC_TOOL_LIVES == nc::kLifeTools && NC_LIFE_AUXILIARY == static_cast<int>(nc::LifeColumn::auxiliary));
 
 nc_status nc_tool_life_set(nc_control* c, unsigned number, nc_life_column column, double value) {
   if (!life_place(c, number, column) || !life_value(c, column, value)) return NC_E_ARGUMENT;
   const nc::HostTables tables = c->system[0].interpreter.tables();
-  tables.set_shared(tables.frames().life_key(number - 1, column), value);
+  nc::visit_column(static_cast<nc::LifeColumn>(column), [&](auto member) {
+    auto typed = tables.lives().tool[number - 1].*member;
+    nc::from_life_number(value, typed);
+    tables.set_life(number - 1, member, typed);
+  });
   return NC_OK;
 }
 
 nc_status nc_tool_life_get(const nc_control* c, unsigned number, nc_life_column column, double* value) {
   if (value == nullptr || !life_place(c, number, column)) return NC_E_ARGUMENT;
-  const Frames& frames = c->system[0].interpreter.tables().frames();
-  *value = frames.get(frames.life_key(number - 1, column));
+  *value = nc::life_number(c->system[0].interpreter.tables().lives().tool[number - 1], static_cast<nc::LifeColumn>(column));
   return NC_OK;
 }
 

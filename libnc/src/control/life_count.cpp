@@ -12,25 +12,27 @@ namespace nc {
 void PartSystem::count_tool_life() {
   constexpr double kMinute_ms = 60000, kMostMinutes = 4000;
   const HostTables tables = interpreter.tables();
-  const ToolLife lives(tables.frames());
+  const ToolLives& lives = tables.lives();
   uint8_t number = 0;
   uint32_t ms = 0;
   while (executor.tool_cut(&number, &ms)) {
     const unsigned slot = number - 1U;
-    if (number == 0 || slot >= kLifeTools || !lives.group(slot)) continue;
+    if (number == 0 || slot >= kLifeTools || lives.tool[slot].is_free()) continue;
+    const ToolLife& tool = lives.tool[slot];
     if (ms == LifeRing::kBroken) {
-      tables.set_shared(lives.key(slot, LifeColumn::status), static_cast<double>(LifeStatus::error_1));
+      tables.set_life(slot, &ToolLife::status, LifeStatus::error_1);
       continue;
     }
-    if (lives.method(slot) != LifeMethod::time) continue;
-    const double used = std::min(kMostMinutes, lives.get(slot, LifeColumn::used) + ms / kMinute_ms), life = lives.get(slot, LifeColumn::life);
-    tables.set_shared(lives.key(slot, LifeColumn::used), used);
-    if (life > 0 && used >= life && lives.lives(slot)) tables.set_shared(lives.key(slot, LifeColumn::status), static_cast<double>(LifeStatus::ended));
+    if (tool.flags.method != LifeMethod::time) continue;
+    const double used = std::min(kMostMinutes, tool.used + ms / kMinute_ms);
+    tables.set_life(slot, &ToolLife::used, used);
+    if (tool.life != 0 && used >= static_cast<double>(tool.life) && tool.lives()) tables.set_life(slot, &ToolLife::status, LifeStatus::ended);
   }
-  const unsigned tool = executor.tool_in_spindle();
-  if (tool == 0 || tool > kLifeTools) return executor.tell_tool_life(0, 0);
-  const uint32_t group = lives.group(tool - 1), ended = group && !lives.lives(tool - 1) ? +NC_TOOL_LIFE_ENDED : 0, all = lives.all_ended(group) ? +NC_TOOL_GROUP_ENDED : 0;
-  executor.tell_tool_life(ended | all, group);
+  const unsigned in_spindle = executor.tool_in_spindle();
+  if (in_spindle == 0 || in_spindle > kLifeTools) return executor.tell_tool_life(0, 0);
+  const ToolLife& tool = lives.tool[in_spindle - 1];
+  const uint32_t ended = !tool.is_free() && !tool.lives() ? +NC_TOOL_LIFE_ENDED : 0, all = lives.all_ended(tool.group) ? +NC_TOOL_GROUP_ENDED : 0;
+  executor.tell_tool_life(ended | all, static_cast<uint32_t>(tool.group));
 }
 
 }  // namespace nc

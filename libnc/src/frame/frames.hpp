@@ -31,9 +31,6 @@ inline constexpr double kOffsetRange = 100000;
 /// Columns of the tool table, as in nc_tool_column.
 inline constexpr unsigned kToolColumns = 4;
 
-/// The table of tool life: tools that can be registered, and columns (LifeColumn); and the numbers that a part system keeps beside it (ToolInUse).
-inline constexpr unsigned kLifeTools = 200, kLifeColumns = 9, kToolsInUse = 3;
-
 struct FramesConfig {
   unsigned extended_systems = 96;   ///< G54.1 P1..
   unsigned tool_offsets = 200;
@@ -54,13 +51,9 @@ class Frames {
   static constexpr unsigned shift_key(unsigned axis) { return kMaxAxes + axis; }
   static constexpr unsigned local_key(unsigned system, unsigned axis) { return 2 * kMaxAxes + system * kMaxAxes + axis; }
   static constexpr unsigned work_key(unsigned system, unsigned axis) { return local_key(kStandardSystems + system, axis); }
-  /// What a part system knows of the tools that it uses (frame/tool_life.hpp).
-  unsigned tool_in_use_key(unsigned which) const { return work_key(6 + config_.extended_systems, 0) + which; }
-  unsigned tool_key(unsigned number, unsigned column) const { return tool_in_use_key(kToolsInUse) + (number - 1) * kToolColumns + column; }
-  /// Behind the offsets: the tools whose life is managed (frame/tool_life.hpp), slots from 0.
-  unsigned life_key(unsigned slot, unsigned column) const { return tool_key(config_.tool_offsets + 1, 0) + slot * kLifeColumns + column; }
+  unsigned tool_key(unsigned number, unsigned column) const { return work_key(kStandardSystems + config_.extended_systems, 0) + (number - 1) * kToolColumns + column; }
   bool is_tool_key(unsigned key) const { return key >= tool_key(1, 0); }
-  unsigned size() const { return life_key(kLifeTools, 0); }
+  unsigned size() const { return tool_key(config_.tool_offsets + 1, 0); }
 
   double get(unsigned key) const { return table_[key]; }
   void set(unsigned key, double value) {

@@ -1,73 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tool life management: which tools are registered, and which of a group is to be used (M700 13.5.5, system variables 10.15). The data stand in the flat
-// table of frame/frames.hpp behind the tool offsets, so that they are shared by the part systems, journalled and kept like these.
+// Tool life management: which tools are registered, and which of a group is to be used (M700 13.5.5, system variables 10.15). The part systems share the
+// table (interpret/shared_tables.hpp).
 //
 // A slot is a tool that is registered; a slot whose group is 0 is free. The tools of a group are used in the order of their slots: one until its life
 // has ended, then the next.
 #pragma once
 
-#include "frame/frames.hpp"
+#include <cstdint>
 
 namespace nc {
 
-/// Columns of a slot, in the order of the variables #60501 to #64700.
-enum class LifeColumn : uint8_t { group, tool, flags, status, life, used, length, radius, auxiliary };
+enum class LifeStatus : uint64_t { unused, in_use, ended, error_1, error_2 };
 
-/// LifeColumn::status.
-enum class LifeStatus : uint8_t { unused, in_use, ended, error_1, error_2 };
+/// What is counted. The life is in minutes, or so many times.
+enum class LifeMethod : uint32_t {
+  time,
+  mounts,
+  uses,
+  nothing  ///< the manual has no meaning for this value
+};
 
-/// LifeColumn::flags, bits 4 and 5: what is counted. The life is in minutes, or so many times.
-enum class LifeMethod : uint8_t { time, mounts, uses };
+/// M700 10.15, the flags of a tool, 0 to FF: the method is in bits 4 and 5.
+struct LifeFlags {
+  LifeMethod method = LifeMethod::time;
+  uint32_t others = 0;  ///< the other bits, which are only kept
+  bool operator==(const LifeFlags&) const = default;
+};
 
-/// Frames::tool_in_use_key(): the slot, from 1, of the tool in the spindle and of the one that T has selected, 0 = one whose life is not managed;
-/// and whether the tool in the spindle has cut in the move before.
-enum class ToolInUse : uint8_t { spindle, selected, cutting };
-
-/// A tool's life as it is in a table; the table must outlive it.
-class ToolLife {
- public:
-  static constexpr unsigned kNone = kLifeTools;
-
-  explicit ToolLife(const Frames& frames) : frames_(frames) {}
-
-  double get(unsigned slot, LifeColumn column) const { return frames_.get(key(slot, column)); }
-  unsigned key(unsigned slot, LifeColumn column) const { return frames_.life_key(slot, static_cast<unsigned>(column)); }
-  uint32_t group(unsigned slot) const { return static_cast<uint32_t>(get(slot, LifeColumn::group)); }
-  LifeMethod method(unsigned slot) const { return static_cast<LifeMethod>(static_cast<unsigned>(get(slot, LifeColumn::flags)) >> 4 & 3); }
-  LifeStatus status(unsigned slot) const { return static_cast<LifeStatus>(get(slot, LifeColumn::status)); }
+/// A tool that is registered. Part systems may write to different members of one tool at the same time, so each member is a word of the journal.
+struct ToolLife {
+  uint64_t group = 0;  ///< 0 = the slot is free
+  uint64_t tool = 0;
+  LifeFlags flags;
+  LifeStatus status = LifeStatus::unused;
+  uint64_t life = 0;   ///< minutes or times, 0 = without end
+  double used = 0;     ///< of it
+  uint64_t length = 0, radius = 0;  ///< numbers of its offsets
+  double auxiliary = 0;             ///< for the machine's own use
+  bool is_free() const { return !group; }
+  bool is_of(uint64_t a_group) const { return !is_free() && group == a_group; }
   /// It may still be used.
-  bool lives(unsigned slot) const { return status(slot) <= LifeStatus::in_use; }
+  bool lives() const { return status <= LifeStatus::in_use; }
+  bool operator==(const ToolLife&) const = default;
+};
 
-  /// The slot of the tool in the spindle; kNone = its life is not managed.
-  unsigned in_spindle() const { return slot_of(ToolInUse::spindle); }
-  unsigned selected() const { return slot_of(ToolInUse::selected); }
+/// The members as columns of numbers, in the order of the variables #60501 to #64700.
+enum class LifeColumn : uint8_t { group, tool, flags, status, life, used, length, radius, auxiliary };
+inline constexpr unsigned kLifeColumns = 9;
+static_assert(sizeof(ToolLife) == kLifeColumns * sizeof(uint64_t));
+
+/// Calls visit(member) with the member of a column: a pointer to a uint64_t, LifeFlags, LifeStatus or double of ToolLife.
+template <class Visit>
+auto visit_column(LifeColumn column, Visit&& visit) {
+  switch (column) {
+    case LifeColumn::group: return visit(&ToolLife::group);
+    case LifeColumn::tool: return visit(&ToolLife::tool);
+    case LifeColumn::flags: return visit(&ToolLife::flags);
+    case LifeColumn::status: return visit(&ToolLife::status);
+    case LifeColumn::life: return visit(&ToolLife::life);
+    case LifeColumn::used: return visit(&ToolLife::used);
+    case LifeColumn::length: return visit(&ToolLife::length);
+    case LifeColumn::radius: return visit(&ToolLife::radius);
+    case LifeColumn::auxiliary: break;
+  }
+  return visit(&ToolLife::auxiliary);
+}
+
+/// A member as the number that programs and the host read, and back. The number is in the range of its column.
+double life_number(uint64_t value);
+double life_number(double value);
+double life_number(LifeStatus value);
+double life_number(LifeFlags value);
+void from_life_number(double number, uint64_t& value);
+void from_life_number(double number, double& value);
+void from_life_number(double number, LifeStatus& value);
+void from_life_number(double number, LifeFlags& value);
+double life_number(const ToolLife& tool, LifeColumn column);
+
+inline constexpr unsigned kLifeTools = 200;  ///< tools that can be registered
+
+/// The table. Slots count from 0.
+struct ToolLives {
+  static constexpr unsigned kNone = kLifeTools;  ///< no slot
+  ToolLife tool[kLifeTools];
 
   /// The group registered first, 0 = none.
-  uint32_t first_group() const;
-  unsigned registered(uint32_t of_group) const;              ///< number of its tools
-  unsigned nth(uint32_t of_group, unsigned number) const;    ///< its tool `number`, from 1; kNone = there is none
-  unsigned number_in_group(unsigned slot) const;             ///< the other way round
+  uint64_t first_group() const;
+  unsigned registered(uint64_t group) const;              ///< number of its tools
+  unsigned nth(uint64_t group, unsigned number) const;    ///< its tool `number`, from 1; kNone = there is none
+  unsigned number_in_group(unsigned slot) const;          ///< the other way round
   unsigned free_slot() const;
-  unsigned with_tool(uint32_t tool) const;                   ///< the first slot of a tool number; kNone = none
+  unsigned with_tool(uint64_t number) const;              ///< the first slot of a tool number; kNone = none
   /// The tool that a command of its group selects: the first that is in use, else the first unused one, else, all being worn, the last.
-  unsigned next_of(uint32_t of_group) const;
-  /// #60003: as next_of(), but the tool in the spindle where it is of the group.
-  unsigned current_of(uint32_t of_group) const;
-  bool all_ended(uint32_t of_group) const;
+  unsigned next_of(uint64_t group) const;
+  /// #60003: as next_of(), but the tool in the spindle, a slot or kNone, where it is of the group.
+  unsigned current_of(uint64_t group, unsigned in_spindle) const;
+  unsigned first_alive(uint64_t group) const;             ///< its first tool that may be used; kNone = none
+  bool all_ended(uint64_t group) const { return registered(group) != 0 && first_alive(group) == kNone; }
 
  private:
-  unsigned slot_of(ToolInUse which) const {
-    const double slot = frames_.get(frames_.tool_in_use_key(static_cast<unsigned>(which)));
-    return slot >= 1 ? static_cast<unsigned>(slot) - 1 : kNone;
-  }
   template <class Wanted>
-  unsigned first(uint32_t of_group, Wanted wanted) const {
+  unsigned first(uint64_t group, Wanted wanted) const {
     for (unsigned slot = 0; slot < kLifeTools; ++slot)
-      if (of_group && group(slot) == of_group && wanted(slot)) return slot;
+      if (tool[slot].is_of(group) && wanted(tool[slot])) return slot;
     return kNone;
   }
-
-  const Frames& frames_;
 };
 
 }  // namespace nc

@@ -15,6 +15,7 @@
 #include "frame/affine.hpp"
 #include "frame/frames.hpp"
 #include "frame/stroke_box.hpp"
+#include "frame/tool_life.hpp"
 #include "interpret/checkpoints.hpp"
 #include "interpret/motion_settings.hpp"
 #include "interpret/parameters.hpp"
@@ -140,6 +141,7 @@ struct BlockContext {
   Frames frames;
   Variables variables;
   Journalled<ProgramRecords, Interpreter> records;
+  Journalled<ToolLives, Interpreter, true> lives;  ///< tools whose life is managed
   mutable ProgramMatrices program_matrices;  ///< matrices of the maps in force (interpret/program_map.hpp), calculated when they are needed
   SharedTables* shared = nullptr;  ///< what is shared with other part systems; nullptr: there are none
   BlockReader reader;
@@ -234,6 +236,11 @@ struct BlockContext {
   template <class... Change>
   void change(const Change&... what) {
     records.change(state.seq + 1, what...);
+  }
+  /// Journalled write to a member of a tool whose life is managed.
+  template <class Member>
+  void change_life(unsigned slot, Member ToolLife::*member, const std::type_identity_t<Member>& value) {
+    lives.change(state.seq + 1, &ToolLives::tool, slot, member, value);
   }
 
   // ---- alarms and questions

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "interpret/interpreter.hpp"
+#include "interpret/journal_keys.hpp"
 #include "interpret/shared_tables.hpp"
 
 namespace nc {
@@ -15,6 +16,7 @@ nc_status HostTables::set_parameter(const char* key, int axis, const char* text)
   const nc_status status = in_->parameters.set(*in_->dialect, key, axis, text, &changed, &before);
   if (status != NC_OK) return status;
   in_->refresh_settings();
+  in_->variables.changed_from_outside(kParameterKey + changed, in_->parameters.stored(changed).journalled());
   if (in_->shared != nullptr) in_->shared->parameter_changed(*in_, changed);
   return NC_OK;
 }
@@ -59,15 +61,30 @@ uint32_t HostTables::interface_output(unsigned word) const { return in_->records
 void HostTables::set_interface_output(unsigned word, uint32_t mask, uint32_t bits) const {
   in_->records.change_bits_from_outside(&ProgramRecords::output, word, InterfaceOutput{bits}, InterfaceOutput{mask});
 }
-void HostTables::set_tool(unsigned number, nc_tool_column column, double value) const { set_shared(in_->frames.tool_key(number, column), value); }
-
-void HostTables::set_shared(unsigned key, double value) const {
+void HostTables::set_tool(unsigned number, nc_tool_column column, double value) const {
+  const unsigned key = in_->frames.tool_key(number, column);
   if (in_->shared != nullptr) {
     in_->shared->set_tool(key, value);
   } else {
     in_->set_table_from_outside(key, value);
   }
 }
+
+const ToolLives& HostTables::lives() const { return *in_->lives; }
+
+template <class Member>
+void HostTables::set_life(unsigned slot, Member ToolLife::*member, std::type_identity_t<Member> value) const {
+  const auto write = [=](Interpreter& in) { in.lives.change_from_outside(&ToolLives::tool, slot, member, value); };
+  if (in_->shared != nullptr) {
+    in_->shared->write_to_all(in_->lives.key(&ToolLives::tool, slot, member), write);
+  } else {
+    write(*in_);
+  }
+}
+template void HostTables::set_life(unsigned, uint64_t ToolLife::*, uint64_t) const;
+template void HostTables::set_life(unsigned, double ToolLife::*, double) const;
+template void HostTables::set_life(unsigned, LifeFlags ToolLife::*, LifeFlags) const;
+template void HostTables::set_life(unsigned, LifeStatus ToolLife::*, LifeStatus) const;
 
 bool HostTables::variable(uint32_t number, Value* value) const { return in_->variables.get(number, in_->macro_level(), value); }
 bool HostTables::set_variable(uint32_t number, Value value) const {

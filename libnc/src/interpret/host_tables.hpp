@@ -3,8 +3,11 @@
 // the host writes, and the host writes to shared places for all part systems.
 #pragma once
 
+#include <type_traits>
+
 #include "dialect/parameter.hpp"
 #include "frame/frames.hpp"
+#include "frame/tool_life.hpp"
 #include "interpret/motion_settings.hpp"
 #include "macro/variables.hpp"
 #include "nc/control.h"
@@ -32,8 +35,10 @@ class HostTables {
   uint32_t interface_output(unsigned word) const;
   void set_interface_output(unsigned word, uint32_t mask, uint32_t bits) const;
   void set_tool(unsigned number, nc_tool_column column, double value) const;
-  /// An entry of the table of frames that all part systems share (Frames::is_tool_key).
-  void set_shared(unsigned key, double value) const;
+  const ToolLives& lives() const;
+  /// For each type of a member of ToolLife.
+  template <class Member>
+  void set_life(unsigned slot, Member ToolLife::*member, std::type_identity_t<Member> value) const;
   /// False: there is no such variable.
   bool variable(uint32_t number, Value* value) const;
   bool set_variable(uint32_t number, Value value) const;

@@ -60,6 +60,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   modals.create(under_way, arena);
   texts.create(power_of_two_above(config.look_ahead + 64), arena);  // enough for a DPRNT in every block that is under way
   records.create(&variables.journal(), kRecordKey, arena);
+  lives.create(&variables.journal(), kLifeKey, arena);
   rewritten = arena.make<Block>();
   shapes.create(128, arena);
   stroke_boxes.create(64, arena);
@@ -86,16 +87,22 @@ void Interpreter::set_table_from_outside(unsigned key, double value) {
 
 void Interpreter::undo(void* self, uint32_t key, JournalValue old) {
   exchange(self, key, old);
-  if (key >= kParameterKey) static_cast<Interpreter*>(self)->settings_stale_ = true;
+  if (place_of(key).table == JournalTable::parameters) static_cast<Interpreter*>(self)->settings_stale_ = true;
 }
 
 /// Exchanges a value that is not a variable. The settings are not made anew, because nothing is executed while values are exchanged for a look.
 JournalValue Interpreter::exchange(void* self, uint32_t key, JournalValue value) {
   Interpreter& in = *static_cast<Interpreter*>(self);
-  if (key >= kParameterKey) return in.parameters.exchange(key - kParameterKey, ParameterValue::of(value)).journalled();
-  if (key >= kRecordKey) return in.records.exchange(key - kRecordKey, value);
-  const JournalValue old = JournalValue::of(in.frames.get(key - kFrameKey));
-  in.frames.set(key - kFrameKey, value.as<double>());
+  const JournalPlace place = place_of(key);
+  switch (place.table) {
+    case JournalTable::records: return in.records.exchange(place.index, value);
+    case JournalTable::lives: return in.lives.exchange(place.index, value);
+    case JournalTable::parameters: return in.parameters.exchange(place.index, ParameterValue::of(value)).journalled();
+    case JournalTable::variables:
+    case JournalTable::frames: break;
+  }
+  const JournalValue old = JournalValue::of(in.frames.get(place.index));
+  in.frames.set(place.index, value.as<double>());
   return old;
 }
 

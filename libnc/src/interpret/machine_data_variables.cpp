@@ -48,13 +48,6 @@ uint64_t device_bits(const Interpreter& in, const DeviceRow& device, uint32_t nu
   return bits;
 }
 
-/// The first tool of a group that may be used, which has one.
-unsigned first_alive(const ToolLife& lives, uint32_t group) {
-  unsigned number = 1;
-  while (!lives.lives(lives.nth(group, number))) ++number;
-  return lives.nth(group, number);
-}
-
 }  // namespace
 
 // ---- coordinate rotation by program (M700 13.5.5 (10.14)) ----------------------------------------------------------------
@@ -88,39 +81,38 @@ Execution select_tool_group(Access& a) {
 bool lives_known(Access& a) { return shared_known(a) && (!a.in.settings.life_managed || world_known(a, NC_SYNC_CLOCK)); }
 
 /// The group that is read: the one of #60000, else the first one registered.
-uint32_t group_read(const Access& a) {
+uint64_t group_read(const Access& a) {
   const uint32_t chosen = a.in.records->selection.tool_group;
-  return chosen != 0 ? chosen : ToolLife(a.in.frames).first_group();
+  return chosen != 0 ? chosen : a.in.lives->first_group();
 }
 
 /// #60001 to #60008; -1 where the group is not registered.
 Eval read_tool_group(Access& a) {
   if (!lives_known(a)) return Eval::need_sync;
-  const ToolLife lives(a.in.frames);
-  const uint32_t group = group_read(a);
+  const ToolLives& lives = *a.in.lives;
+  const uint64_t group = group_read(a);
   const unsigned tools = lives.registered(group);
   if (tools == 0) return give(a, -1);
-  const unsigned now = lives.current_of(group), next = lives.next_of(group);
+  const unsigned in_spindle = a.in.records->tools.spindle, now = lives.current_of(group, in_spindle), next = lives.next_of(group);
   switch (a.index) {
     case 0: return give(a, tools);
-    case 1: return give(a, std::trunc(lives.get(now, LifeColumn::used)));
+    case 1: return give(a, std::trunc(lives.tool[now].used));
     case 2: return give(a, lives.number_in_group(now));
-    case 3: return give(a, lives.all_ended(group) ? 0 : lives.number_in_group(first_alive(lives, group)));
-    case 4: return give(a, lives.in_spindle() == now ? 1 : 0);
+    case 3: return give(a, lives.all_ended(group) ? 0 : lives.number_in_group(lives.first_alive(group)));
+    case 4: return give(a, in_spindle == now ? 1 : 0);
     case 5: return give(a, 0);  // "not used"
     case 6: return give(a, lives.all_ended(group) ? 1 : 0);
-    default: return give(a, lives.status(next) == LifeStatus::unused ? 1 : 0);
+    default: return give(a, lives.tool[next].status == LifeStatus::unused ? 1 : 0);
   }
 }
 
 /// #60501 to #64700, which have a variable for each registration number; -1 where no tool is registered.
 Eval read_tool_life(Access& a) {
   if (!lives_known(a)) return Eval::need_sync;
-  const ToolLife lives(a.in.frames);
-  const unsigned slot = lives.nth(group_read(a), a.index + 1);
-  if (slot == ToolLife::kNone) return give(a, -1);
+  const unsigned slot = a.in.lives->nth(group_read(a), a.index + 1);
+  if (slot == ToolLives::kNone) return give(a, -1);
   const auto column = static_cast<LifeColumn>(a.part);
-  const double value = lives.get(slot, column);
+  const double value = life_number(a.in.lives->tool[slot], column);
   return give(a, column == LifeColumn::used ? std::trunc(value) : value);
 }
 
@@ -172,12 +164,14 @@ bool known_parameter(const Access& a) { return find_parameter(*a.in.dialect, Par
 
 Eval read_parameter_itself(Access& a) {
   if (!known_parameter(a)) return no_variable(a);
+  if (parameter_is_common(*a.in.dialect, a.number) && !shared_known(a)) return Eval::need_sync;
   double value = 0;
   a.in.parameters.get(ParameterId::of_number(a.number), -1, -1, &value);
   return give(a, value);
 }
 Execution write_parameter_itself(Access& a) {
   if (!known_parameter(a)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
+  if (parameter_is_common(*a.in.dialect, a.number) && !a.in.shared_known()) return a.in.need(NC_SYNC_SHARED);
   if (a.in.set_parameter(ParameterId::of_number(a.number), -1, -1, a.written)) return Execution::done;
   return a.in.raise(Condition::value_range, Sign::variable, a.written);
 }

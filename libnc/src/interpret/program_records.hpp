@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "base/optional_double.hpp"
+#include "frame/tool_life.hpp"
 #include "macro/journalled.hpp"
 #include "macro/variables.hpp"
 #include "nc/types.h"
@@ -132,6 +133,14 @@ struct WorkpieceCounts {
   bool operator==(const WorkpieceCounts&) const = default;
 };
 
+/// The tools with a managed life that a part system uses: their slots (frame/tool_life.hpp), ToolLives::kNone = the life of that tool is not managed.
+struct ToolsInUse {
+  uint32_t spindle = ToolLives::kNone;
+  uint32_t selected = ToolLives::kNone;  ///< by T
+  bool cutting = false;                  ///< the tool in the spindle has cut in the move before
+  bool operator==(const ToolsInUse&) const = default;
+};
+
 // ---- the groups ------------------------------------------------------------------------------------------------------------------
 
 struct ProgramRecordsLife {
@@ -156,6 +165,7 @@ struct MachineRecordsLife {
   WorkpieceCounts workpieces;
   InputAnswer answer;
   ShiftKept shift_kept;
+  ToolsInUse tools;
   bool operator==(const MachineRecordsLife&) const = default;
 };
 

@@ -10,24 +10,33 @@ namespace nc {
 namespace {
 
 JournalValue value_of(const Interpreter& in, uint32_t key) {
-  if (key < kFrameKey) return in.variables.value_of(key);
-  if (key < kRecordKey) return JournalValue::of(in.frames.get(key - kFrameKey));
-  return in.parameters.stored(key - kParameterKey).journalled();
+  const JournalPlace place = place_of(key);
+  switch (place.table) {
+    case JournalTable::variables: return in.variables.value_of(key);
+    case JournalTable::frames: return JournalValue::of(in.frames.get(place.index));
+    case JournalTable::records: return in.records.word(place.index);
+    case JournalTable::lives: return in.lives.word(place.index);
+    case JournalTable::parameters: break;
+  }
+  return in.parameters.stored(place.index).journalled();
 }
 
 /// Puts a value that the machine has executed into the copy of `in`, before what `in` has read ahead. `key` is the key of this part system: each numbers
 /// its parameters in the order in which they are set.
 void take(Interpreter& in, uint32_t key, JournalValue value) {
-  if (key < kFrameKey) {
-    in.variables.take_published(key, value);
-  } else if (in.variables.journal().precede(key, value)) {
-    if (key < kRecordKey) {
-      in.frames.set(key - kFrameKey, value.as<double>());
-      take_changed_amounts(in);
-    } else {
-      in.parameters.restore(key - kParameterKey, ParameterValue::of(value));
-      in.refresh_settings();
-    }
+  const JournalPlace place = place_of(key);
+  switch (place.table) {
+    case JournalTable::variables: return in.variables.take_published(key, value);
+    case JournalTable::records: return;  // each part system has its own
+    case JournalTable::lives: return in.lives.take_published(place.index, value);
+    case JournalTable::frames:
+      if (!in.variables.journal().precede(key, value)) return;
+      in.frames.set(place.index, value.as<double>());
+      return take_changed_amounts(in);
+    case JournalTable::parameters:
+      if (!in.variables.journal().precede(key, value)) return;
+      in.parameters.restore(place.index, ParameterValue::of(value));
+      return in.refresh_settings();
   }
 }
 
@@ -54,9 +63,15 @@ void SharedTables::join(Interpreter& in) {
 }
 
 bool SharedTables::shares(const Interpreter& in, uint32_t key) {
-  if (key < kFrameKey) return in.variables.shares(key);
-  if (key < kRecordKey) return in.frames.is_tool_key(key - kFrameKey);
-  return key >= kParameterKey && in.parameters.is_common(key - kParameterKey);
+  const JournalPlace place = place_of(key);
+  switch (place.table) {
+    case JournalTable::variables: return in.variables.shares(key);
+    case JournalTable::frames: return in.frames.is_tool_key(place.index);
+    case JournalTable::records: return false;
+    case JournalTable::lives: return true;
+    case JournalTable::parameters: break;
+  }
+  return in.parameters.is_common(place.index);
 }
 
 void SharedTables::publish(Interpreter& writer, BlockSeq executed) {
@@ -82,9 +97,10 @@ void SharedTables::take_back(Interpreter& writer, BlockSeq seq) {
 /// the same number of them.
 bool SharedTables::same_place(Interpreter& to, const Interpreter& from, uint32_t key, uint32_t* there) {
   *there = key;
-  if (key < kParameterKey || &to == &from) return true;
+  const JournalPlace place = place_of(key);
+  if (place.table != JournalTable::parameters || &to == &from) return true;
   unsigned index = 0;
-  if (!to.parameters.same_entry(from.parameters, key - kParameterKey, &index)) return false;
+  if (!to.parameters.same_entry(from.parameters, place.index, &index)) return false;
   *there = kParameterKey + index;
   return true;
 }
@@ -94,7 +110,7 @@ void SharedTables::publish_to_others(const Interpreter& writer, uint32_t key, Jo
     uint32_t there = 0;
     if (system_[i] != &writer && same_place(*system_[i], writer, key, &there)) take(*system_[i], there, value);
   }
-  if (key >= kParameterKey) divide_again(writer.settings.last_shared);
+  if (place_of(key).table == JournalTable::parameters) divide_again(writer.settings.last_shared);
 }
 
 /// The host has changed a place of `in`: no rewind brings its old value back.
@@ -104,18 +120,15 @@ void SharedTables::changed_by_host(const Interpreter& in, uint32_t key) {
 }
 
 void SharedTables::set_variable(uint32_t number, Value value) {
-  for (unsigned i = 0; i < count_; ++i) system_[i]->variables.set_from_outside(number, 0, value);
-  changed_by_host(*system_[0], number);
+  write_to_all(number, [=](Interpreter& in) { in.variables.set_from_outside(number, 0, value); });
 }
 
 void SharedTables::set_name(uint32_t number, const char* name) {
-  for (unsigned i = 0; i < count_; ++i) system_[i]->variables.name_from_outside(number, name);
-  changed_by_host(*system_[0], system_[0]->variables.name_key(number));
+  write_to_all(system_[0]->variables.name_key(number), [=](Interpreter& in) { in.variables.name_from_outside(number, name); });
 }
 
 void SharedTables::set_tool(unsigned key, double value) {
-  for (unsigned i = 0; i < count_; ++i) system_[i]->set_table_from_outside(key, value);
-  changed_by_host(*system_[0], kFrameKey + key);
+  write_to_all(kFrameKey + key, [=](Interpreter& in) { in.set_table_from_outside(key, value); });
 }
 
 void SharedTables::parameter_changed(const Interpreter& in, unsigned index) {

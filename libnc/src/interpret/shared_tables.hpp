@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the part systems of a control share: the tool table, the common variables that M700 13.4 (#1303, #1304) does not give to each of them separately,
+// What the part systems of a control share: the tool table, the table of tool life, the common variables that M700 13.4 (#1303, #1304) does not give to each of them separately,
 // those of later models and of further ranges, the names of #500 up, and the parameters of the whole control (is_common()).
 //
 // Each part system reads ahead with its own copy of these, so that a rewind takes back only what it has written itself. When the machine has executed a
@@ -42,6 +42,12 @@ class SharedTables {
   void set_variable(uint32_t number, Value value);
   void set_name(uint32_t number, const char* name);
   void set_tool(unsigned key, double value);
+  /// write(in) writes to the shared place `key` in the copy of one part system.
+  template <class Write>
+  void write_to_all(uint32_t key, Write&& write) {
+    for (unsigned i = 0; i < count_; ++i) write(*system_[i]);
+    changed_by_host(*system_[0], key);
+  }
   /// The parameter `index` of `in` has been changed.
   void parameter_changed(const Interpreter& in, unsigned index);
 

@@ -34,6 +34,7 @@
 
 #include "cycle/hole.hpp"
 #include "dialect/dialect.hpp"
+#include "frame/tool_life.hpp"
 #include "modal/modal_state.hpp"
 #include "path/shape.hpp"
 #include "program/store.hpp"
@@ -151,9 +152,9 @@ struct SplineState {
 /// Between G10 of tool life and its end.
 struct LifeInput {
   enum class Kind : uint8_t { none, anew, add, remove } kind = Kind::none;
-  uint8_t flags = 0;           ///< LifeColumn::flags of the tools that follow
+  LifeMethod method = LifeMethod::time;  ///< of the tools that follow
   uint32_t group = 0;          ///< their group, 0 = not said yet
-  double life = 0;
+  uint32_t life = 0;
 };
 
 /// What a spline has to know of the block before.

@@ -77,8 +77,8 @@ class Hash {
     add(first, knots, points, order, axes);
   }
   void add_one(const LifeInput& input) {
-    const auto& [kind, flags, group, life] = input;
-    add(kind, flags, group, life);
+    const auto& [kind, method, group, life] = input;
+    add(kind, method, group, life);
   }
   void add_one(const SplineWay& way) {
     const auto& [joined, moved, back] = way;
@@ -126,6 +126,18 @@ class Hash {
   void add_one(const Selection& selection) {
     const auto& [parameter, device, tool_group] = selection;
     add(parameter, device, tool_group);
+  }
+  void add_one(const ToolsInUse& tools) {
+    const auto& [spindle, selected, cutting] = tools;
+    add(spindle, selected, cutting);
+  }
+  void add_one(const LifeFlags& flags) {
+    const auto& [method, others] = flags;
+    add(method, others);
+  }
+  void add_one(const ToolLife& registered) {
+    const auto& [group, tool, flags, status, life, used, length, radius, auxiliary] = registered;
+    add(group, tool, flags, status, life, used, length, radius, auxiliary);
   }
   void add_one(const WorkTurn& turn) {
     const auto& [deg, center, axis] = turn;
@@ -235,8 +247,8 @@ void add_records(Hash& hash, const ProgramRecords& records) {
     hash.add(maps);
   }
   {
-    const auto& [midpoints, skip, output, workpieces, answer, shift_kept] = static_cast<const MachineRecordsLife&>(records);
-    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at);
+    const auto& [midpoints, skip, output, workpieces, answer, shift_kept, tools] = static_cast<const MachineRecordsLife&>(records);
+    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at, tools);
     for (const InterfaceOutput& word : output) hash.add(word.bits);
   }
 }
@@ -252,6 +264,7 @@ uint64_t state_hash(const Interpreter& in) {
   hash.add(in.input_wait.left);  // a wait comes to its end, though nothing else changes
   add_variables(hash, in);
   for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));
+  hash.add(in.lives->tool);
   add_records(hash, *in.records);
   add_parameters(hash, in.parameters);
   return hash.value();

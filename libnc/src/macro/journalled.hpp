@@ -11,8 +11,9 @@
 
 namespace nc {
 
-/// `Owner` is the class that rewinds the journal.
-template <class T, class Owner>
+/// `Owner` is the class that rewinds the journal. `kShared`: other part systems have copies (interpret/shared_tables.hpp). Then a write of the value that is
+/// there already is journalled, too, because another part system may have written another value by the time at which the machine executes it.
+template <class T, class Owner, bool kShared = false>
 class Journalled {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(uint64_t) == 0);
   template <class Base>
@@ -26,6 +27,12 @@ class Journalled {
     first_key_ = first_key;
   }
   static constexpr uint32_t words() { return sizeof(T) / sizeof(uint64_t); }
+  /// The first key of a field of a record of an array.
+  template <class Record, size_t count, class Group, class Field>
+  requires kHolds<Group> uint32_t key(Record (Group::*records)[count], unsigned index, Field Record::*field) const {
+    const auto begin = reinterpret_cast<const char*>(&((value_->*records)[index].*field)) - reinterpret_cast<const char*>(value_);
+    return first_key_ + static_cast<uint32_t>(static_cast<size_t>(begin) / sizeof(uint64_t));
+  }
 
   const T* operator->() const { return value_; }
   const T& operator*() const { return *value_; }
@@ -49,6 +56,12 @@ class Journalled {
   void change(BlockSeq seq, Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value) {
     write((value_->*records)[index], value, Journalling{seq, false});
   }
+  /// Changes a field of it.
+  template <class Record, size_t count, class Group, class Field>
+  requires kHolds<Group>
+  void change(BlockSeq seq, Record (Group::*records)[count], unsigned index, Field Record::*field, const std::type_identity_t<Field>& value) {
+    write((value_->*records)[index].*field, value, Journalling{seq, false});
+  }
 
   // ---- changes from outside of the program: no rewind takes them back, also where blocks have changed the same record before
   template <class Record, class Group>
@@ -61,6 +74,11 @@ class Journalled {
   void change_from_outside(Record (Group::*records)[count], unsigned index, const std::type_identity_t<Record>& value) {
     write((value_->*records)[index], value, Journalling{0, true});
   }
+  template <class Record, size_t count, class Group, class Field>
+  requires kHolds<Group>
+  void change_from_outside(Record (Group::*records)[count], unsigned index, Field Record::*field, const std::type_identity_t<Field>& value) {
+    write((value_->*records)[index].*field, value, Journalling{0, true});
+  }
   /// Changes only the bits that are set in `mask`. The other bits are not changed, and a rewind may still change them.
   template <class Record, size_t count, class Group>
   requires kHolds<Group>
@@ -69,6 +87,13 @@ class Journalled {
     write((value_->*records)[index], value, Journalling{0, true}, &mask);
   }
   void change_from_outside(const T& value) { write(*value_, value, Journalling{0, true}); }
+
+  // ---- for several part systems
+  JournalValue word(uint32_t index) const { return JournalValue{load(index)}; }
+  /// Another part system has written `value` to a word: see Journal::precede().
+  void take_published(uint32_t index, JournalValue value) {
+    if (journal_->precede(first_key_ + index, value)) store(index, value.bytes);
+  }
 
  private:
   friend Owner;
@@ -109,7 +134,7 @@ class Journalled {
     const uint32_t key = first_key_ + word;
     // A change from outside is told to the journal even where the value is the same already: a rewind could still bring an older value back.
     if (how.outside) journal_->replace(key, JournalValue{then}, mask);
-    if (now == then) return;
+    if (now == then && (how.outside || !kShared)) return;
     if (!how.outside) journal_->note(how.seq, key, JournalValue{now});
     store(word, then);
   }

@@ -87,9 +87,10 @@ constexpr uint32_t kOfManagedTool = 99;
 }  // namespace
 
 Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
-  if (in.settings.life_managed && in.words.get(word) == kOfManagedTool && ToolLife(in.frames).in_spindle() != ToolLife::kNone) {
-    const LifeColumn column = word == Role::length_number ? LifeColumn::length : LifeColumn::radius;
-    *number = static_cast<uint32_t>(ToolLife(in.frames).get(ToolLife(in.frames).in_spindle(), column));
+  const unsigned in_spindle = in.records->tools.spindle;
+  if (in.settings.life_managed && in.words.get(word) == kOfManagedTool && in_spindle != ToolLives::kNone) {
+    const ToolLife& tool = in.lives->tool[in_spindle];
+    *number = static_cast<uint32_t>(word == Role::length_number ? tool.length : tool.radius);
     return Execution::done;
   }
   if (!whole_number(in.words.get(word), number) || *number > in.tool_offsets())

@@ -96,6 +96,8 @@ Execution parameter_block(BlockContext& in) {
   if (!in_sequence(in)) return refuse(in, Role::parameter_number);
   if (w.has(Role::parameter_system) && (!whole_number(w.get(Role::parameter_system), &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
   if (w.has(Role::parameter_axis) && (!whole_number(w.get(Role::parameter_axis), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
+  // Which part system has which data may depend on it: what comes before is executed as it was, and what another part system has written is known.
+  if (parameter_is_common(*in.dialect, number) && !in.shared_known()) return in.need(NC_SYNC_SHARED);
   ParameterData data;
   const Execution did = read_data(in, &data);
   if (did != Execution::done) return did;

@@ -13,14 +13,38 @@ namespace {
 constexpr uint32_t kLastNumber = 99999999;
 constexpr double kMostMinutes = 4000, kMostTimes = 9999;  // 10.15
 
-void set(BlockContext& in, unsigned slot, LifeColumn column, double value) { in.set_table(ToolLife(in.frames).key(slot, column), value); }
-void set(BlockContext& in, ToolInUse which, double value) { in.set_table(in.frames.tool_in_use_key(static_cast<unsigned>(which)), value); }
+/// A block that removes more tools than these may write to more places than any other block does. It waits for the machine to come to it, so that the
+/// journal has no older blocks to take back.
+constexpr unsigned kRemovedAhead = 40;
+static_assert(kRemovedAhead * kLifeColumns + 100 < Variables::kMostWrites);
+
+Execution wait_for_removal(BlockContext& in, unsigned tools) {
+  if (!in.shared_known()) return in.need(NC_SYNC_SHARED);
+  return tools > kRemovedAhead && !in.world_fresh ? in.need(NC_SYNC_STOPPED) : Execution::done;
+}
+
+/// The tool with number `slot` from 0 is in the spindle, and its life is managed from here on.
+void tell_machine(BlockContext& in, unsigned slot) {
+  Action& action = in.emit(ItemKind::action).action;
+  action.kind = NC_ACTION_CONTROL;
+  action.index = NC_CONTROL_TOOL_LIFE;
+  action.value = slot == ToolLives::kNone ? 0 : slot + 1;
+}
+
+void register_tool(BlockContext& in, unsigned slot, const ToolLife& tool) { in.lives.change(in.state.seq + 1, &ToolLives::tool, slot, tool); }
 
 void clear_slot(BlockContext& in, unsigned slot) {
-  for (unsigned column = 0; column < kLifeColumns; ++column) set(in, slot, static_cast<LifeColumn>(column), 0);
-  const ToolLife lives(in.frames);
-  if (lives.in_spindle() == slot) set(in, ToolInUse::spindle, 0);
-  if (lives.selected() == slot) set(in, ToolInUse::selected, 0);
+  register_tool(in, slot, ToolLife{});
+  if (in.records->tools.spindle == slot) {
+    in.change(&ProgramRecords::tools, &ToolsInUse::spindle, ToolLives::kNone);
+    tell_machine(in, ToolLives::kNone);
+  }
+  if (in.records->tools.selected == slot) in.change(&ProgramRecords::tools, &ToolsInUse::selected, ToolLives::kNone);
+}
+
+void clear_group(BlockContext& in, uint32_t group) {
+  for (unsigned slot = 0; slot < kLifeTools; ++slot)
+    if (in.lives->tool[slot].group == group) clear_slot(in, slot);
 }
 
 Execution number_of(BlockContext& in, Role word, uint32_t least, uint32_t most, uint32_t* number) {
@@ -36,12 +60,13 @@ Execution take_group(BlockContext& in) {
   uint32_t group = 0, method = 1;
   Execution did = number_of(in, Role::life_group, 1, kLastNumber, &group);
   if (did != Execution::done) return did;
-  const ToolLife lives(in.frames);
-  const bool known = lives.registered(group) != 0;
+  const unsigned before = in.lives->registered(group);
+  did = wait_for_removal(in, before);
+  if (did != Execution::done) return did;
+  const bool known = before != 0;
   if (input.kind == LifeInput::Kind::remove) {
     if (!known) return in.raise(Condition::life_group, Role::life_group, group);
-    for (unsigned slot = 0; slot < kLifeTools; ++slot)
-      if (lives.group(slot) == group) clear_slot(in, slot);
+    clear_group(in, group);
     return Execution::done;
   }
   if (input.kind == LifeInput::Kind::anew && (known || group == input.group)) return in.raise(Condition::life_group, Role::life_group, group);
@@ -53,16 +78,16 @@ Execution take_group(BlockContext& in) {
   if (!w.has(Role::life_span)) return in.raise(Condition::format_error, Role::life_span);
   const double life = w.get(Role::life_span), most = counts == LifeMethod::time ? kMostMinutes : kMostTimes;
   if (!(life >= 0 && life <= most && life == std::trunc(life))) return in.raise(Condition::value_range, Role::life_span, life);
-  for (unsigned slot = 0; slot < kLifeTools; ++slot)  // a group that is given again loses its tools
-    if (lives.group(slot) == group) clear_slot(in, slot);
+  clear_group(in, group);  // a group that is given again loses its tools
   input.group = group;
-  input.life = life;
-  input.flags = static_cast<uint8_t>(static_cast<unsigned>(counts) << 4);
+  input.life = static_cast<uint32_t>(life);
+  input.method = counts;
   return Execution::done;
 }
 
 /// T H D: the next tool of the group.
 Execution take_tool(BlockContext& in) {
+  if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // another part system may register a tool in the same place
   const LifeInput& input = in.state.life_input;
   uint32_t tool = 0, length = 0, radius = 0;
   if (!input.group || input.kind == LifeInput::Kind::remove) return in.raise(Condition::format_error, Role::life_group);
@@ -70,23 +95,24 @@ Execution take_tool(BlockContext& in) {
   if (did == Execution::done && in.words.has(Role::life_length)) did = number_of(in, Role::life_length, 0, in.frames.tool_offsets(), &length);
   if (did == Execution::done && in.words.has(Role::life_radius)) did = number_of(in, Role::life_radius, 0, in.frames.tool_offsets(), &radius);
   if (did != Execution::done) return did;
-  const unsigned slot = ToolLife(in.frames).free_slot();
-  if (slot == ToolLife::kNone) return in.raise(Condition::life_full, Role::life_tool, tool);
-  set(in, slot, LifeColumn::group, input.group);
-  set(in, slot, LifeColumn::tool, tool);
-  set(in, slot, LifeColumn::flags, input.flags);
-  set(in, slot, LifeColumn::life, input.life);
-  set(in, slot, LifeColumn::length, length);
-  set(in, slot, LifeColumn::radius, radius);
+  const unsigned slot = in.lives->free_slot();
+  if (slot == ToolLives::kNone) return in.raise(Condition::life_full, Role::life_tool, tool);
+  ToolLife registered;
+  registered.group = input.group;
+  registered.tool = tool;
+  registered.flags.method = input.method;
+  registered.life = input.life;
+  registered.length = length;
+  registered.radius = radius;
+  register_tool(in, slot, registered);
   return Execution::done;
 }
 
 /// One more of what is counted in times.
 void count(BlockContext& in, unsigned slot) {
-  const ToolLife lives(in.frames);
-  const double used = lives.get(slot, LifeColumn::used) + 1, life = lives.get(slot, LifeColumn::life);
-  set(in, slot, LifeColumn::used, std::fmin(used, kMostTimes));
-  if (life > 0 && used >= life && lives.lives(slot)) set(in, slot, LifeColumn::status, static_cast<double>(LifeStatus::ended));
+  const ToolLife& tool = in.lives->tool[slot];
+  in.change_life(slot, &ToolLife::used, std::fmin(tool.used + 1, kMostTimes));
+  if (tool.life != 0 && tool.used >= static_cast<double>(tool.life) && tool.lives()) in.change_life(slot, &ToolLife::status, LifeStatus::ended);
 }
 
 }  // namespace
@@ -101,9 +127,14 @@ Execution begin_tool_life_input(BlockContext& in) {
   }
   const bool alone = word_count(*in.block) == (how != 0 ? 3U : 2U);
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return in.raise(Condition::format_error, Role::input_kind, w.get(Role::input_kind));
+  unsigned any = 0;
+  for (const ToolLife& tool : in.lives->tool) any += how == 0 && !(tool == ToolLife{}) ? 1u : 0u;
+  const Execution did = how == 0 ? wait_for_removal(in, any) : Execution::done;
+  if (did != Execution::done) return did;
   in.state.life_input = {};
   in.state.life_input.kind = how == 0 ? LifeInput::Kind::anew : how == 1 ? LifeInput::Kind::add : LifeInput::Kind::remove;
-  for (unsigned slot = 0; how == 0 && slot < kLifeTools; ++slot) clear_slot(in, slot);
+  for (unsigned slot = 0; how == 0 && slot < kLifeTools; ++slot)
+    if (!(in.lives->tool[slot] == ToolLife{})) clear_slot(in, slot);
   return Execution::done;
 }
 
@@ -125,38 +156,33 @@ Execution tool_life_block(BlockContext& in) {
 }
 
 Execution select_managed_tool(BlockContext& in, uint32_t* tool) {
-  const ToolLife lives(in.frames);
+  const ToolLives& lives = *in.lives;
   const bool of_group = !in.settings.life_by_tool && *tool != 0;
   const unsigned slot = of_group ? lives.next_of(*tool) : lives.with_tool(*tool);
-  if (of_group && slot == ToolLife::kNone) return in.raise(Condition::life_group, Role::tool, *tool);
-  if (slot != ToolLife::kNone) *tool = static_cast<uint32_t>(lives.get(slot, LifeColumn::tool));
-  set(in, ToolInUse::selected, slot == ToolLife::kNone ? 0 : slot + 1);
+  if (of_group && slot == ToolLives::kNone) return in.raise(Condition::life_group, Role::tool, *tool);
+  if (slot != ToolLives::kNone) *tool = static_cast<uint32_t>(lives.tool[slot].tool);
+  in.change(&ProgramRecords::tools, &ToolsInUse::selected, slot);
   return Execution::done;
 }
 
 void take_managed_tool(BlockContext& in) {
-  const ToolLife lives(in.frames);
-  const unsigned slot = lives.selected();
-  set(in, ToolInUse::spindle, slot == ToolLife::kNone ? 0 : slot + 1);
-  set(in, ToolInUse::cutting, 0);
-  if (slot != ToolLife::kNone) {
-    if (lives.status(slot) == LifeStatus::unused) set(in, slot, LifeColumn::status, static_cast<double>(LifeStatus::in_use));
-    if (lives.method(slot) == LifeMethod::mounts) count(in, slot);
+  const unsigned slot = in.records->tools.selected;
+  in.change(&ProgramRecords::tools, &ToolsInUse::spindle, slot);
+  in.change(&ProgramRecords::tools, &ToolsInUse::cutting, false);
+  if (slot != ToolLives::kNone) {
+    const ToolLife& tool = in.lives->tool[slot];
+    if (tool.lives()) in.change_life(slot, &ToolLife::status, LifeStatus::in_use);
+    if (tool.flags.method == LifeMethod::mounts) count(in, slot);
   }
-  Action& action = in.emit(ItemKind::action).action;
-  action.kind = NC_ACTION_CONTROL;
-  action.index = NC_CONTROL_TOOL_LIFE;
-  action.value = slot == ToolLife::kNone ? 0 : slot + 1;
+  tell_machine(in, slot);
 }
 
 /// A use is a cut behind rapid traverse.
 void count_tool_use(BlockContext& in, bool cuts) {
-  const unsigned key = in.frames.tool_in_use_key(static_cast<unsigned>(ToolInUse::cutting));
-  const bool before = in.frames.get(key) != 0;
-  if (before == cuts) return;
-  in.set_table(key, cuts ? 1 : 0);
-  const unsigned slot = ToolLife(in.frames).in_spindle();
-  if (cuts && slot != ToolLife::kNone && ToolLife(in.frames).method(slot) == LifeMethod::uses) count(in, slot);
+  const ToolsInUse& tools = in.records->tools;
+  if (tools.cutting == cuts) return;
+  in.change(&ProgramRecords::tools, &ToolsInUse::cutting, cuts);
+  if (cuts && tools.spindle != ToolLives::kNone && in.lives->tool[tools.spindle].flags.method == LifeMethod::uses) count(in, tools.spindle);
 }
 
 }  // namespace nc
