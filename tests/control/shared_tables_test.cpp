@@ -361,6 +361,43 @@ TEST(SharedTables, NoRewindTakesBackAParameterOfTheHost) {
   }
 }
 
+/// There is room for 128 texts of parameters. One that a rewind can bring back keeps its place.
+TEST(SharedTables, NoTextTakesThePlaceOfOneThatARewindBringsBack) {
+  Bench bench;
+  nc_control* const control = bench.control();
+  const auto now = [control] {
+    char key[24] = "", axis = 0, text[64] = "";
+    double value = 0;
+    for (unsigned place = 0; nc_parameter_next(control, 0, place, &place, key, &axis, &value, text) == NC_OK; ++place)
+      if (std::string(key) == "50000") return std::string(text);
+    return std::string();
+  };
+  ASSERT_EQ(nc_parameter_set(control, 0, "50000", 0, "ORIGINAL"), NC_OK);
+  std::string program = "G10 L70\n";
+  for (unsigned n = 0; n < 300; ++n) program += "P50000 <WORD" + std::to_string(n) + ">\n";
+  bench.start(program + "G11\nM30");
+  nc_item item{};
+  std::map<uint64_t, std::string> at;  // what stands there behind each block
+  unsigned syncs = 0;
+  while (nc_pull(control, 0, 1000, &item) == NC_OK) {
+    ASSERT_NE(item.kind, NC_ITEM_ALARM);
+    if (item.kind == NC_ITEM_MARK) at[item.serial] = now();
+    if (item.kind != NC_ITEM_SYNC) continue;
+    ++syncs;
+    const nc_world world{};
+    ASSERT_EQ(nc_answer(control, 0, &world), NC_OK);
+  }
+  EXPECT_EQ(now(), "WORD299");
+  EXPECT_EQ(syncs, 2U) << "each time that all places are taken";
+  unsigned given_back = 0;
+  for (auto mark = at.rbegin(); mark != at.rend(); ++mark) {
+    if (nc_rewind(control, 0, mark->first) != NC_OK) break;  // too far back
+    ASSERT_EQ(now(), mark->second);
+    ++given_back;
+  }
+  EXPECT_GT(given_back, 30U);
+}
+
 // ---- two random programs ---------------------------------------------------------------------------------------------------
 
 /// A write to a shared place, or a read of one into a local variable.

@@ -51,7 +51,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   store = program_store;
   common = common_variables;
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
-  parameters.create(512, arena);
+  parameters.create(512, arena, &variables.journal());
   frames.create(config.frames, arena);
   variables.create(common, journal_capacity(config.look_ahead), arena);
   if (dialect->lex->formula == Formula::ngc) variables.create_named(arena);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "interpret/journal_keys.hpp"
 #include "program/cursor.hpp"
 
 namespace nc {
@@ -65,10 +66,11 @@ uint32_t bits_of(double value) { return value >= 0 && value <= 4294967295.0 ? st
 
 }  // namespace
 
-void Parameters::create(unsigned capacity, Arena& arena) {
+void Parameters::create(unsigned capacity, Arena& arena, const Journal* journal) {
   entries_ = arena.make<Entry>(capacity + kCommon);
   texts_ = reinterpret_cast<char(*)[kTextSize]>(arena.make<char>(size_t{kTexts} * kTextSize));
   capacity_ = capacity;
+  journal_ = journal;
 }
 
 Parameters::Entry* Parameters::find(ParameterId id, int axis) const {
@@ -194,22 +196,29 @@ bool Parameters::machine_takes(Parameter parameter, double value) const {
   }
 }
 
-bool Parameters::holds_text(uint8_t place) const {
-  for (unsigned i = 0; i < count_; ++i)
-    if (entries_[i].text == place) return true;
-  return false;
-}
-
-/// Stores a text and returns its place; 0 = each place holds the text of a parameter.
-uint8_t Parameters::keep_text(const char* text) {
+/// The place for the next text; 0 = none is free.
+uint8_t Parameters::free_text_place() const {
+  bool held[kTexts + 1] = {};
+  for (unsigned i = 0; i < count_; ++i) held[entries_[i].text] = true;
+  if (journal_ != nullptr) {
+    journal_->each([&held](uint32_t key, JournalValue value) {
+      if (place_of(key).table == JournalTable::parameters) held[ParameterValue::of(value).text] = true;
+    });
+  }
   for (unsigned tried = 0; tried < kTexts; ++tried) {
-    newest_text_ = newest_text_ % kTexts + 1;
-    const auto place = static_cast<uint8_t>(newest_text_);
-    if (holds_text(place)) continue;
-    std::memcpy(texts_[place - 1], text, std::strlen(text) + 1);
-    return place;
+    const unsigned place = (newest_text_ + tried) % kTexts + 1;
+    if (!held[place]) return static_cast<uint8_t>(place);
   }
   return 0;
+}
+
+/// Stores a text and returns its place; 0 = there is none.
+uint8_t Parameters::keep_text(const char* text) {
+  const uint8_t place = free_text_place();
+  if (place == 0) return 0;
+  newest_text_ = place;
+  std::memcpy(texts_[place - 1], text, std::strlen(text) + 1);
+  return place;
 }
 
 const char* Parameters::text(ParameterId id, int axis) const {

@@ -181,7 +181,9 @@ struct ParameterValue {
 
 class Parameters {
  public:
-  void create(unsigned capacity, Arena& arena);
+  /// A text keeps its place as long as a parameter has it, or `journal` could give it back to one.
+  void create(unsigned capacity, Arena& arena, const Journal* journal = nullptr);
+  bool has_text_place() const { return free_text_place() != 0; }  ///< there is room for a text more
   /// Sets a parameter from the text that the public interface gives: a number, a word of the family, or a text.
   nc_status set(const Dialect& dialect, const char* key, int axis, const char* text) {
     unsigned index = 0;
@@ -247,13 +249,14 @@ class Parameters {
   nc_status put(ParameterId id, int bit, int axis, bool common, ParameterValue value, unsigned* index, ParameterValue* old);
   bool machine_takes(Parameter parameter, double value) const;
   uint8_t keep_text(const char* text);
-  bool holds_text(uint8_t place) const;
+  uint8_t free_text_place() const;
   static constexpr unsigned kCommon = 16;  ///< places for shared parameters, in addition to `capacity_`
-  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; a place whose text no parameter uses is used again, the
-                                                          ///< oldest first
+  static constexpr unsigned kTexts = 128, kTextSize = 64;  ///< M700 13.11: at most 63 characters; a place whose text is not used any more is used again,
+                                                          ///< the oldest first
   Entry* entries_ = nullptr;
   char (*texts_)[kTextSize] = nullptr;
   unsigned capacity_ = 0, count_ = 0, newest_text_ = 0;
+  const Journal* journal_ = nullptr;
   double longest_filter_ms_ = kLongestMean;
   bool first_system_ = true;
 };

@@ -29,6 +29,11 @@ bool Journal::keeps(BlockSeq seq, unsigned more) const {
   return overwritten <= under_way && ring_[(tail_ + overwritten - 1) & mask_].seq <= seq;
 }
 
+void Journal::lose(BlockSeq seq) {
+  if (before_loss_ != nullptr) before_loss_(loser_, seq);
+  while (tail_ != head_ && ring_[tail_ & mask_].seq <= seq) lost_ = ring_[tail_++ & mask_].seq;
+}
+
 void Journal::clear() {
   head_ = tail_ = 0;
   published_ = 0;

@@ -52,6 +52,13 @@ class Journal {
   template <class Exchange>
   void swap(BlockSeq seq, bool back, Exchange&& exchange);
   void clear();
+  /// Calls see(key, value) for each value that a rewind can bring back.
+  template <class See>
+  void each(See&& see) const {
+    for (uint64_t i = tail_; i != head_; ++i) see(ring_[i & mask_].key, ring_[i & mask_].value());
+  }
+  /// From now on nothing that blocks up to `seq` have written can be taken back.
+  void lose(BlockSeq seq);
   /// The place `key` was changed from outside the program: it keeps this value, whatever is taken back from now on. `mask` has a 1 for each bit that was
   /// changed, where only some bits of the value were.
   void replace(uint32_t key, JournalValue value, uint64_t mask = ~uint64_t{0});

@@ -101,6 +101,11 @@ Execution parameter_block(BlockContext& in) {
   ParameterData data;
   const Execution did = read_data(in, &data);
   if (did != Execution::done) return did;
+  if (data.is_text && !in.parameters.has_text_place()) {
+    // Texts that a rewind could bring back take up all places. Behind the blocks that the machine has executed none has to.
+    if (!in.world_fresh) return in.need(NC_SYNC_STOPPED);
+    in.variables.journal().lose(in.state.seq);
+  }
   // Note 3: A is ignored for a parameter that axes do not have for themselves.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
   const ParameterId id = ParameterId::of_number(number);
