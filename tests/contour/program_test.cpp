@@ -75,6 +75,45 @@ TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of(statements + "Y40.\nM30"), "P990 L1");
 }
 
+// Each alarm of radius compensation, of corners and of blocks that meet says in its sentence what to change, and the sentence is not cut off.
+TEST(Corners, EachAlarmSaysWhatToChange) {
+  struct {
+    const char* program;
+    const char* alarm;
+    const char* tells;
+  } const cases[] = {
+      {"G38 I1.", "P150 L3", "Program G41 or G42 first."},
+      {"G2 X9. I1.\nG41 D1 X20. I5.", "P151 L4", "on a straight move (G00 or G01)."},
+      {"G41 D1 X17.\nG39 Y30.\nM0\nX30.", "P152 L4", "Use a smaller tool or a larger inner radius."},
+      {"G41 D1 X17.\nY1.\nG3 X18. Y2. R1.\nG1 X30.", "P153 L5", "Use a smaller tool or change the contour."},
+      {"G41 D1 X20.\nG81 Y20. Z-5. R1.", "P155 L4", "Cancel with G80 or G40 first."},
+      {"G4 X1. ,C1.", "P380 L3", "Leave it out, or program it as a block of its own."},
+      {"X20. ,C2.\nG2 X30. I5.", "P381 L4", "Program the corner as a block of its own."},
+      {"X20. ,C2.\nM8", "P382 L4", "Move what stands between in front of the corner."},
+      {"X8. ,C2.", "P383 L3", "Make the corner smaller."},
+      {"X30. ,R1.\nX5.", "P383 L3", "Leave ,R out."},
+      {"X20. ,C2.\nY1.", "P384 L4", "Make that corner smaller."},
+      {"G0 X20. ,C2.", "P385 L3", "Program G01 first."},
+      {"G0 X20. ,A45.", "P390 L3", "Program both ends."},
+      {"A10.\nX20. Y9. A10.5", "P392 L4", "Check the angles."},
+      {"A10.\nG91 X20. Y9. A50.", "P393 L4", "Program G90."},
+      {"A10.\nM8", "P394 L4", "must move: a line (G01) or an arc."},
+      {"A10.\nX20. A50.", "P395 L4", "give the second its whole end."},
+      {"A10.\nG19 X20. Y9. A50.", "P396 L4", "Select it in front of both."},
+      {"A0\nG3 X20. Y50. R1.", "P397 L4", "check the centre, the radius, the angle and the ends."},
+      {"G0 X30. Z0\nG19 Z0 C0\nG7.1 C30.\nG1\nG3 R10. H1\nG1 Z60. C0 A80.", "P391 L7", "Program the end of each block."},
+      {"G0 X30. Z0\nG19 Z0 C0\nG7.1 C30.\nG1\nG3 K10. H1\nG1 Z60. C0 A80.", "P398 L7", "Program the end of each block."},
+  };
+  for (const auto& part : cases) {
+    Bench bench(NC_DIALECT_M700, axes("XYZc"));
+    bench.tool(1, 2).param("1516", "C").param("1030", "C");
+    const Outcome run = bench.run(std::string("G0 X7.\nG1 F100\n") + part.program + "\nX99.\nM30");
+    EXPECT_EQ(run.alarm + " L" + std::to_string(run.alarm_line), part.alarm) << part.program;
+    EXPECT_NE(run.alarm_detail.find(part.tells), std::string::npos) << part.program << ": " << run.alarm_detail;
+    EXPECT_LT(run.alarm_detail.size(), size_t{NC_MAX_TEXT - 1}) << run.alarm_detail;
+  }
+}
+
 TEST(Corners, NothingOfTheBlockHappensWhenItsCornerDoesNotFit) {  // as with a stroke limit, its M codes wait
   const Outcome run = m700("G1 X5. F100\nM3 X30. ,C4.\nM5 G4 X1.\nM30");
   EXPECT_EQ(run.alarm, "P382");

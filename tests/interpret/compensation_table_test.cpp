@@ -133,6 +133,8 @@ constexpr Row kOfThePlane[] = {
     {"13.20", "G68: the shape is rotated", "", "G68 X0 Y0 R90.\nG41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 X60. Y60.\n", "-5,0 -5,35 -40,35 -60,60"},
     {"13.x", "G51.1: mirrored behind compensation", "", "G51.1 X0\nG41 D1 G1 X0 Y0 F500\nX40.\nY40.\nG40 X60. Y60.\n", "0,5 -35,5 -35,40 -60,60"},
     {"14.10", "another coordinate system does not cancel", "", "G10 L2 P2 X1. Y1.\nG41 D1 G1 X0 Y0 F500\nX40.\nG55 Y40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,36 1,36 61,61"},
+    {"14.11", "G52: the local coordinates are others, the vectors stay", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG52 X1. Y1.\nY40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,36 1,36 61,61"},
+    {"6.8", "G60: positions, and is compensated like G00", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG60 Y40.\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,35 0,35 60,60"},
     {"12.6", "G45 in the mode: its displaced point is compensated", "", "G41 D1 G1 X0 Y0 F500\nX40.\nG45 Y40. D1\nX0\nG40 X60. Y60.\n", "0,5 35,5 35,40 0,40 60,60"},
 };
 
