@@ -180,10 +180,6 @@ TEST_P(MdiBounds, M99AloneIsTheEnd) {
     m.expect_at(10, 0);
     EXPECT_TRUE(m.to_end_of_program()) << m.state();
     m.expect_at(20, 0);
-    // The same where it is the main program.
-    m.drive->ended = false;
-    ASSERT_EQ(m.load(text), NC_OK);
-    EXPECT_TRUE(m.to_end_of_program()) << m.state();
   }
 }
 

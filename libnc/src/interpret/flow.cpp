@@ -474,8 +474,8 @@ Execution return_sub(Interpreter& in) {
       if (did != Execution::done || !goes_back) return did;
     }
     if (w.has(Role::return_sequence) && !in.reader.is_tape(frame.program.file)) return jump_to_sequence(in, w.get(Role::return_sequence));
-    // Blocks of MDI that begin with it have nothing to go back for; the control would read it again and again, and nothing would show what it does.
-    if (in_mdi(in) && only_calls(in) && heads_text(in)) return Execution::done;
+    // Blocks of MDI in a block stop that begin with it have nothing to go back for: they end, and the program goes on with the next start.
+    if (frame.origin == CallOrigin::mdi && only_calls(in) && heads_text(in)) return Execution::done;
     s.loop_count = frame.loop_base;
     frame.offset = frame.program.offset;
     frame.line = frame.program.line;
