@@ -139,6 +139,8 @@ class Checks:
                 wakes[int(words[0])] = int(words[1])
         scan = find(json.loads(run("ncmon", "--once", "--json", "--wait", "40")), "jitter_us")
         run("systemctl", "stop", "ncdds")
+        self.control.press("reset")
+        self.faults.rests("a part that a reset has ended")
         for name, figures in (("cyclictest", percentiles(wakes)), ("scan", scan)):
             print(f"      wake-up of {name:10s} p50 {figures['p50']:7.1f} us   p99.9 {figures['p99.9']:7.1f} us   max {figures['max']:7.1f} us", flush=True)
         print("      cyclictest's histogram, us: " + " ".join(f"{late}:{times}" for late, times in sorted(wakes.items())), flush=True)
