@@ -2,8 +2,11 @@
 // The hx family: what its manual says otherwise than those of the other families do, one test for each rule.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <string>
 
 #include "dialect/dialect.hpp"
 #include "support/pull.hpp"
@@ -700,6 +703,50 @@ TEST(Hx, AStitchHasTheFeedAndTheWaitOfItsLength) {  // 15.6
   EXPECT_EQ(run.dwells(), (std::vector<double>{0.01, 0.02, 0.01, 0.04}));
   EXPECT_EQ(Bench(NC_DIALECT_HX).run("G63.1\nG00 X1.\nG01 X2. F50.\nM30").path(), (Path{"rapid 1 0 0", "line 2 0 0 F50"}));  // nothing is set
   EXPECT_EQ(alarm_of("G63.1\nG01 X2.\nM30"), "F_84020");
+}
+
+/// What a run gives out, in its order: moves, dwells, questions for inputs, and the bit of PPF.
+std::string order_of_stitches(const Outcome& run) {
+  std::string order;
+  for (const Step& step : run.steps) {
+    const nc_item& item = step.item;
+    if (item.kind == NC_ITEM_MOVE) order += "move ";
+    if (item.kind == NC_ITEM_SYNC) order += "? ";
+    if (item.kind == NC_ITEM_GATE && item.u.gate.kind == NC_GATE_DWELL_SECONDS) order += brief(item.u.gate.value) + " ";
+    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_OUTPUT) {
+      EXPECT_EQ(item.u.action.index, 0u);
+      EXPECT_EQ(item.u.action.mask, 1u << 31);
+      order += item.u.action.bits != 0 ? "on " : "off ";
+    }
+  }
+  return order;
+}
+
+TEST(Hx, AStitchIsAskedOfTheHeadAndWaitedFor) {  // 15.6, PM 7308, 7374 to 7408: PPF, PPE, NPFIN (docs/decisions.md)
+  constexpr uint32_t kPpe = 1u << 30, kNpfin = 1u << 31;
+  Bench bench(NC_DIALECT_HX);
+  bench.param("27308", "1").param("27321", "100").param("27336", "1").param("27374", "5").param("27382", "7").param("27395", "2").param("27394", "3").param("27408", "50");
+  unsigned asked = 0;
+  const uint32_t answers[] = {0, kPpe, kPpe, kNpfin, kNpfin, kPpe | kNpfin, kPpe | kNpfin};
+  bench.on_sync = [&](const nc_item&) { bench.input[0] = answers[std::min<size_t>(asked++, std::size(answers) - 1)]; };
+  const Outcome run = bench.run("G63.1\nG01 X1. F100\nX2. Y1.\nZ1.\nG63.2\nG00 X3.\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  // X alone waits for its own times, X and Y for the longer one of theirs; Z is no stitch.
+  EXPECT_EQ(order_of_stitches(run), "off move 0.001 0.005 on ? 0.01 ? 0.002 off ? 0.01 ? 0.003 move 0.001 0.007 on ? 0.01 ? 0.002 off ? 0.003 move off move ");
+
+  Bench silent(NC_DIALECT_HX);
+  silent.param("27308", "1");
+  const Outcome none = silent.run("G63.1\nG01 X1. F100\nM30");
+  EXPECT_EQ(none.alarm, "NC-STITCH");
+  EXPECT_EQ(none.alarm_line, 2u);
+  const std::string order = order_of_stitches(none);
+  EXPECT_EQ(order.substr(order.size() - 6), "? off ") << "PPF does not stay on";
+  silent.input[0] = kPpe;
+  EXPECT_EQ(silent.run("G63.1\nG01 X1. F100\nM30").alarm, "NC-STITCH");
+  silent.input[0] = kPpe | kNpfin;
+  EXPECT_EQ(silent.run("G63.1\nG01 X1. F100\nM30").alarm, "");
+  EXPECT_EQ(bench.run("G63.1\nG01 X100. F100\nM30").alarm, "F_82002") << "the longest stitch";
+  EXPECT_EQ(silent.tool(1, 2, NC_TOOL_RADIUS).run("G41 D1 G01 X5. F100\nX9.\nG63.1\nX20.\nM30").alarm, "NC-OFFSET-CODE");
 }
 
 TEST(Hx, EveryAlarmOfTheManualIsRaisedByWhatItIsFor) {  // the numbers of the spec, section 13

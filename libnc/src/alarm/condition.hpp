@@ -43,6 +43,7 @@ enum class Condition : uint16_t {
   block_skip, sub_without_return,
   polar_code, polar_axis, polar_modal, polar_state,   // as those of mill_..., of the polar coordinate interpolation
   probe_contact, two_words,
+  head_silent,
   internal,
   count_
 };

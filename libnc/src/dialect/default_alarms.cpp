@@ -49,6 +49,7 @@ constexpr AlarmText kTexts[] = {
     {"NC-READ", "Program cannot be read"},
     {"NC-VENDOR", "Function of the machine failed"},
     {"NC-PROBE", "Probe did not touch"},
+    {"NC-STITCH", "Stitching head does not answer"},
     {"NC-INTERNAL", "Internal error of the control"},
 };
 
@@ -186,6 +187,7 @@ constexpr AlarmRow kRows[] = {
     {C::probe_no_contact, "NC-PROBE", nullptr},
     {C::probe_contact, "NC-PROBE", nullptr},
     {C::two_words, "NC-FORMAT", nullptr},
+    {C::head_silent, "NC-STITCH", nullptr},
     {C::tap_no_speed, "NC-SPINDLE", nullptr},
     {C::tap_no_pitch, "NC-FEED", nullptr},
     {C::tap_pitch, "NC-RANGE", nullptr},

@@ -192,6 +192,10 @@ enum class Parameter : uint8_t {
   stitch_length,               ///< [7] ends of the ranges of lengths
   stitch_feed, stitch_feed_2,  ///< [8] feed of each range, of the first and of the second axis of the plane
   stitch_wait, stitch_wait_2,  ///< [8] time behind a move of each range, the same
+  stitch_signals,              ///< each stitch is asked of the head and waited for
+  stitch_call, stitch_call_2,  ///< [8] time from the end of a move of each range to the signal that asks for the stitch, the same
+  stitch_release, stitch_next, ///< time from the end of the stitch to the end of that signal; from the signal for the next place to its move
+  stitch_longest,              ///< longest stitch, 0 = any
   count_
 };
 

@@ -457,6 +457,7 @@ Execution continue_block(Interpreter& in) {
   if (step == Step::cavity) did = continue_cavity(in);
   if (step == Step::loop) did = continue_sine_loop(in);
   if (step == Step::input) did = continue_input_wait(in);
+  if (step == Step::stitch) did = continue_stitch(in);
   if (did == Execution::later) return did;
   if (did == Execution::done) in.next_step = Step::none;
   return finish(in, did);

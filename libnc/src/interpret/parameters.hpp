@@ -160,6 +160,10 @@ struct Settings {
   double stitch_length[7] = {};           ///< HX PM 7321 to 7327, mm
   double stitch_feed[2][8] = {};          ///< HX PM 7328 to 7335, 7344 to 7351: by axis of the plane, mm/min, 0 = any
   double stitch_wait_s[2][8] = {};        ///< HX PM 7336 to 7343, 7352 to 7359
+  bool stitch_signals = false;            ///< HX PM 7308
+  double stitch_call_s[2][8] = {};        ///< HX PM 7374 to 7389
+  double stitch_release_s = 0, stitch_next_s = 0;  ///< HX PM 7395, 7394
+  double stitch_longest = 0;              ///< HX PM 7408, mm, 0 = any
   // DGSHAPE settings
   bool calculator = false;
   uint8_t calculator_words = 0;       ///< 0 none, 1 all, 2 F, 3 IJKRXYZA

@@ -334,7 +334,13 @@ void SettingsReader::feeds() {
     s_.stitch_feed[1][i] = value({P::stitch_feed_2, i}, 0);
     s_.stitch_wait_s[0][i] = value({P::stitch_wait, i}, 0) / 1000;
     s_.stitch_wait_s[1][i] = value({P::stitch_wait_2, i}, 0) / 1000;
+    s_.stitch_call_s[0][i] = value({P::stitch_call, i}, 0) / 1000;
+    s_.stitch_call_s[1][i] = value({P::stitch_call_2, i}, 0) / 1000;
   }
+  s_.stitch_signals = flag(P::stitch_signals);
+  s_.stitch_release_s = value(P::stitch_release, 0) / 1000;
+  s_.stitch_next_s = value(P::stitch_next, 0) / 1000;
+  s_.stitch_longest = value(P::stitch_longest, 0);
 }
 
 /// M700 13.13, 14.7, 14.13: parameters that each axis has for itself.

@@ -92,7 +92,7 @@ struct Loop {
 };
 
 /// What a block still has to do after its first items. At a mark that ends a block it is always Step::none.
-enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, cavity, loop, input, after_motion };
+enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_check, cavity, loop, input, stitch, after_motion };
 
 /// What cylindrical and polar coordinate interpolation restore when they end (M700 6.9, 6.10).
 struct MillReturn {

@@ -69,7 +69,7 @@ const FunctionRow kFunctions[] = {
     {610, 15, F::exact_stop_mode, nullptr, "exact stop mode", "5.3.2"},
     {620, 15, F::corner_override, nullptr, "automatic corner override mode", "5.3.5, 5.3.6"},
     {630, 15, F::tapping_mode, nullptr, "tapping mode", "5.3.4"},
-    {631, 0, F::stitch_on, nullptr, "stitch", "15.6", "PPF, PPE and NPFIN of the stitching head (PM 7374 to 7408): they are signals of its machine"},
+    {631, 0, F::stitch_on, nullptr, "stitch", "15.6"},
     {632, 0, F::stitch_off, nullptr, "stitch off", "15.6"},
     {640, 15, F::cutting_mode, nullptr, "cutting mode", "5.3.3"},
     {650, 0, F::macro_call, nullptr, "macro call", "14.1.1"},

@@ -76,12 +76,18 @@ constexpr ParameterRow kNumbers[] = {
     {22097, 22192, 32, kAll, false, P::reference_position,      any,               "mm", "reference positions 2 to 4, 32 numbers each, by axis", "6.2", 1, 1},
     {23474, 23474, 1, kAll, false,  P::box_outside,             whole<0, 1>,       "0 inside, 1 outside", "G22: where no axis may go", "15.5.3"},
     {24623, 24624, 1, kAll, false,  P::polar_axis,              whole<0, 32>,      "0; number of the axis", "G112: linear axis (0 = the first), rotary axis (0 = the first that turns)", "4.6"},
-    {27308, 27308, 1, kAll, false,  P::none,                    kOffOnly,          "0", "G63.1: feed and wait by the length of a stitch; only 0 is taken", "15.6"},
+    {27308, 27308, 1, kAll, false,  P::stitch_signals,          whole<0, 1>,       "0, 1", "G63.1: 1 each stitch is asked of the head by PPF (#7531) and waited for, PPE (#7030), NPFIN (#7031)", "15.6"},
     {27321, 27327, 1, kAll, false,  P::stitch_length,           at_least_0,        "mm", "G63.1: ends of the ranges of lengths", "15.6"},
     {27328, 27335, 1, kAll, false,  P::stitch_feed,             at_least_0,        "0 any; mm/min", "G63.1: feed of the first axis in each range", "15.6"},
     {27336, 27343, 1, kAll, false,  P::stitch_wait,             at_least_0,        "ms", "G63.1: wait behind a move of the first axis in each range", "15.6"},
     {27344, 27351, 1, kAll, false,  P::stitch_feed_2,           at_least_0,        "0 any; mm/min", "G63.1: feed of the second axis in each range", "15.6"},
     {27352, 27359, 1, kAll, false,  P::stitch_wait_2,           at_least_0,        "ms", "G63.1: wait behind a move of the second axis in each range", "15.6"},
+    {27374, 27381, 1, kAll, false,  P::stitch_call,             at_least_0,        "ms", "G63.1: from the end of a move of the first axis to PPF, in each range", "15.6"},
+    {27382, 27389, 1, kAll, false,  P::stitch_call_2,           at_least_0,        "ms", "G63.1: from the end of a move of the second axis to PPF, in each range", "15.6"},
+    {27391, 27393, 1, kAll, false,  P::none,                    kOffOnly,          "0", "times of PPF outside of G63.1 and at its start; only 0 is taken", "15.6"},
+    {27394, 27394, 1, kAll, false,  P::stitch_next,             at_least_0,        "ms", "G63.1: from NPFIN to the next move", "15.6"},
+    {27395, 27395, 1, kAll, false,  P::stitch_release,          at_least_0,        "ms", "G63.1: from PPE to the end of PPF", "15.6"},
+    {27408, 27408, 1, kAll, false,  P::stitch_longest,          at_least_0,        "0 any; mm", "G63.1: longest stitch", "15.6"},
 };
 // clang-format on
 

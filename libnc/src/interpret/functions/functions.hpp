@@ -102,6 +102,7 @@ Execution take_line_angle(BlockContext& in);       ///< of a line with one end c
 
 /// Motions with rules of their own.
 Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commanded);             // stitch.cpp
+Execution continue_stitch(BlockContext& in);
 Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commanded);             // thread.cpp
 Execution move_spiral(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);   // spiral.cpp
 Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t commanded, bool negative);   // exponential.cpp
