@@ -338,7 +338,7 @@ TEST(M700Manual, ConditionsHaveTheCodesThatTheSectionsPrint) {
       {Condition::cycle_in_compensation, "P155"},
       {Condition::skip_in_compensation, "P608"},
       {Condition::skip_feed_zero, "P603"},
-      {Condition::g10_l, "P172"},
+      {Condition::data_input_kind, "P172"},
       {Condition::local_in_extended, "P438"},
       {Condition::index_increment, "P20"},
       {Condition::program_missing, "P232"},

@@ -26,7 +26,7 @@ enum class Condition : uint16_t {
   measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
   not_accepted, in_high_accuracy, high_speed_3,
   // offsets
-  g10_l, g10_p, local_in_extended,
+  data_input_kind, data_input_number, local_in_extended,
   // programs and macros
   program_missing, sequence_missing, nesting, macro_nesting, no_macro, macro_and_words, macro_argument, cancel_without_call,
   user_alarm, bracket_nesting, bracket_pair, calculation, division_by_zero, if_statement, while_statement, name_statement,

@@ -58,12 +58,15 @@ bool parse_name(const char* name, Name* out) {
   return true;
 }
 
-/// The number of the program is one that a parameter protects (#8105: 8000 to 9999, #1121: 9000 to 9999).
+/// The number of the program is one that a parameter protects.
 bool is_protected(const nc_control* c, unsigned file) {
+  constexpr nc::Parameter kLocks[] = {nc::Parameter::edit_lock_b, nc::Parameter::edit_lock_c};
   const uint32_t number = c->store.entry(file)->number;
-  const auto locked = [c](nc::Parameter parameter) { return c->system[0].interpreter.tables().parameter(parameter) != 0; };
-  if (number >= 9000 && number <= 9999 && locked(nc::Parameter::protects_9000)) return true;
-  return number >= 8000 && number <= 9999 && locked(nc::Parameter::protects_8000);
+  for (unsigned i = 0; i < 2; ++i) {
+    const nc::NumberRange range = c->dialect->parameters->locked_programs[i];
+    if (number >= range.first && number <= range.last && c->system[0].interpreter.tables().parameter(kLocks[i]) != 0) return true;
+  }
+  return false;
 }
 
 bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {

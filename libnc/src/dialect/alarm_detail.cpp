@@ -240,8 +240,8 @@ constexpr Sentence kSentences[] = {
     {C::high_speed_3,
      "High-speed machining mode III ({high_speed} {speed_mode}3) is not fitted. {speed_mode}0 ends the modes, {speed_mode}1 and {speed_mode}2 are I and II.", nullptr},
     // offsets
-    {C::g10_l, "{data_input} does not know {input_kind}{value}.", "{data_input} has no {input_kind}, or one that it does not know."},
-    {C::g10_p, "{data_input}: there is no data set {input_number}{value}.",
+    {C::data_input_kind, "{data_input} does not know {input_kind}{value}.", "{data_input} has no {input_kind}, or one that it does not know."},
+    {C::data_input_number, "{data_input}: there is no data set {input_number}{value}.",
      "{data_input}: the number {input_number} of the data set is missing or wrong."},
     {C::local_in_extended,
      "{local_system} is not possible while an extended workpiece coordinate system ({extended_system}) is selected.", nullptr},

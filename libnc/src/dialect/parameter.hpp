@@ -30,7 +30,7 @@ enum class Parameter : uint8_t {
   interrupt_off_m,
   interrupt_by_level,
   interrupt_type_2,
-  protects_9000,
+  edit_lock_c,                 ///< programs of FamilyParameters::locked_programs[1] cannot be edited,
   reset_clears_common,
   power_off_clears_common,
   clamp_command_always,
@@ -128,7 +128,7 @@ enum class Parameter : uint8_t {
   space_divisor,
   interference_avoided,
   interference_ignored,
-  protects_8000,
+  edit_lock_b,                 ///< and those of locked_programs[0]
   arc_compensation,
   arc_compensation_by_axis,
   dwell_p_decimal,
@@ -202,8 +202,8 @@ enum class Parameter : uint8_t {
 /// The parameter has one value for all part systems. Such parameters divide the common variables among the part systems (M700 13.4), or
 /// concern programs and variables that the part systems share (13.3, 13.4).
 constexpr bool is_common(Parameter parameter) {
-  return parameter == Parameter::last_shared_of_first || parameter == Parameter::last_shared_of_second || parameter == Parameter::protects_8000 ||
-         parameter == Parameter::protects_9000 || parameter == Parameter::power_off_clears_common;
+  return parameter == Parameter::last_shared_of_first || parameter == Parameter::last_shared_of_second || parameter == Parameter::edit_lock_b ||
+         parameter == Parameter::edit_lock_c || parameter == Parameter::power_off_clears_common;
 }
 
 inline constexpr unsigned kParameters = static_cast<unsigned>(Parameter::count_);

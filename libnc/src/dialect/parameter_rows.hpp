@@ -73,6 +73,7 @@ struct FamilyParameters {
   Table<FixedParameter> fixed = {};
   Table<MachineParameter> machine = {};
   Table<NumberRange> of_axes = {};             ///< numbers that a program sets for one axis (parameter input), also numbers without a row
+  NumberRange locked_programs[2] = {{1, 0}, {1, 0}};  ///< numbers of the programs that Parameter::edit_lock_b and edit_lock_c protect; empty = none
   double arc_tolerance_mm = 0;            ///< tolerance while Parameter::arc_tolerance is not set,
   double arc_tolerance_of_radius = 0;     ///< or this part of the radius if that is more,
   double arc_tolerance_most_mm = 0;       ///< but never more than this; 0 = only arc_tolerance_mm counts

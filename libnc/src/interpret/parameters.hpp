@@ -60,8 +60,8 @@ struct Settings {
   uint32_t turning = 0;               ///< types 0 and 1: workpiece coordinates within one turn
   uint32_t short_cut = 0;             ///< type 1: G90 goes the shorter way
   uint32_t machine_turn = 0;          ///< types 0 to 2: machine coordinates within one turn
-  double peck_clearance_83 = 0;       ///< #8013, mm
-  double peck_clearance_73 = 0;       ///< #8012, mm
+  double peck_clearance = 0;       ///< #8013, mm
+  double step_clearance = 0;       ///< #8012, mm
   uint32_t spindle_forward_m = 0, spindle_reverse_m = 0;  ///< #3028 sprcmn, and the one behind it; 0 = the family's
   bool tap_synchronous = false;       ///< #1229 bit 4
   bool tap_to_r = false;              ///< #1272 bit 4
@@ -76,7 +76,7 @@ struct Settings {
   bool codes_after_motion = false;    ///< MSTB_AFTER_MOTION: M S T B of a block that moves go out behind its motion
   uint8_t surface_axis = 0;           ///< #1181 G96_ax
   bool clamp_command_always = false;  ///< #1146 Sclamp
-  bool clamp_in_g96_only = false;     ///< #1227 bit 5, with Sclamp 1
+  bool clamp_in_surface_speed_only = false;     ///< #1227 bit 5, with Sclamp 1
   bool keeps_clamp = false;           ///< #1210 bit 19
   uint32_t mirror_axes = 0;           ///< #8211, bit = axis
   bool keeps_polar_command = false;   ///< #1210 bit 11

@@ -155,7 +155,7 @@ void SettingsReader::auxiliary() {
   const double surface_axis = value(P::surface_axis, 0);
   s_.surface_axis = surface_axis >= 1 && surface_axis <= 3 ? static_cast<uint8_t>(surface_axis) : 0;
   s_.clamp_command_always = flag(P::clamp_command_always);
-  s_.clamp_in_g96_only = flag(P::clamp_in_surface_speed);
+  s_.clamp_in_surface_speed_only = flag(P::clamp_in_surface_speed);
   s_.keeps_clamp = flag(P::keeps_clamp);
   s_.keeps_polar_command = flag(P::keeps_polar_command);
 }
@@ -197,9 +197,9 @@ void SettingsReader::macros() {
 /// M700 8.1, 13.1, 15: cycles, dwell, skip and measurement.
 void SettingsReader::cycles() {
   s_.drilling_axis_z = flag(P::drilling_axis_z);
-  s_.peck_clearance_83 = value(P::peck_clearance, 0);
+  s_.peck_clearance = value(P::peck_clearance, 0);
   // HX 12.3.3, 12.3.4: one parameter is of both.
-  s_.peck_clearance_73 = parameter_row(dialect_, P::step_clearance) != nullptr ? value(P::step_clearance, 0) : s_.peck_clearance_83;
+  s_.step_clearance = parameter_row(dialect_, P::step_clearance) != nullptr ? value(P::step_clearance, 0) : s_.peck_clearance;
   s_.spindle_forward_m = static_cast<uint32_t>(value(P::spindle_forward_code, 0));
   s_.spindle_reverse_m = s_.spindle_forward_m + 1;
   s_.tap_synchronous = flag(P::tap_synchronous);

@@ -101,8 +101,8 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::in_high_accuracy, "P126", nullptr},    // 13.15, appendix 1
     {C::high_speed_3, "P65", nullptr},         // appendix 1
     // offsets
-    {C::g10_l, "P172", nullptr},
-    {C::g10_p, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing
+    {C::data_input_kind, "P172", nullptr},
+    {C::data_input_number, "P173", nullptr},  // appendix 1; 12.7 prints P170 for the same thing
     {C::local_in_extended, "P438", nullptr},
     // programs and macros
     {C::program_missing, "P232", nullptr},

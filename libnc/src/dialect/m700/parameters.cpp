@@ -52,7 +52,7 @@ constexpr ParameterRow kNumbers[] = {
     {1111, 1111, 1, kAll, false,      P::interrupt_off_m,            any,                   "97; 3-97", "M code that ends it", "13.12"},
     {1112, 1112, 1, kAll, false,      P::interrupt_by_level,         whole<0, 1>,           kOffOn, "the interrupt signal counts as long as it is on, not when it rises", "13.12"},
     {1113, 1113, 1, kAll, false,      P::interrupt_type_2,           whole<0, 1>,           kOffOn, "the interrupt comes at the end of the block (type 2)", "13.12"},
-    {1121, 1121, 1, kAll, false,      P::protects_9000,              whole<0, 1>,           kOffOn, "programs 9000-9999 are protected", "13.3"},
+    {1121, 1121, 1, kAll, false,      P::edit_lock_c,              whole<0, 1>,           kOffOn, "programs 9000-9999 are protected", "13.3"},
     {1128, 1128, 1, kAll, false,      P::reset_clears_common,        whole<0, 1>,           kOffOn, "reset clears the common variables from #100 on", "13.4"},
     {1129, 1129, 1, kAll, false,      P::power_off_clears_common,    whole<0, 1>,           kOffOn, "power off clears them (in ncrtd)", "13.4"},
     {1146, 1146, 1, kAll, false,      P::clamp_command_always,       whole<0, 1>,           kOffOn, "G92 S is a clamp in G97, too", "10.4"},
@@ -165,7 +165,7 @@ constexpr ParameterRow kNumbers[] = {
     {8101, 8101, 1, kAll, false,      P::macro_single,               whole<0, 1>,           kOffOn, "single block stops at macro statements", "13.5.9"},
     {8102, 8102, 1, kAll, false,      P::interference_avoided,       whole<0, 1>,           kOffOn, "interference of radius compensation is avoided, not an alarm", "12.6"},
     {8103, 8103, 1, kAll, false,      P::interference_ignored,       whole<0, 1>,           kOffOn, "no interference check", "12.6"},
-    {8105, 8105, 1, kAll, false,      P::protects_8000,              whole<0, 1>,           kOffOn, "programs 8000-9999 are protected", "13.3"},
+    {8105, 8105, 1, kAll, false,      P::edit_lock_b,              whole<0, 1>,           kOffOn, "programs 8000-9999 are protected", "13.3"},
     {8107, 8107, 1, kAll, false,      P::arc_compensation,           whole<0, 1>,           kOffOn, "circular error radius compensation in every mode: #8108 is asked for", "13.15"},
     {8108, 8108, 1, kAll, false,      P::arc_compensation_by_axis,   whole<0, 1>,           kOffOn, "circular error radius compensation for each axis (#2069), with #8107", "13.15"},
     {8112, 8112, 1, kAll, false,      P::dwell_p_decimal,            whole<0, 1>,           kOffOn, "P of G04 may have a decimal point", "8.1"},
@@ -235,6 +235,7 @@ constinit const FamilyParameters kParameters = {
     .names = table(kNames),
     .machine = table(kMachine),
     .of_axes = table(kOfAxes),
+    .locked_programs = {{8000, 9999}, {9000, 9999}},  // 13.3, #8105 edit lock B, #1121 edit lock C
     .arc_tolerance_mm = 0.1,      // 6.4, #1084 RadErr
     .checks_interference = true,  // 12.6
 };

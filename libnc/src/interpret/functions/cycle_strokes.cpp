@@ -39,7 +39,7 @@ double clearance(const BlockContext& in, CycleKind kind) {
   const double fixed = in.dialect->rules.cycle.fixed_clearance_mm;
   if (fixed > 0) return fixed;
   if (is_tap(kind)) return in.settings.tap_clearance;
-  return kind == CycleKind::step ? in.settings.peck_clearance_73 : in.settings.peck_clearance_83;
+  return kind == CycleKind::step ? in.settings.step_clearance : in.settings.peck_clearance;
 }
 
 /// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.

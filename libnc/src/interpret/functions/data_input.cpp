@@ -53,7 +53,7 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   const DataInputRules& rules = in.dialect->rules.data_input;
   if (w.target.axes() == 0 && rules.axes_required)
     return w.has(Role::input_amount) ? in.raise(Condition::format_error, Role::input_amount, w.get(Role::input_amount)) : in.raise_code(Condition::format_error, *w.one_shot);
-  if (extended && in.frames.extended_systems() == 0) return in.raise(Condition::g10_l, Role::input_kind, l);  // M700 14.10 (14)
+  if (extended && in.frames.extended_systems() == 0) return in.raise(Condition::data_input_kind, Role::input_kind, l);  // M700 14.10 (14)
   const bool extended_active = in.state.work_system >= 6;
   uint32_t p = 0;
   if (w.has(Role::input_number)) {
@@ -75,7 +75,7 @@ Execution tool_offset(BlockContext& in, unsigned column) {
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::words_missing, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
   if (!whole_number(w.get(Role::input_number), &number) || number == 0 || number > in.tool_offsets())
-    return in.raise(Condition::g10_p, Role::input_number, w.get(Role::input_number));
+    return in.raise(Condition::data_input_number, Role::input_number, w.get(Role::input_number));
   const unsigned key = in.frames.tool_key(number, column);
   const bool add = in.dialect->rules.data_input.incremental_adds && in.state.modal.is(Function::incremental);
   // M700 2.2 (4): the tenfold unit does not act on the amounts of tool compensation.
@@ -131,15 +131,15 @@ Execution set_current_limit(BlockContext& in) {
 
 Execution do_data_input(BlockContext& in) {
   const Command& w = in.words;
-  if (two_kinds(in)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
+  if (two_kinds(in)) return in.raise(Condition::data_input_kind, Role::input_kind, w.get(Role::input_kind));
   const Rules& rules = in.dialect->rules;
   if (in.state.comp.side != 0 && rules.compensation.bars_systems_and_data) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
   if (!w.has(Role::input_kind) && w.any({Role::vector_x, Role::vector_y, Role::vector_z}) && rules.data_input.vector_turns_work) return do_work_rotation(in);
   uint32_t l = DataInputRow::kWithoutL;
-  if (w.has(Role::input_kind) && !whole_number(w.get(Role::input_kind), &l)) return in.raise(Condition::g10_l, Role::input_kind, w.get(Role::input_kind));
+  if (w.has(Role::input_kind) && !whole_number(w.get(Role::input_kind), &l)) return in.raise(Condition::data_input_kind, Role::input_kind, w.get(Role::input_kind));
   const DataInputRow* const row = row_of(*in.dialect, l);
-  if (row == nullptr && l == DataInputRow::kWithoutL) return in.raise(Condition::g10_l);
-  if (row == nullptr) return in.raise(Condition::g10_l, Role::input_kind, l);
+  if (row == nullptr && l == DataInputRow::kWithoutL) return in.raise(Condition::data_input_kind);
+  if (row == nullptr) return in.raise(Condition::data_input_kind, Role::input_kind, l);
   const bool of_system = row->input == DataInput::work_offset || row->input == DataInput::work_offset_here;
   if (of_system && rules.data_input.amount_turns_system && w.has(Role::input_amount) && w.get(Role::input_amount) != 0)
     return in.raise(Condition::no_function, Role::input_amount, w.get(Role::input_amount));
@@ -157,7 +157,7 @@ Execution do_data_input(BlockContext& in) {
     case DataInput::tool_radius:
     case DataInput::tool_radius_wear:
       // Length wear, radius and radius wear exist only in tool memory type II (M700 12.7).
-      if (!in.settings.tool_memory_2) return in.raise(Condition::g10_l, Role::input_kind, l);
+      if (!in.settings.tool_memory_2) return in.raise(Condition::data_input_kind, Role::input_kind, l);
       return tool_offset(in, column_of(row->input));
     case DataInput::current_limit: return set_current_limit(in);
     case DataInput::parameters: return begin_parameter_input(in);

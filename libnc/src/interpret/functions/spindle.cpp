@@ -122,7 +122,7 @@ Execution set_spindle_clamp(BlockContext& in) {
   if (did != Execution::done) return did;
   in.state.spindle_clamped = true;
   // 10.4, Sclamp and aux11 bit 5: the clamp acts in G97 only with Sclamp = 1 and bit 5 = 0.
-  const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_g96_only;
+  const bool always = in.settings.clamp_command_always && !in.settings.clamp_in_surface_speed_only;
   emit_control(in, NC_CONTROL_SPINDLE_CLAMP,
                (always ? NC_CLAMP_ALWAYS : 0) + (in.settings.keeps_clamp ? NC_CLAMP_OVER_RESET : 0) + (s ? NC_CLAMP_S : 0) + (w.has(Role::clamp_lowest) ? NC_CLAMP_Q : 0),
                smallest, largest);
