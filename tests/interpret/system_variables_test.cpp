@@ -262,7 +262,7 @@ TEST(SystemVariables, StopSuppression3003) {  // M700 10.5
   const std::vector<nc_item> actions = m700("#3004=5\nM30").of(NC_ITEM_ACTION);
   ASSERT_GE(actions.size(), 1u);
   EXPECT_EQ(actions[0].u.action.kind, NC_ACTION_CONTROL);
-  EXPECT_EQ(actions[0].u.action.index, 3004u);
+  EXPECT_EQ(actions[0].u.action.index, NC_CONTROL_DISABLE);
   EXPECT_EQ(actions[0].u.action.value, 5);
 }
 
