@@ -742,9 +742,9 @@ TEST(Hx, AStitchIsAskedOfTheHeadAndWaitedFor) {  // 15.6, PM 7308, 7374 to 7408:
   const std::string order = order_of_stitches(none);
   EXPECT_EQ(order.substr(order.size() - 6), "? off ") << "PPF does not stay on";
   silent.input[0] = kPpe;
-  EXPECT_EQ(silent.run("G63.1\nG01 X1. F100\nM30").alarm, "NC-STITCH");
+  EXPECT_EQ(silent.run("G63.1\nG01 X2. F100\nM30").alarm, "NC-STITCH");
   silent.input[0] = kPpe | kNpfin;
-  EXPECT_EQ(silent.run("G63.1\nG01 X1. F100\nM30").alarm, "");
+  EXPECT_EQ(silent.run("G63.1\nG01 X3. F100\nM30").alarm, "");
   EXPECT_EQ(bench.run("G63.1\nG01 X100. F100\nM30").alarm, "F_82002") << "the longest stitch";
   EXPECT_EQ(silent.tool(1, 2, NC_TOOL_RADIUS).run("G41 D1 G01 X5. F100\nX9.\nG63.1\nX20.\nM30").alarm, "NC-OFFSET-CODE");
 }
@@ -774,7 +774,7 @@ TEST(Hx, EveryAlarmOfTheManualIsRaisedByWhatItIsFor) {  // the numbers of the sp
 
 TEST(Hx, WhatIsNotBuiltOfAParameterIsRefused) {
   ParameterKey key;
-  for (const char* text : {"3133", "27308"}) {  // of PI 133 the value 1; 2 is tests/control/program_restart_test.cpp
+  for (const char* text : {"3133", "27391", "27393"}) {  // of PI 133 the value 1; 2 is tests/control/program_restart_test.cpp
     ASSERT_TRUE(parse_parameter_key(text, &key));
     EXPECT_TRUE(parameter_takes(dialect(NC_DIALECT_HX), key, 0)) << text;
     EXPECT_FALSE(parameter_takes(dialect(NC_DIALECT_HX), key, 1)) << text;

@@ -289,7 +289,7 @@ constexpr Sentence kSentences[] = {
     {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr, "The signal of the probe has not changed up to the end of {word}."},
     {C::probe_contact, "The probe touches where the move begins: draw it back first.", nullptr, "{word}: where the move begins the signal of the probe is already as at its end."},
     {C::two_words, "{word} and another word of the block exclude each other.", "Two words of the block exclude each other.", "{word} takes one of its two words, not both."},
-    {C::head_silent, "The stitching head gives no answer: the signal that its stitch is done (PPE), or that the next place may come (NPFIN), has not come on.", nullptr},
+    {C::head_silent, "The stitching head gives no answer: its stitch is not done (PPE), or the next place may not come (NPFIN).", nullptr},
     {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
      "A macro cannot be called by a code during a fixed cycle."},
