@@ -38,6 +38,10 @@ constexpr unsigned kShades = 16;
 constexpr Color kRamp[] = {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.90, 0.80, 0.10}};
 constexpr Color kTools[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65},
                             {0.00, 0.60, 0.70}, {0.45, 0.30, 0.15}, {0.85, 0.35, 0.60}, {0.40, 0.40, 0.40}};
+// By kSideNone, kSideLeft, kSideRight.
+constexpr Color kSides[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}};
+constexpr const char* kSideNames[] = {"no side", "on the left", "on the right"};
+constexpr Color kProgrammed{0.45, 0.45, 0.45}, kDisc{0.65, 0.65, 0.65};
 // The part of a sentence that fits beside the legend.
 std::string first_line(const std::string& text) {
   constexpr size_t kMost = 150;
@@ -73,6 +77,7 @@ class PlotPainter {
     else
       frame();
     surface();
+    beside();
     path(Ink::kRapid);
     path(Ink::kFeed);
     directions();
@@ -209,6 +214,7 @@ class PlotPainter {
   // The index of the colour for a value. Values are grouped into kShades colours, so that pieces of one colour can be drawn together.
   unsigned shade(float value) const {
     if (plot_.color_ == PlotColor::kKind) return 0;
+    if (plot_.color_ == PlotColor::kSide) return static_cast<unsigned>(value);
     if (plot_.color_ == PlotColor::kTool)
       return static_cast<unsigned>(std::distance(tools_.begin(), tools_.find(value))) % std::size(kTools);
     if (!(high_value_ > low_value_)) return 0;
@@ -219,11 +225,53 @@ class PlotPainter {
   Color feed_color(unsigned shade) const {
     if (plot_.color_ == PlotColor::kKind) return kFeed;
     if (plot_.color_ == PlotColor::kTool) return kTools[shade];
+    if (plot_.color_ == PlotColor::kSide) return kSides[shade % std::size(kSides)];
     const double place = shade / (kShades - 1.0) * (std::size(kRamp) - 1);
     const size_t i = std::min(std::size(kRamp) - 2, static_cast<size_t>(place));
     const double t = place - static_cast<double>(i);
     const Color &a = kRamp[i], &b = kRamp[i + 1];
     return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b)};
+  }
+
+  void legend_line(const Color& color, double y, const char* text) {
+    const double x = kWidth - kRight - 130;
+    line(color, x, y - 5, x + 40, y - 5);
+    use(c_, kInk);
+    put_text(c_, x + 50, y, text, 14);
+  }
+
+  // Draws the programmed path, and the tool at the ends of its blocks.
+  void beside() {
+    const auto to = [this](const double* x, bool begins) {
+      const Page p = project(x[0], x[1], x[2]);
+      if (begins) cairo_move_to(c_, px(p), py(p));
+      else cairo_line_to(c_, px(p), py(p));
+    };
+    constexpr size_t kMostDiscs = 80;  // more of them would hide the path
+    const std::vector<PlotDisc>& discs = plot_.discs();
+    const size_t every = std::max<size_t>(1, (discs.size() + kMostDiscs - 1) / kMostDiscs);
+    use(c_, kDisc);
+    cairo_set_line_width(c_, 0.8);
+    for (size_t i = 0; i < discs.size(); i += every) {
+      constexpr unsigned kSteps = 72;
+      for (unsigned k = 0; k <= kSteps; ++k) {
+        double x[3] = {discs[i].x[0], discs[i].x[1], discs[i].x[2]};
+        x[discs[i].axis[0]] += discs[i].radius * std::cos(2 * M_PI * k / kSteps);
+        x[discs[i].axis[1]] += discs[i].radius * std::sin(2 * M_PI * k / kSteps);
+        to(x, k == 0);
+      }
+      cairo_stroke(c_);
+    }
+    use(c_, kProgrammed);
+    cairo_set_line_width(c_, 1.0);
+    const std::vector<ProgrammedVertex>& all = plot_.programmed();
+    for (size_t i = 1; i < all.size(); ++i) {
+      if (!all[i].beside) continue;
+      const double a[3] = {all[i - 1].x[0], all[i - 1].x[1], all[i - 1].x[2]}, b[3] = {all[i].x[0], all[i].x[1], all[i].x[2]};
+      to(a, true);
+      to(b, false);
+      cairo_stroke(c_);
+    }
   }
 
   // Draws the meaning of the colours at the right edge below the head.
@@ -232,6 +280,12 @@ class PlotPainter {
     double y = kTop + 20;
     if (plot_.color_ == PlotColor::kKind || plot_.vertices_.empty()) return;
     cairo_set_line_width(c_, 3);
+    if (plot_.color_ == PlotColor::kSide) {
+      for (unsigned k = 0; k < std::size(kSides); ++k, y += 20) legend_line(kSides[k], y, kSideNames[k]);
+      cairo_set_line_width(c_, 1);
+      legend_line(kProgrammed, y, plot_.beside_all() ? "programmed" : "programmed (in part)");
+      return;
+    }
     if (plot_.color_ == PlotColor::kTool) {
       for (const float tool : tools_) {
         if (y > kHeight - kBottom) {

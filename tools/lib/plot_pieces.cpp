@@ -117,7 +117,19 @@ Extent feed_extent(const std::vector<PlotVertex>& all, double least) {
 
 }  // namespace
 
+static PlotBox path_box(const ToolpathPlot& plot);
+
 PlotBox plot_box(const ToolpathPlot& plot) {
+  PlotBox box = path_box(plot);
+  for (const PlotDisc& disc : plot.discs())
+    for (const int axis : disc.axis) {
+      box.low[axis] = std::min(box.low[axis], disc.x[axis] - disc.radius);
+      box.high[axis] = std::max(box.high[axis], disc.x[axis] + disc.radius);
+    }
+  return box;
+}
+
+static PlotBox path_box(const ToolpathPlot& plot) {
   Extent whole;
   for (const PlotVertex& v : plot.vertices()) whole.widen(v);
   if (!whole.any) whole.widen({});

@@ -135,7 +135,7 @@ CLI::App* add_motion(CLI::App* app, SimCommand* sim) {
 /// The words of the options that say how a path is drawn.
 struct PlotWords {
   std::string view = "iso", coordinates = "work", color = "kind";
-  bool profile = false;
+  bool profile = false, compensation = false;
 };
 
 CLI::App* add_plot(CLI::App* app, PlotWords* words, SimCommand* sim) {
@@ -144,7 +144,14 @@ CLI::App* add_plot(CLI::App* app, PlotWords* words, SimCommand* sim) {
   add_loop_limit(plot, &sim->limits);
   plot->add_option("-o,--output", sim->output, "writes OUTPUT.svg and OUTPUT.png (default: toolpath; with --profile: profile)")->check(given());
   CLI::Option* profile = plot->add_flag("--profile", words->profile, "path speed, acceleration and jerk of every axis over time instead of the path");
-  add_plot_options(plot, &words->view, &words->coordinates, &words->color, [profile](CLI::Option* option) { option->excludes(profile); });
+  CLI::Option* side = plot->add_flag("--compensation", words->compensation,
+                                     "radius compensation, of a program that does not rotate, scale or mirror: the programmed path as well, the tool's disc at the ends of "
+                                     "its blocks, colours by side");
+  side->excludes(profile);
+  add_plot_options(plot, &words->view, &words->coordinates, &words->color, [profile, side](CLI::Option* option) {
+    option->excludes(profile);
+    if (option->get_name() != "--view") option->excludes(side);
+  });
   CLI::App* const machine = plot->add_option_group("machine", "of --profile, but for --machine");
   add_machine(machine, sim);
   for (CLI::Option* option : machine->get_options())
@@ -204,7 +211,7 @@ void settle(const PlotWords& words, SimCommand* sim) {
   if (sim->what == What::kPlot) sim->session.machine = sim->machine.machine;
   if (sim->what == What::kPlot && sim->output.empty()) sim->output = "toolpath";
   if (sim->what == What::kProfile && sim->output.empty()) sim->output = "profile";
-  sim->plot = {plot_views().at(words.view), plot_coordinates().at(words.coordinates), plot_colors().at(words.color)};
+  sim->plot = {plot_views().at(words.view), plot_coordinates().at(words.coordinates), words.compensation ? PlotColor::kSide : plot_colors().at(words.color)};
 }
 
 }  // namespace

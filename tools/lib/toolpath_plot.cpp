@@ -55,7 +55,7 @@ void ToolpathPlot::push(bool rapid, double x, double y, double z) {
     low_[i] = vertices_.empty() ? p[i] : std::min(low_[i], p[i]);
     high_[i] = vertices_.empty() ? p[i] : std::max(high_[i], p[i]);
   }
-  const double value = color_ == PlotColor::kTool ? tool_ : color_ == PlotColor::kFeed ? feed_mm_min_ : color_ == PlotColor::kZ ? z : 0.0;
+  const double value = color_ == PlotColor::kTool ? tool_ : color_ == PlotColor::kFeed ? feed_mm_min_ : color_ == PlotColor::kZ ? z : color_ == PlotColor::kSide ? double{side_} : 0.0;
   vertices_.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(value), rapid});
 }
 
@@ -82,6 +82,7 @@ void ToolpathPlot::thin() {
 }
 
 void ToolpathPlot::add_move(const nc_move& move, const nc_system_config& system, const nc_axes& zero) {
+  if (color_ == PlotColor::kSide) note_side(move, system, zero);
   const LinearAxes linear(system);
   const auto at = [&](const nc_axes& axes, int i) { return linear.get(axes, i) - linear.get(zero, i); };
   if (vertices_.empty())

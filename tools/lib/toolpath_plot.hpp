@@ -24,14 +24,30 @@ enum class PlotView { kIsometric, kXY, kXZ, kYZ };
 /** The coordinates that are drawn; points must be added in these coordinates. */
 enum class PlotCoordinates { kWork, kMachine };
 
-/** What the colour of a feed piece shows. */
-enum class PlotColor { kKind, kTool, kFeed, kZ };
+/** What the colour of a feed piece shows. kSide: on which side of the programmed path the tool goes; the drawing then has that path, and the tool's disc at the
+ * ends of its blocks. */
+enum class PlotColor { kKind, kTool, kFeed, kZ, kSide };
+
+/** Values of kSide. */
+inline constexpr float kSideNone = 0, kSideLeft = 1, kSideRight = 2;
 
 /** A vertex of the path, mm. */
 struct PlotVertex {
   float x, y, z;
   float value;  // value that the colour shows, of the piece that ends here
   bool rapid;   // the piece that ends here is a rapid
+};
+
+/** The end of a piece of the programmed path, mm. Where the tool is not beside it, it is not drawn. */
+struct ProgrammedVertex {
+  double x[3];
+  bool beside;
+};
+
+/** The tool beside the end of a block, mm: a disc in the plane of these two axes. */
+struct PlotDisc {
+  double x[3], radius;
+  int axis[2];
 };
 
 /** Collects a tool path and draws it. */
@@ -72,6 +88,12 @@ class ToolpathPlot {
 
   const std::vector<PlotVertex>& vertices() const { return vertices_; }
 
+  /** The programmed path and the tool beside it, with kSide. They are collected for the first kMostBeside pieces; beside_all() is false when there were more. */
+  const std::vector<ProgrammedVertex>& programmed() const { return programmed_; }
+  const std::vector<PlotDisc>& discs() const { return discs_; }
+  bool beside_all() const { return beside_all_; }
+  static constexpr size_t kMostBeside = 200'000;
+
   /** Writes the drawing. @return false with *error when the file cannot be written. */
   bool write_svg(const std::string& path, std::string* error) const;
   bool write_png(const std::string& path, std::string* error) const;
@@ -80,6 +102,7 @@ class ToolpathPlot {
   friend class PlotPainter;
   void push(bool rapid, double x, double y, double z);
   void thin();
+  void note_side(const nc_move& move, const nc_system_config& system, const nc_axes& zero);
 
   std::vector<PlotVertex> vertices_;
   double min_step_ = 0.0;  // mm; shorter feed pieces are merged
@@ -88,6 +111,10 @@ class ToolpathPlot {
   PlotView view_ = PlotView::kIsometric;
   PlotColor color_ = PlotColor::kKind;
   double tool_ = 0.0, feed_mm_min_ = 0.0;
+  float side_ = kSideNone;
+  std::vector<ProgrammedVertex> programmed_;
+  std::vector<PlotDisc> discs_;
+  bool beside_all_ = true;
   PlotCoordinates coordinates_ = PlotCoordinates::kWork;
   bool executed_ = false;
 };
