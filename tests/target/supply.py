@@ -52,7 +52,9 @@ class Supply:
         print("in motion", flush=True)
         while True:
             count += 1
-            self.control.press("variables.set", number=521, value=count)
+            said = self.control.answer("variables.set", number=521, value=count)
+            if not said.get("ok"):
+                raise Failed(f"#521 cannot be set to {count}: {said}")
             now, rounds = time.monotonic(), self.control.variable(501)
             told.append((now, count, rounds))
             while len(told) > 1 and now - told[1][0] > BEHIND_S:
