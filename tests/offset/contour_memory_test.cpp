@@ -427,6 +427,19 @@ TEST(ContourCheck, ACornerArcAndItsOwnBlock) {
 }
 
 // Not compared are the two blocks beside a change of side, each with the path of the other. The block behind them is a wall like any other.
+// Of a hole that is hardly larger than the tool: the corner in front of the arc, or behind it, is lengthened along the arc's tangent, and the arc comes round to it.
+TEST(ContourCheck, ATangentAndTheFarEndOfItsArc) {
+  const std::map<std::string, std::string> check = {{"CONTOUR_CHECK", "1"}};
+  const std::string in_front = "G90 G17 G0 X40. Y60.\nG1 G42 D1 X20. Y25.05 F500\nX0 Y5.05\nG2 X-2.134222 Y-4.576855 I0 J-5.05\nG40 G1 X0 Y0\nM30\n";
+  EXPECT_EQ(alarm_of_program(in_front, 5, {}), "") << "the check of the manual does not see it";
+  EXPECT_EQ(alarm_of_program(in_front, 5, check), "P153");
+  const std::string behind = "G90 G17 G0 X0 Y0\nG1 G41 D1 X-2.134222 Y-4.576855 F500\nG3 X0 Y5.05 I2.134222 J4.576855\nG1 X20. Y25.05\nG40 X40. Y60.\nM30\n";
+  EXPECT_EQ(alarm_of_program(behind, 5, check), "P153") << "the same way back";
+  // An arc of less than half a circle, and one that is gone round outside, stay clear of their tangents.
+  EXPECT_EQ(alarm_of_program("G0 X40. Y60.\nG1 G42 D1 X20. Y28. F500\nX0 Y8.\nG2 X8. Y0 I0 J-8.\nG1 X8. Y-20.\nG40 X0 Y-20.\nM30\n", 5, check), "");
+  EXPECT_EQ(alarm_of_program("G0 X-40. Y20.\nG1 G42 D1 X-20. Y-10. F500\nX0 Y-6.\nG3 X5.196152 Y3. I0 J6.\nG1 X0 Y20.\nG40 X0 Y40.\nM30\n", 5, check), "");
+}
+
 TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
   const auto behind = [](const char* block) {  // the tool comes up at X-5
     return std::string("G0 X-20. Y-40.\nG41 D1 G1 X0 Y-40. F500\nX0 Y0\nG42 X-20. Y10.\n") + block + "\nG40 X-40. Y40.\nM30\n";

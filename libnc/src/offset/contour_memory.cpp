@@ -121,8 +121,9 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
   if (wall.low > path.high + kLevel_mm && number > path.number) return false;
   if (path.low > wall.high + kLevel_mm && !(path.goes_down && path.descent == wall.descent)) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
-  // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it.
-  if (between == 0 && !path.bends && !path.crosses_own) return false;
+  // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it. The tangent of
+  // an arc, by which a corner is lengthened, comes near to the other end of that arc where it turns by more than half a circle.
+  if (between == 0 && !path.bends && !path.crosses_own && !(path.prolongs && wall.piece.round)) return false;
   if (between == 1 && (path.offset * wall.offset < 0 || across_contour(path, number))) return false;
   OpenEnds open;
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
@@ -209,6 +210,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     Piece piece;
     piece.from = end + section.joint.v[k - 1];
     piece.to = end + section.joint.v[k];
+    path.prolongs = section.joint.lengthened;
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
     const Vec2 from_vector = section.joint.v[k - 1], to_vector = section.joint.v[k];
     add(path, path.bends && bendable(from_vector, to_vector) ? arc_about(end, from_vector, to_vector, section.offset) : piece);

@@ -103,6 +103,7 @@ class ContourMemory {
     bool from_contour = false, to_contour = false;  ///< without a vector
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
     bool crosses_own = false;  ///< the move of a block, one of whose ends is given, or has lost its vector: it need not lie beside its own wall
+    bool prolongs = false;     ///< a piece of a lengthened joint: it leads straight on, and an arc beside it may come back to it
     bool of_next = false;      ///< the last piece of a lengthened joint: it lies beside the block behind, and so is compared like that one's path
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
