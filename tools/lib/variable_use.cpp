@@ -200,7 +200,10 @@ class Collector {
 
 /** The meaning of a number according to the tables of the dialect. A common variable that no option brings is there if the machine has a range with it. */
 std::string meaning(const VariableUse& use, nc_dialect dialect) {
-  if (use.number == 0) return letter(use.text.size() > 1 ? use.text[1] : '\0') ? "by its name" : "computed";
+  if (use.number == 0) {
+    const char first = use.text.size() > 1 ? use.text[1] : '\0';
+    return letter(first) ? "by its name" : digit(first) ? "" : "computed";  // a number of more digits than any variable has
+  }
   nc_system_variable row;
   for (unsigned i = 0; nc_system_variable_row(dialect, i, &row) == NC_OK; ++i)
     if (use.number >= row.first && use.number <= row.last) return row.name;
