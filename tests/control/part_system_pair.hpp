@@ -22,7 +22,7 @@ inline void two_systems(nc_config& c) {
 /// Two part systems on one bench.
 class Pair {
  public:
-  Pair() : bench(NC_DIALECT_M700, two_systems) {}
+  explicit Pair(nc_dialect dialect = NC_DIALECT_M700) : bench(dialect, two_systems) {}
 
   void select(unsigned system, const std::string& text) {
     EXPECT_EQ(nc_program_select(control(), system, bench.add("main" + std::to_string(system), text)), NC_OK);

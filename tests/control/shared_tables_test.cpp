@@ -54,6 +54,16 @@ TEST(SharedTables, AllThatIsShared) {  // M700 13.4, 13.5.5
   pair.expect(501, 4);
 }
 
+TEST(SharedTables, TheRangesAreThoseOfTheFamily) {  // HX 14.4: #100 to #199 and #200 to #699; which of them are shared no parameter says
+  Pair pair(NC_DIALECT_HX);
+  pair.run(0, "#150=1\n#200=2\n#450=3\n#500=4\n#699=5\nM30\n");
+  EXPECT_TRUE(std::isnan(pair.var(1, 150)));
+  pair.expect(200, 2);
+  pair.expect(450, 3);
+  pair.expect(500, 4);
+  pair.expect(699, 5);
+}
+
 TEST(SharedTables, OnePartSystemDoesNotWait) {
   Bench bench;
   const Outcome one = bench.run("#500=1\n#2001=3\n#501=#500+#2001\nM30");
