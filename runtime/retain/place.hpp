@@ -45,7 +45,7 @@ class PlaceData final : public RetainedData {
 
  private:
   // What was found stays until it has been acknowledged, unless the power has failed once more.
-  std::string kept_or(std::string now) const { return now.empty() && !found_.empty() && !scan_.place_seen() ? encode_places(found_) : now; }
+  std::string kept_or(const std::string& now) const { return now.empty() && !found_.empty() && !scan_.place_seen() ? encode_places(found_) : now; }
   Feeder& feeder_;
   Scan& scan_;
   std::vector<ProgramPlace> found_;

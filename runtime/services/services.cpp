@@ -66,7 +66,7 @@ std::string Services::lack(const Session& session, const ServiceRow& row) {
 
 Outcome Services::show(const Session& session, const Call& call) const {
   if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
-  const auto hung = Outcome::refused(Refused::kFailed, "the state cannot be read");
+  auto hung = Outcome::refused(Refused::kFailed, "the state cannot be read");
   switch (call.row->service) {
     case Service::kRights: {
       Json rights = Json::array();

@@ -40,6 +40,13 @@ TEST(SpaceCompensation, OneOrTwoOfThreeWordsAreThePlanes) {
   EXPECT_EQ(path_of("G0 G41 X10. Y10. Z10. I1. J0 D1\nM30"), (Path{"rapid 10 15 10"}));  // 12.4.3: at right angles to I J
 }
 
+TEST(SpaceCompensation, AVectorAloneCutsOnlyWithAFeed) {  // 3.2, P62: a line without a feed would never end
+  EXPECT_EQ(alarm_of("G1\nG41 I1. J1. K1. D1\nM30"), "P62 L2");
+  EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1\nG40\nM30"), "P62 L3");
+  EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1\nI1. J2. K1.\nM30"), "P62 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG41 I1. J1. K1. D1\nG40\nM30"), " L0");
+}
+
 TEST(SpaceCompensation, ABlockWithoutVectorCarriesTheOldOne) {
   EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nX20.\nX30. I3. K4.\nX40.\nG40\nX50.\nM30"),
             (Path{"rapid 10 3 4", "rapid 20 3 4", "rapid 33 0 4", "rapid 43 0 4", "rapid 40 0 0", "rapid 50 0 0"}));

@@ -40,6 +40,14 @@ TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
             (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));
 }
 
+TEST(LengthAlongTool, AloneItCutsOnlyWithAFeed) {  // 3.2, P62: a line without a feed would never end
+  EXPECT_EQ(alarm_of("G1\nG43.1 H1\nM30"), "P62 L2");
+  EXPECT_EQ(alarm_of("G0 G43.1 H1\nG1\nG49\nM30"), "P62 L3");
+  EXPECT_EQ(alarm_of("G0 G43.1 H1\nG1\nG43 H1\nM30"), "P62 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG43.1 H1\nG49\nM30"), " L0");
+  EXPECT_EQ(alarm_of("G1\nG0 G43.1 H1\nG49\nM30"), " L0");
+}
+
 TEST(LengthAlongTool, ReplacesALengthAndIsReplacedByOne) {
   EXPECT_EQ(path_of("G0 B90.\nG43 Z0 H2\nG43.1 X0 H1\nG43 Z5. H2\nM30"),
             (Path{"rapid 0 0 0 90 0", "rapid 0 0 20 90 0", "rapid 50 0 0 90 0", "rapid 0 0 25 90 0"}));

@@ -29,7 +29,7 @@ std::vector<std::string> find_sockets();
 
 class ServiceClient {
  public:
-  ServiceClient() = default;
+  ServiceClient() {}  // not = default, which would be noexcept: a Json may need memory
   ~ServiceClient();
   ServiceClient(const ServiceClient&) = delete;
   ServiceClient& operator=(const ServiceClient&) = delete;

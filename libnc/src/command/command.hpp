@@ -40,6 +40,7 @@ struct Command {
   bool exact_stop = false;         ///< G09
   bool comp_entry = false;         ///< compensation that begins here leads straight to its first end (Series 8 G43)
   bool comp_command = false;       ///< G40-G42 that means something here
+  bool vector_in_space = false;    ///< a vector in space (M700 12.3, 12.5) is in force before this block or in it
   bool meeting = false;            ///< the block has no end, or meets the one before, which has none (M700 13.9)
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is waited for after the dwell
 

@@ -98,6 +98,8 @@ void ContourStage::settle(const Item& next, ContourRule rule) {
   const bool arcs = line.circular || (next.move.circular && rule.arcs && is_cut(next.move));
   if (!arcs && !is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
   if (arcs && !is_cut(next.move)) return fail(Condition::corner_no_move, next.source, amount);
+  // A line whose end is the point where the next block meets it (13.9) has no length yet from which the corner could take its part.
+  if (is_line(next.move) && meets_later(next.move)) return fail(Condition::corner_option, next.source, amount);
   CornerCut cut;
   const Condition bad = arcs ? cut_arc_corner(line, next.move, axis_count_, &cut) : cut_corner(line, next.move, rotary_, axis_count_, &cut);
   const bool at_next = bad == Condition::corner_next_short || bad == Condition::corner_arc;

@@ -426,7 +426,10 @@ Execution execute_words(Interpreter& in) {
   if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);
   if (did == Execution::done && w.has(Role::feed) && !own_feed) did = take_feed_word(in);
   if (did != Execution::done) return did;
+  const auto has_vector_in_space = [&in] { return in.state.space.on || in.state.tool_length != 0; };
+  const bool had_one = has_vector_in_space();
   did = apply_systems(in);
+  in.words.vector_in_space = had_one || has_vector_in_space();
   if (did != Execution::done) return did;
   if (is_arc(in.state.modal.of(Mode::motion)) && w.target.axes() != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
     // M700 App.2: an arc and G43/G44 in one block.
@@ -443,7 +446,11 @@ Execution execute_words(Interpreter& in) {
   if (!w.comp_command) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
-  if (did == Execution::done && in.state.machine == before && !in.dialect->rules.compensation.code_alone_waits) move_nowhere(in);
+  if (did == Execution::done && in.state.machine == before && !in.dialect->rules.compensation.code_alone_waits) {
+    // The vector is gone to at once (M700 12.3, 12.5): as a line that takes a feed (3.2, P62), which a block that only waits for its vector does not.
+    if (w.vector_in_space && !in.state.modal.is(Function::rapid)) did = check_feed(in, Function::linear);
+    if (did == Execution::done) move_nowhere(in);
+  }
   return finish(in, did);
 }
 

@@ -203,10 +203,11 @@ Eval read_device(Access& a) {
     a.in.raise(Condition::no_such_data, Sign::variable, number);
     return Eval::fault;
   }
-  if (width->bytes == 0) {  // one bit: of a word the selected bit of it
+  const unsigned bytes = width->bytes;
+  if (bytes == 0) {  // one bit: of a word the selected bit of it
     return give(a, static_cast<double>(device_bits(a.in, *device, number, device->word ? 32 : 1) >> (device->word ? bit : 0) & 1));
   }
-  const unsigned count = width->bytes * 8u;
+  const unsigned count = bytes * 8u;
   const uint64_t bits = device_bits(a.in, *device, number, count);
   if (!width->is_signed || (bits >> (count - 1) & 1) == 0) return give(a, static_cast<double>(bits));
   return give(a, static_cast<double>(bits) - std::ldexp(1.0, static_cast<int>(count)));  // two's complement
