@@ -57,5 +57,20 @@ TEST(DgshapeRotary, AtTheTopOfZItTurnsAsFastAsItCan) {
   EXPECT_EQ(last_move("G01A90.F100.").feed_mm_min, 100);               // on the axis no speed of the tool turns it: deg/min
 }
 
+TEST(Dgshape, ACodeOfACycleHasTheDataOfItsBlock) {  // 2-2, G80 to G89
+  const auto run = [](const std::string& text) { return dgshape("M03S6000F100.\nG00Z20.\nG99G82X1.Z-1.R1.P100\n" + text + "\nG80\nM30"); };
+  EXPECT_EQ(run("X5.").dwells(), (std::vector<double>{0.1, 0.1}));  // behind the code they hold
+  EXPECT_EQ(run("G86X5.Z-1.R1.").dwells(), (std::vector<double>{0.1}));
+  EXPECT_EQ(run("G89X6.Z-1.R1.").dwells(), (std::vector<double>{0.1}));  // "when no P time is given, no dwell occurs"
+  EXPECT_EQ(run("G86X5.Z-1.R1.P100").alarm, "NC-ADDRESS");
+  const auto behind = [&](const std::string& text) {
+    const Path path = run(text).path();
+    return Path(path.begin() + 5, path.end());
+  };
+  EXPECT_EQ(behind("G81X2."), (Path{"rapid 2 0 1"}));  // without Z "no drilling is performed"
+  EXPECT_EQ(behind("G81X2.Z-2."), (Path{"rapid 2 0 1", "rapid 2 0 20", "line 2 0 -2 F100", "rapid 2 0 20"}));  // without R "the same point as the initial level"
+  EXPECT_EQ(run("G83X2.Z-2.R1.Q1.\nG83X3.Z-2.R1.").alarm, "NC-WORDS");
+}
+
 }  // namespace
 }  // namespace nc::test

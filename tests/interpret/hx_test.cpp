@@ -163,7 +163,7 @@ TEST(Hx, ABlockSkipStandsAtTheHeadOfItsBlock) {  // 2.3.3, 14.2.2
 }
 
 TEST(Hx, FormulasStandInBrackets) {  // 14.2.4
-  for (const char* block : {"X4.-1.", "X1.+2.", "X2.*3."}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "F_82004") << block;
+  for (const char* block : {"X4.-1.", "X1.+2.", "X2.*3.", "X#101+1", "X#1*2", "X-#1-5.", "X[1.]+2."}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "F_82004") << block;
   EXPECT_EQ(hx("#1=2\nX-[#1+#1]\nZ-#1\nX[4.-1.]\nM30").path(), (Path{"rapid -4 0 0", "rapid -4 0 -2", "rapid 3 0 -2"}));
   EXPECT_EQ(hx("#1=4.-1.\nX#1\nM30").path(), (Path{"rapid 3 0 0"}));
 }
@@ -516,6 +516,46 @@ TEST(Hx, ToolNumbersCallAMacro) {  // 10.1.1, 14.1.6
   EXPECT_EQ(calls("1", "0").var(100), 1);
   EXPECT_EQ(calls("4", "1").var(100), 4);
   EXPECT_EQ(calls("0", "0").aux(), "T5 M30");
+}
+
+TEST(Hx, TheProgramThatATCallsKnowsTheTool) {  // 10.1.1, 14.1.6, docs/decisions.md
+  const auto calls = [](const std::string& text) {
+    Bench b(NC_DIALECT_HX);
+    b.param("3105", "1");
+    b.add("O9000.nc", "O9000\n#100=#149\nT#149 M06\nM99\n");
+    return b.run(text + "\nM30");
+  };
+  const Outcome one = calls("G00 X2. T5");
+  EXPECT_EQ(one.alarm, "") << one.alarm_detail;
+  EXPECT_EQ(one.var(100), 5);
+  EXPECT_EQ(one.aux(), "T5 M6 M30");  // and not before: the macro changes it
+  EXPECT_EQ(calls("T5\nT7").aux(), "T5 M6 T7 M6 M30");
+  EXPECT_EQ(calls("T5.5").alarm, alarm_of("G00 T5.5\nM30"));
+  EXPECT_NE(calls("T5.5").alarm, "");
+}
+
+TEST(Hx, WhatACycleTakesFromTheOneBefore) {
+  // 12.3.8: G86 has no P; 12.3.10: Q of the block goes before I and J of an earlier one.
+  EXPECT_EQ(hx("S500 M03\nG00 Z20.\nG99 G88 X1. Z-5. R2. P500 F100\nG86 X2.\nG89 X3.\nG80\nM30").dwells(), (std::vector<double>{0.5, 0.5}));
+  const std::string program = "S500 M03\nG00 Z20.\nG98 G76 X1. Z-5. R2. I.5 J.25 F100\nG87 X3. Z-3. R-10. Q1.\nG80\nM30";
+  Bench by_q(NC_DIALECT_HX);
+  by_q.param("3070", "0").param("3071", "0");
+  const Outcome run = by_q.run(program);
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  const Path path = run.path();
+  EXPECT_NE(std::find(path.begin(), path.end(), "rapid 4 0 -10"), path.end());
+  EXPECT_EQ(alarm_of(program), "NC-WORDS");  // PI 70 and PI 71 do not say where Q goes
+}
+
+TEST(Hx, CodesBehindACallAreNoArguments) {  // 14.1.1 (1)
+  const std::string program = "\nM30\nO1\n#100=#1\nM99";
+  for (const char* call : {"G65 P1 G999 A1.", "G65 P1 G31.2 A1.", "G66 P1 G83 A1."}) EXPECT_EQ(alarm_of(call + program), "F_82001") << call;
+  EXPECT_EQ(hx("G90 G65 P1 A1." + program).var(100), 1);  // in front of it they act
+}
+
+TEST(Hx, ChamferAndRoundingExcludeEachOther) {  // 4.3.1, 4.3.2
+  EXPECT_EQ(alarm_of("G01 X30. ,R5. ,C5. F300\nY30.\nM30"), "F_82004");
+  EXPECT_EQ(alarm_of("G01 X30. ,C5. ,R5. F300\nY30.\nM30"), "F_82004");
 }
 
 TEST(Hx, ParametersAreVariablesOfTheirNumber) {  // 14.2.3

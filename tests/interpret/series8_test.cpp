@@ -254,6 +254,50 @@ TEST(Series8Cycle, BoresInTheWayOfEachCode) {  // G85 to G89
   EXPECT_EQ(alarm_of("F10\nG86X1Z-3R4"), "NC-SPINDLE");  // which way would it turn again?
 }
 
+TEST(Series8Cycle, CaseBoringLeavesItsHoleForTheNext) {  // G87: X Y A are of the "first block", and the tool stands at the bottom
+  const std::string begin = "F50\nG00Z10\n";
+  const Path hole = {"rapid 0 0 10", "rapid 1 1 10", "rapid 1 1 1", "line 1 1 -1 F50"};
+  const auto behind = [&](const std::string& blocks) {
+    Path path = path_of(begin + "G87X1Y1Z-1R1\n" + blocks);
+    EXPECT_GT(path.size(), hole.size()) << blocks;
+    EXPECT_EQ(Path(path.begin(), path.begin() + 4), hole) << blocks;
+    return path.size() > 4 ? Path(path.begin() + 4, path.end()) : Path();
+  };
+  EXPECT_EQ(behind("X2"), (Path{"rapid 1 1 1", "rapid 2 1 1", "line 2 1 -1 F50"}));
+  EXPECT_EQ(behind("X2R3"), (Path{"rapid 1 1 3", "rapid 2 1 3", "line 2 1 -1 F50"}));
+  EXPECT_EQ(behind("R-2Z-3\nX2R1Z-1"), (Path{"rapid 1 1 -2", "line 1 1 -3 F50", "rapid 1 1 1", "rapid 2 1 1", "line 2 1 -1 F50"}));
+  EXPECT_EQ(behind("X1Y1R-2Z-3"), (Path{"rapid 1 1 -2", "line 1 1 -3 F50"}));  // the same place
+  EXPECT_EQ(behind("G81X2"), (Path{"rapid 1 1 1", "rapid 2 1 1", "line 2 1 -1 F50", "rapid 2 1 1"}));
+  EXPECT_EQ(behind("G80\nX2"), (Path{"rapid 2 1 -1"}));  // behind G80 it goes as it is programmed
+  EXPECT_EQ(behind("G49X1Y1I5J5"), (Path{"rapid 1 1 1", "line 1 1 -1 F50", "rapid 1 1 1", "rapid 6 1 1", "line 6 1 -1 F50", "rapid 6 1 1", "rapid 6 6 1", "line 6 6 -1 F50",
+                                         "rapid 6 6 1", "rapid 1 6 1", "line 1 6 -1 F50"}));
+  const Outcome lost = series8(begin + "G87X1Y1Z-1R1\nR-2Z-3\nX2");  // at R of the layer it would go into the part in rapid traverse
+  EXPECT_EQ(lost.alarm, "NC-WORDS");
+  EXPECT_EQ(lost.alarm_line, 5u);
+}
+
+TEST(Series8Cycle, LengthsOfCyclesHoldUntilACycleHasAnother) {  // docs/series8.md
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 5, NC_TOOL_LENGTH);
+  const std::string begin = "F50\nG00Z20\nG81X1Z-1R1D1\nG80\nG00Z10\n";
+  EXPECT_EQ(bench.run(begin + "D0Z12\nM30").path().back(), "rapid 1 0 17");  // that D is a cutter
+  EXPECT_EQ(bench.run(begin + "G81D0\nG80\nG00Z12\nM30").path().back(), "rapid 1 0 12");
+}
+
+TEST(Series8Arc, DoesNotBeginBesideItsStartInANewMap) {  // G55, G57: the position that was programmed stays programmed
+  for (const char* map : {"G55R90", "G57R2"}) {
+    const std::string begin = std::string("F10\nG00X5Y5\n") + map + "\n";
+    EXPECT_EQ(alarm_of(begin + "G02X6Y6R1"), "NC-MODE") << map;
+    EXPECT_EQ(alarm_of(begin + "G01X5Y5\nG02X6Y6R1"), "") << map;
+  }
+  EXPECT_EQ(alarm_of("F10\nG55R90\nG02X1Y1R1"), "");  // at the zero point they stand there
+}
+
+TEST(Series8, AnArcHasRadiusOrCentre) {  // G02
+  EXPECT_EQ(alarm_of("F50\nG02X2Y0I1J0R5"), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("F50\nG02X2Y0R5"), "");
+}
+
 TEST(Series8Cycle, WhatWouldCutTheWallIsAnAlarm) {  // G88, G89: "shifted off-center to allow passing the boring tool through the hole"
   for (const char* block : {"G89X3R-3Z-1", "G88X3R1Z-1"}) EXPECT_EQ(alarm_of(std::string("F100M3S100\nG00Z10\n") + block + "\nM30"), "NC-WORDS") << block;
 }
@@ -344,6 +388,7 @@ TEST(Series8Cavity, RefusesWhatCannotBeMilled) {
   bench.tool(1, 5, NC_TOOL_RADIUS);
   const auto alarm = [&](const std::string& block) { return bench.run("F300\n" + block).alarm; };
   for (const char* block : {"G34X0Z-1R1I60D1", "G34X0Z-1I60J40D1", "G34X0R1I60J40D1", "G34X0Z-1R1I60J40D0"}) EXPECT_EQ(alarm(block), "NC-WORDS") << block;
+  for (const char* block : {"G34X10Y10Z-2R1I20J10K1Q2D2", "G36X10Y10Z-2R1I20K1Q2D2"}) EXPECT_EQ(alarm(block), "NC-RANGE") << block;  // D2 has no radius
   for (const char* block : {"G34X0Z-1R1I8J40D1", "G36X0Z-1R1I5D1", "G34X0Z2R1I60J40D1", "G34X0Z-1R1I60J40P30D1", "G34X0Z-1R1I60J40K-1D1", "G34X0Z-1R1I60J40Q0D1", "G34X0Z-1R1I60J40Q15D1",
                             "G36X0Z-1R1I30Q25D1", "G34X0Z-1R1I60J40P2D1"})
     EXPECT_EQ(alarm(block), "NC-RANGE") << block;

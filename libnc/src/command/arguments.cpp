@@ -24,17 +24,32 @@ int component_of(const FrontEnd& front, const Word& word) {
   return -1;
 }
 
+/// The code calls the program whose arguments stand behind it.
+bool calls_with_arguments(const FrontEnd& front, double code) {
+  const FunctionRow* const row = front.codes->find(code);
+  return (row != nullptr && is_macro_call(row->function)) || front.calls->find_g(code) != nullptr;
+}
+
 constexpr unsigned kNoArgument = kWordNoValue | kWordComma | kWordCount;
 
 }  // namespace
 
 Reading read_arguments(const Block& block, FrontEnd& front, bool every_word, MacroCall& call) {
   GroupCounter groups;
+  const bool refuses_codes = front.dialect->rules.block.unused_words_are_faults;
+  bool called = false;
   for (const Word& word : block.words) {
-    if (front.is(word, Role::code) && !every_word) continue;
+    const bool code = front.is(word, Role::code) && !every_word;
+    if (code && !refuses_codes) continue;
     Value value;
     const Reading read = front.value_of(block, word, &value);
     if (read != Reading::done) return read;
+    if (code) {  // HX 14.1.1 (1): behind the code that calls no other one is an argument
+      if (called) return front.refuse(Condition::illegal_address, slot_of(word), value.number);
+      called = calls_with_arguments(front, value.number);
+      continue;
+    }
+    called = called || (front.is(word, Role::misc_code) && front.calls->find_m(value.number) != nullptr);
     if ((word.flags & kNoArgument) != 0) return front.refuse(Condition::format_error, slot_of(word));
     if (!every_word && front.is(word, Role::call_program)) {
       call.has_program = !value.vacant;

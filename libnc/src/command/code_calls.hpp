@@ -16,7 +16,7 @@ struct CodeCall {
   uint32_t code = 0;       ///< number of the G code (not times 10) or M code
   WordSlot word = kNoWord; ///< of an ASCII code
   uint32_t program = 0;    ///< O number; 0 = this row is not in use
-  uint32_t variable = 0;   ///< ASCII type 0: number of the common variable that gets the value
+  uint32_t variable = 0;   ///< of an ASCII code of type 0, or of T: number of the common variable that gets the value, 0 = none
   CodeCallType type = CodeCallType::sub;
   const nc_vendor_code* vendor = nullptr;  ///< not nullptr: a function of the host is called instead of a program
 };

@@ -126,6 +126,7 @@ Reading CommandReader::take_option(const Word& word, double value) {
   }
   const bool chamfer = front.is(word, Role::option_chamfer);  // M700 13.7
   if (!chamfer && !front.is(word, Role::option_corner_radius)) return front_.refuse(Condition::no_function, slot_of(word), value);
+  if (w.corner != Corner::none && front.dialect->rules.block.corner_words_exclude) return front_.refuse(Condition::two_words, slot_of(word), value);
   w.corner = chamfer ? Corner::chamfer : Corner::rounding;
   w.corner_size = {value, word.flags};
   return Reading::done;

@@ -35,6 +35,8 @@ struct CycleState {
   double pitch = 0;          ///< of a synchronous tap, mm/rev; 0 = none yet
   double return_speed = 0;   ///< ,S: of the spindle on the way back of a synchronous tap, r/min; 0 = that of the way in
   double first = 0;          ///< ... at this coordinate
+  bool in_hole = false;      ///< the tool has stayed at the bottom of a hole, out of which leads the way by ...
+  double way_out = 0;        ///< ... R of its first layer, as initial_level
 };
 
 /// What a hole needs, resolved to coordinates of the drilling axis.

@@ -125,8 +125,7 @@ constexpr Sentence kSentences[] = {
     {C::plane_mismatch, "{word} does not fit the plane that is selected.",
      "The words of the arc do not belong to the plane that is selected."},
     {C::plane_in_rotation,
-     "The plane cannot be selected while coordinates are rotated, nor in the block of {rotation_on}. "
-     "Cancel with {rotation_off} first.", nullptr},
+     "The plane cannot be selected while {rotation_on} rotates the coordinates. Select it before, or behind {rotation_off}.", nullptr},
     {C::space_conversion, "{rotation_on} with {vector_x}, {vector_y} and {vector_z} is the conversion in space, which this control does not have.", nullptr},
     {C::plane_in_compensation,
      "The plane cannot be changed while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
@@ -142,7 +141,8 @@ constexpr Sentence kSentences[] = {
     {C::no_reference, "{axis} has not been to its reference position.", nullptr},
     {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
      "{axis} would go beyond its stroke limit."},
-    {C::spindle_not_turning, "The cycle needs a turning spindle. Program {spindle_speed} and {spindle_forward} before it.", nullptr},
+    {C::spindle_not_turning, "The cycle needs a spindle that turns, a tap one that turns the way of its thread. "
+     "Program {spindle_speed} and {spindle_forward} (left-hand: the other way) before it.", nullptr},
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation,
@@ -165,7 +165,7 @@ constexpr Sentence kSentences[] = {
     {C::corner_reversal, "No rounding fits here: the block behind it goes straight back. Leave ,{rounding} out.", nullptr},
     {C::corner_next_short, "The block is shorter than the corner ,{word} at its start. Make that corner smaller.",
      "The block is shorter than the corner (,{chamfer} ,{rounding}) at its start. Make that corner smaller."},
-    {C::corner_motion, "A corner (,{chamfer} ,{rounding}, or the arc of radius compensation) lies between two cuts. Program {linear} first.", nullptr},
+    {C::corner_motion, "A corner, programmed or of radius compensation, lies between two cuts. Program {linear} first.", nullptr},
     {C::pre_read, "Too many statements behind a block with ,{chamfer} ,{rounding} or radius compensation: calculate in front of it.", nullptr},
     {C::geometric_option, "A line by its angle ({line_angle} or ,{angle}) is not possible here: the letter has another meaning, or a mode bars it. Program both ends.", nullptr},
     {C::geometric_arc_option, "An arc that touches the block before or behind it is not possible in this mode. Program the end of each block.", nullptr},

@@ -28,7 +28,7 @@ constexpr AlarmText kTexts[] = {
     {"NC-OFFSET-DATA", "Offset number missing or too large"},
     {"NC-REFERENCE", "Axis has no reference"},
     {"NC-LIMIT", "Beyond the operating range"},
-    {"NC-SPINDLE", "Spindle is not turning"},
+    {"NC-SPINDLE", "Spindle does not turn as it has to"},
     {"NC-TAP", "Spindle does not follow its tap"},
     {"NC-INCREMENTAL", "Code not possible with G91"},
     {"NC-TOOL", "Tool word not possible here"},

@@ -354,11 +354,14 @@ class Lexer {
     return true;
   }
 
+  /// A sum or a product without brackets.
+  static bool goes_on(char next) { return next == '+' || next == '-' || next == '*'; }
+
   bool number_value(const WordFormat& format, Word* word, bool may_count, const Cursor& start) {
     const Decimal d = at_.number();
     if (d.digits == 0) return fault(Condition::format_error, letter_of(word->slot));
     const char next = at_.peek();
-    if (rules_.macros && !rules_.bare_sums && (next == '+' || next == '-' || next == '*')) return fault(Condition::format_error, letter_of(word->slot));
+    if (rules_.macros && !rules_.bare_sums && goes_on(next)) return fault(Condition::format_error, letter_of(word->slot));
     if (rules_.macros && rules_.bare_sums && rules_.formula == Formula::macro && (next == '+' || next == '-' || next == '*' || next == '/')) {  // M700 5.3: X123+0
       at_ = start;
       return expression_value(word);
@@ -387,7 +390,8 @@ class Lexer {
       return fault(Condition::variable_use, letter_of(word->slot));  // M700 13.4 (3)
     word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
     ExpressionCompiler compiler(block_, &at_, rules_.formula);
-    if (!compiler.word_value(&word->code)) return fault(compiler.fault(), letter_of(word->slot));
+    if (!compiler.word_value(&word->code, rules_.bare_sums)) return fault(compiler.fault(), letter_of(word->slot));
+    if (!rules_.bare_sums && goes_on(at_.peek())) return fault(Condition::format_error, letter_of(word->slot));
     if (at_.peek() == '=') return fault(Condition::macro_and_words, letter_of(word->slot));  // X#1=#3+100
     return true;
   }

@@ -63,6 +63,8 @@ struct BlockRules {
   /// of DGSHAPE, HX and Series 8 list the words of each code). Otherwise it
   /// is passed over.
   bool unused_words_are_faults = false;
+  /// A block has either a chamfer or a rounding (HX 4.3.1, 4.3.2: each format has one of them). Otherwise the later word counts (M700 13.7.1 (3)).
+  bool corner_words_exclude = false;
 };
 
 /// M, T and the second auxiliary function.
@@ -151,6 +153,8 @@ struct ArcRules {
   /// The words of the centre have no sign; it lies where the arc stays within a quadrant about it, and there is no other arc (Series 8 G02). Otherwise
   /// they are increments with a sign (M700 6.4).
   bool centre_by_quadrant = false;
+  /// Radius and centre in one block are a fault (Series 8 G02 names two ways to give an arc). Otherwise the radius counts (M700 6.5).
+  bool radius_excludes_centre = false;
 };
 
 struct DwellRules {
@@ -292,6 +296,11 @@ struct CycleRules {
   /// All cycles have one format: each takes the words of every other one and keeps them for it (HX 12.1.2). Otherwise each has its own (DGSHAPE G80 to G89;
   /// Series 8 G81 to G89).
   bool words_of_all = false;
+  /// The bore that comes back with the spindle stopped dwells for P at the bottom (M700 13.1.1, G86). Otherwise its format has no P (DGSHAPE G86, HX 12.3.8).
+  bool bore_stop_dwells = true;
+  /// The code of a cycle begins its data anew: what its block does not give is not that of the cycle before (DGSHAPE G80 to G89: without Z nothing is
+  /// drilled, without R the initial level is taken, without P there is no dwell). Otherwise they hold as long as the mode (M700 13.1.1).
+  bool code_begins_data = false;
   /// A bottom above R is a fault (LinuxCNC G81). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
 };
@@ -391,6 +400,9 @@ struct CodeCallRules {
   bool arguments_behind_m;
   /// Program that a tool number calls by the values of two parameters, 0 = none (HX 10.1.1). nullptr: parameters name it (M700 13.5.2).
   uint32_t (*tool_program)(double first, double second);
+  /// Common variable that gets the tool number for this program, 0 = none (FANUC's T code call; HX 10.1.1 names none). Otherwise it is an argument, or the
+  /// T that is shown (M700 13.5.2).
+  uint32_t tool_variable = 0;
 };
 
 /// Data setting by program. Which value of L sets what is a table (DataInputRow).

@@ -41,8 +41,13 @@ void run_rest_first(Interpreter& in, const Caller& caller) {
   in.after_block = caller.call;
 }
 
-Execution set_ascii_variable(Interpreter& in, const Caller& caller) {
-  if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(caller.value), in.state.seq + 1)) return Execution::done;
+/// The common variable in which the called program finds the value of the word: of an ASCII code, or of a tool number, which is a whole one.
+Execution set_variable_of_call(Interpreter& in, const Caller& caller) {
+  if (!caller.ascii && caller.call->variable == 0) return Execution::done;
+  double value = caller.value;
+  const double within = in.dialect->rules.block.whole_words_within;
+  if (!caller.ascii && within >= 0 && !make_whole(within, &value)) return in.raise(Condition::format_error, caller.word, value);
+  if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(value), in.state.seq + 1)) return Execution::done;
   return in.raise(Condition::variable_number, Sign::variable, caller.call->variable);
 }
 
@@ -113,7 +118,8 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, caller.word, caller.value);
   show_code(in, caller);
   if (type_of_call(in, caller) == CodeCallType::sub) {
-    if (caller.ascii && (did = set_ascii_variable(in, caller)) != Execution::done) return did;
+    did = set_variable_of_call(in, caller);
+    if (did != Execution::done) return did;
     run_rest_first(in, caller);
     return Execution::done;
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/same_place.hpp"
 #include "base/units.hpp"
 #include "frame/rotary.hpp"
 #include "interpret/feed.hpp"
@@ -426,6 +427,8 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
   words.may_be_short = rules.short_radius_is_half_chord;
   if (words.has_radius) {
     words.radius = length_of(in, Role::arc_radius);
+    for (unsigned i = 0; i < 2 && rules.radius_excludes_centre; ++i)
+      if (w.has(plane.center[i])) return in.raise(Condition::two_words, plane.center[i], w.get(plane.center[i]));
     if (rules.radius_is_modal) in.state.arc_radius = words.radius;
     if (w.has(Role::arc_turns) && rules.turns_exclude_radius) return in.raise(Condition::format_error, Role::arc_turns);
   } else if (rules.radius_is_modal && in.state.arc_radius != 0 && !w.has(plane.center[0]) && !w.has(plane.center[1])) {
@@ -485,9 +488,19 @@ static bool find_centre(const BlockContext& in, const PlaneAxes& plane, const Ax
   return center_of_quadrant(start, finish, ccw, in.settings.arc_tolerance, center);
 }
 
+/// Series 8 G55, G57: what has been programmed before stays programmed, so that the axes do not stand where the first arc is meant to begin.
+static bool stands_beside_start(const BlockContext& in, const PlaneAxes& plane) {
+  if (!in.state.map_begins || !in.dialect->rules.rotation.about_zero) return false;
+  const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+  const AxisVec position = in.position();
+  const AxisVec start = from_program(in, to_program(in, position));
+  return std::hypot(start[h] - position[h], start[v] - position[v]) > kReached;
+}
+
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw) {
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
+  if (stands_beside_start(in, plane)) return in.raise_mode(Condition::not_accepted, Mode::motion);
   ArcWords words;
   const Execution did = read_arc_words(in, plane, commanded, &words);
   if (did != Execution::done) return did;

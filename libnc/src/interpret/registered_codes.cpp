@@ -78,6 +78,7 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
   read_call(whole, {P::s_call, 0}, {P::s_call, 1}, &calls.s);
   if (const auto tool_program = dialect.rules.code_call.tool_program; tool_program != nullptr) {
     calls.t.program = tool_program(whole({P::tool_macro, 0}, 0), whole({P::tool_macro, 1}, 0));
+    calls.t.variable = dialect.rules.code_call.tool_variable;
   } else {
     read_call(whole, {P::t_call, 0}, {P::t_call, 1}, &calls.t);
   }

@@ -68,9 +68,9 @@ class Hash {
   }
   void add_one(const CycleState& cycle) {
     const auto& [kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
-                 initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first] = cycle;
+                 initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first, in_hole, way_out] = cycle;
     add(kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
-        initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first);
+        initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first, in_hole, way_out);
   }
   void add_one(const NurbsState& nurbs) {
     const auto& [first, knots, points, order, axes] = nurbs;

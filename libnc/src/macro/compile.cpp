@@ -31,10 +31,10 @@ bool ExpressionCompiler::start(uint16_t* code) {
   return true;
 }
 
-bool ExpressionCompiler::word_value(uint16_t* code) {
+bool ExpressionCompiler::word_value(uint16_t* code, bool sums) {
   start(code);
   word_ = true;
-  return (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end);
+  return (ngc_ ? ngc_value(0) : sums ? sum(0, false) : signed_operand(0, false)) && emit(Op::end);
 }
 
 bool ExpressionCompiler::condition(uint16_t* code) {

@@ -105,8 +105,8 @@ class ExpressionCompiler {
 
   /// A formula, up to the first character that cannot belong to it.
   bool expression(uint16_t* code) { return start(code) && (ngc_ ? ngc_value(0) : sum(0, false)) && emit(Op::end); }
-  /// The value of a word without brackets around it: only + - * / may stand in it, and a sign at its head belongs to the word.
-  bool word_value(uint16_t* code);
+  /// The value of a word without brackets around it: only + - * / may stand in it, and those only with `sums`; a sign at its head belongs to the word.
+  bool word_value(uint16_t* code, bool sums);
   /// '[' formula comparison formula ']'
   bool condition(uint16_t* code);
   /// A formula, or two formulas with a comparison between them, with or without brackets around it.

@@ -34,7 +34,8 @@ inline constexpr Rules kRules = {
               .dwell_stands_alone = false,
               .words_stand_once = false,  // 14.1.1 (3): the last one counts
               .assigns_at_once = false,
-              .unused_words_are_faults = true},
+              .unused_words_are_faults = true,
+              .corner_words_exclude = true},
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = true,  // 9.3
@@ -79,7 +80,8 @@ inline constexpr Rules kRules = {
               .longest_dwell_ms = 99999999,
               .shift_needs_words = true,
               .shift_is_of_spindle = true,
-              .words_of_all = true},  // 12.3.9, 12.3.10
+              .words_of_all = true,  // 12.3.9, 12.3.10
+              .bore_stop_dwells = false},  // 12.3.8
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,
@@ -107,7 +109,8 @@ inline constexpr Rules kRules = {
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
     .rotation = {.plane_in_block = true, .angle_by_parameter = true, .centre_is_scaled = true},
     .mill = {.rotary_in_block = true, .polar_cuts_only = true},
-    .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program},
+    .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program,
+                  .tool_variable = 149},
 };
 
 }  // namespace nc::hx

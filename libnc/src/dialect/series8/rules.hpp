@@ -46,7 +46,8 @@ inline constexpr Rules kRules = {
             .turns_count_last = false,
             .radius_is_modal = true,
             .short_radius_is_half_chord = true,
-            .centre_by_quadrant = true},
+            .centre_by_quadrant = true,
+            .radius_excludes_centre = true},
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = true},
     .compensation = {.xy_plane_only = false,  // G17: any plane
                      .plane_is_fixed = true,

@@ -3,6 +3,7 @@
 // cycle/strokes.cpp, what becomes of them functions/cycle_strokes.cpp.
 #include "interpret/functions/cycle.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -66,6 +67,12 @@ Execution check_axis_stays(BlockContext& in) {
   return of_pair ? Execution::done : in.raise_mode(Condition::drilling_axis_changed, Mode::plane);
 }
 
+/// DGSHAPE G80 to G89: a code has the data of its block; the blocks behind it without a code repeat them.
+void forget_hole_data(CycleState& c) {
+  c.has_z = c.has_r = c.has_p = false;
+  c.q = 0;
+}
+
 void begin_mode(BlockContext& in, unsigned axis) {
   State& state = in.state;
   state.cycle.drill_axis = static_cast<uint8_t>(axis);
@@ -93,6 +100,7 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
     const Execution did = check_axis_stays(in);
     if (did != Execution::done) return did;
   }
+  if (rules.code_begins_data) forget_hole_data(state.cycle);
   const CycleKind kind = cycle_kind(*in.dialect, row.function);
   const bool tapping = is_tap(kind), tapped = is_tap(state.cycle.kind);
   state.cycle.kind = kind;
@@ -117,6 +125,14 @@ bool is_shift_word(const BlockContext& in, Role word) {
   const AddressTable& addresses = in.dialect->addresses;
   return addresses.same(word, vector_along(plane.first)) || addresses.same(word, vector_along(plane.second)) ||
          (in.state.cycle.kind == CycleKind::back_bore_to_level && addresses.same(word, Role::vector_z));
+}
+
+/// Q without I J says where the place beside the hole is, so those of an earlier block count no more (HX 12.3.10; M700 13.1.1 with #1080).
+bool q_replaces_shift(const BlockContext& in) {
+  if (!strokes_of(in.state.cycle.kind).shifts || is_shift_word(in, Role::cycle_depth_step)) return false;
+  for (unsigned i = 0; i < 3; ++i)
+    if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) return false;
+  return in.dialect->rules.cycle.shift_needs_words || in.settings.drilling_axis_z;
 }
 
 /// I J K: the way to the place beside the hole, and of RS-274/NGC 3.5.16.7 the third level.
@@ -166,6 +182,7 @@ Execution take_hole_data(BlockContext& in) {
   if (w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step)) {
     const double q = length_of(in, Role::cycle_depth_step);
     (is_tap(c.kind) ? c.tap_q : c.q) = is_tap(c.kind) ? std::fabs(q) : q;
+    if (q_replaces_shift(in)) std::fill_n(c.shift, 3, 0.0);
   }
   take_shift_words(in);
   const Execution did = take_p(in);

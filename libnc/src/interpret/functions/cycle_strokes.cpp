@@ -2,6 +2,7 @@
 // The strokes of a fixed cycle (cycle/strokes.cpp) -> moves, dwells, M codes and places where single block stops.
 #include <cmath>
 
+#include "base/same_place.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/cycle.hpp"
 #include "interpret/plane.hpp"
@@ -45,7 +46,8 @@ double clearance(const BlockContext& in, CycleKind kind) {
 /// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.
 double dwell_s(const BlockContext& in) {
   const CycleState& c = in.state.cycle;
-  const double p = c.has_p && c.kind != CycleKind::circle ? c.p / 1000 : 0;
+  const bool takes_p = c.kind != CycleKind::circle && (c.kind != CycleKind::bore_stop || in.dialect->rules.cycle.bore_stop_dwells);
+  const double p = c.has_p && takes_p ? c.p / 1000 : 0;
   return c.synchronous && in.settings.tap_checks ? std::fmax(p, in.settings.tap_dwell_s) : p;
 }
 
@@ -133,14 +135,19 @@ LinearStyle by_motion_in_force(BlockContext& in, const AxisVec& start, const Axi
   return style;
 }
 
-/// Hole of a pattern (M700 13.2): in rapid where a cycle is in force, else by the motion in force.
-void position_in_pattern(BlockContext& in) {
+/// Where the hole in hand of a pattern lies.
+AxisVec place_in_pattern(const BlockContext& in) {
   const HolePattern& pattern = in.holes.pattern;
   double place[2];
   place_of_hole(pattern, pattern.count() - in.holes.left, place);
   AxisVec target = in.holes.pattern_at;
   for (unsigned i = 0; i < 2; ++i) target[static_cast<unsigned>(in.state.plane_axis[i])] += place[i];
-  target = as_moved(in, target);
+  return as_moved(in, target);
+}
+
+/// Hole of a pattern (M700 13.2): in rapid where a cycle is in force, else by the motion in force.
+void position_in_pattern(BlockContext& in) {
+  const AxisVec target = place_in_pattern(in);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   const uint32_t axes = 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1];
@@ -295,11 +302,55 @@ void position_over_hole(BlockContext& in) {
   move_linear(in, target, axes & over_hole, style);
 }
 
+/// The block goes on at the place where the tool stands, but for the axis that drills.
+bool stays_over_hole(const BlockContext& in) {
+  const AxisVec start = in.position();
+  const unsigned drills = in.state.cycle.drill_axis;
+  const bool pattern = in.holes.pattern.kind != PatternKind::none;
+  const AxisVec target = pattern ? place_in_pattern(in) : target_of(in, start, in.holes.target.without(1u << drills));
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (i != drills && std::fabs(target[i] - start[i]) > kAddingUp) return false;
+  return true;
+}
+
+/// Series 8 G87: the tool stands at the bottom of a layer. A block at another place begins a hole of its own ("first block"), and the tool leaves the one it is
+/// in by its R, or by the R of the new one where that is higher. The R of a lower layer is no R of the new one, which would be entered in rapid traverse.
+Execution leave_hole(BlockContext& in) {
+  CycleState& c = in.state.cycle;
+  if (!c.in_hole || stays_over_hole(in)) return Execution::done;
+  resolve_levels(in);
+  const Hole& h = in.holes.hole;
+  const double up = h.bottom < h.r ? 1.0 : -1.0, out = c.way_out - in.zero()[c.drill_axis];
+  const bool r_of_layer = (out - h.r) * up > kAddingUp;
+  if (r_of_layer && !in.words.has(Role::cycle_level)) return in.raise(Condition::words_missing, Role::cycle_level);
+  c.in_hole = false;
+  AxisVec target = in.position();
+  const double level = r_of_layer ? out : h.r;
+  if ((level - target[c.drill_axis]) * up <= 0) return Execution::done;
+  target[c.drill_axis] = level;
+  LinearStyle style;
+  style.kind = NC_MOVE_RAPID;
+  move_linear(in, target, 1u << c.drill_axis, style);
+  if (in.words.cycle != nullptr) c.initial_level = in.state.machine[c.drill_axis] - in.state.applied[c.drill_axis];  // its code begins from here
+  return Execution::done;
+}
+
+/// Notes the way out of the hole where the tool stays in it.
+void note_hole(BlockContext& in) {
+  CycleState& c = in.state.cycle;
+  const bool stays = c.kind == CycleKind::case_bore;
+  if (stays && !c.in_hole) c.way_out = in.holes.hole.r + in.zero()[c.drill_axis];
+  c.in_hole = stays;
+}
+
 Execution begin_hole(BlockContext& in) {
+  const Execution left = leave_hole(in);
+  if (left != Execution::done) return left;
   if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
   position_over_hole(in);
   if (in.state.cycle.kind != CycleKind::none) in.emit_stop_point();  // positions of a pattern alone have one stop each
   resolve_hole(in);
+  note_hole(in);
   in.holes.progress = begin_strokes(in.holes.hole);
   in.next_step = Step::cycle;
   return Execution::later;

@@ -33,10 +33,10 @@ WordSet words_of_cycle(const BlockContext& in, Function cycle) {
     case Function::cycle_rigid_tap:
     case Function::cycle_rigid_reverse_tap:
     case Function::cycle_spot:
-    case Function::cycle_bore_stop:
     case Function::cycle_bore_restart:
     case Function::cycle_bore_stop_dwell:
     case Function::cycle_bore_dwell: return words | in.set_of({Role::cycle_dwell});
+    case Function::cycle_bore_stop: return in.dialect->rules.cycle.bore_stop_dwells ? words | in.set_of({Role::cycle_dwell}) : words;
     default: return words;
   }
 }
