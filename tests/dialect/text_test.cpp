@@ -104,7 +104,7 @@ TEST(AlarmDetail, WritesCodesAsCodes) {
   EXPECT_EQ(detail({Condition::no_function, -1, 'M', true, 96}),
             "M96 is not available on this control.");
   EXPECT_EQ(detail({Condition::program_end}), "The text of the program ends without M02 or M30.");
-  EXPECT_EQ(detail({Condition::spindle_not_turning}), "The cycle needs a spindle that turns, a tap one that turns the way of its thread. Program S and M03 (left-hand: the other way) before it.");
+  EXPECT_EQ(detail({Condition::spindle_not_turning}), "The spindle has to turn, for a tap the way of its thread. Program S and M03 (or the reverse) before it.");
   EXPECT_EQ(detail({Condition::data_input_kind, -1, 'L', true, 9}), "G10 does not know L9.");
   EXPECT_EQ(detail({Condition::center_missing}), "The centre is missing: the block needs I, J or K, one of the two of its plane.");
   EXPECT_EQ(detail({Condition::illegal_g, -1, 'G', true, 54.2}), "G54.2 is not a code of this control.");

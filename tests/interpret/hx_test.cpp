@@ -169,7 +169,7 @@ TEST(Hx, FormulasStandInBrackets) {  // 14.2.4
 }
 
 TEST(Hx, WholeNumbersHaveNoFraction) {  // 2.2.2
-  for (const char* block : {"M3.5", "T1.5", "S100.7", "G43 H1.5 Z1.", "G41 D1.5 G01 X1. F10", "M98 P10.7", "G10 L10.9 P1 R1.", "G10 L10 P1.5 R1.", "G81 X1. Z-1. R1. F10 K2.7"})
+  for (const char* block : {"M3.5", "T1.5", "S100.7", "G43 H1.5 Z1.", "G41 D1.5 G01 X1. F10", "M98 P10.7", "G10 L10.9 P1 R1.", "G10 L10 P1.5 R1.", "G81 X1. Z-1. R1. F10 K2.7", "G04 P0.5", "G82 X1. Z-1. R1. F10 P0.5"})
     EXPECT_EQ(alarm_of(std::string("S100\n") + block + "\nM30"), "F_82004") << block;
   EXPECT_EQ(alarm_of("M3.\nT1. S100.\nM30"), "");
 }

@@ -141,8 +141,7 @@ constexpr Sentence kSentences[] = {
     {C::no_reference, "{axis} has not been to its reference position.", nullptr},
     {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
      "{axis} would go beyond its stroke limit."},
-    {C::spindle_not_turning, "The cycle needs a spindle that turns, a tap one that turns the way of its thread. "
-     "Program {spindle_speed} and {spindle_forward} (left-hand: the other way) before it.", nullptr},
+    {C::spindle_not_turning, "The spindle has to turn, for a tap the way of its thread. Program {spindle_speed} and {spindle_forward} (or the reverse) before it.", nullptr},
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation,

@@ -132,6 +132,9 @@ WordSet whole_words(const BlockContext& in) {
   const bool hole = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr && w.one_shot == nullptr);
   if (arc && !hole && one_shot == Function::count_) whole |= in.set_of({Role::arc_turns});
   if (hole && !arc) whole |= in.set_of({Role::cycle_count, Role::cycle_count_2});
+  if (hole && !arc && !in.dialect->rules.cycle.dwell_in_seconds) whole |= in.set_of({Role::cycle_dwell});  // milliseconds, HX 12.3.2
+  const bool turns = in.settings.dwell_in_revolutions && in.state.modal.is(Function::feed_per_revolution);
+  if (one_shot == Function::dwell && !turns && !in.settings.dwell_p_decimal) whole |= in.set_of({Role::dwell_time});  // milliseconds, HX 5.4
   return whole;
 }
 
