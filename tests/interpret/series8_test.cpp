@@ -388,7 +388,8 @@ TEST(Series8Cavity, RefusesWhatCannotBeMilled) {
   bench.tool(1, 5, NC_TOOL_RADIUS);
   const auto alarm = [&](const std::string& block) { return bench.run("F300\n" + block).alarm; };
   for (const char* block : {"G34X0Z-1R1I60D1", "G34X0Z-1I60J40D1", "G34X0R1I60J40D1", "G34X0Z-1R1I60J40D0"}) EXPECT_EQ(alarm(block), "NC-WORDS") << block;
-  for (const char* block : {"G34X10Y10Z-2R1I20J10K1Q2D2", "G36X10Y10Z-2R1I20K1Q2D2"}) EXPECT_EQ(alarm(block), "NC-RANGE") << block;  // D2 has no radius
+  EXPECT_EQ(alarm("G34X10Y10Z-2R1I20J10K1Q2D2\nM30"), "");  // D2 has no radius yet: the path of the centre
+  EXPECT_EQ(alarm("G34X10Y10Z-2R1I20J10K1D2"), "NC-WORDS");
   for (const char* block : {"G34X0Z-1R1I8J40D1", "G36X0Z-1R1I5D1", "G34X0Z2R1I60J40D1", "G34X0Z-1R1I60J40P30D1", "G34X0Z-1R1I60J40K-1D1", "G34X0Z-1R1I60J40Q0D1", "G34X0Z-1R1I60J40Q15D1",
                             "G36X0Z-1R1I30Q25D1", "G34X0Z-1R1I60J40P2D1"})
     EXPECT_EQ(alarm(block), "NC-RANGE") << block;

@@ -72,13 +72,12 @@ Execution take_shape(BlockContext& in, Function function, double scale) {
   if (corner < cutter - kNoRadius_mm) return in.raise(Condition::value_range, Role::cavity_corner, w.get(Role::cavity_corner));  // the cutter cannot make it
   shape.corner = std::fmax(corner - cutter, 0);
   if (shape.corner > std::fmin(shape.half[0], shape.half[1]) && !shape.circle) return in.raise(Condition::value_range, Role::cavity_corner, w.get(Role::cavity_corner));
-  if (in.state.modal.d == 0) return in.raise(Condition::words_missing, Role::offset_number);
-  if (!(cutter > 0)) return in.raise(Condition::value_range, Role::offset_number, in.state.modal.d);  // one that is not measured leaves walls between any rings
-  if (w.has(Role::cavity_step)) did = positive(in, Role::cavity_step, &step);
+  if (!w.has(Role::cavity_step) && in.state.modal.d == 0) return in.raise(Condition::words_missing, Role::offset_number);
+  if (w.has(Role::cavity_step) || !(step > 0)) did = positive(in, Role::cavity_step, &step);
   if (did != Execution::done) return did;
   shape.rings = rings_of_cavity(shape, step);
   const double least = shape.circle ? shape.half[0] : std::fmin(shape.half[0], shape.half[1]);
-  const bool walls = shape.rings > 0 && least / shape.rings > 2 * cutter + kNoRadius_mm;  // something would be left between two rings
+  const bool walls = cutter > 0 && shape.rings > 0 && least / shape.rings > 2 * cutter + kNoRadius_mm;  // something would be left between two rings
   if (walls) return in.raise(Condition::value_range, Role::cavity_step, w.get(Role::cavity_step));
   in.cavity.cut = in.cavity.r - in.cavity.bottom;
   return w.has(Role::cavity_cut) ? positive(in, Role::cavity_cut, &in.cavity.cut) : Execution::done;
