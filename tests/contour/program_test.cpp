@@ -88,7 +88,7 @@ TEST(Corners, EachAlarmSaysWhatToChange) {
       {"G41 D1 X17.\nY1.\nG3 X18. Y2. R1.\nG1 X30.", "P153 L5", "Use a smaller tool or change the contour."},
       {"G41 D1 X20.\nG81 Y20. Z-5. R1.", "P155 L4", "Cancel with G80 or G40 first."},
       {"G4 X1. ,C1.", "P380 L3", "Leave it out, or program it as a block of its own."},
-      {"X20. ,R2.\nA30.\nX60. Y0 A-30.", "P380 L4", "Leave the word out, or program the corner as a block of its own."},
+      {"X20. ,R2.\nA30.\nX60. Y0 A-30.", "P380 L4", "Leave it out, or program it as a block of its own."},
       {"X20. ,C2.\nG2 X30. I5.", "P381 L4", "Program the corner as a block of its own."},
       {"X20. ,C2.\nM8", "P382 L4", "Move what stands between in front of the corner."},
       {"X8. ,C2.", "P383 L3", "Make the corner smaller."},
