@@ -174,6 +174,7 @@ TEST_F(SimTap, TheTableOfToolLifeIsKept) {
   // A file of before there were records: its rows are those of the columns, and are read and written as they were.
   const std::string columns =
       "nc tables 1\nlife 3 0\n0\n9\nlife 3 1\n0\n101\nlife 3 2\n0\n19\nlife 3 3\n0\n2\nlife 3 4\n0\n60\nlife 3 5\n0\n60.25\nlife 3 6\n0\n4\nlife 3 7\n0\n5\nlife 3 8\n0\n-1.5\nend\n";
+  runtime.reset();  // before its machine, which build() replaces
   build();
   nc_control* const next = runtime->control();
   ASSERT_TRUE(nc::rt::restore_changes(next, config.nc, configured, columns));
