@@ -118,6 +118,25 @@ class Pair {
     cycle(systems);
     cycle();
   }
+  /// Starts both part systems and drives them to their ends, fed by `any(0, n)` as it falls: often late, and a little at a time.
+  template <class Any>
+  void run_unevenly(const Any& any) {
+    nc_inputs given[2] = {};
+    nc_outputs got[2] = {};
+    bool running = true;
+    for (unsigned n = 0; running && n < 20000; ++n) {
+      for (unsigned system = 0; system < 2; ++system) {
+        given[system].cycle_start = n == 2;
+        given[system].fin = got[system].strobe != 0;
+      }
+      if (any(0, 3) != 0) nc_feed(control(), any(1, 60));
+      nc_cycle(control(), given, got);
+      running = n < 10 || got[0].state != NC_STATE_IDLE || got[1].state != NC_STATE_IDLE;
+    }
+    ASSERT_FALSE(running);
+    while (nc_feed(control(), 1000) == NC_BUDGET) {
+    }
+  }
   bool idle() const { return out[0].state == NC_STATE_IDLE && out[1].state == NC_STATE_IDLE; }
   void to_the_end() {
     for (unsigned n = 0; n < 20000 && !idle(); ++n) cycle();

@@ -117,20 +117,8 @@ TEST_F(SharedLives, BothRegisterAtTheSameTime) {
       for (unsigned n = 1; n <= 10; ++n) text += (any(0, 2) == 0 ? "G4 X0.00" + std::to_string(any(1, 9)) + "\n" : "") + registers(100 * (system + 1) + n, n);
       pair.select(system, text + "M30");
     }
-    nc_inputs in[2] = {};
-    nc_outputs out[2] = {};
-    bool running = true;
-    for (unsigned cycle = 0; running && cycle < 20000; ++cycle) {
-      for (unsigned system = 0; system < 2; ++system) {
-        in[system].cycle_start = cycle == 2;
-        in[system].fin = out[system].strobe != 0;
-      }
-      if (any(0, 3) != 0) nc_feed(pair.control(), any(1, 60));
-      nc_cycle(pair.control(), in, out);
-      running = cycle < 10 || out[0].state != NC_STATE_IDLE || out[1].state != NC_STATE_IDLE;
-    }
-    ASSERT_FALSE(running);
-    while (nc_feed(pair.control(), 1000) == NC_BUDGET) {}
+    pair.run_unevenly(any);
+    if (testing::Test::HasFatalFailure()) return;
     for (unsigned system = 0; system < 2; ++system)
       for (unsigned n = 1; n <= 10; ++n) ASSERT_EQ(read_by(n % 2, 100 * (system + 1) + n), "1, " + std::to_string(n) + " 0 0") << "of part system " << system + 1;
   }

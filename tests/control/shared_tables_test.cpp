@@ -309,20 +309,8 @@ TEST(SharedTables, NoCountIsLost) {
     }
     pair.bench.add("O7", "#2007=#2007+1\nM99\n");
     ASSERT_EQ(nc_variable_set(pair.control(), 0, 500, 0, false), NC_OK);
-    nc_inputs in[2] = {};
-    nc_outputs out[2] = {};
-    bool running = true;
-    for (unsigned cycle = 0; running && cycle < 20000; ++cycle) {
-      for (unsigned system = 0; system < 2; ++system) {
-        in[system].cycle_start = cycle == 2;
-        in[system].fin = out[system].strobe != 0;
-      }
-      if (any(0, 3) != 0) nc_feed(pair.control(), any(1, 60));
-      nc_cycle(pair.control(), in, out);
-      running = cycle < 10 || out[0].state != NC_STATE_IDLE || out[1].state != NC_STATE_IDLE;
-    }
-    ASSERT_FALSE(running);
-    while (nc_feed(pair.control(), 1000) == NC_BUDGET) {}
+    pair.run_unevenly(any);
+    if (testing::Test::HasFatalFailure()) return;
     pair.expect(500, 30);
     double length = 0;
     EXPECT_EQ(nc_tool_offset_get(pair.control(), 7, NC_TOOL_LENGTH, &length), NC_OK);
