@@ -463,6 +463,13 @@ struct MotionRules {
   bool second_code_rests = false;
 };
 
+/// The signals of a stitching head (HX 15.6), bits of the first word of outputs and of inputs of the macro interface; 0 = the family has none.
+struct StitchRules {
+  uint32_t call = 0;      ///< output: a stitch is asked for
+  uint32_t done = 0;      ///< input: it is done
+  uint32_t next_may = 0;  ///< input: the next place may come
+};
+
 struct Rules {
   NumberRules number;
   BlockRules block;
@@ -484,6 +491,7 @@ struct Rules {
   RotationRules rotation;
   MillRules mill;
   CodeCallRules code_call;
+  StitchRules stitch{};
 };
 
 }  // namespace nc

@@ -111,6 +111,7 @@ inline constexpr Rules kRules = {
     .mill = {.rotary_in_block = true, .polar_cuts_only = true},
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program,
                   .tool_variable = 149},
+    .stitch = {.call = 1u << 31, .done = 1u << 30, .next_may = 1u << 31},  // PPF #7531, PPE #7030, NPFIN #7031: the manual gives them no numbers
 };
 
 }  // namespace nc::hx

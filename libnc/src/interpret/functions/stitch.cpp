@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lines of the stitch function (HX 15.6): how far an axis goes in a block says how fast it may, and how long it rests behind it. With PM 7308 each place is a
-// stitch of the head, too: the control asks for it by PPF, the head says by PPE that it is done and by NPFIN that the next place may come. The manual gives them no
-// numbers; they are the last bits of the first words of the macro interface, and a ladder or the configuration leads them to the head (docs/decisions.md).
+// stitch of the head, too: the control asks for it by PPF, the head says by PPE that it is done and by NPFIN that the next place may come. Which bits
+// of the macro interface they are says the family; a ladder or the configuration leads them to the head (docs/decisions.md).
 #include <cmath>
 
 #include "interpret/feed.hpp"
@@ -19,8 +19,6 @@ unsigned range_of(const Settings& settings, double length) {
   return range;
 }
 
-constexpr uint32_t kCalls = 1u << 31;                        ///< output PPF
-constexpr uint32_t kDone = 1u << 30, kNextMay = 1u << 31;    ///< inputs PPE, NPFIN
 constexpr double kPeriod_s = 0.01;                           ///< from one question for an input to the next
 constexpr uint32_t kQuestions = 1000;                        ///< so long the head may take: 10 s
 enum Waits : uint8_t { kForStitch, kForNextPlace };
@@ -33,7 +31,7 @@ void pause(BlockContext& in, double seconds) {
   gate.value = seconds;
 }
 
-void call_head(BlockContext& in, bool on) { give_out_bits(in, 0, kCalls, on ? kCalls : 0, on ? 1 : 0); }
+void call_head(BlockContext& in, bool on) { give_out_bits(in, 0, in.dialect->rules.stitch.call, on ? in.dialect->rules.stitch.call : 0, on ? 1 : 0); }
 
 void begin_wait(BlockContext& in, Waits what) {
   in.input_wait = InputWait{};
@@ -55,7 +53,7 @@ Execution continue_stitch(BlockContext& in) {
   if (!in.world_fresh) return in.need(NC_SYNC_INPUT);
   InputWait& wait = in.input_wait;
   const bool of_stitch = wait.kind == kForStitch;
-  if ((in.world.input[0] & (of_stitch ? kDone : kNextMay)) == 0) {
+  if ((in.world.input[0] & (of_stitch ? in.dialect->rules.stitch.done : in.dialect->rules.stitch.next_may)) == 0) {
     if (wait.left == 0) {
       if (of_stitch) call_head(in, false);  // behind an alarm nobody waits for the head
       return in.raise_mode(Condition::head_silent, Mode::motion);
