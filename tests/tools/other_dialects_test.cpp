@@ -12,6 +12,7 @@
 
 #include "places/places.hpp"
 #include "tools/command_fixture.hpp"
+#include "tools/lib/codes_of_line.hpp"
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/other_dialects.hpp"
 
@@ -109,6 +110,39 @@ TEST_F(OtherDialects, AMistakeIsNoSignOfAnotherFamily) {
     EXPECT_EQ(check.code, 2) << family << text;
     EXPECT_EQ(check.err.find("looks like"), std::string::npos) << family << text << check.err;
   }
+}
+
+// A few blocks, of which each line that shows it stands behind another one: a code that the family does not have is no consequence of the alarm in front of it,
+// and it tells more than what the other family finds in this line (a probe that has not touched).
+TEST_F(OtherDialects, AShortProgramIsRecognised) {
+  file("named.nc", "#<a>=1\nG0 X#<a>\nG64 P0.01\nG38.2 Z-5 F10\nM2\n");
+  for (const char* other : {"m700", "dgshape", "hx", "series8"})
+    EXPECT_NE(ncsim(std::string("check --dialect ") + other + " named.nc").err.find("looks like a program of iso,"), std::string::npos) << other;
+  file("comment.nc", "%\nG0 X1. ; hi\nG64 P0.01\nM30\n");
+  EXPECT_NE(ncsim("check --dialect dgshape comment.nc").err.find("looks like a program of iso,"), std::string::npos);
+  // One code that the m700 does not have, and lengths that are mm without a point.
+  const std::string loop = "G55R45\nG01F50X10\nG87 X5. Y6. R3.5 Z3.0 F20.\nR2.0 Z1.0\nG06X1Y1\nM30\n";
+  file("loop.nc", loop);
+  for (const char* other : {"m700", "dgshape", "iso", "hx"})
+    EXPECT_NE(ncsim(std::string("check --dialect ") + other + " loop.nc").err.find("looks like a program of series8,"), std::string::npos) << other;
+  // One such code alone, or twice in two lines, is a slip.
+  file("slip.nc", "G00 X1. Y1.\nG06 X2. Y2.\nM30\n");
+  EXPECT_EQ(ncsim("check slip.nc").err.find("looks like"), std::string::npos);
+  file("slip.nc", "G00 X1. Y1.\nG06 X2. Y2.\nG06 X3. Y3.\nM30\n");
+  EXPECT_EQ(ncsim("check slip.nc").err.find("looks like"), std::string::npos);
+  // Neither is a word behind a cycle that is refused: without its cycle it is refused as well.
+  file("cycle.nc", "G00 X0. Y0. Z5.\nG82 X1. Z-1. R1. P0.5 F100\nX2. P0.7\nM30\n");
+  EXPECT_EQ(ncsim("check --dialect hx cycle.nc").err.find("looks like"), std::string::npos);
+}
+
+TEST(CodesOfLine, AreThoseOutsideOfComments) {
+  EXPECT_EQ(codes_of_line("N10 G90g1 X2 (G4) G38.2G 0 5. ; G7"), (CodeSet{900, 10, 382, 50}));
+  EXPECT_EQ(codes_of_line("IF [#1 EQ 1] GOTO 12"), CodeSet());
+  EXPECT_EQ(codes_of_line("G#1 G[2] G G1.2.3 G12345"), CodeSet());
+  const CodeSet own = codes_of_family(NC_DIALECT_SERIES8);
+  EXPECT_EQ(own.count(60), 1u);
+  EXPECT_EQ(own.count(640), 0u);
+  EXPECT_EQ(codes_of_family(NC_DIALECT_ISO).count(382), 1u);
 }
 
 /// The note about `text` as a program of `own`, and how much was read for it.

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <set>
+#include <string_view>
 #include <vector>
 
+#include "tools/lib/codes_of_line.hpp"
 #include "tools/lib/dialect_names.hpp"
 #include "tools/lib/item_source.hpp"
+#include "tools/lib/number_hints.hpp"
 #include "tools/lib/virtual_world.hpp"
 
 namespace nc::tools {
@@ -21,6 +25,7 @@ constexpr uint64_t kWholePart = 12;          // a program of so many blocks is a
 /** What a family makes of a text. */
 struct Reading {
   std::set<uint32_t> refused;  // lines of the main program that have an alarm
+  bool whole_numbers = false;  // lengths without a point are mm or inch
   bool ends = false;           // without them the program comes to its end, or goes on for longer than a run is
   uint64_t moves = 0, blocks = 0;
   uint64_t work = 0;  // blocks and moves of all its runs
@@ -54,18 +59,17 @@ bool take_out(std::string* text, uint32_t line) {
 }
 
 /** Runs the program once. @return false when it cannot be run at all. */
-bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole_numbers, RunResult* result, bool* in_main, uint64_t* work) {
+bool run_once(const SessionOptions& options, const RunLimits& limits, bool whole_numbers, RunResult* result, bool* in_main, Reading* reading) {
   Session session;
   std::string error;
   if (!session.configure(options, &error) || !session.start(options, &error)) return false;
-  bool whole = true;
-  if (whole_numbers && (nc_undotted_get(session.control(), kPartSystem, &whole) != NC_OK || !whole)) return false;
+  if (nc_undotted_get(session.control(), kPartSystem, &reading->whole_numbers) != NC_OK || (whole_numbers && !reading->whole_numbers)) return false;
   ControlSource items(session.control(), session.dialect());
   VirtualWorld world(session.setup(), session.config().system[0]);
   ShortRun sink;
   *result = run_offline(&items, &world, &sink, session.decides(), limits.silent_blocks, true, {}, limits.loops);
   *in_main = result->alarm.source.file == session.main_file();
-  *work += sink.work();
+  reading->work += sink.work();
   return true;
 }
 
@@ -82,7 +86,7 @@ Reading read_as(const std::string& family, const SessionOptions& given, const st
   while (reading.refused.size() < kMostRefused && reading.work < kMostReadByFamily - kLongestRun) {
     RunResult result;
     bool in_main = false;
-    if (!run_once(options, limits, whole_numbers, &result, &in_main, &reading.work)) break;
+    if (!run_once(options, limits, whole_numbers, &result, &in_main, &reading)) break;
     reading.ends = result.how == RunResult::How::kEnded || result.how == RunResult::How::kStopped;
     reading.moves = result.moves;
     reading.blocks = result.blocks;
@@ -100,24 +104,47 @@ std::vector<uint32_t> only_in(const std::set<uint32_t>& these, const std::set<ui
   return lines;
 }
 
-/** Mistakes that lines show: an alarm in the line behind another one may be its consequence. */
-size_t mistakes(const std::vector<uint32_t>& lines) {
+/** What a text shows of two families without being run. */
+struct TextSigns {
+  std::map<uint32_t, CodeSet> codes;  // of the lines that have codes which the own family's table does not have, and the other's has
+  bool lengths = false;               // lengths without a point, which the own family reads in thousandths and the other in mm, are probably meant in mm
+};
+
+/**
+ * Mistakes that lines show: an alarm in the line behind another one may be its consequence. A code that the family does not have is none, whatever stands in
+ * front of it.
+ */
+size_t mistakes(const std::vector<uint32_t>& lines, const std::map<uint32_t, CodeSet>& foreign) {
   size_t count = 0;
-  for (size_t i = 0; i < lines.size(); ++i)
-    if (i == 0 || lines[i] != lines[i - 1] + 1) ++count;
+  CodeSet seen;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const auto codes = foreign.find(lines[i]);
+    bool another = i == 0 || lines[i] != lines[i - 1] + 1;
+    if (codes != foreign.end())
+      for (const int code : codes->second) another = seen.insert(code).second || another;
+    if (another) ++count;
+  }
   return count;
 }
 
 /** The family reads the program clearly better than the own one. A program without moves does not show that it is of a family. */
-bool clearly_better(const Reading& other, const Reading& own) {
+bool clearly_better(const Reading& other, const Reading& own, const TextSigns& text) {
   if (!other.ends || other.moves == 0) return false;
-  const std::vector<uint32_t> gained = only_in(own.refused, other.refused);
+  std::vector<uint32_t> gained = only_in(own.refused, other.refused);
+  bool foreign = false;  // the own family refuses a line because of a code that it does not have
+  for (const auto& [line, codes] : text.codes) {
+    if (own.refused.count(line) == 0) continue;
+    foreign = true;  // and where the other one refuses this line, it does so for another reason: it has the code
+    if (other.refused.count(line) != 0) gained.push_back(line);
+  }
+  std::sort(gained.begin(), gained.end());
   std::vector<uint32_t> lost = only_in(other.refused, own.refused);
-  size_t signs = mistakes(gained);
+  size_t signs = mistakes(gained, text.codes);
   if (!own.ends) {  // of what lies behind, the own family says nothing; and what it refuses line by line is no consequence of one mistake
     std::erase_if(lost, [&](uint32_t line) { return line > *own.refused.rbegin(); });
     signs = gained.size();
   }
+  if (foreign && text.lengths && other.refused.empty()) ++signs;
   constexpr size_t kEnough = 2, kFactor = 3;
   if (lost.empty()) return signs >= kEnough || (signs > 0 && other.blocks >= kWholePart);
   return signs >= std::max(kEnough, kFactor * lost.size());
@@ -137,26 +164,62 @@ std::string note(const std::vector<Found>& found) {
   return "note: this looks like a program of " + names + ", as which " + how + "; try --dialect " + found.front().family;
 }
 
+/** The lines of the text that were refused, with their codes. */
+std::map<uint32_t, CodeSet> codes_of_lines(std::string_view text, const std::set<uint32_t>& refused) {
+  std::map<uint32_t, CodeSet> codes;
+  uint32_t line = 1;
+  for (size_t begin = 0; begin < text.size() && line <= *refused.rbegin(); ++line) {
+    const size_t end = std::min(text.find('\n', begin), text.size());
+    if (refused.count(line) != 0) codes[line] = codes_of_line(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return codes;
+}
+
+/** Of the codes of lines those that one family does not have and another one has. */
+std::map<uint32_t, CodeSet> foreign_codes(const std::map<uint32_t, CodeSet>& lines, const CodeSet& own, const CodeSet& other) {
+  std::map<uint32_t, CodeSet> foreign;
+  for (const auto& [line, codes] : lines)
+    for (const int code : codes)
+      if (own.count(code) == 0 && other.count(code) != 0) foreign[line].insert(code);
+  return foreign;
+}
+
+CodeSet codes_of_name(const std::string& name) {
+  nc_dialect dialect = NC_DIALECT_M700;
+  return nc_dialect_get(name.c_str(), &dialect) == NC_OK ? codes_of_family(dialect) : CodeSet();
+}
+
 }  // namespace
 
 std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers, uint64_t* work) {
   if (options.program == "-" || !options.tape.empty()) return "";
-  std::string text;
+  std::string text, axes;
   {
     Session session;
     std::string error;
     if (!session.configure(options, &error) || !session.start(options, &error)) return "";
     text = session.main_text();
+    const nc_system_config& system = session.config().system[kPartSystem];
+    for (unsigned i = 0; i < system.axis_count; ++i) axes += system.axis[i].name;
   }
   const Reading as_own = read_as(own, options, text, limits, false);
   if (work != nullptr) *work = as_own.work;
   if (as_own.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
+  std::map<uint32_t, CodeSet> codes;
+  bool mm_lengths = false;
+  if (!whole_numbers && text.size() <= kLongestText) {
+    codes = codes_of_lines(text, as_own.refused);
+    nc_dialect dialect = NC_DIALECT_M700;
+    mm_lengths = !as_own.whole_numbers && nc_dialect_get(own.c_str(), &dialect) == NC_OK && number_hints(text, dialect, axes, true).doubtful();
+  }
+  const CodeSet own_codes = codes_of_name(own);
   std::vector<Found> found;
   for (const std::string& family : dialect_names()) {
     if (family == own) continue;
     const Reading other = read_as(family, options, text, limits, whole_numbers);
     if (work != nullptr) *work += other.work;
-    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own);
+    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own, {foreign_codes(codes, own_codes, codes_of_name(family)), mm_lengths && other.whole_numbers});
     if (looks_so) found.push_back({family, other.refused.size()});
   }
   size_t least = ~size_t{0};
