@@ -122,6 +122,31 @@ TEST_F(ProgramRestart, WhatIsNoLineDoesNotBeginInItsMiddle) {
   }
 }
 
+// A line to a corner goes on from where the axes stand on it, and its corner is made as it is programmed. On the corner itself there is no such line.
+TEST_F(ProgramRestart, ALineGoesOnToItsCornerAndNoneBeginsOnIt) {
+  for (const char* corner : {",R5.", ",C5."}) {
+    const std::string text = std::string("G90 G01 F1200 X1.\nX20. ") + corner + "\nY20.\nM30\n";
+    stop_beyond(8, "2", text);
+    ASSERT_LT(x(), 14);
+    EXPECT_EQ(go_on(), (std::vector<unsigned>{2, 3, 4})) << corner;
+    EXPECT_EQ(drive->alarm(), "");
+    EXPECT_EQ(x(), 20);
+    EXPECT_EQ(y(), 20);
+    stop_beyond(16, "2", text);
+    EXPECT_GT(y(), 0.01);
+    EXPECT_LT(y(), 4.9);
+    drive->in.cycle_start = true;
+    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
+    EXPECT_EQ(drive->alarm(), "NC-MODE") << corner;
+    nc_alarm alarm{};
+    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
+    EXPECT_EQ(alarm.source.line, 2u);
+    EXPECT_NE(std::string(alarm.detail.s).find("in its middle, at its corner"), std::string::npos) << alarm.detail.s;
+    reset();
+    EXPECT_EQ(go_on().front(), 1u) << "behind the alarm it begins at its head";
+  }
+}
+
 TEST_F(ProgramRestart, NothingIsKeptBehindBlocksOfMdi) {
   stop_beyond(25, "2", kPart);
   static constexpr char kText[] = "G00 Y1.\n";

@@ -61,6 +61,11 @@ TEST(Series8Arc, OneThatCannotBeMadeIsInvalid) {
                             "G03X10Y0I10",       // a full circle
                             "G03X0Y10I0J0", "G03X0Y10", "G03X0Y10I-10"})
     EXPECT_EQ(alarm_of(std::string("F10\nG00X10Y0\n") + block), "INVALIDARC") << block;
+  // There may be circles through both ends: the sentence says what is asked of the centre here.
+  for (const char* block : {"G02X0Y10I10", "G03X0Y10I-10", "G03X10Y0I10"})
+    EXPECT_EQ(series8(std::string("F10\nG00X10Y0\n") + block).alarm_detail,
+              "I J K have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program R.")
+        << block;
 }
 
 TEST(Series8Arc, QuadrantsAreThoseOfTheProgram) {  // of a rotated arc, too

@@ -186,7 +186,7 @@ std::map<uint32_t, CodeSet> foreign_codes(const std::map<uint32_t, CodeSet>& lin
 }
 
 CodeSet codes_of_name(const std::string& name) {
-  nc_dialect dialect = NC_DIALECT_M700;
+  nc_dialect dialect{};
   return nc_dialect_get(name.c_str(), &dialect) == NC_OK ? codes_of_family(dialect) : CodeSet();
 }
 
@@ -210,7 +210,7 @@ std::string other_dialect_note(const SessionOptions& options, const RunLimits& l
   bool mm_lengths = false;
   if (!whole_numbers && text.size() <= kLongestText) {
     codes = codes_of_lines(text, as_own.refused);
-    nc_dialect dialect = NC_DIALECT_M700;
+    nc_dialect dialect{};
     mm_lengths = !as_own.whole_numbers && nc_dialect_get(own.c_str(), &dialect) == NC_OK && number_hints(text, dialect, axes, true).doubtful();
   }
   const CodeSet own_codes = codes_of_name(own);

@@ -236,13 +236,28 @@ bool put_vacant(Interpreter& in, TextWriter& out) {
   return true;
 }
 
+/// The words of a centre have no sign in this family, and a circle through both ends may well exist.
+void put_unsigned_centre(const Interpreter& in, TextWriter& out) {
+  const Role words[] = {Role::vector_x, Role::vector_y, Role::vector_z};
+  for (const Role word : words) out.put(in.dialect->addresses.letter(word)).put(' ');
+  out.put("have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program ");
+  out.put(in.dialect->addresses.letter(Role::arc_radius)).put('.');
+}
+
 }  // namespace
 
 void note_cause(Interpreter& in) {
   AlarmStory& story = in.alarm_story;
   TextWriter out(story.cause.s, sizeof story.cause.s);
   if (in.fault.condition == Condition::not_accepted && in.begins_inside()) {  // HX 2.3.4
-    out.put("A reset has stopped this block in its middle, where only a line can begin. Select the program to begin at its head.");
+    out.put(in.words.corner != Corner::none ? "A reset has stopped this block in its middle, at its corner, where it cannot begin."
+                                            : "A reset has stopped this block in its middle, where only a line can begin.");
+    out.put(" Select the program to begin at its head.");
+    story.instead = true;
+    return;
+  }
+  if (in.fault.condition == Condition::arc_center && in.dialect->rules.arc.centre_by_quadrant && !in.words.has(Role::arc_radius)) {  // Series 8 G02
+    put_unsigned_centre(in, out);
     story.instead = true;
     return;
   }

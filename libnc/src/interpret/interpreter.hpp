@@ -59,6 +59,8 @@ struct Interpreter : BlockContext {
   void forget_place() { place_.kept = false; }
   /// The next block begins at such a place, and the axes do not stand where the block before it has led them.
   bool begins_inside() const { return state.seq == 0 && place_.kept && !(state.machine == place_.machine); }
+  /// Where the axes stood at the beginning of that block.
+  const AxisVec& began_at() const { return place_.machine; }
   /// The next block is read again and has to be executed anew as a whole: also its vendor's function is called again.
   void forget_vendor_call() { vendor_call_ = {}; }
   /// Whether the vendor's function of the block in hand has been called already; and notes that it has.
@@ -251,6 +253,8 @@ struct Interpreter : BlockContext {
 
 /// interpret/program_restart.cpp: whether the block in hand may begin in its middle.
 Execution check_begun_inside(Interpreter& in);
+/// Executes a block of words that begins in its middle; a line to a corner (,C ,R) has to begin in front of it.
+Execution execute_begun_inside(Interpreter& in);
 /// interpret/execute_block.cpp: a block of words.
 Execution execute_words(Interpreter& in);
 /// interpret/plain_line.cpp: executes a straight line in absolute millimetres. False: nothing has been done, and the block needs execute_words().

@@ -41,4 +41,31 @@ Execution check_begun_inside(Interpreter& in) {
   return straight && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
 }
 
+/// A corner lies on the line from the beginning of its block. Who stands beside that line, as on the arc or the chamfer itself, or nearer to its end than the
+/// corner is large, does not come to this corner any more: the line from there would have another one, or none (HX 4.3).
+static bool comes_to_its_corner(const Interpreter& in, const Move& line, const AxisVec& stands) {
+  constexpr double kBeside_mm = 1e-4;  // an axis at rest on its line is nearer to it
+  double whole = 0, left = 0, along = 0;  // squares of the line as it was and as it is now, and their product
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    const double to_go = line.end[i] - line.start[i];
+    const bool increment = (in.words.target.incremental() >> i & 1) != 0;  // it is gone anew, whole
+    const double was = increment ? to_go : to_go + stands[i] - in.began_at()[i];
+    whole += was * was;
+    left += to_go * to_go;
+    along += was * to_go;
+  }
+  const bool beside = !(whole > 0) || along < 0 || left - along * along / whole > kBeside_mm * kBeside_mm;
+  return !beside && left >= line.corner_mm * line.corner_mm;
+}
+
+Execution execute_begun_inside(Interpreter& in) {
+  const AxisVec stands = in.state.machine;
+  const Execution did = execute_words(in);
+  for (unsigned i = 0; did == Execution::done && i < in.queue.size(); ++i) {
+    const Item& item = in.queue[i];
+    if (item.kind == ItemKind::move && item.move.corner != Corner::none && !comes_to_its_corner(in, item.move, stands)) return in.raise(Condition::not_accepted);
+  }
+  return did;
+}
+
 }  // namespace nc
