@@ -147,6 +147,24 @@ TEST_F(ProgramRestart, ALineGoesOnToItsCornerAndNoneBeginsOnIt) {
   }
 }
 
+// What is stopped in the first block of a program is stopped in its middle as well.
+TEST_F(ProgramRestart, TheFirstBlockIsNoOther) {
+  for (const char* text : {"G90 G01 X20. ,R5. F1200\nY20.\nM30\n", "G90 G02 X20. R20. F1200\nG01 Y20.\nM30\n"}) {
+    stop_beyond(16, "2", text);
+    drive->in.cycle_start = true;
+    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
+    EXPECT_EQ(drive->alarm(), "NC-MODE") << text;
+  }
+  for (const char* text : {"G90 G01 X20. F1200\nY20.\nM30\n", "%\nG90 G01 X20. F1200\nY20.\nM30\n%\n"}) {
+    stop_beyond(8, "2", text);
+    const std::vector<unsigned> lines = go_on();
+    ASSERT_GE(lines.size(), 3u) << text;
+    EXPECT_EQ(drive->alarm(), "");
+    EXPECT_EQ(x(), 20);
+    EXPECT_EQ(y(), 20);
+  }
+}
+
 TEST_F(ProgramRestart, NothingIsKeptBehindBlocksOfMdi) {
   stop_beyond(25, "2", kPart);
   static constexpr char kText[] = "G00 Y1.\n";

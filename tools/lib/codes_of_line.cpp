@@ -16,10 +16,12 @@ int tenths_at(std::string_view line, size_t at) {
     if ((c >= '0' && c <= '9') || c == '.') digits += c;
     else if (c != ' ' && c != '\t') break;
   }
-  double code = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code);
-  if (error != std::errc() || end != digits.data() + digits.size() || code >= 1000) return -1;
-  return static_cast<int>(std::lround(code * 10));
+  constexpr size_t kLongest = 5;  // "102.5"
+  if (digits.size() > kLongest) return -1;
+  double number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size()) return -1;
+  return static_cast<int>(std::lround(number * 10));
 }
 
 }  // namespace

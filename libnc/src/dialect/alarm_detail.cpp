@@ -68,7 +68,7 @@ constexpr NamedWord kNamedWords[] = {
     {"feed", Role::feed}, {"spindle_speed", Role::spindle_speed}, {"tool", Role::tool},
     {"offset_number", Role::offset_number}, {"length_number", Role::length_number},
     {"program_number", Role::program_number}, {"sequence_number", Role::sequence_number},
-    {"vector_x", Role::vector_x}, {"vector_y", Role::vector_y}, {"vector_z", Role::vector_z},
+    {"vector_x", Role::vector_x}, {"vector_y", Role::vector_y}, {"vector_z", Role::vector_z}, {"arc_radius", Role::arc_radius},
     {"chamfer", Role::option_chamfer}, {"rounding", Role::option_corner_radius}, {"angle", Role::option_angle},
     {"line_angle", Role::line_angle}, {"turn_x", Role::turn_x}, {"turn_y", Role::turn_y}, {"turn_z", Role::turn_z},
     {"accuracy_switch", Role::accuracy_switch}, {"speed_mode", Role::speed_mode},
@@ -441,7 +441,13 @@ const char* why_missing(const Dialect& dialect, const Fault& fault) {
   return row != nullptr && row->missing != nullptr ? row->part : nullptr;
 }
 
+/// Of a centre whose words have no sign (Series 8 G02): a circle through both ends may well exist.
+constexpr char kUnsignedCentre[] =
+    "{vector_x} {vector_y} {vector_z} have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program {arc_radius}.";
+
 const char* choose(const Dialect& dialect, const Fault& fault) {
+  const bool of_radius = fault.letter == dialect.addresses.letter(Role::arc_radius);
+  if (fault.condition == C::arc_center && dialect.rules.arc.centre_by_quadrant && !of_radius) return kUnsignedCentre;
   for (const Sentence& row : kSentences) {
     if (row.condition != fault.condition) continue;
     const char* sentence = row.code != nullptr && about_code(dialect, fault) ? row.code : row.full;

@@ -236,14 +236,6 @@ bool put_vacant(Interpreter& in, TextWriter& out) {
   return true;
 }
 
-/// The words of a centre have no sign in this family, and a circle through both ends may well exist.
-void put_unsigned_centre(const Interpreter& in, TextWriter& out) {
-  const Role words[] = {Role::vector_x, Role::vector_y, Role::vector_z};
-  for (const Role word : words) out.put(in.dialect->addresses.letter(word)).put(' ');
-  out.put("have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program ");
-  out.put(in.dialect->addresses.letter(Role::arc_radius)).put('.');
-}
-
 }  // namespace
 
 void note_cause(Interpreter& in) {
@@ -253,11 +245,6 @@ void note_cause(Interpreter& in) {
     out.put(in.words.corner != Corner::none ? "A reset has stopped this block in its middle, at its corner, where it cannot begin."
                                             : "A reset has stopped this block in its middle, where only a line can begin.");
     out.put(" Select the program to begin at its head.");
-    story.instead = true;
-    return;
-  }
-  if (in.fault.condition == Condition::arc_center && in.dialect->rules.arc.centre_by_quadrant && !in.words.has(Role::arc_radius)) {  // Series 8 G02
-    put_unsigned_centre(in, out);
     story.instead = true;
     return;
   }

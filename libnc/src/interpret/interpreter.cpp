@@ -161,7 +161,7 @@ void Interpreter::reset(bool keep_modal) {
     for (unsigned i = 0; i < axis_count; ++i) set_table_from_outside(Frames::shift_key(i), 0);
   if (place_.kept) {
     static_cast<CallStack&>(state) = place_.stack;
-    state.percent_seen = true;  // a '%' to come is the end
+    state.percent_seen = !place_.head;  // a '%' to come is the end
   } else {
     state.frame[0].program = main_program;
     state.frame[0].offset = state.frame[0].begin = main_program.offset;

@@ -198,6 +198,7 @@ struct Interpreter : BlockContext {
   /// Where a reset goes back to, in place of the head of the program.
   struct Place {
     bool kept = false;
+    bool head = false;  ///< it is the head of the program, of which nothing has been executed
     AxisVec machine;  ///< where the block in front of it has led the axes
     CallStack stack;
   };

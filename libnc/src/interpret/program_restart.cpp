@@ -26,9 +26,11 @@ bool Interpreter::may_begin_here() const {
 
 void Interpreter::keep_place(bool stands) {
   if (!settings.stays_behind_reset || !stands) return forget_place();
-  if (state.seq == 0) return;  // nothing has been executed since the place was kept, or since the head of the program
+  // Nothing has been executed since the place was kept: it stays. Nor since the head of the program: where the machine was stopped in the first block, it is the place.
+  if (state.seq == 0 && (place_.kept || !feeding)) return;
   place_.kept = may_begin_here();
   if (!place_.kept) return;
+  place_.head = state.seq == 0;
   place_.stack = state;
   place_.machine = state.machine;
 }
