@@ -85,14 +85,19 @@ def run_backwards(contour):
     return back.blocks()
 
 
-def follows(result, other, change, way):
+def as_large_as_the_tool(contour):
+    """Whether an arc has the radius of the tool to within two nanometres: to the last digit of the words it is or is not one that the tool fits into."""
+    return any(e.center and abs(e.radius() - contour.radius) < 2e-6 for e in contour.elements)
+
+
+def follows(result, other, change, way, edge=False):
     """None, or how the other result differs from what the change makes of this one. What is too short to be a move, how far a path may come near
-    a wall, and by how much the radii of an arc may differ that is one (a micrometre: the last digit of these words), does not scale; backwards the
+    a wall, and by how much the radii of an arc may differ that is one (a micrometre: the last digit of these words), does not scale; nor does what P152 allows at an arc of the tool's radius (`edge`). Backwards the
     check meets the blocks in another order."""
     backwards = way == "back"
     if result.alarm or other.alarm:
         same = result.alarm == other.alarm and result.alarm_block == other.alarm_block
-        tolerances = way == "scale" and "P153" in (result.alarm, other.alarm)
+        tolerances = way == "scale" and ("P153" in (result.alarm, other.alarm) or (edge and "P152" in (result.alarm, other.alarm)))
         return None if backwards or same or tolerances else f"alarm {other.alarm} and not {result.alarm}"
     ends = [change(move.end) for _, move, *_ in result.moves[:-1] if move.length() > 1e-5]
     others = [move.end for _, move, *_ in other.moves[:-1] if move.length() > (2e-5 if way == "scale" else 1e-5)]
@@ -312,7 +317,7 @@ def main():
                 continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
             if way == "scale" and isinstance(contour, Profile) and contour.changes_in_a_tiny_line():
                 continue  # twice as long it may be a block, which has a side of its own
-            bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way)
+            bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way, as_large_as_the_tool(contour))
             if bad:
                 wrong[way] = wrong.get(way, 0) + 1
                 if sum(wrong.values()) <= 10 or show:
