@@ -139,7 +139,8 @@ bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
 
 // Does it begin or end with a vector that is not its own any more?
 bool runs_obliquely(const Section& section, bool erased_before) {
-  return (erased_before || section.joint.first_erased) && !section.start && !section.cancel && !section.dead;
+  if (!erased_before && !section.joint.first_erased) return false;
+  return !section.start && !section.cancel && !section.dead;
 }
 
 // The joint at the end of this section leads to the other side.
@@ -217,6 +218,18 @@ Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, V
   return {};
 }
 
+// The square of the longest vector of a joint.
+double longest_square(const ContourJoint& joint) {
+  double most = dot(joint.v[0], joint.v[0]);
+  for (unsigned k = 1; k < joint.n; ++k) most = std::max(most, dot(joint.v[k], joint.v[k]));
+  return most;
+}
+
+// Are two joints so far apart that none of their vectors can cross? Vectors that do are together at least as long as that: |d|^2 <= (|a| + |b|)^2 <=
+// 2 (|a|^2 + |b|^2). The rest is room for rounding: vectors_cross() takes angles down to 1e-12, where it may be off by some 1e-4 of these lengths, and
+// the distance is a sum of coordinates, which are exact to far less than a nanometre.
+bool too_far_to_cross(double longest_before, double longest_behind, Vec2 d) { return dot(d, d) > 2.2 * (longest_before + longest_behind) + 1e-12; }
+
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
 // that has taken its place. `*crosses`: they do not go as they were.
 Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
@@ -293,14 +306,19 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
 
 Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& start, unsigned* at) {
   const Vec2 first_vector = start.vector;
-  if (leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
+  if (chain->may_have_vanished() && leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
   for (unsigned j = 1; j < chain->size(); ++j) {
     Section& section = (*chain)[j];
     if (section.apart || !may_be_erased(section) || section.dead) continue;
     bool crosses = false;
+    Vec2 d;  // from the joint that it is compared with
+    const double longest = longest_square(section.joint);
     for (unsigned span = 1; span <= kMaxSpan && span <= j; ++span) {
       const unsigned i = j - span;
-      if (span > 1 && (*chain)[i + 1].dead) continue;  // seen from the section left out already
+      const Section& behind = (*chain)[i + 1];
+      d = d + behind.approach + behind.delta;
+      if (!crosses && too_far_to_cross(longest_square((*chain)[i].joint), longest, d)) continue;
+      if (span > 1 && behind.dead) continue;  // seen from the section left out already
       const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
       const bool may_wait = live >= last_call;

@@ -55,21 +55,36 @@ class Chain {
   static constexpr unsigned kMost = 8;
   unsigned size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  void clear() { size_ = 0; }
+  void clear() { keep_front(0); }
   Section& operator[](unsigned i) { return ring_[(front_ + i) % kMost]; }
   const Section& operator[](unsigned i) const { return ring_[(front_ + i) % kMost]; }
   Section& back() { return (*this)[size_ - 1]; }
   const Section& back() const { return (*this)[size_ - 1]; }
-  void push_back(const Section& section) { (*this)[size_++] = section; }
+  /// The place of the block that comes: it is made there, and is not one of the chain until push_back().
+  Section& next() { return (*this)[size_]; }
+  void push_back() {
+    vanishes_ = vanishes_ || next().vanished;
+    ++size_;
+  }
+  void push_back(const Section& section) {
+    next() = section;
+    push_back();
+  }
   void drop_front(unsigned count) {
     front_ = (front_ + count) % kMost;
-    size_ -= count;
+    keep_front(size_ - count);
   }
-  void keep_front(unsigned count) { size_ = count; }
+  void keep_front(unsigned count) {
+    size_ = count;
+    if (size_ == 0) vanishes_ = false;
+  }
+  /// False: none of the blocks is an arc whose offset circle does not exist.
+  bool may_have_vanished() const { return vanishes_; }
 
  private:
   Section ring_[kMost];
   unsigned front_ = 0, size_ = 0;
+  bool vanishes_ = false;
 };
 
 enum class Finding : uint8_t { none, alarm };

@@ -270,6 +270,7 @@ void OffsetStage::intake_move(Held* held) {
   if (move.comp.side != 0) comp_ = move.comp;
   Leg begin, end;
   const bool moves = make_legs(move, &begin, &end);
+  held->direction = moves ? end.u : Vec2{};
   if (move.comp.side == 0 && (!moves || mode_ == Mode::pending)) return intake_uncompensated(held);
   const bool starts = mode_ == Mode::off || again;
   if (starts) {
@@ -433,7 +434,8 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   const Move& move = held->item.move;
   const Compensation& comp = move.comp;
   held->role = Role::section;
-  Section section;
+  Section& section = chain_.next();
+  section = Section{};
   section.index = next_index();
   section.block = blocks_;
   section.begin = begin;
@@ -484,12 +486,12 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
     mode_ = Mode::off;
     cancelled_ = false;
   }
-  chain_.push_back(section);
+  chain_.push_back();
   approach_ = {};
   ++count_;
   // settle() compares its joints. Which sections it may let go depends on arcs that only the avoidance leaves out, so these are looked for first.
   unchecked_ = true;
-  for (unsigned i = 0; i < chain_.size() && unchecked_; ++i) unchecked_ = !chain_[i].vanished;
+  for (unsigned i = 0; chain_.may_have_vanished() && i < chain_.size() && unchecked_; ++i) unchecked_ = !chain_[i].vanished;
   if (!unchecked_) check_joints(0);
 }
 
@@ -629,14 +631,14 @@ void OffsetStage::make_room() {
 void OffsetStage::release(unsigned sections) {
   for (unsigned i = 0; i < sections; ++i) {
     Section& section = chain_[i];
-    ContourJoint joint = section.joint;
+    Held& held = held_at(section.index);
+    ContourJoint& joint = held.joint;
+    joint = section.joint;
     if (joint.lengthened && section.merge_last) --joint.n;
     if (joint.lengthened && section.merge_first && runs_beside(section, chain_start_)) {
       --joint.n;
       for (unsigned k = 0; k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
     }
-    Held& held = held_at(section.index);
-    held.joint = joint;
     held.straight = section.dead || section.oblique;
     held.commanded = start_commanded_ = section.commanded || !section.check;
     held.bound_next = i + 1 < chain_.size() && chain_[i + 1].bound;

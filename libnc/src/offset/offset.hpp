@@ -121,6 +121,7 @@ class OffsetStage {
     double level = 0;  ///< marks
     Vec2 lead;
     Vec2 lead_from;           ///< the vector in force before it
+    Vec2 direction;           ///< moves of a contour: tangent at their end; zero: they do not move in the plane
     bool lead_crosses = false;  ///< ... which lies on the other side
     ContourJoint joint;  ///< section: at its end
   };
@@ -167,7 +168,7 @@ class OffsetStage {
   void pop_connecting(const Held& held, Item& out);
   void slow_behind_corner(Item& out);
   void drop_front();
-  void note_move(const Move& programmed, const AxisVec& compensated_end);
+  void note_move(const Held& held, const AxisVec& compensated_end);
   void note_section(const Held& held);
   void note_mark(const Held& held);
 

@@ -276,10 +276,10 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   scale_feed(programmed, &move);
   feed_scale_ = programmed.rule.inverse_time ? move.rule.scale : 0;
   if (!has_length(move)) {
-    note_move(programmed, compensated_);
+    note_move(held, compensated_);
     return false;
   }
-  note_move(programmed, move.end);
+  note_move(held, move.end);
   if (held.behind_inner && move.rule.behind_zone > 0 && move.rule.corner_override > 0 && move.shape == 0) slow_behind_corner(out);
   return true;
 }
@@ -335,12 +335,12 @@ void OffsetStage::drop_front() {
   connecting_ = 0;
 }
 
-void OffsetStage::note_move(const Move& programmed, const AxisVec& compensated_end) {
+void OffsetStage::note_move(const Held& held, const AxisVec& compensated_end) {
+  const Move& programmed = held.item.move;
   programmed_ = programmed.end;
   compensated_ = compensated_end;
   out_comp_ = programmed.comp;
-  Leg begin, end;
-  if (make_legs(programmed, &begin, &end)) direction_ = end.u;
+  if (held.direction != Vec2{}) direction_ = held.direction;
 }
 
 void OffsetStage::note_section(const Held& held) {
