@@ -70,13 +70,6 @@ bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, do
 
 }  // namespace
 
-ContourJoint ContourJoint::single(Vec2 w) {
-  ContourJoint joint;
-  joint.v[0] = w;
-  joint.n = 1;
-  return joint;
-}
-
 bool goes_round(const Move& move) {
   const Vec2 center{move.circle.center[0], move.circle.center[1]};
   return move.circle.sweep != 0 && norm(in_plane(move.start, move.plane_axis) - center) >= kNoRadius_mm &&

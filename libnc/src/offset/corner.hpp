@@ -50,7 +50,12 @@ struct ContourJoint {
   bool first_erased = false;  ///< 12.4.8 has erased the vector on the curve of the block before: where that one ends now need not lie on it
   bool last_erased = false;   ///< ... and the one on the curve of the block behind, where that one begins
 
-  static ContourJoint single(Vec2 w);
+  static ContourJoint single(Vec2 w) {
+    ContourJoint joint;
+    joint.v[0] = w;
+    joint.n = 1;
+    return joint;
+  }
 };
 
 /// A line shorter than this has no direction: the last digit of its words decides where it leads, and a corner beside it would take the tool

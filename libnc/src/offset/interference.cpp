@@ -132,7 +132,7 @@ bool line_fits(const Section& section, Vec2 from, Vec2 to) {
 }
 
 // Can the tool not go along the block between these vectors?
-bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
+inline bool leads_astray(const Section& section, Vec2 from, Vec2 to) {
   if (section.oblique && section.begin.curvature != 0) return !section.avoid || !line_fits(section, from, to);
   return runs_backwards(section, from, to) || arc_runs_backwards(section, from, to);
 }

@@ -599,7 +599,7 @@ void OffsetStage::read_wall(Section* section, const nc_source& source) {
 bool OffsetStage::may_release(unsigned section) const {
   const Section& s = chain_[section];
   if (!s.jointed || s.vanished) return false;
-  if (section + 1 < chain_.size() && chain_[section + 1].vanished) return false;
+  if (chain_.may_have_vanished() && section + 1 < chain_.size() && chain_[section + 1].vanished) return false;
   return !s.check || chain_.size() - section >= kChain || blocks_ - s.block >= kLookAheadBlocks;
 }
 
@@ -609,6 +609,10 @@ void OffsetStage::settle() {
     n = chain_.size();
   } else {
     while (n < chain_.size() && may_release(n)) ++n;
+  }
+  if (n == 0 && !unchecked_) {  // behind most marks
+    released_ = chain_.empty() ? next_index() : chain_[0].index;
+    return;
   }
   const bool checks = n > 0 && chain_[0].check;
   if ((checks || unchecked_) && !check_joints(checks ? n : 0)) return;
