@@ -78,6 +78,7 @@ TEST(CodeText, IsWrittenAsTheManualsPrintIt) {
 TEST(AlarmDetail, NamesTheWordTheAxisAndTheValue) {
   EXPECT_EQ(detail({Condition::value_range, -1, 'X', true, 123456.5}),
             "The value of X123456.5 is outside its range.");
+  EXPECT_EQ(detail({Condition::value_range, -1, 'X', true, -1e15}), "The value of X (a very large number) is outside its range.");
   EXPECT_EQ(detail({Condition::value_range}), "A value in the block is outside its range.");
   EXPECT_EQ(detail({Condition::soft_limit, 0, 0, true, 512.25}, "X"),
             "Axis X would go to 512.25, beyond its stroke limit.");

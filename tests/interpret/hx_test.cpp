@@ -176,6 +176,10 @@ TEST(Hx, WholeNumbersHaveNoFraction) {  // 2.2.2
 
 TEST(Hx, AParameterThatNothingAsksForIsNoVariable) {  // 14.2.3
   for (const char* block : {"#3000=1(ALARM)", "#3006=1", "#3200=1", "#29999=1", "#100=#3001", "#100=#20000"}) EXPECT_EQ(alarm_of(std::string(block) + "\nM30"), "NC-VARIABLE") << block;
+  // One that the machine has set is kept for programs that read it (PM 3378: a stroke limit). To write it would move no limit.
+  const auto limit = [](const std::string& text) { return Bench(NC_DIALECT_HX).param("23378", "-7.5").run(text + "\nM30"); };
+  EXPECT_EQ(limit("X#23378").path(), (Path{"rapid -7.5 0 0"}));
+  EXPECT_EQ(limit("#23378=-9").alarm, "NC-VARIABLE");
 }
 
 TEST(Hx, AWayThroughTheAreaOfTheStrokeCheckIsProhibited) {  // 15.5.3

@@ -415,7 +415,9 @@ void put_word(TextWriter& out, const Dialect& dialect, const Fault& fault) {
   if (!is_address) out.put('\'');
   out.put(fault.letter);
   if (!is_address) out.put('\'');
-  if (is_address && fault.has_value) out.put_number(fault.value);
+  if (!is_address || !fault.has_value) return;
+  if (std::fabs(fault.value) >= TextWriter::kVeryLarge) out.put(" (a very large number)");
+  else out.put_number(fault.value);
 }
 
 // The fault carries everything that a sentence names. {axis} is not checked: there is also a text for an axis that is not known.

@@ -38,6 +38,7 @@ class TextWriter {
     while (n > 0) put(reversed[--n]);
     return *this;
   }
+  static constexpr double kVeryLarge = 1e14;  ///< from here on a number is not written in digits
   /// Appends a number with up to four decimals and without trailing zeros: "12.5", "-0.0001", "100".
   TextWriter& put_number(double value) {
     if (!(value == value)) return put("not a number");
@@ -45,7 +46,7 @@ class TextWriter {
       put('-');
       value = -value;
     }
-    if (value >= 1e14) return put("very large");
+    if (value >= kVeryLarge) return put("very large");
     const unsigned long long scaled = static_cast<unsigned long long>(value * 10000 + 0.5);
     put_integer(scaled / 10000);
     unsigned fraction = static_cast<unsigned>(scaled % 10000);

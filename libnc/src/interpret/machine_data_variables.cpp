@@ -159,15 +159,14 @@ Eval read_parameter(Access& a) {
 }
 
 /// HX 14.2.3: a parameter as a variable of its own number.
-/// A number that nothing in the control asks for is no parameter: what a program means by it would be lost.
+/// A number that nothing in the control asks for is no parameter: what a program means by it would be lost. One that the machine has set can be read.
 bool known_parameter(const Access& a) { return find_parameter(*a.in.dialect, ParameterKey{a.number, 0, -1}) != nullptr; }
 
 Eval read_parameter_itself(Access& a) {
-  if (!known_parameter(a)) return no_variable(a);
   if (parameter_is_common(*a.in.dialect, a.number) && !shared_known(a)) return Eval::need_sync;
   double value = 0;
-  a.in.parameters.get(ParameterId::of_number(a.number), -1, -1, &value);
-  return give(a, value);
+  const bool set = a.in.parameters.get(ParameterId::of_number(a.number), -1, -1, &value);
+  return set || known_parameter(a) ? give(a, value) : no_variable(a);
 }
 Execution write_parameter_itself(Access& a) {
   if (!known_parameter(a)) return a.in.raise(Condition::variable_number, Sign::variable, a.number);
