@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every function and callback of the public headers says in its comment what each parameter is, what it returns and in which thread it may be
-called; every parameter has a name. Every member of a public struct says what it is, and types.h names the structs that begin with their size. What the comments name is declared."""
+called; every parameter has a name. Every member of a public struct says what it is, and types.h names the structs that begin with their size. What the comments name is declared.
+Each header has one concept, as its length shows."""
 import os
 import pathlib
 import re
 import sys
 
 HEADERS = pathlib.Path(os.environ["NC_SOURCE_DIR"]) / "libnc/include/nc"
+MOST_LINES = 500
 DECLARATION = re.compile(
     r"(?P<comment>/\*\*(?:(?!\*/).)*\*/\n)?"
     r"(?:NC_API (?P<returns>[^;{}()]*?)\b(?P<name>nc_[a-z_]+)\((?P<parameters>[^;{}]*)\)(?: NC_RT)?;"
@@ -97,6 +99,7 @@ def main():
     headers = {path.name: path.read_text(encoding="utf-8") for path in HEADERS.glob("*.h")}
     faults += [f"{name}: says nothing of {member}" for name, text in headers.items() for member in bare_members(text)]
     faults += [f"types.h: begins with its size, or is listed there, but not both: {name}" for name in unlisted_structs(headers)]
+    faults += [f"{name}: {text.count(chr(10))} lines, more than {MOST_LINES}: split it by concept" for name, text in headers.items() if text.count("\n") > MOST_LINES]
     faults += [f"mentions what is not declared: {mention}" for mention in unknown_names(headers)]
     if unknown_names({"a.h": "/* as nc_g() and NC_G, see nc_f() */ int nc_f(void);"}) != ["a.h: NC_G", "a.h: nc_g()"]:
         faults.append("this check does not see a name that is not declared")

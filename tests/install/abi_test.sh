@@ -27,7 +27,7 @@ passes() {
 }
 breaks 'a member in the middle' run.h 's/^(  bool fin2;.*)$/  double later;\n\1/'
 breaks 'a member that is gone' run.h '/^  bool follow_up;/d'
-breaks 'a member of another type' control.h 's/^  double cycle_s;/  float cycle_s;/'
+breaks 'a member of another type' config.h 's/^  double cycle_s;/  float cycle_s;/'
 breaks 'a struct without size that grows' types.h 's/^(  uint16_t file; .*)$/\1\n  uint32_t later;/'
 breaks 'a function that is gone' run.h 's/^NC_API nc_status nc_recalculate/static inline nc_status nc_recalculate/'
 breaks 'a function with another parameter' run.h 's/^(NC_API nc_status nc_feed\(nc_control\*[^,]*)/\1, int later/'
