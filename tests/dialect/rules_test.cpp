@@ -28,6 +28,12 @@ TEST(Rules, SpeedIsTheValueOrACodeOfTheSeries) {
   EXPECT_DOUBLE_EQ(dgshape(12345), 12345);
 }
 
+// M700 alone has the management of tool lives (10.15).
+TEST(Rules, OnlyAFamilyThatManagesTheLivesOfToolsHasANumberForTheOneInTheSpindle) {
+  for (const nc_dialect id : {NC_DIALECT_M700, NC_DIALECT_DGSHAPE, NC_DIALECT_ISO, NC_DIALECT_HX, NC_DIALECT_SERIES8})
+    EXPECT_EQ(rules_of(id).compensation.number_of_managed_tool, id == NC_DIALECT_M700 ? 99u : 0u) << id;
+}
+
 TEST(Rules, ScalingFactorIsRefusedOrHeld) {
   const auto m700 = rules_of(NC_DIALECT_M700).scaling.factor_of_word;
   double factor = 0;

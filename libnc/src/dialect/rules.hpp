@@ -213,6 +213,9 @@ struct CompensationRules {
   /// Tool position offset stands neither in compensation nor in the block of a cycle (HX 12.2.2, 13.3). Otherwise a cycle is made without it, and in
   /// compensation it lengthens the programmed way (M700 12.6).
   bool bars_position_offset = false;
+  /// As H or D it means the offset that is registered with the tool in the spindle, where the lives of tools are managed; 0 = no number does. The manual
+  /// of M700 has the management (10.15) and not the number, which is the practice of the field (docs/decisions.md).
+  uint32_t number_of_managed_tool = 0;
 };
 
 /// Compensation of the tool length.
@@ -470,6 +473,19 @@ struct StitchRules {
   uint32_t next_may = 0;  ///< input: the next place may come
 };
 
+/// The largest values of words and parameters, beyond which they are faults. A family whose manual has the word and another range states its own.
+struct RangeRules {
+  uint32_t most_arc_turns = 9999;     ///< P of an arc (M700 6.6)
+  uint32_t most_call_repeats = 9999;  ///< L of a call (M700 13.3)
+  uint32_t most_hole_repeats = 9999;  ///< L or K beside a cycle (M700 13.1.1)
+  uint32_t most_holes = 9999;         ///< of a row, a circle or a grid; one less than a power of ten, where only the last digits count (M700 13.2)
+  uint32_t most_pitches = 99;         ///< of a spiral or a cone (M700 6.13)
+  double least_curve_weight = 0.0001, most_curve_weight = 99.9999;  ///< of a point of NURBS (M700 6.15)
+  double steepest_exponential_deg = 89;                             ///< taper and torsion of exponential interpolation, either sign (M700 6.11)
+  double most_current_percent = 300;                                ///< of the rated current of an axis (M700 15.6)
+  double least_scale = 1e-6, most_scale = 99.999999;                ///< a parameter beyond them counts as 1 (M700 13.19, HX 15.2.2)
+};
+
 struct Rules {
   NumberRules number;
   BlockRules block;
@@ -492,6 +508,7 @@ struct Rules {
   MillRules mill;
   CodeCallRules code_call;
   StitchRules stitch{};
+  RangeRules range{};
 };
 
 }  // namespace nc

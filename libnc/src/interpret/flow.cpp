@@ -203,7 +203,7 @@ Execution find_number(Interpreter& in, uint32_t number, ProgramRef* program) {
 
 Execution repetitions(Interpreter& in, bool has_l, double l, uint32_t* count) {
   *count = 1;
-  if (has_l && (!whole_number(l, count) || *count > 9999)) return in.raise(Condition::value_range, Role::call_repeats, l);
+  if (has_l && (!whole_number(l, count) || *count > in.dialect->rules.range.most_call_repeats)) return in.raise(Condition::value_range, Role::call_repeats, l);
   return Execution::done;
 }
 

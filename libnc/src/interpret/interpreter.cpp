@@ -130,12 +130,12 @@ InitialValues Interpreter::initial_values() const {
 
 /// HX 3.2: scaling by the factors of the axes, and rotation by the angle that is set, begin with the program, about its zero point.
 void Interpreter::start_maps(ProgramMaps* maps) {
-  constexpr double kLeast = 1e-6, kLargest = 99.999999;
+  const RangeRules& range = dialect->rules.range;
   if (settings.start_scaling) {
     state.scaled = static_cast<uint8_t>(~rotary & ((1u << axis_count) - 1));
     for (unsigned i = 0; i < axis_count; ++i) {
       const double size = std::fabs(settings.axis_factor[i]);
-      maps->scaling_factor[i] = size >= kLeast && size <= kLargest ? settings.axis_factor[i] : 1;
+      maps->scaling_factor[i] = size >= range.least_scale && size <= range.most_scale ? settings.axis_factor[i] : 1;
       maps->scaling_center[i] = 0;
     }
   }

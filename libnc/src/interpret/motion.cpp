@@ -447,7 +447,7 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
   if (w.has(Role::arc_turns) && (!words.has_radius || rules.turns_count_last) && !has_words_of_call(in)) {
     const double turns = w.get(Role::arc_turns);
     words.turns_count_last = rules.turns_count_last;
-    if (!whole_number(turns, &words.turns) || words.turns > 9999 || (words.turns == 0 && rules.turns_count_last)) return in.raise(Condition::value_range, Role::arc_turns, turns);
+    if (!whole_number(turns, &words.turns) || words.turns > in.dialect->rules.range.most_arc_turns || (words.turns == 0 && rules.turns_count_last)) return in.raise(Condition::value_range, Role::arc_turns, turns);
   }
   // M700 P113: no word of the block belongs to the plane in force, but a centre word belongs to another plane: a plane code has been forgotten.
   const bool of_plane = words.has_radius || w.has(plane.center[0]) || w.has(plane.center[1]) || ((commanded >> h) & 1) != 0 || ((commanded >> v) & 1) != 0;

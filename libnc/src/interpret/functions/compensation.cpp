@@ -81,14 +81,17 @@ bool take_vector(const BlockContext& in, const Role words[2], double vector[2]) 
   return any && (vector[0] != 0 || vector[1] != 0);
 }
 
-/// Field practice of tool life management: this number means the offset that is registered with the tool in the spindle.
-constexpr uint32_t kOfManagedTool = 99;
+/// The word has the number that stands for the offset of the tool in the spindle.
+bool means_managed_tool(const BlockContext& in, Role word) {
+  const uint32_t number = in.dialect->rules.compensation.number_of_managed_tool;
+  return in.settings.life_managed && number != 0 && in.words.get(word) == number;
+}
 
 }  // namespace
 
 Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
   const unsigned in_spindle = in.records->tools.spindle;
-  if (in.settings.life_managed && in.words.get(word) == kOfManagedTool && in_spindle != ToolLives::kNone) {
+  if (means_managed_tool(in, word) && in_spindle != ToolLives::kNone) {
     const ToolLife& tool = in.lives->tool[in_spindle];
     *number = static_cast<uint32_t>(word == Role::length_number ? tool.length : tool.radius);
     return Execution::done;

@@ -195,7 +195,7 @@ Execution hole_count(BlockContext& in, uint32_t* count) {
   const Role word = in.words.has(second) ? second : first;
   *count = 1;
   if (!in.words.has(word) || is_shift_word(in, word)) return Execution::done;
-  if (!whole_number(in.words.get(word), count) || *count > 9999) return in.raise(Condition::value_range, word, in.words.get(word));
+  if (!whole_number(in.words.get(word), count) || *count > in.dialect->rules.range.most_hole_repeats) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 

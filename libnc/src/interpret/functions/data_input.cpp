@@ -119,7 +119,7 @@ Execution set_current_limit(BlockContext& in) {
     const WordSlot name = in.axis_words.word(i);
     if (name == in.word(Role::second_function_3)) return in.raise(Condition::illegal_address, name, w.get(name));  // (6): a program cannot set the limit of this axis
     const double percent = std::trunc(w.get(name));
-    if (!(percent >= 1 && percent <= 300)) return in.raise(Condition::value_range, name, w.get(name));
+    if (!(percent >= 1 && percent <= in.dialect->rules.range.most_current_percent)) return in.raise(Condition::value_range, name, w.get(name));
     Action& action = in.emit(ItemKind::action).action;
     action.kind = NC_ACTION_CURRENT_LIMIT;
     name_word(action, name);

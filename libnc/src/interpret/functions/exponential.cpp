@@ -20,7 +20,7 @@ struct ExponentialWords {
 
 Execution angle_word(BlockContext& in, Role word, double* angle) {
   *angle = length_value(in, in.words.written(word), true, true);
-  if (*angle == 0 || std::fabs(*angle) > 89) return in.raise(Condition::value_range, word, in.words.get(word));
+  if (*angle == 0 || std::fabs(*angle) > in.dialect->rules.range.steepest_exponential_deg) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 

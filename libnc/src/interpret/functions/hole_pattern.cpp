@@ -39,13 +39,13 @@ Execution check_words(BlockContext& in, const PlaneAxes& plane) {
 
 double angle_of(const BlockContext& in, Role word) { return length_value(in, in.words.written(word), true, true); }
 
-/// Number of holes: whole, 1 to 9999 (P221). `last_four`: of more digits the last four count (G35, G37.1, note 2).
+/// Number of holes: whole, from 1 (P221). `last_four`: of more digits the last four count (G35, G37.1, note 2).
 Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* count) {
   const Command& w = in.words;
   if (!w.has(word)) return in.raise(Condition::no_holes, word);
   const double raw = w.get(word);
-  if (!whole_number(raw, count) || (!last_four && *count > 9999)) return in.raise(Condition::value_range, word, raw);
-  *count %= 10000;
+  if (!whole_number(raw, count) || (!last_four && *count > in.dialect->rules.range.most_holes)) return in.raise(Condition::value_range, word, raw);
+  *count %= in.dialect->rules.range.most_holes + 1;
   return *count != 0 ? Execution::done : in.raise(Condition::no_holes, word, raw);
 }
 
@@ -57,7 +57,7 @@ Execution read_circle(BlockContext& in, HolePattern* p) {
     p->step = -1;
     const double raw = -w.get(Role::hole_count);
     uint32_t count = 0;
-    if (!whole_number(raw, &count) || count > 9999) return in.raise(Condition::value_range, Role::hole_count, -raw);
+    if (!whole_number(raw, &count) || count > in.dialect->rules.range.most_holes) return in.raise(Condition::value_range, Role::hole_count, -raw);
     p->columns = count;
     return count != 0 ? Execution::done : in.raise(Condition::no_holes, Role::hole_count, -raw);
   }

@@ -35,7 +35,8 @@ Execution take_weight(BlockContext& in, double* weight) {
   if (!in.words.has(Role::curve_weight)) return Execution::done;
   *weight = in.words.get(Role::curve_weight);
   if (too_fine(*weight)) return in.raise(Condition::format_error, Role::curve_weight, *weight);
-  if (*weight < 0.0001 || *weight > 99.9999) return in.raise(Condition::value_range, Role::curve_weight, *weight);
+  const RangeRules& range = in.dialect->rules.range;
+  if (*weight < range.least_curve_weight || *weight > range.most_curve_weight) return in.raise(Condition::value_range, Role::curve_weight, *weight);
   return Execution::done;
 }
 

@@ -10,14 +10,18 @@
 namespace nc {
 namespace {
 
-constexpr double kLeastFactor = 1e-6, kLargestFactor = 99.999999;
+/// A parameter has a factor that is in its range.
+bool in_range_of_scale(const BlockContext& in, double factor) {
+  const RangeRules& range = in.dialect->rules.range;
+  return factor >= range.least_scale && factor <= range.most_scale;
+}
 
 /// The factor: P of G51, or else #8072; a parameter that is out of range counts as 1.
 bool factor_of(const BlockContext& in, double* factor) {
   const Command& w = in.words;
   if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), factor);
   *factor = in.settings.scaling_factor;
-  if (!(*factor >= kLeastFactor && *factor <= kLargestFactor)) *factor = 1;
+  if (!in_range_of_scale(in, *factor)) *factor = 1;
   return true;
 }
 
@@ -27,7 +31,7 @@ bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
   const auto of_word = in.dialect->rules.scaling.factor_of_word;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     factors[i] = in.settings.axis_factor[i];
-    if (!(std::fabs(factors[i]) >= kLeastFactor && std::fabs(factors[i]) <= kLargestFactor)) factors[i] = 1;
+    if (!in_range_of_scale(in, std::fabs(factors[i]))) factors[i] = 1;
     *word = Role::scaling_factor;
     for (unsigned k = 0; k < 3; ++k)
       if (in.settings.plane_basic[k] == in.axis_words.word(i) && w.has(vector_along(k))) *word = vector_along(k);

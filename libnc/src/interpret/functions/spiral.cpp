@@ -50,9 +50,9 @@ Execution turns_by_step(BlockContext& in, const Spiral& s, double turns, Role wo
   return Execution::done;
 }
 
-/// A word with the number of pitches, 0 to 99.
+/// A word with the number of pitches.
 Execution pitches(BlockContext& in, Role word, uint32_t* number) {
-  if (!whole_number(in.words.get(word), number) || *number > 99) return in.raise(Condition::value_range, word, in.words.get(word));
+  if (!whole_number(in.words.get(word), number) || *number > in.dialect->rules.range.most_pitches) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 
