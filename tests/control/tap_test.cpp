@@ -141,6 +141,28 @@ TEST_P(Tap, HoldBeforeRActsAtOnce) {
   EXPECT_GT(z(), 2.1);
 }
 
+/// M700 13.12, type 1, stops at once; in a tap that would leave it in its thread, and the next block of the program would break it.
+TEST_P(Tap, AMacroInterruptActsBehindTheWayBack) {
+  bench.add("O1000", "G0 X7.\nM99\n");
+  for (const char* words : {"G84 Z-8. R2. F900. P100 ,R0", "G84 Z-8. R2. S600 F1.5 P100 ,R1"}) {
+    start(std::string("M96 P1000\n") + words);
+    ASSERT_TRUE(until([&] { return cuts() && z() < -3; }));
+    drive->in.macro_interrupt = true;
+    step();
+    drive->in.macro_interrupt = false;
+    double lowest_aside = 100, farthest = 0;
+    ASSERT_TRUE(until([&] {
+      const double x = drive->out.command.v[0];
+      if (x > 1e-6) lowest_aside = std::min(lowest_aside, z());
+      farthest = std::max(farthest, x);
+      return drive->ended;
+    }));
+    EXPECT_EQ(drive->alarm(), "") << words;
+    EXPECT_NEAR(farthest, 7, 1e-6) << words << ": the interrupt program has run";
+    EXPECT_GE(lowest_aside, 2 - 1e-6) << words << ": out of the hole";
+  }
+}
+
 TEST_P(Tap, TheOverrideIsThatOfTheProgram) {
   const auto fastest = [&](double override_by) {
     start("G84 Z-8. R2. F900. ,R0");

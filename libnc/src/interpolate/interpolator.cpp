@@ -175,10 +175,12 @@ void Interpolator::interrupt(const nc_inputs& in) {
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
-/// An interrupt of type 1 may stop the program now, in the middle of a block. It may not before FIN has come (M700 13.12), in a thread, in an arc
+/// An interrupt of type 1 may stop the program now, in the middle of a block. It may not before FIN has come (M700 13.12), in a thread, between R and R again
+/// of a tap or in the mode of tapping (a tool that is left in its thread breaks; a feed hold waits there as well: 13.1.1, 7.11 (3)), in an arc
 /// whose radius is compensated, in a contour (where the blocks cannot be told apart), in a skip move whose signal has come, behind a skip move,
 /// while a table is unclamped, or in a block that changes the state of the interrupt: all these are finished first.
 bool Interpolator::may_cut() const {
+  if ((tapping_ & (NC_TAPPING_STROKES | NC_TAPPING_MODE)) != 0) return false;
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN))) return false;
   if (tail_ == end_) return true;
   const Record& r = current();
