@@ -254,6 +254,18 @@ TEST(Cycle, MGoesOutAtTheFirstPositioningOnly) {  // M700 13.1.1 precaution 5
   EXPECT_EQ(at_ten("G91 G81 X10. Z-8. R-6. F100 L3 M8\nM30").aux(), "M8 M30");
 }
 
+TEST(Cycle, SingleBlockStopsNowhereInAHoleWhereItIsSuppressed) {  // M700 13.5.9: #3003 bit 0, from the block behind it on
+  const auto stops = [](const char* text) {
+    unsigned count = 0;
+    for (const std::string& step : steps(at_ten(text))) count += step == "stop" ? 1u : 0u;
+    return count;
+  };
+  EXPECT_EQ(stops("G81 X5. Z-8. R2. F100 L2\nX6.\nM30"), 7U);  // (1) and (2) of each hole, and the end of the first
+  EXPECT_EQ(stops("#3003=1\nG81 X5. Z-8. R2. F100 L2\nX6.\nM30"), 0U);
+  EXPECT_EQ(stops("G81 X5. Z-8. R2. F100\n#3003=1\nX6.\n#3003=0\nX7.\nM30"), 4U);
+  EXPECT_EQ(stops("#3003=2\nG81 X5. Z-8. R2. F100\nM30"), 2U);  // bit 1 is of FIN
+}
+
 TEST(Cycle, WithLengthCompensationAndWorkOffset) {
   Bench bench;
   bench.tool(1, 100).work_offset(1, {10, 0, -5}).at(0, 0, 200);

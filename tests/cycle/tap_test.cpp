@@ -130,6 +130,7 @@ TEST(Tap, Alarms) {
   EXPECT_EQ(tap("G81 Z-8. R2. F100 ,S600").alarm, "P32");
   EXPECT_EQ(tap("G81 Z-8. R2. F100 ,R1").alarm, "P380");
   EXPECT_EQ(tap("G84 Z-8. R2. F900 E20 ,R0").alarm, "P32");
+  EXPECT_EQ(tap("G84 Z-8. R2. S600 F1. ,R1\nX5. S1=700").alarm, "P33");  // 10.6.1: no form of S here
 }
 
 }  // namespace
