@@ -136,6 +136,7 @@ void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   axis->raw = raw;
   axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
   axis->known = true;
+  axis->set_up_again = false;
   ++axis->ahead;
   axis->fresh = true;
 }
@@ -154,6 +155,7 @@ void Cyclic::take_heartbeat(unsigned n, const CanFrame& frame, std::int64_t now_
   if (frame.length < 1) return;
   nodes_[n].heard_ns = now_ns;
   const std::uint8_t state = frame.data[0] & 0x7F;
+  if (state == kStateBootUp) nodes_[n].emergency = 0;  // what it has said before is of another life
   if (phase(n) == NodePhase::kOperational && state != kStateOperational) {
     for (Axis& axis : axes_)
       if (axis.node == n) fault(&axis, DriveTrouble::kRestarted);
@@ -182,9 +184,13 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
         axis.ahead = 0;
         axis.status = 0;
         axis.fresh = true;
+        axis.probe_status = axis.probe_function = 0;
+        axis.probe_on = false;
       }
       if (silent) fault(&axis, DriveTrouble::kHeartbeat);
-      if (!operational && node.operational) fault(&axis, DriveTrouble::kHeartbeat);  // has no effect when a more exact reason was noted before
+      if (!node.operational || (operational && !silent)) continue;
+      fault(&axis, bus_off_ ? DriveTrouble::kHeartbeat : DriveTrouble::kRestarted);  // has no effect when a more exact reason was noted before
+      axis.homed = false;  // nobody knows whether the drive has counted on
     }
     if (silent) set_phase(n, NodePhase::kAway);
     node.operational = operational && !silent;

@@ -92,6 +92,11 @@ class Cyclic {
   bool from_bus(CanFrame* frame) noexcept { return in_.pop(frame); }
   bool to_bus(const CanFrame& frame) noexcept { return out_.push(frame); }
   void set_phase(unsigned node, NodePhase phase) noexcept { phase_[node].store(phase, std::memory_order_release); }
+  // The set-up of a node has come to its end. False when the bus's thread has taken the node for lost meanwhile: then it stays away.
+  bool set_operational(unsigned node) noexcept {
+    NodePhase before = NodePhase::kSetUp;
+    return phase_[node].compare_exchange_strong(before, NodePhase::kOperational, std::memory_order_acq_rel);
+  }
   NodePhase phase(unsigned node) const noexcept { return phase_[node].load(std::memory_order_acquire); }
   // The mode that an axis should be in, and (set) the mode that its drive has confirmed.
   std::int8_t wanted_mode(unsigned axis) const noexcept { return wanted_mode_[axis].load(std::memory_order_acquire); }
@@ -117,7 +122,8 @@ class Cyclic {
     std::int32_t raw = 0;
     std::int64_t position = 0;
     bool known = false, fresh = false;
-    unsigned missed = 0;
+    unsigned missed = 0;         // SYNCs in a row without a position
+    bool set_up_again = false;   // its node was, because positions did not come; none has come since
     int ahead = 0;               // positions received minus SYNCs sent
     std::int64_t target[3] = {};  // set-points of the last SYNC and of the two before it, the newest first
     unsigned on_syncs = 0;       // SYNCs since the axis was to be switched on
@@ -154,6 +160,7 @@ class Cyclic {
   void hand_over(const CanFrame& frame) noexcept;
   void watch_nodes(std::int64_t now_ns) noexcept;
   void watch_axis(unsigned index) noexcept;
+  bool silent_for_good(const Axis& axis) const noexcept;
   bool take_wanted(std::int64_t now_ns) noexcept;
   void move_axis(unsigned index, bool commanded) noexcept;
   DriveWish wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept;

@@ -34,7 +34,9 @@ bool Cyclic::follows(unsigned index) const noexcept {
          mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
 }
 
-// Checks whether positions of the axis come, and whether its status reports a fault.
+// Checks whether positions of the axis come, and whether its status reports a fault. A node whose heartbeat says "operational" while its positions stay away has
+// lost its PDOs (it has started anew, unheard, and gone to "operational" by itself). So when the time for the quick stop is over it is set up again, once, and
+// then with each reset.
 void Cyclic::watch_axis(unsigned index) noexcept {
   Axis& axis = axes_[index];
   if (!nodes_[axis.node].operational) return;
@@ -43,6 +45,10 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   if (!axis.fresh) statistics_.missed_positions.fetch_add(1, std::memory_order_relaxed);
   axis.fresh = false;
   if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
+  if (silent_for_good(axis) && !axis.set_up_again) {
+    axis.set_up_again = true;
+    set_phase(axis.node, NodePhase::kAway);
+  }
   if (axis.ahead >= kAheadLimit) fault(&axis, DriveTrouble::kTwice);
   const DriveState state = drive_state(axis.status);
   if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
@@ -50,6 +56,9 @@ void Cyclic::watch_axis(unsigned index) noexcept {
     fault(&axis, DriveTrouble::kNone);
   }
 }
+
+// Its positions have not come for so long that the drive has ended its quick stop.
+bool Cyclic::silent_for_good(const Axis& axis) const noexcept { return axis.missed >= bus_.lost_after + syncs_of(bus_.stop_timeout_ms); }
 
 // True while the scan gives positions in time. A new command is recognized by its serial number.
 bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
@@ -64,6 +73,10 @@ bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
 // What the drive is to do now. An axis with a fault stays off until a reset.
 DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept {
   const DriveWish wish = wanted.on ? DriveWish::kOn : DriveWish::kOff;
+  if (wanted.reset && commanded && silent_for_good(*axis)) {
+    set_phase(axis->node, NodePhase::kAway);  // its fault stays until positions come
+    return DriveWish::kOff;
+  }
   if (wanted.reset && commanded) {
     axis->faulty = axis->following_fault = false;
     axis->trouble = DriveTrouble::kNone;
@@ -129,8 +142,9 @@ std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
 }
 
 // The following error is the distance of the axis from the range between the set-points of this SYNC and of the two before, because on its way the axis may be
-// anywhere in it.
+// anywhere in it. A place of before says nothing about this SYNC: while positions are missing, lost_after bounds the time.
 void Cyclic::check_following(Axis* axis) noexcept {
+  if (axis->missed != 0) return;
   const auto [least, most] = std::minmax({axis->target[0], axis->target[1], axis->target[2]});
   const std::int64_t away = std::max({std::int64_t{0}, least - axis->position, axis->position - most});
   const double limit = axis->map->following_limit * std::abs(axis->map->increments_per_unit);

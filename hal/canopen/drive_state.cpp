@@ -40,7 +40,9 @@ std::uint16_t DriveWay::next(std::uint16_t status, DriveWish wish) noexcept {
     return on ? kFaultReset : kDisableVoltage;
   }
   reset_phase_ = 0;
-  return wish == DriveWish::kOn ? on(state) : off(state);
+  if (wish != DriveWish::kOn) return off(state);
+  stopping_ = 0;  // each quick stop has its whole time
+  return on(state);
 }
 
 // A drive that controls its axis stops it by its own quick stop and then leaves the state by itself, or stays in it, depending on its object 605Ah. When the time

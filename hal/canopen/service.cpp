@@ -10,13 +10,16 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kBootWaitNs = 300 * kMs;   // time after a reset within which a node should send its boot-up message
-constexpr std::int64_t kPauseNs = 1000 * kMs;     // pause before a silent node is tried again
+constexpr std::int64_t kPauseNs = 1000 * kMs;     // pause before a silent node is tried again; with each time it is twice as long, so that the resets do
+constexpr std::int64_t kMostPauseNs = 8000 * kMs;  // not keep one that boots slowly from coming up at all
 constexpr std::int64_t kRefusedNs = 5000 * kMs;   // pause before a node that cannot be set up is tried again
 constexpr std::int64_t kStateNs = 2000 * kMs;     // time in which a node must become operational, or a drive must take its mode of operation
 constexpr std::uint8_t kStart = 0x01, kPreOperational = 0x80, kResetCommunication = 0x82;  // CiA 301, NMT
 constexpr std::uint8_t kBootUp = 0x00, kOperational = 0x05;
 constexpr std::uint32_t kNoObject = 0x06020000, kNoSub = 0x06090011, kNoAccess = 0x06010000, kReadOnly = 0x06010002;
 constexpr unsigned kUnaskedLimit = 3;
+constexpr double kBeats = 2.5;  // heartbeat periods in which the state of a node has to be seen
+constexpr const char* kAnew = "is away or has begun anew; it is set up again when it answers";
 
 std::string hex(std::uint32_t value) {
   char text[16];
@@ -37,6 +40,7 @@ Service::Service(const BusMap& bus, Cyclic* cyclic, Report report) : bus_(bus), 
   for (unsigned n = 0; n < bus_.nodes.size(); ++n) {
     Node node;
     node.index = n;
+    node.pause_ns = kPauseNs;
     node.map = &bus_.nodes[n];
     node.plan = setup_plan(bus_, *node.map);
     node.sdo = std::make_unique<SdoClient>(node.map->id, bus_.sdo_timeout_ms);
@@ -107,8 +111,12 @@ void Service::take(const CanFrame& frame) {
     if (kind == kSdoAnswerId && !node.sdo->answer(frame)) ++node.unasked;
     if (kind == kHeartbeatId) {
       node.state = frame.data[0] & 0x7F;
-      // A node that boots while it is being set up has lost its set-up, so it begins again.
-      if (node.state == kBootUp && (node.step == Step::kPlan || node.step == Step::kPause)) node.step = Step::kBoot;
+      // A node that boots has lost its set-up, wherever that was, so it begins again.
+      if (node.state == kBootUp && node.step != Step::kReset && node.step != Step::kBoot) {
+        if (node.step == Step::kRun) say(&node, kAnew);
+        cyclic_->set_phase(node.index, NodePhase::kAway);
+        node.step = Step::kBoot;
+      }
     }
     if (kind == kEmergencyId && get_le(frame.data, 2) != 0)
       say(&node, drive_fault_text(drive_fault_code(DriveTrouble::kEmergency, get_le(frame.data, 2), frame.data[2])));
@@ -125,7 +133,7 @@ void Service::step(std::int64_t now_ns) {
 
 void Service::step_node(Node* node, std::int64_t now_ns) {
   if (node->step == Step::kRun && cyclic_->phase(node->index) != NodePhase::kOperational) {
-    say(node, "is away or has begun anew; it is set up again when it answers");
+    say(node, kAnew);
     begin(node, Step::kReset, now_ns);
   }
   switch (node->step) {
@@ -158,16 +166,27 @@ void Service::step_node(Node* node, std::int64_t now_ns) {
       if (node->state == kOperational) {
         node->axis = 0;
         begin(node, Step::kMode, now_ns);
-      } else if (now_ns - node->since_ns > kStateNs) {
+      } else if (now_ns - node->since_ns > std::max(kStateNs, static_cast<std::int64_t>(bus_.heartbeat_ms * kBeats) * kMs)) {
         fail(node, "does not become operational, or sends no heartbeat", NodePhase::kRefused, now_ns);
       }
       break;
     case Step::kMode:
+      if (node->state != kOperational) {  // it has started anew, and its boot-up message was lost
+        say(node, kAnew);
+        cyclic_->set_phase(node->index, NodePhase::kAway);
+        begin(node, Step::kReset, now_ns);
+        break;
+      }
+      work_mode(node, now_ns);
+      break;
     case Step::kRun:
       work_mode(node, now_ns);
       break;
     case Step::kPause:
-      if (now_ns - node->since_ns > (cyclic_->phase(node->index) == NodePhase::kRefused ? kRefusedNs : kPauseNs)) begin(node, Step::kReset, now_ns);
+      if (now_ns - node->since_ns > (cyclic_->phase(node->index) == NodePhase::kRefused ? kRefusedNs : node->pause_ns)) {
+        node->pause_ns = std::min(2 * node->pause_ns, kMostPauseNs);
+        begin(node, Step::kReset, now_ns);
+      }
       break;
   }
 }
@@ -188,6 +207,7 @@ void Service::work_plan(Node* node, std::int64_t now_ns) {
   }
   if (node->at == node->plan.size()) {
     nmt(*node, kStart);
+    node->state = 0xFF;  // only what it says from now on counts
     return begin(node, Step::kStart, now_ns);
   }
   const SetupStep& next = node->plan[node->at++];
@@ -236,8 +256,9 @@ void Service::work_mode(Node* node, std::int64_t now_ns) {
     return;
   }
   if (node->step != Step::kMode) return;
+  if (!cyclic_->set_operational(node->index)) return begin(node, Step::kReset, now_ns);  // the bus went off meanwhile
   say(node, "operational");
-  cyclic_->set_phase(node->index, NodePhase::kOperational);
+  node->pause_ns = kPauseNs;
   begin(node, Step::kRun, now_ns);
 }
 

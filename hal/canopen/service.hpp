@@ -44,6 +44,7 @@ class Service {
     Step step = Step::kReset;
     std::size_t at = 0;
     std::int64_t since_ns = 0;
+    std::int64_t pause_ns = 0;  // before it is tried again
     std::uint8_t state = 0xFF;  // state in its last heartbeat
     unsigned unasked = 0;       // number of answers without a request during this set-up
     bool silent = false;        // a request was not answered during this set-up

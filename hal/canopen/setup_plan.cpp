@@ -33,12 +33,17 @@ class Plan {
     write(m, 0, 1, static_cast<std::uint32_t>(objects.size()));
     write(c, 2, 1, kEverySync);
     write(c, 1, 4, cob_id);
-    add(Kind::kCheck, m, 0, 1, static_cast<std::uint32_t>(objects.size()), 0xFF);
-    for (unsigned i = 0; i < objects.size(); ++i) add(Kind::kCheck, m, i + 1, 4, objects[i]);
-    add(Kind::kCheck, c, 1, 4, cob_id, 0x800007FF);
+    check(m, 0, 1, static_cast<std::uint32_t>(objects.size()), 0xFF);
+    for (unsigned i = 0; i < objects.size(); ++i) check(m, i + 1, 4, objects[i], 0xFFFFFFFF);
+    check(c, 1, 4, cob_id, 0x800007FF);
+  }
+  // What is read back at once, and once more behind everything else, so that a drive that has started anew in the middle is found.
+  void check(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value, std::uint32_t mask) {
+    add(Kind::kCheck, index, sub, bytes, value, mask);
+    checks.push_back({Kind::kCheck, {static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub), static_cast<std::uint8_t>(bytes), value}, mask});
   }
 
-  std::vector<SetupStep> steps;
+  std::vector<SetupStep> steps, checks;
 };
 
 std::uint32_t map_entry(const AxisMap& axis, unsigned index, unsigned bits) { return axis.object(index) << 16 | bits; }
@@ -100,6 +105,8 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
     if (axis.has_homing()) homing(&plan, axis);
   }
   for (const ObjectValue& object : node.objects) plan.write(object.index, object.sub, object.bytes, object.value);
+  plan.steps.insert(plan.steps.end(), plan.checks.begin(), plan.checks.end());
+  plan.add(Kind::kCheck, 0x1016, 1, 4, bus.own_id << 16, 0x00FF0000);  // the last one: an object whose value of its own is another
   return plan.steps;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "hal/canopen/can_port.hpp"
@@ -43,6 +44,7 @@ class LoopbackBus {
   std::size_t frames = 0;
   std::vector<CanFrame> sent;  // frames of the control, collected while `records` is true
   bool records = false;
+  std::function<void()> behind_frame;  // is called behind each frame of the control
 
   class Port final : public hal::canopen::CanPort {
    public:
@@ -57,6 +59,7 @@ class LoopbackBus {
       ++bus_->frames;
       if (bus_->records) bus_->sent.push_back(frame);
       for (SimDrive* drive : bus_->drives_) drive->on_frame(frame);
+      if (bus_->behind_frame) bus_->behind_frame();
       return true;
     }
     bool receive(CanFrame* frame) noexcept override {

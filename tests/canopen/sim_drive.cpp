@@ -33,7 +33,7 @@ void SimDrive::defaults() {
   objects_[key(0x1008, 0)] = {0, 0, false, {'S', 'i', 'm', 'u', 'l', 'a', 't', 'e', 'd', ' ', 'd', 'r', 'i', 'v', 'e'}};
   set_object(0x1006, 0, 4, 0);
   set_object(0x1016, 1, 4, 0);
-  set_object(0x1017, 0, 2, 0);
+  set_object(0x1017, 0, 2, stored_heartbeat);
   for (unsigned a = 0; a < axis_.size(); ++a) {
     for (unsigned n = 0; n < 2; ++n) {
       const unsigned p = 64 * a + n;
@@ -96,12 +96,14 @@ void SimDrive::power_cycle() {
     axis.plant = plant;
     axis.plant.enabled = false;
     axis.plant.coast = 0;
+    if (loses_position) axis.plant.position = 0;
   }
   defaults();
-  nmt_ = 0x7F;
+  transfer_ = {};
+  nmt_ = starts_itself ? 5 : 0x7F;
   master_heard_ns_ = -1;
   dead = false;
-  send(0x700 + node_, {0});
+  if (!unheard) send(0x700 + node_, {0});
 }
 
 void SimDrive::tick(std::int64_t now_ns) {

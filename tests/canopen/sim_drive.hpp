@@ -61,6 +61,10 @@ class SimDrive {
   void trip(unsigned axis, std::uint16_t code, std::uint8_t error_register);  // fault, and EMCY
   void emergency(std::uint16_t code, std::uint8_t error_register);
   void power_cycle();
+  bool unheard = false;            // its boot-up message is lost
+  bool starts_itself = false;      // it is "operational" behind its boot, with the PDOs that it has by itself
+  bool loses_position = false;     // its encoder counts from 0 when it boots
+  unsigned stored_heartbeat = 0;   // 1017h, as it has it by itself
   void leave_enabled(unsigned axis) { axis_[axis].state = State::kSwitchOnDisabled; }  // as a safety input (STO) does
   void probe_edge(unsigned axis = 0);  // its touch probe input rises
 
