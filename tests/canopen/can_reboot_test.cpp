@@ -193,11 +193,12 @@ class Session {
       const std::string now = rig_.alarms();
       if (now != said_ && log_) std::printf("%9.3f s alarms: %s\n", static_cast<double>(rig_.now_ns) * 1e-9, now.c_str());
       said_ = now;
-      // Each alarm is R12, names its axis, and says why.
+      // Each alarm is R12, names its axis, and says why; or R14, when all nodes are away at once.
       for (std::size_t at = 0; at < now.size();) {
         const std::size_t end = now.find('\n', at);
         const std::string line = now.substr(at, end - at);
-        EXPECT_TRUE(line.starts_with("R12 Drive fault: ") && line.find(", axis ") != std::string::npos) << where_ << line;
+        const bool named = line.starts_with("R12 Drive fault: ") && line.find(", axis ") != std::string::npos;
+        if (!named && !line.starts_with("R14 No connection to the machine") && !testing::Test::HasFailure()) ADD_FAILURE() << where_ << line;
         at = end + 1;
       }
     }

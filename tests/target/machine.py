@@ -71,6 +71,17 @@ class Gpio:
     def pull_out(self):
         (self.FOLDER / "live").write_text("0")
 
+    def is_whole(self):
+        return (self.FOLDER / "live").read_text().strip() == "1" and self.levels["CHAIN"] and self.levels["SUPPLY"]
+
+    def mend(self):
+        """The chip is there, and its inputs are those of a machine that is ready."""
+        self.levels.update(PART=False, CHAIN=True, SUPPLY=True)
+        if (self.FOLDER / "live").read_text().strip() != "1":
+            return self.plug()
+        for line, level in self.levels.items():
+            self.drive(line, level)
+
     def file(self, line, name):
         offset = next(offset for offset, known in self.LINES.items() if known == line)
         return self.place / f"sim_gpio{offset}" / name
@@ -104,6 +115,9 @@ class Drive:
         self.process.kill()
         self.process.wait()
 
+    def alive(self):
+        return self.process.poll() is None
+
     def trip(self):
         self.process.send_signal(signal.SIGUSR1)
 
@@ -122,6 +136,18 @@ class Drives(list):
         super().__init__([Drive("X", 1, 131072 / 10, 0.0), Drive("Y", 2, -131072 / 10, 0.0), Drive("Z", 3, 131072 * 2 / 5, 12.5)])
         for drive in self:
             drive.wait()
+
+    def alive(self):
+        return all(drive.alive() for drive in self)
+
+    def begin(self, anew=False):
+        """The drives that are gone begin again; all of them with `anew`."""
+        for drive in self:
+            if anew and drive.alive():
+                drive.kill()
+            if not drive.alive():
+                drive.begin()
+                drive.wait()
 
     def places(self):
         return [drive.place() for drive in self]
