@@ -242,8 +242,10 @@ void note_cause(Interpreter& in) {
   AlarmStory& story = in.alarm_story;
   TextWriter out(story.cause.s, sizeof story.cause.s);
   if (in.fault.condition == Condition::not_accepted && in.begins_inside()) {  // HX 2.3.4
-    out.put(in.words.corner != Corner::none ? "A reset has stopped this block in its middle, at its corner, where it cannot begin."
-                                            : "A reset has stopped this block in its middle, where only a line can begin.");
+    out.put("A reset has stopped this block in its middle, ");
+    if (in.words.target.incremental() != 0) out.put("from where its increments lead elsewhere.");
+    else if (in.words.corner != Corner::none) out.put("at its corner, where it cannot begin.");
+    else out.put("where only a line can begin.");
     out.put(" Select the program to begin at its head.");
     story.instead = true;
     return;

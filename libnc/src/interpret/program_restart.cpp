@@ -35,12 +35,12 @@ void Interpreter::keep_place(bool stands) {
   place_.machine = state.machine;
 }
 
-/// From where the axes stand now only a straight line leads to the end of its block as it did before. An arc would have another centre, and a cycle would
-/// take the height in the hole for its initial level.
+/// From where the axes stand now only a straight line to a given end leads there as it did before. An arc would have another centre, a cycle would
+/// take the height in the hole for its initial level, and an increment would end beside the part by what had been made of it.
 Execution check_begun_inside(Interpreter& in) {
   const Function motion = motion_behind(*in.block, in.front, in.state.modal.of(Mode::motion));
   const bool straight = motion == Function::linear || motion == Function::rapid;
-  return straight && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
+  return straight && in.words.target.incremental() == 0 && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
 }
 
 /// A corner lies on the line from the beginning of its block. Who stands beside that line, as on the arc or the chamfer itself, or nearer to its end than the
@@ -50,8 +50,7 @@ static bool comes_to_its_corner(const Interpreter& in, const Move& line, const A
   double whole = 0, left = 0, along = 0;  // squares of the line as it was and as it is now, and their product
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const double to_go = line.end[i] - line.start[i];
-    const bool increment = (in.words.target.incremental() >> i & 1) != 0;  // it is gone anew, whole
-    const double was = increment ? to_go : to_go + stands[i] - in.began_at()[i];
+    const double was = to_go + stands[i] - in.began_at()[i];
     whole += was * was;
     left += to_go * to_go;
     along += was * to_go;
