@@ -35,12 +35,12 @@ void Interpreter::keep_place(bool stands) {
   place_.machine = state.machine;
 }
 
-/// From where the axes stand now only a straight line to a given end leads there as it did before. An arc would have another centre, a cycle would
-/// take the height in the hole for its initial level, and an increment would end beside the part by what had been made of it.
+/// From where the axes stand now only a straight line leads to the end of its block as it did before. An arc would have another centre, and a cycle would
+/// take the height in the hole for its initial level.
 Execution check_begun_inside(Interpreter& in) {
   const Function motion = motion_behind(*in.block, in.front, in.state.modal.of(Mode::motion));
   const bool straight = motion == Function::linear || motion == Function::rapid;
-  return straight && in.words.target.incremental() == 0 && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
+  return straight && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
 }
 
 /// A corner lies on the line from the beginning of its block. Who stands beside that line, as on the arc or the chamfer itself, or nearer to its end than the
@@ -64,7 +64,10 @@ Execution execute_begun_inside(Interpreter& in) {
   const Execution did = execute_words(in);
   for (unsigned i = 0; did == Execution::done && i < in.queue.size(); ++i) {
     const Item& item = in.queue[i];
-    if (item.kind == ItemKind::move && item.move.corner != Corner::none && !comes_to_its_corner(in, item.move, stands)) return in.raise(Condition::not_accepted);
+    if (item.kind != ItemKind::move) continue;
+    // An increment that is gone anew would end beside the part by what had been made of it.
+    const bool leads_there = in.words.target.incremental() == 0 && (item.move.corner == Corner::none || comes_to_its_corner(in, item.move, stands));
+    if (!leads_there) return in.raise(Condition::not_accepted);
   }
   return did;
 }
