@@ -93,14 +93,14 @@ TEST(CanReboot, APositionThatComesAgainIsJudged) {
 
 // It boots once more while it is being set up, just where its mode is written: what it was told before is gone.
 TEST(CanReboot, ABootAnywhereInItsSetUpBeginsTheSetUpAnew) {
+  unsigned frames = 0;  // it is older than the rig, which sends still while it is taken down
   CanRig rig;
   rig.bring_up();
   SimDrive& drive = *rig.drives[1];
-  unsigned frames = 0, at = 0;
   rig.bus.behind_frame = [&] {
     if (frames > 0 && --frames == 0) drive.power_cycle();
   };
-  for (at = 1; at <= 700; at += 3) {
+  for (unsigned at = 1; at <= 700; at += 3) {
     drive.power_cycle();
     frames = at;
     for (unsigned n = 0; n < 3000 && (n < 400 || !rig.machine->service().all_operational()); ++n) rig.step();
