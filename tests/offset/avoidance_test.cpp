@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <random>
 #include <string>
 
 #include "alarm/condition.hpp"
 #include "path_builder.hpp"
+#include "support/pull.hpp"
 
 namespace nc::test {
 namespace {
@@ -148,6 +150,38 @@ TEST(Avoidance, ALineThroughTheArcIsAnAlarm) {
   unsigned at = 99;
   EXPECT_EQ(check_interference(&chain, 3, {}, &at), Finding::alarm);
   EXPECT_EQ(at, 1u);
+}
+
+/// P153, with the avoidance as without it; without it in this line.
+void expect_alarm_with_and_without(const char* radius, const std::string& contour, unsigned line) {
+  for (const char* const avoid : {"0", "1"}) {
+    Bench bench;
+    bench.tool(1, std::strtod(radius, nullptr)).param("8102", avoid);
+    const Outcome run = bench.run(contour + "M30");
+    EXPECT_EQ(run.alarm, "P153") << contour << avoid;
+    if (avoid[0] == '0') {
+      EXPECT_EQ(run.alarm_line, line) << contour;
+    }
+  }
+}
+
+// 12.4.8: the avoidance leaves something uncut, and cuts nothing off. The offset curves around the blocks that it would leave out meet beyond them.
+TEST(Avoidance, WhatStandsBetweenTheBlocksIsNotCutOff) {
+  expect_alarm_with_and_without("5", "G90 G0 X80. Y20.\nG1 G42 D1 X70. Y0 F500\nX51.\nX50.8\nX50.2 Y1.1\nX49.85 Y0\nX30.\nG40 Y20.\n", 3);            // a rib
+  expect_alarm_with_and_without("5", "G90 G0 X-20. Y20.\nG1 G41 D1 X0 Y0 F500\nX40.\nY-1.2\nX40.1\nX41.3 Y-2.5\nX80.\nG40 Y20.\n", 4);                // a stair
+}
+
+// A groove beside a half-round nose: the circle of the nose goes on through the wall in front of the groove before it meets that wall's offset curve.
+TEST(Avoidance, AnArcIsNotLengthenedThroughTheBlockInFront) {
+  expect_alarm_with_and_without("1", "G90 G0 X-20. Y10.\nG1 G42 D1 X-10. Y0 F500\nX0.\nY-.2\nX-8.\nG3 Y-20.2 J-10.\nG1 X5.\nG40 Y-30.\n", 3);
+}
+
+// The blocks beside the one that interferes run in parallel, so they cannot be joined (2)(b); the next two would meet, over a face that the tool can go along.
+TEST(Avoidance, ABlockThatTheToolCanGoAlongIsNotLeftOut) {
+  Bench bench;
+  bench.tool(1, 2).param("8102", "1");
+  const Outcome run = bench.run("G90 G0 X45. Y70.\nG1 G42 D1 X42. Y60. F500\nX31.\nX31.3 Y58.3\nX-69.\nY30.\nG40 X-80.\nM30");
+  EXPECT_EQ(run.alarm, "P153");
 }
 
 // A change of side has a vector on each side; without the one of its own side a block would run on the other's.

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "support/pull.hpp"
 
@@ -116,6 +119,33 @@ TEST(Interference, AGrooveThatWidensBehindItsMouth) {
       EXPECT_EQ(run.alarm_line, 3u) << mouth;
     }
     EXPECT_EQ(groove("-5.", "16.", "11.", avoid).alarm, "");  // as wide as the tool at its mouth, and wider
+  }
+}
+
+// The vectors at the mouth point down along walls like these and lie over each other or spread: they do not cross.
+TEST(Interference, AMouthThatIsTooNarrowWithVectorsThatDoNotCross) {
+  for (const char* const avoid : {"0", "1"}) {
+    for (const auto& [from, to, mouth] : {std::array{"-30.", "38.", "8."}, std::array{"-60.", "67.", "7."}, std::array{"-30.", "39.9", "9.9"}}) {
+      const Outcome run = groove(from, to, mouth, avoid);
+      EXPECT_EQ(run.alarm, "P153") << mouth << ' ' << avoid;
+      EXPECT_EQ(run.alarm_line, 3u) << mouth << ' ' << avoid;
+    }
+    EXPECT_EQ(groove("-30.", "42.2", "12.2", avoid).alarm, "");  // at these corners the tool reaches 12.07 mm into the mouth: 5 / cos 45 deg, and its radius
+  }
+}
+
+// Below the mouth a wall, the greater part of a circle, a wall. The contour turns away from the tool at each of its corners, and comes back along the arc.
+TEST(Interference, AMouthThatIsTooNarrowInFrontOfARoundChamber) {
+  for (const char* const mouth : {"8.", "10.", "12.2"}) {  // see above: 12.07 mm are needed
+    const double half = std::strtod(mouth, nullptr) / 2;
+    char arc[80];
+    std::snprintf(arc, sizeof arc, "G3 X%.3f Y-1. I%.3f J%.6f", 2 * half + 1, half + 1, -std::sqrt(64 - (half + 1) * (half + 1)));
+    Bench bench;
+    bench.tool(1, 5);
+    const Outcome run =
+        bench.run(std::string("G90 G0 X-60. Y20.\nG41 D1 G1 X-60. Y0 F100\nX0.\nX-1. Y-1.\n") + arc + "\nG1 X" + mouth + " Y0\nX60.\nG40 Y20.\nM30");
+    EXPECT_EQ(run.alarm, half < 6 ? "P153" : "") << mouth;
+    EXPECT_EQ(run.alarm_line, half < 6 ? 3u : 0u) << mouth;
   }
 }
 

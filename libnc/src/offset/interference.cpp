@@ -157,9 +157,57 @@ unsigned live_at(const Chain& chain, unsigned i) {
   return i;
 }
 
-// Joins section `i` directly to section `j`; the ones between are left out. False: no avoidance vector can be
+// Does the tool go along the two sections, joined at `x`, without coming nearer than the amount to what is left out between them, or to the other one? Places count
+// from the end of section i; `d` is the start of section j.
+bool keeps_amount(const Chain& chain, unsigned i, unsigned j, Vec2 d, Vec2 from, Vec2 x, Vec2 leave) {
+  const Section& before = chain[i];
+  const Section& behind = chain[j];
+  const Piece first = path_of(before, -1 * before.delta, from, x), second = path_of(behind, d, x - d, leave);
+  const double least = std::abs(before.offset) - kEnters_mm;
+  if (comes_nearer(first, wall_of(behind, d), least) || comes_nearer(second, wall_of(before, -1 * before.delta), least)) return false;
+  Vec2 start;
+  for (unsigned k = i + 1; k < j; ++k) {
+    const Piece wall = wall_of(chain[k], start + chain[k].approach);
+    if (comes_nearer(first, wall, least) || comes_nearer(second, wall, least)) return false;
+    start = wall.to;
+  }
+  return true;
+}
+
+// Could the tool stand somewhere along section k, with the contour from the start of section i to the end of section j around it? Asked at a few places: near its
+// ends a block between others is out of reach anyway. Places count from the end of section i.
+bool can_be_reached(const Chain& chain, unsigned k, unsigned i, unsigned j) {
+  constexpr unsigned kPlaces = 8;
+  const double least = std::abs(chain[k].offset) - kEnters_mm;
+  const Vec2 start = joint_distance(chain, i, k) - chain[k].delta;
+  for (unsigned n = 1; n < kPlaces; ++n) {
+    const double share = static_cast<double>(n) / kPlaces;
+    Piece tool;
+    if (chain[k].begin.curvature != 0) {
+      const Vec2 center = start + (1 / chain[k].begin.curvature) * left_of(chain[k].begin.u), spoke = start - center;
+      const double c = std::cos(share * chain[k].sweep), s = std::sin(share * chain[k].sweep);
+      const Vec2 turned = {c * spoke.h - s * spoke.v, s * spoke.h + c * spoke.v};
+      tool.from = center + (1 - chain[k].begin.curvature * chain[k].offset) * turned;
+    } else {
+      tool.from = start + share * chain[k].delta + perpendicular(chain[k].begin, chain[k].offset);
+    }
+    tool.to = tool.from;
+    bool free = !comes_nearer(tool, wall_of(chain[i], -1 * chain[i].delta), least);
+    Vec2 end;
+    for (unsigned m = i + 1; m <= j && free; ++m) {
+      const Piece wall = wall_of(chain[m], end + chain[m].approach);
+      free = !comes_nearer(tool, wall, least);
+      end = wall.to;
+    }
+    if (free) return true;
+  }
+  return false;
+}
+
+// Joins section `i` directly to section `j`; the ones between are left out. Those from `besides` on interfere with nothing: they are only left out where the tool
+// could not go along them either. False: no avoidance vector can be
 // made.
-bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
+bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first_vector) {
   Section& before = (*chain)[i];
   const Section& behind = (*chain)[j];
   if (before.start || before.dead || before.vanished || behind.dead || behind.vanished || behind.cancel) return false;
@@ -178,6 +226,9 @@ bool go_round(Chain* chain, unsigned i, unsigned j, Vec2 first_vector) {
   const Vec2 from = start_vector(*chain, i, first_vector), leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
   if (runs_backwards(before, from, x) || arc_runs_backwards(before, from, x)) return false;
   if (runs_backwards(behind, x - d, leave) || arc_runs_backwards(behind, x - d, leave)) return false;
+  for (unsigned k = besides; k < j; ++k)
+    if (!(*chain)[k].dead && can_be_reached(*chain, k, i, j)) return false;
+  if (!keeps_amount(*chain, i, j, d, from, x, leave)) return false;  // a rib that stands between them, or a circle that runs on through a wall
   compare_again(chain);
   before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
@@ -230,6 +281,40 @@ double longest_square(const ContourJoint& joint) {
 // the distance is a sum of coordinates, which are exact to far less than a nanometre.
 bool too_far_to_cross(double longest_before, double longest_behind, Vec2 d) { return dot(d, d) > 2.2 * (longest_before + longest_behind) + 1e-12; }
 
+// Does the contour turn away from the tool behind section i?
+bool turns_away(const Chain& chain, unsigned i) { return cross(chain[i].end.u, chain[i + 1].begin.u) * chain[i].offset < 0; }
+
+// Is the mouth of a groove of three blocks narrower than the tool? The vectors on its walls tell where the walls are about parallel. Where they go apart below
+// the mouth these vectors point down and need not cross, so here it is asked whether the tool, at the corner on one side of the mouth and along the wall below,
+// comes nearer than the amount to the corner on the other side.
+bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
+  if (j + 1 >= chain.size() || !turns_away(chain, i) || !turns_away(chain, j)) return false;
+  bool comes_back = false;  // towards the tool: at a corner, or along an arc
+  for (unsigned k = i + 1; k <= j; ++k) comes_back = comes_back || (k < j && !turns_away(chain, k)) || chain[k].begin.curvature * chain[k].offset > 0;
+  if (!comes_back) return false;
+  for (unsigned k = i; k <= j; ++k)
+    if (chain[k].dead || chain[k].vanished || changes_side(chain, k)) return false;
+  const Vec2 d = joint_distance(chain, i, j);
+  const Section& into = chain[i + 1];
+  const Section& out = chain[j];
+  Piece corners[2];
+  corners[1].from = corners[1].to = d;
+  const double least = std::abs(chain[i].offset) - kEnters_mm;
+  const auto enters = [&](const ContourJoint& joint, Vec2 at, const Piece& corner) {
+    for (unsigned k = 0; k + 1 < joint.n; ++k) {
+      Piece way;
+      way.from = at + joint.v[k];
+      way.to = at + joint.v[k + 1];
+      if (joint.corner_arc && bendable(joint.v[k], joint.v[k + 1])) way = arc_about(at, joint.v[k], joint.v[k + 1], chain[i].offset);
+      if (comes_nearer(way, corner, least)) return true;
+    }
+    return false;
+  };
+  return enters(chain[i].joint, {}, corners[1]) || enters(out.joint, d, corners[0]) ||
+         comes_nearer(path_of(into, into.approach, start_vector(chain, i + 1, {}), into.joint.v[0]), corners[1], least) ||
+         comes_nearer(path_of(out, d - out.delta, start_vector(chain, j, {}), out.joint.v[0]), corners[0], least);
+}
+
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
 // that has taken its place. `*crosses`: they do not go as they were.
 Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
@@ -262,7 +347,7 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   if (one_sided || dot(a, b) < -kRightAngle * norm(a) * norm(b)) return Finding::alarm;
   const unsigned farthest = std::max(live + 1 + kReach, j + 1);
   for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
-    if (go_round(chain, live, target, first_vector)) return Finding::none;
+    if (go_round(chain, live, target, j + 1, first_vector)) return Finding::none;
   }
   return may_wait && chain->size() <= farthest ? Finding::none : Finding::alarm;
 }
@@ -278,7 +363,7 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
     *at = i;
     bool done = false;
     for (unsigned target = i + 1; target <= i + kReach && target < chain->size() && !done; ++target) {
-      done = go_round(chain, live_at(*chain, i - 1), target, first_vector);
+      done = go_round(chain, live_at(*chain, i - 1), target, i + 1, first_vector);
     }
     if (!done && (i < last_call || chain->size() > i + kReach || (*chain)[chain->size() - 1].cancel))
       return Finding::alarm;
@@ -298,7 +383,7 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   *at = i;
   if (!section.avoid || i == 0) return Finding::alarm;
   for (unsigned target = i + 1; target <= i + kReach && target < chain->size(); ++target)
-    if (go_round(chain, live_at(*chain, i - 1), target, start.vector)) return Finding::none;
+    if (go_round(chain, live_at(*chain, i - 1), target, i + 1, start.vector)) return Finding::none;
   return Finding::alarm;
 }
 
@@ -322,8 +407,14 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
       const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
       const bool may_wait = live >= last_call;
-      if (check_pair(chain, live, i, j, may_wait, first_vector, at, &crosses) == Finding::alarm) return Finding::alarm;
+      bool pair_crosses = false;
+      if (check_pair(chain, live, i, j, may_wait, first_vector, at, &pair_crosses) == Finding::alarm) return Finding::alarm;
+      crosses = crosses || pair_crosses;
       if (section.dead) break;
+      if (span == kMaxSpan && !pair_crosses && mouth_too_narrow(*chain, i, j)) {
+        *at = live;
+        return Finding::alarm;
+      }
     }
     section.apart = !crosses;
   }
