@@ -2,6 +2,7 @@
 // HX 2.3.4, PI 133: where a start behind a reset begins. 0: at the head of the program; 2: with the block that the reset has stopped, in the modes of before.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "online_helpers.hpp"
@@ -149,6 +150,23 @@ TEST_F(ProgramRestart, ALineGoesOnToItsCornerAndNoneBeginsOnIt) {
     reset();
     EXPECT_EQ(go_on().front(), 1u) << "behind the alarm it begins at its head";
   }
+}
+
+// Braked near the end of a chamfer the axes stand where the words of the block lead, and the block has not ended yet.
+TEST_F(ProgramRestart, AtTheEndOfAChamferNoLineBegins) {
+  unsigned at_end = 0;
+  for (double beyond = 15.5; beyond < 20; beyond += 0.125) {
+    stop_beyond(beyond, "2", "G90 G01 X20. ,C5. F6000\nY20.\nM30\n");
+    at_end += x() == 20 && std::abs(y() - 5) < 1e-6 ? 1 : 0;
+    drive->in.cycle_start = true;
+    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
+    EXPECT_EQ(drive->alarm(), "NC-MODE") << beyond;
+    nc_alarm alarm{};
+    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
+    EXPECT_EQ(alarm.source.line, 1u);
+    EXPECT_NE(std::string(alarm.detail.s).find("in its middle, at its corner"), std::string::npos) << alarm.detail.s;
+  }
+  EXPECT_GT(at_end, 0u);
 }
 
 // What is stopped in the first block of a program is stopped in its middle as well.

@@ -41,6 +41,15 @@ const VariableCase kCases[] = {
     {20000, 29999, "", kVacant, kVacant, true},
 };
 
+TEST(HxVariables, SingleBlockIsSuppressedOrNot) {
+  for (const char* value : {"2", "3", "0.5", "-1"}) EXPECT_EQ(Bench(NC_DIALECT_HX).run(std::string("#3083=") + value + "\nM30").alarm, "F_82002") << value;
+  Bench bench(NC_DIALECT_HX);
+  const Outcome run = bench.run("#3083=1\n#100=#3083\n#3083=0\n#101=#3083\nM30");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.var(100), 1);
+  EXPECT_EQ(run.var(101), 0);
+}
+
 Bench& prepared(Bench& bench) {
   bench.input[0] = 0x80000001u;
   bench.input[3] = 40;

@@ -221,7 +221,12 @@ TEST(IsoMachine, MovesByTheMotionInForce) {  // RS-274/NGC 3.5.12
   bench.work_offset(1, {5, 6, 7});
   EXPECT_EQ(bench.run("G53 G0 X1\nF300 G53 G1 Z2\nG0 Z0").path(), (Path{"rapid 1 0 0", "line 1 0 2 F300", "rapid 1 0 7"}));
   EXPECT_EQ(alarm_of("G91\nG53 G0 X1"), "NC-INCREMENTAL");
-  EXPECT_EQ(alarm_of("F100\nG2 X2 I1\nG53 X0"), "NC-NO-SUCH-CODE");
+  // It is not a word of the arc that is not possible beside it, but the arc.
+  for (const char* arc : {"F100\nG2 X2 I1\nG53 X0", "G53 G2 X1 I1 F10", "G53 G3 X1 R1 F10", "G53 G2 X1 I1 P2 F10"}) {
+    const Outcome run = Bench(NC_DIALECT_ISO).run(std::string(arc) + "\nM2");
+    EXPECT_EQ(run.alarm, "NC-NO-SUCH-CODE") << arc;
+    EXPECT_EQ(run.alarm_detail, "G53 goes to machine coordinates by G00 or G01, in no other motion. Program one of them beside it.") << arc;
+  }
 }
 
 TEST(IsoReference, WithoutWordsAllAxesGo) {  // RS-274/NGC 3.5.8

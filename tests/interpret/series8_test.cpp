@@ -127,7 +127,11 @@ TEST(Series8Compensation, BeginsBesideTheStart) {  // G41
   Bench straight(NC_DIALECT_SERIES8);
   straight.tool(1, 2, NC_TOOL_RADIUS);
   EXPECT_EQ(straight.run("F10\nT01D01\nG41G43G01X10\nX20\nG40\nX30").path()[0], "line 10 2 0 F10");  // G43: docs/series8.md
-  EXPECT_EQ(straight.run("F10\nG43G01X10").alarm, "NC-MODE");
+  for (const char* late : {"F10\nG43G01X10", "F10\nT01D01\nG41G01X10Y0\nG43X20"}) {
+    const Outcome run = straight.run(late);
+    EXPECT_EQ(run.alarm, "NC-MODE") << late;
+    EXPECT_EQ(run.alarm_detail, "G43 stands in the block of the first move with G41 or G42, and in no other.") << late;
+  }
 }
 
 TEST(Series8Compensation, GoesRoundSharpCornersOnAnArc) {

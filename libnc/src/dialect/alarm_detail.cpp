@@ -25,7 +25,28 @@ struct Sentence {
   const char* full;
   const char* plain;           ///< a sentence that needs no word and no value; nullptr = `full` needs none either
   const char* code = nullptr;  ///< taken instead of `full` if the letter of the fault is that of G or M codes
+  bool (*only)(const Dialect&, const Fault&) = nullptr;  ///< the row is one for such faults alone; it stands in front of the row for all others
 };
+
+// ---- what a fault may be, beside its condition, to have a sentence of its own
+/// The fault is about a code with this function.
+template <Function kFunction>
+bool of(const Dialect& dialect, const Fault& fault) {
+  if (!dialect.addresses.is(fault.letter, Role::code) || !fault.has_value || !(fault.value >= 0 && fault.value < 1e6)) return false;
+  const FunctionRow* const row = find_function(dialect, static_cast<int>(std::lround(fault.value * 10)));
+  return row != nullptr && row->function == kFunction;
+}
+/// A centre whose words have no sign (Series 8 G02): a circle through both ends may well exist.
+bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
+  return dialect.rules.arc.centre_by_quadrant && fault.letter != dialect.addresses.letter(Role::arc_radius);
+}
+/// A code for machine coordinates that has no arcs (LinuxCNC G53), and one that has them (Series 8 G69).
+bool of_machine_line(const Dialect& dialect, const Fault& fault) {
+  return of<Function::machine_move>(dialect, fault) && !dialect.rules.coordinate.machine_move_is_absolute;
+}
+bool of_machine_arc(const Dialect& dialect, const Fault& fault) {
+  return of<Function::machine_move>(dialect, fault) && dialect.rules.coordinate.machine_move_is_absolute;
+}
 
 /// A name that may stand for a G code in a sentence: {comp_off} becomes the code that the family has for this function.
 struct NamedCode {
@@ -119,6 +140,9 @@ constexpr Sentence kSentences[] = {
     {C::arc_deviation,
      "Start and end of the arc are not on one circle: the radius at the end would be {value} mm.",
      "Start and end of the arc are not on one circle about its centre."},
+    {C::arc_center,
+     "{vector_x} {vector_y} {vector_z} have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program {arc_radius}.",
+     nullptr, nullptr, of_unsigned_centre},
     {C::arc_center, "No circle of radius {value} mm goes through the start and the end of the arc.",
      "No circle of this radius goes through the start and the end of the arc."},
     {C::helix_option, "The arc moves {axis} too, and helical interpolation is not fitted.", nullptr},
@@ -233,6 +257,12 @@ constexpr Sentence kSentences[] = {
      "The signal of the sensor did not come within the measuring range about {value}.",
      "The signal of the sensor did not come within the measuring range."},
     {C::stroke_check, "The block starts or ends in the area that {stroke_check_on} prohibits.", nullptr},
+    {C::not_accepted, "This stands in the block of the first move with {comp_left} or {comp_right}, and in no other.", nullptr,
+     "{word} stands in the block of the first move with {comp_left} or {comp_right}, and in no other.", of<Function::comp_entry>},
+    {C::not_accepted, "Machine coordinates are gone to by {rapid} or {linear}, in no other motion. Program one of them here.", nullptr,
+     "{word} goes to machine coordinates by {rapid} or {linear}, in no other motion. Program one of them beside it.", of_machine_line},
+    {C::not_accepted, "An arc that the program has turned or scaled has no place in machine coordinates.", nullptr,
+     "{word} goes to machine coordinates, where an arc that the program has turned or scaled has no place.", of_machine_arc},
     {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
     {C::in_high_accuracy, "{word} is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first.",
      "This is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first."},
@@ -443,15 +473,9 @@ const char* why_missing(const Dialect& dialect, const Fault& fault) {
   return row != nullptr && row->missing != nullptr ? row->part : nullptr;
 }
 
-/// Of a centre whose words have no sign (Series 8 G02): a circle through both ends may well exist.
-constexpr char kUnsignedCentre[] =
-    "{vector_x} {vector_y} {vector_z} have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program {arc_radius}.";
-
 const char* choose(const Dialect& dialect, const Fault& fault) {
-  const bool of_radius = fault.letter == dialect.addresses.letter(Role::arc_radius);
-  if (fault.condition == C::arc_center && dialect.rules.arc.centre_by_quadrant && !of_radius) return kUnsignedCentre;
   for (const Sentence& row : kSentences) {
-    if (row.condition != fault.condition) continue;
+    if (row.condition != fault.condition || (row.only != nullptr && !row.only(dialect, fault))) continue;
     const char* sentence = row.code != nullptr && about_code(dialect, fault) ? row.code : row.full;
     return row.plain == nullptr || complete(dialect, sentence, fault) ? sentence : row.plain;
   }

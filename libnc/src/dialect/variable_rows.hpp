@@ -20,6 +20,7 @@ enum class SystemVariable : uint8_t {
   alarm, message,
   time_powered, time_running,  ///< time with power on, time in automatic operation
   control,                     ///< two places: single block and FIN, feed hold and override
+  single_block_off,            ///< the first of them where it is yes or no
   mirror,
   date, time_of_day,
   count,                       ///< two: workpieces machined, their maximum

@@ -377,13 +377,15 @@ Execution execute_words(Interpreter& in) {
     const Execution did = dispatch_block(in, &taken);
     if (taken || did != Execution::done) return did;
   }
-  Execution did = read_block_command(in);
+  const Execution did = read_block_command(in);
   if (did != Execution::done) return did;
+  if (in.begins_inside()) [[unlikely]] return execute_begun_inside(in);
+  return execute_read_words(in);
+}
+
+Execution execute_read_words(Interpreter& in) {
+  Execution did = Execution::done;
   Command& w = in.words;
-  if (in.begins_inside()) [[unlikely]] {
-    did = check_begun_inside(in);
-    if (did != Execution::done) return did;
-  }
   if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);

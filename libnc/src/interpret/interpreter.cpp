@@ -420,7 +420,7 @@ nc_status Interpreter::run_block(uint32_t& budget) {
   if (frame.last_sequence != 0) note_last_block(frame);
   const bool no_statements = block->statements.empty();
   if (no_statements && execute_plain_line(*this)) return settle(Execution::done);
-  const Execution did = !no_statements ? execute_statements() : begins_inside() ? execute_begun_inside(*this) : execute_words(*this);
+  const Execution did = no_statements ? execute_words(*this) : execute_statements();
   if (did == Execution::sync && next_step == Step::none) {  // this block is read again when the answer is there
     state.frame[depth].offset = begin;
     state.frame[depth].line = line;

@@ -252,12 +252,11 @@ struct Interpreter : BlockContext {
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for
 };
 
-/// interpret/program_restart.cpp: whether the block in hand may begin in its middle.
-Execution check_begun_inside(Interpreter& in);
-/// Executes a block of words that begins in its middle; a line to a corner (,C ,R) has to begin in front of it.
+/// interpret/program_restart.cpp: a block whose words have been read and that begins in its middle, or the alarm that it cannot begin there.
 Execution execute_begun_inside(Interpreter& in);
-/// interpret/execute_block.cpp: a block of words.
+/// interpret/execute_block.cpp: a block of words; and what is left to do of it where they have been read.
 Execution execute_words(Interpreter& in);
+Execution execute_read_words(Interpreter& in);
 /// interpret/plain_line.cpp: executes a straight line in absolute millimetres. False: nothing has been done, and the block needs execute_words().
 bool execute_plain_line(BlockContext& in);
 /// Applies the G codes of in.words that decide how other words are read.

@@ -35,14 +35,6 @@ void Interpreter::keep_place(bool stands) {
   place_.machine = state.machine;
 }
 
-/// From where the axes stand now only a straight line leads to the end of its block as it did before. An arc would have another centre, and a cycle would
-/// take the height in the hole for its initial level.
-Execution check_begun_inside(Interpreter& in) {
-  const Function motion = motion_behind(*in.block, in.front, in.state.modal.of(Mode::motion));
-  const bool straight = motion == Function::linear || motion == Function::rapid;
-  return straight && in.words.one_shot == nullptr && in.words.cycle == nullptr ? Execution::done : in.raise(Condition::not_accepted);
-}
-
 /// A corner lies on the line from the beginning of its block. Who stands beside that line, as on the arc or the chamfer itself, or nearer to its end than the
 /// corner is large, does not come to this corner any more: the line from there would have another one, or none (HX 4.3).
 static bool comes_to_its_corner(const Interpreter& in, const Move& line, const AxisVec& stands) {
@@ -59,17 +51,31 @@ static bool comes_to_its_corner(const Interpreter& in, const Move& line, const A
   return !beside && left >= line.corner_mm * line.corner_mm;
 }
 
-Execution execute_begun_inside(Interpreter& in) {
-  const AxisVec stands = in.state.machine;
-  const Execution did = execute_words(in);
-  for (unsigned i = 0; did == Execution::done && i < in.queue.size(); ++i) {
+/// The block is a plain straight line. From where the axes stand now an arc would have another centre, and a cycle would take the height in the hole for its
+/// initial level.
+static bool is_straight(const Interpreter& in) {
+  const Function motion = motion_behind(*in.block, in.front, in.state.modal.of(Mode::motion));
+  return (motion == Function::linear || motion == Function::rapid) && in.words.one_shot == nullptr && in.words.cycle == nullptr;
+}
+
+/// What the block has become leads from where the axes stand to where it did before. An increment that is gone anew would end beside the part by what had been
+/// made of it.
+static bool leads_there(const Interpreter& in, const AxisVec& stands, Execution did) {
+  // At the end of a chamfer the axes may stand where the words of the block lead: from there they are no line, and have no corner.
+  if (did == Execution::fault) return in.fault.condition != Condition::corner_short;
+  for (unsigned i = 0; i < in.queue.size(); ++i) {
     const Item& item = in.queue[i];
     if (item.kind != ItemKind::move) continue;
-    // An increment that is gone anew would end beside the part by what had been made of it.
-    const bool leads_there = in.words.target.incremental() == 0 && (item.move.corner == Corner::none || comes_to_its_corner(in, item.move, stands));
-    if (!leads_there) return in.raise(Condition::not_accepted);
+    if (in.words.target.incremental() != 0 || (item.move.corner != Corner::none && !comes_to_its_corner(in, item.move, stands))) return false;
   }
-  return did;
+  return true;
+}
+
+Execution execute_begun_inside(Interpreter& in) {
+  if (!is_straight(in)) return in.raise(Condition::not_accepted);
+  const AxisVec stands = in.state.machine;
+  const Execution did = execute_read_words(in);
+  return leads_there(in, stands, did) ? did : in.raise(Condition::not_accepted);
 }
 
 }  // namespace nc

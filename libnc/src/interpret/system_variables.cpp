@@ -276,6 +276,10 @@ Execution write_control(Access& a) {
   action.value = bits;
   return Execution::done;
 }
+Execution write_single_block_off(Access& a) {  // HX 14.2.3 (4)
+  if (a.written != 0 && a.written != 1) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  return write_control(a);
+}
 Eval read_control(Access& a) { return give(a, a.in.state.*kControlBits[a.index].bits); }
 Eval read_mirror(Access& a) { return give(a, a.in.state.any_mirror()); }
 
@@ -399,6 +403,7 @@ constexpr VariableHandler kHandlers[kSystemVariables] = {
     {V::time_powered, read_counter<kPowered>, write_counter<kPowered>, kClock},
     {V::time_running, read_counter<kRunning>, write_counter<kRunning>, kClock},
     {V::control, read_control, write_control, 0},
+    {V::single_block_off, read_control, write_single_block_off, 0},
     {V::mirror, read_mirror, nullptr, 0},
     {V::date, read_date, write_date, kClock},
     {V::time_of_day, read_time_of_day, write_time_of_day, kClock},

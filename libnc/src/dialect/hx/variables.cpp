@@ -16,7 +16,7 @@ constexpr VariableRow kRows[] = {
     {2368, 2370, V::work_offset, 0, 0, "mm", "shift of all work coordinate systems, X Y Z", "14.2.3"},
     {2377, 2430, V::work_offset, 1, 9, "mm, deg", "work coordinate systems G54 to G59, an axis each", "14.2.3"},
     {3000, 3082, V::parameter_itself, 0, 0, "the parameter's", "parameters PI 0 to PI 82", "14.2.3"},
-    {3083, 3083, V::control, 0, 0, "0/1", "no single block stop", "14.2.3 (4)"},
+    {3083, 3083, V::single_block_off, 0, 0, "0/1", "no single block stop", "14.2.3 (4)"},
     {3084, 3999, V::parameter_itself, 0, 0, "the parameter's", "parameters PI 84 to PI 999", "14.2.3"},
     {4083, 4086, V::work_position, 0, 0, "mm, inch, deg", "workpiece position, an axis each", "14.2.3 (7)"},
     {4792, 4792, V::word, 0, 0, "as programmed", "S", "14.2.3 (6)"},

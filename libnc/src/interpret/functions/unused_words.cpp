@@ -56,9 +56,9 @@ WordSet words_of_one_shot(const BlockContext& in, Function function) {
     case Function::stroke_check_on: return vectors;
     case Function::coordinate_set: return in.set_of({Role::surface_radius});
     case Function::comp_corner_turn: return in.dialect->rules.compensation.vector_by_words ? vectors_of_plane(in) : 0;
-    case Function::machine_move: {  // Series 8 G69 beside an arc
-      const bool arc = in.dialect->rules.coordinate.machine_move_is_absolute && is_arc(in.state.modal.of(Mode::motion));
-      return arc ? vectors_of_plane(in) | in.set_of({Role::arc_radius}) : 0;
+    case Function::machine_move: {  // Series 8 G69 beside an arc; what LinuxCNC G53 does not take beside one is the arc itself
+      const bool arc = in.dialect->rules.coordinate.machine_move_by_motion && is_arc(in.state.modal.of(Mode::motion));
+      return arc ? vectors_of_plane(in) | in.set_of({Role::arc_radius, Role::arc_turns}) : 0;
     }
     case Function::offset_longer:
     case Function::offset_shorter:
