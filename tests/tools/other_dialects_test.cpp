@@ -138,7 +138,10 @@ TEST_F(OtherDialects, AShortProgramIsRecognised) {
 TEST(CodesOfLine, AreThoseOutsideOfComments) {
   EXPECT_EQ(codes_of_line("N10 G90g1 X2 (G4) G38.2G 0 5. ; G7"), (CodeSet{900, 10, 382, 50}));
   EXPECT_EQ(codes_of_line("IF [#1 EQ 1] GOTO 12"), CodeSet());
-  EXPECT_EQ(codes_of_line("G#1 G[2] G G1.2.3 G123456"), CodeSet());
+  EXPECT_EQ(codes_of_line("G#1 G[2] G1.2.3 G123456 G-4 ,G5"), CodeSet());
+  EXPECT_EQ(codes_of_line("G G5"), CodeSet());
+  // A name and a formula are none, and a variable that is written beside codes leaves them codes.
+  EXPECT_EQ(codes_of_line("G1 X#<g4_x> F[100 + #<g7>] #<g8>=2 G90"), (CodeSet{10, 900}));
   const CodeSet own = codes_of_family(NC_DIALECT_SERIES8);
   EXPECT_EQ(own.count(60), 1u);
   EXPECT_EQ(own.count(640), 0u);

@@ -16,7 +16,7 @@ using CodeSet = std::set<int>;
 /** The G codes of the family's function table, those that it does not support included. */
 CodeSet codes_of_family(nc_dialect dialect);
 
-/** The G codes that stand in a line as plain numbers, outside of comments. A code that a formula gives is not among them. */
+/** The G codes that stand in a line as plain numbers (line_words.hpp). A code that a formula gives is not among them, nor one beside a keyword. */
 CodeSet codes_of_line(std::string_view line);
 
 }  // namespace nc::tools

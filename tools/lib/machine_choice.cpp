@@ -12,7 +12,6 @@
 namespace nc::tools {
 namespace {
 
-constexpr double kSlowest = 1e-3, kFastest = 1e9;  // the same range as in machine_limits.cpp
 constexpr double kMicro = 1e-6;
 
 // Reads one number at *at and moves *at past it.

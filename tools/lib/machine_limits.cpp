@@ -13,8 +13,6 @@ namespace {
 
 using namespace json;
 
-// With smaller rates a run would never end; with larger ones a step would be too large for a double to hold a position beside it.
-constexpr double kSlowest = 1e-3, kFastest = 1e9;  // mm, deg per second, second squared, cubed
 constexpr double kMinWidth = 1e-6, kMaxLength = 1e6;
 constexpr double kShortestCycle_s = 1e-5, kLongestCycle_s = 0.1;
 

@@ -8,6 +8,9 @@
 
 namespace nc::tools {
 
+// With smaller rates a run would never end; with larger ones a step would be too large for a double to hold a position beside it.
+inline constexpr double kSlowest = 1e-3, kFastest = 1e9;  // mm, deg per second, second squared, cubed
+
 /**
  * Sets for every axis of the first part system velocity 250 mm/s (also for rapids), acceleration 2000 mm/s^2, jerk 50000 mm/s^3 and
  * in-position width 0.02 mm; for rotary axes the same numbers in degrees.

@@ -3,72 +3,14 @@
 #include "tools/lib/number_hints.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
+#include "tools/lib/line_words.hpp"
+
 namespace nc::tools {
 namespace {
-
-struct PlainWord {
-  char letter;
-  bool comma;
-  std::size_t begin, end;  // of its number in LineWords::digits: sign, digits and point
-};
-
-/** The words of one line. It is used again for each line, so that a long program costs no memory for each. */
-class LineWords {
- public:
-  /** Takes the words of a line; none when it has a macro statement. */
-  void read(std::string_view line) {
-    words_.clear();
-    digits_.clear();
-    if (!gather(line)) words_.clear();
-    std::erase_if(words_, [this](const PlainWord& word) { return !is_number(number(word)); });
-  }
-  const std::vector<PlainWord>& words() const { return words_; }
-  std::string_view number(const PlainWord& word) const { return std::string_view(digits_).substr(word.begin, word.end - word.begin); }
-  bool point(const PlainWord& word) const { return number(word).find('.') != std::string_view::npos; }
-  std::string text(const PlainWord& word) const { return (word.comma ? "," : "") + std::string(1, word.letter) + std::string(number(word)); }
-  double value(const PlainWord& word) const {
-    std::string_view text = number(word);
-    if (text.front() == '+') text.remove_prefix(1);
-    double value = 0;
-    std::from_chars(text.data(), text.data() + text.size(), value);
-    return value;
-  }
-
- private:
-  static bool is_number(std::string_view text) { return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string_view::npos; }
-  bool gather(std::string_view line) {
-    bool comment = false, comma = false;
-    int depth = 0;
-    for (const char raw : line) {
-      const char c = raw >= 'a' && raw <= 'z' ? static_cast<char>(raw - 32) : raw;
-      if (comment || c == '(') {
-        comment = c != ')';
-        continue;
-      }
-      depth += c == '[' ? 1 : c == ']' ? -1 : 0;
-      if (depth > 0 || c == ' ' || c == '\t' || c == '\r') continue;
-      if (c == '=') return false;
-      if (c == ';') break;
-      if (c >= 'A' && c <= 'Z') {
-        if (!words_.empty() && words_.back().end == words_.back().begin) return false;  // two letters in a row are a keyword of a macro statement
-        words_.push_back({c, comma, digits_.size(), digits_.size()});
-      } else if (c != ',' && !words_.empty()) {
-        digits_ += c;
-        words_.back().end = digits_.size();
-      }
-      comma = c == ',';
-    }
-    return true;
-  }
-
-  std::vector<PlainWord> words_;
-  std::string digits_;
-};
 
 /// A text such as "1 more number" or "2 more numbers".
 std::string more(uint64_t count, const char* noun) { return std::to_string(count) + " more " + noun + (count == 1 ? "" : "s"); }
@@ -110,6 +52,7 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
     begin = end + 1;
     if (!lengths && std::all_of(of_text.begin(), of_text.end(), [&](unsigned char c) { return plain_place[c]; })) continue;
     of_line.read(of_text);
+    if (of_line.assigns()) continue;
     const std::vector<PlainWord>& words = of_line.words();
     plain.clear();
     for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, of_line.value(word)});
@@ -117,7 +60,7 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
     if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};
     for (size_t i = 0; i < words.size(); ++i) {
       const PlainWord& word = words[i];
-      if (plain[i].value == 0) continue;  // 0 is the same in every unit
+      if (plain[i].value == 0 || std::isnan(plain[i].value)) continue;  // 0 is the same in every unit
       if (kinds[i] == NC_NUMBER_LENGTH) {
         if (of_line.point(word)) ++hints.with_point;
         else hints.count_without_point(of_line.text(word), std::fabs(plain[i].value), line);
