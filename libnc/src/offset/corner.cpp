@@ -37,18 +37,20 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
   return joint;
 }
 
+// How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
+double reach(const Leg& leg, Vec2 delta) { return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature); }
+
 // M700 12.4.2 "Changing the compensation direction": the intersection of the two offset curves; where there
 // is none, both perpendiculars. An intersection that lies far off, or cuts more off a block than there is,
 // counts as none. Two lines that go on nearly straight meet |offset| / sin(angle / 2) away; arcs with such tangents count as these lines do. Their curves
 // may meet nearer, but only ahead, where the tool would come to through the wall, and where is a matter of rounding.
-ContourJoint joint_of_side_change(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                                  double offset_behind, double length_behind) {
+ContourJoint joint_of_side_change(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind) {
   Vec2 w;
   const double square_of_sin = (1 - dot(before.u, behind.u)) / 2;  // of half the angle
   const bool meets = square_of_sin * kExtremelyLarge * kExtremelyLarge >= 1 && offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&
                      norm(w) <= kExtremelyLarge * std::abs(offset_before) &&
-                     -dot(w, before.u) <= length_before && dot(w, behind.u) <= length_behind;
+                     -dot(w, before.u) <= reach(before, delta_before) && dot(w, behind.u) <= reach(behind, delta_behind);
   return meets ? ContourJoint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
 }
 
@@ -72,8 +74,11 @@ bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, do
 
 bool goes_round(const Move& move) {
   const Vec2 center{move.circle.center[0], move.circle.center[1]};
-  return move.circle.sweep != 0 && norm(in_plane(move.start, move.plane_axis) - center) >= kNoRadius_mm &&
-         norm(in_plane(move.end, move.plane_axis) - center) >= kNoRadius_mm;
+  const auto away = [&](const AxisVec& at) {
+    const Vec2 radius = in_plane(at, move.plane_axis) - center;
+    return longer_than(radius, kNoRadius_mm) || norm(radius) == kNoRadius_mm;
+  };
+  return move.circle.sweep != 0 && away(move.start) && away(move.end);
 }
 
 bool make_legs(const Move& move, Leg* begin, Leg* end) {
@@ -88,9 +93,10 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
     *end = {(turning / r1) * left_of(finish - center), turning / r1};
     return true;
   }
-  if (!(norm(finish - start) > kNoLength)) return false;
+  if (!longer_than(finish - start, kNoLength)) return false;
   const Vec2 programmed = finish - start + Vec2{move.comp.by_hand[0], move.comp.by_hand[1]};
-  *begin = *end = {unit(norm(programmed) > kNoLength ? programmed : finish - start), 0};
+  const double length = norm(programmed);
+  *begin = *end = {length > kNoLength ? (1 / length) * programmed : unit(finish - start), 0};
   return true;
 }
 
@@ -135,14 +141,13 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
   return std::isfinite(w->h) && std::isfinite(w->v);
 }
 
-bool joint_in_mode(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                   double offset_behind, double length_behind, ContourJoint* joint) {
+bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint) {
   if (offset_before == 0) {
-    *joint = ContourJoint::single({});
+    joint->set({});
     return true;
   }
   if (offset_before * offset_behind < 0) {
-    *joint = joint_of_side_change(before, offset_before, length_before, behind, offset_behind, length_behind);
+    *joint = joint_of_side_change(before, offset_before, delta_before, behind, offset_behind, delta_behind);
     return true;
   }
   // The vectors at the end of a block have the amount of that block (M700 12.4.5 (2)).
@@ -151,12 +156,12 @@ bool joint_in_mode(const Leg& before, double offset_before, double length_before
   Vec2 w;
   const bool curves = offset_exists(before, o) && offset_exists(behind, o);
   if (turn != Turn::acute && curves && intersection(before, o, behind, o, &w)) {
-    *joint = ContourJoint::single(w);
+    joint->set(w);
     return true;
   }
   if (turn == Turn::inner) {
     if (!curves || (!meets_in_a_point(before, o, behind, o, &w) && !meets_in_a_point(behind, o, before, o, &w))) return false;
-    *joint = ContourJoint::single(w);
+    joint->set(w);
     return true;
   }
   *joint = lengthened_joint(before, o, behind, o);

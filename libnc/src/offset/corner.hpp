@@ -52,9 +52,24 @@ struct ContourJoint {
 
   static ContourJoint single(Vec2 w) {
     ContourJoint joint;
-    joint.v[0] = w;
-    joint.n = 1;
+    joint.set(w);
     return joint;
+  }
+  /// Makes it the joint of this one vector.
+  void set(Vec2 w) {
+    v[0] = w;
+    n = 1;
+    corner_arc = lengthened = first_erased = last_erased = false;
+  }
+  /// Makes it the same as another: of one vector in nearly every block.
+  void copy(const ContourJoint& other) {
+    v[0] = other.v[0];
+    for (unsigned k = 1; k < other.n; ++k) v[k] = other.v[k];
+    n = other.n;
+    corner_arc = other.corner_arc;
+    lengthened = other.lengthened;
+    first_erased = other.first_erased;
+    last_erased = other.last_erased;
   }
 };
 
@@ -87,9 +102,8 @@ inline bool offset_exists(const Leg& leg, double offset) {
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w);
 
 /// The joint inside the mode. False: no intersection on the inner side (M700 12.4.1 (4)).
-/// `length_before`, `length_behind` bound how much a change of side may cut off.
-bool joint_in_mode(const Leg& before, double offset_before, double length_before, const Leg& behind,
-                   double offset_behind, double length_behind, ContourJoint* joint);
+/// The ways that the two blocks lead, `delta_before` and `delta_behind`, bound how much a change of side may cut off.
+bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint);
 
 /// The joint at the end of a start block.
 ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b);

@@ -109,7 +109,7 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   const Vec2 radius_start = (-sense / std::abs(section.begin.curvature)) * left_of(section.begin.u);
   const Vec2 radius_end = (-sense / std::abs(section.end.curvature)) * left_of(section.end.u);
   const Vec2 now_start = radius_start + from, now_end = radius_end + to;
-  if (!(norm(now_start) > kBackwards_mm) || !(norm(now_end) > kBackwards_mm)) return false;  // the tool turns in one place
+  if (!longer_than(now_start, kBackwards_mm) || !longer_than(now_end, kBackwards_mm)) return false;  // the tool turns in one place
   // The arc tangent of a number is no more than the number: what turns by less than there is of the arc leaves some of it.
   const double along_start = dot(radius_start, now_start), along_end = dot(radius_end, now_end);
   if (along_start > 0 && along_end > 0 &&
@@ -145,11 +145,6 @@ bool runs_obliquely(const Section& section, bool erased_before) {
 
 // The joint at the end of this section leads to the other side.
 bool changes_side(const Chain& chain, unsigned i) { return i + 1 < chain.size() && chain[i].offset * chain[i + 1].offset < 0; }
-
-// Joints have changed: all are compared again.
-void compare_again(Chain* chain) {
-  for (unsigned i = 0; i < chain->size(); ++i) (*chain)[i].apart = false;
-}
 
 /// Section i, or the one that has taken its place where it is left out already.
 unsigned live_at(const Chain& chain, unsigned i) {
@@ -229,7 +224,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first
   for (unsigned k = besides; k < j; ++k)
     if (!(*chain)[k].dead && can_be_reached(*chain, k, i, j)) return false;
   if (!keeps_amount(*chain, i, j, d, from, x, leave)) return false;  // a rib that stands between them, or a circle that runs on through a wall
-  compare_again(chain);
+  chain->note_compared(0);  // joints have changed
   before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
     (*chain)[k].joint = ContourJoint::single(x - joint_distance(*chain, i, k));
@@ -329,7 +324,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   const ContourJoint whole_before = before.joint;
   const ContourJoint whole_behind = behind.joint;
   erase_vectors(&before.joint, crossing.before, &behind.joint, crossing.behind);
-  compare_again(chain);
+  chain->note_compared(0);
+  chain->note_change();
   for (unsigned k = i + 1; k <= j; ++k) (*chain)[k].bound = true;
   // What remains is the path, but for a change of side: without a vector of it a block would begin or end on the side of the other.
   if (before.joint.n > 0 && behind.joint.n > 0 && j == i + 1 && !changes_side(*chain, i) && !changes_side(*chain, j)) {
@@ -387,22 +383,37 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   return Finding::alarm;
 }
 
+// Vectors have been erased, and others held: what goes by them.
+void follow_changes(Chain* chain, const ChainStart& start) {
+  bool erased_before = start.erased;
+  for (unsigned i = 0; i < chain->size(); ++i) {
+    Section& section = (*chain)[i];
+    if (section.holds && i > 0) section.joint.set(start_vector(*chain, i, start.vector));  // the vector that is held may have been changed
+    section.oblique = runs_obliquely(section, erased_before);
+    erased_before = section.joint.last_erased;
+  }
+}
+
 }  // namespace
 
 Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& start, unsigned* at) {
   const Vec2 first_vector = start.vector;
   if (chain->may_have_vanished() && leave_out_vanished(chain, last_call, first_vector, at) == Finding::alarm) return Finding::alarm;
-  for (unsigned j = 1; j < chain->size(); ++j) {
-    Section& section = (*chain)[j];
-    if (section.apart || !may_be_erased(section) || section.dead) continue;
+  bool apart = true;
+  unsigned j = std::max(chain->compared(), 1u);
+  for (; j < chain->size() && (*chain)[j].jointed; ++j) {
+    const Section& section = (*chain)[j];
+    if (!may_be_erased(section) || section.dead) continue;
     bool crosses = false;
     Vec2 d;  // from the joint that it is compared with
     const double longest = longest_square(section.joint);
+    const Section* next = &section;
     for (unsigned span = 1; span <= kMaxSpan && span <= j; ++span) {
       const unsigned i = j - span;
-      const Section& behind = (*chain)[i + 1];
+      const Section& behind = *next;
+      next = &(*chain)[i];
       d = d + behind.approach + behind.delta;
-      if (!crosses && too_far_to_cross(longest_square((*chain)[i].joint), longest, d)) continue;
+      if (!crosses && too_far_to_cross(longest_square(next->joint), longest, d)) continue;
       if (span > 1 && behind.dead) continue;  // seen from the section left out already
       const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
@@ -416,15 +427,10 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
         return Finding::alarm;
       }
     }
-    section.apart = !crosses;
+    if (crosses) apart = false;
   }
-  bool erased_before = start.erased;
-  for (unsigned i = 0; i < chain->size(); ++i) {
-    Section& section = (*chain)[i];
-    if (section.holds && i > 0) section.joint = ContourJoint::single(start_vector(*chain, i, first_vector));  // the vector that is held may have been changed
-    section.oblique = runs_obliquely(section, erased_before);
-    erased_before = section.joint.last_erased;
-  }
+  chain->note_compared(apart ? j : 0);
+  if (start.erased || chain->may_have_changed()) follow_changes(chain, start);
   for (unsigned i = 0; i < last_call && i < chain->size(); ++i)  // as late as can be: those behind may have changed its end
     if (check_direction(chain, i, start, at) == Finding::alarm) return Finding::alarm;
   return Finding::none;

@@ -19,7 +19,9 @@ struct Section {
   Vec2 delta;                ///< programmed end - programmed start
   double offset = 0;         ///< signed, mm
   double sweep = 0;          ///< of an arc, rad, counter-clockwise positive
-  ContourJoint joint;               ///< at its end
+  ContourJoint joint;        ///< at its end
+
+  // The flags lie together, and all is 256 bytes, so that a block is found in the ring without a multiplication.
   bool jointed = false;      ///< `joint` is known
   bool commanded = false;    ///< by I J K, hold, cancel, ...: never erased (M700 12.4.3 precaution (2))
   bool holds = false;        ///< ... namely that of the joint before (G38)
@@ -32,20 +34,31 @@ struct Section {
   bool merge_last = false;   ///< the line behind comes straight out of joint.v[2]
   bool check = false, walls = false, avoid = false;
   bool bound = false;        ///< a comparison with a block in front has changed its joint, or left it out: it is not read again without that block
-  bool apart = false;        ///< the vectors at its end cross none of those in front, as they all stand now: need not be compared again
 
   // For the memory of the contour (contour_memory.hpp), which `walls` asks for.
+  bool transparent = false;   ///< `cancel`, but compensation goes on behind it
+  bool cuts = false;          ///< not a rapid
+  bool led = false;           ///< a displacement to the first vector goes before it, from led_from
+  bool led_turns = false;     ///< ... which is one of another contour on the same side
+  bool settled = false;       ///< its path has been looked at
+  uint32_t descent = 0;       ///< of the contour, which it belongs to
   uint64_t number = 0;        ///< in that memory
   Vec2 contour_start;         ///< programmed start, counted from the start of the contour
   double level = 0, level_end = 0;  ///< across the plane
-  uint32_t descent = 0;       ///< of the contour, which it belongs to
-  bool transparent = false;   ///< `cancel`, but compensation goes on behind it
-  bool cuts = false;          ///< not a rapid
-  bool led = false;           ///< a displacement to the first vector goes before it
-  Vec2 led_from;              ///< ... from this vector
-  bool led_turns = false;     ///< ... which is one of another contour on the same side
-  bool settled = false;       ///< its path has been looked at
+  Vec2 led_from;
+
+  /// What a new block does not get words of its own for (OffsetStage::intake_section()) is as it was made: in this order a few steps clear all of it. The vectors of
+  /// a joint that has none are not looked at.
+  void renew() {
+    joint.n = 0;
+    joint.corner_arc = joint.lengthened = joint.first_erased = joint.last_erased = false;
+    jointed = commanded = holds = start = cancel = vanished = dead = oblique = merge_first = merge_last = check = walls = avoid = bound = transparent = cuts = led = led_turns = settled = false;
+    descent = 0;
+    number = 0;
+    contour_start = {};
+  }
 };
+static_assert(sizeof(Section) == 256);
 
 /// The blocks under consideration, in order. Only the last one may not be jointed yet. They lie in a ring, so that those in front go without the others
 /// being moved.
@@ -62,8 +75,16 @@ class Chain {
   const Section& back() const { return (*this)[size_ - 1]; }
   /// The place of the block that comes: it is made there, and is not one of the chain until push_back().
   Section& next() { return (*this)[size_]; }
+  /// The same, renewed.
+  Section& new_next() {
+    next().renew();
+    return next();
+  }
   void push_back() {
-    vanishes_ = vanishes_ || next().vanished;
+    const Section& section = next();
+    vanishes_ = vanishes_ || section.vanished;
+    changed_ = changed_ || section.holds;
+    walls_ = walls_ || section.walls;
     ++size_;
   }
   void push_back(const Section& section) {
@@ -72,19 +93,30 @@ class Chain {
   }
   void drop_front(unsigned count) {
     front_ = (front_ + count) % kMost;
+    compared_ = compared_ > count ? compared_ - count : 0;
     keep_front(size_ - count);
   }
   void keep_front(unsigned count) {
     size_ = count;
-    if (size_ == 0) vanishes_ = false;
+    if (compared_ > size_) compared_ = size_;
+    if (size_ == 0) vanishes_ = changed_ = walls_ = false;
   }
+  /// False: none of them asks for its walls.
+  bool may_have_walls() const { return walls_; }
+  /// A vector has been erased.
+  void note_change() { changed_ = true; }
+  /// False: since the chain was empty no vector of it has been erased, and none is held.
+  bool may_have_changed() const { return changed_; }
+  /// So many at the front need not be compared again: the vectors at their ends, as they all stand now, cross none of those in front of them.
+  unsigned compared() const { return compared_; }
+  void note_compared(unsigned count) { compared_ = count; }
   /// False: none of the blocks is an arc whose offset circle does not exist.
   bool may_have_vanished() const { return vanishes_; }
 
  private:
   Section ring_[kMost];
-  unsigned front_ = 0, size_ = 0;
-  bool vanishes_ = false;
+  unsigned front_ = 0, size_ = 0, compared_ = 0;
+  bool vanishes_ = false, changed_ = false, walls_ = false;
 };
 
 enum class Finding : uint8_t { none, alarm };

@@ -37,11 +37,8 @@ bool without_length(const Move& move) {
   return !move.circular && move.start == move.end;
 }
 
-// The amount of `amount_of` on the side that `side_of` has.
-double offset_on_side(const Compensation& amount_of, const Compensation& side_of) {
-  const double amount = signed_offset(amount_of), side = signed_offset(side_of);
-  return side == 0 ? amount : std::copysign(amount, side);
-}
+// The first offset on the side of the second.
+double offset_on_side(double amount, double side) { return side == 0 ? amount : std::copysign(amount, side); }
 
 /// M700 7.10: the corner between two cutting blocks is an inner one, sharper than the angle of G62, and its vector is computed.
 bool cuts_inner_corner(const Section& before, const Move& move, const Section& behind, const Move& move_behind) {
@@ -71,15 +68,24 @@ Item alarm_in(const nc_source& source, Condition condition) {
 
 Condition condition_of(Clearance found) { return found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference; }
 
-// How much of a block there is for a change of side to cut off: the length of a line, the radius of an arc.
-double reach(const Leg& leg, Vec2 delta) {
-  return leg.curvature == 0 ? norm(delta) : std::abs(1 / leg.curvature);
-}
-
 }  // namespace
 
 bool OffsetStage::can_push() const {
   return count_ < kHeld;
+}
+
+// How many sections at the front of the chain wait for nothing any more.
+unsigned OffsetStage::may_release() const {
+  const unsigned size = chain_.size();
+  if (mode_ == Mode::off) return size;
+  unsigned n = 0;
+  for (; n < size; ++n) {
+    const Section& s = chain_[n];
+    if (s.check && size - n < kChain && blocks_ - s.block < kLookAheadBlocks) break;
+    if (!s.jointed || s.vanished) break;
+    if (chain_.may_have_vanished() && n + 1 < size && chain_[n + 1].vanished) break;
+  }
+  return n;
 }
 
 bool OffsetStage::push(const Item& item, NoRule) {
@@ -104,6 +110,20 @@ bool OffsetStage::push(const Item& item, NoRule) {
   }
   if (!failed_ && item.block_end) count_block_end();
   if (failed_) return true;
+  if (item.kind == ItemKind::mark) keep_state(&held);
+  if (const unsigned n = may_release(); n > 0 || unchecked_) {
+    settle(n);
+  } else {  // behind most marks
+    wait_for_chain();
+  }
+  // Counted without what only waits to be fetched: the caller's pace never changes the geometry.
+  if (next_index() - released_ >= kLookAheadItems) make_room();
+  return true;
+}
+
+// Behind a mark, for a checkpoint there.
+void OffsetStage::keep_state(Held* mark) {
+  Held& held = *mark;
   held.mode = mode_;
   held.idle_blocks = idle_blocks_;
   held.cancelled = cancelled_;
@@ -113,10 +133,6 @@ bool OffsetStage::push(const Item& item, NoRule) {
   held.given = given_ && open() == nullptr;
   held.in_contour = memory_.state().open;
   if (held.in_contour) contour_at(held) = memory_.state();
-  settle();
-  // Counted without what only waits to be fetched: the caller's pace never changes the geometry.
-  if (next_index() - released_ >= kLookAheadItems) make_room();
-  return true;
 }
 
 // A read of the machine between two blocks of the contour. If the block before it had to be executed first, it would have to end without the one behind it,
@@ -142,7 +158,9 @@ OffsetStage::Held& OffsetStage::new_slot(uint32_t index, const Item& item) {
   Held& held = held_at(index);
   copy_item(item, &held.item);
   held.role = Role::pass;
-  held.has_lead = held.lead_arc = held.straight = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = held.passed = false;
+  held.passed = false;
+  if (item.kind != ItemKind::move) return held;  // has nothing of what follows
+  held.has_lead = held.lead_arc = held.straight = held.trim = held.inner = held.behind_inner = held.trim_next = held.bound_next = false;
   held.commanded = true;
   held.doubt = {};
   held.lead = held.lead_from = Vec2{};
@@ -157,7 +175,7 @@ void OffsetStage::reset() {
   mode_ = Mode::off;
   idle_blocks_ = connecting_ = 0;
   moved_ = failed_ = cancelled_ = lead_done_ = has_rest_ = false;
-  comp_ = out_comp_ = Compensation{};
+  comp_ = Compensation{};
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
   start_erased_ = false;
@@ -170,7 +188,6 @@ void OffsetStage::reset() {
   feed_scale_ = 0;
   axis_[0] = 0;
   axis_[1] = 1;
-  programmed_ = compensated_ = AxisVec{};
   resume_ = OffsetResume{};
 }
 
@@ -182,11 +199,9 @@ OffsetResume OffsetStage::resume_point() const {
 void OffsetStage::restore(const OffsetResume& resume) {
   reset();
   resume_ = resume;
-  programmed_ = resume.programmed;
-  compensated_ = resume.compensated;
   direction_ = {resume.direction[0], resume.direction[1]};
   for (unsigned i = 0; i < 2; ++i) axis_[i] = resume_.comp.axis[i] = resume.comp.axis[i] % kMaxAxes;
-  comp_ = out_comp_ = resume_.comp;
+  comp_ = resume_.comp;
   if (!resume.active) return;
   idle_blocks_ = resume.idle_blocks;
   cancelled_ = resume.cancelled;
@@ -223,7 +238,7 @@ void OffsetStage::close() {
       return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
     if (held_at(last->index).item.move.comp.corner_arc && !last->start)  // where the arc of G39 leads to nobody knows
       return fail(last->index, Condition::comp_no_intersection, held_at(last->index).item.source);
-    last->joint = ContourJoint::single(last->start ? Vec2{} : perpendicular(last->end, last->offset));
+    last->joint.set(last->start ? Vec2{} : perpendicular(last->end, last->offset));
     last->jointed = last->commanded = true;
     tail_ = last->joint.v[0];
   }
@@ -265,8 +280,8 @@ void OffsetStage::intake_move(Held* held) {
     if (failed_) return;
     cancelled_ = false;
   }
-  const double offset_before = signed_offset(comp_);
-  const bool other_side = mode_ == Mode::on && move.comp.side != 0 && offset_before * signed_offset(move.comp) < 0;
+  const double offset_before = signed_offset(comp_), offset = signed_offset(move.comp);
+  const bool other_side = mode_ == Mode::on && move.comp.side != 0 && offset_before * offset < 0;
   if (move.comp.side != 0) comp_ = move.comp;
   Leg begin, end;
   const bool moves = make_legs(move, &begin, &end);
@@ -279,7 +294,9 @@ void OffsetStage::intake_move(Held* held) {
     moved_ = true;  // the block of the command itself is not one of the blocks without movement
   }
   const bool commands = without_length(move) || move.comp.has_vector || move.comp.corner_arc;
-  if (!moves || (!starts && !commands && intake_without_direction(held, offset_before, &begin, &end))) {
+  const Vec2 way = plane_delta(move);
+  const bool is_short = dot(way, way) <= 2 * kNoDirection_mm * kNoDirection_mm;
+  if (!moves || (is_short && !starts && !commands && intake_without_direction(held, offset_before, &begin, &end))) {
     side_changed_ = side_changed_ != other_side;
     if (!moves) return commands ? intake_command(held) : intake_carried(held);
     return;
@@ -314,7 +331,7 @@ void OffsetStage::intake_carried(Held* held) {
     close();
     if (failed_) return;
     held->role = Role::section;
-    held->joint = ContourJoint::single({});
+    held->joint.set({});
     tail_ = {};
     start_commanded_ = true;
   }
@@ -416,7 +433,7 @@ void OffsetStage::intake_command(Held* held) {
     const Vec2 vector = commanded_vector(comp);
     if (last && !last->vanished) {
       tail_ = vector;
-      last->joint = ContourJoint::single(tail_);
+      last->joint.set(tail_);
       last->jointed = last->commanded = true;
     } else {  // all joints in front are known
       close();
@@ -434,8 +451,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   const Move& move = held->item.move;
   const Compensation& comp = move.comp;
   held->role = Role::section;
-  Section& section = chain_.next();
-  section = Section{};
+  Section& section = chain_.new_next();
   section.index = next_index();
   section.block = blocks_;
   section.begin = begin;
@@ -459,7 +475,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (!section.cancel && !section.start) {
     // It begins with the amount of the block before (M700 12.4.6).
     const Section* last = open();
-    const double offset_begin = last == nullptr ? section.offset : offset_on_side(held_at(last->index).item.move.comp, comp);
+    const double offset_begin = last == nullptr ? section.offset : offset_on_side(last->offset, section.offset);
     section.vanished = vanishes(begin, end, section.offset) || !offset_exists(begin, offset_begin);
   }
   if (trim_next_) held->trim = true;
@@ -471,13 +487,13 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (failed_) return;
   if (chain_.empty()) chain_start_ = tail_;
   if (section.cancel) {
-    section.joint = ContourJoint::single({});
+    section.joint.set({});
     section.jointed = true;
   } else if (comp.has_vector) {
-    section.joint = ContourJoint::single(commanded_vector(comp));
+    section.joint.set(commanded_vector(comp));
     section.jointed = true;
   } else if (comp.hold_vector) {  // M700 12.4.2 G38: the vector of the end before
-    section.joint = ContourJoint::single(tail_);
+    section.joint.set(tail_);
     section.jointed = section.holds = true;
   }
   section.commanded = section.jointed;
@@ -510,13 +526,12 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   Held& held_last = held_at(last->index);
   const Compensation& comp_behind = held_behind->item.move.comp;
   if (last->vanished || behind.vanished) {  // provisional, replaced by the avoidance
-    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
+    last->joint.set(perpendicular(last->end, last->offset));
     last->jointed = true;
     tail_ = last->joint.v[0];
     return;
   }
-  bool found = true;
-  last->joint = find_joint(*last, held_last.item.move.comp, behind, comp_behind, &found);
+  const bool found = find_joint(*last, held_last.item.move.comp, behind, comp_behind, &last->joint);
   last->jointed = true;
   if (!found) return fail(last->index, Condition::comp_no_intersection, held_last.item.source);
   held_last.inner = !last->start && !behind.cancel && cuts_inner_corner(*last, held_last.item.move, behind, held_behind->item.move);
@@ -529,23 +544,23 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
   tail_ = last->joint.v[last->joint.n - 1];
 }
 
-ContourJoint OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
-                                     const Compensation& comp_behind, bool* found) const {
+// False: there is no such joint.
+bool OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint) {
   const bool cancels = comp_behind.side == 0;
-  const double offset_behind = cancels ? before.offset : offset_on_side(comp_before, comp_behind);
-  if (before.start) return joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);
-  if (cancels && comp_behind.cancel_vector) {
-    return joint_at_cancel_vector(before.end, {comp_behind.vector[0], comp_behind.vector[1]}, before.offset);
+  const double offset_behind = cancels ? before.offset : offset_on_side(before.offset, behind.offset);
+  if (before.start) {
+    *joint = joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);
+  } else if (cancels && comp_behind.cancel_vector) {
+    *joint = joint_at_cancel_vector(before.end, {comp_behind.vector[0], comp_behind.vector[1]}, before.offset);
+  } else if (cancels) {
+    *joint = joint_at_cancel(before.end, behind.begin, before.offset, comp_before.type_b);
+  } else if (comp_before.corner_arc && offset_behind == before.offset) {
+    *joint = joint_corner_arc(before.end, behind.begin, before.offset);
+  } else if (comp_before.arc_cos == 0 || offset_behind != before.offset ||
+             !joint_of_outer_corner(before.end, behind.begin, before.offset, static_cast<double>(comp_before.arc_cos), joint)) {
+    return joint_in_mode(before.end, before.offset, before.delta, behind.begin, offset_behind, behind.delta, joint);
   }
-  if (cancels) return joint_at_cancel(before.end, behind.begin, before.offset, comp_before.type_b);
-  if (comp_before.corner_arc && offset_behind == before.offset) {
-    return joint_corner_arc(before.end, behind.begin, before.offset);
-  }
-  ContourJoint joint;
-  if (comp_before.arc_cos != 0 && offset_behind == before.offset && joint_of_outer_corner(before.end, behind.begin, before.offset, static_cast<double>(comp_before.arc_cos), &joint)) return joint;
-  *found = joint_in_mode(before.end, before.offset, reach(before.end, before.delta), behind.begin,
-                         offset_behind, reach(behind.begin, behind.delta), &joint);
-  return joint;
+  return true;
 }
 
 // Interference check of what is held; sections below `last_call` are about to be released. False: the program
@@ -557,7 +572,7 @@ bool OffsetStage::check_joints(unsigned last_call) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
-  if (!look_at_walls(last_call)) return false;
+  if (chain_.may_have_walls() && !look_at_walls(last_call)) return false;
   const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
   tail_ = joint.v[joint.n - 1];
   return true;
@@ -596,24 +611,7 @@ void OffsetStage::read_wall(Section* section, const nc_source& source) {
 
 // ---- letting go ----
 
-bool OffsetStage::may_release(unsigned section) const {
-  const Section& s = chain_[section];
-  if (!s.jointed || s.vanished) return false;
-  if (chain_.may_have_vanished() && section + 1 < chain_.size() && chain_[section + 1].vanished) return false;
-  return !s.check || chain_.size() - section >= kChain || blocks_ - s.block >= kLookAheadBlocks;
-}
-
-void OffsetStage::settle() {
-  unsigned n = 0;
-  if (mode_ == Mode::off) {
-    n = chain_.size();
-  } else {
-    while (n < chain_.size() && may_release(n)) ++n;
-  }
-  if (n == 0 && !unchecked_) {  // behind most marks
-    released_ = chain_.empty() ? next_index() : chain_[0].index;
-    return;
-  }
+void OffsetStage::settle(unsigned n) {
   const bool checks = n > 0 && chain_[0].check;
   if ((checks || unchecked_) && !check_joints(checks ? n : 0)) return;
   unchecked_ = false;
@@ -637,7 +635,7 @@ void OffsetStage::release(unsigned sections) {
     Section& section = chain_[i];
     Held& held = held_at(section.index);
     ContourJoint& joint = held.joint;
-    joint = section.joint;
+    joint.copy(section.joint);
     if (joint.lengthened && section.merge_last) --joint.n;
     if (joint.lengthened && section.merge_first && runs_beside(section, chain_start_)) {
       --joint.n;
@@ -650,7 +648,7 @@ void OffsetStage::release(unsigned sections) {
     start_erased_ = joint.last_erased;
   }
   chain_.drop_front(sections);
-  released_ = chain_.empty() ? next_index() : chain_[0].index;
+  wait_for_chain();
 }
 
 // The program stops before the move `index`: an alarm takes its place, and what was read behind it is
@@ -675,7 +673,7 @@ uint32_t OffsetStage::stop_at(uint32_t index, Item* alarm) {
   if (const Section* first = open(); first != nullptr && first->start) cut(size - 1, false, Condition::none);  // the vector at its end is that of a block that is not reached
   for (unsigned at = 0; interferes(&at);) cut(at, chain_[at].vanished || !chain_[at].avoid, Condition::comp_interference);
   if (Section* last = open()) {
-    last->joint = ContourJoint::single(perpendicular(last->end, last->offset));
+    last->joint.set(perpendicular(last->end, last->offset));
     last->jointed = true;
     // Whether it would have fitted with the vector that it does not get is not known, so it is not to blame.
     if (unsigned at = 0; interferes(&at)) cut(chain_.size() - 1, false, Condition::none);

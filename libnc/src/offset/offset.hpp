@@ -73,10 +73,10 @@ class OffsetStage {
   /// Takes an item; false: there is no room for it, pop() first.
   bool push(const Item& item, NoRule = {});
   /// Next finished item, false when the stage has none or must see more first.
-  bool pop(Item& out);
+  bool pop(Item& out) { return (has_rest_ || first_ != released_) && pop_ready(out); }
   /// Forget everything held; compensation off.
   void reset();
-  /// State right behind the mark that pop() gave last.
+  /// State right behind the mark that pop() has just given: to be asked for before the next pop().
   OffsetResume resume_point() const;
   void restore(const OffsetResume& resume);
   /// Vectors, not points, are carried on.
@@ -128,6 +128,7 @@ class OffsetStage {
 
   // Intake: push() and what it decides (offset.cpp).
   void let_pass(const Item& sync);
+  void keep_state(Held* mark);
   void intake_move(Held* held);
   void intake_carried(Held* held);
   bool intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end);
@@ -138,8 +139,7 @@ class OffsetStage {
   bool look_at_step(const Held& held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
-  ContourJoint find_joint(const Section& before, const Compensation& comp_before, const Section& behind,
-                          const Compensation& comp_behind, bool* found) const;
+  static bool find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint);
   bool check_joints(unsigned last_call);
   bool look_at_walls(unsigned sections);
   unsigned first_too_near(unsigned sections, Clearance* found);
@@ -148,9 +148,11 @@ class OffsetStage {
   void count_block_end();
   bool interferes(unsigned* at);
   void close();
-  void settle();
+  void settle(unsigned n);
+  /// All in front of the chain may go.
+  void wait_for_chain() { released_ = chain_.empty() ? next_index() : chain_[0].index; }
   void make_room();
-  bool may_release(unsigned section) const;
+  unsigned may_release() const;
   void release(unsigned sections);
   void stop_by(uint32_t index, const Item& because);
   void fail(uint32_t index, Condition condition, const nc_source& source);
@@ -162,6 +164,7 @@ class OffsetStage {
   Section* open() { return chain_.empty() || chain_.back().jointed ? nullptr : &chain_.back(); }
 
   // Outlet: pop() (outlet.cpp).
+  bool pop_ready(Item& out);
   bool pop_move(Held* held, Item& out);
   bool pop_lead(const Held& held, Item& out);
   bool pop_shifted(const Held& held, Vec2 end_vector, Item& out);
@@ -203,13 +206,12 @@ class OffsetStage {
   uint8_t connecting_ = 0;    ///< connecting moves of the front item given, 0 = the move itself not yet
   Vec2 vector_;               ///< in force where pop() stands
   uint8_t axis_[2] = {0, 1};  ///< its plane
-  AxisVec programmed_, compensated_;
   Vec2 direction_;  ///< tangent at the end of the last move
-  Compensation out_comp_;
   bool out_commanded_ = true, out_trim_ = false;
   bool bound_ = false;      ///< the blocks behind cannot be read again from here: a joint of theirs depends on one in front
   ContourMemory::Doubt doubt_;
   double feed_scale_ = 0;  ///< FeedRule::scale of the last move: what is inserted behind it goes on at its speed (M700 7.5 (4))
+  /// Behind the last mark; `comp`, `programmed` and `compensated` are those of the last move.
   OffsetResume resume_;
 };
 

@@ -14,19 +14,23 @@ namespace {
 
 constexpr double kSamePoint_mm = 1e-8;
 
+void shift(AxisVec* p, const uint8_t axis[2], Vec2 w) {
+  (*p)[axis[0]] += w.h;
+  (*p)[axis[1]] += w.v;
+}
+
 AxisVec shifted(const AxisVec& p, const uint8_t axis[2], Vec2 w) {
   AxisVec q = p;
-  q[axis[0]] += w.h;
-  q[axis[1]] += w.v;
+  shift(&q, axis, w);
   return q;
 }
 
 // Rounding is not a gap: where two ends are the same point they are made the same number.
-AxisVec joined(const AxisVec& start, const AxisVec& last_end) {
+void snap(AxisVec* start, const AxisVec& last_end) {
   for (unsigned i = 0; i < kMaxAxes; ++i) {
-    if (!(std::abs(start[i] - last_end[i]) <= kSamePoint_mm)) return start;
+    if (!(std::abs((*start)[i] - last_end[i]) <= kSamePoint_mm)) return;
   }
-  return last_end;
+  *start = last_end;
 }
 
 void make_line(Move* move) {
@@ -45,7 +49,10 @@ bool has_length(const Move& move) {
 }
 
 double turned_by(Vec2 from, Vec2 to) {
-  return std::atan2(cross(from, to), dot(from, to));
+  const double across = cross(from, to), along = dot(from, to);
+  // Of so small a number the arc tangent is the number itself, in all the digits that a double has: the vectors at smooth joints.
+  if (std::abs(across) < 1e-9 * along) return across / along;
+  return std::atan2(across, along);
 }
 
 // How far the radius turns at one end of an arc. Where the tool passes through the centre itself (its radius is
@@ -182,7 +189,7 @@ void bend(const Move& like, const AxisVec& programmed, Vec2 from, Vec2 to, Item*
 
 }  // namespace
 
-bool OffsetStage::pop(Item& out) {
+bool OffsetStage::pop_ready(Item& out) {
   if (has_rest_) [[unlikely]] {
     out = rest_;
     has_rest_ = false;
@@ -216,11 +223,11 @@ bool OffsetStage::pop_move(Held* held, Item& out) {
       out = held->item;
       bound_ = false;
       vector_ = {};
-      programmed_ = compensated_ = held->item.move.end;
+      resume_.programmed = resume_.compensated = held->item.move.end;
       drop_front();
       return true;
     case Role::command:
-      out_comp_ = held->item.move.comp;
+      resume_.comp = held->item.move.comp;
       drop_front();
       return false;
     case Role::carried: {
@@ -253,8 +260,9 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   const Move& programmed = held.item.move;
   out = held.item;
   Move& move = out.move;
-  move.start = joined(shifted(programmed.start, axis_, vector_), compensated_);
-  move.end = shifted(programmed.end, axis_, end_vector);
+  shift(&move.start, axis_, vector_);
+  snap(&move.start, resume_.compensated);
+  shift(&move.end, axis_, end_vector);
   const bool in_plane = move.circular && move.plane_axis[0] == axis_[0] && move.plane_axis[1] == axis_[1];
   if (in_plane && (held.straight || !goes_round(programmed))) {  // only axes off the plane still move; a straight line
     make_line(&move);
@@ -276,7 +284,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
   scale_feed(programmed, &move);
   feed_scale_ = programmed.rule.inverse_time ? move.rule.scale : 0;
   if (!has_length(move)) {
-    note_move(held, compensated_);
+    note_move(held, resume_.compensated);
     return false;
   }
   note_move(held, move.end);
@@ -302,7 +310,8 @@ void OffsetStage::slow_behind_corner(Item& out) {
 // without movement.
 bool OffsetStage::pop_lead(const Held& held, Item& out) {
   const Move& move = held.item.move;
-  const AxisVec start = joined(shifted(move.start, axis_, vector_), compensated_);
+  AxisVec start = shifted(move.start, axis_, vector_);
+  snap(&start, resume_.compensated);
   const Vec2 from = vector_;
   axis_[0] = move.comp.axis[0];
   axis_[1] = move.comp.axis[1];
@@ -313,7 +322,7 @@ bool OffsetStage::pop_lead(const Held& held, Item& out) {
   out.move.rule.scale = feed_scale_;
   if (held.lead_arc && bendable(from, vector_)) bend(move, move.start, from, vector_, &out);
   if (!has_length(out.move)) return false;
-  compensated_ = end;
+  resume_.compensated = end;
   return true;
 }
 
@@ -321,11 +330,11 @@ bool OffsetStage::pop_lead(const Held& held, Item& out) {
 void OffsetStage::pop_connecting(const Held& held, Item& out) {
   const Move& move = held.item.move;
   const Vec2 from = held.joint.v[connecting_ - 1], to = held.joint.v[connecting_];
-  make_straight(held.item, move.work, compensated_, shifted(move.end, axis_, to), &out);
+  make_straight(held.item, move.work, resume_.compensated, shifted(move.end, axis_, to), &out);
   out.move.rule.scale = feed_scale_;
   if (held.joint.corner_arc && bendable(from, to)) bend(move, move.end, from, to, &out);
   vector_ = to;
-  if (has_length(out.move)) compensated_ = out.move.end;
+  if (has_length(out.move)) resume_.compensated = out.move.end;
 }
 
 void OffsetStage::drop_front() {
@@ -337,9 +346,9 @@ void OffsetStage::drop_front() {
 
 void OffsetStage::note_move(const Held& held, const AxisVec& compensated_end) {
   const Move& programmed = held.item.move;
-  programmed_ = programmed.end;
-  compensated_ = compensated_end;
-  out_comp_ = programmed.comp;
+  resume_.programmed = programmed.end;
+  resume_.compensated = compensated_end;
+  resume_.comp = programmed.comp;
   if (held.direction != Vec2{}) direction_ = held.direction;
 }
 
@@ -365,9 +374,6 @@ void OffsetStage::note_mark(const Held& held) {
   resume_.side_changed = held.side_changed;
   resume_.given = held.given;
   resume_.feed_scale = feed_scale_;
-  resume_.comp = out_comp_;
-  resume_.programmed = programmed_;
-  resume_.compensated = compensated_;
   resume_.vector[0] = vector_.h;
   resume_.vector[1] = vector_.v;
   resume_.direction[0] = direction_.h;

@@ -34,6 +34,11 @@ inline double cross(Vec2 a, Vec2 b) {
 inline double norm(Vec2 a) {
   return std::sqrt(a.h * a.h + a.v * a.v);
 }
+/// norm(a) > length, nearly always without the root: that is taken where the squares are near enough to be rounded the other way.
+inline bool longer_than(Vec2 a, double length) {
+  const double square = dot(a, a);
+  return square > 4 * length * length || std::sqrt(square) > length;
+}
 /// Turned 90 degrees counter-clockwise: the left normal of a direction.
 inline Vec2 left_of(Vec2 a) {
   return {-a.v, a.h};
