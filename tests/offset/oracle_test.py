@@ -227,7 +227,7 @@ def judge_change(contour, moves, paths):
     for i, line, last in ((a, before, True), (b, behind, False)):
         of_block = [move for block, move in moves if block == line]
         if elements[i].length() > 0.01 and not (elements[i].center and abs(elements[i].radius() - r) < 0.01):
-            off = max(off, min(beside_curve(elements[i], point, r, contour.left_at(i)) for point in ends_beside(of_block, last, r)))
+            off = max(off, min(beside_curve(elements[i], point, r, contour.left_at(i), last) for point in ends_beside(of_block, last, r)))
     if off > 1e-5:
         return f"off the offset curve by {off:.6f} mm at the change of side"
     return (judge_uncut(contour, together([each for each in paths if each[0] <= before]), r, contour.inside, elements[:a], 0)
@@ -243,13 +243,14 @@ def ends_beside(moves, last, r):
     return [own, first.start if last else first.end] if crosses else [own]
 
 
-def beside_curve(element, point, r, left):
-    """How far a point is from the curve that lies beside the element by r, lengthened."""
+def beside_curve(element, point, r, left, last):
+    """How far a point is from the curve that lies beside the element by r, lengthened. At its end (`last`) an arc has the radius that it ends with."""
     offset = r if left else -r
     if element.center is None:
         p, u = element.at(0)
         return abs((point[1] - p[1]) * u[0] - (point[0] - p[0]) * u[1] - offset)
-    return abs(math.dist(point, element.center) - (element.radius() - offset if element.ccw else element.radius() + offset))
+    radius = math.dist(element.end, element.center) if last else element.radius()
+    return abs(math.dist(point, element.center) - (radius - offset if element.ccw else radius + offset))
 
 
 def judge_uncut(contour, path, r, inside, elements, near):
