@@ -44,6 +44,13 @@ TEST(SpaceCompensation, AVectorAloneCutsOnlyWithAFeed) {  // 3.2, P62: a line wi
   EXPECT_EQ(alarm_of("G1\nG41 I1. J1. K1. D1\nM30"), "P62 L2");
   EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1\nG40\nM30"), "P62 L3");
   EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1\nI1. J2. K1.\nM30"), "P62 L3");
+  EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1 D0\nM30"), "P62 L2");
+  for (const char* keeps : {"G41", "G41 D1", "G41 D2", "G42", "D2"}) {  // (4), (5): they count from the next I J K on
+    EXPECT_EQ(path_of(std::string("G0 G41 I0 J3. K4. D1\nG1\n") + keeps + "\nX5. F100\nM30"), (Path{"rapid 0 3 4", "line 5 3 4"})) << keeps;
+    // The vector that G28 has taken away comes back with the next movement, not at once without a feed.
+    EXPECT_EQ(path_of(std::string("G0 G41 X5. I0 J3. K4. D1\nG28 Y0 Z0\nG1\n") + keeps + "\nX6. F100\nM30").back(), "line 6 3 4") << keeps;
+  }
+  EXPECT_EQ(alarm_of("G0 G41 I1. J1. K1. D1\nG1\nI1. J1. K1.\nM30"), "P62 L3");
   EXPECT_EQ(alarm_of("G1 F100\nG41 I1. J1. K1. D1\nG40\nM30"), " L0");
 }
 

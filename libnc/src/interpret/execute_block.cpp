@@ -430,6 +430,7 @@ Execution execute_read_words(Interpreter& in) {
   if (did != Execution::done) return did;
   const auto has_vector_in_space = [&in] { return in.state.space.on || in.state.tool_length != 0; };
   const bool had_one = has_vector_in_space();
+  const SpaceVector space_before = in.state.space;
   did = apply_systems(in);
   in.words.vector_in_space = had_one || has_vector_in_space();
   if (did != Execution::done) return did;
@@ -445,7 +446,9 @@ Execution execute_read_words(Interpreter& in) {
   if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
   if (in.dialect->rules.compensation.begins_beside_start) did = go_beside_start(in);
   if (did != Execution::done) return did;
-  if (!w.comp_command) return finish(in, execute_motion(in));
+  // Another number or code alone only counts from the next I J K on (M700 12.5 (4), (5)): it moves nothing and takes no feed.
+  const bool keeps_vector = space_before.on && in.state.space == space_before && in.state.tool_length == 0 && !gives_space_vector(in);
+  if (!w.comp_command || keeps_vector) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
   if (did == Execution::done && in.state.machine == before && !in.dialect->rules.compensation.code_alone_waits) {
