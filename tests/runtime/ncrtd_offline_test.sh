@@ -57,6 +57,13 @@ done
 cmp -s "$work/run1" "$work/run2" || fail "two runs differ"
 [ "$(sed -n 's/^cycle time *\([0-9]*\).*/\1/p' "$work/run1")" -lt 90 ] || fail "the shipped part takes a minute and a half or more"
 
+# With CONTOUR_CHECK the compensated contour of the part is machined as it is; with a way out through the part it is an alarm.
+sed 's#^\[parameters\].*#&\nCONTOUR_CHECK = 1#' "$machine" >"$work/own/etc/checked.toml"
+expect 0 "$ncrtd" --config "$work/own/etc/checked.toml" run --fast --no-progress "$source/examples/parts/flange.nc"
+sed 's/^G03 X-15\. Y-65\. I0\. J-15\.$/G01 X0. Y-40./' "$source/examples/parts/flange.nc" >"$work/own/through.nc"
+cmp -s "$work/own/through.nc" "$source/examples/parts/flange.nc" && fail "the part has another way out"
+expect 2 "$ncrtd" --config "$work/own/etc/checked.toml" run --fast --no-progress "$work/own/through.nc"
+said err "P153"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" run --fast --no-progress "$source/examples/parts/keytag.nc"
 expect 0 "$ncrtd" --config "$source/etc/router.toml" run --fast --no-progress "$source/examples/parts/plate.ngc"
 expect 0 "$ncrtd" --config "$source/etc/drill-mill.toml" run --fast --no-progress "$source/examples/parts/bracket.nc"
