@@ -41,6 +41,16 @@ class ProgramRestart : public testing::Test {
       if (drive->events[i].kind == NC_ITEM_MARK) lines.push_back(drive->events[i].source.line);
     return lines;
   }
+  /// Presses start: the block of this line does not begin where the axes stand, and the alarm has these words in its sentence.
+  void expect_no_start_inside(unsigned line, const char* words, const std::string& what) {
+    drive->in.cycle_start = true;
+    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
+    EXPECT_EQ(drive->alarm(), "NC-MODE") << what;
+    nc_alarm alarm{};
+    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK) << what;
+    EXPECT_EQ(alarm.source.line, line) << what;
+    EXPECT_NE(std::string(alarm.detail.s).find(words), std::string::npos) << alarm.detail.s;
+  }
   double x() const { return drive->out.command.v[0]; }
   double y() const { return drive->out.command.v[1]; }
 
@@ -115,13 +125,7 @@ TEST_F(ProgramRestart, WhatIsNoLineDoesNotBeginInItsMiddle) {
   for (const char* text : {"G90 G01 F1200 X1.\nG02 X21. I10.\nM30\n", "G90 G01 F1200 X1.\nG02 X21. R10.\nM30\n", "G90 G00 X1. F1200\nG99 G81 X20. Z-1. R1.\nM30\n",
                            "G90 G00 X1. F1200\nG28 X30.\nM30\n", "G90 G00 X1. F1200\nG31 X20.\nM30\n"}) {
     stop_beyond(5, "2", text);
-    drive->in.cycle_start = true;
-    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
-    EXPECT_EQ(drive->alarm(), "NC-MODE") << text;
-    nc_alarm alarm{};
-    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
-    EXPECT_EQ(alarm.source.line, 2u) << text;
-    EXPECT_NE(std::string(alarm.detail.s).find("in its middle"), std::string::npos) << alarm.detail.s;
+    expect_no_start_inside(2, "in its middle", text);
     reset();
     EXPECT_EQ(go_on().front(), 1u) << "behind the alarm it begins at its head";
   }
@@ -140,13 +144,7 @@ TEST_F(ProgramRestart, ALineGoesOnToItsCornerAndNoneBeginsOnIt) {
     stop_beyond(16, "2", text);
     EXPECT_GT(y(), 0.01);
     EXPECT_LT(y(), 4.9);
-    drive->in.cycle_start = true;
-    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
-    EXPECT_EQ(drive->alarm(), "NC-MODE") << corner;
-    nc_alarm alarm{};
-    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
-    EXPECT_EQ(alarm.source.line, 2u);
-    EXPECT_NE(std::string(alarm.detail.s).find("in its middle, at its corner"), std::string::npos) << alarm.detail.s;
+    expect_no_start_inside(2, "in its middle, at its corner", corner);
     reset();
     EXPECT_EQ(go_on().front(), 1u) << "behind the alarm it begins at its head";
   }
@@ -158,13 +156,7 @@ TEST_F(ProgramRestart, AtTheEndOfAChamferNoLineBegins) {
   for (double beyond = 15.5; beyond < 20; beyond += 0.125) {
     stop_beyond(beyond, "2", "G90 G01 X20. ,C5. F6000\nY20.\nM30\n");
     at_end += x() == 20 && std::abs(y() - 5) < 1e-6 ? 1 : 0;
-    drive->in.cycle_start = true;
-    for (unsigned n = 0; n < 100; ++n) drive->step(), drive->in.cycle_start = false;
-    EXPECT_EQ(drive->alarm(), "NC-MODE") << beyond;
-    nc_alarm alarm{};
-    ASSERT_EQ(nc_alarm_get(bench->control(), 0, &alarm), NC_OK);
-    EXPECT_EQ(alarm.source.line, 1u);
-    EXPECT_NE(std::string(alarm.detail.s).find("in its middle, at its corner"), std::string::npos) << alarm.detail.s;
+    expect_no_start_inside(1, "in its middle, at its corner", std::to_string(beyond));
   }
   EXPECT_GT(at_end, 0u);
 }

@@ -207,13 +207,9 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.from_contour = path.crosses_own = false;
   path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
-    Piece piece;
-    piece.from = end + section.joint.v[k - 1];
-    piece.to = end + section.joint.v[k];
     path.prolongs = section.joint.lengthened;
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
-    const Vec2 from_vector = section.joint.v[k - 1], to_vector = section.joint.v[k];
-    add(path, path.bends && bendable(from_vector, to_vector) ? arc_about(end, from_vector, to_vector, section.offset) : piece);
+    add(path, way_at(end, section.joint.v[k - 1], section.joint.v[k], path.bends, section.offset));
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);
@@ -235,9 +231,7 @@ Clearance ContourMemory::step(const Step& step) {
   path.to_contour = step.to == Vec2{};
   path.bends = step.bends;
   path.crosses_own = !path.starts && !path.to_contour && !step.crosses;
-  path.piece.from = path.contour + step.from;
-  path.piece.to = path.contour + step.to;
-  if (step.bends && bendable(step.from, step.to)) path.piece = arc_about(path.contour, step.from, step.to, step.offset);
+  path.piece = way_at(path.contour, step.from, step.to, step.bends, step.offset);
   if (path.offset != 0) ++state_.steps;
   return take(path);
 }

@@ -200,8 +200,7 @@ bool can_be_reached(const Chain& chain, unsigned k, unsigned i, unsigned j) {
 }
 
 // Joins section `i` directly to section `j`; the ones between are left out. Those from `besides` on interfere with nothing: they are only left out where the tool
-// could not go along them either. False: no avoidance vector can be
-// made.
+// could not go along them either. False: no avoidance vector can be made.
 bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first_vector) {
   Section& before = (*chain)[i];
   const Section& behind = (*chain)[j];
@@ -296,13 +295,8 @@ bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
   corners[1].from = corners[1].to = d;
   const double least = std::abs(chain[i].offset) - kEnters_mm;
   const auto enters = [&](const ContourJoint& joint, Vec2 at, const Piece& corner) {
-    for (unsigned k = 0; k + 1 < joint.n; ++k) {
-      Piece way;
-      way.from = at + joint.v[k];
-      way.to = at + joint.v[k + 1];
-      if (joint.corner_arc && bendable(joint.v[k], joint.v[k + 1])) way = arc_about(at, joint.v[k], joint.v[k + 1], chain[i].offset);
-      if (comes_nearer(way, corner, least)) return true;
-    }
+    for (unsigned k = 0; k + 1 < joint.n; ++k)
+      if (comes_nearer(way_at(at, joint.v[k], joint.v[k + 1], joint.corner_arc, chain[i].offset), corner, least)) return true;
     return false;
   };
   return enters(chain[i].joint, {}, corners[1]) || enters(out.joint, d, corners[0]) ||

@@ -166,6 +166,14 @@ Piece arc_about(Vec2 center, Vec2 from, Vec2 to, double offset) {
   return arc;
 }
 
+Piece way_at(Vec2 point, Vec2 from, Vec2 to, bool bends, double offset) {
+  if (bends && bendable(from, to)) return arc_about(point, from, to, offset);
+  Piece line;
+  line.from = point + from;
+  line.to = point + to;
+  return line;
+}
+
 Box box_of(const Piece& piece) {
   Box box;
   box.take(piece.from);

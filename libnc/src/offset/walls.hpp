@@ -28,6 +28,9 @@ double corner_sweep(Vec2 from, Vec2 to, double offset);
 /// An arc about `center` from one vector to the other.
 Piece arc_about(Vec2 center, Vec2 from, Vec2 to, double offset);
 
+/// The way from one vector to another at the programmed point: a line, or where it may bend (G39) and the vectors allow it an arc.
+Piece way_at(Vec2 point, Vec2 from, Vec2 to, bool bends, double offset);
+
 /// What it lies in.
 Box box_of(const Piece& piece);
 
