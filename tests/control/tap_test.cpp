@@ -112,6 +112,11 @@ TEST_P(Tap, TheSpindleAcceleratesByItsStages) {
   EXPECT_NEAR(steepest("S600"), 20, 0.5) << "rev/s^2: 600 r/min in 0.5 s";
   EXPECT_NEAR(steepest("S1200"), 5, 0.2) << "600 r/min more in 2 s";
   EXPECT_NEAR(steepest("S1500"), 0.5, 0.05) << "1800 r/min more in 60 s";
+  // Precaution (14): a changeover above the highest speed lies at it. Otherwise the second stage were steeper than the first and had its slope, by (13).
+  bench.param("3005", "1200").param("3037", "5000");
+  EXPECT_NEAR(steepest("S1000"), 5, 0.2) << "600 r/min more, up to the highest speed, in 2 s";
+  bench.param("3005", "6000");
+  EXPECT_NEAR(steepest("S1000"), 20, 0.5) << "(13)";
 }
 
 TEST_P(Tap, HoldBetweenRAndRActsBehindTheWayBack) {

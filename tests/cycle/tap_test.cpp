@@ -62,6 +62,26 @@ TEST(Tap, Floating) {
   EXPECT_EQ(tap("G95 G84 Z-8. R2. F1.5").moves().at(1).feed_mm_rev, 1.5);  // 7.4 note 5: in the feed mode that is in force
 }
 
+/// 13.1.1 (6) (b): per minute, per revolution, and with the one-digit feed F0 to F8 without a point.
+TEST(Tap, FeedOfAFloatingOneMayBeOfOneDigit) {
+  const std::map<std::string, std::string> digits{{"1079", "1"}, {"1185", "800"}, {"1186", "1650"}, {"1187", "2400"}, {"1188", "3100"}, {"1189", "4200"}};
+  const auto feeds = [&](const std::string& words, bool digit) {
+    std::vector<double> all;
+    for (const nc_move& move : tap("G84 Z-8. R2. ,R0 " + words, digit ? digits : std::map<std::string, std::string>{}).moves())
+      if (move.kind == NC_MOVE_LINE) all.push_back(move.feed_mm_rev > 0 ? -move.feed_mm_rev : move.feed_mm_min);
+    return all;
+  };
+  const auto both = [](double feed) { return std::vector<double>{feed, feed}; };
+  EXPECT_EQ(feeds("F3", false), both(3));
+  EXPECT_EQ(feeds("F3", true), both(2400)) << "in and out again";
+  EXPECT_EQ(feeds("F1", true), both(800));
+  EXPECT_EQ(feeds("F3.", true), both(3)) << "with a point it is a feed";
+  EXPECT_EQ(feeds("F9", true), both(9)) << "there are F0 to F8";
+  EXPECT_EQ(feeds("F900", true), both(900));
+  EXPECT_EQ(feeds("G95 F1.5", false), both(-1.5));
+  EXPECT_EQ(feeds("G95 F2", true), feeds("G95 F2", false)) << "per revolution, whatever the parameter says";
+}
+
 TEST(Tap, SynchronousHasItsLeadAndSpeed) {
   const Outcome run = tap("G84 Z-8. R2. S800 F1.5 ,R1");
   EXPECT_EQ(strokes(run), kSynchronous);  // neither S nor M3, M4, M5 goes out in it

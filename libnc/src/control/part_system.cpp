@@ -261,8 +261,8 @@ nc_status PartSystem::interrupt_signal(bool on, bool* take_back) {
   uit_pending_ = true;
   watch();
   // M700 13.12: an interrupt of type 1 acts at once. It interrupts the item that was given out last, where that takes time; a contour under
-  // compensation and a block that waits for an answer are finished first.
-  const bool cuttable = pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate;
+  // compensation, a hole of a fixed cycle and a block that waits for an answer are finished first.
+  const bool cuttable = !pulled_in_hole_ && (pulled_ == ItemKind::move || pulled_ == ItemKind::action || pulled_ == ItemKind::gate);
   if (interpreter.interrupts().type_2 || !cuttable || !stages_.idle() || staged_count_ != 0 || open_sync_ != 0) return NC_OK;
   commit_.take_back(pulled_ == ItemKind::move);
   if (interpreter.interrupt(commit_.machine(), 1, true)) {
@@ -426,6 +426,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     if (status != NC_OK) return status;
     if (item == nullptr) continue;
     pulled_ = item->kind;
+    pulled_in_hole_ = item->in_hole;
     if (item->kind == ItemKind::mark) {
       commit_.mark_to_public(*item, out);
       if (watched_ && item->mark.report) [[unlikely]] uit_rest_.block_ended();
@@ -644,6 +645,7 @@ nc_status PartSystem::commit_online(uint32_t& budget) {
   commit_.to_record(*item, named(*item), &record);
   record.epoch = run_.epoch();
   record.staged = from_stage_;
+  record.in_hole = item->in_hole;
   if (resumes_) [[unlikely]] resume_record(record);
   if (optimal_ && item->kind == ItemKind::move && !OptimalMode::moves(record.segment)) [[unlikely]] {
     commit_.take_back(true);

@@ -203,6 +203,7 @@ class PartSystem {
   uint32_t uit_mode_ = 0;                    ///< nc_interrupt_bits after the items given out
   InterruptRest uit_rest_;                   ///< when an interrupt signal that stays on counts again
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
+  bool pulled_in_hole_ = false;              ///< ... which belongs to a hole (Item::in_hole)
   AxisVec move_zero_;                        ///< workpiece zero, with the tool length, of the move given out last
   unsigned drop_ = 0;                        ///< number of items to come that have been executed already, before an interrupt
   bool resumes_ = false;                     ///< online: the item behind these has been executed in part, as cut_ says

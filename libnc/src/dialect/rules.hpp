@@ -306,6 +306,9 @@ struct CycleRules {
   bool code_begins_data = false;
   /// A bottom above R is a fault (LinuxCNC G81). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
+  /// The codes that stop the program act over the first hole of their block, "after positioning" (M700 13.1.1 (2)). Otherwise they act behind the block, as
+  /// elsewhere (RS-274/NGC 3.8), or stand alone (DGSHAPE 2).
+  bool stops_over_hole = false;
 };
 
 /// Reference positions.

@@ -175,16 +175,16 @@ void Interpolator::interrupt(const nc_inputs& in) {
   cutting_ = interrupt_wanted_ && (interrupt_mode_ & NC_INTERRUPT_AT_ONCE) != 0 && state_ == NC_STATE_RUNNING && may_cut();
 }
 
-/// An interrupt of type 1 may stop the program now, in the middle of a block. It may not before FIN has come (M700 13.12), in a thread, between R and R again
-/// of a tap or in the mode of tapping (a tool that is left in its thread breaks; a feed hold waits there as well: 13.1.1, 7.11 (3)), in an arc
-/// whose radius is compensated, in a contour (where the blocks cannot be told apart), in a skip move whose signal has come, behind a skip move,
-/// while a table is unclamped, or in a block that changes the state of the interrupt: all these are finished first.
+/// An interrupt of type 1 may stop the program now, in the middle of a block. It may not before FIN has come (M700 13.12), in a thread, in a hole of a
+/// fixed cycle (with what is left of the hole its way out would be lost, and the next one be gone to at its depth, perhaps with a spindle that stands), in
+/// the mode of tapping (7.11 (3)), in an arc whose radius is compensated, in a contour (where the blocks cannot be told apart), in a skip move whose signal
+/// has come, behind a skip move, while a table is unclamped, or in a block that changes the state of the interrupt: all these are finished first.
 bool Interpolator::may_cut() const {
-  if ((tapping_ & (NC_TAPPING_STROKES | NC_TAPPING_MODE)) != 0) return false;
+  if ((tapping_ & NC_TAPPING_MODE) != 0) return false;
   if (!block_begun_ || block_waits_ || index_.busy() || last_staged_ || (fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN))) return false;
-  if (tail_ == end_) return true;
+  if (tail_ == end_) return !last_in_hole_;
   const Record& r = current();
-  if (!is_current(r) || r.staged || r.kind == ItemKind::sync) return false;
+  if (!is_current(r) || r.staged || r.in_hole || r.kind == ItemKind::sync) return false;
   if (r.kind == ItemKind::mark) return false;  // it takes no time
   return !(moving_ && (r.segment.thread || skip_braking_ || r.segment.rounds()));
 }
@@ -324,7 +324,7 @@ void Interpolator::start(const nc_inputs& in) {
       last_block_ = 0;
       placed_ = false;
       done_ = 0;
-      last_staged_ = block_waits_ = false;
+      last_staged_ = last_in_hole_ = block_waits_ = false;
       block_syncs_ = 0;
       by_hand_ = 0;
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
@@ -449,6 +449,7 @@ void Interpolator::leave(const Record& r, bool executed) {
     shared_->events.push(event);
     done_ = r.serial;
     last_staged_ = r.staged;
+    last_in_hole_ = r.in_hole;
     if (r.kind == ItemKind::sync) {
       ++block_syncs_;
       block_waits_ = block_waits_ || (r.sync.what & NC_SYNC_SKIP) != 0;

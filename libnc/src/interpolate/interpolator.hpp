@@ -149,6 +149,7 @@ class Interpolator {
   bool tap_disturbed(const nc_inputs& in) const NC_RT;
   bool tap_spindle_ready(const nc_inputs& in) NC_RT;
   void note_tap(const Segment& s, const nc_inputs& in) NC_RT;
+  bool tap_lets_go() NC_RT;
   Done take_tapping(uint8_t bits) NC_RT;
   void hold_tap() NC_RT;
   void release_tap() NC_RT;
@@ -343,6 +344,7 @@ class Interpolator {
   bool block_waits_ = false;         ///< the block in execution cannot be cut any more: its skip move has ended, or it holds M96 or M97
   unsigned block_syncs_ = 0;         ///< number of syncs of the block in execution that have been answered
   bool last_staged_ = false;         ///< the record executed last came out of a stage (Record::staged)
+  bool last_in_hole_ = false;        ///< ... belonged to a hole (Record::in_hole)
   Serial done_ = 0;                  ///< newest record that has been executed
   Cut cut_;
   bool recalculate_ = false, recalculate_last_ = false;  ///< a recalculation waits for the end of the block; level of the signal

@@ -61,13 +61,25 @@ void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
   if (tap_.c_axis < 0 && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, 0);
 }
 
-/// M700 13.1.1, G84: a hold that came between R and R again acts now. Before the tap lets its spindle go, both have come to their places.
-Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
-  if ((bits & NC_TAPPING_STROKES) == 0 && !tap_follower_.arrived()) {
+/// The tap may let its spindle go: both have come to their places. Where the spindle stands a little beside its own, the axis comes back to its path while that
+/// rests, since later it would be more than the moves behind it bear beside their own jerk.
+bool Interpolator::tap_lets_go() {
+  if (!tap_follower_.active()) return true;
+  if (tap_follower_.ended()) return !tap_follower_.waited_for();
+  if (!tap_follower_.arrived()) {
     tap_.waited_s += config_.cycle_s;
     if (tap_.waited_s > kLongestWait_s) tap_follower_.say_apart();
-    return wait(NC_CAUSE_SPINDLE_ANGLE);
+    return false;
   }
+  tap_.waited_s = 0;
+  if (tap_follower_.on_path()) return true;
+  tap_follower_.end_at_rest();
+  return false;
+}
+
+/// M700 13.1.1, G84: a hold that came between R and R again acts now.
+Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
+  if ((bits & NC_TAPPING_STROKES) == 0 && !tap_lets_go()) return wait(NC_CAUSE_SPINDLE_ANGLE);
   tap_.waited_s = 0;
   if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
     tap_.turns = 0;

@@ -34,7 +34,7 @@ class TapFollower {
     commanded_ = commanded;
     aim_ = beside_;
     fresh_ = active_ = true;
-    ends_ = stands_ = fades_ = false;
+    ends_ = stands_ = fades_ = rests_ = false;
     earlier_[0] = earlier_[1] = beside_;
     turns_ = turns;
     seen_ = true;
@@ -45,9 +45,15 @@ class TapFollower {
   void drop() NC_RT { active_ = false; }
   /// The spindle is let go. The axis comes back to its path.
   void end() NC_RT { ends_ = true; }
+  /// The same while the path rests and its caller waits until active() is over: it may then use more of what the axis can.
+  void end_at_rest() NC_RT { ends_ = rests_ = true; }
+  bool ended() const NC_RT { return ends_; }
+  bool waited_for() const NC_RT { return active_ && rests_; }
+  /// The axis is on its path, but for the resolution of an encoder.
+  bool on_path() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled()); }
   bool active() const NC_RT { return active_; }
-  /// The axis is on its path, but for the resolution of an encoder, or the spindle stands near its command and comes no nearer.
-  bool arrived() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled()) || (stands_ && trouble_ == Trouble::none && std::fabs(apart_) <= kStands); }
+  /// on_path(), or the spindle stands near its command and comes no nearer.
+  bool arrived() const NC_RT { return on_path() || (stands_ && settled() && trouble_ == Trouble::none && std::fabs(apart_) <= kStands); }
   /// Why the spindle cannot be followed any more; until begin().
   Trouble trouble() const NC_RT { return active_ ? trouble_ : Trouble::none; }
   /// The spindle does not come to the place where it is let go.
@@ -66,7 +72,7 @@ class TapFollower {
   double step(bool measured, double turns, double commanded, double per_mm, double place, const Limits& limits) NC_RT {
     const double time = limits.cycle_s;
     cycle_s_ = time;
-    if (ends_ && (fades_ || (std::fabs(beside_) <= kFaded && settled()))) return fade(place, limits);
+    if (ends_ && (fades_ || rests_ || (std::fabs(beside_) <= kFaded && settled()))) return fade(place, limits);
     const bool follows = measured && !ends_ && per_mm != 0;
     const double aim = follows ? aim_at(turns, per_mm, limits) : 0;
     fastest_ = std::max(fastest_, std::fabs(commanded - commanded_) / time);
@@ -110,28 +116,13 @@ class TapFollower {
     return std::fabs(v) <= kSlow && std::fabs(a) <= kSteady;
   }
   /// The spindle is let go: what the axis is beside its path fades as a polynomial of degree 5 that begins with its speed and acceleration and ends with
-  /// none. It lasts so long that what it adds to the acceleration and the jerk of the path is not felt.
+  /// none. It lasts as long as it takes until what it adds to the acceleration and the jerk of the path is not felt, or, while the path rests, is within the
+  /// limits of the axis.
   double fade(double place, const Limits& limits) NC_RT {
     const double time = limits.cycle_s;
-    if (!fades_) {
-      fades_ = true;
-      faded_ = 0;
-      from_[0] = beside_;
-      from_[1] = (beside_ - earlier_[0]) / time;
-      from_[2] = (beside_ - 2 * earlier_[0] + earlier_[1]) / (time * time);
-      fade_s_ = 10 * time;
-      if (limits.acceleration > 0) {
-        const double a = kUnfelt * limits.acceleration;
-        fade_s_ = std::max({fade_s_, std::sqrt(6 * std::fabs(from_[0]) / a), 6 * std::fabs(from_[1]) / a});
-      }
-      if (limits.jerk > 0) {
-        const double j = kUnfelt * limits.jerk;
-        fade_s_ = std::max({fade_s_, std::cbrt(60 * std::fabs(from_[0]) / j), std::sqrt(36 * std::fabs(from_[1]) / j), 9 * std::fabs(from_[2]) / j});
-      }
-    }
-    fade_s_ = std::min(fade_s_, kLongestFade_s);
+    if (!fades_) begin_fade(limits);
     faded_ += time;
-    if (faded_ >= fade_s_) {
+    if (faded_ > fade_s_ - 0.5 * time) {
       active_ = fades_ = false;
       return beside_ = 0;
     }
@@ -139,6 +130,27 @@ class TapFollower {
     const double c3 = -10 * b - 6 * v - 1.5 * a, c4 = 15 * b + 8 * v + 1.5 * a, c5 = -6 * b - 3 * v - 0.5 * a;
     const double x = b + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5))));
     return beside_ = std::clamp(place + x, limits.low, limits.high) - place;
+  }
+
+  /// How long it takes. The greatest acceleration and jerk of the three parts of the polynomial are 6 b / T^2 and 60 b / T^3 of a place b, 6 v / T and 36 v / T^2 of
+  /// a speed v, and 9 a / T of an acceleration a, all of them at its ends or below.
+  void begin_fade(const Limits& limits) NC_RT {
+    const double time = limits.cycle_s, share = rests_ ? kAtRest : kUnfelt;
+    fades_ = true;
+    faded_ = 0;
+    from_[0] = beside_;
+    from_[2] = (beside_ - 2 * earlier_[0] + earlier_[1]) / (time * time);
+    from_[1] = (beside_ - earlier_[0]) / time + 0.5 * from_[2] * time;  // the difference is the speed of half a cycle ago
+    fade_s_ = 10 * time;
+    if (limits.acceleration > 0) {
+      const double a = share * limits.acceleration;
+      fade_s_ = std::max({fade_s_, std::sqrt(6 * std::fabs(from_[0]) / a), 6 * std::fabs(from_[1]) / a});
+    }
+    if (limits.jerk > 0) {
+      const double j = share * limits.jerk;
+      fade_s_ = std::max({fade_s_, std::cbrt(60 * std::fabs(from_[0]) / j), std::sqrt(36 * std::fabs(from_[1]) / j), 9 * std::fabs(from_[2]) / j});
+    }
+    fade_s_ = std::ceil(fade_s_ / time - 1e-9) * time;
   }
 
   /// How far the axis has to be beside its path, mm: by what the spindle is beside its command.
@@ -163,9 +175,9 @@ class TapFollower {
 
   static constexpr double kArrived = 1e-3;        ///< mm
   static constexpr double kStill = 1e-6;          ///< revolutions in one cycle
-  static constexpr double kUnfelt = 5e-4;         ///< share of the limits of the axis that is not felt
+  static constexpr double kUnfelt = 5e-4;         ///< share of the limits of the axis that is not felt ...
+  static constexpr double kAtRest = 0.25;         ///< ... and that it may have of them alone; each of three parts has so much
   static constexpr double kFaded = 0.05, kSlow = 0.1, kSteady = 3;  ///< mm, mm/s, mm/s^2: what may fade
-  static constexpr double kLongestFade_s = 0.5;
   static constexpr double kOfAcceleration = 0.5;  ///< share of the axis' acceleration with which it comes back
   static constexpr double kOfStroke = 0.85;       ///< and with which it stops in front of the end of its stroke; its last cycle may take an eighth more
   // Revolutions: by which a spindle that stands may be beside its command as it is let go, outside of the hole; which the axis may miss because its
@@ -181,7 +193,7 @@ class TapFollower {
   double aim_ = 0, beside_ = 0, last_ = 0, speed_ = 0;
   double earlier_[2] = {};  ///< beside_ of the two cycles before
   double cycle_s_ = 0.001;
-  bool fades_ = false;
+  bool fades_ = false, rests_ = false;
   double from_[3] = {}, faded_ = 0, fade_s_ = 0;  ///< what it fades from with its first two derivatives, since when and for how long, s
   double apart_ = 0;    ///< revolutions that the spindle is before its command
   double fastest_ = 0;  ///< that was commanded since begin(), rev/s

@@ -73,6 +73,7 @@ Item& BlockContext::next_item(ItemKind kind, bool block_end) {
   Item& item = queue.add();
   item.kind = kind;
   item.block_end = block_end;
+  item.in_hole = holes.inside;
   item.source = source;
   return item;
 }

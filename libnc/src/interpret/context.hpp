@@ -93,6 +93,7 @@ struct HolesOfBlock {
   AxisVec over, beside;       ///< the hole, and the place that a shift goes to
   bool whole = false;         ///< no pecks: what is tried before the block begins
   bool tapping = false;       ///< between R and R again
+  bool inside = false;        ///< the item in hand belongs to a stroke
 };
 
 /// The cavity that the block in hand mills (functions/cavity.cpp); lengths as programmed.

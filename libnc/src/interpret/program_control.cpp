@@ -39,7 +39,9 @@ Execution codes_behind(Interpreter& in) {
         if (check_loops_closed(in) != Execution::done) return Execution::fault;
         auxiliary_behind(in, m);
         return Execution::done;
-      default: auxiliary_behind(in, m); break;
+      default:
+        if (!in.words.stops_given_out || !stops_program(m.function)) auxiliary_behind(in, m);
+        break;
     }
   }
   return Execution::done;

@@ -12,6 +12,7 @@ struct Record {
   nc_source source{};
   ItemKind kind = ItemKind::mark;
   bool staged = false;  ///< it has come out of a stage, where the items of neighbouring blocks cannot be told apart
+  bool in_hole = false;  ///< Item::in_hole
   uint32_t epoch = 0;   ///< RunWord::epoch() in which it was made: the scan throws records of another epoch away
   union {
     Segment segment;

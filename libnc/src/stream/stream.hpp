@@ -246,6 +246,8 @@ struct Item {
   nc_source source{};
   /// For the offset stage: the item ends a block that counts for its look-ahead, also one without movement in the plane or an M00 (M700 12.4.2).
   bool block_end = false;
+  /// A stroke of a hole, or what belongs to it: a macro interrupt of type 1 acts behind the hole (M700 13.12).
+  bool in_hole = false;
   union {
     Move move;
     Action action;

@@ -73,7 +73,8 @@ inline constexpr Rules kRules = {
               .rises_before_positioning = false,
               .longest_dwell_ms = 99999999,
               .keeps_spindle_direction = false,
-              .axis_follows_plane = false},
+              .axis_follows_plane = false,
+              .stops_over_hole = true},  // 13.1.1 (2)
     .reference = {.remembered_axes_go = false,
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,

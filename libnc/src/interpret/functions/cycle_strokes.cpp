@@ -343,12 +343,27 @@ void note_hole(BlockContext& in) {
   c.in_hole = stays;
 }
 
+/// M700 13.1.1 (2): "M00 and M01 will be output after positioning", precaution (5): once, where the block makes several holes. True: the program stops here
+/// whatever the switches say, so single block needs no stop of its own.
+bool stop_over_hole(BlockContext& in) {
+  if (!in.dialect->rules.cycle.stops_over_hole || in.words.stops_given_out || in.state.cycle.kind == CycleKind::none) return false;
+  in.words.stops_given_out = true;
+  bool stops = false;
+  for (const Auxiliary& m : in.words.auxiliary) {
+    if (!stops_program(m.function)) continue;
+    auxiliary_behind(in, m);
+    stops = stops || m.function == MiscFunction::program_stop;
+  }
+  return stops;
+}
+
 Execution begin_hole(BlockContext& in) {
   const Execution left = leave_hole(in);
   if (left != Execution::done) return left;
   if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
   position_over_hole(in);
-  if (in.state.cycle.kind != CycleKind::none) in.emit_stop_point();  // positions of a pattern alone have one stop each
+  const bool stops = stop_over_hole(in);
+  if (in.state.cycle.kind != CycleKind::none && !stops) in.emit_stop_point();  // positions of a pattern alone have one stop each
   resolve_hole(in);
   note_hole(in);
   in.holes.progress = begin_strokes(in.holes.hole);
@@ -361,10 +376,12 @@ Execution continue_cycle(BlockContext& in) {
   while (in.queue_has_room()) {
     CycleStep step;
     if (next_stroke(holes.hole, holes.progress, &step)) {
+      holes.inside = true;
       if ((step.flags & kStrokeTaps) != 0) note_tapping(in, true);
       make_stroke(in, step);
       if (ends_tapping(step)) note_tapping(in, false);
       if ((step.flags & kStrokeStops) != 0) in.emit_stop_point();
+      holes.inside = false;
       continue;
     }
     in.state.cycle.returned = way_back(in);

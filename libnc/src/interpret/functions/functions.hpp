@@ -162,6 +162,8 @@ Execution check_tap_speed(BlockContext& in);  ///< the S of such a block
 Execution auxiliary_before(BlockContext& in);
 /// An M code that acts behind the motion: stops, the end of the program, overrides. Any other does nothing here.
 void auxiliary_behind(BlockContext& in, const Auxiliary& auxiliary);
+/// The program goes on behind it when the operator says so.
+constexpr bool stops_program(MiscFunction function) { return function == MiscFunction::program_stop || function == MiscFunction::optional_stop; }
 /// Codes of the macro interface by number, of single overrides and of the tool in the spindle (machine_io.cpp); any other M code does nothing here.
 Execution act_on_machine(BlockContext& in, const Auxiliary& code);
 /// Bits of a word of the macro interface change where the machine gets there; `value` is for displays.
