@@ -22,6 +22,7 @@ struct LadderStatus {
   const AxisFlags* axes = nullptr;              // of each part system
   bool all_homed = true;
   bool power_failed = false, power_done = false;  // runtime/power/power_watch.hpp
+  std::int64_t time_ns = 0;  // clock of the scan, at its start
 };
 
 inline constexpr unsigned kLadderAlarms = 8;

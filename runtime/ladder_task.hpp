@@ -46,6 +46,11 @@ class LadderTask final : public LadderHook {
   // scan runs in the calling thread, so the device is read at once. 0 when there is no such device, or when no scan runs.
   std::uint32_t read_device(const std::string& name, bool direct);
 
+  // A device by a name that the program may use, null = there is none. Any thread but the scan.
+  const ladder::Device* find_device(const std::string& name) const;
+  // Its value. Scan thread. NC_RT.
+  std::int32_t value(ladder::DeviceType type, std::uint32_t device) const noexcept { return get(type, device); }
+
   // ---- retained devices ----
   // To be called only while no scan runs.
   void restore(const std::vector<RetainedRow>& rows);
@@ -80,7 +85,6 @@ class LadderTask final : public LadderHook {
   void set_start_values(const Config& config);
   void copy_retained(const ladder::DeviceImage& from, ladder::DeviceImage* to) const noexcept;
   std::vector<RetainedRow> rows_of(const ladder::DeviceImage& image) const;
-  const ladder::Device* find_device(const std::string& name) const;
   void answer() noexcept;
   std::int32_t get(const ladder::DeviceType type, std::uint32_t device) const noexcept;
   void set(ladder::DeviceType type, std::uint32_t device, std::int32_t value) noexcept;

@@ -103,7 +103,8 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
     for (const std::string& warning : runtime->own_ladder_->warnings()) runtime->warnings_.push_back(warning);
   }
   runtime->board_ = std::make_unique<SignalBoard>(config, runtime->parts_.ladder, runtime->own_ladder_.get());
-  runtime->parts_.ladder = runtime->board_.get();
+  runtime->trace_ = std::make_unique<trace::TraceTap>(config, runtime->board_.get(), runtime->own_ladder_.get());
+  runtime->parts_.ladder = runtime->trace_.get();
   if (runtime->control_ != nullptr && runtime->own_ladder_ != nullptr)
     nc_device_on_read(runtime->control_, &Runtime::read_device, runtime.get());
   runtime->scan_ =

@@ -21,6 +21,7 @@
 #include "runtime/rt_thread.hpp"
 #include "runtime/scan.hpp"
 #include "runtime/signals/signal_board.hpp"
+#include "runtime/trace/trace_tap.hpp"
 
 namespace nc::rt {
 
@@ -49,6 +50,8 @@ class Runtime {
   const LadderTask* ladder() const { return own_ladder_.get(); }
   // The values of the signals, for a single reader.
   SignalBoard* signals() { return board_.get(); }
+  // Records signals in the scan, for a single owner.
+  trace::TraceTap* trace() { return trace_.get(); }
   // To be set before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
   // Code of an alarm: of the table of the runtime, or of the family. Not for kProgram, whose code comes with it.
@@ -128,6 +131,7 @@ class Runtime {
   LadderHook empty_ladder_;
   std::unique_ptr<LadderTask> own_ladder_;
   std::unique_ptr<SignalBoard> board_;
+  std::unique_ptr<trace::TraceTap> trace_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
   std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of
   std::string found_place_;               // where the power failed before this start; "" = nowhere

@@ -31,12 +31,12 @@ void SignalBoard::scan(LadderImage* image) noexcept {
       wire.row->write(static_cast<std::int32_t>(point), image, wire.system, wire.index);
   }
   if (turn_.load(std::memory_order_acquire) != kWanted) return;
-  for (unsigned i = 0; i < values_.size(); ++i) values_[i] = given(i, *image);
+  for (unsigned i = 0; i < values_.size(); ++i) values_[i] = value(i, *image);
   scan_ = image->status->scan;
   turn_.store(kFilled, std::memory_order_release);
 }
 
-std::int32_t SignalBoard::given(unsigned signal, const LadderImage& image) const noexcept {
+std::int32_t SignalBoard::value(unsigned signal, const LadderImage& image) const noexcept {
   const Signal& s = signals_[signal];
   if (s.row->read != nullptr) return s.row->read(image, s.system, s.index);
   if (wired_[signal] >= 0) return static_cast<std::int32_t>(image.points->value[wired_[signal]]);

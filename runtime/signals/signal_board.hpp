@@ -31,6 +31,9 @@ class SignalBoard final : public LadderHook {
   void hold_outputs(hal::PointImage* points) noexcept override { inner_->hold_outputs(points); }
   void list_forces(ForceList* list) const noexcept override { inner_->list_forces(list); }
 
+  // The value of a signal, by its index in signals(), when the ladder has run. Scan thread. NC_RT.
+  std::int32_t value(unsigned signal, const LadderImage& image) const noexcept;
+
   // ---- reader, one thread ----
   const std::vector<Signal>& signals() const { return signals_; }
   void want() {
@@ -47,7 +50,6 @@ class SignalBoard final : public LadderHook {
     unsigned point;
     unsigned signal;  // index in signals_
   };
-  std::int32_t given(unsigned signal, const LadderImage& image) const noexcept;
 
   LadderHook* inner_;
   const LadderTask* task_;

@@ -289,5 +289,45 @@ TEST(RtTrap, SoDoHomingAndLimitSwitches) {
   expect_nothing_trapped();
 }
 
+// A recording of 64 signals in the scan, its ring that runs round, its trigger, its end.
+TEST(RtTrap, SoDoesTheSignalTrace) {
+  nc::rt::Config config;
+  ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error));
+  nc::rt::trace::Plan plan;
+  std::vector<std::string> names = {"D0", "M0", "TN0", "T0", "C0", "CN0", "D10"};
+  for (unsigned p = 0; p < config.points.size() && names.size() < 16; ++p) names.push_back(config.points.at(p).name);
+  for (const nc::rt::Signal& signal : runtime->signals()->signals())
+    if (names.size() < nc::rt::trace::kMostSignals) names.push_back(signal.name);
+  for (const std::string& name : names) ASSERT_TRUE(runtime->trace()->find(name, &plan.sources.emplace_back())) << name;
+  plan.when = nc::rt::trace::When::kRise;
+  plan.level = 123;
+  plan.rows = 200;
+  plan.before = 50;
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  ASSERT_TRUE(runtime->trace()->arm(plan));
+  for (int i = 0; i < 1000; ++i) runtime->step();
+  const bool waits = runtime->trace()->is_recording();
+  (void)runtime->force("D0", 123);
+  for (int i = 0; i < 1000; ++i) runtime->step();
+  const bool ended = !runtime->trace()->is_recording();
+  ASSERT_TRUE(runtime->trace()->arm(plan));
+  for (int i = 0; i < 500; ++i) runtime->step();
+  runtime->trace()->stop();
+  for (int i = 0; i < 500; ++i) runtime->step();
+  if (refusing) allow_system_calls();
+  EXPECT_TRUE(waits);
+  EXPECT_TRUE(ended);
+  EXPECT_FALSE(runtime->trace()->is_recording());
+  expect_nothing_trapped();
+}
+
 }  // namespace
 #endif
