@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration sections [parameters], [work_offsets], [tool_offsets].
-#include <charconv>
 #include <optional>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/work_offset_name.hpp"
 
 namespace nc::rt {
 namespace {
 
 constexpr double kMaxOffset = 1e6;
 constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "radius_wear"};
-
-// The number from min to max that the whole text is; nothing when it is none.
-std::optional<unsigned> parse_number(std::string_view text, unsigned min, unsigned max) {
-  unsigned value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || value < min || value > max)
-    return {};
-  return value;
-}
 
 // A parameter's value as the text that nc_parameter_set() takes.
 std::optional<std::string> value_text(const toml::node& node) {
@@ -27,17 +18,6 @@ std::optional<std::string> value_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return text->get();
   if (const auto* flag = node.as_boolean()) return std::string(flag->get() ? "1" : "0");
   return {};
-}
-
-// The index of a set of work offsets as nc_work_offset_set() counts: EXT is 0, G54 to G59 are 1 to 6, G54.1P<n> is 100 + n.
-std::optional<unsigned> work_offset_index(std::string_view name, unsigned sets) {
-  if (name == "EXT") return 0;
-  if (name.size() == 3 && name.substr(0, 2) == "G5" && name[2] >= '4' && name[2] <= '9')
-    return static_cast<unsigned>(name[2] - '3');
-  constexpr std::string_view kExtended = "G54.1P";
-  if (name.substr(0, kExtended.size()) != kExtended) return {};
-  const auto number = parse_number(name.substr(kExtended.size()), 1, sets);
-  return number ? std::optional<unsigned>(100 + *number) : std::nullopt;
 }
 
 std::string no_axis(std::string_view name) {
@@ -105,7 +85,7 @@ void read_work_offsets(TableReader* root, Config* config) {
 void read_tool_offsets(TableReader* root, Config* config) {
   root->table("tool_offsets", [&](TableReader& reader) {
     reader.each([&](const std::string& name, const toml::node& node) {
-      const auto number = parse_number(name, 1, config->nc.tool_offsets);
+      const auto number = whole_number(name, 1, config->nc.tool_offsets);
       if (!number) {
         reader.error(name, "must be an offset number from 1 to " + std::to_string(config->nc.tool_offsets));
         return;

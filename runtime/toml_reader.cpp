@@ -274,10 +274,8 @@ void TableReader::tables(std::string_view key, const std::function<void(TableRea
 }
 
 void TableReader::each(const std::function<void(const std::string& key, const toml::node&)>& read) {
-  for (const auto& [key, node] : table_) {
-    asked_.emplace_back(key.str());
-    read(std::string(key.str()), node);
-  }
+  all_asked_ = true;
+  for (const auto& [key, node] : table_) read(std::string(key.str()), node);
 }
 
 void TableReader::require(std::string_view key) {
@@ -285,6 +283,7 @@ void TableReader::require(std::string_view key) {
 }
 
 void TableReader::finish() {
+  if (all_asked_) return;
   for (const auto& [key, node] : table_) {
     if (std::find(asked_.begin(), asked_.end(), key.str()) != asked_.end()) continue;
     std::string known;

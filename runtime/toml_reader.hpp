@@ -94,6 +94,7 @@ class TableReader {
   std::string path_;
   ErrorList* errors_;
   std::vector<std::string> asked_;
+  bool all_asked_ = false;  // each() has asked for every key there is
 };
 
 // A finite number of a node (integer or float).

@@ -68,10 +68,19 @@ std::string take(const FieldInfo& row, const Json& value, Call* call) {
       const auto& text = value.get_ref<const std::string&>();
       if (static_cast<double>(text.size()) < row.least || static_cast<double>(text.size()) > row.most) return "must have " + range_text(row) + " bytes";
       if (row.kind == Kind::kName && !is_program_name(text)) return "must be a name in the folder of programs, without a path";
-      if (!is_printable(text, row.field == Field::kBlocks)) return "must not have control characters";
+      if (!is_printable(text, row.field == Field::kBlocks || row.field == Field::kToml)) return "must not have control characters";
       call->text[at] = text;
       return "";
     }
+    case Kind::kList:
+      if (!value.is_array() || static_cast<double>(value.size()) < row.least || static_cast<double>(value.size()) > row.most) return "must be a list of " + range_text(row) + " texts";
+      for (const Json& element : value) {
+        if (!element.is_string()) return "must be a list of texts";
+        const auto& text = element.get_ref<const std::string&>();
+        if (text.empty() || text.size() > kLongestText || !is_printable(text, false)) return "must hold texts of 1 to " + std::to_string(kLongestText) + " bytes without control characters";
+        call->texts.push_back(text);
+      }
+      return "";
     case Kind::kData: {
       if (!value.is_string() || !from_base64(value.get_ref<const std::string&>(), &call->text[at])) return "must be bytes in base64";
       const auto size = static_cast<double>(call->text[at].size());

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "runtime/services/service_table.hpp"
 
@@ -46,12 +47,15 @@ struct Call {
   std::bitset<kFields> given;
   std::array<double, kFields> number{};     // numbers, and flags as 0 or 1
   std::array<std::string, kFields> text{};  // texts, names, and data as bytes
+  std::vector<std::string> texts = {};      // of the list, of which no request has two
 
   bool has(Field field) const { return given[static_cast<unsigned>(field)]; }
   double value(Field field) const { return number[static_cast<unsigned>(field)]; }
   double value_or(Field field, double other) const { return has(field) ? value(field) : other; }
   bool flag(Field field) const { return value(field) != 0; }
   const std::string& words(Field field) const { return text[static_cast<unsigned>(field)]; }
+  // Of a field that is a list.
+  const std::vector<std::string>& list(Field) const { return texts; }
 };
 
 struct Outcome {

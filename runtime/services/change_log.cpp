@@ -17,9 +17,44 @@
 namespace nc::rt::services {
 namespace {
 
+// As it is shown.
 Json to_json(const Change& change) {
-  return {{"time_ns", change.time_ns}, {"user", change.user},     {"client", change.client}, {"service", change.service},
-          {"what", change.what},       {"before", change.before}, {"after", change.after}};
+  return {{"number", change.number}, {"time_ns", change.time_ns}, {"user", change.user},   {"client", change.client}, {"service", change.service},
+          {"what", change.what},     {"before", change.before},   {"after", change.after}, {"undone_by", change.undone_by}};
+}
+
+// As it stands in the file.
+std::string to_line(const Change& change) {
+  Json json = to_json(change);
+  json.erase("undone_by");  // it comes later: the undo says what it has taken back
+  if (change.undoes != 0) json["undoes"] = change.undoes;
+  if (!change.values.empty()) {
+    Json values = Json::array();
+    for (const ValueChange& value : change.values) values.push_back({place_key(value.place), value.before, value.after});
+    json["values"] = std::move(values);
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// The values of a change, none of them when one cannot be read.
+std::vector<ValueChange> values_of(const Json& json) {
+  std::vector<ValueChange> values;
+  const auto list = json.find("values");
+  if (list == json.end() || !list->is_array()) return {};
+  for (const Json& row : *list) {
+    ValueChange value;
+    if (!row.is_array() || row.size() != 3 || !row[0].is_string() || !row[1].is_string() || !row[2].is_string()) return {};
+    if (!parse_place(row[0].get<std::string>(), &value.place)) return {};
+    value.before = row[1].get<std::string>();
+    value.after = row[2].get<std::string>();
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+std::uint64_t number_of(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
 // The change that a line of the file stands for. False for a line that was cut off by a power cut, or written by somebody else.
@@ -35,6 +70,9 @@ bool from_line(const std::string& line, Change* change) {
   const auto time = json.find("time_ns");
   if (time == json.end() || !time->is_number_integer()) return false;
   change->time_ns = time->get<std::int64_t>();
+  change->number = number_of(json, "number");
+  change->undoes = number_of(json, "undoes");
+  change->values = values_of(json);
   return text("user", &change->user) && text("client", &change->client) && text("service", &change->service) && text("what", &change->what) &&
          text("before", &change->before) && text("after", &change->after);
 }
@@ -58,9 +96,40 @@ void ChangeLog::read_back(const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     Change change;
     if (!from_line(line, &change)) continue;
-    changes_.push_back(std::move(change));
-    if (changes_.size() > kRemembered) changes_.pop_front();
+    if (change.number <= last_) change.number = last_ + 1;  // it was written before changes had numbers
+    remember(std::move(change));
   }
+}
+
+void ChangeLog::remember(Change change) {
+  last_ = change.number;
+  if (change.undoes != 0)
+    for (Change& other : changes_)
+      if (other.number == change.undoes) other.undone_by = change.number;
+  values_ += change.values.size();
+  changes_.push_back(std::move(change));
+  if (changes_.size() > kRemembered) {
+    values_ -= changes_.front().values.size();
+    changes_.pop_front();
+  }
+  for (auto oldest = changes_.begin(); values_ > kRememberedValues && oldest + 1 != changes_.end(); ++oldest) {
+    values_ -= oldest->values.size();
+    oldest->values = {};
+  }
+}
+
+const Change* ChangeLog::find(std::uint64_t number) const {
+  for (const Change& change : changes_)
+    if (change.number == number) return &change;
+  return nullptr;
+}
+
+const Change* ChangeLog::last_of(const std::string& user, Right right) const {
+  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
+    const ServiceRow* row = find_service(change->service);
+    if (change->user == user && !change->values.empty() && change->undoes == 0 && change->undone_by == 0 && row != nullptr && row->right == right) return &*change;
+  }
+  return nullptr;
 }
 
 bool ChangeLog::open(std::string* error) {
@@ -92,16 +161,16 @@ bool ChangeLog::turn(std::string* error) {
   return true;
 }
 
-bool ChangeLog::add(const Change& change, std::string* error) {
-  changes_.push_back(change);
-  if (changes_.size() > kRemembered) changes_.pop_front();
+bool ChangeLog::add(Change change, std::string* error) {
+  change.number = last_ + 1;
+  const std::string line = to_line(change);
+  remember(std::move(change));
   if (path_.empty()) return true;
   if (file_ < 0) {
     *error = path_ + " is not open";
     return false;
   }
   if (!turn(error)) return false;
-  const std::string line = to_json(change).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   if (write(file_, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && fdatasync(file_) == 0) return true;
   *error = system_error(path_);
   return false;

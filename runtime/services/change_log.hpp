@@ -8,14 +8,21 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "runtime/services/call.hpp"
+#include "runtime/services/table_values.hpp"
 
 namespace nc::rt::services {
 
+// What one request has changed.
 struct Change {
+  std::uint64_t number = 0;  // counted up from 1, over all starts
   std::int64_t time_ns = 0;  // time of day
   std::string user, client, service, what, before, after;
+  std::vector<ValueChange> values = {};  // of tables, for the undo: none for a change of another kind, or one that is too old
+  std::uint64_t undoes = 0;      // number of the change that this one has taken back, 0 = none
+  std::uint64_t undone_by = 0;   // number of the change that has taken this one back
 };
 
 // To be used by one thread.
@@ -29,19 +36,28 @@ class ChangeLog {
 
   // Opens the file and reads the last changes from it. False with a sentence in *error when it cannot be written.
   bool open(std::string* error);
-  // False with a sentence in *error when the change could not be written; it is remembered all the same.
-  bool add(const Change& change, std::string* error);
+  // Gives the change its number. False with a sentence in *error when it could not be written; it is remembered all the same.
+  bool add(Change change, std::string* error);
   // Entries behind the `from` newest ones, the newest first.
   Json newest(std::uint64_t from, std::uint64_t count) const;
 
+  // The change with this number; null when it is not remembered.
+  const Change* find(std::uint64_t number) const;
+  // The newest change of the user that can be taken back and has not been, by a service with this right; null = there is none.
+  const Change* last_of(const std::string& user, Right right) const;
+
   static constexpr std::size_t kRemembered = 1000;
+  static constexpr std::size_t kRememberedValues = 50'000;  // of all changes together; the oldest ones lose theirs
   static constexpr off_t kMostBytes = 4 << 20;
 
  private:
   void read_back(const std::string& file);
+  void remember(Change change);
   bool turn(std::string* error);
   const std::string path_;
   std::deque<Change> changes_;
+  std::uint64_t last_ = 0;   // number of the newest change
+  std::size_t values_ = 0;   // of all changes that are remembered
   int file_ = -1;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "runtime/share/intake.hpp"
+#include "runtime/trace/recording.hpp"
 
 namespace nc::rt::services {
 namespace {
@@ -58,6 +59,16 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kUntil, "until", Kind::kNumber, 0, kMostTime, "s", "only what came at this time or earlier: seconds since 1970"},
     {Field::kEntryKind, "kind", Kind::kText, 1, 8, "", "only entries of this kind: alarm, message, action, change, run or system"},
     {Field::kUser, "user", Kind::kText, 1, 64, "", "only what this user has done"},
+    {Field::kTable, "table", Kind::kText, 5, 9, "", "tools, offsets or variables; all of them when it is not given"},
+    {Field::kToml, "toml", Kind::kText, 1, kMostToml, "", "the sections [tool_offsets], [work_offsets], [variables], [variable_names], or some of them, as tables.export gives them"},
+    {Field::kChange, "change", Kind::kWhole, 1, kMostSize, "", "number of the change; the last one of this user when it is not given"},
+    {Field::kSignals, "signals", Kind::kList, 1, trace::kMostSignals, "", "names of signals, of points, and of devices of the ladder"},
+    {Field::kTrigger, "trigger", Kind::kText, 1, kLongestText, "", "the one of the signals at which the recording begins; it begins at once when it is not given"},
+    {Field::kWhen, "when", Kind::kText, 3, 6, "", "rise: the trigger comes up to the level; fall: it goes below it; high: it is not below it; low: it is below it; change: it is another value than in the scan before; rise when it is not given"},
+    {Field::kLevel, "level", Kind::kWhole, -2147483648.0, 2147483647.0, "", "level of the trigger; 1 when it is not given"},
+    {Field::kSamples, "samples", Kind::kWhole, 1, trace::kMostRows, "", "scans that are recorded, at most as many as have room in 16 MiB: 63550 of 64 signals; 1000 when it is not given"},
+    {Field::kBefore, "before", Kind::kWhole, 0, trace::kMostRows - 1.0, "", "how many of them are to be from before the trigger, fewer than samples; 0 when it is not given"},
+    {Field::kRecording, "recording", Kind::kWhole, 1, kMost32, "", "number of the recording"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -89,6 +100,11 @@ constexpr Wanted kFileOnly[] = {must(Field::kFile)};
 constexpr Wanted kForceArguments[] = {must(Field::kDevice), must(Field::kDeviceValue), may(Field::kLifespan)};
 constexpr Wanted kReleaseArguments[] = {may(Field::kDevice), may(Field::kLifespan)};
 constexpr Wanted kParameterArguments[] = {must(Field::kParameter), must(Field::kText), may(Field::kAxis), may(Field::kSystem)};
+constexpr Wanted kExportArguments[] = {may(Field::kTable)};
+constexpr Wanted kImportArguments[] = {must(Field::kToml)};
+constexpr Wanted kUndoArguments[] = {may(Field::kChange)};
+constexpr Wanted kTraceArguments[] = {must(Field::kSignals), may(Field::kTrigger), may(Field::kWhen), may(Field::kLevel), may(Field::kSamples), may(Field::kBefore)};
+constexpr Wanted kTraceReadArguments[] = {must(Field::kRecording), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kProtectArguments[] = {must(Field::kFile), must(Field::kOn)};
 
 // ---- replies ----
@@ -100,7 +116,7 @@ constexpr ReplyRow kServicesReply[] = {{"services[].name", "text", "name of the 
                                        {"services[].right", "text", "the right that it needs"},
                                        {"services[].meaning", "text", "what it does"},
                                        {"services[].request[].name", "text", "member of `args`"},
-                                       {"services[].request[].type", "text", "number, whole, flag, text, name or data"},
+                                       {"services[].request[].type", "text", "number, whole, flag, text, name, data or list"},
                                        {"services[].request[].required", "flag", "the member must be there"}};
 constexpr ReplyRow kMachineReply[] = {{"machine", "text", "name of the machine in its configuration"},
                                       {"control", "text", "name of the control, as in DDS"},
@@ -195,13 +211,40 @@ constexpr ReplyRow kProgramTimesReply[] = {{"programs[].name", "text", "name of 
                                            {"programs[].total_s", "number", "of all of them together"},
                                            {"programs[].last_ns", "whole", "time of day at the end of the last one, ns since 1970"},
                                            {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
-constexpr ReplyRow kChangesReply[] = {{"changes[].time_ns", "whole", "time of day, ns since 1970"},
+constexpr ReplyRow kChangesReply[] = {{"changes[].number", "whole", "number of the change, counted up over all starts"},
+                                      {"changes[].time_ns", "whole", "time of day, ns since 1970"},
                                       {"changes[].user", "text", "name of the user, or his number when it has no name"},
                                       {"changes[].client", "text", "name of the client"},
                                       {"changes[].service", "text", "service that was used"},
                                       {"changes[].what", "text", "what was changed"},
                                       {"changes[].before", "text", "its value before, empty = none"},
-                                      {"changes[].after", "text", "its value after it, empty = none"}};
+                                      {"changes[].after", "text", "its value after it, empty = none"},
+                                      {"changes[].undone_by", "whole", "number of the change that has taken it back, 0 = none"}};
+constexpr ReplyRow kExportReply[] = {{"toml", "text", "the sections [tool_offsets], [work_offsets], [variables], [variable_names]; of further part systems [variables2] ..."}};
+constexpr ReplyRow kTraceSignalsReply[] = {{"signals[].name", "text", "name of the signal or of the point"},
+                                           {"signals[].type", "text", "bit, 16 bit or 32 bit"},
+                                           {"signals[].meaning", "text", "what it says"},
+                                           {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kTraceStatusReply[] = {{"recording", "whole", "number of the newest recording since the start of ncrtd, 0 = there was none, and no other member but state"},
+                                          {"state", "text", "none, waiting (for the trigger), recording, complete or stopped"},
+                                          {"user", "text", "user who has begun it"},
+                                          {"client", "text", "client that has begun it"},
+                                          {"signals[]", "text", "what is recorded"},
+                                          {"trigger", "text", "the signal that it waits for, empty = none"},
+                                          {"when", "text", "what of it: rise, fall, change, high or low; empty = no trigger"},
+                                          {"level", "whole", "level of the trigger"},
+                                          {"samples", "whole", "scans that were asked for"},
+                                          {"before", "whole", "how many of them before the trigger"},
+                                          {"recorded", "whole", "scans that it has"},
+                                          {"cycle_us", "whole", "period of the scan"},
+                                          {"triggered", "flag", "the trigger has come; this member and the next two are there when the recording has ended"},
+                                          {"trigger_row", "whole", "row of the trigger, from 0; of the first scan when there was none"},
+                                          {"trigger_ns", "whole", "time of day at its scan, ns since 1970; 0 on virtual time"}};
+constexpr ReplyRow kTraceReadReply[] = {{"rows[].scan", "whole", "number of the scan"},
+                                        {"rows[].time_s", "number", "time at its start, counted from that of the trigger, s"},
+                                        {"rows[].values[]", "whole", "the values, in the order of the signals"},
+                                        {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kTraceArmReply[] = {{"recording", "whole", "its number"}};
 constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
                                     {"tools[].length", "number", "mm"},
                                     {"tools[].length_wear", "number", "mm"},
@@ -254,8 +297,13 @@ constexpr ServiceRow kRows[] = {
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
     {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
     {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kSystemPage, kParametersReply, "the parameters that are set"},
+    {Service::kExport, "tables.export", Right::kView, Lane::kData, kNo, kExportArguments, kExportReply,
+     "tool offsets, work offsets and common variables as TOML, as the executed blocks have left them; variables that are vacant are left out"},
     {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
     {Service::kProgramRead, "programs.read", Right::kView, Lane::kData, kNo, kReadArguments, kReadReply, "a piece of a program"},
+    {Service::kTraceSignals, "trace.signals", Right::kView, Lane::kData, kNo, kPage, kTraceSignalsReply, "the signals and points that can be recorded; devices of the ladder are named as in its program"},
+    {Service::kTraceStatus, "trace.status", Right::kView, Lane::kData, kNo, {}, kTraceStatusReply, "how far the recording of signals is"},
+    {Service::kTraceRead, "trace.read", Right::kView, Lane::kData, kNo, kTraceReadArguments, kTraceReadReply, "a recording that has ended, one row for each scan"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
      "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
@@ -275,6 +323,10 @@ constexpr ServiceRow kRows[] = {
     {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
     {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},
     {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable, or makes it vacant"},
+    {Service::kImport, "tables.import", Right::kSetUp, Lane::kData, kNo, kImportArguments, kDoneReply,
+     "sets what the sections name and leaves everything else as it is. The whole text is checked before the first value is set, and it is one change"},
+    {Service::kUndo, "undo", Right::kSetUp, Lane::kData, kNo, kUndoArguments, kDoneReply,
+     "takes a change of tool offsets, work offsets or variables back: the last one of this user that was not taken back. Refused when a value was changed since"},
     {Service::kProgramBegin, "programs.begin", Right::kSetUp, Lane::kData, kNo, kBeginArguments, kBeginReply, "begins to write a program; nobody sees it before programs.finish"},
     {Service::kProgramData, "programs.data", Right::kSetUp, Lane::kData, kNo, kDataArguments, kDataReply, "the next piece; pieces come in their order"},
     {Service::kProgramFinish, "programs.finish", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "compares size and SHA-256, brings the program to the disk and puts it in its place"},
@@ -285,7 +337,11 @@ constexpr ServiceRow kRows[] = {
     {Service::kForce, "force", Right::kMaintain, Lane::kCommand, RequestKind::kForce, kForceArguments, kDoneReply, "holds a device of the ladder at a value until it is released"},
     {Service::kRelease, "release", Right::kMaintain, Lane::kCommand, RequestKind::kReleaseForce, kReleaseArguments, kDoneReply, "lets a device go; without one, all of them"},
     {Service::kSetParameter, "parameters.set", Right::kMaintain, Lane::kData, kNo, kParameterArguments, kDoneReply, "sets a parameter"},
+    {Service::kUndoParameter, "parameters.undo", Right::kMaintain, Lane::kData, kNo, kUndoArguments, kDoneReply, "takes a change of a parameter back, as undo does with other tables"},
     {Service::kProgramProtect, "programs.protect", Right::kMaintain, Lane::kData, kNo, kProtectArguments, kDoneReply, "protects a program against every change, or takes its protection away"},
+    {Service::kTraceArm, "trace.arm", Right::kMaintain, Lane::kData, kNo, kTraceArguments, kTraceArmReply,
+     "records the values of signals in each scan, from the next one on, or from so many before a trigger on. The recording before it is forgotten; one that has not ended is busy"},
+    {Service::kTraceStop, "trace.stop", Right::kMaintain, Lane::kData, kNo, {}, kDoneReply, "ends the recording; what it has can be read"},
 };
 static_assert(std::size(kRows) == kServiceRows);
 
@@ -308,6 +364,7 @@ const char* kind_name(Kind kind) {
     case Kind::kText: return "text";
     case Kind::kName: return "name";
     case Kind::kData: return "data";
+    case Kind::kList: return "list";
   }
   return "?";
 }

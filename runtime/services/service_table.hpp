@@ -16,18 +16,19 @@ namespace nc::rt::services {
 // A field of requests. It has the same meaning and the same limits in each of them.
 enum class Field : std::uint8_t {
   kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
-  kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser, kFields
+  kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
+  kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
-enum class Kind : std::uint8_t { kNumber, kWhole, kFlag, kText, kName, kData };
+enum class Kind : std::uint8_t { kNumber, kWhole, kFlag, kText, kName, kData, kList };
 const char* kind_name(Kind kind);
 
 struct FieldInfo {
   Field field;
   const char* name;
   Kind kind;
-  double least, most;  // numbers: the range; texts: the number of bytes; data: the number of bytes before their encoding
+  double least, most;  // numbers: the range; texts: the number of bytes; data: the number of bytes before their encoding; lists: the number of texts
   const char* unit;
   const char* meaning;
 };
@@ -45,10 +46,11 @@ struct ReplyRow {
 };
 
 enum class Service : std::uint8_t {
-  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kPrograms, kProgramRead,
+  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead,
+  kTraceSignals, kTraceStatus, kTraceRead,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
-  kSetTool, kSetOffset, kSetVariable, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
-  kForce, kRelease, kSetParameter, kProgramProtect, kServiceCount
+  kSetTool, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
+  kForce, kRelease, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kServiceCount
 };
 inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);
 
@@ -75,6 +77,8 @@ const FieldInfo& row_of(Field field);
 // Bounds of the protocol.
 inline constexpr std::size_t kChunkBytes = 256 * 1024;            // of a program, in one request or reply
 inline constexpr std::size_t kMostFrameBytes = 512 * 1024;        // of one request or reply, without its length
+inline constexpr std::size_t kMostToml = 384 * 1024;             // bytes of tables in one request: with the signs that JSON adds they have room in a frame
+inline constexpr std::size_t kLongestText = 64;                    // bytes of one text of a list
 inline constexpr std::uint32_t kProtocol = 1;
 
 }  // namespace nc::rt::services

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "runtime/services/shown.hpp"
+#include "runtime/services/table_changes.hpp"
 #include "runtime/services/tables.hpp"
 #include "runtime/share/text.hpp"
 
@@ -49,6 +50,7 @@ Services::Services(Runtime* runtime, const share::ProgramTable* programs, share:
       segment_(*segment),
       store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this] { return use(); }),
       log_(runtime->config().changes_path()),
+      trace_(runtime),
       history_(history),
       notes_(history) {
   desk->set_witness([this](const share::Request* request, const share::Ack& ack) { notes_.answered(request, ack); });
@@ -198,31 +200,60 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kOffsets: return list_offsets(&runtime_, call);
     case Service::kVariables: return list_variables(&runtime_, call);
     case Service::kParameters: return list_parameters(&runtime_, call);
+    case Service::kExport: return export_tables(&runtime_, call);
+    case Service::kTraceSignals: return trace_.list_signals(call);
+    case Service::kTraceStatus: return trace_.status();
+    case Service::kTraceRead: return trace_.read(call);
+    case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
+    case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:
     case Service::kSetOffset:
     case Service::kSetVariable:
     case Service::kSetParameter:
+    case Service::kImport:
       return change(session, call);
+    case Service::kUndo:
+    case Service::kUndoParameter:
+      return undo(session, call);
     default:
       return program(session, call);
   }
 }
 
 Outcome Services::change(const Session& session, const Call& call) {
-  Changes changes;
+  Change change;
   Outcome outcome;
-  if (call.row->service == Service::kSetTool) outcome = set_tool(&runtime_, call, &changes);
-  else if (call.row->service == Service::kSetOffset) outcome = set_offset(&runtime_, call, &changes);
-  else if (call.row->service == Service::kSetVariable) outcome = set_variable(&runtime_, call, &changes);
-  else outcome = set_parameter(&runtime_, call, &changes);
-  note(session, call, changes, &outcome);
+  switch (call.row->service) {
+    case Service::kSetTool: outcome = set_tool(&runtime_, call, &change); break;
+    case Service::kSetOffset: outcome = set_offset(&runtime_, call, &change); break;
+    case Service::kSetVariable: outcome = set_variable(&runtime_, call, &change); break;
+    case Service::kImport: outcome = import_tables(&runtime_, call, &change); break;
+    default: outcome = set_parameter(&runtime_, call, &change); break;
+  }
+  if (!change.values.empty()) note(session, call, std::move(change), &outcome);
+  return outcome;
+}
+
+// Takes a change back that a service with the right of this one has made: so nobody undoes what he may not do.
+Outcome Services::undo(const Session& session, const Call& call) {
+  const bool named = call.has(Field::kChange);
+  const Change* done = named ? log_.find(static_cast<std::uint64_t>(call.value(Field::kChange))) : log_.last_of(notes_.name_of(session.user), call.row->right);
+  if (done == nullptr) return Outcome::refused(Refused::kNotFound, named ? "there is no such change, or it is too old" : "there is nothing of this user to be taken back");
+  const ServiceRow* row = find_service(done->service);
+  if (row == nullptr || row->right != call.row->right || done->undoes != 0)
+    return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " is none that " + call.row->name + " takes back: " + done->service);
+  if (done->undone_by != 0) return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " was taken back by change " + std::to_string(done->undone_by));
+  if (done->values.empty()) return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " is too old, or is no change of tables");
+  Change change;
+  Outcome outcome = take_back(&runtime_, *done, &change);
+  if (outcome.ok) note(session, call, std::move(change), &outcome);
   return outcome;
 }
 
 Outcome Services::program(const Session& session, const Call& call) {
   Change done;
   const auto noted = [&](Outcome outcome) {
-    if (outcome.ok) note(session, call, {done}, &outcome);
+    if (outcome.ok) note(session, call, done, &outcome);
     return outcome;
   };
   done.what = "program " + call.words(Field::kFile);
@@ -251,16 +282,14 @@ Outcome Services::program(const Session& session, const Call& call) {
 }
 
 // Writes down who has changed what. A change that cannot be written down is done all the same, and its answer says that.
-void Services::note(const Session& session, const Call& call, const Changes& changes, Outcome* outcome) {
-  for (Change change : changes) {
-    change.time_ns = share::wall_ns();
-    change.user = notes_.name_of(session.user);
-    change.client = session.client;
-    change.service = call.row->name;
-    notes_.changed(change);
-    std::string error;
-    if (!log_.add(change, &error) && outcome->ok) outcome->reply["text"] = "done, but not written down: " + error;
-  }
+void Services::note(const Session& session, const Call& call, Change change, Outcome* outcome) {
+  change.time_ns = share::wall_ns();
+  change.user = notes_.name_of(session.user);
+  change.client = session.client;
+  change.service = call.row->name;
+  notes_.changed(change);
+  std::string error;
+  if (!log_.add(std::move(change), &error) && outcome->ok) outcome->reply["text"] = "done, but not written down: " + error;
 }
 
 }  // namespace nc::rt::services

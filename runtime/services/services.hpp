@@ -13,6 +13,7 @@
 #include "runtime/services/change_log.hpp"
 #include "runtime/services/history.hpp"
 #include "runtime/services/program_store.hpp"
+#include "runtime/services/trace.hpp"
 #include "runtime/share/intake_desk.hpp"
 #include "runtime/share/program_table.hpp"
 
@@ -57,8 +58,9 @@ class Services {
   bool fill(const Call& call, share::Request* request, Outcome* outcome) const;
   ProgramStore::Use use() const;
   Outcome change(const Session& session, const Call& call);
+  Outcome undo(const Session& session, const Call& call);
   Outcome program(const Session& session, const Call& call);
-  void note(const Session& session, const Call& call, const std::vector<Change>& changes, Outcome* outcome);
+  void note(const Session& session, const Call& call, Change change, Outcome* outcome);
 
   Runtime& runtime_;
   const share::ProgramTable& programs_;
@@ -66,6 +68,7 @@ class Services {
   const share::Segment& segment_;
   ProgramStore store_;
   ChangeLog log_;
+  TraceDesk trace_;
   history::Recorder* const history_;
   ActionNotes notes_;
 };

@@ -22,6 +22,7 @@ void require_taken(const Call& call) {
     const double size = static_cast<double>(text.size());
     if (row.kind == Kind::kNumber || row.kind == Kind::kWhole) require(call.value(wanted.field) >= row.least && call.value(wanted.field) <= row.most);
     else if (row.kind == Kind::kFlag) require(call.value(wanted.field) == 0 || call.value(wanted.field) == 1);
+    else if (row.kind == Kind::kList) require(static_cast<double>(call.list(wanted.field).size()) >= row.least && static_cast<double>(call.list(wanted.field).size()) <= row.most);
     else require(size >= row.least && size <= row.most);
     if (row.kind == Kind::kName) require(is_program_name(text) && text.find('/') == std::string::npos && text.find('\0') == std::string::npos && text[0] != '.');
     if (row.kind == Kind::kData) {

@@ -29,10 +29,12 @@ Json arguments_of(const ServiceRow& row) {
       case Kind::kText: args[field.name] = field.field == Field::kMode ? "auto" : std::string(static_cast<std::size_t>(field.least), 'X'); break;
       case Kind::kName: args[field.name] = "none.nc"; break;
       case Kind::kData: args[field.name] = "AAAA"; break;
+      case Kind::kList: args[field.name] = {"XX"}; break;
     }
   }
   if (row.service == Service::kSetTool) args["length"] = 1;
   if (row.service == Service::kSetVariable) args["value"] = 1;
+  if (row.service == Service::kImport) args["toml"] = "[tool_offsets]\n1 = 1\n";
   return args;
 }
 
@@ -105,17 +107,20 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
   ASSERT_EQ(client.outcome("variables.set", {{"number", 500}, {"value", 1.5}}), "");
   ASSERT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");
   write_program("part.nc", "M30\n");
+  ASSERT_EQ(client.outcome("trace.arm", {{"signals", {"in0"}}, {"samples", 3}}), "");
+  until(&client, "trace.status", [](const Json& now) { return now["state"] == "complete"; });
   for (const ServiceRow& row : service_table()) {
     if (row.right != Right::kView) continue;
     SCOPED_TRACE(row.name);
-    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : Json::object());
+    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : Json::object());
     ASSERT_EQ(reply["ok"], true) << reply;
     std::set<std::string> known, found;
     for (const ReplyRow& member : row.reply) known.insert(member.path);
     collect(reply["reply"], "", &found);
     for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
     if (row.service == Service::kTools || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
-        row.service == Service::kPrograms || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kMachine) {
+        row.service == Service::kPrograms || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kTraceSignals ||
+        row.service == Service::kTraceStatus || row.service == Service::kTraceRead || row.service == Service::kMachine) {
       EXPECT_EQ(found, known);
     }
   }

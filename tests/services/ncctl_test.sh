@@ -62,6 +62,67 @@ expect 1 "$ncctl" tools set 3
 expect 1 "$ncctl" tools set three --length 1
 expect 1 "$ncctl" nonsense
 
+# Undo, and tables as a file.
+expect 0 "$ncctl" tables export "$work/tables.toml"
+grep -qF '3 = { length = 81.25, length_wear = 0, radius = 0, radius_wear = -0.02 }' "$work/tables.toml" || { fail "tool 3 is not exported"; head "$work/tables.toml"; }
+expect 0 "$ncctl" tables export --table variables
+[ "$(head -n 1 "$work/out")" = '[variables]' ] || { fail "not only the variables"; cat "$work/out"; }
+expect 0 "$ncctl" tools set 3 --length 90
+expect 0 "$ncctl" undo
+said out "tool 3 length"
+expect 0 "$ncctl" tools set 3 --length 91 --radius 4
+expect 0 "$ncctl" tables import "$work/tables.toml"
+said out "changed: 2 tool offsets"
+expect 0 "$ncctl" tables export "$work/again.toml"
+cmp -s "$work/tables.toml" "$work/again.toml" || fail "the tables are not those of the file"
+expect 0 "$ncctl" undo
+expect 0 "$ncctl" undo --change "$("$ncctl" --json changes | python3 -c 'import json, sys; print(next(c["number"] for c in json.load(sys.stdin)["changes"] if "radius" in c["what"] and c["service"] == "tools.set" and c["undone_by"] == 0))')"
+printf '[tool_offsets]\n1 = 5\n2 = { lenght = 3 }\n' >"$work/wrong.toml"
+expect 1 "$ncctl" tables import "$work/wrong.toml"
+said err "line 3"
+printf '[tool_offsets]\n# M\374ller\n1 = 5\n' >"$work/latin.toml"
+expect 1 "$ncctl" tables import "$work/latin.toml"
+said err "UTF-8"
+expect 1 "$ncctl" tables import "$work/none.toml"
+expect 1 "$ncctl" tables export --table all
+printf '[tool_offsets]\n1 = 5\n' | "$ncctl" tables import - >"$work/out" || fail "tables from standard input"
+
+# Signals, as CSV.
+expect 2 "$ncctl" trace save
+expect 0 "$ncctl" trace record nc.feed D0 nc.mode_auto --samples 700
+[ "$(head -n 1 "$work/out")" = 'scan,time_s,nc.feed,D0,nc.mode_auto' ] || { fail "not the head of the CSV"; head -n 3 "$work/out"; }
+python3 -c '
+import csv, sys
+rows = list(csv.reader(open(sys.argv[1])))[1:]
+assert len(rows) == 700, len(rows)
+assert [int(r[0]) for r in rows] == list(range(int(rows[0][0]), int(rows[0][0]) + 700))
+assert float(rows[0][1]) == 0 and all(float(a[1]) < float(b[1]) for a, b in zip(rows, rows[1:]))
+assert {r[4] for r in rows} == {"1"}
+' "$work/out" || fail "the CSV is not what was recorded"
+"$ncctl" trace record nc.mode_mdi M100 --trigger nc.mode_mdi --samples 100 --before 20 --file "$work/trace.csv" 2>"$work/err" &
+record=$!
+until_true sh -c "'$ncctl' trace status | grep -qE 'state +waiting'"
+expect 2 "$ncctl" trace arm D0
+said err "going on"
+until_true sh -c "'$ncctl' trace status | grep -qE 'recorded +100'"
+expect 0 "$ncctl" mode mdi
+wait "$record" || { fail "the recording with a trigger"; cat "$work/err"; }
+[ "$(sed -n '21p;22p' "$work/trace.csv" | cut -d, -f3 | tr '\n' ' ')" = '0 1 ' ] || { fail "the trigger is in another row"; sed -n '20,24p' "$work/trace.csv"; }
+expect 0 "$ncctl" mode auto
+expect 0 "$ncctl" trace save "$work/saved.csv"
+cmp -s "$work/trace.csv" "$work/saved.csv" || fail "saved is another one than recorded"
+"$ncctl" trace record nc.alarm --trigger nc.alarm --samples 50 >"$work/out" 2>"$work/err" &
+record=$!
+until_true sh -c "'$ncctl' trace status | grep -qE 'recorded +50'"
+kill -INT "$record"
+wait "$record" || { fail "a recording that is ended by a signal"; cat "$work/err"; }
+[ "$(wc -l <"$work/out")" = 51 ] || { fail "what it had until then is not written"; cat "$work/out"; }
+expect 1 "$ncctl" trace record nc.feed nc.feed
+expect 2 "$ncctl" trace record no.such.signal
+expect 1 "$ncctl" trace record
+expect 0 "$ncctl" trace signals
+said out "nc.feed"
+
 # A part, from its file to its end.
 expect 0 "$ncctl" programs put "$source/examples/parts/flange.nc"
 cmp -s "$source/examples/parts/flange.nc" "$work/programs/flange.nc" || fail "the program is another one after put"
@@ -143,6 +204,10 @@ if [ "$(id -u)" = 0 ] && command -v setpriv >/dev/null && getent group games >/d
     expect 0 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" status
     expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" start
     expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" tools set 3 --length 1
+    expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" tables import "$work/tables.toml"
+    expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" undo
+    expect 3 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" trace record nc.feed
+    expect 0 as "--groups $(getent group games | cut -d: -f3)" "$ncctl" trace save
     expect 0 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" mode mdi
     expect 3 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" force M100 1
     expect 3 as "--groups $(getent group daemon | cut -d: -f3)" "$ncctl" programs put "$work/long.nc" --replace

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tool offsets, work offsets, variables and parameters through the services: set, read, written down, kept, and refused while a program is in execution.
-#include "runtime/services/tables.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
@@ -55,12 +53,14 @@ TEST_F(TableServices, WhatIsSetIsReadAndWrittenDown) {
   EXPECT_EQ(variable(&client, 501), -1);
   EXPECT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");
   const Json changes = client.call("changes")["reply"]["changes"];
-  ASSERT_EQ(changes.size(), 7u);
+  ASSERT_EQ(changes.size(), 6u);
   EXPECT_EQ(changes[0]["service"], "parameters.set");
   EXPECT_EQ(changes[1]["before"], "2.5");
   EXPECT_EQ(changes[1]["after"], "");
-  EXPECT_EQ(changes[6]["what"], "tool 3 length");
-  EXPECT_EQ(changes[6]["client"], client.greeting["client"]);
+  EXPECT_EQ(changes[5]["what"], "tool 3 length, tool 3 radius_wear");
+  EXPECT_EQ(changes[5]["before"], "0, 0");
+  EXPECT_EQ(changes[5]["after"], "81.25, -0.02");
+  EXPECT_EQ(changes[5]["client"], client.greeting["client"]);
   EXPECT_GT(changes[0]["time_ns"].get<std::int64_t>(), 1'000'000'000'000'000'000);
 }
 

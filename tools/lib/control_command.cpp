@@ -11,10 +11,12 @@
 #include <thread>
 
 #include "runtime/end_signal.hpp"
+#include "runtime/programs/encoding.hpp"
 #include "runtime/services/call.hpp"
 #include "runtime/services/sha256.hpp"
 #include "tools/lib/control_print.hpp"
 #include "tools/lib/control_words.hpp"
+#include "tools/lib/trace_csv.hpp"
 
 namespace nc::tools {
 namespace {
@@ -24,6 +26,7 @@ using rt::services::ServiceRow;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kJogPeriod = std::chrono::milliseconds(40);  // a jog has to be repeated within 200 scans
+constexpr auto kLookPeriod = std::chrono::milliseconds(20);  // at which the end of a recording is looked for
 constexpr std::size_t kChunk = rt::services::kChunkBytes;
 
 struct CloseFile {
@@ -49,6 +52,10 @@ class Command {
       case What::kPut: return put();
       case What::kGet: return get();
       case What::kPipe: return pipe();
+      case What::kExport: return export_tables();
+      case What::kImport: return import_tables();
+      case What::kRecord: return record();
+      case What::kSave: return save();
       default: return service();
     }
   }
@@ -56,7 +63,7 @@ class Command {
  private:
   int failed(const ServiceRefusal& refusal) {
     if (command_.json) std::fprintf(out_, "%s\n", Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}}.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-    else std::fprintf(err_, "ncctl: %s\n", refusal.text.empty() ? refusal.error.c_str() : refusal.text.c_str());
+    else std::fprintf(err_, "ncctl: %s\n", terminal_text(refusal.text.empty() ? refusal.error : refusal.text).c_str());
     return status_ = refusal.status;
   }
   int failed(int status, const std::string& text) { return failed({status, status == kControlUsage ? "usage" : "failed", text}); }
@@ -220,6 +227,87 @@ class Command {
     }
   }
 
+  // ---- tables and recordings ----
+
+  // The file of this side to write to, or standard output; false when it cannot be opened.
+  bool open_output() {
+    to_ = out_;
+    if (command_.file.empty() || command_.file == "-") return true;
+    own_.reset(std::fopen(command_.file.c_str(), "wbe"));
+    if (own_ == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno)) == 0;
+    to_ = own_.get();
+    return true;
+  }
+  bool write_out(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), to_) == text.size() && std::fflush(to_) == 0) return true;
+    return failed(kControlFailed, std::string("the output cannot be written: ") + std::strerror(errno)) == 0;
+  }
+  static std::string json_line(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+  int export_tables() {
+    Json reply;
+    if (!call("tables.export", command_.args, &reply) || !open_output()) return status_;
+    const Json toml = reply.value("toml", Json());
+    if (!toml.is_string()) return failed(kControlFailed, "the control sends what is no text");
+    return write_out(command_.json ? json_line(reply) : toml.get<std::string>()) ? 0 : status_;
+  }
+
+  int import_tables() {
+    const bool named = command_.file != "-";
+    const File file(named ? std::fopen(command_.file.c_str(), "rbe") : nullptr);
+    if (named && file == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
+    std::string text(rt::services::kMostToml + 1, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), named ? file.get() : in_));
+    if (std::ferror(named ? file.get() : in_) != 0) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
+    if (text.size() > rt::services::kMostToml) return failed(kControlUsage, command_.file + ": has more than " + std::to_string(rt::services::kMostToml) + " bytes: import it in parts");
+    if (rt::valid_utf8(text) != text) return failed(kControlUsage, command_.file + ": must be UTF-8");
+    Json reply;
+    if (!call("tables.import", {{"toml", text}}, &reply)) return status_;
+    print(rt::services::row_of(rt::services::Service::kImport), reply);
+    return 0;
+  }
+
+  // Records, waits for the end, and writes what there is. A signal ends the recording, and not only the waiting for it.
+  int record() {
+    Json reply, status;
+    if (!open_output() || !call("trace.arm", command_.args, &reply)) return status_;
+    const Json number = reply["recording"];
+    for (bool stopped = false;;) {
+      if (!call("trace.status", Json::object(), &status)) return status_;
+      if (status["recording"] != number) return failed(kControlFailed, "another recording has taken the place of this one");
+      if (status["state"] == "complete" || status["state"] == "stopped") return write_recording(status);
+      if (rt::end_signal() != 0 && !stopped) {
+        ServiceRefusal ended;  // it may have come to its end just now, and then there is nothing to be stopped
+        (void)client_.call("trace.stop", Json::object(), &reply, &ended);
+        stopped = true;
+        continue;
+      }
+      std::this_thread::sleep_for(kLookPeriod);
+    }
+  }
+
+  int save() {
+    Json status;
+    if (!call("trace.status", Json::object(), &status)) return status_;
+    if (status["state"] == "none") return failed(kControlRefused, "nothing has been recorded");
+    return open_output() ? write_recording(status) : status_;
+  }
+
+  int write_recording(const Json& status) {
+    Json whole = {{"signals", status.value("signals", Json::array())}, {"rows", Json::array()}};
+    if (!command_.json && !write_out(trace_csv_head(status))) return status_;
+    for (std::uint64_t from = 0;;) {
+      Json page;
+      if (!call("trace.read", {{"recording", status["recording"]}, {"from", from}}, &page)) return status_;
+      from = page.value("next", std::uint64_t{0});
+      if (command_.json) add_page(&whole, std::move(page));
+      else if (!write_out(trace_csv_rows(page))) return status_;
+      if (from == 0) break;
+    }
+    whole.erase("next");
+    return !command_.json || write_out(json_line(whole)) ? 0 : status_;
+  }
+
   // One request in a line, one reply in a line. The exit status is that of the first refusal.
   int pipe() {
     int first = 0;
@@ -262,6 +350,8 @@ class Command {
   const ControlCommand& command_;
   std::FILE *in_, *out_, *err_;
   ServiceClient client_;
+  File own_;                    // of open_output()
+  std::FILE* to_ = nullptr;
   int status_ = 0;
 };
 

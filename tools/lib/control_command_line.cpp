@@ -51,6 +51,15 @@ void add_field(CLI::App* app, const Wanted& wanted, ControlCommand* command) {
     app->add_flag_function(name, [command, &row](std::int64_t) { command->args[row.name] = true; }, meaning);
     return;
   }
+  if (row.kind == Kind::kList) {
+    app->add_option_function<std::vector<std::string>>(name, [command, &row](const std::vector<std::string>& texts) { command->args[row.name] = texts; }, meaning)
+        ->required(wanted.required)
+        ->expected(-1)  // how many there may be the control knows
+        ->each([name](const std::string& text) {
+          if (rt::valid_utf8(text) != text) throw CLI::ValidationError(name, "must be UTF-8");
+        });
+    return;
+  }
   CLI::Option* option = app->add_option_function<std::string>(
       name,
       [command, &row, name](const std::string& text) {
@@ -73,12 +82,16 @@ CLI::App* subcommand(CLI::App* app, const std::string& words, const std::string&
   return subcommand(sub, words.substr(point + 1), meaning);
 }
 
+// First the members that must be there, which are arguments.
+void add_fields(CLI::App* app, const ServiceRow& row, ControlCommand* command) {
+  for (const bool required : {true, false})
+    for (const Wanted& wanted : row.request)
+      if (wanted.required == required) add_field(app, wanted, command);
+}
+
 void add_service(CLI::App* app, const ServiceRow& row, ControlCommand* command) {
   CLI::App* sub = subcommand(app, row.name, std::string(row.meaning) + " (" + right_name(row.right) + ")");
-  for (const Wanted& wanted : row.request)
-    if (wanted.required) add_field(sub, wanted, command);
-  for (const Wanted& wanted : row.request)
-    if (!wanted.required) add_field(sub, wanted, command);
+  add_fields(sub, row, command);
   sub->callback([command, &row] { command->service = row.name; });
   if (row.service == rt::services::Service::kJog) {
     sub->add_option("--for", command->seconds, "how long the axis moves, at most 60")->required()->check(seconds(false, "60"));
@@ -134,12 +147,30 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
   get->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
   get->callback([command] { command->what = What::kGet; });
 
-  CLI::App* pipe = app->add_subcommand("pipe", "requests from standard input over one connection, one object of JSON in a line: {\"service\": \"mode\", \"args\": {...}}");
-  pipe->callback([command] { command->what = What::kPipe; });
+  CLI::App* tables = subcommand(app, "tables.export", "tool offsets, work offsets and common variables as TOML (view)");
+  tables->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
+  tables->add_option_function<std::string>("--table", [command](const std::string& table) { command->args["table"] = table; }, "tools, offsets or variables; without it, all of them")
+      ->check(CLI::IsMember({"tools", "offsets", "variables"}));
+  tables->callback([command] { command->what = What::kExport; });
+  CLI::App* import = subcommand(app, "tables.import", "sets what the sections of the file name and leaves everything else as it is (set up)");
+  import->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
+  import->callback([command] { command->what = What::kImport;
+});
 
-  CLI::App* document = app->add_subcommand("document", "prints what is made from the table of services: markdown, man or bash")->group("");
-  document->add_option("FORM", command->document, "markdown, man or bash")->required()->check(CLI::IsMember({"markdown", "man", "bash"}));
-  document->callback([command] { command->what = What::kDocument; });
+CLI::App* record = subcommand(app, "trace.record", "records signals in each scan and writes them as CSV; Ctrl-C ends the recording (maintain)");
+add_fields(record, rt::services::row_of(rt::services::Service::kTraceArm), command);
+record->add_option("--file", command->file, "file on this side; - or nothing: standard output")->check(given());
+record->callback([command] { command->what = What::kRecord; });
+CLI::App* save = subcommand(app, "trace.save", "the recording that has ended as CSV (view)");
+save->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
+save->callback([command] { command->what = What::kSave; });
+
+CLI::App* pipe = app->add_subcommand("pipe", "requests from standard input over one connection, one object of JSON in a line: {\"service\": \"mode\", \"args\": {...}}");
+pipe->callback([command] { command->what = What::kPipe; });
+
+CLI::App* document = app->add_subcommand("document", "prints what is made from the table of services: markdown, man or bash")->group("");
+document->add_option("FORM", command->document, "markdown, man or bash")->required()->check(CLI::IsMember({"markdown", "man", "bash"}));
+document->callback([command] { command->what = What::kDocument; });
 }
 
 }  // namespace

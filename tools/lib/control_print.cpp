@@ -16,13 +16,6 @@ using rt::services::ReplyRow;
 using rt::services::Service;
 using rt::services::ServiceRow;
 
-// A terminal must not obey what stands in a program or in the name of a file.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-  return text;
-}
-
 std::string shown_number(double value) {
   char text[64];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -41,7 +34,7 @@ std::string time_text(std::int64_t ns) {
 bool is_time(std::string_view key) { return key.size() > 3 && key.substr(key.size() - 3) == "_ns"; }
 
 std::string value_text(std::string_view key, const Json& value) {
-  if (value.is_string()) return printable(value.get<std::string>());
+  if (value.is_string()) return terminal_text(value.get<std::string>());
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return is_time(key) ? time_text(value.get<std::int64_t>()) : value.dump();
   if (value.is_number()) return shown_number(value.get<double>());
@@ -158,6 +151,12 @@ std::string history_text(const Json& reply) {
 }
 
 }  // namespace
+
+std::string terminal_text(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  return text;
+}
 
 std::string status_line(const Json& status) {
   std::string text = text_at(status, "mode");

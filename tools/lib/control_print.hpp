@@ -13,6 +13,9 @@ namespace nc::tools {
  * names and values. It ends with a line end unless it is empty. Control characters in texts are replaced. */
 std::string reply_text(const rt::services::ServiceRow& row, const nlohmann::json& reply);
 
+/** The text with its control characters replaced: a terminal must not obey what stands in a program, in the name of a file or in a sentence about one. */
+std::string terminal_text(std::string text);
+
 /** A status in one line, for ncctl watch. */
 std::string status_line(const nlohmann::json& status);
 

@@ -28,6 +28,11 @@ constexpr OwnCommand kOwn[] = {
     {"watch", "[--rate N] [--for SECONDS]", Right::kView, "the status again and again, until Ctrl-C"},
     {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
     {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},
+    {"tables export", "[FILE] [--table TABLE]", Right::kView, "tool offsets, work offsets and common variables as TOML, to standard output without FILE"},
+    {"tables import", "FILE", Right::kSetUp, "sets what the sections of the file name and leaves everything else as it is; - is standard input"},
+    {"trace record", "SIGNALS... [--trigger TRIGGER] [--when WHEN] [--level LEVEL] [--samples SAMPLES] [--before BEFORE] [--file FILE]", Right::kMaintain,
+     "records signals in each scan and writes them as CSV, to standard output without --file. Ctrl-C ends the recording, and what it has is written"},
+    {"trace save", "[FILE]", Right::kView, "the recording that has ended as CSV, to standard output without FILE"},
     {"pipe", "", Right::kView, "requests from standard input over one connection, one object of JSON in a line; replies likewise. Control stays from line to line"},
 };
 
@@ -39,7 +44,7 @@ std::string replaced(std::string text, char from, char to) {
 std::string arguments_of(const ServiceRow& row) {
   std::string text;
   for (const Wanted& wanted : row.request)
-    if (wanted.required) text += " " + argument_name(row_of(wanted.field));
+    if (wanted.required) text += " " + argument_name(row_of(wanted.field)) + (row_of(wanted.field).kind == Kind::kList ? "..." : "");
   for (const Wanted& wanted : row.request) {
     if (wanted.required) continue;
     const FieldInfo& field = row_of(wanted.field);
@@ -60,6 +65,7 @@ std::string limit_text(double value) {
 std::string range_text(const FieldInfo& row) {
   if (row.kind == Kind::kFlag) return "";
   const std::string range = row.least == row.most ? limit_text(row.least) : limit_text(row.least) + " to " + limit_text(row.most);
+  if (row.kind == Kind::kList) return range + " texts of at most " + std::to_string(kLongestText) + " bytes";
   return row.kind == Kind::kNumber || row.kind == Kind::kWhole ? range + (row.unit[0] != '\0' ? std::string(" ") + row.unit : "") : range + " bytes";
 }
 
@@ -105,7 +111,7 @@ std::string joined(const std::set<std::string>& words) {
 }  // namespace
 
 bool is_command(const ServiceRow& row) {
-  constexpr Service kOthers[] = {Service::kHistory, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
   return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
 }
 
@@ -198,7 +204,7 @@ std::string services_bash() {
   for (const auto& [first, next] : tree)
     if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next) + "' -- \"$word\")) ;;\n";
   text += "        mode) COMPREPLY=($(compgen -W 'auto mdi manual' -- \"$word\")) ;;\n        single | optional) COMPREPLY=($(compgen -W 'on off' -- \"$word\")) ;;\n      esac\n      ;;\n"
-      "    *) [ \"${words[0]} ${words[1]}\" = 'programs put' ] && COMPREPLY=($(compgen -f -- \"$word\")) ;;\n"
+      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'tables import' | 'tables export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
       "  esac\n}\ncomplete -F _ncctl ncctl\n";
   return text;
 }

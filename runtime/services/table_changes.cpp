@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// See table_changes.hpp.
+#include "runtime/services/table_changes.hpp"
+
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "runtime/services/table_toml.hpp"
+#include "runtime/services/tables.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+using Table = TablePlace::Table;
+
+constexpr std::size_t kNamed = 4;  // values that a change names one by one
+
+// What the job in the feeder thread has been given and has found. The job may outlive the one who waits for it, so both own this.
+struct ValueJob {
+  std::vector<TableValue> wanted;
+  std::vector<std::string> expected;  // the values that must be there now; empty = any
+  const nc_config* config = nullptr;
+  std::vector<ValueChange> done;
+  Outcome outcome = Outcome::refused(Refused::kFailed, "?");
+};
+
+std::string shown(const std::string& value) { return value.empty() ? "nothing" : value; }
+
+Outcome at_place(const TablePlace& place, Outcome outcome) {
+  outcome.text = place_text(place) + ": " + outcome.text;
+  return outcome;
+}
+
+// Writes the values from the last to the first.
+void give_back(nc_control* control, const nc_config& config, const std::vector<ValueChange>& done) {
+  for (auto value = done.rbegin(); value != done.rend(); ++value) (void)write_value(control, config, value->place, value->before);
+}
+
+// In the feeder thread.
+void write_all(nc_control* control, ValueJob* job) {
+  const nc_config& config = *job->config;
+  std::vector<ValueChange> all;
+  for (std::size_t i = 0; i < job->wanted.size(); ++i) {
+    const auto& [place, value] = job->wanted[i];
+    ValueChange change{place, "", value};
+    job->outcome = read_value(control, config, place, &change.before);
+    if (!job->outcome.ok) {
+      job->outcome = at_place(place, std::move(job->outcome));
+      return;
+    }
+    if (!job->expected.empty() && !same_value(change.before, job->expected[i])) {
+      job->outcome = Outcome::refused(Refused::kState, place_text(place) + " was changed since: it is " + shown(change.before) + ", and not " + shown(job->expected[i]));
+      return;
+    }
+    all.push_back(std::move(change));
+  }
+  for (ValueChange& change : all) {
+    Outcome written = write_value(control, config, change.place, change.after);
+    if (!written.ok) {
+      give_back(control, config, job->done);
+      job->done.clear();
+      job->outcome = at_place(change.place, std::move(written));
+      return;
+    }
+    job->done.push_back(change);
+  }
+  for (ValueChange& change : job->done) {
+    std::string now;
+    (void)read_value(control, config, change.place, &now);
+    if (change.place.table == Table::kParameter) {
+      if (!now.empty()) change.after = now;  // as the control writes it: "1" for "1.0"
+    } else if (!same_value(now, change.after)) {
+      job->outcome = Outcome::refused(Refused::kMalformed, place_text(change.place) + " is shared by part systems, and is given twice with different values");
+      give_back(control, config, job->done);
+      job->done.clear();
+      return;
+    }
+  }
+}
+
+// Executes a change of these values; *done gets what it has done.
+Outcome change_values(Runtime* runtime, std::vector<TableValue> wanted, std::vector<std::string> expected, std::vector<ValueChange>* done) {
+  auto job = std::make_shared<ValueJob>();
+  job->wanted = std::move(wanted);
+  job->expected = std::move(expected);
+  job->config = &runtime->config().nc;
+  const Answer answer = runtime->change([job](nc_control* control) { write_all(control, job.get()); });
+  if (answer != Answer::kDone) return refused_by(*runtime, answer);
+  *done = std::move(job->done);
+  return std::move(job->outcome);
+}
+
+std::string joined(const std::vector<ValueChange>& values, std::string (*text)(const ValueChange&)) {
+  std::string all;
+  for (const ValueChange& value : values) all += (all.empty() ? "" : ", ") + text(value);
+  return all;
+}
+
+// "12 tool offsets, 1 work offset"
+std::string counts(const std::vector<ValueChange>& values) {
+  constexpr const char* kNames[] = {"tool offset", "work offset", "common variable", "name of a variable", "parameter"};  // in the order of Table
+  constexpr const char* kMany[] = {"tool offsets", "work offsets", "common variables", "names of variables", "parameters"};
+  std::array<unsigned, std::size(kNames)> count{};
+  for (const ValueChange& value : values) ++count[static_cast<unsigned>(value.place.table)];
+  std::string text;
+  for (unsigned i = 0; i < count.size(); ++i)
+    if (count[i] != 0) text += (text.empty() ? "" : ", ") + std::to_string(count[i]) + " " + (count[i] == 1 ? kNames[i] : kMany[i]);
+  return text;
+}
+
+// Says in words what was done. One value has its own old and new one; of several a vacant one has a word for it, and many are only counted.
+void describe(std::vector<ValueChange> values, Change* change) {
+  if (values.size() == 1) {
+    change->what = place_text(values[0].place);
+    change->before = values[0].before;
+    change->after = values[0].after;
+  } else if (values.size() <= kNamed) {
+    change->what = joined(values, [](const ValueChange& value) { return place_text(value.place); });
+    change->before = joined(values, [](const ValueChange& value) { return shown(value.before); });
+    change->after = joined(values, [](const ValueChange& value) { return shown(value.after); });
+  } else {
+    change->what = counts(values);
+  }
+  change->values = std::move(values);
+}
+
+Outcome set(Runtime* runtime, std::vector<TableValue> wanted, Change* change) {
+  std::vector<ValueChange> done;
+  Outcome outcome = change_values(runtime, std::move(wanted), {}, &done);
+  if (outcome.ok) describe(std::move(done), change);
+  return outcome;
+}
+
+}  // namespace
+
+Outcome set_tool(Runtime* runtime, const Call& call, Change* change) {
+  std::vector<TableValue> wanted;
+  for (unsigned c = 0; c < std::size(kToolColumns); ++c) {
+    if (!call.has(kToolColumns[c])) continue;
+    TableValue& value = wanted.emplace_back();
+    value.place.number = static_cast<std::uint32_t>(call.value(Field::kTool));
+    value.place.column = c;
+    value.value = number_value(call.value(kToolColumns[c]));
+  }
+  if (wanted.empty()) return Outcome::refused(Refused::kMalformed, "tools.set needs at least one of length, length_wear, radius, radius_wear");
+  return set(runtime, std::move(wanted), change);
+}
+
+Outcome set_offset(Runtime* runtime, const Call& call, Change* change) {
+  TableValue value;
+  value.place.table = Table::kOffset;
+  if (!system_of(*runtime, call, &value.place.system)) return no_system();
+  value.place.number = static_cast<std::uint32_t>(call.value(Field::kOffset));
+  value.place.axis = call.words(Field::kAxis)[0];
+  value.value = number_value(call.value(Field::kValue));
+  return set(runtime, {value}, change);
+}
+
+Outcome set_variable(Runtime* runtime, const Call& call, Change* change) {
+  TableValue value;
+  value.place.table = Table::kVariable;
+  if (!system_of(*runtime, call, &value.place.system)) return no_system();
+  const bool vacant = call.has(Field::kVacant) && call.flag(Field::kVacant);
+  if (vacant == call.has(Field::kVariableValue)) return Outcome::refused(Refused::kMalformed, "variables.set needs a value, or vacant and no value");
+  value.place.number = static_cast<std::uint32_t>(call.value(Field::kVariable));
+  if (!vacant) value.value = number_value(call.value(Field::kVariableValue));
+  return set(runtime, {value}, change);
+}
+
+Outcome set_parameter(Runtime* runtime, const Call& call, Change* change) {
+  TableValue value;
+  value.place.table = Table::kParameter;
+  if (!system_of(*runtime, call, &value.place.system)) return no_system();
+  value.place.key = call.words(Field::kParameter);
+  value.place.axis = call.has(Field::kAxis) ? call.words(Field::kAxis)[0] : '\0';
+  value.value = call.words(Field::kText);
+  return set(runtime, {value}, change);
+}
+
+Outcome import_tables(Runtime* runtime, const Call& call, Change* change) {
+  std::vector<TableValue> wanted;
+  if (const std::string wrong = parse_tables_toml(runtime->config(), call.words(Field::kToml), &wanted); !wrong.empty()) return Outcome::refused(Refused::kMalformed, wrong);
+  std::vector<ValueChange> done;
+  Outcome outcome = change_values(runtime, std::move(wanted), {}, &done);
+  if (!outcome.ok) return outcome;
+  const std::size_t all = done.size();
+  std::erase_if(done, [](const ValueChange& value) { return same_value(value.before, value.after); });
+  outcome = Outcome::done(std::to_string(all) + (all == 1 ? " value" : " values") + " as in the file, " + (done.empty() ? "none of them another one than before" : "changed: " + counts(done)));
+  if (!done.empty()) describe(std::move(done), change);
+  return outcome;
+}
+
+Outcome take_back(Runtime* runtime, const Change& before, Change* change) {
+  std::vector<TableValue> wanted;
+  std::vector<std::string> expected;
+  for (auto value = before.values.rbegin(); value != before.values.rend(); ++value) {
+    // The control has no way to take the setting of a parameter away.
+    if (value->place.table == Table::kParameter && value->before.empty())
+      return Outcome::refused(Refused::kState, place_text(value->place) + " was not set before, and what is set stays set: give it the value that is wanted");
+    wanted.push_back({value->place, value->before});
+    expected.push_back(value->after);
+  }
+  std::vector<ValueChange> done;
+  Outcome outcome = change_values(runtime, std::move(wanted), std::move(expected), &done);
+  if (!outcome.ok) return outcome;
+  describe(std::move(done), change);
+  change->what = "undo of " + std::to_string(before.number) + ": " + change->what;
+  change->undoes = before.number;
+  return Outcome::done(change->what);
+}
+
+}  // namespace nc::rt::services

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// See table_toml.hpp.
+#include "runtime/services/table_toml.hpp"
+
+#include <memory>
+#include <set>
+
+#include "nc/nc.h"
+#include "runtime/config_sections.hpp"
+#include "runtime/nc_system.hpp"
+#include "runtime/work_offset_name.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+using Table = TablePlace::Table;
+
+constexpr std::size_t kMostErrors = 5;  // that a refusal names
+constexpr unsigned kLargest = 2147483647;
+constexpr std::string_view kVacant = "vacant", kNames = "variable_names";
+
+// "X", in part system 2 "X2"
+std::string suffix(unsigned system) { return system == 0 ? "" : std::to_string(system + 1); }
+
+// ---- export ----
+
+void write_tools(const nc_control* control, const nc_config& config, std::string* text) {
+  *text += "[tool_offsets]\n";
+  double value = 0;
+  for (unsigned number = 1; number <= config.tool_offsets; ++number) {
+    std::string row;
+    for (unsigned c = 0; c < std::size(kToolColumns); ++c)
+      if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK)
+        row += std::string(row.empty() ? "" : ", ") + row_of(kToolColumns[c]).name + " = " + number_value(value);
+    *text += std::to_string(number) + " = { " + row + " }\n";
+  }
+}
+
+void write_offsets(const nc_control* control, const nc_config& config, std::string* text) {
+  *text += "\n[work_offsets]\n";
+  double value = 0;
+  for (unsigned set = 0; set <= kPlainWorkOffsets + config.work_offsets; ++set) {
+    const unsigned index = set <= kPlainWorkOffsets ? set : kExtendedWorkOffset + set - kPlainWorkOffsets;
+    std::string row;
+    for (unsigned s = 0; s < config.system_count; ++s)
+      for (unsigned a = 0; a < config.system[s].axis_count; ++a)
+        if (nc_work_offset_get(control, api_system(s), index, a, &value) == NC_OK)
+          row += std::string(row.empty() ? "" : ", ") + config.system[s].axis[a].name + suffix(s) + " = " + number_value(value);
+    *text += "\"" + work_offset_name(index) + "\" = { " + row + " }\n";
+  }
+}
+
+void write_variables(const nc_control* control, const nc_config& config, std::string* text) {
+  for (unsigned s = 0; s < config.system_count; ++s) {
+    *text += "\n[variables" + suffix(s) + "]\n";
+    double value = 0;
+    for (std::uint32_t number = 0; nc_variable_next(control, api_system(s), number, &number, &value) == NC_OK; ++number)
+      *text += std::to_string(number) + " = " + number_value(value) + "\n";
+  }
+  *text += "\n[" + std::string(kNames) + "]\n";
+  nc_variable_range named{};
+  (void)nc_variable_kind_get(nc_control_dialect(control), NC_VARIABLES_NAMED, &named);
+  char name[8] = "";
+  for (std::uint32_t number = named.first; number != 0 && number <= named.last; ++number)
+    if (nc_variable_name_get(control, number, name) == NC_OK && name[0] != '\0') *text += std::to_string(number) + " = \"" + name + "\"\n";
+}
+
+// ---- import ----
+
+// The values of one import, each of them once.
+class Values {
+ public:
+  explicit Values(std::vector<TableValue>* values) : values_(*values) {}
+  // False when the place has been given already.
+  bool add(const TablePlace& place, std::string value) {
+    if (!places_.insert(place_key(place)).second) return false;
+    values_.push_back({place, std::move(value)});
+    return true;
+  }
+
+ private:
+  std::vector<TableValue>& values_;
+  std::set<std::string> places_;
+};
+
+void read_variables(TableReader* root, unsigned system, Values* values) {
+  root->table("variables" + suffix(system), [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node& node) {
+      TablePlace place;
+      place.table = Table::kVariable;
+      place.system = system;
+      const auto number = whole_number(key, 1, kLargest);
+      if (!number) return reader.error(key, "must be the number of a common variable");
+      place.number = *number;
+      double value = 0;
+      const auto* word = node.as_string();
+      const bool vacant = word != nullptr && word->get() == kVacant;
+      if (!vacant && !node_number(node, &value)) return reader.error(key, std::string("must be a finite number, or \"vacant\", not ") + shown_type(node));
+      if (!values->add(place, vacant ? "" : number_value(value))) reader.error(key, "stands twice");
+    });
+  });
+}
+
+void read_names(TableReader* root, const nc_variable_range& named, Values* values) {
+  root->table(kNames, [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node& node) {
+      TablePlace place;
+      place.table = Table::kVariableName;
+      const auto number = whole_number(key, 1, kLargest);
+      if (!number || *number < named.first || *number > named.last)
+        return reader.error(key, "must be the number of a variable that can have a name, " + std::to_string(named.first) + " to " + std::to_string(named.last));
+      place.number = *number;
+      const auto* word = node.as_string();
+      const std::string name = word != nullptr ? word->get() : "?";
+      bool good = name.size() < sizeof(char[8]);
+      for (std::size_t i = 0; i < name.size(); ++i) good = good && ((name[i] >= 'A' && name[i] <= 'Z') || (i > 0 && name[i] >= '0' && name[i] <= '9'));
+      if (!good) return reader.error(key, "must be a name of at most 7 capital letters and digits, a letter first, or \"\"");
+      if (!values->add(place, name)) reader.error(key, "stands twice");
+    });
+  });
+}
+
+// The sections that the configuration has as well.
+void read_offsets(TableReader* root, const Config& machine, Values* values, ErrorList* errors) {
+  const auto read = std::make_unique<Config>();  // larger than what a thread's stack is for
+  read->nc = machine.nc;
+  read_tool_offsets(root, read.get());
+  read_work_offsets(root, read.get());
+  for (const ToolOffsetSetting& setting : read->tool_offsets)
+    for (unsigned c = 0; c < std::size(kToolColumns); ++c) {
+      TablePlace place;
+      place.number = setting.number;
+      place.column = c;
+      if (setting.given[c] && !values->add(place, number_value(setting.column[c]))) errors->add(setting.place.line, setting.place.key, "stands twice");
+    }
+  for (const WorkOffsetSetting& setting : read->work_offsets) {
+    TablePlace place;
+    place.table = Table::kOffset;
+    place.system = setting.system;
+    place.number = setting.index;
+    place.axis = machine.nc.system[setting.system].axis[setting.axis].name;
+    if (!values->add(place, number_value(setting.value))) errors->add(setting.place.line, setting.place.key, "stands twice");
+  }
+}
+
+// The line on which more brackets are open than any table here needs, 0 = none. The parser calls itself for each of them, on the stack of a thread of the services.
+// `text` has no text of several lines, so every line begins outside of texts and comments.
+unsigned line_of_nesting(std::string_view text) {
+  constexpr unsigned kMostOpen = 8;
+  unsigned line = 1, open = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"' || c == '\'') {
+      for (++i; i < text.size() && text[i] != c && text[i] != '\n'; ++i)
+        if (c == '"' && text[i] == '\\' && i + 1 < text.size() && text[i + 1] != '\n') ++i;
+    } else if (c == '#') {
+      while (i < text.size() && text[i] != '\n') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++open > kMostOpen) return line;
+    } else if ((c == ']' || c == '}') && open > 0) {
+      --open;
+    }
+    if (i < text.size() && text[i] == '\n') ++line;
+  }
+  return 0;
+}
+
+std::string sentence(const std::vector<ConfigError>& errors) {
+  std::string text;
+  for (std::size_t i = 0; i < errors.size() && i < kMostErrors; ++i) {
+    const ConfigError& error = errors[i];
+    text += (text.empty() ? "" : "; ") + (error.line != 0 ? "line " + std::to_string(error.line) + ": " : "") + (error.key.empty() ? "" : error.key + ": ") + error.message;
+  }
+  if (errors.size() > kMostErrors) text += "; and " + std::to_string(errors.size() - kMostErrors) + " more";
+  return text;
+}
+
+}  // namespace
+
+std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables) {
+  std::string text;
+  if (tables.tools) write_tools(control, config, &text);
+  if (tables.offsets) write_offsets(control, config, &text);
+  if (tables.variables) write_variables(control, config, &text);
+  return text[0] == '\n' ? text.substr(1) : text;
+}
+
+std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
+  ErrorList errors("");
+  // A text of several lines could hide a key of too many parts from the line below, and nothing here needs one.
+  for (const std::string_view mark : {"\"\"\"", "'''"})
+    if (text.find(mark) != std::string_view::npos) return "holds a text of several lines";
+  if (const unsigned line = line_of_too_deep_key(text)) return "line " + std::to_string(line) + ": a key of too many parts";
+  if (const unsigned line = line_of_nesting(text)) return "line " + std::to_string(line) + ": values are nested too deep";
+  toml::table root;
+  try {
+    root = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return "line " + std::to_string(error.source().begin.line) + ": " + std::string(error.description());
+  }
+  Values all(values);
+  TableReader reader(root, "", &errors);
+  nc_variable_range named{};
+  (void)nc_variable_kind_get(static_cast<nc_dialect>(machine.nc.dialect), NC_VARIABLES_NAMED, &named);
+  read_offsets(&reader, machine, &all, &errors);
+  for (unsigned s = 0; s < machine.nc.system_count; ++s) read_variables(&reader, s, &all);
+  read_names(&reader, named, &all);
+  reader.finish();
+  if (!errors.empty()) return sentence(errors.take());
+  return values->empty() ? "holds none of [tool_offsets], [work_offsets], [variables], [variable_names]" : "";
+}
+
+}  // namespace nc::rt::services

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tool offsets, work offsets and common variables as TOML. [tool_offsets] and [work_offsets] are those of the configuration; [variables], [variables2] ... hold the
+// common variables of part system 1, 2 ..., and [variable_names] their names.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "runtime/config.hpp"
+#include "runtime/services/table_values.hpp"
+
+namespace nc::rt::services {
+
+// Which tables an export holds.
+struct TomlTables {
+  bool tools = true, offsets = true, variables = true;
+};
+// The tables as the control has them. In its thread. The same tables give the same bytes.
+std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables);
+
+// Reads such a text. "" = it is good and *values has what it gives, else what is wrong with it, with lines. Whether the control has a variable is not asked here.
+std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values);
+
+}  // namespace nc::rt::services

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// See table_values.hpp.
+#include "runtime/services/table_values.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "nc/nc.h"
+#include "runtime/nc_system.hpp"
+#include "runtime/retain/variables.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+using Table = TablePlace::Table;
+
+constexpr char kAllAxes = '-';
+
+Outcome no_variable() { return Outcome::refused(Refused::kNotFound, "there is no such common variable"); }
+
+// The index of an axis in its part system. False when there is none.
+bool find_axis(const nc_config& config, const TablePlace& place, unsigned* axis) {
+  if (place.system >= config.system_count) return false;
+  const nc_system_config& system = config.system[place.system];
+  for (*axis = 0; *axis < system.axis_count; ++*axis)
+    if (system.axis[*axis].name == place.axis) return true;
+  return false;
+}
+
+bool same_key(const std::string& one, const char* other) {
+  std::size_t i = 0;
+  for (; i < one.size() && other[i] != '\0'; ++i)
+    if (std::toupper(static_cast<unsigned char>(one[i])) != std::toupper(static_cast<unsigned char>(other[i]))) return false;
+  return i == one.size() && other[i] == '\0';
+}
+
+// A parameter as it is listed, "" when it is not set. One bit of a parameter ("1267/bit0") is set when the parameter is.
+std::string parameter_now(const nc_control* control, const TablePlace& place) {
+  const std::string whole = place.key.substr(0, place.key.find('/'));
+  char key[24], text[64], axis = 0;
+  double value = 0;
+  for (unsigned at = 0; nc_parameter_next(control, api_system(place.system), at, &at, key, &axis, &value, text) == NC_OK; ++at) {
+    if (axis != place.axis || !same_key(whole, key)) continue;
+    if (whole.size() == place.key.size()) return parameter_value(value, text);
+    return nc_parameter_get(control, api_system(place.system), place.key.c_str(), place.axis, &value) == NC_OK ? number_value(value) : "";
+  }
+  return "";
+}
+
+Outcome write_parameter(nc_control* control, const TablePlace& place, const std::string& value) {
+  switch (nc_parameter_set(control, api_system(place.system), place.key.c_str(), place.axis, value.c_str())) {
+    case NC_OK: return Outcome::done();
+    case NC_E_NOT_FOUND: return Outcome::refused(Refused::kNotFound, "there is no such parameter");
+    case NC_E_MEMORY: return Outcome::refused(Refused::kState, "too many parameters are set");
+    default: return Outcome::refused(Refused::kState, "no such axis, or the value is out of the range of the parameter");
+  }
+}
+
+}  // namespace
+
+std::string number_value(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+bool parse_number(const std::string& text, double* value) {
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, *value);
+  return result.ec == std::errc{} && result.ptr == end && std::isfinite(*value);
+}
+
+bool same_value(const std::string& one, const std::string& other) {
+  double a = 0, b = 0;
+  return one == other || (parse_number(one, &a) && parse_number(other, &b) && a == b);
+}
+
+std::string parameter_value(double value, const char* text) { return text[0] != '\0' ? text : std::isfinite(value) ? number_value(value) : ""; }
+
+std::string place_key(const TablePlace& place) {
+  const std::string number = std::to_string(place.number), system = std::to_string(place.system + 1);
+  switch (place.table) {
+    case Table::kTool: return "tool " + number + " " + row_of(kToolColumns[place.column]).name;
+    case Table::kOffset: return "offset " + system + " " + number + " " + place.axis;
+    case Table::kVariable: return "variable " + system + " " + number;
+    case Table::kVariableName: return "name " + number;
+    case Table::kParameter: return "parameter " + system + " " + (place.axis != 0 ? place.axis : kAllAxes) + " " + place.key;
+  }
+  return "";
+}
+
+bool parse_place(const std::string& text, TablePlace* place) {
+  std::istringstream words(text);
+  std::string kind, column;
+  unsigned system = 1;
+  *place = TablePlace();
+  words >> kind;
+  if (kind == "tool") {
+    words >> place->number >> column;
+    while (place->column < std::size(kToolColumns) && column != row_of(kToolColumns[place->column]).name) ++place->column;
+  } else if (kind == "offset") {
+    place->table = Table::kOffset;
+    words >> system >> place->number >> place->axis;
+  } else if (kind == "variable") {
+    place->table = Table::kVariable;
+    words >> system >> place->number;
+  } else if (kind == "name") {
+    place->table = Table::kVariableName;
+    words >> place->number;
+  } else if (kind == "parameter") {
+    place->table = Table::kParameter;
+    words >> system >> place->axis >> place->key;
+    if (place->axis == kAllAxes) place->axis = 0;
+  } else {
+    return false;
+  }
+  if (words.fail() || system < 1 || system > NC_MAX_SYSTEMS || place->column == std::size(kToolColumns)) return false;
+  place->system = system - 1;
+  return place_key(*place) == text;
+}
+
+std::string place_text(const TablePlace& place) {
+  const std::string number = std::to_string(place.number), system = " of part system " + std::to_string(place.system + 1);
+  const std::string axis = place.axis != 0 ? std::string(" ") + place.axis : "";
+  switch (place.table) {
+    case Table::kTool: return place_key(place);
+    case Table::kOffset: return "offset " + number + axis + system;
+    case Table::kVariable: return "#" + number + system;
+    case Table::kVariableName: return "name of #" + number;
+    case Table::kParameter: return "parameter " + place.key + axis + system;
+  }
+  return "";
+}
+
+Outcome read_value(const nc_control* control, const nc_config& config, const TablePlace& place, std::string* value) {
+  double number = 0;
+  bool vacant = false;
+  unsigned axis = 0;
+  char name[8] = "";
+  switch (place.table) {
+    case Table::kTool:
+      if (nc_tool_offset_get(control, place.number, static_cast<nc_tool_column>(place.column), &number) != NC_OK)
+        return Outcome::refused(Refused::kNotFound, "there is no such tool offset set");
+      *value = number_value(number);
+      return Outcome::done();
+    case Table::kOffset:
+      if (!find_axis(config, place, &axis)) return Outcome::refused(Refused::kNotFound, "there is no such axis");
+      if (nc_work_offset_get(control, api_system(place.system), place.number, axis, &number) != NC_OK)
+        return Outcome::refused(Refused::kNotFound, "there is no such set of work offsets");
+      *value = number_value(number);
+      return Outcome::done();
+    case Table::kVariable:
+      if (is_local_variable(control, place.number) || nc_variable_get(control, api_system(place.system), place.number, &number, &vacant) != NC_OK) return no_variable();
+      *value = vacant ? "" : number_value(number);
+      return Outcome::done();
+    case Table::kVariableName:
+      (void)nc_variable_name_get(control, place.number, name);
+      *value = name;
+      return Outcome::done();
+    case Table::kParameter:
+      *value = parameter_now(control, place);
+      return Outcome::done();
+  }
+  return Outcome::refused(Refused::kNotFound, "there is no such table");
+}
+
+Outcome write_value(nc_control* control, const nc_config& config, const TablePlace& place, const std::string& value) {
+  double number = 0;
+  unsigned axis = 0;
+  nc_status status = NC_E_ARGUMENT;
+  if (place.table == Table::kParameter) return write_parameter(control, place, value);
+  const bool empty = place.table == Table::kVariable && value.empty();
+  if (place.table != Table::kVariableName && !empty && !parse_number(value, &number)) return Outcome::refused(Refused::kState, "\"" + value + "\" is no number");
+  switch (place.table) {
+    case Table::kTool: status = nc_tool_offset_set(control, place.number, static_cast<nc_tool_column>(place.column), number); break;
+    case Table::kOffset:
+      if (find_axis(config, place, &axis)) status = nc_work_offset_set(control, api_system(place.system), place.number, axis, number);
+      break;
+    case Table::kVariable: status = nc_variable_set(control, api_system(place.system), place.number, number, empty); break;
+    case Table::kVariableName: status = nc_variable_name_set(control, place.number, value.c_str()); break;
+    case Table::kParameter: break;
+  }
+  if (status == NC_OK) return Outcome::done();
+  if (place.table == Table::kVariableName) return Outcome::refused(Refused::kState, "the variable can have no name, or not this one: at most 7 capital letters and digits, a letter first");
+  return Outcome::refused(Refused::kState, "refused by the control");
+}
+
+}  // namespace nc::rt::services

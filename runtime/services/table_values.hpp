@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Single values of the tables of the control: where each stands, how it is read and written. A value is a text that gives the same number when it is read back;
+// "" is a vacant variable, a variable without a name, a parameter that is not set.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/services/call.hpp"
+
+struct nc_control;
+struct nc_config;
+
+namespace nc::rt::services {
+
+// Columns of the table of tool offsets, in the order of nc_tool_column.
+inline constexpr Field kToolColumns[] = {Field::kLength, Field::kLengthWear, Field::kRadius, Field::kRadiusWear};
+
+struct TablePlace {
+  enum class Table : std::uint8_t { kTool, kOffset, kVariable, kVariableName, kParameter };
+  Table table = Table::kTool;
+  unsigned system = 0;       // index of the part system, for kOffset, kVariable and kParameter
+  std::uint32_t number = 0;  // of the tool, the set of work offsets, the variable
+  unsigned column = 0;       // kTool: nc_tool_column
+  char axis = 0;             // kOffset; kParameter: 0 = all axes
+  std::string key = {};      // kParameter
+};
+
+struct TableValue {
+  TablePlace place;
+  std::string value;
+};
+// What a change has done to a value.
+struct ValueChange {
+  TablePlace place;
+  std::string before, after;
+};
+
+// The place in the file of the changes, and back. The texts never change: "tool 3 radius_wear", "offset 1 102 X", "variable 1 501", "name 501", "parameter 1 X 2001"
+// with "-" for all axes.
+std::string place_key(const TablePlace& place);
+bool parse_place(const std::string& text, TablePlace* place);
+// The same for people: "tool 3 radius_wear", "offset 102 X of part system 1", "#501 of part system 1".
+std::string place_text(const TablePlace& place);
+
+std::string number_value(double value);
+// The number that the whole text is. False when it is none, or not finite.
+bool parse_number(const std::string& text, double* value);
+// The same number, or the same text.
+bool same_value(const std::string& one, const std::string& other);
+
+// The value of a parameter that nc_parameter_next() gives.
+std::string parameter_value(double value, const char* text);
+
+// In the thread of the control. The outcome is a refusal when there is no such place, or when it does not take the value.
+Outcome read_value(const nc_control* control, const nc_config& config, const TablePlace& place, std::string* value);
+Outcome write_value(nc_control* control, const nc_config& config, const TablePlace& place, const std::string& value);
+
+}  // namespace nc::rt::services
