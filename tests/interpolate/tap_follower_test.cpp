@@ -108,6 +108,21 @@ TEST(TapFollower, WhatIsLeftFadesUnfelt) {
   }
 }
 
+/// A spindle whose lag dies away passes its place with a speed. The axis may only be said to be on its path when that carries it no farther away than the
+/// resolution of an encoder, however slowly it fades.
+TEST(TapFollower, WhatIsLeftIsNotCarriedAway) {
+  for (const double jerk : {0.0, 50.0, 1000.0, 20000.0, 1e6}) {
+    Axis axis(limits(1000, jerk));
+    double lag = 0.05;
+    for (unsigned n = 0; n < 3000 && (n < 10 || !axis.follower.on_path()); ++n) axis.step(true, -(lag *= 0.95), 0);
+    ASSERT_TRUE(axis.follower.on_path()) << jerk;
+    const size_t from = axis.added.size();
+    axis.follower.end();
+    for (unsigned n = 0; n < 20000 && axis.follower.active(); ++n) axis.step(true, 0, 0);
+    for (size_t i = from; i < axis.added.size(); ++i) ASSERT_LE(std::fabs(axis.added[i]), 1.05e-3) << jerk;
+  }
+}
+
 /// The spindle stands 0.018 turns beside its place, 0.027 mm of the axis: unfelt that would take seconds where the jerk is low, so it is done while the path
 /// rests, within the limits.
 TEST(TapFollower, WhatASpindleThatStandsHasLeftFadesAtRest) {

@@ -49,8 +49,8 @@ class TapFollower {
   void end_at_rest() NC_RT { ends_ = rests_ = true; }
   bool ended() const NC_RT { return ends_; }
   bool waited_for() const NC_RT { return active_ && rests_; }
-  /// The axis is on its path, but for the resolution of an encoder.
-  bool on_path() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled()); }
+  /// The axis is on its path, but for the resolution of an encoder, and stays so while what is left fades beside other moves.
+  bool on_path() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled() && carried_away() <= kArrived); }
   bool active() const NC_RT { return active_; }
   /// on_path(), or the spindle stands near its command and comes no nearer.
   bool arrived() const NC_RT { return on_path() || (stands_ && settled() && trouble_ == Trouble::none && std::fabs(apart_) <= kStands); }
@@ -72,6 +72,8 @@ class TapFollower {
   double step(bool measured, double turns, double commanded, double per_mm, double place, const Limits& limits) NC_RT {
     const double time = limits.cycle_s;
     cycle_s_ = time;
+    acceleration_ = limits.acceleration;
+    jerk_ = limits.jerk;
     if (ends_ && (fades_ || rests_ || (std::fabs(beside_) <= kFaded && settled()))) return fade(place, limits);
     const bool follows = measured && !ends_ && per_mm != 0;
     const double aim = follows ? aim_at(turns, per_mm, limits) : 0;
@@ -110,10 +112,16 @@ class TapFollower {
   double beside() const NC_RT { return active_ ? beside_ : 0; }
 
  private:
+  /// How the axis moves beside its path. A difference of places is the speed of half a cycle ago.
+  double own_acceleration() const NC_RT { return (beside_ - 2 * earlier_[0] + earlier_[1]) / (cycle_s_ * cycle_s_); }
+  double own_speed() const NC_RT { return (beside_ - earlier_[0]) / cycle_s_ + 0.5 * own_acceleration() * cycle_s_; }
   /// The axis has no speed and no acceleration of its own to speak of.
-  bool settled() const NC_RT {
-    const double v = (beside_ - earlier_[0]) / cycle_s_, a = (beside_ - 2 * earlier_[0] + earlier_[1]) / (cycle_s_ * cycle_s_);
-    return std::fabs(v) <= kSlow && std::fabs(a) <= kSteady;
+  bool settled() const NC_RT { return std::fabs((beside_ - earlier_[0]) / cycle_s_) <= kSlow && std::fabs(own_acceleration()) <= kSteady; }
+  /// The farthest that the speed and the acceleration with which an unfelt fade begins carry the axis, mm: their parts of the polynomial are at most 0.19 v T and
+  /// 0.018 a T^2.
+  double carried_away() const NC_RT {
+    const double time = fade_time(kUnfelt, beside_, own_speed(), own_acceleration());
+    return time * (0.19 * std::fabs(own_speed()) + 0.018 * time * std::fabs(own_acceleration()));
   }
   /// The spindle is let go: what the axis is beside its path fades as a polynomial of degree 5 that begins with its speed and acceleration and ends with
   /// none. It lasts as long as it takes until what it adds to the acceleration and the jerk of the path is not felt, or, while the path rests, is within the
@@ -132,25 +140,22 @@ class TapFollower {
     return beside_ = std::clamp(place + x, limits.low, limits.high) - place;
   }
 
-  /// How long it takes. The greatest acceleration and jerk of the three parts of the polynomial are 6 b / T^2 and 60 b / T^3 of a place b, 6 v / T and 36 v / T^2 of
-  /// a speed v, and 9 a / T of an acceleration a, all of them at its ends or below.
   void begin_fade(const Limits& limits) NC_RT {
-    const double time = limits.cycle_s, share = rests_ ? kAtRest : kUnfelt;
     fades_ = true;
     faded_ = 0;
     from_[0] = beside_;
-    from_[2] = (beside_ - 2 * earlier_[0] + earlier_[1]) / (time * time);
-    from_[1] = (beside_ - earlier_[0]) / time + 0.5 * from_[2] * time;  // the difference is the speed of half a cycle ago
-    fade_s_ = 10 * time;
-    if (limits.acceleration > 0) {
-      const double a = share * limits.acceleration;
-      fade_s_ = std::max({fade_s_, std::sqrt(6 * std::fabs(from_[0]) / a), 6 * std::fabs(from_[1]) / a});
-    }
-    if (limits.jerk > 0) {
-      const double j = share * limits.jerk;
-      fade_s_ = std::max({fade_s_, std::cbrt(60 * std::fabs(from_[0]) / j), std::sqrt(36 * std::fabs(from_[1]) / j), 9 * std::fabs(from_[2]) / j});
-    }
-    fade_s_ = std::ceil(fade_s_ / time - 1e-9) * time;
+    from_[1] = own_speed();
+    from_[2] = own_acceleration();
+    fade_s_ = std::ceil(fade_time(rests_ ? kAtRest : kUnfelt, from_[0], from_[1], from_[2]) / limits.cycle_s - 1e-9) * limits.cycle_s;
+  }
+
+  /// How long it takes to fade from a place b, a speed v and an acceleration a with this share of the limits for each of the three parts of the polynomial. The greatest
+  /// acceleration and jerk of them are 6 b / T^2 and 60 b / T^3, 6 v / T and 36 v / T^2, and 9 a / T, all of them at its ends or below.
+  double fade_time(double share, double b, double v, double a) const NC_RT {
+    double time = 10 * cycle_s_;
+    if (acceleration_ > 0) time = std::max({time, std::sqrt(6 * std::fabs(b) / (share * acceleration_)), 6 * std::fabs(v) / (share * acceleration_)});
+    if (jerk_ > 0) time = std::max({time, std::cbrt(60 * std::fabs(b) / (share * jerk_)), std::sqrt(36 * std::fabs(v) / (share * jerk_)), 9 * std::fabs(a) / (share * jerk_)});
+    return time;
   }
 
   /// How far the axis has to be beside its path, mm: by what the spindle is beside its command.
@@ -192,7 +197,7 @@ class TapFollower {
   double turns_ = 0, began_ = 0, commanded_ = 0;
   double aim_ = 0, beside_ = 0, last_ = 0, speed_ = 0;
   double earlier_[2] = {};  ///< beside_ of the two cycles before
-  double cycle_s_ = 0.001;
+  double cycle_s_ = 0.001, acceleration_ = 0, jerk_ = 0;  ///< of the last cycle's Limits
   bool fades_ = false, rests_ = false;
   double from_[3] = {}, faded_ = 0, fade_s_ = 0;  ///< what it fades from with its first two derivatives, since when and for how long, s
   double apart_ = 0;    ///< revolutions that the spindle is before its command
