@@ -430,6 +430,7 @@ TEST(Hx, MeasuringGoesByItsParametersAndSignal) {  // 4.10
   EXPECT_NEAR(moves[1].machine.v[2], 35, 1e-9);
   EXPECT_EQ(moves[2].skip_mask, 4u);
   EXPECT_EQ(moves[2].feed_mm_min, 30);
+  EXPECT_EQ(bench.run("G43 H1 G00 Z50.\nG37 Z20.\nM30").alarm, "F_84022");  // no signal has come
 }
 
 // ---- programs and macros -------------------------------------------------------------------------------------------------------

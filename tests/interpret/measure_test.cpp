@@ -194,7 +194,9 @@ TEST(Measure, ItsRangeIsNoOffsetNumber) {
   const Outcome run = bench.run("G1 G41 D1 X5. F100\nX9.\nG40 X0\nG43 H5\nG37 Z-100. R60. D50. F10\nG1 G41 X5. F9\nX9.\nX20.\nG40 X30.\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.last_modal().d, 1u);
-  EXPECT_EQ(bench.run("G43 H5\nG37 Z-100. R90. D999. F10\nM30").alarm, "P35");  // (7), and no P170
+  const Outcome wide = bench.run("G43 H5\nG37 Z-100. R90. D999. F10\nM30");
+  EXPECT_EQ(wide.alarm, "P35");  // (7), and no P170
+  EXPECT_EQ(wide.alarm_detail, "The way to the measuring position must be longer than R (measuring feed), and R longer than D (range).");
 }
 
 TEST(Measure, SharesItsBlock) {  // App. 2: groups 1, 7 and 8 are ignored, and the F is not modal

@@ -40,6 +40,10 @@ bool of(const Dialect& dialect, const Fault& fault) {
 bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
   return dialect.rules.arc.centre_by_quadrant && fault.letter != dialect.addresses.letter(Role::arc_radius);
 }
+/// The code of a mode in which a plane is programmed and linear and rotary axes follow it.
+bool of_cylinder_or_polar(const Dialect& dialect, const Fault& fault) {
+  return of<Function::cylinder>(dialect, fault) || of<Function::polar_on>(dialect, fault) || of<Function::polar_off>(dialect, fault);
+}
 /// A code for machine coordinates that has no arcs (LinuxCNC G53), and one that has them (Series 8 G69).
 bool of_machine_line(const Dialect& dialect, const Fault& fault) {
   return of<Function::machine_move>(dialect, fault) && !dialect.rules.coordinate.machine_move_is_absolute;
@@ -103,6 +107,7 @@ constexpr Sentence kSentences[] = {
      "A word of the block is not possible in it."},
     {C::exponent, "{word} has no meaning in this block. If it is meant as an exponent: numbers have none, write 0.00001 for 1E-5.",
      "Numbers have no exponent: write 0.00001 for 1E-5."},
+    {C::format_error, "This must stand in a block of its own.", nullptr, "{word} must stand in a block of its own.", of_cylinder_or_polar},
     {C::format_error,
      "The word {word} is not written correctly, or does not fit the other words of the block.",
      "The block is not written correctly: a number, a letter or a sign is missing or stands in the wrong "
@@ -221,6 +226,8 @@ constexpr Sentence kSentences[] = {
     {C::polar_code, "{word} is not possible during polar coordinate interpolation.", "This is not possible during polar coordinate interpolation."},
     {C::polar_axis, "{word}: the axis cannot take part in polar coordinate interpolation.",
      "An axis of polar coordinate interpolation does not exist or cannot take part in it."},
+    {C::polar_modal, "Polar coordinate interpolation does not end in radius compensation. Cancel it with {comp_off} first.", nullptr,
+     "{word} does not end polar coordinate interpolation in radius compensation. Cancel it with {comp_off} first.", of<Function::polar_off>},
     {C::polar_modal, "{word} is not possible with polar coordinate interpolation: plane, radius compensation, surface speed.",
      "The modes in force (plane, compensation, surface speed) do not suit polar coordinate interpolation."},
     {C::polar_state, "{word} is not possible in this state of polar coordinate interpolation.",

@@ -118,6 +118,8 @@ struct FeedRules {
   /// The code that ends inverse-time feed needs an F in its block (M700 7.5, precaution (4)). Otherwise it may stand alone, and the next cut needs one
   /// (Series 8 prints G95 in a block of its own; RS-274/NGC 3.5.19).
   bool end_of_inverse_time_needs_feed = false;
+  /// A line that leads nowhere needs no F (the program of HX 4.7 begins with one). Otherwise one has to be in force where the words of a cut stand (M700 3.2).
+  bool no_way_needs_none = false;
 };
 
 /// Skip: a straight line at feed that a signal ends.
@@ -127,6 +129,9 @@ struct SkipRules {
   bool feed_is_modal;
   /// The place where a measurement of a tool has ended is that of the last skip, too (HX 4.10). Otherwise only a skip stores one (M700 15.1).
   bool measurement_stores = false;
+  /// A measurement without its distances or without a feed is a fault (HX 4.10 has parameters for them and no values without). Otherwise it goes to the measuring
+  /// position in rapid traverse, and the least feed is taken (M700 15.1 (3), (9)).
+  bool measurement_needs_values = false;
   /// A signal that is where the move begins as it is to be at its end is a fault, and so is a move without a way (LinuxCNC G38). Otherwise there is nothing
   /// to move (M700 15.2).
   bool change_required = false;
@@ -213,6 +218,9 @@ struct CompensationRules {
   /// Tool position offset stands neither in compensation nor in the block of a cycle (HX 12.2.2, 13.3). Otherwise a cycle is made without it, and in
   /// compensation it lengthens the programmed way (M700 12.6).
   bool bars_position_offset = false;
+  /// Codes of position offset stand beside motions alone (HX 13.3 prints G01 G02 G03). Otherwise the last one of the codes that take the words of a block counts
+  /// (M700 3.7).
+  bool position_offset_is_of_motion = false;
   /// As H or D it means the offset that is registered with the tool in the spindle, where the lives of tools are managed; 0 = no number does. The manual
   /// of M700 has the management (10.15) and not the number, which is the practice of the field (docs/decisions.md).
   uint32_t number_of_managed_tool = 0;
@@ -377,7 +385,7 @@ struct ScalingRules {
 
 /// Rotation of coordinates by program.
 struct RotationRules {
-  /// The code of its plane may stand in its block (HX 15.4.1). Else a fault (M700 13.20 (13); DGSHAPE has no rotation).
+  /// The code of its plane may stand in its block (HX 15.4.1), and behind it that of the plane in force. Else a fault (M700 13.20 (13); DGSHAPE has no rotation).
   bool plane_in_block;
   /// Without an angle it is that of a parameter (HX 15.4.1). Else that of before (M700 13.20 (4)).
   bool angle_by_parameter;
@@ -409,6 +417,8 @@ struct CodeCallRules {
   /// Common variable that gets the tool number for this program, 0 = none (FANUC's T code call; HX 10.1.1 names none). Otherwise it is an argument, or the
   /// T that is shown (M700 13.5.2).
   uint32_t tool_variable = 0;
+  /// Where one word calls like M98, another one that would call is a fault (HX 14.1.5, 14.1.6 print one of them). Otherwise it is an ordinary code (M700 13.5.2).
+  bool one_in_block = false;
 };
 
 /// Data setting by program. Which value of L sets what is a table (DataInputRow).

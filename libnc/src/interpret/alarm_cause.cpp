@@ -77,6 +77,30 @@ bool put_option(const Interpreter& in, TextWriter& out, bool* instead) {
   return true;
 }
 
+/// Writes a distance of a measurement: the word that gives it in the block, or else the parameter.
+void put_distance(const Interpreter& in, Role role, ParameterOf parameter, TextWriter& out) {
+  if (in.words.has(role)) put_word(out, in.word(role));
+  else put_parameter(in, parameter, out);
+}
+
+/// M700 15.1 (7), HX 4.10: says what the distances and the feed of a measurement have to be, one of which is out of its range. False: the alarm is another one.
+bool put_measurement(const Interpreter& in, TextWriter& out) {
+  const Fault& fault = in.fault;
+  const bool measures = in.block != nullptr && !in.block->has_fault && in.words.one_shot != nullptr && in.words.one_shot->function == Function::measure_length;
+  if (!measures || fault.condition != Condition::value_range) return false;
+  if (is_about(fault, *in.dialect, Role::feed) && !in.words.has(Role::feed)) {
+    put_parameter(in, Parameter::measure_feed, out.put("The measuring feed, ")).put(", has no value.");
+    return true;
+  }
+  if (!is_about(fault, *in.dialect, Role::measure_range) && !is_about(fault, *in.dialect, Role::measure_deceleration)) return false;
+  out.put("The way to the measuring position must be longer than ");
+  put_distance(in, Role::measure_deceleration, Parameter::measure_deceleration, out);
+  put_distance(in, Role::measure_deceleration, Parameter::measure_deceleration, out.put(" (measuring feed), and "));
+  put_distance(in, Role::measure_range, Parameter::measure_range, out.put(" longer than "));
+  out.put(" (range).");
+  return true;
+}
+
 // ---- codes of other controls ------------------------------------------------------------------------------------------------
 
 bool put_foreign(const Interpreter& in, TextWriter& out) {
@@ -247,6 +271,10 @@ void note_cause(Interpreter& in) {
     else if (in.words.corner != Corner::none) out.put("at its corner, where it cannot begin.");
     else out.put("where only a line can begin.");
     out.put(" Select the program to begin at its head.");
+    story.instead = true;
+    return;
+  }
+  if (put_measurement(in, out)) {
     story.instead = true;
     return;
   }

@@ -33,12 +33,17 @@ Execution apply_codes_before(Interpreter& in, unsigned at) {
 }
 
 /// A call as M98: the rest of the block is executed as if the code was not there, then the program is called.
-void run_rest_first(Interpreter& in, const Caller& caller) {
+Execution run_rest_first(Interpreter& in, const Caller& caller) {
   const Block* original = in.block;
   Block& copy = *in.rewritten;
   copy_without(*original, caller.at, copy);
   in.block = &copy;
   in.after_block = caller.call;
+  if (!in.dialect->rules.code_call.one_in_block) return Execution::done;
+  Caller other;
+  const Execution did = in.executed(find_caller(copy, in.front, false, false, &other));
+  if (did != Execution::done || other.call == nullptr) return did;
+  return in.raise(Condition::illegal_address, other.word, other.value);
 }
 
 /// The common variable in which the called program finds the value of the word: of an ASCII code, or of a tool number, which is a whole one.
@@ -120,8 +125,7 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   if (type_of_call(in, caller) == CodeCallType::sub) {
     did = set_variable_of_call(in, caller);
     if (did != Execution::done) return did;
-    run_rest_first(in, caller);
-    return Execution::done;
+    return run_rest_first(in, caller);
   }
   *taken = true;
   did = apply_codes_before(in, caller.at);

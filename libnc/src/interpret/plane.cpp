@@ -38,11 +38,11 @@ PlaneAxes plane_axes(const BlockContext& in) {
 
 Execution select_plane(BlockContext& in, const FunctionRow& row) {
   State& state = in.state;
-  if (state.rotated) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
   const PlanePair pair = pair_of(row.function);
   const int8_t h = axis_of_pair(in, pair.first), v = axis_of_pair(in, pair.second);
   const bool changes = !state.modal.is(row.function) || state.plane_axis[0] != h || state.plane_axis[1] != v;
   const Rules& rules = in.dialect->rules;
+  if (state.rotated && (changes || !rules.rotation.plane_in_block)) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
   const bool other = row.function != Function::plane_xy;
   if (other && state.comp.side != 0 && rules.compensation.xy_plane_only) return in.raise_code(Condition::plane_in_compensation, row);
   if (other && state.cycle.kind != CycleKind::none && rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);

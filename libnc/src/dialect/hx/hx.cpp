@@ -20,6 +20,7 @@ constexpr BarredRow kBarred[] = {
     {kInMap, Function::start_return, Condition::not_accepted, "15.2.2"},
     {kInMap, Function::second_reference, Condition::not_accepted, "15.2.2"},
     {kInMap, Function::coordinate_set, Condition::not_accepted, "15.2.2"},
+    {kInMap, Function::measure_length, Condition::not_accepted, "4.10"},  // a place of the machine as well: the sensor's
 };
 
 // 3.2, by the parameters when they are not set; the cancel codes of the other groups.

@@ -29,6 +29,10 @@ double plane_number(double value) { return value + 1; }
 /// 0 means that it is on.
 double unless(double value) { return value == 0 ? 1 : 0; }
 
+/// 14.1.3 (2), 14.1.4 (3): codes that keep their meaning.
+bool g_that_calls(double value) { return whole<0, 255>(value) && (value < 65 || value > 67); }
+bool m_that_calls(double value) { return whole<0, 97>(value) && value != 2 && value != 30; }
+
 /// 2.3.4: of 1 nothing but the number is left.
 bool zero_or_two(double value) { return value == 0 || value == 2; }
 /// 2 is what the meaning counts as yes.
@@ -44,8 +48,8 @@ constexpr ParameterRow kNumbers[] = {
     {3071, 3071, 1, kAll, false,    P::shift_direction,         whole<0, 1>,       "0 plus, 1 minus", "G76, G87: direction in which Q shifts", "12.3.9"},
     {3072, 3072, 1, kAll, false,    P::diameter_offsets,        whole<0, 1>,       kOffOn, "values of D are diameters", "13.2.1"},
     {3074, 3074, 1, kAll, false,    P::reset_clears_common,     whole<0, 1>,       kOffOn, "reset clears #100 to #199", "14.4"},
-    {3085, 3094, 1, kAll, false,    P::g_call_code,             whole<0, 255>,     "0; 1-255", "G codes that call 9010 to 9019", "14.1.3"},
-    {3095, 3104, 1, kAll, false,    P::m_call_code,             whole<0, 97>,      "0; 1-97", "M codes that call 9020 to 9029", "14.1.4"},
+    {3085, 3094, 1, kAll, false,    P::g_call_code,             g_that_calls,      "0; 1-64, 68-255", "G codes that call 9010 to 9019", "14.1.3"},
+    {3095, 3104, 1, kAll, false,    P::m_call_code,             m_that_calls,      "0; 1-97, not 2, 30", "M codes that call 9020 to 9029", "14.1.4"},
     {3105, 3106, 1, kAll, false,    P::tool_macro,              whole<0, 9>,       "0; 0-9", "T calls a macro: with PI 106 program 9000 + PI 105, with PI 105 alone 9000", "10.1.1"},
     {3108, 3116, 1, kAll, false,    P::axis_factor,             any,               "1000; 1/1000", "G51: factors of the axes", "15.2.1", 1},
     {3117, 3117, 1, kAll, false,    P::rotation_angle,          between<-360, 360>, "0; deg", "G68: angle without R", "15.4.1"},

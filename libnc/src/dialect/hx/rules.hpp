@@ -40,8 +40,8 @@ inline constexpr Rules kRules = {
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = true,  // 9.3
                 .skips_repeated_codes = false},
-    .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false},
-    .skip = {.feed_is_modal = true, .measurement_stores = true},  // 4.9: like G01
+    .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false, .no_way_needs_none = true},
+    .skip = {.feed_is_modal = true, .measurement_stores = true, .measurement_needs_values = true},  // 4.9: like G01
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,
@@ -58,7 +58,8 @@ inline constexpr Rules kRules = {
                      .code_alone_waits = false,
                      .number_is_that_of_tool = false,
                      .side_changes_on_arc = true,  // 13.2.2 (3)
-                     .bars_position_offset = true},
+                     .bars_position_offset = true,
+                     .position_offset_is_of_motion = true},
     .length = {.axis_by_words = false,
                .number_in_any_block = true,
                .zero_is_number = true,  // 13.1.1: H00 cancels
@@ -110,7 +111,7 @@ inline constexpr Rules kRules = {
     .rotation = {.plane_in_block = true, .angle_by_parameter = true, .centre_is_scaled = true},
     .mill = {.rotary_in_block = true, .polar_cuts_only = true},
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program,
-                  .tool_variable = 149},
+                  .tool_variable = 149, .one_in_block = true},
     .stitch = {.call = 1u << 31, .done = 1u << 30, .next_may = 1u << 31},  // PPF #7531, PPE #7030, NPFIN #7031: the manual gives them no numbers
 };
 

@@ -151,6 +151,19 @@ Execution check_fractions(BlockContext& in) {
   return Execution::done;
 }
 
+/// HX 13.3: a code of position offset takes the words of the block, and so no other code that is no mode stands beside it. It makes the ways of axes longer,
+/// which a radius and an angle are not.
+Execution check_position_offset_alone(BlockContext& in) {
+  const auto takes_words = [](const FunctionRow& row) { return mode_of(row.function) == Mode::none && row.function != Function::exact_stop_once; };
+  for (const FunctionRow* row : in.words.functions) {
+    if (!offsets_position(row->function)) continue;
+    if (in.state.modal.is(Function::polar_command_on)) return in.raise_code(Condition::not_accepted, *row);
+    for (const FunctionRow* other : in.words.functions)
+      if (row != other && takes_words(*other)) return in.raise_code(Condition::illegal_address, *row);
+  }
+  return Execution::done;
+}
+
 }  // namespace
 
 /// M700 13.5.9: with #3003 bit 1 FIN is not waited for.
@@ -174,6 +187,10 @@ Execution check_precedence(BlockContext& in) {
   }
   if (rules.whole_words_within >= 0) {
     const Execution did = check_fractions(in);
+    if (did != Execution::done) return did;
+  }
+  if (in.dialect->rules.compensation.position_offset_is_of_motion) {
+    const Execution did = check_position_offset_alone(in);
     if (did != Execution::done) return did;
   }
   if (in.dialect->rules.compensation.bars_position_offset && (w.cycle != nullptr || in.state.cycle.kind != CycleKind::none))

@@ -41,7 +41,10 @@ Execution read_measurement(BlockContext& in, Measurement* m) {
     if (did != Execution::done) return did;
     if (inch) m->feed_mm_min *= kMillimetresPerInch;
   }
-  if (!(m->feed_mm_min > 0)) m->feed_mm_min = 1;  // (3)
+  if (!(m->feed_mm_min > 0)) {
+    if (in.dialect->rules.skip.measurement_needs_values) return in.raise(Condition::value_range, Role::feed);
+    m->feed_mm_min = 1;  // (3)
+  }
   m->deceleration = distance(in, Role::measure_deceleration, in.settings.measure_deceleration);
   m->range = distance(in, Role::measure_range, in.settings.measure_range);
   return Execution::done;
@@ -60,7 +63,7 @@ Execution do_measure_length(BlockContext& in) {
   const double way = target[m.axis] - in.position()[m.axis];
   m.position = target[m.axis];
   // (7): |measuring point - start point| > R > D; (8), (9): both may be 0, or only D.
-  const bool none = m.deceleration == 0 && m.range == 0;
+  const bool none = m.deceleration == 0 && m.range == 0 && !in.dialect->rules.skip.measurement_needs_values;
   if (!none && !(m.deceleration > m.range)) return in.raise(Condition::value_range, Role::measure_range, m.range);
   if (!none && !(std::fabs(way) > m.deceleration)) return in.raise(Condition::value_range, Role::measure_deceleration, m.deceleration);
   const double direction = std::copysign(1.0, way);
