@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace nc {
 namespace {
@@ -56,6 +58,56 @@ TEST(Cavity, RingsAreClosedAndReachTheWalls) {
   }
   EXPECT_NEAR(ring_of(cavity, 0).most[0], 10, 1e-9);  // what the innermost ring leaves between the long walls
   EXPECT_EQ(ring_of(cavity, 0).most[1], 0);
+}
+
+struct Point {
+  double h, v;
+};
+
+/// The way of the cutter's centre through all rings, in short steps.
+std::vector<Point> way_of(const Cavity& cavity) {
+  constexpr double kStep = 0.05;
+  std::vector<Point> way{{0, 0}};
+  for (uint32_t ring = 0; ring <= cavity.rings; ++ring) {
+    CavityPiece piece;
+    for (unsigned n = 0; piece_of_cavity(cavity, ring, n, &piece); ++n) {
+      const Point from = way.back();
+      const double length = std::hypot(piece.to[0] - from.h, piece.to[1] - from.v);
+      const double radius = piece.arc ? std::hypot(from.h - piece.center[0], from.v - piece.center[1]) : 0, sense = piece.ccw ? 1 : -1;
+      const double begin = std::atan2(from.v - piece.center[1], from.h - piece.center[0]), end = std::atan2(piece.to[1] - piece.center[1], piece.to[0] - piece.center[0]);
+      const double sweep = sense * std::fmod(sense * (end - begin) + 4 * std::acos(-1.0), 2 * std::acos(-1.0));
+      const int steps = static_cast<int>(std::ceil((piece.arc ? std::fabs(sweep) * radius : length) / kStep));
+      for (int i = 1; i <= steps; ++i) {
+        const double part = static_cast<double>(i) / steps, angle = begin + part * sweep;
+        if (piece.arc) way.push_back({piece.center[0] + radius * std::cos(angle), piece.center[1] + radius * std::sin(angle)});
+        else way.push_back({from.h + part * (piece.to[0] - from.h), from.v + part * (piece.to[1] - from.v)});
+      }
+    }
+  }
+  return way;
+}
+
+/// How far a point lies inside the wall of a rectangle with round corners; below 0 it is outside.
+double inside_by(const Point& at, double half_h, double half_v, double corner) {
+  const double h = std::fabs(at.h) - (half_h - corner), v = std::fabs(at.v) - (half_v - corner);
+  return corner - (h > 0 && v > 0 ? std::hypot(h, v) : std::fmax(h, v));
+}
+
+// The cutter takes all that it can reach, and nothing of the walls, whatever the corners and the step are.
+TEST(Cavity, IsClearedUpToItsWallsAndNotBeyondThem) {
+  constexpr double kCutter = 2, kSlack = 0.02;
+  for (const double corner : {2.0, 3.0, 6.0, 10.0})
+    for (const double step : {0.7, 2.0, 3.4, 4.0}) {
+      Cavity cavity = rectangle(13 - kCutter, 10 - kCutter, corner - kCutter, std::fmin(step, widest_step_round_corners(kCutter)));
+      const std::vector<Point> way = way_of(cavity);
+      for (const Point& at : way) EXPECT_GE(inside_by(at, 13, 10, corner), kCutter - 1e-6) << corner << " " << step << " at " << at.h << " " << at.v;
+      for (double h = 0; h < 13; h += 0.4)
+        for (double v = 0; v < 10; v += 0.4) {
+          if (inside_by({h, v}, 13, 10, corner) < 0.01) continue;
+          const auto reaches = [h, v](const Point& at) { return (at.h - h) * (at.h - h) + (at.v - v) * (at.v - v) <= (kCutter + kSlack) * (kCutter + kSlack); };
+          EXPECT_TRUE(std::any_of(way.begin(), way.end(), reaches)) << corner << " " << step << " leaves " << h << " " << v;
+        }
+    }
 }
 
 TEST(Cavity, GoesTheOtherWayRoundByItsCode) {

@@ -19,7 +19,7 @@ const CodeRow kRows[] = {
      {{"F50\nG02X1Y1I-1", "INVALIDARC"}, {"F50\nG02X5Y6I3", "INVALIDARC"}, {"G02X2R1", "NC-FEED"}}},
     {"G03", "F50\nG03X2R1\nG03X4R-1", {"ccw 2 0 0 c1,0 F50", "ccw 4 0 0 c3,0 F50"}, "M30", {{"F50\nX5\nG03X-5Y1I5", "INVALIDARC"}}},
     {"G04", "G04X1.5\nG04F.5", {}, "M30", {{"G04", "NC-WORDS"}, {"G04X-1", "NC-RANGE"}}},
-    {"G06", "F50\nG06X2Y1", {"spline 0 0 0 F50"}, "M30", {{"F50\nG06", "NC-WORDS"}, {"G06X2Y1", "NC-FEED"}, {"F50\nG06X0", "NC-WORDS"}}},
+    {"G06", "F50\nG06X2Y1", {"spline 0 0 0 F50"}, "M30", {{"F50\nG06", "NC-WORDS"}, {"G06X2Y1", "NC-FEED"}, {"F50\nG06X0", "NC-RANGE"}}},
     {"G10", "F50\nG10G01X10R2\nG10Y10L1\nX0", {"line 8 0 0 F50", "ccw 10 2 0 c8,2 F50", "line 10 9 0 F50", "line 9 10 0 F50", "line 0 10 0 F50"}, "M30",
      {{"F50\nG10G01X10R2L1", "NC-FORMAT"}, {"F50\nG10G01X10", "NC-WORDS"}}},
     {"G17", "F50\nG17\nG02X2R1", {"cw 2 0 0 c1,0 F50"}, "M30", {}},

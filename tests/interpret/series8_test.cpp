@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "support/pull.hpp"
 
@@ -94,6 +95,8 @@ TEST(Series8, ALoopGoesThereAndBackWhileTheInputIsOn) {  // G06
   EXPECT_NEAR(moves[1].length, std::hypot(20, 10) * 3.14159265358979, 1e-6);
   for (const char* block : {"G06", "G06X10", "G41D1G06X5"}) EXPECT_NE(alarm_of(std::string("F600\nG00X10\n") + block), "") << block;
   EXPECT_EQ(alarm_of("G06X10"), "NC-FEED");
+  const Outcome there = series8("F600\nG00X10\nG06X10");
+  EXPECT_EQ(there.alarm + " " + there.alarm_detail, "NC-RANGE The axes stand where G06 is to turn: the loop has no length.");
 }
 
 TEST(Series8, ACornerIsPutBetweenTwoLines) {  // G10
@@ -404,7 +407,51 @@ TEST(Series8Cavity, RefusesWhatCannotBeMilled) {
     EXPECT_EQ(alarm(block), "NC-RANGE") << block;
 }
 
+TEST(Series8Cavity, SaysWhyItCannotBeMilled) {
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 5, NC_TOOL_RADIUS);
+  const auto said = [&](const std::string& block) { return bench.run("F300\n" + block).alarm_detail; };
+  EXPECT_EQ(said("G34X0Z-1R1I8J40D1"), "The cavity is smaller than its cutter: I8.");
+  EXPECT_EQ(said("G36X0Z-1R1I5D1"), "The cavity is smaller than its cutter: I5.");
+  EXPECT_EQ(said("G34X0Z2R1I60J40D1"), "R must be above the bottom.");
+  EXPECT_EQ(said("G34X0Z-1R1I60J40P2D1"), "Corners have a radius from that of the cutter to half of the shorter side: P2 is none.");
+  EXPECT_EQ(said("G36X0Z-1R1I30Q25D1"), "The rings would be farther from each other than the cutter is wide: make Q smaller.");
+}
+
+// Round corners go through all rings as arcs, and a step that leaves posts in the corners is made smaller.
+TEST(Series8Cavity, RingsHaveTheCornersOfTheWall) {
+  Bench bench(NC_DIALECT_SERIES8);
+  bench.tool(1, 2, NC_TOOL_RADIUS);
+  const Outcome run = bench.run("F50\nG34X0Y0Z-2R1I20J20P10D1");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  for (const nc_move& move : run.moves()) EXPECT_LE(std::hypot(move.machine.v[0], move.machine.v[1]), 8 + 1e-9) << "the cutter stays within the circle";
+  double second = 0;
+  for (const nc_move& move : bench.run("F50\nG34X0Y0Z-2R1I20J20Q4D1").moves())
+    if (move.machine.v[0] < 7.9) second = std::fmax(second, move.machine.v[0]);
+  EXPECT_NEAR(second, 8 - 8.0 / 3, 1e-9) << "three rings in place of two";
+}
+
+TEST(Series8, APatternHasWholeNumbersAndStraightSides) {  // G49
+  EXPECT_EQ(alarm_of("G49I20J10K2.5"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G49I20J10K3L2.001"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G02F50R5\nG49X1I20J10"), "NC-MODE");
+}
+
+TEST(Series8, ThePlaneStaysWhileThePartIsScaled) {  // G57: "in the active plane"
+  const Outcome run = series8("G57R2\nG01F50X1Y1Z3\nG18\nX1Z1");
+  EXPECT_EQ(run.alarm, "NC-PLANE");
+  EXPECT_EQ(run.alarm_detail, "The plane stays while the part is rotated or scaled. Select it in front of that, or behind G56 and G58.");
+  EXPECT_EQ(alarm_of("G57R2\nG17X1"), "");
+}
+
+TEST(Series8, CornersAreWordsOfG10) {
+  EXPECT_EQ(series8("G01F50G10X10R20\nY5\nX0").alarm_detail, "The block is shorter than its corner R20. Make the corner smaller.");
+}
+
 TEST(Series8, AProbeWithoutContactIsAnAlarm) {  // G51
+  Bench touching(NC_DIALECT_SERIES8);
+  touching.skip_at = [](const nc_item&) { return std::optional<double>(0.0); };
+  EXPECT_EQ(touching.run("F100\nG51Z-5").alarm, "NC-PROBE");  // it touches before it has moved
   EXPECT_EQ(alarm_of("F100\nG51Z-5"), "NC-PROBE");
   EXPECT_EQ(alarm_of("G51Z-5"), "NC-FEED");
 }

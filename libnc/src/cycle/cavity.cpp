@@ -7,6 +7,8 @@
 namespace nc {
 namespace {
 
+constexpr double kSharp_mm = 1e-6;  // a corner below this is none: what is left of a radius by rounding is no arc
+
 double least_half(const Cavity& cavity) { return cavity.circle ? cavity.half[0] : std::min(cavity.half[0], cavity.half[1]); }
 
 CavityPiece line_to(double h, double v) {
@@ -46,7 +48,7 @@ bool round_rectangle(const Cavity& cavity, double h, double v, double corner, un
   const bool into = nth % 2 == 1, side_of_v = quadrant % 2 == 0;  // the side that leads to this corner runs along the second axis
   const double a = along * (h - corner), b = across * (v - corner);
   *piece = into == side_of_v ? line_to(along * h, b) : line_to(a, across * v);
-  piece->arc = !into;
+  piece->arc = !into && corner > 0;
   piece->ccw = cavity.ccw;
   piece->center[0] = a;
   piece->center[1] = b;
@@ -54,6 +56,8 @@ bool round_rectangle(const Cavity& cavity, double h, double v, double corner, un
 }
 
 }  // namespace
+
+double widest_step_round_corners(double cutter) { return (1 + std::sqrt(0.5)) * cutter; }
 
 uint32_t rings_of_cavity(const Cavity& cavity, double step) {
   const double rings = std::ceil(least_half(cavity) / step - 1e-9);
@@ -66,7 +70,8 @@ bool piece_of_cavity(const Cavity& cavity, uint32_t ring, unsigned number, Cavit
   const double h = cavity.half[0] - inset, v = cavity.half[1] - inset;
   if (cavity.circle) return ring != 0 && round_circle(cavity, h, number, piece);
   if (ring == 0) return middle_line(std::max(h, 0.0), std::max(v, 0.0), number, piece);
-  return round_rectangle(cavity, h, v, ring == cavity.rings ? cavity.corner : 0, number, piece);
+  const double corner = cavity.corner - inset;
+  return round_rectangle(cavity, h, v, corner > kSharp_mm ? corner : 0, number, piece);
 }
 
 }  // namespace nc

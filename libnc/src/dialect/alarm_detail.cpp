@@ -7,6 +7,7 @@
 // the family has for the function; kNamedMisc and kNamedWords list further names. If a fault does not carry all that the first sentence of its
 // row needs, the second sentence is taken. If the letter of a fault is that of G or M codes, the fault is about a code, and its value is the
 // number of this code; it has no other value for {value}.
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
@@ -44,6 +45,13 @@ bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
 bool of_cylinder_or_polar(const Dialect& dialect, const Fault& fault) {
   return of<Function::cylinder>(dialect, fault) || of<Function::polar_on>(dialect, fault) || of<Function::polar_off>(dialect, fault);
 }
+/// The spindle turns in one direction, and so there is no tap (DGSHAPE).
+bool turns_one_way(const Dialect& dialect, const Fault&) {
+  const auto reverses = [](const auto& row) { return row.function == MiscFunction::spindle_reverse; };
+  return std::none_of(dialect.misc.begin(), dialect.misc.end(), reverses) && std::none_of(dialect.outputs.begin(), dialect.outputs.end(), reverses);
+}
+bool of_unit(const Dialect& dialect, const Fault& fault) { return of<Function::inch>(dialect, fault) || of<Function::metric>(dialect, fault); }
+bool scaling_binds_plane(const Dialect& dialect, const Fault&) { return dialect.rules.scaling.binds_plane; }
 /// A code for machine coordinates that has no arcs (LinuxCNC G53), and one that has them (Series 8 G69).
 bool of_machine_line(const Dialect& dialect, const Fault& fault) {
   return of<Function::machine_move>(dialect, fault) && !dialect.rules.coordinate.machine_move_is_absolute;
@@ -58,7 +66,7 @@ struct NamedCode {
   Function function;
 };
 constexpr NamedCode kNamedCodes[] = {
-    {"rotation_on", Function::rotation_on}, {"rotation_off", Function::rotation_off},
+    {"rotation_on", Function::rotation_on}, {"rotation_off", Function::rotation_off}, {"scaling_off", Function::scaling_off},
     {"offset_longer", Function::offset_longer}, {"offset_shorter", Function::offset_shorter},
     {"comp_off", Function::comp_off}, {"rapid", Function::rapid}, {"linear", Function::linear},
     {"cycle_off", Function::cycle_off}, {"plane_xy", Function::plane_xy},
@@ -94,7 +102,7 @@ constexpr NamedWord kNamedWords[] = {
     {"offset_number", Role::offset_number}, {"length_number", Role::length_number},
     {"program_number", Role::program_number}, {"sequence_number", Role::sequence_number},
     {"vector_x", Role::vector_x}, {"vector_y", Role::vector_y}, {"vector_z", Role::vector_z}, {"arc_radius", Role::arc_radius},
-    {"chamfer", Role::option_chamfer}, {"rounding", Role::option_corner_radius}, {"angle", Role::option_angle},
+    {"cycle_level", Role::cycle_level}, {"cavity_step", Role::cavity_step}, {"chamfer", Role::option_chamfer}, {"rounding", Role::option_corner_radius}, {"angle", Role::option_angle},
     {"line_angle", Role::line_angle}, {"turn_x", Role::turn_x}, {"turn_y", Role::turn_y}, {"turn_z", Role::turn_z},
     {"accuracy_switch", Role::accuracy_switch}, {"speed_mode", Role::speed_mode},
     {"input_kind", Role::input_kind}, {"input_number", Role::input_number},
@@ -113,8 +121,10 @@ constexpr Sentence kSentences[] = {
      "The block is not written correctly: a number, a letter or a sign is missing or stands in the wrong "
      "place."},
     {C::behind_semicolon, "Text behind ';', the end of the block. Give a block its own line, a comment ( ), or set semicolon_comments.", nullptr},
+    {C::value_range, "The axes stand where the loop is to turn: it has no length.", nullptr, "The axes stand where {word} is to turn: the loop has no length.", of<Function::sine_loop>},
     {C::value_range, "The value of {word} is outside its range.",
      "A value in the block is outside its range."},
+    {C::comment_open, "A comment that begins with '(' has no ')' in its line.", nullptr},
     {C::illegal_character, "The character {word} has no meaning here.",
      "The block holds a character that is not part of the code."},
     {C::block_too_long, "The block holds more words or characters than the control can take. Split it.",
@@ -153,6 +163,8 @@ constexpr Sentence kSentences[] = {
     {C::helix_option, "The arc moves {axis} too, and helical interpolation is not fitted.", nullptr},
     {C::plane_mismatch, "{word} does not fit the plane that is selected.",
      "The words of the arc do not belong to the plane that is selected."},
+    {C::plane_in_rotation, "The plane stays while the part is rotated or scaled. Select it in front of that, or behind {rotation_off} and {scaling_off}.", nullptr,
+     nullptr, scaling_binds_plane},
     {C::plane_in_rotation,
      "The plane cannot be selected while {rotation_on} rotates the coordinates. Select it before, or behind {rotation_off}.", nullptr},
     {C::space_conversion, "{rotation_on} with {vector_x}, {vector_y} and {vector_z} is the conversion in space, which this control does not have.", nullptr},
@@ -170,6 +182,7 @@ constexpr Sentence kSentences[] = {
     {C::no_reference, "{axis} has not been to its reference position.", nullptr},
     {C::soft_limit, "{axis} would go to {value}, beyond its stroke limit.",
      "{axis} would go beyond its stroke limit."},
+    {C::spindle_not_turning, "The spindle has to turn. Program {spindle_speed} and {spindle_forward} before it.", nullptr, nullptr, turns_one_way},
     {C::spindle_not_turning, "The spindle has to turn, for a tap the way of its thread. Program {spindle_speed} and {spindle_forward} (or the reverse) before it.", nullptr},
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
@@ -185,14 +198,14 @@ constexpr Sentence kSentences[] = {
     {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
      nullptr},
     {C::contour_too_long, "The contour is longer than its check can hold: cancel compensation earlier ({comp_off}), or allow more contour_blocks.", nullptr},
-    {C::corner_option, "A corner (,{chamfer} ,{rounding}) is not possible in this mode. Leave it out, or program it as a block of its own.", nullptr},
-    {C::corner_arc, "A corner (,{chamfer} ,{rounding}) lies between two lines; the block before or behind it is an arc. Program the corner as a block of its own.", nullptr},
-    {C::corner_no_move, "The block behind a corner (,{chamfer} ,{rounding}) must be a straight cut. Move what stands between in front of the corner.", nullptr},
-    {C::corner_short, "The block is shorter than its corner ,{word}. Make the corner smaller.",
-     "The block is shorter than its corner (,{chamfer} ,{rounding}). Make the corner smaller."},
-    {C::corner_reversal, "No rounding fits here: the block behind it goes straight back. Leave ,{rounding} out.", nullptr},
-    {C::corner_next_short, "The block is shorter than the corner ,{word} at its start. Make that corner smaller.",
-     "The block is shorter than the corner (,{chamfer} ,{rounding}) at its start. Make that corner smaller."},
+    {C::corner_option, "A corner ({comma}{chamfer} {comma}{rounding}) is not possible in this mode. Leave it out, or program it as a block of its own.", nullptr},
+    {C::corner_arc, "A corner ({comma}{chamfer} {comma}{rounding}) lies between two lines; the block before or behind it is an arc. Program the corner as a block of its own.", nullptr},
+    {C::corner_no_move, "The block behind a corner ({comma}{chamfer} {comma}{rounding}) must be a straight cut. Move what stands between in front of the corner.", nullptr},
+    {C::corner_short, "The block is shorter than its corner {comma}{word}. Make the corner smaller.",
+     "The block is shorter than its corner ({comma}{chamfer} {comma}{rounding}). Make the corner smaller."},
+    {C::corner_reversal, "No rounding fits here: the block behind it goes straight back. Leave {comma}{rounding} out.", nullptr},
+    {C::corner_next_short, "The block is shorter than the corner {comma}{word} at its start. Make that corner smaller.",
+     "The block is shorter than the corner ({comma}{chamfer} {comma}{rounding}) at its start. Make that corner smaller."},
     {C::corner_motion, "A corner, programmed or of radius compensation, lies between two cuts. Program {linear} first.", nullptr},
     {C::pre_read, "Too many statements behind a block with ,{chamfer} ,{rounding} or radius compensation: calculate in front of it.", nullptr},
     {C::geometric_option, "A line by its angle ({line_angle} or ,{angle}) is not possible here: the letter has another meaning, or a mode bars it. Program both ends.", nullptr},
@@ -270,6 +283,8 @@ constexpr Sentence kSentences[] = {
      "{word} goes to machine coordinates by {rapid} or {linear}, in no other motion. Program one of them beside it.", of_machine_line},
     {C::not_accepted, "An arc that the program has turned or scaled has no place in machine coordinates.", nullptr,
      "{word} goes to machine coordinates, where an arc that the program has turned or scaled has no place.", of_machine_arc},
+    {C::not_accepted, "The unit is chosen at the head of the program, in front of movements and F, and stays.", nullptr,
+     "{word} is chosen at the head of the program, in front of movements and F: the unit stays.", of_unit},
     {C::not_accepted, "{word} is not accepted in the mode that is on.", "This is not accepted in the mode that is on."},
     {C::in_high_accuracy, "{word} is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first.",
      "This is not possible between {high_accuracy} {accuracy_switch}1 and {high_accuracy} {accuracy_switch}0. Command {high_accuracy} {accuracy_switch}0 first."},
@@ -325,6 +340,10 @@ constexpr Sentence kSentences[] = {
     {C::probe_no_contact, "The probe has touched nothing up to the end of the move.", nullptr, "The signal of the probe has not changed up to the end of {word}."},
     {C::probe_contact, "The probe touches where the move begins: draw it back first.", nullptr, "{word}: where the move begins the signal of the probe is already as at its end."},
     {C::two_words, "{word} and another word of the block exclude each other.", "Two words of the block exclude each other.", "{word} takes one of its two words, not both."},
+    {C::level_below_bottom, "{cycle_level} must be above the bottom.", nullptr},
+    {C::cavity_size, "The cavity is smaller than its cutter: {word}.", "The cavity is smaller than its cutter."},
+    {C::cavity_corner, "Corners have a radius from that of the cutter to half of the shorter side: {word} is none.", "The corners of the cavity have no such radius."},
+    {C::cavity_step, "The rings would be farther from each other than the cutter is wide: make {cavity_step} smaller.", nullptr},
     {C::head_silent, "The stitching head gives no answer: its stitch is not done (PPE), or the next place may not come (NPFIN).", nullptr},
     {C::print_port, "Nothing can be printed: POPEN has not been executed.", nullptr},
     {C::call_in_cycle, "A macro cannot be called by {word} during a fixed cycle.",
@@ -402,7 +421,7 @@ constexpr bool all_keys_known(const char* sentence) {
     if (*sentence != '{') continue;
     bool known = is_key(sentence, kAlarmVariable) || named(kNamedCodes, sentence) != nullptr || named(kNamedMisc, sentence) != nullptr ||
                  named(kNamedWords, sentence) != nullptr;
-    for (const char* name : {"word", "axis", "value", "function"}) known = known || is_key(sentence, name);
+    for (const char* name : {"word", "axis", "value", "function", "comma"}) known = known || is_key(sentence, name);
     if (!known) return false;
   }
   return true;
@@ -547,12 +566,16 @@ void put_axis(TextWriter& out, const char* axis_name) {
   if (known) out.put(' ').put(axis_name);
 }
 
+/// The words of a corner stand behind a comma. Otherwise a code makes them those of a corner (Series 8 G10).
+bool corners_by_comma(const Dialect& dialect) { return find_function(dialect, Function::corner_behind) == nullptr; }
+
 void put_key(TextWriter& out, const char* at, const Dialect& dialect, const Fault& fault, const char* axis_name) {
   if (const NamedCode* const code = named(kNamedCodes, at); code != nullptr) put_code(out, dialect, code->function);
   else if (const NamedMisc* const misc = named(kNamedMisc, at); misc != nullptr) put_misc(out, dialect, misc->function);
   else if (const NamedWord* const word = named(kNamedWords, at); word != nullptr) put_letter(out, dialect, word->role, a_number_follows(at));
   else if (is_key(at, kAlarmVariable)) put_alarm_variable(out, dialect);
   else if (is_key(at, "word")) put_word(out, dialect, fault);
+  else if (is_key(at, "comma")) out.put(corners_by_comma(dialect) ? "," : "");
   else if (is_key(at, "function")) out.put(fault.function);
   else if (is_key(at, "value")) out.put_number(fault.value);
   else put_axis(out, axis_name);

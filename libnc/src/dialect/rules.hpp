@@ -381,6 +381,8 @@ struct ScalingRules {
   /// The axes of the plane are scaled about the zero point; what has been programmed before stays the programmed position, so that a first move
   /// moves both (Series 8 G57). Otherwise about the point of the words, or the position of the tool (M700 13.19).
   bool about_zero = false;
+  /// The axes of the plane are scaled, and so the plane stays while they are (Series 8 G57: "in the active plane"). Otherwise it is free.
+  bool binds_plane = false;
 };
 
 /// Rotation of coordinates by program.

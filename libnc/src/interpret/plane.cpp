@@ -43,6 +43,7 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
   const bool changes = !state.modal.is(row.function) || state.plane_axis[0] != h || state.plane_axis[1] != v;
   const Rules& rules = in.dialect->rules;
   if (state.rotated && (changes || !rules.rotation.plane_in_block)) return in.raise_code(Condition::plane_in_rotation, row);  // M700 13.20
+  if (state.scaled != 0 && changes && rules.scaling.binds_plane) return in.raise_code(Condition::plane_in_rotation, row);  // Series 8 G57: "in the active plane"
   const bool other = row.function != Function::plane_xy;
   if (other && state.comp.side != 0 && rules.compensation.xy_plane_only) return in.raise_code(Condition::plane_in_compensation, row);
   if (other && state.cycle.kind != CycleKind::none && rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);

@@ -163,6 +163,11 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::probe_no_contact, "P607", nullptr},
     {C::probe_contact, "P607", nullptr},
     {C::two_words, "P33", nullptr},
+    {C::comment_open, "P33", nullptr},  // these do not occur
+    {C::level_below_bottom, "P35", nullptr},
+    {C::cavity_size, "P35", nullptr},
+    {C::cavity_corner, "P35", nullptr},
+    {C::cavity_step, "P35", nullptr},
     {C::head_silent, "P33", nullptr},  // does not occur
     {C::call_in_mdi, "P29", nullptr},  // does not occur
     {C::tap_no_speed, "P181", nullptr},    // 13.1.1, appendix 1

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cavities milled from the full material: G34, G35 and G36 of the Series 8. The manual has their titles alone; the words are those of docs/series8.md.
+#include <algorithm>
 #include <cmath>
 
 #include "interpret/feed.hpp"
@@ -38,7 +39,7 @@ Execution take_levels(BlockContext& in) {
   } else {
     return in.raise(Condition::words_missing, Role::basic_z);
   }
-  if (!(c.bottom < c.r)) return in.raise(Condition::value_range, Role::cycle_level, c.r);
+  if (!(c.bottom < c.r)) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
   kept.has_r = kept.has_z = true;
   kept.r_incremental = kept.z_incremental = false;
   kept.r = c.r;
@@ -64,21 +65,22 @@ Execution take_shape(BlockContext& in, Function function, double scale) {
   for (unsigned i = 0; i < (shape.circle ? 1u : 2u); ++i) {
     shape.half[i] = (shape.circle ? size[i] : size[i] / 2) - cutter;
     const Role word = i == 0 ? Role::cavity_length : Role::cavity_width;
-    if (shape.half[i] < (shape.circle ? kNoRadius_mm : 0.0)) return in.raise(Condition::value_range, word, w.get(word));
+    if (shape.half[i] < (shape.circle ? kNoRadius_mm : 0.0)) return in.raise(Condition::cavity_size, word, w.get(word));
   }
   double corner = cutter, step = cutter;
   if (!shape.circle && w.has(Role::cavity_corner)) did = positive(in, Role::cavity_corner, &corner);
   if (did != Execution::done) return did;
-  if (corner < cutter - kNoRadius_mm) return in.raise(Condition::value_range, Role::cavity_corner, w.get(Role::cavity_corner));  // the cutter cannot make it
+  if (corner < cutter - kNoRadius_mm) return in.raise(Condition::cavity_corner, Role::cavity_corner, w.get(Role::cavity_corner));  // the cutter cannot make it
   shape.corner = std::fmax(corner - cutter, 0);
-  if (shape.corner > std::fmin(shape.half[0], shape.half[1]) && !shape.circle) return in.raise(Condition::value_range, Role::cavity_corner, w.get(Role::cavity_corner));
+  if (shape.corner > std::fmin(shape.half[0], shape.half[1]) && !shape.circle) return in.raise(Condition::cavity_corner, Role::cavity_corner, w.get(Role::cavity_corner));
   if (!w.has(Role::cavity_step) && in.state.modal.d == 0) return in.raise(Condition::words_missing, Role::offset_number);
   if (w.has(Role::cavity_step) || !(step > 0)) did = positive(in, Role::cavity_step, &step);
   if (did != Execution::done) return did;
   shape.rings = rings_of_cavity(shape, step);
   const double least = shape.circle ? shape.half[0] : std::fmin(shape.half[0], shape.half[1]);
   const bool walls = cutter > 0 && shape.rings > 0 && least / shape.rings > 2 * cutter + kNoRadius_mm;  // something would be left between two rings
-  if (walls) return in.raise(Condition::value_range, Role::cavity_step, w.get(Role::cavity_step));
+  if (walls) return in.raise(Condition::cavity_step, Role::cavity_step, w.get(Role::cavity_step));
+  if (!shape.circle && cutter > 0) shape.rings = std::max(shape.rings, rings_of_cavity(shape, widest_step_round_corners(cutter)));
   in.cavity.cut = in.cavity.r - in.cavity.bottom;
   return w.has(Role::cavity_cut) ? positive(in, Role::cavity_cut, &in.cavity.cut) : Execution::done;
 }
@@ -110,7 +112,6 @@ uint32_t plane_bits(const BlockContext& in) { return 1u << in.state.plane_axis[0
 void make_piece(BlockContext& in, const CavityPiece& piece) {
   const AxisVec target = place(in, piece.to);
   if (!piece.arc) return go(in, target, plane_bits(in), false);
-  if (!in.cavity.shape.circle && !(in.cavity.shape.corner > 0)) return;  // the corner is sharp
   const AxisVec at = program_mapped(in) ? as_programmed_end(in, in.position()) : in.position();
   ArcWords words;
   for (unsigned i = 0; i < 2; ++i) words.center[i] = in.cavity.center[i] + piece.center[i] - at[static_cast<unsigned>(in.state.plane_axis[i])];

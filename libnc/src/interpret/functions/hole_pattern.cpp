@@ -93,6 +93,7 @@ Execution read_frame(BlockContext& in, HolePattern* p) {
   }
   for (const Role word : {Role::hole_columns, Role::hole_count}) {
     uint32_t* const places = word == Role::hole_columns ? &p->columns : &p->rows;
+    if (w.has(word) && w.get(word) != std::nearbyint(w.get(word))) return in.raise(Condition::value_range, word, w.get(word));
     const Execution did = w.has(word) ? take_count(in, word, false, places) : Execution::done;
     if (did != Execution::done) return did;
     if (*places < 2) return in.raise(Condition::value_range, word, w.get(word));
@@ -139,6 +140,7 @@ Execution do_hole_pattern(BlockContext& in) {
   if (did == Execution::done) did = read_pattern(in, &pattern);
   if (did != Execution::done) return did;
   const CycleState& c = in.state.cycle;
+  if (pattern.closed && is_arc(in.state.modal.of(Mode::motion))) return in.raise_code(Condition::not_accepted, row);  // its sides are lines
   if (c.kind != CycleKind::none) {
     if (c.drill_axis == plane.h || c.drill_axis == plane.v) return in.raise_code(Condition::plane_mismatch, row);
     did = check_hole(in);

@@ -18,7 +18,22 @@ bool goes_on(const BlockContext& in) {
   return false;
 }
 
-/// One way there and back. The axes go as the shadow of a point that goes round a circle at an even speed, so they turn round without a stop.
+/// The axes that the way moves. A rotation makes more of them than the block has words for.
+uint32_t axes_of_way(const BlockContext& in) {
+  const AxisVec from = in.position(), to = target_of_words(in);
+  uint32_t axes = 0;
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (std::fabs(to[i] - from[i]) >= 1e-9) axes |= 1u << i;
+  return axes;
+}
+
+/// Without the first three, which are all that a circle has.
+uint32_t beyond_third(uint32_t axes) {
+  for (unsigned i = 0; i < 3; ++i) axes &= axes - 1;
+  return axes;
+}
+
+/// One way there and back, of three axes at most. False: there is no way. The axes go as the shadow of a point that goes round a circle at an even speed, so they turn round without a stop.
 bool make_pass(BlockContext& in) {
   const AxisVec from = in.position(), to = target_of_words(in);
   MoveShape shape;
@@ -28,15 +43,13 @@ bool make_pass(BlockContext& in) {
   arc = SpaceArc{};
   double way = 0;
   unsigned used = 0;
-  uint32_t axes = 0;
+  const uint32_t axes = axes_of_way(in);
   for (unsigned i = 0; i < in.axis_count; ++i) {
-    if (std::fabs(to[i] - from[i]) < 1e-9) continue;
-    if (used == 3) return false;
+    if ((axes >> i & 1) == 0) continue;
     arc.axis[used] = static_cast<uint8_t>(i);
     arc.center[used] = (from[i] + to[i]) / 2;
     arc.e1[used++] = from[i] - to[i];
     way += (to[i] - from[i]) * (to[i] - from[i]);
-    axes |= 1u << i;
   }
   way = std::sqrt(way);
   if (!(way / 2 > kNoRadius_mm)) return false;
@@ -64,7 +77,9 @@ Execution do_sine_loop(BlockContext& in) {
   if (in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);
   const Execution did = check_feed(in, Function::linear);
   if (did != Execution::done) return did;
-  if (!make_pass(in)) return in.raise_code(Condition::words_missing, row);
+  const uint32_t fourth = beyond_third(axes_of_way(in));
+  if (fourth != 0) return in.raise_axis(Condition::illegal_axis, first_of(fourth));
+  if (!make_pass(in)) return in.raise_code(Condition::value_range, row);
   in.next_step = Step::loop;
   return Execution::later;
 }
