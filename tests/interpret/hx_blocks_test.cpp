@@ -32,6 +32,29 @@ TEST(HxBlocks, PositionOffsetsStandBesideMotionsAlone) {  // 13.3
   for (const char* code : {"G45", "G46", "G47", "G48"}) EXPECT_EQ(hx(std::string("G90 G16 ") + code + " G01 X30. Y30. D1 F100").alarm, "NC-MODE") << code;
 }
 
+TEST(HxBlocks, ACycleStandsBesideNoOtherFunctionThatUsesAxes) {
+  for (const char* block : {"G53 G81 X1. Z-1. R1. F100", "G28 G81 X1. Z-1. R1. F100", "G31 G81 X1. Z-1. R1. F100", "G92 G81 X1. Z-1. R1. F100", "G81 G52 X1. Z-1. R1. F100"}) {
+    const Outcome run = hx(block);
+    EXPECT_EQ(run.alarm, "F_82001") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+  EXPECT_EQ(hx("G60 G81 X1. Z-1. R1. F100").alarm, "");
+  EXPECT_EQ(hx("G80 G53 X1.").alarm, "");
+}
+
+TEST(HxBlocks, SingleDirectionIsNoCut) {  // 4.2
+  EXPECT_EQ(hx("G60 G01 X10. F100").alarm, "F_82001");
+  EXPECT_EQ(hx("G60 G00 X10.").alarm, "");
+  EXPECT_EQ(hx("G01 X1. F100\nG60 X10.").alarm, "");
+}
+
+TEST(HxBlocks, ACommentHasAnEnd) {
+  const Outcome run = hx("G00 X1. (open Y2.");
+  EXPECT_EQ(run.alarm, "F_82004");
+  EXPECT_EQ(run.alarm_detail, "A comment that begins with '(' has no ')' in its line.");
+  EXPECT_EQ(hx("(a) G00 X1. (b) (c)").alarm, "");
+}
+
 TEST(HxBlocks, HaveOneWordThatCallsBehindThem) {  // 14.1.5, 14.1.6
   const auto run = [](const std::string& block) {
     Bench b(NC_DIALECT_HX);

@@ -224,9 +224,39 @@ TEST(IsoMachine, MovesByTheMotionInForce) {  // RS-274/NGC 3.5.12
   // It is not a word of the arc that is not possible beside it, but the arc.
   for (const char* arc : {"F100\nG2 X2 I1\nG53 X0", "G53 G2 X1 I1 F10", "G53 G3 X1 R1 F10", "G53 G2 X1 I1 P2 F10"}) {
     const Outcome run = Bench(NC_DIALECT_ISO).run(std::string(arc) + "\nM2");
-    EXPECT_EQ(run.alarm, "NC-NO-SUCH-CODE") << arc;
+    EXPECT_EQ(run.alarm, "NC-MODE") << arc;
     EXPECT_EQ(run.alarm_detail, "G53 goes to machine coordinates by G00 or G01, in no other motion. Program one of them beside it.") << arc;
   }
+}
+
+// Functions that use the axis words of the block leave none for a hole.
+TEST(IsoCycle, StandsBesideNoOtherFunctionThatUsesAxes) {  // LinuxCNC: "cannot use two G codes that both use axis values"
+  for (const char* block : {"G53 G81 X1 Z-1 R1 F100", "G81 G28 X1 Z-1 R1 F100", "G81 G92 X1 Z-1 R1 F100"}) {
+    const Outcome run = iso(block);
+    EXPECT_EQ(run.alarm, "NC-ADDRESS") << block;
+    EXPECT_EQ(run.alarm_detail, "The word G81 is not possible in this block.") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+  EXPECT_EQ(alarm_of("G80 G53 G0 X1"), "");
+}
+
+TEST(IsoCycle, HasAtLeastOneHoleAndABottomBelowR) {  // RS-274/NGC 3.5.16
+  EXPECT_EQ(alarm_of("G81 X1 Y1 Z-1 R2 F100 L0"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("G81 X1 Y1 Z-1 R2 F100 L1"), "");
+  EXPECT_EQ(iso("G81 X1 Z2 R1 F100").alarm_detail, "R must be above the bottom.");
+}
+
+TEST(IsoText, ACommentHasAnEnd) {  // RS-274/NGC 3.3.4
+  for (const char* text : {"G0 (unclosed X1", "(unclosed", "G0 X1 (a) (b", "#1=5 (unclosed", "N1 (unclosed\nG0 X1"}) {
+    const Outcome run = iso(text);
+    EXPECT_EQ(run.alarm, "NC-FORMAT") << text;
+    EXPECT_EQ(run.alarm_detail, "A comment that begins with '(' has no ')' in its line.") << text;
+  }
+  for (const char* text : {"G0 X1 ; (", "G0 (a) X1 (b)", "(a; b)", "; ( ) ("}) EXPECT_EQ(alarm_of(text), "") << text;
+  const std::string blanks(3000, ' ');  // longer than the window
+  EXPECT_EQ(alarm_of("G0 X1 (" + blanks + ")"), "");
+  EXPECT_EQ(alarm_of("G0 X1 (" + blanks), "NC-FORMAT");
+  EXPECT_EQ(alarm_of("G0 X1 (" + blanks + "\nX2"), "NC-FORMAT");
 }
 
 TEST(IsoReference, WithoutWordsAllAxesGo) {  // RS-274/NGC 3.5.8
@@ -379,7 +409,7 @@ TEST(IsoProbe, StaysInForceAsAMotion) {  // LinuxCNC, modal groups: G38.n is one
     unsigned line;
   };
   for (const Row& row : {Row{"F100\nG38.2 Z-3\nX5", "NC-PROBE", 3}, Row{"F100\nG38.3 Z-3\nG93\nX1 F1", "NC-FEED-MODE", 4}, Row{"F100\nG4 P1 G38.3 Z-3", "NC-FORMAT", 2},
-                         Row{"F100\nG38.3 Z-3\nG53 X1", "NC-NO-SUCH-CODE", 3}, Row{"F100\nG38.3 Z-3 G1 X5", "NC-FORMAT", 2}}) {
+                         Row{"F100\nG38.3 Z-3\nG53 X1", "NC-MODE", 3}, Row{"F100\nG38.3 Z-3 G1 X5", "NC-FORMAT", 2}}) {
     const Outcome run = bench.at(0, 0, 0).run(row.program);
     EXPECT_EQ(run.alarm, row.alarm) << row.program;
     EXPECT_EQ(run.alarm_line, row.line) << row.program;

@@ -92,7 +92,7 @@ TEST(MachineInput, ThatDoesNotComeIsMinusOneBehindItsTime) {
 
 TEST(MachineInput, HasItsAlarms) {
   EXPECT_EQ(alarm_of("M66\nM2"), "NC-WORDS");
-  EXPECT_EQ(alarm_of("M66 P0 E0\nM2"), "NC-RANGE");
+  EXPECT_EQ(alarm_of("M66 P0 E0\nM2"), "NC-FORMAT");  // an input of one kind
   EXPECT_EQ(alarm_of("M66 P40\nM2"), "NC-RANGE");
   EXPECT_EQ(alarm_of("M66 P0 L5 Q1\nM2"), "NC-RANGE");
   EXPECT_EQ(alarm_of("M66 P0 L3\nM2"), "NC-RANGE");     // LinuxCNC: a wait has a time

@@ -636,6 +636,7 @@ class Lexer {
       to_line_end();
     } else {
       for (at_.skip(); !at_.at_end(); at_.skip()) ++at_.p;
+      if (at_.comment_is_open && rules_.comments_end && !block_.has_fault) fault(Condition::comment_open);
       if (at_.p != at_.end && *at_.p == ';') pass_semicolon();
     }
     LexResult result;

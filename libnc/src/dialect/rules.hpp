@@ -317,6 +317,8 @@ struct CycleRules {
   /// The codes that stop the program act over the first hole of their block, "after positioning" (M700 13.1.1 (2)). Otherwise they act behind the block, as
   /// elsewhere (RS-274/NGC 3.8), or stand alone (DGSHAPE 2).
   bool stops_over_hole = false;
+  /// No repetition is a fault (RS-274/NGC 3.5.16: L is a positive integer). Otherwise the words are kept, and there is no hole (M700 13.1.1).
+  bool repeats_from_one = false;
 };
 
 /// Reference positions.

@@ -278,6 +278,8 @@ Execution execute_motion_of_words(BlockContext& in) {
   } else if (w.cycle != nullptr && !ignores_cycle(*in.dialect, w.one_shot)) {
     if (w.one_shot != nullptr && w.cycle->function != Function::cycle_off && has_places_of_its_own(w.one_shot->function)) return in.raise_code(Condition::format_error, *w.one_shot);
     return do_cycle(in);
+  } else if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.block.unused_words_are_faults) {
+    return in.raise_code(Condition::illegal_address, *w.cycle);  // the function beside it has the axis words, and the hole would be lost
   }
   const Execution probes = take_probing(in);
   if (probes != Execution::done) return probes;

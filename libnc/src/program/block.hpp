@@ -48,6 +48,7 @@ struct LexRules {
   bool heads_scanned = false;
   char program_letter = 0, sequence_letter = 0;  ///< letters of the program and sequence numbers at the head of a block
   bool skip_numbers = false;       ///< true: "/1" to "/9" name the skip switch; false: only "/" exists
+  bool comments_end = false;       ///< a comment without ')' is a fault (RS-274/NGC 3.3.4, DGSHAPE 2-6); otherwise it ends with its line
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65, in which a blank is a character
   bool macros = false;             ///< the language has variables and formulas: '#' and '[ ]' in one of ISO words
   Formula formula = Formula::macro;              ///< of which kind

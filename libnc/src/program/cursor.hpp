@@ -78,6 +78,7 @@ struct Cursor {
   bool semicolon_ends = false;    ///< ';' ends the words of a block, whatever follows it
   const char* comment = nullptr;  ///< text of the last comment passed over
   const char* comment_end = nullptr;
+  bool comment_is_open = false;   ///< a comment had no end
 
   /// Moves past blanks and comments. A comment that is not closed ends with its line (M700 3.1, 3.2).
   void skip() {
@@ -96,6 +97,7 @@ struct Cursor {
     while (p != end && *p != ')' && *p != '\n') ++p;
     comment_end = p;
     if (p != end && *p == ')') ++p;
+    else comment_is_open = true;
   }
   /// At the end of the block: a line end, a ';' that ends it, '%', or the end of the text.
   bool at_end() const { return p == end || *p == '\n' || *p == '%' || (*p == ';' && semicolon_ends); }

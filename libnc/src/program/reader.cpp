@@ -27,9 +27,12 @@ class Condenser {
     if (state_ == State::percent) return c != '\n';
     if (state_ == State::behind_semicolon || state_ == State::comment_behind) return take_behind(c, consumed);
     if (state_ == State::comment) {
-      if (c == '\n') return put_spare(c), false;
+      if (c == '\n') {
+        if (rules_.comments_end && !comment_kept_) put('(');
+        return put_spare(c), false;
+      }
       if (c == ')') {
-        if (comment_kept_) put_spare(c);
+        if (comment_kept_) rules_.comments_end ? put(c) : put_spare(c);  // where it has to end, its end is no spare character
         state_ = State::words;
       } else if (comment_kept_ && comment_length_ < kKeptComment) {
         ++comment_length_;

@@ -13,6 +13,7 @@ constexpr unsigned at(char letter) {
 constexpr IsoRules make_rules() {
   IsoRules rules = iso_rules();
   rules.macros = rules.statements = true;        // 14
+  rules.comments_end = true;                     // docs/decisions.md
   rules.semicolon = Semicolon::comment;          // 14.5: programs have a comment behind the end of a block
   rules.mdi_semicolon = Semicolon::ends_block;
   rules.skip_numbers = true;                     // 2.3.3

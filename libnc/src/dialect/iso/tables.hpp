@@ -12,7 +12,7 @@ inline constexpr unsigned kFunctionRows = 78;
 inline constexpr unsigned kMiscRows = 25;
 inline constexpr unsigned kOutputRows = 5;
 inline constexpr unsigned kAlarmRows = 9;
-inline constexpr unsigned kConditionRows = 78;
+inline constexpr unsigned kConditionRows = 77;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];

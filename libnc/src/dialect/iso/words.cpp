@@ -15,6 +15,7 @@ constexpr unsigned at(char letter) {
 constexpr IsoRules make_rules() {
   IsoRules rules = iso_rules();
   rules.program_letter = 0;  // LinuxCNC "O-codes": O does not begin a program but a control structure, which is not built
+  rules.comments_end = true;
   rules.macros = true;       // RS-274/NGC 3.3.2.2, 3.3.2.3
   rules.formula = Formula::ngc;
   rules.semicolon = Semicolon::comment;

@@ -196,7 +196,7 @@ Execution hole_count(BlockContext& in, uint32_t* count) {
   *count = 1;
   if (!in.words.has(word) || is_shift_word(in, word)) return Execution::done;
   if (!whole_number(in.words.get(word), count) || *count > in.dialect->rules.range.most_hole_repeats) return in.raise(Condition::value_range, word, in.words.get(word));
-  return Execution::done;
+  return *count == 0 && in.dialect->rules.cycle.repeats_from_one ? in.raise(Condition::value_range, word, in.words.get(word)) : Execution::done;
 }
 
 /// RS-274/NGC 3.5.16: it is an error if the spindle is not turning, a tap wants it the right way round.
@@ -270,7 +270,7 @@ Execution check_hole(BlockContext& in) {
     return in.raise(Condition::words_missing, Role::vector_x);
   const double depth = c.z_incremental ? -c.z : c.r - c.z;  // below R
   const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);
-  if (rules.bottom_is_below_r && c.has_z && same_kind && c.kind != CycleKind::back_bore_to_level && depth < 0) return in.raise(Condition::value_range, Role::cycle_level, c.r);
+  if (rules.bottom_is_below_r && c.has_z && same_kind && c.kind != CycleKind::back_bore_to_level && depth < 0) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
 }

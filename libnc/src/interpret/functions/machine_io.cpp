@@ -128,7 +128,7 @@ Execution wait_for_input(BlockContext& in) {
   if (w.auxiliary.size() > 1 || !w.functions.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, waiting(in)->number);
   InputWait wait;
   const bool analog = w.has(Role::word_number);
-  if (analog == w.has(Role::output_number)) return in.raise(analog ? Condition::value_range : Condition::words_missing, Role::output_number, w.get(Role::output_number));
+  if (analog == w.has(Role::output_number)) return in.raise(analog ? Condition::two_words : Condition::words_missing, Role::output_number, w.get(Role::output_number));
   Execution did = analog ? number_below(in, Role::word_number, NC_WORDS - 1, &wait.number) : number_below(in, Role::output_number, kBits, &wait.number);
   uint32_t kind = 0;
   if (did == Execution::done && w.has(Role::input_wait)) did = number_below(in, Role::input_wait, analog ? 1 : 5, &kind);  // an analog input is only read

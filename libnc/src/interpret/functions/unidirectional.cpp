@@ -12,6 +12,9 @@ AxisVec before_creep(const BlockContext& in, const AxisVec& target, uint32_t axe
 }
 
 Execution do_unidirectional(BlockContext& in) {
+  const FunctionRow* const beside = in.words.motion;
+  if (beside != nullptr && beside->function != Function::rapid && in.dialect->rules.block.unused_words_are_faults)
+    return in.raise_code(Condition::illegal_address, *beside);  // HX 4.2 prints G00 and cycles: it is no cut
   const uint32_t axes = in.words.target.axes();
   const AxisVec target = target_of_words(in), before = before_creep(in, target, axes);
   uint32_t creeps = 0;
