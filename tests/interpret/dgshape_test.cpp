@@ -29,6 +29,41 @@ TEST(DgshapeCycleBeside, AMotionDoesNotEndACycle) {  // 1-2, 2-7: other groups
     EXPECT_EQ(dgshape(std::string("M03S1000\n") + codes + "X1.Z-1.R1.F100.\nM30").path(), (Path{"rapid 1 0 0", "rapid 1 0 1", "line 1 0 -1 F100", "rapid 1 0 1"})) << codes;
 }
 
+TEST(Dgshape, TheUnitIsThatOfTheProgram) {  // 2-2, G20 G21
+  const auto said = [](const std::string& text) {
+    const Outcome run = Bench(NC_DIALECT_DGSHAPE).run("%\n" + text + "\nM02");
+    return run.alarm.empty() ? run.alarm : run.alarm + " " + run.alarm_detail;
+  };
+  EXPECT_EQ(said("G20\nG01X1.F100.\nX2."), "");
+  EXPECT_EQ(said("G21\nG90G21\nG01X1.F100.\nG21X2."), "");
+  const std::string stays = "NC-MODE G20 is chosen at the head of the program, in front of movements and F: the unit stays.";
+  EXPECT_EQ(said("G01X1.F100.\nG20\nX1."), stays);
+  EXPECT_EQ(said("G21\nG20\nG00X1."), "");  // nothing has counted in it yet
+  EXPECT_EQ(said("F100.\nG01X1.\nX2.\nG20X1."), stays);
+  EXPECT_EQ(said("G00X1.\nG20"), stays);
+  // Each program has its own.
+  Bench bench(NC_DIALECT_DGSHAPE);
+  EXPECT_EQ(bench.run("%\nG21G00X1.\nM02").alarm, "");
+  EXPECT_EQ(bench.run("%\nG20G00X1.\nM02").alarm, "");
+  // A plain line counts in the unit as well, with the F of a program before.
+  EXPECT_EQ(bench.run("%\nG21F100.\nG01X1.\nM02").alarm, "");
+  EXPECT_NE(bench.run("%\nG01X2.\nG20\nM02").alarm, "");
+}
+
+TEST(Dgshape, AnArcHasARadiusOrACentre) {  // 2-2, G02 G03: {[I][J] | R}
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG02X10.Y0R7.I5.F100.\nM02").alarm, "NC-FORMAT");
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG02X10.Y0R7.F100.\nM02").alarm, "");
+}
+
+TEST(Dgshape, ACommentHasAnEnd) {  // 2-6: the text "between a ( and )"
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG00X1. (open Y2.\nM02").alarm, "NC-FORMAT");
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("(title)\n%\n(first) G00X1. (second)\nM02").alarm, "");
+}
+
+TEST(Dgshape, TheSpindleTurnsOneWay) {
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG81X1.Z-1.R1.F100.\nM02").alarm_detail, "The spindle has to turn. Program S and M03 before it.");
+}
+
 TEST(DgshapeRotary, FIsTheSpeedOfTheToolOnItsCircle) {
   // 10 mm from the axis: 100 mm/min are 10 rad/min.
   EXPECT_NEAR(last_move("G00Z10.\nG01A90.F100.").feed_mm_min, 10 / kDegree, 1e-9);

@@ -116,7 +116,7 @@ std::map<std::string, Fields> groups_of_state() {
             mirror, rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle)
   NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space)
-  NC_FIELDS(ProgramLife, end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
+  NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)
   NC_FIELDS(UntilOperatorReset, left_by_end)
   NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open)

@@ -65,6 +65,9 @@ struct BlockRules {
   bool unused_words_are_faults = false;
   /// A block has either a chamfer or a rounding (HX 4.3.1, 4.3.2: each format has one of them). Otherwise the later word counts (M700 13.7.1 (3)).
   bool corner_words_exclude = false;
+  /// The unit is that of the whole program: a code that changes it behind an axis word or an F is a fault (DGSHAPE 2-2, G20). Otherwise it may change
+  /// in any block.
+  bool unit_is_of_program = false;
 };
 
 /// M, T and the second auxiliary function.

@@ -363,6 +363,14 @@ bool names_managed_tool(const BlockContext& in) {
   return false;
 }
 
+/// DGSHAPE 2-2, G20: the unit is chosen in front of anything that counts in it.
+Execution check_unit(Interpreter& in) {
+  for (const FunctionRow* row : in.words.functions)
+    if (mode_of(row->function) == Mode::unit && in.state.unit_used && !in.state.modal.is(row->function)) return in.raise_code(Condition::not_accepted, *row);
+  in.state.unit_used = in.state.unit_used || in.words.any(in.axis_words.all() | in.set_of({Role::feed}));
+  return Execution::done;
+}
+
 }  // namespace
 
 Execution execute_words(Interpreter& in) {
@@ -391,6 +399,10 @@ Execution execute_read_words(Interpreter& in) {
   if (in.state.codes_left != 0 && (in.state.codes_left >> in.state.depth & 1) != 0) return execute_codes_left(in);
   if (in.state.fine_mode != FineMode::none) {
     did = check_fine_block(in);
+    if (did != Execution::done) return did;
+  }
+  if (in.dialect->rules.block.unit_is_of_program) {
+    did = check_unit(in);
     if (did != Execution::done) return did;
   }
   if (only_moves(in)) return execute_move(in);

@@ -260,6 +260,7 @@ struct ModalInProgram {
 struct ProgramLife {
   bool end_seen = false;
   bool percent_seen = false;    ///< the start mark of the main program has been read
+  bool unit_used = false;       ///< a word has counted in the unit, where it is that of the program (DGSHAPE 2-2)
   bool interrupt_on = false;    ///< M96 in force (M700 13.12: "to M97 or NC reset")
   bool interrupt_moved = false; ///< the interrupt program has moved or given out M S T B
   uint8_t interrupt_depth = 0;  ///< level of the interrupt program in service, 0 = none

@@ -189,8 +189,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     if (nurbs.active()) hash.add(nurbs);
   }
   {
-    const auto& [end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled] = static_cast<const ProgramLife&>(values);
-    hash.add(end_seen, percent_seen, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled);
+    const auto& [end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled] = static_cast<const ProgramLife&>(values);
+    hash.add(end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled);
   }
   {
     const auto& [spindle_on, spindle_reverse, spindle_clamped] = static_cast<const UntilReset&>(values);

@@ -66,7 +66,6 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::measure_h, "NC-NO-SUCH-CODE", nullptr},
     {C::measure_no_length, "NC-NO-SUCH-CODE", nullptr},
     {C::measure_signal, "NC-NO-SUCH-CODE", nullptr},
-    {C::not_accepted, "NC-NO-SUCH-CODE", nullptr},
     {C::in_high_accuracy, "NC-NO-SUCH-CODE", nullptr},
     // offsets
     {C::local_in_extended, "NC-NOT-BUILT", nullptr},  // does not occur: there is neither G52 nor G54.1

@@ -12,7 +12,7 @@ inline constexpr unsigned kFunctionRows = 39;
 inline constexpr unsigned kMiscRows = 6;
 inline constexpr unsigned kOutputRows = 9;
 inline constexpr unsigned kAlarmRows = 5;
-inline constexpr unsigned kConditionRows = 75;
+inline constexpr unsigned kConditionRows = 74;
 
 extern const FunctionRow kFunctions[kFunctionRows];
 extern const MiscRow kMisc[kMiscRows];

@@ -16,6 +16,7 @@ constexpr unsigned at(char letter) {
 constexpr IsoRules make_rules() {
   IsoRules rules = iso_rules();
   rules.percent_alone = true;       // 2-6: "Never specify any word other than % in this block"
+  rules.comments_end = true;        // 2-6: the text "between a ( and )"
   rules.slash_only_at_head = true;  // 2-6: "/" at the start of the block
   // P and K are real numbers in some functions (G51 P 0.5, arc centre K) and integers in others, so they are read as written.
   for (const char* letter = "XYZAIJKRFPQ"; *letter != 0; ++letter) rules.word[at(*letter)].known = true;
