@@ -675,8 +675,10 @@ Execution move_by_words(BlockContext& in) {
   }
   if (w.in_position > 0 && motion != Function::linear) return in.raise(Condition::illegal_address, Role::vector_x, w.in_position);
   if (thread || is_exponential(motion)) return move_by_function(in, motion, target, w.target.axes());
-  const Execution fed = check_feed(in, motion);
-  if (fed != Execution::done && !(in.dialect->rules.feed.no_way_needs_none && motion == Function::linear && target == in.position())) return fed;
+  if (!in.dialect->rules.feed.no_way_needs_none || motion != Function::linear || target != in.position()) {
+    const Execution fed = check_feed(in, motion);
+    if (fed != Execution::done) return fed;
+  }
   if (!plain) return move_by_function(in, motion, target, w.target.axes());
   if (arc && style.corner != Corner::none) return move_arc_to_corner(in, target, ccw, style);
   if (arc && in.settings.spiral_type_2 && means_spiral(in)) return move_spiral(in, target, w.target.axes(), ccw);
