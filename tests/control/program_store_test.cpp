@@ -128,6 +128,17 @@ TEST(ProgramsOfAControl, MdiFindsRoomInAFullStore) {
   EXPECT_EQ(nc_program_add_text(bench.control(), "d", "M30", 3, nullptr), NC_E_MEMORY);
 }
 
+// M700 13.3.1: leading zeros of P are dropped, so the file "0100" can only be called as <0100>. The store knows what a name means, whoever enters the text.
+TEST(ProgramsOfAControl, ANumberWithLeadingZerosIsAName) {
+  Bench bench;
+  EXPECT_EQ(info_of(bench, bench.add("0100", "G0 Y1.\nM99\n")).number, 0u);
+  EXPECT_EQ(info_of(bench, bench.add("O0200.nc", "G0 Y2.\nM99\n")).number, 200u);
+  EXPECT_EQ(info_of(bench, bench.add("300.nc", "M99\n")).number, 300u);
+  EXPECT_EQ(info_of(bench, bench.add("123456789", "M99\n")).number, 0u);
+  EXPECT_EQ(bench.run("M98 P100\nM30").alarm, "P232");
+  EXPECT_EQ(bench.run("M98 <0100>\nM98 P200\nM30").path(), (Path{"rapid 0 1 0", "rapid 0 2 0"}));
+}
+
 TEST(ProgramsOfAControl, NamesOf255Bytes) {
   Bench bench;
   const std::string name(255, 'n');

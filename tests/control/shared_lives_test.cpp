@@ -36,6 +36,12 @@ class SharedLives : public testing::Test {
     for (uint32_t number = 101; number <= 104; ++number) all += (number == 101 ? "" : number == 102 ? ", " : " ") + brief(pair.var(system, number));
     return all;
   }
+  /// Runs a program on the machine.
+  void execute(unsigned system, const std::string& text) {
+    pair.select(system, text);
+    pair.start(1u << system);
+    pair.to_the_end();
+  }
   static std::string registers(unsigned group, unsigned tool, const char* more = "L9 Q1") {
     return "G10 L3 P1\nP" + std::to_string(group) + " " + more + "\nT" + std::to_string(tool) + "\nG11\n";
   }
@@ -102,6 +108,53 @@ TEST_F(SharedLives, AResetTakesBackOnlyWhatWasReadAhead) {
     EXPECT_EQ(life(1, NC_LIFE_LENGTH), 7);
     for (unsigned system = 0; system < 2; ++system) EXPECT_EQ(read_by(system, 10), reset ? "1, 101 1 1" : "1, 101 1 3");
   }
+}
+
+/// The table belongs to both. While a tool is in the spindle of one part system the other one may remove it and register another tool in its place: that is
+/// not the one in the spindle, whether uses or minutes are counted, and not the one whose offsets H99 means.
+TEST_F(SharedLives, AnotherToolInThePlaceOfTheOneInTheSpindleIsNotThatOne) {
+  ASSERT_EQ(nc_tool_offset_set(pair.control(), 7, NC_TOOL_LENGTH, 3), NC_OK);
+  for (const char* counted : {"L9 Q3", "L9 Q2"}) {
+    SCOPED_TRACE(counted);
+    const std::string other = std::string("G10 L3 P1\nP30 ") + counted + "\nT301 H7\nG11\n";
+    execute(0, std::string("G10 L3\nP10 ") + counted + "\nT101\nG11\nM30");
+    execute(0, "T10 M6\nG0 X1.\nG1 X21. F600\nM30");
+    EXPECT_EQ(pair.out[0].tool_group, 10U);
+    EXPECT_GT(life(1, NC_LIFE_USED), 0);
+    execute(1, "G10 L3 P2\nP10\nG11\n" + other + "M30");
+    ASSERT_EQ(table(), "1: 30 301 0 0");
+    execute(0, "G0 X0\nG1 X21. F600\nG0 X0\nG43 H99\nG0 Z10.\nM30");
+    EXPECT_EQ(table(), "1: 30 301 0 0");
+    EXPECT_EQ(pair.out[0].tool_group, 0U);
+    EXPECT_EQ(pair.out[0].command.v[2], 10) << "number 99 of the table of offsets, in which nothing stands";
+    execute(0, "#60000=30\n#101=#60005\nM30");
+    EXPECT_EQ(pair.var(0, 101), 0) << "no tool of that group is in the spindle";
+    pair.in[0].tool_broken = true;
+    pair.cycles(5);
+    pair.in[0].tool_broken = false;
+    pair.cycles(5);
+    EXPECT_EQ(life(1, NC_LIFE_STATUS), 0) << "what broke is not this one";
+    execute(0, "G49\nT30 M6\nG0 X1.\nG1 X21. F600\nM30");
+    EXPECT_GT(life(1, NC_LIFE_USED), 0) << "now it is";
+    EXPECT_EQ(pair.out[0].tool_group, 30U);
+  }
+}
+
+TEST_F(SharedLives, AnotherToolInThePlaceOfTheSelectedOneIsNotMounted) {
+  execute(0, "G10 L3\nP10 L9 Q1\nT101\nG11\nM30");
+  execute(0, "T10\nM30");
+  execute(1, "G10 L3 P2\nP10\nG11\n" + registers(30, 301) + "M30");
+  execute(0, "M6\nM30");
+  EXPECT_EQ(table(), "1: 30 301 0 0");
+  EXPECT_EQ(pair.out[0].tool_group, 0U);
+}
+
+TEST_F(SharedLives, TheSameToolRegisteredAnewGoesOn) {
+  execute(0, "G10 L3\nP10 L9 Q3\nT101\nG11\nM30");
+  execute(0, "T10 M6\nM30");
+  execute(1, "G10 L3 P1\nP10 L5 Q3\nT101\nG11\nM30");
+  execute(0, "G0 X1.\nG1 X2. F6000\nM30");
+  EXPECT_EQ(table(), "1: 10 101 0 1");
 }
 
 /// To register a tool is to look for a free place and to write to it: one step for the other part system, whatever the rhythm of both and of the feeder.

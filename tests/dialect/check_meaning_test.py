@@ -158,6 +158,22 @@ PLANTED = {
     "numbered": ["const bool waits = settings.shared_100 != 0;", "constexpr uint32_t kLast500 = 999;", "if (last_100_ < other) return;", "raise(Condition::g10_l);",
                  "if (settings.clamp_in_g96_only) return;", "constexpr bool kOnlyInG96 = true;"],
     "plain": ["s.last = last_shared(parameter, 100, 199, 0);", "constexpr uint32_t kBegin = 100, kEnd = 199;\nconst auto n = up_to(last, kBegin, kEnd);", "for (uint32_t n = 100; n <= 199; ++n) clear(n);", "if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
+    "range": [  # as they stood in the core before the families had them
+        "return whole_number(value, number) && *number <= 99999999 ? done : raise();",
+        "if (!(a.written >= 1) || a.written > 9999) return;",
+        "constexpr double kMinute_ms = 60000, kMostMinutes = 4000;",
+        "constexpr double kLargestVector = 1, kLargestAngle = 360;",
+        "bool in_position_range(double mm) { return mm < 999.999 + 1e-9; }",
+        "const double end = 99.999999;",
+        "if (value > 1000 - unit + kNoise) return;",
+        "s_.last_mm = 100000 - s_.setting_unit_mm;",
+        "if (a.written * unit > 244335917226.0) return;",
+        "if (d.high < 2000 || d.high > 2099) return;",
+        "m.code = whole({P::m_call_code, i}, 9999);",
+        "double lead = 0, limit = 1000;",
+        "if (lead < (inch ? 10000 : 1000)) return;",
+        "constexpr double kLast[3] = {99999, 1, 8};",
+    ],
     "key": ['get("1078", -1, &value);', 'get("1267/bit0");', 'return number("8621");'],
     "text": ['say("no effect while #8107 is 0");', 'const char* why = R"(set #1037)";'],
     "alarm": ['if (alarm.code == "P62") return;', 'return !strcmp(code, "P130");'],
@@ -229,6 +245,16 @@ class Found(unittest.TestCase):
             with self.subTest(sample=sample):
                 self.assertEqual(kinds(sample, "runtime/x.hpp"), [])
 
+    def test_ranges_are_for_the_rooms_that_hold_values_to_them(self):
+        for sample in ("if (x > 0.999) return;", "if (value >= 0 && value <= 4294967295.0) return;", "constexpr unsigned kMostShapes = 256;", "const double per_s = value / 1000;",
+                       "if (std::fabs(value) < 2147483647.5) return;", "constexpr double kAnyFeed = 1e12;", "days = days - 1000 * x;", "Pool<Entry, 1000> pool;",
+                       "if (359.9999 - angle > noise) return;", "constexpr unsigned kMost = 8;", "use(value * 1e4 - std::nearbyint(value));"):
+            with self.subTest(sample=sample):
+                self.assertNotIn("range", kinds(sample))
+        for sample in PLANTED["range"]:
+            with self.subTest(sample=sample):
+                self.assertNotIn("range", kinds(sample, "libnc/src/motion/x.cpp"))
+
     def test_letters_are_for_the_core_alone_to_avoid(self):
         for sample in ("if (c >= 'A' && c <= 'Z') return;", "const char digit = '0';", "const char separator = ',';"):
             with self.subTest(sample=sample):
@@ -242,7 +268,7 @@ class Found(unittest.TestCase):
         for sample in ("if (words.has(Role::feed)) return in.raise(Condition::value_range, Role::feed, words.get(Role::feed));",
                        "const WordSlot word = in.axis_words.word(i);", "if (second == kNoWord || holds(known, second)) return;",
                        "const Table<ModalWord>& words = dialect->variables->words;", "a.word = word_of_capital(whole({P::ascii_call_letter, i}, 0));",
-                       "if (n >= 0 && n <= 99999999) return;", "if (bits == 3 * kStride) return;", "FixedVector<uint32_t, 16> m(in);", "std::get<1>(pair);",
+                       "if (n >= 0 && n < kLimit) return;", "if (bits == 3 * kStride) return;", "FixedVector<uint32_t, 16> m(in);", "std::get<1>(pair);",
                        "if (!is_letter(text[0])) return;", "char line[160];", "double f(double raw);", "out.put(',');"):
             with self.subTest(sample=sample):
                 self.assertEqual(kinds(sample), [])

@@ -37,20 +37,21 @@ TEST(Rules, OnlyAFamilyThatManagesTheLivesOfToolsHasANumberForTheOneInTheSpindle
 TEST(Rules, ScalingFactorIsRefusedOrHeld) {
   const auto m700 = rules_of(NC_DIALECT_M700).scaling.factor_of_word;
   double factor = 0;
-  EXPECT_TRUE(m700(500000, false, &factor));
+  const RangeRules &millionths = rules_of(NC_DIALECT_M700).range, &thousandths = rules_of(NC_DIALECT_DGSHAPE).range;
+  EXPECT_TRUE(m700(500000, false, millionths, &factor));
   EXPECT_DOUBLE_EQ(factor, 0.5);
-  EXPECT_TRUE(m700(0.5, true, &factor));
+  EXPECT_TRUE(m700(0.5, true, millionths, &factor));
   EXPECT_DOUBLE_EQ(factor, 0.5);
-  EXPECT_TRUE(m700(99999999, false, &factor));
-  EXPECT_FALSE(m700(100, true, &factor));
-  EXPECT_FALSE(m700(0, false, &factor));
+  EXPECT_TRUE(m700(99999999, false, millionths, &factor));
+  EXPECT_FALSE(m700(100, true, millionths, &factor));
+  EXPECT_FALSE(m700(0, false, millionths, &factor));
   const auto dgshape = rules_of(NC_DIALECT_DGSHAPE).scaling.factor_of_word;
   for (const bool pointed : {false, true}) {
-    EXPECT_TRUE(dgshape(2, pointed, &factor));
+    EXPECT_TRUE(dgshape(2, pointed, thousandths, &factor));
     EXPECT_DOUBLE_EQ(factor, 2);
-    EXPECT_TRUE(dgshape(0, pointed, &factor));
+    EXPECT_TRUE(dgshape(0, pointed, thousandths, &factor));
     EXPECT_DOUBLE_EQ(factor, 0.001);
-    EXPECT_TRUE(dgshape(1000, pointed, &factor));
+    EXPECT_TRUE(dgshape(1000, pointed, thousandths, &factor));
     EXPECT_DOUBLE_EQ(factor, 999.999);
   }
 }

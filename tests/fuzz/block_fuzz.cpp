@@ -79,7 +79,7 @@ struct Fixture {
   nc::IsoRules rules;
   nc::BlockReader whole, narrow;
   Fixture(uint8_t choice) : rules(rules_of(choice)) {
-    store.create(2, 0, rules.program_letter, arena);
+    store.create(2, 0, {rules.program_letter, 99999999}, arena);
     whole.create(&store, &rules, 64, 8, arena);
     narrow.create(&store, &rules, 16 + choice / 2, choice % 16, arena);
   }

@@ -60,7 +60,7 @@ class Interpreted {
  private:
   void lay_out(Arena& arena) {
     const Dialect& family = dialect(static_cast<nc_dialect>(config_.dialect));
-    store.create(config_.programs, 1, family.lex->program_letter, arena);
+    store.create(config_.programs, 1, {family.lex->program_letter, family.rules.range.largest_program}, arena);
     CommonRanges ranges;
     ranges.first[0] = 100, ranges.last[0] = 199;
     common_.create(ranges, arena);

@@ -118,7 +118,7 @@ class Texts {
       : rules(lex_rules),
         memory_(std::make_unique_for_overwrite<char[]>(kMemory)),
         arena_(memory_.get(), kMemory) {
-    store.create(16, 0, rules.program_letter, arena_);
+    store.create(16, 0, {rules.program_letter, 99999999}, arena_);
     reader.create(&store, &rules, window, cached, arena_);
   }
 

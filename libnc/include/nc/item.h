@@ -66,7 +66,8 @@ typedef enum nc_control_index {
                                       are diameters */
   NC_CONTROL_SURFACE_SPEED = 4,  /**< constant surface speed (M700 10.3): `value` m/min, `bits` bit n = by axis n, 0 = it has ended */
   NC_CONTROL_SPINDLE_CLAMP = 5,  /**< clamp of the selected spindles (M700 10.4): `bits` S, `mask` Q as programmed, r/min; `value` nc_clamp_bits */
-  NC_CONTROL_TOOL_LIFE = 6,      /**< a tool has come into the spindle: `value` its number in the table of tool life, 0 = its life is not managed */
+  NC_CONTROL_TOOL_LIFE = 6,      /**< a tool has come into the spindle: `value` its place in the table of tool life, 0 = its life is not managed;
+                                      `bits` the number of the tool that is registered there */
   NC_CONTROL_INTERRUPT = 7       /**< macro interrupt: `value` nc_interrupt_bits */
 } nc_control_index;
 

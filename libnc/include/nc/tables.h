@@ -159,7 +159,7 @@ typedef enum nc_life_column {
   NC_LIFE_FLAGS = 2,     /**< bits 4, 5: what is counted: 0 minutes of cutting, 1 mounts, 2 uses; the others are given back as they are; 0 to 255 */
   NC_LIFE_STATUS = 3,    /**< 0 not used, 1 in use, 2 its life has ended, 3 and 4 not to be used */
   NC_LIFE_LIFE = 4,      /**< its life in minutes (0 to 4000) or times (0 to 9999); 0 = without end */
-  NC_LIFE_USED = 5,      /**< what of it has been used */
+  NC_LIFE_USED = 5,      /**< what of it has been used, in the same range */
   NC_LIFE_LENGTH = 6,    /**< number of its offset for the length */
   NC_LIFE_RADIUS = 7,    /**< number of its offset for the radius */
   NC_LIFE_AUXILIARY = 8  /**< for the machine's own use */
@@ -170,7 +170,8 @@ typedef enum nc_life_column {
  * @param control the control
  * @param number of the tool in the table, 1 to NC_TOOL_LIVES: the tools of a group are used in this order
  * @param column nc_life_column
- * @param value in the range of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY
+ * @param value in the range of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY. NC_LIFE_FLAGS says whether NC_LIFE_LIFE and NC_LIFE_USED are
+ *        minutes or times and so which range they have: it is set before them, and cannot become minutes while they are beyond those
  * @return NC_OK; NC_E_ARGUMENT: no such number or column, or the value is out of range
  */
 NC_API nc_status nc_tool_life_set(nc_control* control, unsigned number, nc_life_column column, double value);

@@ -10,8 +10,10 @@ namespace {
 /// G51 and G68: appendix 2 has no row for them, so it does not say to which code the words belong when another such code stands in the block.
 bool shares_no_words(Function function) { return function == Function::scaling_on || function == Function::rotation_on; }
 
-/// M700 13.1.1: "0.001 to 999.999 (mm)"; 6.1 and 6.2 give no range for the same word.
-bool in_position_range(double mm) { return mm > 0.001 - 1e-9 && mm < 999.999 + 1e-9; }
+bool in_position_range(const RangeRules& range, double mm) {
+  constexpr double kNoise = 1e-9;
+  return mm > range.least_in_position_mm - kNoise && mm < range.most_in_position_mm + kNoise;
+}
 
 }  // namespace
 
@@ -104,7 +106,7 @@ Reading CommandReader::take_option(const Word& word, double value) {
   const FrontEnd& front = front_;
   if (front.is(word, Role::option_in_position) || front.is(word, Role::option_in_position_drill)) {
     const double width = front.questions->length(front.core, Written{value, word.flags});
-    if (!in_position_range(width)) return front_.refuse(Condition::value_range, slot_of(word), value);
+    if (!in_position_range(front.dialect->rules.range, width)) return front_.refuse(Condition::value_range, slot_of(word), value);
     (front.is(word, Role::option_in_position) ? w.in_position : w.in_position_drill) = width;
     return Reading::done;
   }

@@ -36,26 +36,14 @@ bool tool_number(const nc_control* c, unsigned number, nc_tool_column column) {
   return c != nullptr && number >= 1 && number <= c->config.tool_offsets && static_cast<unsigned>(column) <= NC_TOOL_RADIUS_WEAR;
 }
 
-struct Name {
-  char text[NC_MAX_NAME] = {};
-  uint32_t number = 0;
-};
-
-/// Takes the base name of "O1000.nc", "1000" or "part.nc", and its O number where the name is one.
-bool parse_name(const char* name, Name* out) {
-  if (name == nullptr) return false;
+/// What stands behind the folders of a name; nullptr = nothing, or it is too long for the store. Which number it means is known to the store.
+const char* file_of(const char* name) {
+  if (name == nullptr) return nullptr;
   const char* base = name;
   for (const char* p = name; *p != 0; ++p)
     if (*p == '/' || *p == '\\') base = p + 1;
   const size_t length = std::strlen(base);
-  if (length == 0 || length >= sizeof(out->text)) return false;
-  std::memcpy(out->text, base, length + 1);
-  const char* digits = *base == 'O' || *base == 'o' ? base + 1 : base;
-  uint64_t number = 0;
-  unsigned count = 0;
-  while (digits[count] >= '0' && digits[count] <= '9' && count < 9) number = number * 10 + static_cast<unsigned>(digits[count++] - '0');
-  if (count >= 1 && count <= 8 && (digits[count] == 0 || digits[count] == '.')) out->number = static_cast<uint32_t>(number);
-  return true;
+  return length != 0 && length < NC_MAX_NAME ? base : nullptr;
 }
 
 /// The number of the program is one that a parameter protects.
@@ -78,14 +66,13 @@ bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {
 /// The text of the program must not be changed, because the program runs or is protected.
 bool kept(const nc_control* c, unsigned file) { return is_referred_to(c, file, true) || is_protected(c, file); }
 
-nc_status add_entry(nc_control* c, const char* name, nc::TextEntry entry, unsigned* file, bool own = false) {
-  Name parsed;
-  if (c == nullptr || !parse_name(name, &parsed)) return NC_E_ARGUMENT;
-  const int before = c->store.find_exactly(parsed.text);
+nc_status add_entry(nc_control* c, const char* name, const nc::TextEntry& entry, unsigned* file, bool own = false) {
+  const char* const base = file_of(name);
+  if (c == nullptr || base == nullptr) return NC_E_ARGUMENT;
+  const int before = c->store.find_exactly(base);
   if (before >= 0 && kept(c, static_cast<unsigned>(before))) return NC_E_STATE;
-  entry.number = parsed.number;
   unsigned index = 0;
-  const nc_status status = c->store.add(entry, parsed.text, &index, own);
+  const nc_status status = c->store.add(entry, base, &index, own);
   if (status == NC_OK && before >= 0)  // a place in a text is not one in another text
     for (unsigned i = 0; i < c->config.system_count; ++i)
       if (c->system[i].interpreter.refers_to(static_cast<unsigned>(before))) c->system[i].interpreter.keep_place(false);
@@ -210,17 +197,23 @@ bool life_place(const nc_control* c, unsigned number, nc_life_column column) {
   return c != nullptr && number >= 1 && number <= NC_TOOL_LIVES && column <= NC_LIFE_AUXILIARY;
 }
 
-/// The value is in the range of its column (M700 10.15).
-bool life_value(const nc_control* c, nc_life_column column, double value) {
-  constexpr double kLastNumber = 99999999, kMost = 9999, kFlags = 255, kStates = 4;
-  const double most = column <= NC_LIFE_TOOL      ? kLastNumber
+/// The value is in the range of its column. What is counted says in which range a life is, so it cannot become minutes while the life is longer than those.
+bool life_value(const nc_control* c, const nc::ToolLife& tool, nc_life_column column, double value) {
+  constexpr double kFlags = 255, kStates = 4;
+  const nc::RangeRules& range = c->dialect->rules.range;
+  const double most = column <= NC_LIFE_TOOL      ? range.largest_life_number
                       : column == NC_LIFE_FLAGS   ? kFlags
                       : column == NC_LIFE_STATUS  ? kStates
-                      : column <= NC_LIFE_USED    ? kMost
+                      : column <= NC_LIFE_USED    ? range.most_life(tool.flags.method == nc::LifeMethod::time)
                       : column <= NC_LIFE_RADIUS  ? c->config.tool_offsets
                                                   : 0;
   if (column == NC_LIFE_AUXILIARY) return sane(value);
-  return value >= 0 && value <= most && (column == NC_LIFE_USED || value == std::trunc(value));
+  if (!(value >= 0 && value <= most) || (column != NC_LIFE_USED && value != std::trunc(value))) return false;
+  if (column != NC_LIFE_FLAGS) return true;
+  nc::LifeFlags flags;
+  nc::from_life_number(value, flags);
+  const double longest = range.most_life(flags.method == nc::LifeMethod::time);
+  return static_cast<double>(tool.life) <= longest && tool.used <= longest;
 }
 
 }  // namespace
@@ -228,8 +221,9 @@ bool life_value(const nc_control* c, nc_life_column column, double value) {
 static_assert(NC_TOOL_LIVES == nc::kLifeTools && NC_LIFE_AUXILIARY == static_cast<int>(nc::LifeColumn::auxiliary));
 
 nc_status nc_tool_life_set(nc_control* c, unsigned number, nc_life_column column, double value) {
-  if (!life_place(c, number, column) || !life_value(c, column, value)) return NC_E_ARGUMENT;
+  if (!life_place(c, number, column)) return NC_E_ARGUMENT;
   const nc::HostTables tables = c->system[0].interpreter.tables();
+  if (!life_value(c, tables.lives().tool[number - 1], column, value)) return NC_E_ARGUMENT;
   nc::visit_column(static_cast<nc::LifeColumn>(column), [&](auto member) {
     auto typed = tables.lives().tool[number - 1].*member;
     nc::from_life_number(value, typed);

@@ -22,7 +22,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
     // Each room takes its memory through the same calls as for a real control; a store and a part system that are thrown away take their place.
     nc::ProgramStore store;
     nc::CommonVariables common;
-    store.create(config.programs, config.system_count, dialect.lex->program_letter, arena);
+    store.create(config.programs, config.system_count, {dialect.lex->program_letter, dialect.rules.range.largest_program}, arena);
     nc::VendorCodes vendor;
     lay_out_vendor(config, dialect, nullptr, &vendor, arena);
     for (unsigned i = 0; i < config.system_count; ++i) {
@@ -36,7 +36,7 @@ nc_control* lay_out(const nc_config& config, nc::Arena& arena) {
   }
   control->config = config;
   control->dialect = &dialect;
-  control->store.create(config.programs, config.system_count, dialect.lex->program_letter, arena);
+  control->store.create(config.programs, config.system_count, {dialect.lex->program_letter, dialect.rules.range.largest_program}, arena);
   lay_out_vendor(config, dialect, control, &control->vendor, arena);
   control->config.vendor_codes = nullptr;  // these pointers lead into the caller's memory; from here on only the copies are used
   for (const nc_kinematics*& kinematics : control->config.kinematics) kinematics = nullptr;

@@ -4,34 +4,44 @@
 #include <algorithm>
 
 #include "control/part_system.hpp"
+#include "dialect/dialect.hpp"
 #include "frame/tool_life.hpp"
 #include "interpolate/life_ring.hpp"
 
 namespace nc {
+namespace {
+
+/// The slot of the tool that is in the spindle, kNone = it is not registered there any more.
+unsigned slot_of(const ToolLives& lives, const MountedTool& mounted) {
+  return mounted.place == 0 ? ToolLives::kNone : lives.find({mounted.place - 1U, mounted.number});
+}
+
+}  // namespace
 
 void PartSystem::count_tool_life() {
-  constexpr double kMinute_ms = 60000, kMostMinutes = 4000;
+  constexpr double kMinute_ms = 60000;
+  const double most_minutes = dialect_->rules.range.most_life_minutes;
   const HostTables tables = interpreter.tables();
   const ToolLives& lives = tables.lives();
-  uint8_t number = 0;
+  MountedTool mounted;
   uint32_t ms = 0;
-  while (executor.tool_cut(&number, &ms)) {
-    const unsigned slot = number - 1U;
-    if (number == 0 || slot >= kLifeTools || lives.tool[slot].is_free()) continue;
+  while (executor.tool_cut(&mounted, &ms)) {
+    const unsigned slot = slot_of(lives, mounted);
+    if (slot == ToolLives::kNone) continue;
     const ToolLife& tool = lives.tool[slot];
     if (ms == LifeRing::kBroken) {
       tables.set_life(slot, &ToolLife::status, LifeStatus::error_1);
       continue;
     }
     if (tool.flags.method != LifeMethod::time) continue;
-    const double used = std::min(kMostMinutes, tool.used + ms / kMinute_ms);
+    const double used = std::min(most_minutes, tool.used + ms / kMinute_ms);
     tables.set_life(slot, &ToolLife::used, used);
     if (tool.life != 0 && used >= static_cast<double>(tool.life) && tool.lives()) tables.set_life(slot, &ToolLife::status, LifeStatus::ended);
   }
-  const unsigned in_spindle = executor.tool_in_spindle();
-  if (in_spindle == 0 || in_spindle > kLifeTools) return executor.tell_tool_life(0, 0);
-  const ToolLife& tool = lives.tool[in_spindle - 1];
-  const uint32_t ended = !tool.is_free() && !tool.lives() ? +NC_TOOL_LIFE_ENDED : 0, all = lives.all_ended(tool.group) ? +NC_TOOL_GROUP_ENDED : 0;
+  const unsigned in_spindle = slot_of(lives, executor.tool_in_spindle());
+  if (in_spindle == ToolLives::kNone) return executor.tell_tool_life(0, 0);
+  const ToolLife& tool = lives.tool[in_spindle];
+  const uint32_t ended = !tool.lives() ? +NC_TOOL_LIFE_ENDED : 0, all = lives.all_ended(tool.group) ? +NC_TOOL_GROUP_ENDED : 0;
   executor.tell_tool_life(ended | all, static_cast<uint32_t>(tool.group));
 }
 

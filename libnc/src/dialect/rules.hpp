@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "dialect/ranges.hpp"
+
 namespace nc {
 
 struct AccuracyParameters;
@@ -374,9 +376,9 @@ struct ScalingRules {
   bool all_linear_axes;
   /// P is required (DGSHAPE G51). Otherwise a parameter gives the factor if P is missing (M700 13.19).
   bool factor_required;
-  /// Converts the value of P into `factor`; returns false if it is out of range. `pointed`: P has a decimal point. M700 13.19: without a
-  /// point P is in millionths. DGSHAPE G51: P is limited to its range.
-  bool (*factor_of_word)(double value, bool pointed, double* factor);
+  /// Converts the value of P into `factor`; returns false if it is out of the range that the family's row gives. `pointed`: P has a decimal point. M700
+  /// 13.19: without a point P is in millionths. DGSHAPE G51: P is limited to its range.
+  bool (*factor_of_word)(double value, bool pointed, const RangeRules& range, double* factor);
   /// I J K are factors of the basic axes, a negative one mirrors, and a parameter of each axis stands for one that is missing (HX 15.2.2, 15.3).
   /// Else one factor is that of all (M700 13.19; DGSHAPE G51).
   bool factor_by_axis;
@@ -493,19 +495,6 @@ struct StitchRules {
   uint32_t next_may = 0;  ///< input: the next place may come
 };
 
-/// The largest values of words and parameters, beyond which they are faults. A family whose manual has the word and another range states its own.
-struct RangeRules {
-  uint32_t most_arc_turns = 9999;     ///< P of an arc (M700 6.6)
-  uint32_t most_call_repeats = 9999;  ///< L of a call (M700 13.3)
-  uint32_t most_hole_repeats = 9999;  ///< L or K beside a cycle (M700 13.1.1)
-  uint32_t most_holes = 9999;         ///< of a row, a circle or a grid; one less than a power of ten, where only the last digits count (M700 13.2)
-  uint32_t most_pitches = 99;         ///< of a spiral or a cone (M700 6.13)
-  double least_curve_weight = 0.0001, most_curve_weight = 99.9999;  ///< of a point of NURBS (M700 6.15)
-  double steepest_exponential_deg = 89;                             ///< taper and torsion of exponential interpolation, either sign (M700 6.11)
-  double most_current_percent = 300;                                ///< of the rated current of an axis (M700 15.6)
-  double least_scale = 1e-6, most_scale = 99.999999;                ///< a parameter beyond them counts as 1 (M700 13.19, HX 15.2.2)
-};
-
 struct Rules {
   NumberRules number;
   BlockRules block;
@@ -528,7 +517,7 @@ struct Rules {
   MillRules mill;
   CodeCallRules code_call;
   StitchRules stitch{};
-  RangeRules range{};
+  RangeRules range;
 };
 
 }  // namespace nc

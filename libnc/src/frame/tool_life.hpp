@@ -79,11 +79,25 @@ double life_number(const ToolLife& tool, LifeColumn column);
 
 inline constexpr unsigned kLifeTools = 200;  ///< tools that can be registered
 
+/// A tool that a part system has selected or mounted: its slot, kLifeTools = none, and the number by which it was registered there then. The table belongs
+/// to all part systems: another one may remove this tool, and register a different one in its slot.
+struct RegisteredTool {
+  uint32_t slot = kLifeTools;
+  uint32_t number = 0;
+  bool operator==(const RegisteredTool&) const = default;
+};
+
 /// The table. Slots count from 0.
 struct ToolLives {
   static constexpr unsigned kNone = kLifeTools;  ///< no slot
   ToolLife tool[kLifeTools];
 
+  /// The tool in a slot as it is registered now.
+  RegisteredTool registered_in(unsigned slot) const { return slot >= kNone ? RegisteredTool{} : RegisteredTool{slot, static_cast<uint32_t>(tool[slot].tool)}; }
+  /// The slot of the tool while it is registered there; kNone = it is not any more.
+  unsigned find(const RegisteredTool& used) const {
+    return used.slot < kNone && !tool[used.slot].is_free() && tool[used.slot].tool == used.number ? used.slot : kNone;
+  }
   /// The group registered first, 0 = none.
   uint64_t first_group() const;
   unsigned registered(uint64_t group) const;              ///< number of its tools

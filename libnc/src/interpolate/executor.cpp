@@ -325,8 +325,8 @@ void Executor::set_position(const AxisVec& machine) {
   state_->scan.set_position(machine);
 }
 
-bool Executor::tool_cut(uint8_t* tool, uint32_t* ms) { return state_->shared.lives.pop(tool, ms); }
-uint8_t Executor::tool_in_spindle() const { return state_->shared.status.read().tool; }
+bool Executor::tool_cut(MountedTool* tool, uint32_t* ms) { return state_->shared.lives.pop(tool, ms); }
+MountedTool Executor::tool_in_spindle() const { return state_->shared.status.read().tool; }
 void Executor::tell_tool_life(uint32_t bits, uint32_t group) {
   state_->shared.tool_life.store(bits, std::memory_order_relaxed);
   state_->shared.tool_group.store(group, std::memory_order_relaxed);

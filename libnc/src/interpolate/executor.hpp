@@ -5,6 +5,7 @@
 
 #include "base/arena.hpp"
 #include "interpolate/axis_parameters.hpp"
+#include "interpolate/life_ring.hpp"
 #include "motion/axis_limits.hpp"
 #include "nc/run.h"
 #include "ring/record.hpp"
@@ -143,9 +144,9 @@ class Executor {
   /// Sets the position; only while idle, before the scan runs.
   void set_position(const AxisVec& machine);
   // ---- tool life management: the scan counts for how long a tool of the table cuts
-  /// A tool, its number in the table from 1, has cut for so many ms, LifeRing::kBroken = it is broken. False: there is nothing new.
-  bool tool_cut(uint8_t* tool, uint32_t* ms);
-  uint8_t tool_in_spindle() const;  ///< its number in the table, 0 = its life is not managed
+  /// A tool has cut for so many ms, LifeRing::kBroken = it is broken. False: there is nothing new.
+  bool tool_cut(MountedTool* tool, uint32_t* ms);
+  MountedTool tool_in_spindle() const;
   void tell_tool_life(uint32_t bits, uint32_t group);
   /// The tap of this part system as the scan has left it; and before the first cycle the one that a power cut has left (nc_tap_set()). False: the scan runs.
   nc_tap tap() const;

@@ -563,8 +563,8 @@ double Interpolator::override_in_force(const nc_inputs& in, nc_override_source* 
 void Interpolator::count_cutting(const nc_inputs& in) {
   constexpr double kTell_s = 1, kMillis = 1000;
   const bool breaks = in.tool_broken && !broken_last_;
-  broken_last_ = in.tool_broken && (broken_last_ || tool_ == 0 || shared_->lives.push(tool_, LifeRing::kBroken));
-  if (tool_ == 0 || breaks) return;
+  broken_last_ = in.tool_broken && (broken_last_ || tool_.place == 0 || shared_->lives.push(tool_, LifeRing::kBroken));
+  if (tool_.place == 0 || breaks) return;
   if (moving_ && !current().segment.rapid && law_.v > 0) cut_s_ += config_.cycle_s;
   if (cut_s_ >= kTell_s && shared_->lives.push(tool_, static_cast<uint32_t>(std::lround(cut_s_ * kMillis)))) cut_s_ = 0;
 }

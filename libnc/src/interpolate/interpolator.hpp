@@ -43,7 +43,7 @@ struct ScanStatus {
   nc_source stopped_at{};   ///< block in execution at that moment
   BlockSeq stopped_behind = 0;  ///< the last block that had been executed to its end
   nc_tap tap{};  ///< nc_tap_get()
-  uint8_t tool = 0;  ///< number of the tool in the spindle in the table of tool life, 0 = none
+  MountedTool tool;  ///< in the spindle
   uint32_t starts = 0;       ///< number of starts so far, which is that of the stop behind the last one; 0 = there was none
   bool block_stop = false;   ///< the machine stands in a block stop, between two blocks; and
   BlockSeq stop_behind = 0;  ///< the block behind which a program that is interrupted there goes on
@@ -396,7 +396,7 @@ class Interpolator {
   bool dropping_ = false;      ///< the rest of the block is not executed
 
   // ---- tool life
-  uint8_t tool_ = 0;             ///< ScanStatus::tool
+  MountedTool tool_;             ///< ScanStatus::tool
   double cut_s_ = 0;             ///< it has cut for so long since the feeder was told
   bool broken_last_ = false;     ///< level of the signal
 

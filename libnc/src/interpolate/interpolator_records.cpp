@@ -355,8 +355,8 @@ Interpolator::Done Interpolator::action(const Action& a) {
       }
       if (a.index == NC_CONTROL_TOOL_LIFE) {
         const auto cut_ms = static_cast<uint32_t>(std::lround(cut_s_ * 1000));
-        if (tool_ != 0 && cut_ms != 0 && !shared_->lives.push(tool_, cut_ms)) return wait(NC_CAUSE_NONE);
-        tool_ = static_cast<uint8_t>(code_number(a.value));
+        if (tool_.place != 0 && cut_ms != 0 && !shared_->lives.push(tool_, cut_ms)) return wait(NC_CAUSE_NONE);
+        tool_ = {static_cast<uint8_t>(code_number(a.value)), a.bits};
         cut_s_ = 0;
       }
       if (a.index == NC_CONTROL_TAPPING) return take_tapping(static_cast<uint8_t>(code_number(a.value)));

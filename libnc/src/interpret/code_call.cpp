@@ -120,7 +120,7 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   }
   // M700 App.1 P310: no such call during a fixed cycle.
   if (in.state.cycle.kind != CycleKind::none) return in.raise(Condition::call_in_cycle, caller.word, caller.value);
-  if (caller.ascii && std::fabs(caller.value) > 999999.9999) return in.raise(Condition::value_range, caller.word, caller.value);
+  if (caller.ascii && std::fabs(caller.value) > in.dialect->rules.range.largest_calling_value) return in.raise(Condition::value_range, caller.word, caller.value);
   show_code(in, caller);
   if (type_of_call(in, caller) == CodeCallType::sub) {
     did = set_variable_of_call(in, caller);

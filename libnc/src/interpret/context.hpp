@@ -208,6 +208,8 @@ struct BlockContext {
   void refresh_axis_words();
   /// The highest number of an offset of a tool.
   unsigned tool_offsets() const { return frames.tool_offsets() < dialect->most_offsets ? frames.tool_offsets() : dialect->most_offsets; }
+  /// The slot of the tool in the spindle in the table of tool life, ToolLives::kNone = its life is not managed, or it is not registered there any more.
+  unsigned managed_tool() const { return lives->find(records->tools.spindle); }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
 
   /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.

@@ -8,26 +8,26 @@
 namespace nc {
 namespace {
 
-constexpr double kNoise = 1e-9;
+constexpr double kUnitNoise = 1e-9;
 
 bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
 
-/// M700 7.4 (1): F without a point counts in the setting unit; its range is 0.001 to 999.999, with one more decimal for each finer unit.
+/// M700 7.4 (1): F without a point counts in the setting unit; its range has one more decimal for each finer unit.
 Execution take_feed_per_revolution(BlockContext& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
   const double raw = in.words.get(Role::feed);
   const double value = in.words.pointed(Role::feed) || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
-  const bool below = value > 0 && value < unit - kNoise * unit;
-  if (!(value >= 0) || below || value > 1000 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, raw);
+  const bool below = value > 0 && value < unit - kUnitNoise * unit;
+  if (!(value >= 0) || below || value > in.dialect->rules.range.end_of_revolution_feed - unit + kUnitNoise) return in.raise(Condition::value_range, Role::feed, raw);
   in.state.modal.feed = value;
   return Execution::done;
 }
 
-/// M700 7.5 (2), precaution (3): the range of F is 0.001 to 999999.999 1/min with #1003 = B; F0 is an alarm.
+/// M700 7.5 (2), precaution (3): the range of F in 1/min begins with the setting unit; F0 is an alarm.
 Execution take_inverse_time(BlockContext& in) {
   const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
   if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
-  if (!(value >= unit - kNoise * unit) || value > 1e6 - unit + kNoise) return in.raise(Condition::value_range, Role::feed, value);
+  if (!(value >= unit - kUnitNoise * unit) || value > in.dialect->rules.range.end_of_inverse_time - unit + kUnitNoise) return in.raise(Condition::value_range, Role::feed, value);
   in.state.modal.feed = value;
   return Execution::done;
 }

@@ -168,11 +168,11 @@ Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
   return eval == Eval::need_sync ? Execution::sync : Execution::done;
 }
 
-/// M700 App.1 P35: the P of a program has up to eight digits and no sign (3.5); the same holds for H and for the P of M99.
+/// M700 App.1 P35: the P of a program has no sign and no more than its digits; the same holds for H and for the P of M99.
 Execution called_number(Interpreter& in, Role word, double value, uint32_t* number) {
   const double within = in.dialect->rules.block.whole_words_within;
   if (within >= 0 && !make_whole(within, &value)) return in.raise(Condition::format_error, word, value);
-  return whole_number(value, number) && *number <= 99999999 ? Execution::done : in.raise(Condition::value_range, word, value);
+  return whole_number(value, number) && *number <= in.dialect->rules.range.largest_program ? Execution::done : in.raise(Condition::value_range, word, value);
 }
 
 Execution find_called(Interpreter& in, bool has_p, double p, bool own_allowed, ProgramRef* program) {

@@ -72,7 +72,7 @@ Eval read_rotation(Access& a) {
 // ---- tool life (13.5.5, 10.15) ---------------------------------------------------------------------------------------------------------
 
 Execution select_tool_group(Access& a) {
-  if (!whole_between(a.written, 0, 99999999)) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  if (!whole_between(a.written, 0, a.in.dialect->rules.range.largest_life_number)) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.change(&ProgramRecords::selection, &Selection::tool_group, static_cast<uint32_t>(a.written));
   return Execution::done;
 }
@@ -93,7 +93,7 @@ Eval read_tool_group(Access& a) {
   const uint64_t group = group_read(a);
   const unsigned tools = lives.registered(group);
   if (tools == 0) return give(a, -1);
-  const unsigned in_spindle = a.in.records->tools.spindle, now = lives.current_of(group, in_spindle), next = lives.next_of(group);
+  const unsigned in_spindle = a.in.managed_tool(), now = lives.current_of(group, in_spindle), next = lives.next_of(group);
   switch (a.index) {
     case 0: return give(a, tools);
     case 1: return give(a, std::trunc(lives.tool[now].used));
@@ -119,9 +119,9 @@ Eval read_tool_life(Access& a) {
 // ---- parameters (13.5.5, 10.16) ---------------------------------------------------------------------------------------------------------
 
 Execution select_parameter(Access& a) {
-  constexpr double kLast[3] = {99999, 1, NC_MAX_AXES};
+  const double last[3] = {static_cast<double>(a.in.dialect->rules.range.largest_parameter), 1, NC_MAX_AXES};
   const double low = a.index == 1 ? 0 : 1;
-  if (!whole_between(a.written, low, kLast[a.index])) return no_such(a);
+  if (!whole_between(a.written, low, last[a.index])) return no_such(a);
   if (a.index == 2 && a.written > a.in.axis_count) return no_such(a);
   Selection selection = a.in.records->selection;
   selection.parameter[a.index] = static_cast<uint32_t>(a.written);
@@ -179,7 +179,7 @@ Execution write_parameter_itself(Access& a) {
 
 Execution select_device(Access& a) {
   const bool good = a.index == 0   ? a.in.devices.read != nullptr && find_device(a.in, a.written) != nullptr
-                    : a.index == 1 ? whole_between(a.written, 0, 99999)
+                    : a.index == 1 ? whole_between(a.written, 0, a.in.dialect->rules.range.largest_device)
                     : a.index == 2 ? find_width(a.in, a.written) != nullptr
                                     : whole_between(a.written, 0, 15);  // (4) (b): a device has 16
   if (!good) return no_such(a);

@@ -29,10 +29,10 @@ struct Settings {
   double setting_unit_mm = 0.001;     ///< #1003 iunit: unit of I J K R without a point, mm
   double setting_unit_inch = 0.0001;
   double setting_unit_deg = 0.001;
-  // Largest coordinate and length, in mm or deg: +-99999.999 mm or deg, +-9999.9999 inch, and with more decimals in finer units (M700 2.1, 5.3). kNoise
-  // allows for the rounding of inches to mm, far below the finest unit.
+  // Largest coordinate and length, in mm or deg: one setting unit below the end of the family's range. kNoise allows for the rounding of inches to mm, far
+  // below the finest unit.
   static constexpr double kNoise = 1e-9;
-  double last_mm = 100000 - 0.001 + kNoise, last_inch = (10000 - 0.0001) * kMillimetresPerInch + kNoise, last_deg = 100000 - 0.001 + kNoise;
+  double last_mm = 0, last_inch = 0, last_deg = 0;
   bool decimal_type_2 = false;        ///< #1078
   double tenfold = 1;                 ///< "UNIT*10"
   bool dwell_p_decimal = false;       ///< #8112

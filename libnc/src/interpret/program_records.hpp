@@ -133,10 +133,10 @@ struct WorkpieceCounts {
   bool operator==(const WorkpieceCounts&) const = default;
 };
 
-/// The tools with a managed life that a part system uses: their slots (frame/tool_life.hpp), ToolLives::kNone = the life of that tool is not managed.
+/// The tools with a managed life that a part system uses (frame/tool_life.hpp). Without a slot the life of that tool is not managed.
 struct ToolsInUse {
-  uint32_t spindle = ToolLives::kNone;
-  uint32_t selected = ToolLives::kNone;  ///< by T
+  RegisteredTool spindle;
+  RegisteredTool selected;  ///< by T
   bool cutting = false;                  ///< the tool in the spindle has cut in the move before
   bool operator==(const ToolsInUse&) const = default;
 };

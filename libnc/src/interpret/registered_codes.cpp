@@ -7,7 +7,7 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kLargestProgram = 99999999;
+constexpr uint32_t kUnset = ~0u;  // a row that no parameter gives a code to
 
 using P = Parameter;
 
@@ -29,7 +29,7 @@ void read_call(const Reader& whole, ParameterOf type, ParameterOf program, CodeC
   const uint32_t kind = whole(type, 0);
   call->program = whole(program, 0);
   call->type = static_cast<CodeCallType>(kind);
-  if (kind > 3 || call->program > kLargestProgram) call->program = 0;
+  if (kind > 3 || call->program > whole.dialect.rules.range.largest_program) call->program = 0;
 }
 
 /// M700 13.5.2 (2): M00 to M95, except M0 M1 M2 M30.
@@ -55,7 +55,7 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
   calls.system_codes = whole(P::system_codes_call, 0) != 0;
   for (unsigned i = 0; i < CodeCalls::kCodes; ++i) {
     CodeCall& m = calls.m[i];
-    m.code = whole({P::m_call_code, i}, 9999);
+    m.code = whole({P::m_call_code, i}, kUnset);
     const CodeCallRules& rules = dialect.rules.code_call;
     if (rules.first_of_m != 0) {
       of_place(rules.first_of_m, i, &m);
@@ -64,7 +64,7 @@ CodeCalls read_code_calls(const Parameters& parameters, const Dialect& dialect) 
     }
     if (!m_allowed(dialect, m.code) || whole({P::words_call, kCallsByM}, 1) == 0) m.program = 0;
     CodeCall& g = calls.g[i];
-    g.code = whole({P::g_call_code, i}, 9999);
+    g.code = whole({P::g_call_code, i}, kUnset);
     if (rules.first_of_g != 0) {
       of_place(rules.first_of_g, i, &g);
       if (of_macros(dialect, g.code)) g.program = 0;

@@ -87,9 +87,10 @@ void SettingsReader::units() {
   s_.setting_unit_mm = 0.001 / finer;
   s_.setting_unit_inch = 0.0001 / finer;
   s_.setting_unit_deg = 0.001 / finer;
-  s_.last_mm = 100000 - s_.setting_unit_mm + Settings::kNoise;
-  s_.last_deg = 100000 - s_.setting_unit_deg + Settings::kNoise;
-  s_.last_inch = (10000 - s_.setting_unit_inch) * kMillimetresPerInch + Settings::kNoise;
+  const RangeRules& range = dialect_.rules.range;
+  s_.last_mm = range.end_of_positions_mm - s_.setting_unit_mm + Settings::kNoise;
+  s_.last_deg = range.end_of_positions_mm - s_.setting_unit_deg + Settings::kNoise;
+  s_.last_inch = (range.end_of_positions_inch - s_.setting_unit_inch) * kMillimetresPerInch + Settings::kNoise;
   const double cunit = value(P::command_unit, 0);
   s_.command_unit_mm = cunit > 0 ? cunit * 0.0001 : s_.setting_unit_mm;
   s_.command_unit_inch = cunit > 0 ? cunit * 0.00001 : s_.setting_unit_inch;
@@ -129,7 +130,7 @@ void SettingsReader::words() {
   s_.semicolon_comments = flag(P::semicolon_comments);
   for (unsigned i = 0; i < 8; ++i) {
     const double m = value({P::reading_stop, i}, 0);
-    s_.misc_codes.reading_stops[i] = m >= 1 && m <= 99999999 ? static_cast<uint32_t>(m) : 0;
+    s_.misc_codes.reading_stops[i] = m >= 1 && m <= dialect_.rules.range.largest_misc ? static_cast<uint32_t>(m) : 0;
     s_.misc_codes.any_reading_stop |= s_.misc_codes.reading_stops[i] != 0;
   }
   s_.tool_memory_2 = value(P::tool_memory_type, 1) == 2;

@@ -127,6 +127,10 @@ class Hash {
     const auto& [parameter, device, tool_group] = selection;
     add(parameter, device, tool_group);
   }
+  void add_one(const RegisteredTool& used) {
+    const auto& [slot, number] = used;
+    add(slot, number);
+  }
   void add_one(const ToolsInUse& tools) {
     const auto& [spindle, selected, cutting] = tools;
     add(spindle, selected, cutting);

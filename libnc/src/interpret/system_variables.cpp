@@ -137,7 +137,7 @@ uint32_t keep_text(Access& a) {
 }
 
 Execution write_alarm(Access& a) {
-  if (!(a.written >= 1) || a.written > 9999) return a.in.raise(Condition::value_range, Sign::variable, a.written);  // M700 10.3
+  if (!(a.written >= 1) || a.written > a.in.dialect->rules.range.largest_alarm) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.raise(Condition::user_alarm, Sign::variable, a.written);
   a.in.user_alarm_text = keep_text(a);
   return Execution::fault;
@@ -165,7 +165,7 @@ Eval read_counter(Access& a) {
 template <Counter which>
 Execution write_counter(Access& a) {
   const double unit = counter_unit(a.in, which);
-  if (!(a.written >= 0) || a.written * unit > 244335917226.0) return a.in.raise(Condition::value_range, Sign::variable, a.written);  // M700 13.5.5 (24299)
+  if (!(a.written >= 0) || a.written * unit > a.in.dialect->rules.range.longest_counter_ms) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   if (!a.in.world_fresh) return a.in.need(NC_SYNC_CLOCK);
   a.in.state.clock_base[which] = counter_ms(a.in, which) - a.written * unit;
   return Execution::done;
@@ -208,7 +208,8 @@ struct Digits {
   unsigned high, middle, low;
 };
 bool digits_of(const Access& a, Digits* digits) {
-  if (!(a.written >= 0) || a.written > 99999999) return false;
+  constexpr double kEightDigits = 1e8;
+  if (!(a.written >= 0) || !(a.written < kEightDigits)) return false;
   const auto all = static_cast<uint32_t>(a.written);
   *digits = {all / 10000, all / 100 % 100, all % 100};
   return true;
@@ -220,8 +221,9 @@ Execution write_date(Access& a) {
   if (!digits_of(a, &d)) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   int64_t year = 0;
   unsigned month = 0, day = 0;
+  const RangeRules& range = a.in.dialect->rules.range;
   civil(days_of(d.high, d.middle == 0 ? 1 : d.middle, d.low == 0 ? 1 : d.low), &year, &month, &day);
-  if (d.high < 2000 || d.high > 2099 || month != d.middle || day != d.low) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  if (d.high < range.first_year || d.high > range.last_year || month != d.middle || day != d.low) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   return set_clock(a, days_of(d.high, d.middle, d.low), clock_seconds(a.in) % 86400);
 }
 Eval read_date(Access& a) {
@@ -245,12 +247,11 @@ Eval read_time_of_day(Access& a) {
   return give(a, static_cast<double>(seconds / 3600 % 24 * 10000 + seconds / 60 % 60 * 100 + seconds % 60));
 }
 
-/// Number of machined workpieces, and its maximum (M700 13.5.5 (10.13): positive). Macros of machine makers write -1 as the first, which an option allows.
+/// Number of machined workpieces, and its maximum: positive. Macros of machine makers write -1 as the first, which an option allows.
 Eval read_count(Access& a) { return give(a, a.in.records->workpieces.count[a.index]); }
 Execution write_count(Access& a) {
-  constexpr double kMost = 999999;
-  const double least = a.index == 0 && a.in.settings.negative_count ? -kMost : 0;
-  if (!(a.written >= least) || a.written > kMost) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  const double most = a.in.dialect->rules.range.most_workpieces, least = a.index == 0 && a.in.settings.negative_count ? -most : 0;
+  if (!(a.written >= least) || a.written > most) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   WorkpieceCounts workpieces = a.in.records->workpieces;
   workpieces.count[a.index] = static_cast<int32_t>(a.written);
   a.in.change(&ProgramRecords::workpieces, workpieces);

@@ -9,8 +9,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kLargestProgram = 99999999;  // M700 3.5: 8 digits
-
 const char* without_folder(const char* name) {
   const char* base = name;
   for (const char* p = name; *p != '\0'; ++p) {
@@ -27,18 +25,18 @@ size_t stem_length(const char* name, size_t length) {
   return length;
 }
 
-/// The program number of "O1000", "o0100.nc" or "1000.nc", O being the `number_letter`; 0 = none. Without the letter a number with leading zeros counts as a
+/// The program number of "O1000", "o0100.nc" or "1000.nc", O being the letter of `numbers`; 0 = none. Without the letter a number with leading zeros counts as a
 /// name: the file "0100" can only be called as <0100> (M700 13.3.1).
-uint32_t number_of_name(const char* name, char number_letter) {
+uint32_t number_of_name(const char* name, ProgramNumbers numbers) {
   const size_t length = stem_length(name, std::strlen(name));
-  const bool letter = upper(name[0]) == number_letter;
+  const bool letter = upper(name[0]) == numbers.letter;
   size_t i = letter ? 1 : 0;
   if (i == length || (!letter && name[i] == '0')) return 0;
   uint64_t number = 0;
   for (; i < length; ++i) {
     if (!is_digit(name[i])) return 0;
     number = number * 10 + static_cast<uint64_t>(name[i] - '0');
-    if (number > kLargestProgram) return 0;
+    if (number > numbers.largest) return 0;
   }
   return static_cast<uint32_t>(number);
 }
@@ -53,11 +51,11 @@ bool same_name(const char* a, size_t a_length, const char* b, size_t b_length) {
 
 }  // namespace
 
-void ProgramStore::create(unsigned capacity, unsigned reserved, char letter, Arena& arena) {
+void ProgramStore::create(unsigned capacity, unsigned reserved, ProgramNumbers numbers, Arena& arena) {
   entries_ = arena.make<TextEntry>(capacity + reserved);
   capacity_ = capacity;
   reserved_ = reserved;
-  number_letter_ = letter != 0 ? letter : 'O';
+  numbers_ = {numbers.letter != 0 ? numbers.letter : 'O', numbers.largest};
   count_ = given_ = 0;
 }
 
@@ -82,7 +80,7 @@ nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* 
   place = entry;
   place.own = was_own;
   std::memcpy(place.name, base, length + 1);
-  if (place.number == 0) place.number = number_of_name(base, number_letter_);
+  if (place.number == 0) place.number = number_of_name(base, numbers_);
   place.generation = ++generation_;
   touch(at);
   if (file != nullptr) *file = at;

@@ -20,13 +20,18 @@ struct ProgramRef {
   bool operator==(const ProgramRef&) const = default;
 };
 
+/// The numbers of programs in a family's language.
+struct ProgramNumbers {
+  char letter;       ///< that names of files begin with; 0 = O, where the language has none
+  uint32_t largest;  ///< a longer number is no number of a program
+};
+
 /// Shared by all part systems of a control.
 class ProgramStore {
  public:
-  /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters. `letter` is that of program numbers, which
-  /// names of files begin with; 0 = O, where the language has none.
-  void create(unsigned capacity, unsigned reserved, char letter, Arena& arena);
-  char number_letter() const { return number_letter_; }
+  /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters.
+  void create(unsigned capacity, unsigned reserved, ProgramNumbers numbers, Arena& arena);
+  char number_letter() const { return numbers_.letter; }
   nc_status add(const TextEntry& entry, const char* name, unsigned* file, bool own = false);
   /// Frees the place of an entry that nothing refers to.
   void remove(unsigned file);
@@ -54,7 +59,7 @@ class ProgramStore {
  private:
   TextEntry* entries_ = nullptr;
   unsigned capacity_ = 0, reserved_ = 0, count_ = 0;  ///< places behind count_ have never been used
-  char number_letter_ = 0;
+  ProgramNumbers numbers_{};
   unsigned given_ = 0;                                ///< number of entries of the host
   uint64_t uses_ = 0;
   uint32_t generation_ = 0;  ///< of the newest entry; unique in the store

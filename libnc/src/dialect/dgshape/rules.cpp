@@ -18,8 +18,8 @@ double speed_of_word(uint32_t value) {
   return kFactor[value % 20] * decade;
 }
 
-bool factor_of_word(double value, bool /*pointed*/, double* factor) {
-  *factor = std::fmin(std::fmax(value, 0.001), 999.999);
+bool factor_of_word(double value, bool /*pointed*/, const RangeRules& range, double* factor) {
+  *factor = std::fmin(std::fmax(value, range.least_scale), range.most_scale);
   return true;
 }
 

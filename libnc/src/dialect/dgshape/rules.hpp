@@ -2,6 +2,7 @@
 // How the dgshape family answers each rule of dialect/rules.hpp. The sections of its manual are cited there.
 #pragma once
 
+#include "dialect/dgshape/ranges.hpp"
 #include "dialect/rules.hpp"
 
 namespace nc::dgshape {
@@ -12,8 +13,8 @@ double units_per_micrometre(double parameter);
 /// 2, S: S00 to S99 are code numbers of the R20 series; from 100 on S is in r/min.
 double speed_of_word(uint32_t value);
 
-/// G51: the factor is 0.001 to 999.999; a value outside this range becomes the nearest value in it, without a fault.
-bool factor_of_word(double value, bool pointed, double* factor);
+/// G51: a value outside the range of the factor becomes the nearest value in it, without a fault.
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor);
 
 inline constexpr Rules kRules = {
     .number = {.undotted_feed_in_least_unit = true,
@@ -100,6 +101,7 @@ inline constexpr Rules kRules = {
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
     .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
+    .range = kRanges,
 };
 
 }  // namespace nc::dgshape

@@ -10,11 +10,11 @@ double units_per_micrometre(double /*parameter*/) { return 1; }
 
 double speed_of_word(uint32_t value) { return value; }
 
-bool factor_of_word(double value, bool /*pointed*/, double* factor) {
-  constexpr double kLeast = 1e-6, kLargest = 99.999999, kNoise = 1e-12;
+bool factor_of_word(double value, bool /*pointed*/, const RangeRules& range, double* factor) {
+  constexpr double kNoise = 1e-12;
   *factor = value / 1000;
   const double size = std::fabs(*factor);
-  return size >= kLeast - kNoise && size <= kLargest + kNoise;
+  return size >= range.least_scale - kNoise && size <= range.most_scale + kNoise;
 }
 
 uint32_t tool_program(double pi_105, double pi_106) {

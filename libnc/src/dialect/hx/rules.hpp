@@ -2,6 +2,7 @@
 // How the HX family answers each rule of dialect/rules.hpp, where the sections of its manual stand.
 #pragma once
 
+#include "dialect/hx/ranges.hpp"
 #include "dialect/rules.hpp"
 
 namespace nc::hx {
@@ -13,7 +14,7 @@ double units_per_micrometre(double parameter);
 double speed_of_word(uint32_t value);
 
 /// 15.2.1: thousandths, with or without a point.
-bool factor_of_word(double value, bool pointed, double* factor);
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor);
 
 /// 10.1.1, 14.1.6: with PI 106 a tool number calls program 9000 + PI 105, with PI 105 alone program 9000.
 uint32_t tool_program(double pi_105, double pi_106);
@@ -113,6 +114,7 @@ inline constexpr Rules kRules = {
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program,
                   .tool_variable = 149, .one_in_block = true},
     .stitch = {.call = 1u << 31, .done = 1u << 30, .next_may = 1u << 31},  // PPF #7531, PPE #7030, NPFIN #7031: the manual gives them no numbers
+    .range = kRanges,
 };
 
 }  // namespace nc::hx

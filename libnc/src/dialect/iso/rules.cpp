@@ -8,7 +8,7 @@ double units_per_micrometre(double /*parameter*/) { return 1; }
 
 double speed_of_word(uint32_t value) { return value; }
 
-bool factor_of_word(double /*value*/, bool /*pointed*/, double* factor) {
+bool factor_of_word(double /*value*/, bool /*pointed*/, const RangeRules& /*range*/, double* factor) {
   *factor = 1;
   return false;
 }

@@ -2,6 +2,7 @@
 // How the iso family answers each rule of dialect/rules.hpp, where most of the sections are cited.
 #pragma once
 
+#include "dialect/iso/ranges.hpp"
 #include "dialect/rules.hpp"
 
 namespace nc::iso {
@@ -13,7 +14,7 @@ double units_per_micrometre(double parameter);
 double speed_of_word(uint32_t value);
 
 /// Not used: the family has no scaling.
-bool factor_of_word(double value, bool pointed, double* factor);
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor);
 
 inline constexpr Rules kRules = {
     .number = {.undotted_feed_in_least_unit = false,
@@ -106,6 +107,7 @@ inline constexpr Rules kRules = {
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
     .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
+    .range = kRanges,
 };
 
 }  // namespace nc::iso

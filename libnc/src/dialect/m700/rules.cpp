@@ -12,10 +12,10 @@ double units_per_micrometre(double parameter) {
 
 double speed_of_word(uint32_t value) { return value; }
 
-bool factor_of_word(double value, bool pointed, double* factor) {
-  constexpr double kUnit = 1e-6, kLeast = 1e-6, kLargest = 99.999999, kNoise = 1e-12;
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor) {
+  constexpr double kUnit = 1e-6, kNoise = 1e-12;
   *factor = pointed ? value : value * kUnit;
-  return *factor >= kLeast - kNoise && *factor <= kLargest + kNoise;
+  return *factor >= range.least_scale - kNoise && *factor <= range.most_scale + kNoise;
 }
 
 }  // namespace nc::m700

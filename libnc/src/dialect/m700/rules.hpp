@@ -4,6 +4,7 @@
 
 #include "dialect/m700/accuracy.hpp"
 #include "dialect/m700/filters.hpp"
+#include "dialect/m700/ranges.hpp"
 #include "dialect/rules.hpp"
 
 namespace nc::m700 {
@@ -15,7 +16,7 @@ double units_per_micrometre(double parameter);
 double speed_of_word(uint32_t value);
 
 /// 13.19: the least unit of the factor is 0.000001, and a number without a point counts in this unit.
-bool factor_of_word(double value, bool pointed, double* factor);
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor);
 
 inline constexpr Rules kRules = {
     .number = {.undotted_feed_in_least_unit = false,
@@ -102,6 +103,7 @@ inline constexpr Rules kRules = {
     .rotation = {.plane_in_block = false, .angle_by_parameter = false},
     .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
+    .range = kRanges,
 };
 
 }  // namespace nc::m700

@@ -8,9 +8,9 @@ double units_per_micrometre(double /*parameter*/) { return 1; }
 
 double speed_of_word(uint32_t value) { return value; }
 
-bool factor_of_word(double value, bool /*pointed*/, double* factor) {
+bool factor_of_word(double value, bool /*pointed*/, const RangeRules& range, double* factor) {
   *factor = value;
-  return value >= 1e-6 && value <= 99.999999;
+  return value >= range.least_scale && value <= range.most_scale;
 }
 
 }  // namespace nc::series8

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dialect/rules.hpp"
+#include "dialect/series8/ranges.hpp"
 
 namespace nc::series8 {
 
@@ -12,8 +13,8 @@ double units_per_micrometre(double parameter);
 /// G97: S is in r/min.
 double speed_of_word(uint32_t value);
 
-/// G57: R is the factor, greater than 0. Its range is that of other families.
-bool factor_of_word(double value, bool pointed, double* factor);
+/// G57: R is the factor, greater than 0.
+bool factor_of_word(double value, bool pointed, const RangeRules& range, double* factor);
 
 inline constexpr Rules kRules = {
     .number = {.undotted_feed_in_least_unit = false,
@@ -110,6 +111,7 @@ inline constexpr Rules kRules = {
     .rotation = {.plane_in_block = false, .angle_by_parameter = false, .about_zero = true},
     .mill = {.rotary_in_block = false, .polar_cuts_only = false},
     .code_call = {.first_of_g = 0, .first_of_m = 0, .arguments_behind_m = false, .tool_program = nullptr},
+    .range = kRanges,
 };
 
 }  // namespace nc::series8

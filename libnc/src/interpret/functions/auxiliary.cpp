@@ -64,7 +64,7 @@ Execution spindle_word(BlockContext& in) {
     if (did != Execution::done) return did;
   }
   const double written = in.words.get(Role::spindle_speed);
-  if (!whole_number(written, &s) || s > 99999999) return in.raise(Condition::value_range, Role::spindle_speed, written);
+  if (!whole_number(written, &s) || s > in.dialect->rules.range.largest_spindle_value) return in.raise(Condition::value_range, Role::spindle_speed, written);
   if (in.state.spindle.axis != 0) {
     const Execution did = surface_word(in);
     if (did != Execution::done) return did;
@@ -227,7 +227,7 @@ Execution auxiliary_before(BlockContext& in) {
     waiting = in.queue.size() != before;
   }
   uint32_t tool = 0;
-  if (w.has(Role::tool) && (!whole_number(w.get(Role::tool), &tool) || tool > 99999999)) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
+  if (w.has(Role::tool) && (!whole_number(w.get(Role::tool), &tool) || tool > rules.range.largest_tool)) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
   const bool held = w.has(Role::tool) && holds_tool_asked_for(in, tool);
   if (w.has(Role::tool) && !held) {
     in.state.modal.tool = tool;
@@ -239,7 +239,7 @@ Execution auxiliary_before(BlockContext& in) {
     waiting = true;
   }
   if (w.has(second)) {
-    if (!whole_number(w.get(second), &in.state.modal.b) || in.state.modal.b > 99999999) return in.raise(Condition::value_range, second, w.get(second));
+    if (!whole_number(w.get(second), &in.state.modal.b) || in.state.modal.b > rules.range.largest_second_misc) return in.raise(Condition::value_range, second, w.get(second));
     emit_action(in, NC_ACTION_B, second, in.state.modal.b);
     waiting = true;
   }
@@ -251,7 +251,7 @@ Execution auxiliary_before(BlockContext& in) {
       if (did != Execution::done) return did;
       continue;
     }
-    if (m.number > 99999999) return in.raise(Condition::value_range, Role::misc_code, m.number);
+    if (m.number > rules.range.largest_misc) return in.raise(Condition::value_range, Role::misc_code, m.number);
     const MiscFunction function = m.function;
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;

@@ -90,7 +90,7 @@ bool means_managed_tool(const BlockContext& in, Role word) {
 }  // namespace
 
 Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
-  const unsigned in_spindle = in.records->tools.spindle;
+  const unsigned in_spindle = in.managed_tool();
   if (means_managed_tool(in, word) && in_spindle != ToolLives::kNone) {
     const ToolLife& tool = in.lives->tool[in_spindle];
     *number = static_cast<uint32_t>(word == Role::length_number ? tool.length : tool.radius);

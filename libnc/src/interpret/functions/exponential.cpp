@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-constexpr double kNoMotion = 1e-9;
+constexpr double kNoWay = 1e-9;
 
 /// The words I, J in degrees, R in mm, F and Q in mm/min.
 struct ExponentialWords {
@@ -40,8 +40,8 @@ Execution take_words(BlockContext& in, ExponentialWords* words) {
   words->feed *= unit;
   words->feed_end = words->feed;
   if (w.has(Role::exponential_end_feed)) {
-    if (!(w.get(Role::exponential_end_feed) > 0) || w.get(Role::exponential_end_feed) > 1e7) return in.raise(Condition::value_range, Role::exponential_end_feed, w.get(Role::exponential_end_feed));
     words->feed_end = w.get(Role::exponential_end_feed) * unit;
+    if (!(words->feed_end > 0) || words->feed_end > in.dialect->rules.number.largest_feed_mm) return in.raise(Condition::value_range, Role::exponential_end_feed, w.get(Role::exponential_end_feed));
   }
   return Execution::done;
 }
@@ -70,7 +70,7 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
   const auto x = static_cast<unsigned>(linear), c = static_cast<unsigned>(rotary);
   MoveFrame frame = frame_of_move(in, target, commanded);
   const double way = frame.end[x] - frame.start[x];
-  if (((commanded >> x) & 1) == 0 || std::fabs(way) < kNoMotion || ((commanded >> c) & 1) != 0) {
+  if (((commanded >> x) & 1) == 0 || std::fabs(way) < kNoWay || ((commanded >> c) & 1) != 0) {
     LinearStyle style;  // the move is a straight line at the F of the block
     style.feed_mm_min = words.feed;
     move_linear(in, target, commanded, style);

@@ -10,7 +10,6 @@ namespace nc {
 namespace {
 
 constexpr double kPeriod_s = 0.01;       ///< from one question for an input to the next
-constexpr double kLongestWait_s = 1e6;
 constexpr unsigned kBits = 32;
 
 /// A number that has to stand in the block, below `count`.
@@ -65,7 +64,7 @@ Execution name_tool(BlockContext& in) {
   if (!in.words.has(Role::named_tool)) return in.raise(Condition::words_missing, Role::named_tool);
   const double raw = in.words.get(Role::named_tool);
   uint32_t tool = 0;
-  if (!whole_number(raw, &tool) || raw != std::floor(raw) || tool > 99999999) return in.raise(Condition::value_range, Role::named_tool, raw);
+  if (!whole_number(raw, &tool) || raw != std::floor(raw) || tool > in.dialect->rules.range.largest_tool) return in.raise(Condition::value_range, Role::named_tool, raw);
   in.state.modal.tool = tool;
   return Execution::done;
 }
@@ -134,7 +133,7 @@ Execution wait_for_input(BlockContext& in) {
   if (did == Execution::done && w.has(Role::input_wait)) did = number_below(in, Role::input_wait, analog ? 1 : 5, &kind);  // an analog input is only read
   if (did != Execution::done) return did;
   const double limit = w.has(Role::input_limit) ? w.get(Role::input_limit) : 0;
-  if (!(limit >= 0) || limit > kLongestWait_s || (kind != 0 && limit == 0)) return in.raise(Condition::value_range, Role::input_limit, limit);
+  if (!(limit >= 0) || limit > in.dialect->rules.range.longest_input_wait_s || (kind != 0 && limit == 0)) return in.raise(Condition::value_range, Role::input_limit, limit);
   wait.analog = analog;
   wait.kind = static_cast<uint8_t>(kind);
   wait.left = static_cast<uint32_t>(std::ceil(limit / kPeriod_s));

@@ -19,7 +19,7 @@ bool in_range_of_scale(const BlockContext& in, double factor) {
 /// The factor: P of G51, or else #8072; a parameter that is out of range counts as 1.
 bool factor_of(const BlockContext& in, double* factor) {
   const Command& w = in.words;
-  if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), factor);
+  if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), in.dialect->rules.range, factor);
   *factor = in.settings.scaling_factor;
   if (!in_range_of_scale(in, *factor)) *factor = 1;
   return true;
@@ -35,7 +35,7 @@ bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
     *word = Role::scaling_factor;
     for (unsigned k = 0; k < 3; ++k)
       if (in.settings.plane_basic[k] == in.axis_words.word(i) && w.has(vector_along(k))) *word = vector_along(k);
-    if (w.has(*word) && !of_word(w.get(*word), w.pointed(*word), &factors[i])) return false;
+    if (w.has(*word) && !of_word(w.get(*word), w.pointed(*word), in.dialect->rules.range, &factors[i])) return false;
   }
   return true;
 }
@@ -68,7 +68,7 @@ namespace {
 bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
   const Command& w = in.words;
   double factor = 1;
-  if (!in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), &factor)) return false;
+  if (!in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), in.dialect->rules.range, &factor)) return false;
   const PlaneAxes plane = plane_axes(in);
   in.state.scaled = static_cast<uint8_t>(1u << plane.h | 1u << plane.v);
   for (unsigned i = 0; i < in.axis_count; ++i) {

@@ -19,7 +19,7 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
   for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
     if (((w.counted_feeds >> i) & 1) == 0) continue;
     const double feed = w.counted_feed[i] * unit;
-    if (!(feed >= 0 && feed <= 1e7)) return in.raise(Condition::value_range, Role::feed, w.counted_feed[i]);
+    if (!(feed >= 0 && feed <= in.dialect->rules.number.largest_feed_mm)) return in.raise(Condition::value_range, Role::feed, w.counted_feed[i]);
     if (feed == 0) {
       *stops |= 1u << i;
       continue;

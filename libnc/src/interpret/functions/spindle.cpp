@@ -6,8 +6,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kLargestSpeed = 99999999;  // 10.2: eight digits
-
 void emit_control(BlockContext& in, uint32_t index, double value, uint32_t mask, uint32_t bits) {
   Action& action = in.emit(ItemKind::action).action;
   action.kind = NC_ACTION_CONTROL;
@@ -19,7 +17,7 @@ void emit_control(BlockContext& in, uint32_t index, double value, uint32_t mask,
 
 Execution speed_word(BlockContext& in, Role word, uint32_t* speed) {
   const double raw = in.words.get(word);
-  if (whole_number(raw, speed) && *speed <= kLargestSpeed) return Execution::done;
+  if (whole_number(raw, speed) && *speed <= in.dialect->rules.range.largest_spindle_value) return Execution::done;
   return in.raise(Condition::value_range, word, raw);
 }
 

@@ -37,9 +37,10 @@ Execution take_pitch(BlockContext& in) {
   const bool inch = in.state.modal.is(Function::inch), ridges = w.has(Role::tap_ridges);
   if (!ridges && !w.has(Role::feed)) return Execution::done;
   const Role word = ridges ? Role::tap_ridges : Role::feed;
+  const RangeRules& range = in.dialect->rules.range;
   const double value = w.get(word), unit = inch ? kMillimetresPerInch : 1.0;
   const double pitch = !ridges ? value * unit : value > 0 ? kMillimetresPerInch / value : 0;
-  if (!(pitch > 0 && pitch < (inch ? 100 * kMillimetresPerInch : 1000))) return in.raise(Condition::tap_pitch, word, value);
+  if (!(pitch > 0 && pitch < (inch ? range.end_of_lead_inch * kMillimetresPerInch : range.end_of_lead_mm))) return in.raise(Condition::tap_pitch, word, value);
   in.state.cycle.pitch = pitch;
   return Execution::done;
 }
@@ -47,7 +48,7 @@ Execution take_pitch(BlockContext& in) {
 Execution take_lead_word(BlockContext& in) {
   if (!in.words.has(Role::tap_lead)) return Execution::done;
   const double pitch = length_of(in, Role::tap_lead);
-  if (!(pitch > 0 && pitch < 1000)) return in.raise(Condition::tap_pitch, Role::tap_lead, in.words.get(Role::tap_lead));
+  if (!(pitch > 0 && pitch < in.dialect->rules.range.end_of_lead_mm)) return in.raise(Condition::tap_pitch, Role::tap_lead, in.words.get(Role::tap_lead));
   in.state.cycle.pitch = pitch;
   return Execution::done;
 }
@@ -59,7 +60,7 @@ Execution take_pitch_of_feed(BlockContext& in) {
   if (did != Execution::done || !(modal.spindle > 0)) return did;  // without a speed check_tap() raises its alarm
   const double feed = modal.feed * (modal.is(Function::inch) ? kMillimetresPerInch : 1.0);
   const double pitch = modal.is(Function::feed_per_revolution) ? feed : feed / modal.spindle;
-  if (!(pitch > 0 && pitch < 1000)) return in.raise(Condition::tap_pitch, Role::feed, modal.feed);
+  if (!(pitch > 0 && pitch < in.dialect->rules.range.end_of_lead_mm)) return in.raise(Condition::tap_pitch, Role::feed, modal.feed);
   in.state.cycle.pitch = pitch;
   return Execution::done;
 }
@@ -89,7 +90,7 @@ Execution take_tap_words(BlockContext& in) {
   }
   if (w.has_return_speed) {
     uint32_t speed = 0;
-    if (!whole_number(w.return_speed, &speed) || speed > 99999) return in.raise(Condition::value_range, Role::option_return_speed, w.return_speed);
+    if (!whole_number(w.return_speed, &speed) || speed > in.dialect->rules.range.most_return_speed) return in.raise(Condition::value_range, Role::option_return_speed, w.return_speed);
     c.return_speed = speed;
   }
   c.synchronous = synchronous(in);

@@ -8,7 +8,7 @@
 namespace nc {
 namespace {
 
-/// M700 6.7.1: a lead is below 1000 mm, or below 100 inch by F and below 39.370079 inch by E.
+/// M700 6.7.1: a lead is below the end of its range, which in inches is another one by F than by E.
 bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
 
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
@@ -16,21 +16,22 @@ Execution take_lead(BlockContext& in) {
   const Command& w = in.words;
   const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;
-  double lead = 0, limit = 1000;
+  const RangeRules& range = in.dialect->rules.range;
+  double lead = 0, limit = range.end_of_lead_mm;
   Role word = Role::thread_lead;
   if (w.has(Role::fine_thread_lead)) {
     word = Role::fine_thread_lead;
     // M700 6.7.1, 6.7.2: #1229 bit 1 says whether E is a precision lead or the number of ridges per inch.
     if (in.settings.precision_lead) {
       lead = w.get(Role::fine_thread_lead) * unit;
-      if (inch) limit = 39.370079 * kMillimetresPerInch;
-    } else if (w.get(Role::fine_thread_lead) > 0 && w.get(Role::fine_thread_lead) < (inch ? 10000 : 1000)) {
+      if (inch) limit = range.end_of_fine_lead_inch * kMillimetresPerInch;
+    } else if (w.get(Role::fine_thread_lead) > 0 && w.get(Role::fine_thread_lead) < (inch ? range.end_of_ridges_inch : range.end_of_ridges_mm)) {
       lead = kMillimetresPerInch / w.get(Role::fine_thread_lead);
-      if (inch) limit = 100 * kMillimetresPerInch;  // 6.7.2 (3): within the range of the lead that it is
+      if (inch) limit = range.end_of_lead_inch * kMillimetresPerInch;  // 6.7.2 (3): within the range of the lead that it is
     }
   } else if (w.has(Role::thread_lead)) {
     lead = w.get(Role::thread_lead) * unit;  // M700 6.7.1: F1 = 1.000
-    if (inch) limit = 100 * kMillimetresPerInch;
+    if (inch) limit = range.end_of_lead_inch * kMillimetresPerInch;
   } else {
     return in.state.thread_lead > 0 ? Execution::done : in.raise(in.dialect->addresses.same(Role::thread_lead, Role::feed) ? Condition::no_feed : Condition::words_missing, Role::thread_lead);
   }

@@ -10,9 +10,6 @@
 namespace nc {
 namespace {
 
-constexpr uint32_t kLastNumber = 99999999;
-constexpr double kMostMinutes = 4000, kMostTimes = 9999;  // 10.15
-
 /// A block that removes more tools than these may write to more places than any other block does. It waits for the machine to come to it, so that the
 /// journal has no older blocks to take back.
 constexpr unsigned kRemovedAhead = 40;
@@ -29,17 +26,18 @@ void tell_machine(BlockContext& in, unsigned slot) {
   action.kind = NC_ACTION_CONTROL;
   action.index = NC_CONTROL_TOOL_LIFE;
   action.value = slot == ToolLives::kNone ? 0 : slot + 1;
+  action.bits = in.lives->registered_in(slot).number;
 }
 
 void register_tool(BlockContext& in, unsigned slot, const ToolLife& tool) { in.lives.change(in.state.seq + 1, &ToolLives::tool, slot, tool); }
 
 void clear_slot(BlockContext& in, unsigned slot) {
   register_tool(in, slot, ToolLife{});
-  if (in.records->tools.spindle == slot) {
-    in.change(&ProgramRecords::tools, &ToolsInUse::spindle, ToolLives::kNone);
+  if (in.records->tools.spindle.slot == slot) {
+    in.change(&ProgramRecords::tools, &ToolsInUse::spindle, RegisteredTool{});
     tell_machine(in, ToolLives::kNone);
   }
-  if (in.records->tools.selected == slot) in.change(&ProgramRecords::tools, &ToolsInUse::selected, ToolLives::kNone);
+  if (in.records->tools.selected.slot == slot) in.change(&ProgramRecords::tools, &ToolsInUse::selected, RegisteredTool{});
 }
 
 void clear_group(BlockContext& in, uint32_t group) {
@@ -58,7 +56,7 @@ Execution take_group(BlockContext& in) {
   LifeInput& input = in.state.life_input;
   const Command& w = in.words;
   uint32_t group = 0, method = 1;
-  Execution did = number_of(in, Role::life_group, 1, kLastNumber, &group);
+  Execution did = number_of(in, Role::life_group, 1, in.dialect->rules.range.largest_life_number, &group);
   if (did != Execution::done) return did;
   const unsigned before = in.lives->registered(group);
   did = wait_for_removal(in, before);
@@ -76,7 +74,7 @@ Execution take_group(BlockContext& in) {
   }
   const LifeMethod counts = method == 1 ? LifeMethod::mounts : method == 2 ? LifeMethod::time : LifeMethod::uses;
   if (!w.has(Role::life_span)) return in.raise(Condition::format_error, Role::life_span);
-  const double life = w.get(Role::life_span), most = counts == LifeMethod::time ? kMostMinutes : kMostTimes;
+  const double life = w.get(Role::life_span), most = in.dialect->rules.range.most_life(counts == LifeMethod::time);
   if (!(life >= 0 && life <= most && life == std::trunc(life))) return in.raise(Condition::value_range, Role::life_span, life);
   clear_group(in, group);  // a group that is given again loses its tools
   input.group = group;
@@ -91,7 +89,7 @@ Execution take_tool(BlockContext& in) {
   const LifeInput& input = in.state.life_input;
   uint32_t tool = 0, length = 0, radius = 0;
   if (!input.group || input.kind == LifeInput::Kind::remove) return in.raise(Condition::format_error, Role::life_group);
-  Execution did = number_of(in, Role::life_tool, 1, kLastNumber, &tool);
+  Execution did = number_of(in, Role::life_tool, 1, in.dialect->rules.range.largest_life_number, &tool);
   if (did == Execution::done && in.words.has(Role::life_length)) did = number_of(in, Role::life_length, 0, in.frames.tool_offsets(), &length);
   if (did == Execution::done && in.words.has(Role::life_radius)) did = number_of(in, Role::life_radius, 0, in.frames.tool_offsets(), &radius);
   if (did != Execution::done) return did;
@@ -111,7 +109,7 @@ Execution take_tool(BlockContext& in) {
 /// One more of what is counted in times.
 void count(BlockContext& in, unsigned slot) {
   const ToolLife& tool = in.lives->tool[slot];
-  in.change_life(slot, &ToolLife::used, std::fmin(tool.used + 1, kMostTimes));
+  in.change_life(slot, &ToolLife::used, std::fmin(tool.used + 1, in.dialect->rules.range.most_life(tool.flags.method == LifeMethod::time)));
   if (tool.life != 0 && tool.used >= static_cast<double>(tool.life) && tool.lives()) in.change_life(slot, &ToolLife::status, LifeStatus::ended);
 }
 
@@ -161,13 +159,13 @@ Execution select_managed_tool(BlockContext& in, uint32_t* tool) {
   const unsigned slot = of_group ? lives.next_of(*tool) : lives.with_tool(*tool);
   if (of_group && slot == ToolLives::kNone) return in.raise(Condition::life_group, Role::tool, *tool);
   if (slot != ToolLives::kNone) *tool = static_cast<uint32_t>(lives.tool[slot].tool);
-  in.change(&ProgramRecords::tools, &ToolsInUse::selected, slot);
+  in.change(&ProgramRecords::tools, &ToolsInUse::selected, lives.registered_in(slot));
   return Execution::done;
 }
 
 void take_managed_tool(BlockContext& in) {
-  const unsigned slot = in.records->tools.selected;
-  in.change(&ProgramRecords::tools, &ToolsInUse::spindle, slot);
+  const unsigned slot = in.lives->find(in.records->tools.selected);
+  in.change(&ProgramRecords::tools, &ToolsInUse::spindle, in.lives->registered_in(slot));
   in.change(&ProgramRecords::tools, &ToolsInUse::cutting, false);
   if (slot != ToolLives::kNone) {
     const ToolLife& tool = in.lives->tool[slot];
@@ -182,7 +180,8 @@ void count_tool_use(BlockContext& in, bool cuts) {
   const ToolsInUse& tools = in.records->tools;
   if (tools.cutting == cuts) return;
   in.change(&ProgramRecords::tools, &ToolsInUse::cutting, cuts);
-  if (cuts && tools.spindle != ToolLives::kNone && in.lives->tool[tools.spindle].flags.method == LifeMethod::uses) count(in, tools.spindle);
+  const unsigned slot = in.managed_tool();
+  if (cuts && slot != ToolLives::kNone && in.lives->tool[slot].flags.method == LifeMethod::uses) count(in, slot);
 }
 
 }  // namespace nc

@@ -14,7 +14,6 @@ namespace {
 constexpr ParameterOf kVectorH = {Parameter::work_turn_vector, 0};
 constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
 constexpr ParameterOf kAngle = Parameter::work_turn_angle;
-constexpr double kLargestVector = 999999.999999, kLargestAngle = 360;
 
 /// Stores a value in a parameter, rounded to nine decimals.
 bool store(BlockContext& in, ParameterOf parameter, double value) {
@@ -35,14 +34,14 @@ Execution do_work_rotation(BlockContext& in) {
   const double j = w.has(Role::vector_y) ? length_of(in, Role::vector_y) : in.settings.work_turn_vector[1];
   for (const Role word : {Role::vector_x, Role::vector_y}) {
     const double component = word == Role::vector_x ? i : j;
-    if (w.has(word) && !(std::fabs(component) <= kLargestVector))
+    if (w.has(word) && !(std::fabs(component) <= in.dialect->rules.range.largest_turn_vector))
       return in.raise(Condition::value_range, word, w.get(word));
   }
   const bool vector = w.any({Role::vector_x, Role::vector_y}) && (i != 0 || j != 0);
   bool kept = true;
   if (w.has(Role::turn_angle)) {
     const double k = length_value(in, w.written(Role::turn_angle), true, true);
-    if (!(std::fabs(k) <= kLargestAngle)) return in.raise(Condition::value_range, Role::turn_angle, w.get(Role::turn_angle));
+    if (!(std::fabs(k) <= in.dialect->rules.range.largest_turn_deg)) return in.raise(Condition::value_range, Role::turn_angle, w.get(Role::turn_angle));
     // "Set the vector contents to 0 when commanding coordinate rotation angle."
     if (vector) return in.raise(Condition::format_error, Role::turn_angle, w.get(Role::turn_angle));
     kept = store(in, kVectorH, 0) && store(in, kVectorV, 0) && store(in, kAngle, k);
