@@ -55,6 +55,11 @@ TEST(Dgshape, AnArcHasARadiusOrACentre) {  // 2-2, G02 G03: {[I][J] | R}
   EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG02X10.Y0R7.F100.\nM02").alarm, "");
 }
 
+TEST(Dgshape, ACycleEndsBesideEachFunction) {  // G80
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG80G51X0Y0Z0P2.\nG00X10.\nM02").path().back(), "rapid 20 0 0");
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nM03S1000\nG51P2.G81X10.Z-1.R1.F100.\nM02").alarm, "NC-ADDRESS");
+}
+
 TEST(Dgshape, ACommentHasAnEnd) {  // 2-6: the text "between a ( and )"
   EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG00X1. (open Y2.\nM02").alarm, "NC-FORMAT");
   EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("(title)\n%\n(first) G00X1. (second)\nM02").alarm, "");

@@ -42,6 +42,31 @@ TEST(HxBlocks, ACycleStandsBesideNoOtherFunctionThatUsesAxes) {
   EXPECT_EQ(hx("G80 G53 X1.").alarm, "");
 }
 
+// The end of a cycle takes no words: it acts, and so does what stands beside it.
+TEST(HxBlocks, ACycleEndsBesideEachFunction) {
+  EXPECT_EQ(hx("G80 G68 X0 Y0 R90.\nG00 X10. Y0").path().back(), "rapid 0 10 0");
+  EXPECT_EQ(hx("G80 G51 X0 Y0 P2000\nG00 X10.").path().back(), "rapid 20 0 0");
+  for (const char* code : {"G28 X0", "G53 X5.", "G04 P5", "G92 X5."}) {
+    const Outcome run = hx(std::string("G81 Z-5. R1. F100\nG80 ") + code + "\nG91 X1.");
+    EXPECT_EQ(run.alarm, "") << code;
+    EXPECT_EQ(run.last_modal().code[10], 800) << code;
+  }
+  EXPECT_EQ(hx("G80 G53 X5. I2.").alarm, "F_82001");
+}
+
+TEST(HxBlocks, ACycleAndAFunctionWithWordsExcludeEachOther) {
+  for (const char* code : {"G107 C20.", "G112", "G113", "G22", "G39"})
+    EXPECT_EQ(Bench(NC_DIALECT_HX, with_c).run(std::string(code) + " G81 X1. Z-1. R1. F100\nM30").alarm, "F_82001") << code;
+  for (const char* beside : {"G28 X5.", "G81 X1. Z-1. R1. F100"}) EXPECT_EQ(hx(std::string("G66 P1\nG67 ") + beside + "\nM30\nO1\nM99").alarm, "F_82001") << beside;
+}
+
+// Passed over, it would be missing in what follows.
+TEST(HxBlocks, CompensationIsNotPassedOver) {
+  for (const char* block : {"G41 D1 G28 X5.", "G42 D1 G53 X5.", "G43 H1 G53 Z5.", "G44 H1 G28 Z5.", "G41 D1 G52 X5."}) EXPECT_EQ(hx(block).alarm, "F_82001") << block;
+  EXPECT_EQ(hx("G28 G40 G80 G49 Z5.").alarm, "");
+  EXPECT_EQ(hx("G43 H1 G00 Z5.\nG53 G49 Z20.\nG00 Z7.").path().back(), "rapid 0 0 7");
+}
+
 TEST(HxBlocks, SingleDirectionIsNoCut) {  // 4.2
   EXPECT_EQ(hx("G60 G01 X10. F100").alarm, "F_82001");
   EXPECT_EQ(hx("G60 G00 X10.").alarm, "");

@@ -240,6 +240,11 @@ TEST(IsoCycle, StandsBesideNoOtherFunctionThatUsesAxes) {  // LinuxCNC: "cannot 
   EXPECT_EQ(alarm_of("G80 G53 G0 X1"), "");
 }
 
+TEST(IsoCycle, EndsBesideEachFunction) {
+  EXPECT_EQ(iso("G92 X5\nG80 G92.1\nG0 X10").path(), (Path{"rapid 10 0 0"}));
+  EXPECT_EQ(alarm_of("G92.1 G81 X1 Z-1 R1 F100"), "NC-ADDRESS");
+}
+
 TEST(IsoCycle, HasAtLeastOneHoleAndABottomBelowR) {  // RS-274/NGC 3.5.16
   EXPECT_EQ(alarm_of("G81 X1 Y1 Z-1 R2 F100 L0"), "NC-RANGE");
   EXPECT_EQ(alarm_of("G81 X1 Y1 Z-1 R2 F100 L1"), "");

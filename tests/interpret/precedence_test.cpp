@@ -63,6 +63,16 @@ TEST(Precedence, MirrorIsIgnoredOnEitherSide) {  // column 19
   EXPECT_EQ(run("G4 G51.1 P700\nG0 X1.").out.dwells(), (std::vector<double>{0.7}));
 }
 
+// Column 9 names the cycles: the code that ends them is none.
+TEST(Precedence, TheEndOfACycleActsBesideEachCode) {
+  for (const char* beside : {"G28 X5.", "G53 X5.", "G4 P1", "G10 L2 P1 X0", "G92 X5.", "G52 X1.", "G31 X5. F10"}) {
+    const Ran r = run(std::string("G81 Z-1. R1. F100\nG80 ") + beside);
+    EXPECT_EQ(r.out.alarm, "") << beside;
+    EXPECT_EQ(r.code(9), 800) << beside;
+  }
+  EXPECT_EQ(run("G81 Z-1. R1. F100 G92.1 X0").out.alarm, "P33");  // the table has no row for it, and one of the two would be left out
+}
+
 TEST(Precedence, MacroCallsUpdateModalState) {  // rows G65, G66
   Ran r = run("G0 X1.\nG1 G43 H1 G55 G66 P1");
   EXPECT_EQ(r.out.alarm, "");

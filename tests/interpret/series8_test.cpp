@@ -444,6 +444,12 @@ TEST(Series8, ThePlaneStaysWhileThePartIsScaled) {  // G57: "in the active plane
   EXPECT_EQ(alarm_of("G57R2\nG17X1"), "");
 }
 
+TEST(Series8, ACycleEndsBesideEachFunction) {  // G80
+  EXPECT_EQ(series8("G80G57R2\nG00X10Y0").path().back(), "rapid 20 0 0");
+  EXPECT_EQ(series8("G80G55R90\nG00X10Y0").path().back(), "rapid 0 10 0");
+  EXPECT_EQ(alarm_of("F50\nG57G81X1Y1R1Z-1"), "NC-ADDRESS");
+}
+
 TEST(Series8, CornersAreWordsOfG10) {
   EXPECT_EQ(series8("G01F50G10X10R20\nY5\nX0").alarm_detail, "The block is shorter than its corner R20. Make the corner smaller.");
 }

@@ -46,10 +46,11 @@ Execution check_lead_word(Interpreter& in) {
   return (thread || ridges) && !exponent ? Execution::done : in.raise(Condition::exponent, Role::fine_thread_lead, w.get(Role::fine_thread_lead));
 }
 
-/// M700 App.2: a code of radius or length compensation beside this one-shot function is ignored. G49 beside a reference return is not (12.2).
+/// M700 App.2: a code of radius or length compensation beside this one-shot function is ignored. G49 beside a reference return is not (12.2), and where
+/// nothing is passed over it is beside none.
 bool ignores_compensation(const Dialect& dialect, const FunctionRow* one_shot, const FunctionRow& modal) {
   if (one_shot == nullptr) return false;
-  if (modal.function == Function::length_off && is_reference_move(one_shot->function)) return false;
+  if (modal.function == Function::length_off && (is_reference_move(one_shot->function) || dialect.rules.block.unused_words_are_faults)) return false;
   const PrecedenceRow& beside = precedence_of(dialect, one_shot->function);
   return (mode_of(modal.function) == Mode::length ? beside.length : beside.radius) == Precedence::ignored;
 }
@@ -57,17 +58,19 @@ bool ignores_compensation(const Dialect& dialect, const FunctionRow* one_shot, c
 bool ignores_cycle(const Dialect& dialect, const FunctionRow* one_shot) { return one_shot != nullptr && precedence_of(dialect, one_shot->function).cycle == Precedence::ignored; }
 
 /// M700 App.2, column G66 G67: a one-shot function, a cycle or a mirror beside G67 is not executed where the table says so.
-void drop_beside_cancel(Interpreter& in) {
+Execution drop_beside_cancel(Interpreter& in) {
   Command& w = in.words;
   for (const FunctionRow* row : w.functions) {
     if (row->function != Function::macro_modal_off) continue;
     const bool one_shot = w.one_shot != nullptr && precedence_of(*in.dialect, w.one_shot->function).macro == Precedence::loses;
     const bool cycle = w.cycle != nullptr && w.cycle->function != Function::cycle_off && precedence_of(*in.dialect, row->function).cycle == Precedence::ignored;
+    if (in.dialect->rules.block.unused_words_are_faults && (one_shot || cycle)) return in.raise_code(Condition::illegal_address, one_shot ? *w.one_shot : *w.cycle);
     if (one_shot) w.one_shot = nullptr;
     if (cycle) w.cycle = nullptr;
     if (one_shot || (cycle && w.one_shot == nullptr)) w.present &= ~in.axis_words.all();  // the axis words belong to it and are dropped, too
-    return;
+    break;
   }
+  return Execution::done;
 }
 
 }  // namespace
@@ -173,8 +176,12 @@ Execution apply_systems(Interpreter& in) {
   const FunctionRow* length = nullptr;
   for (const FunctionRow* row : in.words.functions) {  // the last code of a group counts (M700 3.7, DGSHAPE 1)
     const Mode mode = mode_of(row->function);
-    if (mode == Mode::radius && !ignores_compensation(*in.dialect, one_shot, *row)) radius = row;
-    if (mode == Mode::length && !ignores_compensation(*in.dialect, one_shot, *row)) length = row;
+    if (mode != Mode::radius && mode != Mode::length) continue;
+    if (!ignores_compensation(*in.dialect, one_shot, *row)) {
+      (mode == Mode::radius ? radius : length) = row;
+    } else if (in.dialect->rules.block.unused_words_are_faults && !(row->function == Function::comp_off && in.state.modal.is(row->function))) {
+      return in.raise_code(Condition::illegal_address, *row);  // what follows would be cut without it
+    }
   }
   if (radius != nullptr) {
     in.state.modal.set(*radius);
@@ -254,6 +261,27 @@ bool cycle_counts(const BlockContext& in) {
 /// Series 8: a function with places of its own beside the code of a cycle. I J K would be words of both, and only one of them would be executed.
 bool has_places_of_its_own(Function f) { return f == Function::holes_on_frame_ccw || f == Function::holes_on_frame_cw || cuts_cavity(f) || f == Function::sine_loop; }
 
+/// The hole of the block is made with this function in it: single-direction positioning (M700 6.8, HX 4.2), and position offset, which does not count
+/// for a cycle (M700 12.6).
+bool makes_holes_beside(const BlockContext& in, Function f) {
+  const bool ends = in.words.cycle->function == Function::cycle_off;
+  return !ends && (f == Function::unidirectional || (offsets_position(f) && !in.dialect->rules.compensation.bars_position_offset));
+}
+
+/// A code of the group of cycles beside a function that has the words of the block. The code that ends a cycle needs none, and acts. That of a cycle
+/// would drill at the places of the other function, or the other one would be left out; M700 App.2 says of some that the cycle is.
+Execution take_cycle_beside(BlockContext& in, const FunctionRow& one_shot) {
+  const FunctionRow& cycle = *in.words.cycle;
+  if (cycle.function == Function::cycle_off) {
+    cancel_cycle(in);
+    in.state.modal.set(cycle);
+    return Execution::done;
+  }
+  if (has_places_of_its_own(one_shot.function)) return in.raise_code(Condition::format_error, one_shot);
+  if (in.dialect->rules.block.unused_words_are_faults) return in.raise_code(Condition::illegal_address, cycle);
+  return ignores_cycle(*in.dialect, &one_shot) ? Execution::done : in.raise_code(Condition::format_error, one_shot);
+}
+
 /// LinuxCNC, modal groups: G38.2 to G38.5 stay in force, so axis words without a code of a motion probe once more. They are executed as one-shot functions.
 Execution take_probing(BlockContext& in) {
   Command& w = in.words;
@@ -275,11 +303,10 @@ Execution execute_motion_of_words(BlockContext& in) {
     if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.cycle.beside == CycleBeside::fault)
       return in.raise_code(Condition::format_error, *w.cycle);
     cancel_cycle(in);  // M700 13.1.1 (4): G00 to G03 cancel the cycle, also when a cycle code stands in the same block
-  } else if (w.cycle != nullptr && !ignores_cycle(*in.dialect, w.one_shot)) {
-    if (w.one_shot != nullptr && w.cycle->function != Function::cycle_off && has_places_of_its_own(w.one_shot->function)) return in.raise_code(Condition::format_error, *w.one_shot);
-    return do_cycle(in);
-  } else if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.block.unused_words_are_faults) {
-    return in.raise_code(Condition::illegal_address, *w.cycle);  // the function beside it has the axis words, and the hole would be lost
+  } else if (w.cycle != nullptr) {
+    if (w.one_shot == nullptr || makes_holes_beside(in, w.one_shot->function)) return do_cycle(in);
+    const Execution did = take_cycle_beside(in, *w.one_shot);
+    if (did != Execution::done) return did;
   }
   const Execution probes = take_probing(in);
   if (probes != Execution::done) return probes;
@@ -416,7 +443,8 @@ Execution execute_read_words(Interpreter& in) {
     did = update_beside_call(in);
     return did == Execution::done ? call_macro(in) : did;
   }
-  if (w.functions.size() > 1) drop_beside_cancel(in);
+  if (w.functions.size() > 1) did = drop_beside_cancel(in);
+  if (did != Execution::done) return did;
   if (in.state.modal_call != 0 && block_is_argument(in)) return call_with_block(in);
   did = check_lead_word(in);
   if (did != Execution::done) return did;
@@ -457,7 +485,8 @@ Execution execute_read_words(Interpreter& in) {
   if (!w.functions.empty()) did = set_surface_speed(in);
   if (did == Execution::done && !codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Execution::done) return did;
-  if (w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
+  const bool ignores_motion = !in.dialect->rules.block.unused_words_are_faults;
+  if (ignores_motion && w.one_shot != nullptr && w.one_shot->function == Function::measure_length) in.state.modal.set(motion_before);
   if (in.dialect->rules.compensation.begins_beside_start) did = go_beside_start(in);
   if (did != Execution::done) return did;
   // Another number or code alone only counts from the next I J K on (M700 12.5 (4), (5)): it moves nothing and takes no feed.

@@ -101,7 +101,7 @@ WordSet words_of_motion(const BlockContext& in) {
   WordSet words = 0;
   if (w.one_shot != nullptr && !of_hole) {
     words = words_of_one_shot(in, w.one_shot->function);
-    if (w.cycle == nullptr) return words;
+    if (w.cycle == nullptr || w.cycle->function == Function::cycle_off) return words;
   }
   const bool ends_cycle = w.motion != nullptr && in.dialect->rules.cycle.beside != CycleBeside::cycle;
   if (w.cycle != nullptr && w.cycle->function != Function::cycle_off) return words | words_of_cycle(in, w.cycle->function);
