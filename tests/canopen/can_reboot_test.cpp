@@ -8,6 +8,7 @@
 #include <random>
 
 #include "can_rig.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -334,7 +335,7 @@ class Session {
 };
 
 TEST(CanReboot, AnyOfThemAtAnyInstantEndsBehindResets) {
-  const unsigned long first = setting("NC_FIRST_SEED", 1), seeds = setting("NC_SEEDS", 6);
+  const unsigned long first = setting("NC_FIRST_SEED", 1), seeds = nc::test::seeds(6, 2);
   for (unsigned long seed = first; seed < first + seeds && !HasFailure(); ++seed) Session(seed).run(10);
 }
 

@@ -11,6 +11,7 @@
 #include "runtime/histogram.hpp"
 #include "runtime/seqlock.hpp"
 #include "runtime/spsc.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -58,13 +59,13 @@ TEST(SpscQueue, KeepsOrderAndCapacityAcrossThreads) {
   }
   EXPECT_FALSE(queue.pop(&value));
 
-  constexpr int kCount = 100000;
+  const int count = nc::test::sanitized() ? 10000 : 100000;
   std::thread producer([&] {
-    for (int i = 0; i < kCount; ++i)
+    for (int i = 0; i < count; ++i)
       while (!queue.push(i)) std::this_thread::yield();
   });
   bool ordered = true;
-  for (int i = 0; i < kCount; ++i) {
+  for (int i = 0; i < count; ++i) {
     while (!queue.pop(&value)) std::this_thread::yield();
     ordered &= value == i;
   }

@@ -134,12 +134,12 @@ double scaled(double raw, double unit) {
   return raw / std::nearbyint(1 / unit);
 }
 
-bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
+bool in_inches(const BlockContext& in) { return in.state.modal.is(Function::inch); }
 
 }  // namespace
 
 double length_value(const BlockContext& in, Written number, bool rotary, bool setting_unit, bool tenfold) {
-  const bool in_inch = inch(in) && !rotary;
+  const bool in_inch = in_inches(in) && !rotary;
   const Settings& s = in.settings;
   const double raw = number.value;
   double value = raw;
@@ -159,7 +159,7 @@ double length_value(const BlockContext& in, Written number, bool rotary, bool se
 double axis_value(const BlockContext& in, unsigned axis, Written number, bool rotary) {
   const Settings& s = in.settings;
   if (((s.own_unit_axes >> axis) & 1) == 0 || number.pointed() || s.whole_positions()) return length_value(in, number, rotary, false);
-  const bool in_inch = inch(in) && !rotary;
+  const bool in_inch = in_inches(in) && !rotary;
   const double value = scaled(number.value * s.tenfold, in_inch ? s.own_unit[axis] / 10 : s.own_unit[axis]);
   return in_inch ? value * kMillimetresPerInch : value;
 }
@@ -173,8 +173,8 @@ namespace {
 /// The largest feed, mm/min or inch/min.
 double largest_feed(const BlockContext& in) {
   const NumberRules& rules = in.dialect->rules.number;
-  if (in.words.pointed(Role::feed)) return inch(in) ? rules.largest_feed_inch : rules.largest_feed_mm;
-  return inch(in) ? rules.largest_undotted_feed_inch : rules.largest_undotted_feed_mm;
+  if (in.words.pointed(Role::feed)) return in_inches(in) ? rules.largest_feed_inch : rules.largest_feed_mm;
+  return in_inches(in) ? rules.largest_undotted_feed_inch : rules.largest_undotted_feed_mm;
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ double largest_feed(const BlockContext& in) {
 Execution feed_of(BlockContext& in, double* feed) {
   const double raw = in.words.get(Role::feed);
   const bool whole = !in.dialect->rules.number.undotted_feed_in_least_unit || in.words.pointed(Role::feed) || in.settings.calculator_reads_feed();
-  const double value = whole ? raw : scaled(raw, inch(in) ? 0.0001 : 0.001);
+  const double value = whole ? raw : scaled(raw, in_inches(in) ? 0.0001 : 0.001);
   if (!(value >= 0) || value > largest_feed(in)) return in.raise(Condition::value_range, Role::feed, raw);
   *feed = value;
   return Execution::done;
@@ -194,7 +194,7 @@ namespace {
 /// exchanged).
 bool in_range(const BlockContext& in, double value, Written number, bool rotary) {
   const Settings& s = in.settings;
-  const double last = rotary ? s.last_deg : inch(in) ? s.last_inch : s.last_mm;
+  const double last = rotary ? s.last_deg : in_inches(in) ? s.last_inch : s.last_mm;
   return std::fabs(value) <= last || (in.dialect->rules.number.undotted_range_is_digits && !number.has_point());
 }
 

@@ -12,7 +12,7 @@
 namespace nc {
 namespace {
 
-constexpr Keyword kFunctions[] = {{"ACOS", Op::acos}, {"ASIN", Op::asin}, {"ATAN", Op::atan2}, {"ABS", Op::abs},   {"COS", Op::cos},
+constexpr Keyword kNgcFunctions[] = {{"ACOS", Op::acos}, {"ASIN", Op::asin}, {"ATAN", Op::atan2}, {"ABS", Op::abs},   {"COS", Op::cos},
                                   {"EXISTS", Op::exists}, {"EXP", Op::exp}, {"FIX", Op::floor}, {"FUP", Op::ceil}, {"LN", Op::ln},
                                   {"ROUND", Op::round}, {"SIN", Op::sin}, {"SQRT", Op::sqrt}, {"TAN", Op::tan}};
 
@@ -50,7 +50,7 @@ bool accept_operator(Cursor& at, unsigned step, Op* op) {
 
 bool ExpressionCompiler::starts_ngc_function(Cursor at) {
   Op op{};
-  return accept_keyword(at, kFunctions, &op) && at.peek() == '[';
+  return accept_keyword(at, kNgcFunctions, &op) && at.peek() == '[';
 }
 
 bool ExpressionCompiler::ngc_formula(unsigned depth, unsigned step) {
@@ -77,7 +77,7 @@ bool ExpressionCompiler::ngc_value(unsigned depth) {
     return ngc_parameter(depth);
   }
   Op op{};
-  if (!is_letter(c) || !accept_keyword(at_, kFunctions, &op)) return fail(depth == 0 ? c == ']' ? Condition::bracket_pair : Condition::calculation
+  if (!is_letter(c) || !accept_keyword(at_, kNgcFunctions, &op)) return fail(depth == 0 ? c == ']' ? Condition::bracket_pair : Condition::calculation
                                                                                     : at_.at_end() ? Condition::bracket_pair : Condition::calculation);
   if (at_.peek() != '[') return fail(Condition::calculation);
   if (op == Op::exists) {

@@ -17,7 +17,7 @@ constexpr unsigned kMaxSpan = 3;
 // The avoidance joins a block to the next but one or the one behind that, or to the one behind the joints that interfere.
 constexpr unsigned kReach = 2;
 // Below this the cosine of the angle between two vectors is rounding: at right angles is not "more than 90 degrees".
-constexpr double kRightAngle = 1e-9;
+constexpr double kCosineNoise = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
 constexpr double kHalfTurn = kPi + 1e-9;
 
@@ -334,7 +334,7 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   if (!before.avoid) return Finding::alarm;  // 12.4.8 alarm (1)
   // Avoidance: with valid vectors left on one side only it is an alarm (2)(a), with vectors at more than 90
   // degrees (2)(b).
-  if (one_sided || dot(a, b) < -kRightAngle * norm(a) * norm(b)) return Finding::alarm;
+  if (one_sided || dot(a, b) < -kCosineNoise * norm(a) * norm(b)) return Finding::alarm;
   const unsigned farthest = std::max(live + 1 + kReach, j + 1);
   for (unsigned target = j + 1; target <= farthest && target < chain->size(); ++target) {
     if (go_round(chain, live, target, j + 1, first_vector)) return Finding::none;

@@ -22,7 +22,7 @@ AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
 AxisVec as_programmed(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? to_program(in, place) : place; }
 AxisVec as_moved(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? from_program(in, place) : place; }
 
-uint32_t plane_bits(const BlockContext& in) {
+uint32_t stroke_plane(const BlockContext& in) {
   uint32_t axes = 0;
   for (const int axis : in.state.plane_axis)
     if (axis >= 0) axes |= 1u << axis;
@@ -175,7 +175,7 @@ void move_on_circle(BlockContext& in, StrokeKind kind) {
   for (const int axis : in.state.plane_axis) target[static_cast<unsigned>(axis)] = mapped[static_cast<unsigned>(axis)];
   ArcWords words;
   words.center[0] = kind == StrokeKind::circle_in ? -radius / 2 : kind == StrokeKind::circle ? radius : radius / 2;
-  move_arc_by(in, plane, target, plane_bits(in), words, c.q < 0);
+  move_arc_by(in, plane, target, stroke_plane(in), words, c.q < 0);
 }
 
 void move_in_plane(BlockContext& in, const CycleStep& step) {
@@ -187,7 +187,7 @@ void move_in_plane(BlockContext& in, const CycleStep& step) {
     style.special_feed = special_feed(in);
   }
   style.exact_stop = true;
-  move_linear(in, plain_end(in.position(), place, plane_bits(in)), plane_bits(in), style);
+  move_linear(in, plain_end(in.position(), place, stroke_plane(in)), stroke_plane(in), style);
 }
 
 /// A stroke of a tap that goes with the spindle: the lead, and the speed that the spindle is to have (M700 13.1.1 (6) (c): on the way back not

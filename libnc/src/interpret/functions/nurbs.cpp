@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// The indexes of the basic axes, 0xff where the machine has no such axis.
-void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
+void curve_axes(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const WordSlot name = in.settings.plane_basic[i];
     const int index = in.axis_words.axis(name);
@@ -53,7 +53,7 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (std::fabs(target[i] - at[i]) > kReached) return in.raise(Condition::nurbs_start, in.axis_words.word(i));
   uint8_t axis[3];
-  basic_axes(in, axis);
+  curve_axes(in, axis);
   uint32_t basic = 0;
   for (const uint8_t a : axis)
     if (a < kMaxAxes) basic |= 1u << a;
@@ -119,7 +119,7 @@ void emit_span(BlockContext& in) {
   const uint32_t j = newest - degree;
   if (j >= n.points || !(point(in, j + 1).knot > point(in, j).knot)) return;
   uint8_t axis[3];
-  basic_axes(in, axis);
+  curve_axes(in, axis);
   MoveShape shape;
   shape.kind = ShapeKind::rational;
   shape.map = in.state.map;

@@ -72,7 +72,7 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
 }
 
 /// The three basic axes, #1026 to #1028.
-bool basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
+bool axes_in_space(const BlockContext& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const WordSlot name = in.settings.plane_basic[i];
     const int index = in.axis_words.axis(name);
@@ -166,7 +166,7 @@ Execution move_space_arc(BlockContext& in, const AxisVec& target) {
     return Execution::later;
   }
   uint8_t axis[3];
-  if (!basic_axes(in, axis)) return in.raise(Condition::illegal_axis, Role::basic_x);
+  if (!axes_in_space(in, axis)) return in.raise(Condition::illegal_axis, Role::basic_x);
   const AxisVec start = in.points[state.arc_points].at, middle = in.points[state.arc_points + 1].at;
   Vec3 a, b, c;
   for (unsigned i = 0; i < 3; ++i) {

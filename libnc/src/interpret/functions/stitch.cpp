@@ -19,7 +19,7 @@ unsigned range_of(const Settings& settings, double length) {
   return range;
 }
 
-constexpr double kPeriod_s = 0.01;                           ///< from one question for an input to the next
+constexpr double kAskEvery_s = 0.01;                           ///< from one question for an input to the next
 constexpr uint32_t kQuestions = 1000;                        ///< so long the head may take: 10 s
 enum Waits : uint8_t { kForStitch, kForNextPlace };
 
@@ -61,7 +61,7 @@ Execution continue_stitch(BlockContext& in) {
     --wait.left;
     Gate& gate = in.emit(ItemKind::gate).gate;
     gate.kind = NC_GATE_DWELL_SECONDS;
-    gate.value = kPeriod_s;
+    gate.value = kAskEvery_s;
     return in.need(NC_SYNC_INPUT);
   }
   if (of_stitch) {
