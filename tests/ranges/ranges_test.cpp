@@ -238,6 +238,19 @@ TEST(Ranges, EachIsThatOfTheFamilysRow) {
   }
 }
 
+// HX 11: M00 to M999. DGSHAPE, K of cycles: 0 to 9999.
+TEST(Ranges, EndWhereTheManualsPrintIt) {
+  const auto alarm = [](nc_dialect id, const std::string& program) {
+    Bench bench(id);
+    return bench.at(0, 0, 0).run(program).alarm;
+  };
+  EXPECT_EQ(alarm(NC_DIALECT_HX, "M999\nM30"), "");
+  EXPECT_EQ(alarm(NC_DIALECT_HX, "M1000\nM30"), "F_82002");
+  const std::string cycle = "%\nS1000\nM03\nG81 X1. Z-1. R1. F100 K";
+  EXPECT_NE(alarm(NC_DIALECT_DGSHAPE, cycle + "9999\nM02"), "NC-RANGE");
+  EXPECT_EQ(alarm(NC_DIALECT_DGSHAPE, cycle + "10000\nM02"), "NC-RANGE");
+}
+
 TEST(Ranges, ALongerNumberInTheNameOfAFileIsNoNumberOfAProgram) {
   for (unsigned id = 0; id < NC_DIALECT_COUNT; ++id) {
     RangeRules& ranges = families()[id].rules.range;
