@@ -318,7 +318,10 @@ TEST(Ranges, TheHostIsHeldToThoseOfTheLivesOfTools) {
         const double most = column <= NC_LIFE_TOOL ? (moved ? 10 : 99999999) : flags == 0 ? (moved ? 20 : 4000) : moved ? 30 : 9999;
         EXPECT_FALSE(set(bench, column, most + 1)) << column;
         EXPECT_TRUE(set(bench, column, most)) << column;
+        ASSERT_TRUE(set(bench, NC_LIFE_GROUP, 1));
         EXPECT_EQ(set(bench, NC_LIFE_FLAGS, 0), column <= NC_LIFE_TOOL || flags == 0) << "what is longer than minutes can be does not become minutes";
+        for (const nc_life_column cleared : {NC_LIFE_GROUP, NC_LIFE_TOOL, NC_LIFE_FLAGS}) EXPECT_TRUE(set(bench, cleared, 0)) << "a row is cleared in the order of its columns";
+        EXPECT_EQ(set(bench, NC_LIFE_GROUP, 1), column <= NC_LIFE_TOOL || flags == 0) << "nor is a tool registered with it";
       }
     }
   }

@@ -171,7 +171,7 @@ typedef enum nc_life_column {
  * @param number of the tool in the table, 1 to NC_TOOL_LIVES: the tools of a group are used in this order
  * @param column nc_life_column
  * @param value in the range of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY. NC_LIFE_FLAGS says whether NC_LIFE_LIFE and NC_LIFE_USED are
- *        minutes or times and so which range they have: it is set before them, and cannot become minutes while they are beyond those
+ *        minutes or times and so which range they have: it is set before them, and that of a tool with a group cannot become minutes while they are beyond those
  * @return NC_OK; NC_E_ARGUMENT: no such number or column, or the value is out of range
  */
 NC_API nc_status nc_tool_life_set(nc_control* control, unsigned number, nc_life_column column, double value);

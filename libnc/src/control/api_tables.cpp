@@ -197,7 +197,8 @@ bool life_place(const nc_control* c, unsigned number, nc_life_column column) {
   return c != nullptr && number >= 1 && number <= NC_TOOL_LIVES && column <= NC_LIFE_AUXILIARY;
 }
 
-/// The value is in the range of its column. What is counted says in which range a life is, so it cannot become minutes while the life is longer than those.
+/// The value is in the range of its column. What is counted says in which range a life is, so the life of a tool that is registered cannot become minutes while
+/// it is longer than those. Where no tool is registered the row may be written in any order.
 bool life_value(const nc_control* c, const nc::ToolLife& tool, nc_life_column column, double value) {
   constexpr double kFlags = 255, kStates = 4;
   const nc::RangeRules& range = c->dialect->rules.range;
@@ -209,9 +210,10 @@ bool life_value(const nc_control* c, const nc::ToolLife& tool, nc_life_column co
                                                   : 0;
   if (column == NC_LIFE_AUXILIARY) return sane(value);
   if (!(value >= 0 && value <= most) || (column != NC_LIFE_USED && value != std::trunc(value))) return false;
-  if (column != NC_LIFE_FLAGS) return true;
-  nc::LifeFlags flags;
-  nc::from_life_number(value, flags);
+  if (column != NC_LIFE_FLAGS && column != NC_LIFE_GROUP) return true;
+  if (column == NC_LIFE_FLAGS ? tool.is_free() : value == 0) return true;
+  nc::LifeFlags flags = tool.flags;
+  if (column == NC_LIFE_FLAGS) nc::from_life_number(value, flags);
   const double longest = range.most_life(flags.method == nc::LifeMethod::time);
   return static_cast<double>(tool.life) <= longest && tool.used <= longest;
 }
