@@ -43,7 +43,7 @@ struct Reader {
   nc::ProgramStore store;
   nc::BlockReader reader;
   Reader() {
-    store.create(8, 0, rules.program_letter, arena);
+    store.create(8, 0, {rules.program_letter, 99999999}, arena);
     reader.create(&store, &rules, 65536, 256, arena);
   }
 };
