@@ -73,8 +73,11 @@ class Line:
         t = min(1.0, max(least, t))
         return math.sqrt(sum((a + t * d - x) ** 2 for x, a, d in zip(p, self.start, self.slope))), t
 
+    def at(self, share):
+        return [a + share * d for a, d in zip(self.start, self.slope)]
+
     def end(self):
-        return [a + d for a, d in zip(self.start, self.slope)]
+        return self.at(1.0)
 
 
 class Arc:
@@ -96,10 +99,13 @@ class Arc:
         if turned < least - 0.25 * turn:
             turned += turn
         t = min(1.0, max(least, turned))
-        radius, angle = self.r0 + t * (self.r1 - self.r0), self.angle + t * self.sweep
-        point = [x + t * (y - x) for x, y in zip(self.start, self.finish)]
+        return math.dist(self.at(t), p), t
+
+    def at(self, share):
+        radius, angle = self.r0 + share * (self.r1 - self.r0), self.angle + share * self.sweep
+        point = [x + share * (y - x) for x, y in zip(self.start, self.finish)]
         point[self.a], point[self.b] = self.ca + radius * math.cos(angle), self.cb + radius * math.sin(angle)
-        return math.dist(point, p), t
+        return point
 
     def end(self):
         return self.finish
@@ -115,6 +121,40 @@ def pieces_of(path):
         else:
             raise path_file.PathError("the programmed path must be of lines and arcs (path_from_program.py --blend none)")
     return out
+
+
+def first_within(piece, p, least, distance):
+    """The first share of the piece, from `least` on, that is no farther from p than this, or None."""
+    if math.dist(piece.at(least), p) <= distance:
+        return least
+    off, near = piece.nearest(p, least)
+    if off > distance:
+        return None
+    far = least
+    for _ in range(40):
+        middle = 0.5 * (far + near)
+        far, near = (far, middle) if math.dist(piece.at(middle), p) <= distance else (middle, near)
+    return near
+
+
+def goes_along(pieces, points, distance):
+    """Whether each row has a place of the path no farther away than this, none of them in front of that of the row before. Of the places that a row
+    may have the first one leaves the most to the others, so there is nothing to choose."""
+    number, share, last = 0, 0.0, points[0]
+    for p in points:
+        ahead, reach = 0.0, math.dist(p, last) + 8 * distance + SLACK_MM
+        k, at = number, share
+        while True:
+            found = first_within(pieces[k], p, at, distance)
+            if found is not None:
+                number, share = k, found
+                break
+            ahead += (1 - at) * pieces[k].length
+            k, at = k + 1, 0.0
+            if k == len(pieces) or ahead > reach:
+                return False
+        last = p
+    return True
 
 
 class Follower:
@@ -150,6 +190,9 @@ class Follower:
         for k in range(self.piece + 1, len(self.pieces) + 1):
             if k in missed:
                 missed[k] = min(missed[k], math.dist(last, ends[k]))
+        if self.deviation[0] > self.tolerance + SLACK_MM and goes_along(self.pieces, points, self.tolerance + SLACK_MM):
+            # Where the lines are shorter than the tolerance and turn back, the nearest place may have been too far ahead.
+            self.deviation = (self.tolerance, self.deviation[1])
         self.missed = {k: d for k, d in missed.items() if d > STOP_MM}
         self.left = math.dist(last, self.pieces[-1].end())
         return self

@@ -378,6 +378,17 @@ class Checker(unittest.TestCase):
         rows[1000] *= 1.01
         self.assertAlmostEqual(motion_check.Follower(path, CYCLE, 0.01).follow(rows).deviation[1], 1.0)
 
+    def test_a_recording_is_not_followed_too_far_ahead_where_the_path_turns_back(self):
+        path = path_file.Path("XY")
+        corners = [[0, 0], [0.024, 0], [0.024, 0.008], [0, 0.008], [0, 0.03]]
+        for a, b in zip(corners[:-1], corners[1:]):
+            path.line(100, a, b)
+        # The third row is nearer to the way back than to the way there, and the fourth one is on the way there again.
+        rows = np.array([[0, 0], [0.008, 0], [0.015, 0.0041], [0.022, 0.001], [0.024, 0.004], [0.02, 0.008], [0, 0.008], [0, 0.03]])
+        self.assertLessEqual(motion_check.Follower(path, CYCLE, 0.005).follow(rows).deviation[0], 0.005)
+        rows[3] = [0.022, -0.006]
+        self.assertGreater(motion_check.Follower(path, CYCLE, 0.005).follow(rows).deviation[0], 0.005)
+
     def test_the_recording_of_ncsim_is_read(self):
         with tempfile.TemporaryDirectory() as folder:
             file = program(folder, "G0 X10.\nG1 X20. F600.\nM30\n")
