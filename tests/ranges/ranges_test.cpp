@@ -1,29 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each range of each family (dialect/<family>/ranges.hpp) is the one that its programs are held to: with another value in the family's row, and nothing else
-// changed, the same program gets the alarm or no longer gets it. This program gives the library copies of the families, whose rows it can change.
+// changed, the same program gets the alarm or no longer gets it.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <map>
 #include <set>
 #include <variant>
 
-#include "dialect/dgshape/dgshape.hpp"
-#include "dialect/dialect.hpp"
-#include "dialect/hx/hx.hpp"
-#include "dialect/iso/iso.hpp"
-#include "dialect/m700/m700.hpp"
-#include "dialect/series8/series8.hpp"
+#include "families.hpp"
 #include "support/pull.hpp"
 
 namespace nc::test {
 namespace {
-
-/// The families in the order of their ids.
-std::array<Dialect, NC_DIALECT_COUNT>& families() {
-  static std::array<Dialect, NC_DIALECT_COUNT> copies = {m700::kDialect, dgshape::kDialect, iso::kDialect, hx::kDialect, series8::kDialect};
-  return copies;
-}
 
 using Member = std::variant<uint32_t RangeRules::*, double RangeRules::*>;
 using R = RangeRules;
@@ -330,7 +318,3 @@ TEST(Ranges, TheHostIsHeldToThoseOfTheLivesOfTools) {
 
 }  // namespace
 }  // namespace nc::test
-
-namespace nc {
-const Dialect& dialect(nc_dialect id) { return test::families()[id < NC_DIALECT_COUNT ? id : NC_DIALECT_M700]; }
-}  // namespace nc
