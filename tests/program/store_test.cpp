@@ -21,7 +21,7 @@ TEST(ProgramStore, NumbersFromNames) {
               {"3000.nc", 3000},
               {"sub/dir/o0400.NC", 400},
               {"C:\\parts\\O12345678.txt", 12345678},
-              {"0100", 0},
+              {"0100", 100},  // so a program reads it; a call does not find it by this number
               {"part-1", 0},
               {"O123456789", 0},
               {"O", 0},

@@ -25,13 +25,13 @@ size_t stem_length(const char* name, size_t length) {
   return length;
 }
 
-/// The program number of "O1000", "o0100.nc" or "1000.nc", O being the letter of `numbers`; 0 = none. Without the letter a number with leading zeros counts as a
-/// name: the file "0100" can only be called as <0100> (M700 13.3.1).
+/// The program number of "O1000", "o0100.nc" or "1000.nc", O being the letter of `numbers`; 0 = none. It is what a program reads as the number of the file (M700
+/// 13.5.5, 10.10: "0123" is 123); whether a call finds the file by it is another matter (is_name()).
 uint32_t number_of_name(const char* name, ProgramNumbers numbers) {
   const size_t length = stem_length(name, std::strlen(name));
   const bool letter = upper(name[0]) == numbers.letter;
   size_t i = letter ? 1 : 0;
-  if (i == length || (!letter && name[i] == '0')) return 0;
+  if (i == length) return 0;
   uint64_t number = 0;
   for (; i < length; ++i) {
     if (!is_digit(name[i])) return 0;
@@ -40,6 +40,9 @@ uint32_t number_of_name(const char* name, ProgramNumbers numbers) {
   }
   return static_cast<uint32_t>(number);
 }
+
+/// A number with leading zeros and no letter in front counts as a name: the file "0100" can only be called as <0100> (M700 13.3.1).
+bool is_name(const char* name) { return name[0] == '0'; }
 
 bool same_name(const char* a, size_t a_length, const char* b, size_t b_length) {
   if (a_length != b_length) return false;
@@ -156,7 +159,7 @@ int ProgramStore::find_name(const char* name, size_t length) const {
 int ProgramStore::find_number(uint32_t number) const {
   if (number == 0) return -1;
   for (unsigned i = 0; i < count_; ++i) {
-    if (entries_[i].number == number) return static_cast<int>(i);
+    if (entries_[i].number == number && !is_name(entries_[i].name)) return static_cast<int>(i);
   }
   return -1;
 }
