@@ -68,6 +68,7 @@ nc_StopCause cause_of(std::uint32_t cause) {
     case NC_CAUSE_SPINDLE_REVERSED: return nc_CAUSE_SPINDLE_REVERSED;
     case NC_CAUSE_TAP_IN_HOLE: return nc_CAUSE_TAP_IN_HOLE;
     case NC_CAUSE_MDI_ENDED: return nc_CAUSE_MDI_ENDED;
+    case NC_CAUSE_MANUAL_FEED_ZERO: return nc_CAUSE_MANUAL_FEED_ZERO;
   }
   return nc_CAUSE_OTHER;
 }
@@ -80,7 +81,7 @@ static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::Refusal
               static_cast<int>(nc_REFUSED_NOT_LOADED) == static_cast<int>(rt::RefusalCause::kNotLoaded) &&
               static_cast<int>(nc_REFUSED_NO_ANSWER) == static_cast<int>(rt::RefusalCause::kNoAnswer) &&
               static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kDrives) &&
-              static_cast<int>(nc_REFUSED_TAP_IN_HOLE) == static_cast<int>(rt::RefusalCause::kLast) &&
+              static_cast<int>(nc_REFUSED_MACHINE_LOCK) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
 // The enumerators are greater by one than those of the runtime: a subscriber reads 0 from an older control that does not tell the source.
 static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&
@@ -200,7 +201,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_TAP_IN_HOLE, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_MACHINE_LOCK, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
   to.feed_override_source = source_of(from.feed_override_source);
   to.rapid_override_source = source_of(from.rapid_override_source);
@@ -358,7 +359,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
-  to.refusal = as_enum(ack.refusal, nc_REFUSED_TAP_IN_HOLE, nc_REFUSED_OTHER);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_MACHINE_LOCK, nc_REFUSED_OTHER);
   return to;
 }
 

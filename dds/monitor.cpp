@@ -57,6 +57,7 @@ const char* cause_name(nc_StopCause cause) {
     case nc_CAUSE_SPINDLE_REVERSED: return "spindle turns the wrong way";
     case nc_CAUSE_TAP_IN_HOLE: return "tap in its hole";
     case nc_CAUSE_MDI_ENDED: return "MDI done";
+    case nc_CAUSE_MANUAL_FEED_ZERO: return "manual feed 0";
     default: return "other";
   }
 }
@@ -95,6 +96,7 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_HOMING: return "homing";
     case nc_REFUSED_LIMIT_SWITCH: return "limit switch";
     case nc_REFUSED_TAP_IN_HOLE: return "tap in its hole";
+    case nc_REFUSED_MACHINE_LOCK: return "machine lock";
     default: return "other";
   }
 }

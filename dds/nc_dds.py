@@ -72,6 +72,7 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
     CAUSE_SPINDLE_REVERSED = 21
     CAUSE_TAP_IN_HOLE = 22
     CAUSE_MDI_ENDED = 23
+    CAUSE_MANUAL_FEED_ZERO = 24
 
 
 @annotate.appendable
@@ -109,6 +110,7 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_HOMING = 30
     REFUSED_LIMIT_SWITCH = 31
     REFUSED_TAP_IN_HOLE = 32
+    REFUSED_MACHINE_LOCK = 33
 
 
 @annotate.appendable

@@ -93,7 +93,8 @@ enum FinFault : std::uint32_t {
   // With one of these bits the control waits for the clamp of an index table (M700 9.3), not for a FIN:
   kNotUnclamped = 1 << 8,
   kNotClamped = 1 << 9,
-  kNoClampHere = 1 << 10  // the axis stands where it cannot be clamped
+  kNoClampHere = 1 << 10,  // the axis stands where it cannot be clamped
+  kFinOwn = 1 << 11        // it is the FIN of the group itself (plc.mfin ...) that is on, and neither FIN1 nor FIN2
 };
 
 // Which limit switch of the axis (R22). Both at once: wiring.

@@ -99,6 +99,8 @@ enum class Answer : std::uint8_t {
   kHoming,            // the axis is being homed
   kLimitSwitch,       // an axis stands on its limit switch
   kTapInHole,         // a tap that was given up stands in its hole
+  kLocked,            // the axis is locked (plc.machine_lock, plc.axis_lock)
+  kLockLeft,          // an axis was moved in a machine lock that has been taken off
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -177,6 +179,10 @@ constexpr const char* answer_text(Answer answer) {
       return "an axis is on its limit switch, or the switch cannot be read: only the other way is free";
     case Answer::kTapInHole:
       return "a tap stands in its hole: draw it out first, by the retract or by hand along its own axis";
+    case Answer::kLocked:
+      return "the axis is locked by the machine lock";
+    case Answer::kLockLeft:
+      return "an axis was moved in the machine lock and is not where it is shown: reset first";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

@@ -64,6 +64,8 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kHoming: return RefusalCause::kHoming;
     case Answer::kLimitSwitch: return RefusalCause::kLimitSwitch;
     case Answer::kTapInHole: return RefusalCause::kTapInHole;
+    case Answer::kLocked:
+    case Answer::kLockLeft: return RefusalCause::kMachineLock;
     case Answer::kNoAnswer: return RefusalCause::kNoAnswer;
   }
   return RefusalCause::kOther;

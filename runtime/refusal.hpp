@@ -28,8 +28,8 @@ struct Refusal {
 enum class RefusalCause : std::uint8_t {
   kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther,
   kFeedHold, kInterlock, kResetHeld, kWarning, kMachineSwitch, kRange, kAxis, kControl, kNotLoaded, kNoDevice, kTooMany, kNoLadder, kNoAnswer,
-  kLetGo, kTooFar, kDrives, kNotHomed, kHoming, kLimitSwitch, kTapInHole,
-  kLast = kTapInHole
+  kLetGo, kTooFar, kDrives, kNotHomed, kHoming, kLimitSwitch, kTapInHole, kMachineLock,
+  kLast = kMachineLock
 };
 // kNone for Answer::kDone. Every other answer has a cause, which is never kOther: that one stands for a cause that only a later version knows.
 RefusalCause refusal_cause(Answer why);

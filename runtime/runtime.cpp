@@ -51,8 +51,17 @@ std::string fin_fault_text(std::uint32_t fault, std::uint32_t code) {
   if (fault == kNotClamped) return "The index table is not clamped";
   if (fault == kNoClampHere) return "The index table stands where it cannot be clamped: move it on";
   const std::string groups = fin_groups(fault & kFinGroups, code);
-  const std::string which = (fault & kFinOne) == 0 ? "FIN2" : (fault & kFinTwo) == 0 ? "FIN1" : "FIN1 and FIN2";
-  const bool both = (fault & kFinOne) != 0 && (fault & kFinTwo) != 0;
+  std::string which;
+  unsigned count = 0;
+  const auto add = [&](bool on, const char* name) {
+    if (!on) return;
+    which += (count++ == 0 ? "" : " and ") + std::string(name);
+  };
+  constexpr const char* kOwn[] = {"MFIN", "SFIN", "TFIN", "BFIN"};
+  for (unsigned g = 0; g < 4; ++g) add((fault & kFinOwn) != 0 && (fault >> g & 1u) != 0, kOwn[g]);
+  add((fault & kFinOne) != 0, "FIN1");
+  add((fault & kFinTwo) != 0, "FIN2");
+  const bool both = count > 1;
   if ((fault & kFinStays) != 0) return which + (both ? " do" : " does") + " not go off: " + groups + " is done, and the program waits for that";
   if ((fault & kFinEarly) != 0)
     return which + (both ? " were" : " was") + " on before the strobe: " + groups + " waits until " +
@@ -468,7 +477,8 @@ static std::string bad_input_text(std::uint32_t bits) {
   };
   static constexpr Row kRows[] = {{NC_INPUT_FEED_OVERRIDE, "feed override"}, {NC_INPUT_RAPID_OVERRIDE, "rapid override"},
                                   {NC_INPUT_SPINDLE, "spindle"},             {NC_INPUT_ACTUAL, "measured position"},
-                                  {NC_INPUT_MANUAL, "manual motion"}};
+                                  {NC_INPUT_MANUAL, "manual motion"},
+                                  {NC_INPUT_MANUAL_FEED, "manual feed rate"}};
   std::string text;
   for (const Row& row : kRows)
     if ((bits & row.bit) != 0) text += (text.empty() ? ": " : ", ") + std::string(row.name);

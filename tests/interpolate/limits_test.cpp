@@ -19,7 +19,7 @@ bool chance(std::mt19937_64& rng, double p) {
 }
 
 struct Disturbance {
-  bool overrides = false, holds = false, single_block = false, dribble = false;
+  bool overrides = false, holds = false, single_block = false, dribble = false, dry = false;
 };
 
 /// Runs one seed to its end; returns what went wrong, or an empty text.
@@ -31,9 +31,13 @@ std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = 
   if (seed % 11 == 3) config.cycle_s = 0.004;
   if (seed % 13 == 4) config.capacity = 64;
   if (seed % 17 == 5) config.limits[2] = {};  // an axis without limits
-  const Program p = random_program(config, rng, 30);
+  Program p = random_program(config, rng, 30);
   Machine m(config);
   if (m.overflowed) return "memory";
+  if (d.dry) {
+    m.in.manual_feed = 100;
+    for (Record& r : p.records) r.segment.dry = r.kind == ItemKind::move && (!r.segment.rapid || seed % 2 == 0);
+  }
   m.feed(p, d.dribble ? 5 : ~0u);
   m.start();
   uint64_t idle = 0, n = 0;
@@ -48,6 +52,11 @@ std::string run_seed(uint64_t seed, const Disturbance& d, LimitChecker* worst = 
       if (chance(rng, 0.02)) target_override = chance(rng, 0.1) ? 0 : uniform(rng, 0, 2);
       if (chance(rng, 0.5)) m.in.feed_override = target_override;
       if (chance(rng, 0.02)) m.in.rapid_override = uniform(rng, 0, 1);
+    }
+    if (d.dry) {
+      if (chance(rng, 0.01)) m.in.dry_run = !m.in.dry_run;
+      if (chance(rng, 0.02)) m.in.manual_feed = chance(rng, 0.1) ? 0 : uniform(rng, 5, 300);
+      if (chance(rng, 0.01)) m.in.manual_rapid = !m.in.manual_rapid;
     }
     if (d.holds) {
       if (chance(rng, 0.01)) m.in.feed_hold = true;
@@ -99,6 +108,12 @@ TEST(Limits, HoldsAndInterlocksKeepThem) {
 }
 TEST(Limits, SingleBlockKeepsThem) {
   run_many(300000, {.single_block = true});
+}
+TEST(Limits, DryRunKeepsThem) {  // M700 7.4 note 4
+  run_many(600000, {.overrides = true, .dry = true});
+}
+TEST(Limits, DryRunAndEverythingElseKeepThem) {
+  run_many(700000, {.overrides = true, .holds = true, .single_block = true, .dribble = true, .dry = true});
 }
 TEST(Limits, LateFeedingKeepsThem) {
   run_many(400000, {.dribble = true});

@@ -19,7 +19,7 @@ bool chance(std::mt19937_64& rng, double p) {
 }
 
 struct Disturbance {
-  bool overrides = false, holds = false, single_block = false, dribble = false, hangs = false;
+  bool overrides = false, holds = false, single_block = false, dribble = false, hangs = false, dry = false;
   double spoil = 0;  ///< a step of this size, mm, that is put into one position
 };
 
@@ -77,6 +77,10 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
   const PathDistance path(p, config.axis_count);
   Machine m(config);
   if (m.overflowed) return "memory";
+  if (d.dry) {
+    m.in.manual_feed = 100;
+    for (Record& r : p.records) r.segment.dry = r.kind == ItemKind::move && (!r.segment.rapid || seed % 2 == 0);
+  }
   m.feed(p, d.dribble ? 5 : ~0u);
   m.start();
   uint64_t n = 0;
@@ -95,6 +99,11 @@ std::string run_seed(uint64_t seed, const Disturbance& d, unsigned blocks, Limit
       if (chance(rng, 0.004)) target_override = chance(rng, 0.1) ? 0 : uniform(rng, 0.3, 2);
       if (chance(rng, 0.5)) m.in.feed_override = target_override;
       if (chance(rng, 0.004)) m.in.rapid_override = uniform(rng, 0.3, 1);
+    }
+    if (d.dry) {
+      if (chance(rng, 0.003)) m.in.dry_run = !m.in.dry_run;
+      if (chance(rng, 0.004)) m.in.manual_feed = chance(rng, 0.1) ? 0 : uniform(rng, 5, 300);
+      if (chance(rng, 0.003)) m.in.manual_rapid = !m.in.manual_rapid;
     }
     if (d.holds) {
       if (chance(rng, 0.004)) m.in.feed_hold = true;
@@ -156,6 +165,12 @@ TEST(PlannedLimits, HoldsAndInterlocksKeepThem) {
 }
 TEST(PlannedLimits, SingleBlockKeepsThem) {
   run_many(300000, {.single_block = true});
+}
+TEST(PlannedLimits, DryRunKeepsThem) {  // M700 7.4 note 4
+  run_many(700000, {.overrides = true, .dry = true});
+}
+TEST(PlannedLimits, DryRunAndEverythingElseKeepThem) {
+  run_many(800000, {.overrides = true, .holds = true, .single_block = true, .dribble = true, .hangs = true, .dry = true});
 }
 TEST(PlannedLimits, LateFeedingKeepsThem) {
   run_many(400000, {.dribble = true});

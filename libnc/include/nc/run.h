@@ -242,7 +242,8 @@ typedef enum nc_input_bits {
   NC_INPUT_RAPID_OVERRIDE = 2, /**< the last accepted rapid override acts */
   NC_INPUT_SPINDLE = 4,        /**< the spindle counts as turning on with its last speed for 20 ms, then as `unmeasured` until an input is accepted */
   NC_INPUT_ACTUAL = 8,         /**< the axis counts as standing at its last accepted position, but not as in position */
-  NC_INPUT_MANUAL = 16         /**< nothing is commanded by hand for the axis; set also for a kind that is no nc_manual_kind */
+  NC_INPUT_MANUAL = 16,        /**< nothing is commanded by hand for the axis; set also for a kind that is no nc_manual_kind */
+  NC_INPUT_MANUAL_FEED = 32    /**< the last accepted manual feed rate acts */
 } nc_input_bits;
 
 /**
@@ -290,6 +291,17 @@ typedef struct nc_inputs {
   bool tap_retract;      /**< rising edge while nc_outputs::tap_retract_possible: a synchronous tap is drawn out of its hole, up to R. While it is off the
                               tap stands there and goes on when it is on again; a reset, a feed hold and an interlock give the way up */
   bool tool_broken;      /**< rising edge: the tool in the spindle is not used any more: its status in the table of tool life becomes 3 */
+  double manual_feed;    /**< manual feed rate, mm/s along the path, 0..1e6; the feed override acts on it. Read only in dry run */
+  uint64_t locked;       /**< machine lock, bit n: axis n is commanded, but its drive does not follow. libnc has to know because a skip move ends by no
+                              signal when all the axes that it moves are locked (M700 15.2 (8)); what keeps the drives still is the host's */
+  uint8_t fin_groups;    /**< completion of one group alone, bits as in nc_outputs::strobe, each of them as `fin`: when it rises the strobe of its group
+                              goes off, when it falls that group is complete */
+  bool auxiliary_lock;   /**< level: M, S, T and B are neither given out nor waited for, but for those that stop or end the program (M00, M01, M02, M30).
+                              It counts where a code would be given out; one that waits already is completed */
+  bool dry_run;          /**< level: cuts go at `manual_feed` in place of their feed, and so do rapid moves where the family's parameter says so (M700
+                              #1085). Not so skip moves (M700 15.2), the tapping mode and taps (13.1.1). Of a thread the level counts where it begins, and
+                              such a thread does not go with the spindle (6.7.1) */
+  bool manual_rapid;     /**< level: in dry run rapid moves go as they are commanded, and cuts at the most that the axes may cut with */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.
@@ -339,7 +351,8 @@ typedef enum nc_stop_cause {
   NC_CAUSE_SPINDLE_REVERSED = 20, /**< the spindle turns the other way round than the program has commanded (M03, M04): a thread does not begin */
   NC_CAUSE_TAP_IN_HOLE = 21,      /**< a cycle start was refused because a synchronous tap stands in its hole: it is drawn out first, by the signal
                                        or by hand (nc_inputs::tap_retract). Not behind NC-TAP in such an attempt, since its spindle does not follow */
-  NC_CAUSE_MDI_ENDED = 22         /**< the blocks of MDI that interrupt a program have been executed: cycle start goes on with the program */
+  NC_CAUSE_MDI_ENDED = 22,        /**< the blocks of MDI that interrupt a program have been executed: cycle start goes on with the program */
+  NC_CAUSE_MANUAL_FEED_ZERO = 23  /**< dry run, and the manual feed rate is 0 */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait in addition to those of M, S, T and B. */
@@ -428,6 +441,7 @@ typedef struct nc_outputs {
   uint32_t tool_group;      /**< its group of tool life management, 0 = none */
   uint32_t tap_holds;       /**< bit n: axis n is not moved by hand, because a tap that was given up stands in its hole and would break, or tear the hole.
                                  The axis of the tap is free, and the way out; when its spindle does not follow, that is an alarm, which ends this */
+  bool followed;            /**< in this cycle `command` was taken from nc_inputs::actual (nc_inputs::follow_up) */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

@@ -421,10 +421,11 @@ void Commit::set_tap(const Move& move, Segment* s) const {
 }
 
 /// What the feed of a segment goes by beside its number.
-void Commit::set_rule(const FeedRule& rule, Segment* s) {
+void Commit::set_rule(const FeedRule& rule, bool dry_rapid, bool is_tap, Segment* s) {
   s->feed_digit = rule.digit;
   s->rest_before = turns_round(rule.check_reversal);
   s->fixed_override = rule.tapping;
+  s->dry = s->rapid ? dry_rapid : !s->skip && !rule.tapping && !is_tap;  // M700 13.1.1, 15.2
   s->digit_most_mm_s = rule.digit_most / 60;
   s->digit_step_mm_s = rule.digit_step / 60;
   if (rule.scale > 0) {
@@ -485,7 +486,7 @@ void Commit::to_record(const Item& item, const Named& named, Record* out) {
       for (unsigned i = 0; s.skip_speeds != nullptr && i < SkipSpeeds::kSignals; ++i)
         s.feed_mm_s = std::fmax(s.feed_mm_s, s.skip_speeds->feed_mm_min[i] / 60);  // the plan must allow for the fastest of them
       s.thread = item.move.kind == NC_MOVE_THREAD;
-      set_rule(item.move.rule, &s);
+      set_rule(item.move.rule, named.settings->rapid_dry, item.move.kind == NC_MOVE_TAP, &s);
       if (s.thread) s.feed_mm_rev *= along_longest();
       if (item.move.kind == NC_MOVE_TAP) set_tap(item.move, &s);
       if (item.move.plane_feed && !s.rapid) s.feed_mm_s *= helix_slope();

@@ -173,7 +173,7 @@ class Commit {
   void commit_shape(const Move& move, const Affine& to_machine, const MoveShape& shape);
   double along_longest() const;
   void set_tap(const Move& move, Segment* s) const;
-  void set_rule(const FeedRule& rule, Segment* segment);
+  void set_rule(const FeedRule& rule, bool dry_rapid, bool is_tap, Segment* segment);
   void set_filter(const Move& move, const FilterParameters& filters, Segment* segment) const;
   bool turns_round(bool checked);
   void space_arc_to_public(nc_move* out) const;

@@ -23,6 +23,7 @@ enum class Parameter : uint8_t {
   drilling_axis_z,
   system_codes_call,
   arc_tolerance,
+  rapid_dry,
   rapid_by_axis,
   tool_change_axis,
   interrupt_own_m,

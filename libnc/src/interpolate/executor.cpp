@@ -83,6 +83,7 @@ Planner::Inputs ExecutorState::scan_said() {
   in.ordinal = shared.ordinal.load(std::memory_order_relaxed);
   const ScanStatus& status = shared.status.read();
   in.feed_override = status.feed_override;
+  in.dry = status.dry;
   in.single_block = status.single_block;
   return in;
 }

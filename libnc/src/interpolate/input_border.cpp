@@ -31,6 +31,7 @@ const nc_inputs& InputBorder::check(const nc_inputs& in) {
   override_of(&now_.feed_override, most_, &feed_, NC_INPUT_FEED_OVERRIDE);
   override_of(&now_.rapid_override, 1, &rapid_, NC_INPUT_RAPID_OVERRIDE);
   for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) spindle(n);
+  manual_feed();
   actual();
   manual();
   return now_;
@@ -45,6 +46,20 @@ void InputBorder::override_of(double* value, double most, double* last, uint32_t
   }
   if (*value < kLeastOverride) *value = 0;
   *last = *value;
+}
+
+/// Read in dry run only, so that a machine without one need not give it.
+void InputBorder::manual_feed() {
+  if (!now_.dry_run) {
+    now_.manual_feed = 0;
+    return;
+  }
+  if (!(now_.manual_feed >= 0 && now_.manual_feed <= kMostByHand)) {
+    refused_ |= NC_INPUT_MANUAL_FEED;
+    now_.manual_feed = manual_feed_;
+  }
+  if (now_.manual_feed < kLeastByHand) now_.manual_feed = 0;
+  manual_feed_ = now_.manual_feed;
 }
 
 /// While the inputs of a spindle are refused it counts as turning on with its last speed, which keeps a thread. After kSpindleGoesOn_s its position

@@ -21,13 +21,14 @@ class InputBorder {
   void spindle(unsigned n) NC_RT;
   void actual() NC_RT;
   void manual() NC_RT;
+  void manual_feed() NC_RT;
 
   unsigned axis_count_ = 0;
   double most_ = 2, cycle_s_ = 0.001;
   nc_inputs now_{};
   uint32_t refused_ = 0, lost_axes_ = 0;
   // the last values that were accepted
-  double feed_ = 0, rapid_ = 0;
+  double feed_ = 0, rapid_ = 0, manual_feed_ = 0;
   nc_axes actual_{};
   struct Spindle {
     double rev_per_s = 0, turns = 0;

@@ -83,6 +83,7 @@ void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   watch_index(in);
   take_recalculation(in);
   follow_spindles(in);
+  take_dry_run(in);
   states(in);
   interrupt(in);
   turn_feed_handle(in);
@@ -127,11 +128,19 @@ void Interpolator::await_reread() {
 }
 
 /// FIN completes the strobes that are on, whatever the program does meanwhile. FIN2 completes them when it rises; FIN1 takes the strobes off when it
-/// rises, and the program goes on when it falls. A FIN that was on before the strobe does not count until it has been off once.
+/// rises, and the program goes on when it falls. A FIN that was on before the strobe does not count until it has been off once. The FIN of one group does
+/// for that group what FIN1 does for all.
 void Interpolator::handshake(const nc_inputs& in) {
   fin_ = in.fin || in.fin2;
   if (!in.fin) fin1_groups_ = 0;
   if (!fin_) fin_low_ = true;
+  own_fin_ = in.fin_groups;
+  own_groups_ &= own_fin_;
+  own_low_ = static_cast<uint8_t>(own_low_ | ~own_fin_);
+  const auto completed = static_cast<uint8_t>(strobe_ & own_fin_ & own_low_);
+  own_groups_ = static_cast<uint8_t>(own_groups_ | completed);
+  strobe_ = static_cast<uint8_t>(strobe_ & ~completed);
+  own_low_ = static_cast<uint8_t>(own_low_ & ~completed);
   if (strobe_ != 0 && fin_ && fin_low_) {
     if (in.fin) fin1_groups_ = strobe_;
     strobe_ = 0;
@@ -357,7 +366,7 @@ void Interpolator::give_up() {
   hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = elsewhere_ = false;
   tapping_ = 0;
   by_hand_ = 0;
-  fin1_groups_ = 0;
+  fin1_groups_ = own_groups_ = 0;
   strobe_ = 0;               // a FIN that comes after the reset completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
   interrupt_mode_ = 0;
@@ -506,12 +515,14 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
 /// While the drives are off the commanded position follows the measured one, so that nothing jumps when the drives come on again.
 void Interpolator::follow(const nc_inputs& in) {
   const bool given_up = state_ == NC_STATE_IDLE || state_ == NC_STATE_ALARM;
+  followed_ = false;
   if (!in.follow_up || !in.actual_valid || !given_up || !stands() || manual_.active() || frozen_) return;
   for (unsigned i = 0; i < config_.axis_count; ++i)
     if ((spindles_now() >> i & 1) == 0) wanted_[i] = in.actual.v[i];
   command_ = last_command_ = target_ = wanted_;
   filter_.reset(wanted_);
   tap_follower_.drop();
+  followed_ = true;
 }
 
 void Interpolator::publish(const nc_inputs& in) {
@@ -521,6 +532,7 @@ void Interpolator::publish(const nc_inputs& in) {
   status.tap = tap();
   status.tool = tool_;
   status.feed_override = feed_override(in);
+  status.dry = dry_;
   // The plan also comes to rest at the end of a block when an interrupt waits for it, a hold was pressed in a thread, or blocks are to be read again.
   status.single_block = (in.single_block && !(suppress_ & NC_SUPPRESS_SINGLE_BLOCK)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
   status.servo_ready = servo_ready_;
@@ -564,7 +576,7 @@ void Interpolator::count_cutting(const nc_inputs& in) {
   constexpr double kTell_s = 1, kMillis = 1000;
   const bool breaks = in.tool_broken && !broken_last_;
   broken_last_ = in.tool_broken && (broken_last_ || tool_.place == 0 || shared_->lives.push(tool_, LifeRing::kBroken));
-  if (tool_.place == 0 || breaks) return;
+  if (tool_.place == 0 || breaks || dry_.on() || in.locked != 0) return;
   if (moving_ && !current().segment.rapid && law_.v > 0) cut_s_ += config_.cycle_s;
   if (cut_s_ >= kTell_s && shared_->lives.push(tool_, static_cast<uint32_t>(std::lround(cut_s_ * kMillis)))) cut_s_ = 0;
 }
@@ -633,6 +645,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.servo_ready = servo_ready_;
   out.referenced = referenced_;
   out.manual_allowed = manual_allowed_;
+  out.followed = followed_;
   out.handle_dropped = manual_.handle_dropped();
   out.moved_by_hand = by_hand_;
   out.manual_absolute = !in.manual_absolute_off;
@@ -642,7 +655,9 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   if (moving_) {
     const Segment& s = current().segment;
     out.rapid = s.rapid;
-    out.feed_command_mm_min = (s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s) : programmed_feed(s)) * 60;
+    out.feed_command_mm_min = (dry_feed(s) >= 0    ? (!in.dry_run ? dry_feed(s) : in.manual_rapid ? s.speed_limit : in.manual_feed)
+                               : s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s)
+                                                   : programmed_feed(s)) * 60;
     out.feed_digit_on = s.feed_digit != 0;
     out.feed_digit = s.feed_digit != 0 ? static_cast<uint8_t>(s.feed_digit - 1) : uint8_t{0};
   }

@@ -20,6 +20,7 @@
 #include "interpolate/tap_follower.hpp"
 #include "interpolate/truncation.hpp"
 #include "manual/manual.hpp"
+#include "motion/dry_run.hpp"
 #include "motion/law.hpp"
 #include "motion/optimal/optimal_planner.hpp"
 #include "motion/planner.hpp"
@@ -31,6 +32,7 @@ namespace nc {
 struct ScanStatus {
   AxisVec command;
   double feed_override = 1;
+  DryFeeds dry;
   bool single_block = false;
   uint8_t servo_ready = 0, referenced = 0;  ///< bit i: axis i, which is a spindle as well, holds its position; and is referenced (M700 10.5)
   bool ended = true;     ///< the newest run has come to its end item
@@ -144,6 +146,14 @@ class Interpolator {
 
   void count_cutting(const nc_inputs& in) NC_RT;
 
+  // interpolator_dry.cpp: dry run
+  void take_dry_run(const nc_inputs& in) NC_RT;
+  double dry_feed(const Segment& segment) const NC_RT;
+  bool goes_by_spindle(const Segment& segment) const NC_RT { return segment.thread && !dry_.on(); }
+  nc_stop_cause dry_stop(const nc_inputs& in) const NC_RT;
+  bool skip_ends(const Segment& segment, const nc_inputs& in) const NC_RT;
+  bool all_locked(const Segment& segment, const nc_inputs& in) const NC_RT;
+
   // interpolator_tap.cpp: taps that go with the spindle
   int tap_as_axis() const NC_RT;
   bool tap_disturbed(const nc_inputs& in) const NC_RT;
@@ -171,21 +181,21 @@ class Interpolator {
   bool begin_thread(const Segment& segment, const nc_inputs& in) NC_RT;
   void follow_spindle(const Segment& segment, const nc_inputs& in) NC_RT;
   bool misses(const AxisVec& stop) const NC_RT;
-  Done passed(const Record& record) NC_RT;
+  Done passed(const Record& record, const nc_inputs& in) NC_RT;
   bool would_jump(const AxisVec& place) const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;
   nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;
   void tell_planner(const nc_inputs& in, const ScanStatus& status) NC_RT;
   bool begin_move(const Record& record, const nc_inputs& in) NC_RT;
-  void end_move(const Record& record) NC_RT;
+  void end_move(const Record& record, const nc_inputs& in) NC_RT;
   void change_skip_feed(const SkipSpeeds& speeds, uint32_t signals) NC_RT;
   double speed_cap(const Segment& segment, const nc_inputs& in) NC_RT;
   double corner_factor(const Segment& segment) const NC_RT;
   double feed_override(const nc_inputs& in) const NC_RT;
   double override_in_force(const nc_inputs& in, nc_override_source* source) const NC_RT;
   nc_stop_cause no_spindle(const nc_inputs& in) const NC_RT;
-  Done action(const Action& action) NC_RT;
-  Done strobe(const Action& action) NC_RT;
+  Done action(const Action& action, const nc_inputs& in) NC_RT;
+  Done strobe(const Action& action, const nc_inputs& in) NC_RT;
   Done gate(const Gate& gate, const nc_inputs& in) NC_RT;
   Done optional_stop(const nc_inputs& in) NC_RT;
   Done dwell(double rate, double amount) NC_RT;
@@ -303,6 +313,7 @@ class Interpolator {
   PositionFilter filter_;
   Manual manual_;
   bool manual_allowed_ = false;
+  bool followed_ = false;  ///< nc_outputs::followed
 
   // ---- state
   nc_run_state state_ = NC_STATE_IDLE;
@@ -322,10 +333,13 @@ class Interpolator {
   // ---- handshake of M S T B
   uint8_t strobe_ = 0;
   uint8_t held_ = 0;     ///< bit of the code whose strobe cannot rise in this cycle, because FIN is on or its last strobe still waits
-  uint8_t fin_wait() const { return strobe_ | fin1_groups_; }
+  uint8_t fin_wait() const { return strobe_ | fin1_groups_ | own_groups_; }
   bool fin_ = false;     ///< FIN1 or FIN2 is on in this cycle
   uint8_t fin1_groups_ = 0;  ///< bits of the codes that the FIN1 which is on completes when it falls
   bool fin_low_ = true;  ///< FIN has been off since a strobe rose
+  uint8_t own_fin_ = 0;      ///< bits of the groups whose own FIN is on in this cycle
+  uint8_t own_groups_ = 0;   ///< of these, those that it completes when it falls
+  uint8_t own_low_ = 0xf;    ///< bits of the groups whose own FIN has been off since their strobe rose
   uint32_t m_ = 0, t_ = 0, b_ = 0;
   uint32_t suppress_ = 0;  ///< nc_suppress_bits
   uint32_t disable_ = 0;   ///< nc_disable_bits
@@ -364,12 +378,14 @@ class Interpolator {
 
   // ---- feed (M700 7)
   uint8_t tapping_ = 0;              ///< nc_tapping_bits in force
+  DryFeeds dry_;                     ///< of dry run, where it is on
   struct TapInHand {                 ///< the synchronous tap (M700 13.1.1) in force, or left in its hole by a reset
     bool known = false;              ///< a stroke has begun: what stands below is its
     bool held = false;               ///< in the hole without a program: the spindle turns with its axis by hand, and not else
     bool drawing = false;            ///< it is drawn out
     bool stuck = false;              ///< held, and its spindle has not followed: it cannot be drawn out with it
     bool pressed = false;            ///< level of the signal for that
+    bool locked = false;             ///< its axis stands in a machine lock, and so does its spindle
     int c_axis = -1;                 ///< its spindle is this axis
     unsigned axis = 0;               ///< that the tap moves
     double entry = 0;                ///< place of the axis where the tap has begun

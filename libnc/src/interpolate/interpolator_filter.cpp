@@ -61,7 +61,7 @@ void Interpolator::watch_skip(const nc_inputs& in) {
     skip_behind_ = 0;
     return;
   }
-  const bool inside = moving_ && at_rest() && current().segment.skip;
+  const bool inside = moving_ && at_rest() && current().segment.skip && !all_locked(current().segment, in);
   const uint32_t mask = inside ? current().segment.skip_mask : moving_ ? uint32_t{0} : skip_behind_;
   const bool away = inside ? current().segment.skip_away : skip_behind_away_;
   if (skipped_ || mask == 0 || ((in.skip & mask) != 0) == away) return;

@@ -43,7 +43,9 @@ bool Interpolator::would_jump(const AxisVec& place) const {
 
 /// Why a move does not go on, when there is nothing to follow.
 nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
-  if (s.rapid) return in.rapid_override > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
+  if (s.rapid && !(in.rapid_override > 0)) return NC_CAUSE_OVERRIDE_ZERO;
+  if (dry_feed(s) == 0) return dry_stop(in);
+  if (s.rapid || dry_feed(s) > 0) return NC_CAUSE_STARVED;
   if (s.feed_mm_rev > 0 && encoder(in).rev_per_s == 0) return no_spindle(in);
   if (!(s.feed_mm_rev > 0) && !(programmed_feed(s) > 0)) return NC_CAUSE_FEED_ZERO;  // M700 7.3: operation alarm 104
   return s.fixed_override || feed_override(in) > 0 ? NC_CAUSE_STARVED : NC_CAUSE_OVERRIDE_ZERO;
@@ -52,7 +54,7 @@ nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
 /// The path has to come to rest as soon as the limits allow.
 bool Interpolator::path_stops(const nc_inputs& in) const {
   const Segment* s = moving_ ? &current().segment : nullptr;  // M700 15.2: a skip move goes at 100 %, unless the override is 0
-  if (s != nullptr && s->thread && !follower_.at_rest()) return false;  // a thread is stopped by follow_spindle()
+  if (s != nullptr && s->thread && !follower_.at_rest()) return dry_.on() && thread_braking();  // one with its spindle is stopped by follow_spindle()
   return braking() || skip_braking_ || (s != nullptr && s->skip && !(feed_override(in) > 0));
 }
 
@@ -60,14 +62,14 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   const Segment& s = r.segment;
   if (follower_.at_rest() && !passing_) {
     if (skip_braking_) {
-      end_move(r);
+      end_move(r, in);
       return Done::yes;
     }
     if (braking() || (s.skip && !(feed_override(in) > 0))) {  // M700 15.2: a skip move goes at 100 %, unless the override is 0
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
     // The path may rest at the end of several records, and a hold may have come before all of them were counted off.
-    if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r);
+    if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r, in);
     if (follower_.idle()) {
       return wait(no_law_ ? NC_CAUSE_NO_LAW : standing(s, in));
     }
@@ -78,7 +80,7 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   if (time_ > 0) {
     if (silent_ > kPatience) follower_.brake();
     const double from = follower_.u();
-    if (s.thread) {
+    if (goes_by_spindle(s)) {
       follow_spindle(s, in);
     } else {
       time_ = follower_.advance(time_);
@@ -94,12 +96,17 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   // Where a stop happens to end right in front of a place that is no rest of the path, what is left is gone when the path goes on.
   const bool beside = follower_.halted() && !follower_.at_path_end();
   if (follower_.at_rest() ? u < (beside ? end : nearly(end)) : !(u > end + kPassed)) return Done::no;
-  return passed(r);
+  return passed(r, in);
 }
 
 /// M700 6.7.1: a thread begins when the spindle is at its start angle, and only with a plan that was made for about the speed that the spindle has.
 bool Interpolator::begin_thread(const Segment& s, const nc_inputs& in) {
   const double planned = follower_.planned_turns(), turns = std::fabs(encoder(in).rev_per_s);
+  if ((planned < 0) != dry_.on()) {  // the planner has not heard of it yet
+    wait(NC_CAUSE_STARVED);
+    return false;
+  }
+  if (dry_.on()) return true;
   if (spindle_reversed(in)) {
     wait(NC_CAUSE_SPINDLE_REVERSED);
     return false;
@@ -151,14 +158,14 @@ bool Interpolator::misses(const AxisVec& stop) const {
 }
 
 /// The path has come to the end of the record of this move.
-Interpolator::Done Interpolator::passed(const Record& r) {
+Interpolator::Done Interpolator::passed(const Record& r, const nc_inputs& in) {
   const Segment& s = r.segment;
   if (follower_.at_path_end() && nearly(follower_.u()) <= optimal_->store().passed[tail_ & mask_] && !would_jump(s.curve.end)) {
     wanted_ = s.curve.end;
     if (s.exact_stop && !s.rapid && time_ > 0 && misses(s.curve.end)) time_ = 0;
   }
   passed_at_ = s.curve.end;
-  end_move(r);
+  end_move(r, in);
   return Done::yes;
 }
 
@@ -170,6 +177,7 @@ void Interpolator::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   if (!cutting_thread()) feed_scale_ = status.feed_override;
   f.scale.feed = feed_scale_;
   f.scale.rapid = in.rapid_override;
+  f.scale.dry = dry_;
   for (unsigned i = 0; i < sizeof digit_pulses_ / sizeof digit_pulses_[0]; ++i) f.scale.pulses[i] = digit_pulses_[i];
   if (moving_ && current().segment.skip_speeds != nullptr && skip_feed_ != current().segment.start_feed_mm_s) f.scale.skip_feed = skip_feed_;
   const double turns = std::fabs(encoder(in).rev_per_s);

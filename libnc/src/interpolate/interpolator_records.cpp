@@ -27,7 +27,7 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       done = move(r, in);
       break;
     case ItemKind::action:
-      done = action(r.action);
+      done = action(r.action, in);
       break;
     case ItemKind::gate:
       done = gate(r.gate, in);
@@ -121,7 +121,7 @@ bool Interpolator::begin_move(const Record& r, const nc_inputs&) {
   return true;
 }
 
-void Interpolator::end_move(const Record& r) {
+void Interpolator::end_move(const Record& r, const nc_inputs& in) {
   // The rest of a move that a skip signal has ended is not executed, although the plan leads over it: what follows is planned anew, from where
   // the axes are.
   if (skip_braking_ && follower_.at_rest()) {
@@ -139,7 +139,7 @@ void Interpolator::end_move(const Record& r) {
   block_has_thread_ |= r.segment.thread;
   if (r.segment.skip && !skipped_) {
     skip_position_ = wanted_;
-    skip_behind_ = filter_.active() ? r.segment.skip_mask : uint8_t{0};
+    skip_behind_ = filter_.active() && !all_locked(r.segment, in) ? r.segment.skip_mask : uint8_t{0};
     skip_behind_away_ = r.segment.skip_away;
   }
 }
@@ -164,9 +164,10 @@ double Interpolator::programmed_feed(const Segment& s) const {
   return s.feed_mm_s + (s.feed_end_mm_s - s.feed_mm_s) * std::min(1.0, std::max(0.0, share));
 }
 
-/// M700 7.3: the first handle changes the feed while a cut with F1 to F5 is in execution. The change stays, and the feed is kept within 0 and #1506.
+/// M700 7.3: the first handle changes the feed while a cut with F1 to F5 is in execution, neither in dry run nor with an axis locked (5). The change
+/// stays, and the feed is kept within 0 and #1506.
 void Interpolator::turn_feed_handle(const nc_inputs& in) {
-  if (in.feed_pulses == 0 || !moving_ || state_ != NC_STATE_RUNNING) return;
+  if (in.feed_pulses == 0 || !moving_ || state_ != NC_STATE_RUNNING || in.dry_run || in.locked != 0) return;
   const Segment& s = current().segment;
   if (!(s.digit_step_mm_s > 0)) return;
   const double step = static_cast<double>(s.digit_step_mm_s), most = static_cast<double>(s.digit_most_mm_s);
@@ -254,14 +255,15 @@ double Interpolator::corner_factor(const Segment& s) const {
 /// Path speed that is wanted now; 0 lets the path come to rest.
 double Interpolator::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
-  double cap = s.speed_limit;
+  double cap = s.rapid ? s.speed_limit * in.rapid_override : s.speed_limit;
   nc_stop_cause cause = NC_CAUSE_OVERRIDE_ZERO;
-  if (s.rapid) {
-    cap *= in.rapid_override;
+  if (dry_feed(s) >= 0) {
+    if (dry_feed(s) < cap) cause = dry_stop(in);
+    cap = std::min({cap, s.dry_limit, dry_feed(s)});
   } else if (s.thread) {
     cap = std::min(cap, thread_speed(s, in));
     cause = no_spindle(in);
-  } else {
+  } else if (!s.rapid) {
     const double override_now = s.fixed_override ? 1 : feed_override(in);
     double feed = s.feed_mm_rev > 0 ? s.feed_mm_rev * std::fabs(encoder(in).rev_per_s) : programmed_feed(s);
     // M700 7.3, 7.4 note 3: operation alarms 104 and 105.
@@ -282,7 +284,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   Done lost = Done::yes;
   if (c_axes_ != 0 && lost_move(r, &lost)) return lost;
   if (filter_.active() && moving_ && skip_braking_ && at_rest()) {  // the path rested already when the signal came, but the axes still moved
-    end_move(r);
+    end_move(r, in);
     return Done::yes;
   }
   if ((filter_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
@@ -295,17 +297,17 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
     if (at_rest() && !tap_spindle_ready(in)) return Done::no;
     note_tap(s, in);
   }
-  if (begins && s.thread && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
+  if (begins && goes_by_spindle(s) && at_rest() && optimal_ == nullptr && !thread_may_begin(s, in)) return Done::no;
   if (begins && !begin_move(r, in)) return fault(r);
   latest_ = &s;
-  if (s.skip_speeds != nullptr) change_skip_feed(*s.skip_speeds, in.skip);
-  if (!skipped_ && s.ended_by(in.skip)) {
+  if (s.skip_speeds != nullptr && !all_locked(s, in)) change_skip_feed(*s.skip_speeds, in.skip);
+  if (!skipped_ && skip_ends(s, in)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skip_braking_ = true;
     note_skip(in);
     // M700 15.2: a signal that is on already at the start leaves no movement. A path that comes at speed has to brake first.
     if (begins && follower_.at_rest()) {
-      end_move(r);
+      end_move(r, in);
       return Done::yes;
     }
   }
@@ -316,13 +318,13 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   path_length_ += law_.s - from;
   if (law_.s >= s.curve.length) {
     wanted_ = s.curve.end;
-    end_move(r);
+    end_move(r, in);
     return Done::yes;
   }
   wanted_ = curve_position(s.curve, law_.s, config_.axis_count);
   if (s.rounds()) round_arc(s);
   if (skip_braking_ && at_rest()) {
-    end_move(r);
+    end_move(r, in);
     return Done::yes;
   }
   return Done::no;
@@ -331,7 +333,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
 // ---- actions
 // ------------------------------------------------------------------------------------------------------------
 
-Interpolator::Done Interpolator::action(const Action& a) {
+Interpolator::Done Interpolator::action(const Action& a, const nc_inputs& in) {
   switch (a.kind) {
     case NC_ACTION_OUTPUT:  // M700 13.5.5: the bits of one word, in the image that the outputs carry
       if (a.index < NC_WORDS) {
@@ -345,7 +347,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
       if (a.index == NC_CONTROL_SUPPRESS) suppress_ = code_number(a.value);
       if (a.index == NC_CONTROL_DISABLE) disable_ = code_number(a.value);
       if (a.index == NC_CONTROL_SURFACE_RADIUS) spindles_.surface_radius(a.value, a.bits);
-      if (a.index == NC_CONTROL_SURFACE_SPEED) spindles_.surface(a.value, a.bits);
+      if (a.index == NC_CONTROL_SURFACE_SPEED && (!in.auxiliary_lock || a.bits == 0)) spindles_.surface(a.value, a.bits);
       if (a.index == NC_CONTROL_SPINDLE_CLAMP) spindles_.clamp(a.bits, a.mask, code_number(a.value));
       if (a.index == NC_CONTROL_INTERRUPT) {
         const uint32_t mode = code_number(a.value);
@@ -353,7 +355,7 @@ Interpolator::Done Interpolator::action(const Action& a) {
         interrupt_mode_ = mode;
         block_waits_ = true;  // a block that changes the state of the interrupt is finished first
       }
-      if (a.index == NC_CONTROL_TOOL_LIFE) {
+      if (a.index == NC_CONTROL_TOOL_LIFE && !in.auxiliary_lock) {  // else the tool of before stays in the spindle
         const auto cut_ms = static_cast<uint32_t>(std::lround(cut_s_ * 1000));
         if (tool_.place != 0 && cut_ms != 0 && !shared_->lives.push(tool_, cut_ms)) return wait(NC_CAUSE_NONE);
         tool_ = {static_cast<uint8_t>(code_number(a.value)), a.bits};
@@ -365,16 +367,17 @@ Interpolator::Done Interpolator::action(const Action& a) {
       if (a.index < kMaxAxes) current_limit_[a.index] = static_cast<uint16_t>(code_number(a.value));
       return Done::yes;
     default:
-      return strobe(a);
+      return strobe(a, in);
   }
 }
 
 /// Gives out M, S, T or B with its strobe. A strobe rises only when FIN is off and the last strobe of its kind is complete; a code that is given
 /// out while the axes move cannot wait for that.
-Interpolator::Done Interpolator::strobe(const Action& a) {
+Interpolator::Done Interpolator::strobe(const Action& a, const nc_inputs& in) {
+  if (in.auxiliary_lock && !a.program_flow) return Done::yes;
   const uint8_t bit = static_cast<uint8_t>(1u << a.kind);
   const bool awaited = !(suppress_ & NC_SUPPRESS_FIN);  // M700 13.5.9: #3003 bit 1
-  if (awaited && at_rest() && (fin_ || (strobe_ & bit))) {
+  if (awaited && at_rest() && (fin_ || ((strobe_ | own_fin_) & bit))) {
     held_ = bit;
     return wait(NC_CAUSE_FIN);
   }
@@ -397,6 +400,7 @@ Interpolator::Done Interpolator::strobe(const Action& a) {
   }
   strobe_ = static_cast<uint8_t>(strobe_ | bit);
   fin_low_ = !fin_;
+  own_low_ = static_cast<uint8_t>((own_fin_ & bit) != 0 ? own_low_ & ~bit : own_low_ | bit);
   return Done::yes;
 }
 
@@ -443,7 +447,8 @@ Interpolator::Done Interpolator::optional_stop(const nc_inputs& in) {
     if (!in.optional_stop) return Done::yes;
     Action m01;
     m01.value = 1;
-    if (strobe(m01) != Done::yes) return Done::no;
+    m01.program_flow = true;
+    if (strobe(m01, in) != Done::yes) return Done::no;
     gate_begun_ = true;
   }
   if (fin_wait() != 0 && !(suppress_ & NC_SUPPRESS_FIN)) return wait(NC_CAUSE_FIN);

@@ -58,7 +58,8 @@ void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
     tap_.acceleration = s.tap_acceleration * share;
   }
   tap_.known = true;
-  if (tap_.c_axis < 0 && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, 0);
+  tap_.locked = (in.locked >> tap_.axis & 1) != 0;
+  if (!tap_.locked && tap_.c_axis < 0 && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, 0);
 }
 
 /// The tap may let its spindle go: both have come to their places. Where the spindle stands a little beside its own, the axis comes back to its path while that
@@ -97,8 +98,10 @@ Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
 }
 
 /// What is committed is given up between R and R again: from here on the spindle goes with the axis by hand, so that the tap can be drawn out.
+/// One whose axis is locked is in no hole.
 void Interpolator::hold_tap() {
   if ((tapping_ & NC_TAPPING_SYNCHRONOUS) == 0 || !tap_.known) return;
+  if (tap_.locked) return release_tap();
   if (tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += tap_.added;
   tap_.added = 0;
   tap_.held = true;
@@ -111,8 +114,9 @@ void Interpolator::release_tap() {
   tap_follower_.end();
 }
 
-/// Revolutions since the tap has taken its spindle over.
+/// Revolutions since the tap has taken its spindle over. With an axis that stands in a machine lock it would turn in one place, so it stands as well.
 double Interpolator::tap_turns() const {
+  if (tap_.locked) return 0;
   if (tap_.held) return (wanted_[tap_.axis] - tap_.entry) * tap_.per_mm;
   return tap_.turns + (moving_ ? law_.s * current().segment.tap_rev_per_mm : 0);
 }
@@ -201,7 +205,8 @@ void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
   out.tap_holds = tap_holds(in);
   const bool taps = (tapping_ & NC_TAPPING_SYNCHRONOUS) != 0;
   const double turns = taps || tap_.held ? tap_turns() : 0;
-  const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : law_.v * (moving_ ? current().segment.tap_rev_per_mm : 0);
+  const double of_path = tap_.locked || !moving_ ? 0 : law_.v * current().segment.tap_rev_per_mm;
+  const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : of_path;
   if (tap_.held && tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += kDegrees * (turns - tap_.shown);
   tap_.shown = turns;
   if ((!taps && !tap_.held) || tap_.c_axis >= 0) return;
@@ -213,7 +218,7 @@ void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
 
 nc_tap Interpolator::tap() const {
   nc_tap tap = NC_INIT(nc_tap);
-  if (!tap_.known) return tap;
+  if (!tap_.known || tap_.locked) return tap;
   tap.axis = static_cast<uint8_t>(tap_.axis + 1);
   tap.entry = tap_.entry;
   tap.turns_per_mm = tap_.per_mm;

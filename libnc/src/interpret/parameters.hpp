@@ -82,6 +82,7 @@ struct Settings {
   bool keeps_polar_command = false;   ///< #1210 bit 11
   uint32_t index_axes = 0;            ///< #2076 index_x, bit = axis
   uint32_t no_reference = 0;          ///< #2031 noref, bit = axis
+  bool rapid_dry = false;             ///< #1085 G00Drn: dry run concerns rapid traverse
   bool rapid_by_axis = false;         ///< #1086 G0Intp: rapid traverse without interpolation
   bool macro_single = false;          ///< #8101
   bool semicolon_comments = false;    ///< ';' begins a comment in program texts

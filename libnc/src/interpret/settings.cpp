@@ -374,6 +374,7 @@ void SettingsReader::fairing() {
 }
 
 void SettingsReader::axes() {
+  s_.rapid_dry = flag(P::rapid_dry);
   s_.rapid_by_axis = flag(P::rapid_by_axis);
   s_.index_axes = axes_with(P::index_axis);
   s_.no_reference = axes_with(P::no_reference);

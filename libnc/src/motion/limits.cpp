@@ -134,7 +134,9 @@ double plane_acceleration(const Curve& c, const SegmentShape& g, const MotionLim
   return std::min(ah, av) / (1 + kRoundBend * g.round);
 }
 
-double highest_feed(const Segment& s, const MotionLimits& limits) {
+/// No feed is ever higher, whatever the override is; `dry`: whatever the feed of dry run is, too.
+double highest_feed(const Segment& s, bool dry, const MotionLimits& limits) {
+  if (dry) return HUGE_VAL;
   const double feed = std::max({s.feed_mm_s, s.feed_end_mm_s, static_cast<double>(s.digit_most_mm_s)});
   if (s.rapid || s.feed_mm_rev > 0 || !(feed > 0)) return HUGE_VAL;
   return s.skip || s.fixed_override ? feed : feed * limits.max_feed_override;
@@ -218,6 +220,7 @@ double arc_speed(const Segment& s, const SegmentShape& g, const AxisVec& keep, c
 
 SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
   SegmentShape g;
+  g.dry = limits.dry && s.dry;
   const Curve& c = s.curve;
   if (c.length > 0) {
     if (c.shape != nullptr) {
@@ -233,7 +236,7 @@ SegmentShape shape_of(const Segment& s, const MotionLimits& limits) {
     }
   }
   const double v = std::min(velocity_limit(s, g, limits), arc_speed(s, g, rest_of({}, g), limits));
-  g.reach = std::min(v, highest_feed(s, limits));
+  g.reach = std::min(v, highest_feed(s, g.dry, limits));
   return g;
 }
 
@@ -242,7 +245,7 @@ namespace {
 /// Seconds of a segment from a corner to rest at its other end, on which `reserve` is kept for the corner.
 double time_of(const Segment& s, const SegmentShape& g, const Joint& corner, const AxisVec& reserve, const MotionLimits& limits) {
   const AxisVec keep = rest_of(reserve, g);
-  const double most = std::min({velocity_limit(s, g, limits), arc_speed(s, g, keep, limits), highest_feed(s, limits)});
+  const double most = std::min({velocity_limit(s, g, limits), arc_speed(s, g, keep, limits), highest_feed(s, g.dry, limits)});
   const double a = path_acceleration(s, g, keep, most, limits), way = s.curve.length, from = std::min(std::sqrt(corner.speed2), most);
   // Up to the speed from which it can still come to rest, and down.
   const double top2 = std::min(most * most, std::max(from * from, a * way + 0.5 * from * from)), top = std::sqrt(top2);
@@ -380,7 +383,10 @@ double even_acceleration(const Segment& s, double entry, double exit, const Moti
 void set_segment_limits(Segment& s, const SegmentShape& g, const AxisVec& share, const MotionLimits& limits) {
   const AxisVec keep = rest_of(share, g);
   s.speed_limit = std::min(velocity_limit(s, g, limits), arc_speed(s, g, keep, limits));
-  s.acceleration = path_acceleration(s, g, keep, std::min(s.speed_limit, highest_feed(s, limits)), limits);
+  const double most = highest_feed(s, g.dry, limits);
+  s.acceleration = path_acceleration(s, g, keep, std::min(s.speed_limit, most), limits);
+  const bool bends = s.curve.circular || s.curve.shape != nullptr;
+  s.dry_limit = bends ? most : HUGE_VAL;  // only what bends needs a part of the acceleration for its speed
 }
 
 }  // namespace nc

@@ -30,6 +30,7 @@ struct MotionLimits {
   double cycle_s = 0.001;
   double max_feed_override = 2.0;
   AccuracyJointSpeed accuracy_joint_speed = nullptr;  ///< the family's; nullptr: it has no high-accuracy control
+  bool dry = false;                                   ///< dry run is on: what is committed now may have any feed that its axes bear
   double tolerance = 0;                               ///< by which corners may be rounded behind interpolation, mm
 };
 
@@ -40,6 +41,7 @@ struct SegmentShape {
   double curvature = 0;  ///< largest |d2| in the plane of an arc, 1/mm
   double in_plane = 0;   ///< largest |d1| in the plane of an arc
   double bend = 0;       ///< spiral: |d2| of the axes that go along is at most `most` times this, 1/mm
+  bool dry = false;      ///< its feed is not the program's: MotionLimits::dry
   double reach = 0;      ///< no speed on this segment is ever higher, mm/s
   double round = 0;      ///< radius compensation by the radius: the larger of its two axes
 };

@@ -48,10 +48,11 @@ bool Planner::must_rest(const Record& from, const Record& to) const {
 }
 
 double Planner::cap(const Entry& e) const {
+  if (dry_.on() && e.dry_limit >= 0) return std::min({e.limit, e.dry_limit, dry_.cut});
   return std::min(e.limit, e.constant ? e.feed : e.feed * override_);
 }
 
-/// Exit speed that the neighbours of a joint allow at the present override.
+/// Exit speed that the neighbours of a joint allow at the present override, or in dry run.
 void Planner::update_joint(uint32_t ordinal) {
   Entry& e = entry(ordinal);
   if (e.corner2 <= 0 || (single_block_ && e.stop_mark)) {
@@ -79,6 +80,7 @@ void Planner::close(const Joint& exit, const AxisVec& reserve) {
            : s.feed_end_mm_s > 0      ? std::min(s.feed_mm_s, s.feed_end_mm_s)
                                       : std::max(s.feed_mm_s, static_cast<double>(s.digit_most_mm_s));  // the scan keeps what the handle says
   e.limit = s.speed_limit;
+  e.dry_limit = s.dry && !s.rapid && !s.thread ? s.dry_limit : -1;  // a thread that has begun with the spindle goes on with it
   e.gain = 2 * s.acceleration * s.curve.length;
   e.constant = s.skip || s.fixed_override || e.feed == HUGE_VAL;
   tip_.open = false;
@@ -157,11 +159,13 @@ void Planner::replan(const Inputs& in) {
   seen_head_ = head_;
   // Nothing has come behind the segment held back and the machine stands in front of it: it ends at rest.
   if (tip_.open && idle && in.tail == tip_.record) close({}, {});
-  const bool all = in.feed_override != override_ || in.single_block != single_block_;
+  const bool all = in.feed_override != override_ || in.single_block != single_block_ || in.dry != dry_;
   const uint32_t end = tip_.open ? tip_.ordinal : next_ordinal_;
   if (!all && shown_ == (tip_.open ? tip_.record : head_)) return;
   if (all) {
     override_ = in.feed_override;
+    dry_ = in.dry;
+    limits_.dry = dry_.on();
     single_block_ = in.single_block;
     for (uint32_t k = in.ordinal; before(k + 1, next_ordinal_); ++k) update_joint(k);
   }

@@ -13,6 +13,7 @@
 // segment waits").
 #pragma once
 
+#include "motion/dry_run.hpp"
 #include "motion/limits.hpp"
 #include "motion/plan.hpp"
 #include "ring/record.hpp"
@@ -24,6 +25,7 @@ class Planner {
   /// What the scan last said.
   struct Inputs {
     double feed_override = 1;
+    DryFeeds dry;
     bool single_block = false;  ///< every mark that allows a stop is a place of rest
     uint32_t tail = 0;          ///< ring index of the record in execution
     uint32_t ordinal = 0;       ///< ordinal of the segment in execution, or of the next one
@@ -57,6 +59,7 @@ class Planner {
     double limit = 0;        ///< mm/s
     double gain = 0;         ///< 2 a L
     double joint2 = 0;       ///< exit: what geometry, limits and feeds at the present override allow
+    double dry_limit = -1;   ///< mm/s in dry run; below 0: it does not concern the segment, or not its corners
     bool constant = false;   ///< feed without override (skip)
     bool stop_mark = false;  ///< a mark at its end lets single block stop
   };
@@ -93,6 +96,7 @@ class Planner {
   uint32_t shown_ = 0;      ///< ring index that the last published plan ends at
   uint32_t seen_head_ = 0;  ///< head_ at the last replan()
   double override_ = 1;
+  DryFeeds dry_;
   bool single_block_ = false;
   Tip tip_;
   RecentTurns turns_;  ///< in front of what comes behind the tip

@@ -29,6 +29,7 @@ struct Segment {
   double feed_end_mm_s = 0;  ///< the feed changes evenly to this at the end; 0 = it does not change
   uint8_t feed_digit = 0;    ///< n + 1: commanded as the one-digit feed Fn (M700 7.3); 0 = not
   bool fixed_override = false;  ///< the feed override does not act (G63)
+  bool dry = false;             ///< the feed of dry run acts in the place of its own (M700 7.4 note 4)
   bool flows = false;           ///< rapid traverse: the path goes on at speed where what is behind begins with its direction
   bool rest_before = false;     ///< the path comes to rest where it begins
   float digit_most_mm_s = 0, digit_step_mm_s = 0;  ///< F1 to F5: what the handle may make of the feed, and by one pulse
@@ -47,6 +48,7 @@ struct Segment {
   double speed_limit = 0;  ///< mm/s: path speed at which some axis reaches its limit of velocity, or by curvature its limit of
                            ///< acceleration
   double acceleration = 0;  ///< mm/s^2: largest path acceleration that keeps the limits of every axis
+  double dry_limit = 0;     ///< mm/s: and up to here it does so in dry run
   uint32_t ordinal = 0;     ///< number of the segment, which names it in the plan
 };
 

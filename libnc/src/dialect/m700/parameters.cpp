@@ -43,6 +43,7 @@ constexpr ParameterRow kNumbers[] = {
     {1080, 1080, 1, kAll, false,      P::drilling_axis_z,            whole<0, 1>,           kOffOn, "drilling axis and length compensation are always Z", "12.2"},
     {1081, 1081, 1, kAll, false,      P::system_codes_call,          whole<0, 1>,           kOffOn, "G codes of the control may call a macro, too", "13.5.2"},
     {1084, 1084, 1, kAll, false,      P::arc_tolerance,              between<0, 1>,         "mm", "difference of an arc's radii that is corrected", "6.4"},
+    {1085, 1085, 1, kAll, false,      P::rapid_dry,                  whole<0, 1>,           kOffOn, "in dry run rapid traverse goes at the manual feed rate, too", "13.1.1"},
     {1086, 1086, 1, kAll, false,      P::rapid_by_axis,              whole<0, 1>,           kOffOn, "rapid traverse without interpolation: other axes do not wait for the clamp of a table", "6.1"},
     {1092, 1092, 1, kAll, true,       P::tool_change_axis,           whole<0, 1>,           kOffOn, "the axis takes part in the return to the tool change position", "13.13"},
     {1103, 1103, 1, kAll, false,      P::life_managed,               whole<0, 1>,           kOffOn, "tool life management: T selects tools of groups, their lives are counted", "10.15"},

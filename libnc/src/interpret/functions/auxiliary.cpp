@@ -31,6 +31,7 @@ SpindleTurn turn_of(MiscFunction function) {
 void emit_misc(BlockContext& in, MiscFunction function, uint32_t m) {
   Action& action = emit_action(in, NC_ACTION_M, Role::misc_code, m);
   action.turn = turn_of(function);
+  action.program_flow = function == MiscFunction::program_stop || function == MiscFunction::program_end;
 }
 
 void emit_fin(BlockContext& in) { await_fin(in); }

@@ -31,14 +31,14 @@ bool same(double a, double b) {
 }
 
 bool same(const Scales& a, const Scales& b) {
-  bool all = same(a.feed, b.feed) && same(a.rapid, b.rapid) && same(a.turns, b.turns) && a.skip_feed == b.skip_feed;
+  bool all = same(a.feed, b.feed) && same(a.rapid, b.rapid) && same(a.turns, b.turns) && a.skip_feed == b.skip_feed && a.dry == b.dry;
   for (unsigned i = 0; i < sizeof a.pulses / sizeof a.pulses[0]; ++i) all = all && a.pulses[i] == b.pulses[i];
   return all;
 }
 
 /// Some feed is lower under `a` than under `b`. A skip signal may call for a feed that is lower than the first one.
 bool lower(const Scales& a, const Scales& b) {
-  bool any = a.feed < b.feed || a.rapid < b.rapid || a.turns < b.turns || (a.skip_feed != b.skip_feed && (a.skip_feed < b.skip_feed || b.skip_feed == 0));
+  bool any = a.feed < b.feed || a.rapid < b.rapid || a.turns < b.turns || (a.skip_feed != b.skip_feed && (a.skip_feed < b.skip_feed || b.skip_feed == 0)) || slows(b.dry, a.dry);
   for (unsigned i = 0; i < sizeof a.pulses / sizeof a.pulses[0]; ++i) any = any || a.pulses[i] < b.pulses[i];
   return any;
 }
@@ -562,7 +562,7 @@ void OptimalPlanner::copy_cell(const Start& start, unsigned k, bool path_ends, d
   c.piece = start.piece + windows_->place(k).piece;
   c.u = builder_.start_of(c.piece) + c.x;  // not by the cells' lengths, whose rounding adds up
   c.path_ends = path_ends;
-  c.turns = static_cast<float>(limits_.scale.turns);
+  c.turns = turns_of(limits_.scale);
   chain_next_[write_ & store_.cell_mask] = write_ + 1;
   chain_end_[write_ & store_.cell_mask] = *time += c.seconds;
   ++write_;

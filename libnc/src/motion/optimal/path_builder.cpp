@@ -123,7 +123,9 @@ void PathBuilder::join_piece(const Piece& piece) {
 
 void PathBuilder::push_piece(const Piece& piece) {
   if (head_ != tail_) join_piece(piece);
-  store_->piece[head_ & store_->piece_mask] = piece;
+  Piece& pushed = store_->piece[head_ & store_->piece_mask];
+  pushed = piece;
+  if (!piece.rapid) pushed.dry = may_be_dry(piece.by);
   start_u_[head_ & store_->piece_mask] = head_u_;
   head_u_ += piece.length;
   ++head_;
@@ -367,6 +369,7 @@ Task<bool> PathBuilder::add_curve(Work& work, const Record& r) {
   p.digit = digit_of(s);
   p.share = tap_share(s);
   p.rapid = s.rapid;
+  p.dry = s.dry;
   uses_turns_ |= goes_by_spindle(p.by);
   const double rest = std::max(s.curve.length - from, kLeastLength);
   if (line) {

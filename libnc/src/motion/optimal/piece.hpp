@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "motion/dry_run.hpp"
 #include "path/curve.hpp"
 
 namespace nc::optimal {
@@ -15,6 +16,7 @@ struct Scales {
   double feed = 1, rapid = 1;  ///< overrides
   double turns = 0;            ///< of the spindle, rev/s
   double pulses[5] = {};       ///< what the handle has made of F1 to F5 (M700 7.3)
+  DryFeeds dry;                ///< what replaces the feeds in dry run
   double skip_feed = 0;        ///< mm/s that the newest skip signal calls for (M700 15.5); 0 = none has come
 
   bool operator==(const Scales&) const = default;
@@ -36,6 +38,9 @@ enum class FeedBy : uint8_t { override, constant, turns, spindle, digit, signals
 /// The feed is one per revolution.
 inline bool goes_by_spindle(FeedBy by) { return by == FeedBy::turns || by == FeedBy::spindle; }
 
+/// A cut with such a feed goes at that of dry run, when dry run is on.
+inline bool may_be_dry(FeedBy by) { return by != FeedBy::constant && by != FeedBy::signals; }
+
 /// F1 to F5: what the handle does to a feed.
 struct DigitFeed {
   uint8_t digit = 0;        ///< 0 = F1
@@ -56,6 +61,7 @@ struct Piece {
   DigitFeed digit;               ///< where `by` says so; `feed` is then that without pulses
   bool rest_behind = false;      ///< the path rests at its end
   bool rapid = false;            ///< the rapid rates hold
+  bool dry = false;              ///< dry run concerns it
   bool quintic = false;          ///< c[4] and c[5] are not 0
   double cell = 0;               ///< no cell on it is longer; 0 = any
   const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
@@ -66,8 +72,9 @@ struct Piece {
 
 /// Feed of the piece under the present overrides.
 inline double feed_of(const Piece& p, const Limits& limits) {
-  if (p.feed == HUGE_VAL) return p.feed;
   const Scales& by = limits.scale;
+  if (p.dry && by.dry.of(p.rapid) >= 0) return by.dry.of(p.rapid);
+  if (p.feed == HUGE_VAL) return p.feed;
   switch (p.by) {
     case FeedBy::constant: return p.feed;
     case FeedBy::turns: return p.feed * by.feed * by.turns;
@@ -93,7 +100,7 @@ inline double jerk_share(const Piece& p) {
 }
 /// Nothing moves on the piece under the present overrides.
 inline bool stands(const Piece& p, const Limits& limits) {
-  return p.rapid ? !(limits.scale.rapid > 0) : !(feed_of(p, limits) > 0);
+  return (p.rapid && !(limits.scale.rapid > 0)) || !(feed_of(p, limits) > 0);
 }
 
 /// Derivatives at x in [0, length]; the position is left as it was (but for a curve's).

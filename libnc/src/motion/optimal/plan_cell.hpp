@@ -22,11 +22,14 @@ struct PlanCell {
   double v = 0;       ///< at the start; of a launch at its end
   double a = 0;       ///< u'' at the start
   double w = 0;       ///< b''/2; of a ramp u'''
-  float turns = 0;    ///< rev/s of the spindle for which it was planned
+  float turns = 0;    ///< rev/s of the spindle for which it was planned; kInDryRun: for none
   uint32_t piece = 0;
   Kind kind = Kind::level;
   bool path_ends = false;  ///< the path rests at its end, not the plan alone
+  static constexpr float kInDryRun = -1;
 };
+
+inline float turns_of(const Scales& scale) { return scale.dry.on() ? PlanCell::kInDryRun : static_cast<float>(scale.turns); }
 
 /// Motion `t` seconds after the cell was entered; x from its start.
 inline CellState state_in(const PlanCell& c, double t) NC_RT {

@@ -221,7 +221,7 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
       c.v = at.v;
       c.a = at.a;
       c.w = phase.jerk;
-      c.turns = static_cast<float>(limits_.scale.turns);
+      c.turns = turns_of(limits_.scale);
       if (write_ == first && start.from_rest) {
         c.kind = PlanCell::Kind::launch;
         c.v = then.v;

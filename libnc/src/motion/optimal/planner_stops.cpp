@@ -124,6 +124,11 @@ Limits OptimalPlanner::unbound(const Start& start) const {
   Scales& by = l.scale;
   by.rapid = 1;
   by.feed = std::max(by.feed, chain_.scale.feed);
+  if (p.dry && by.dry.of(p.rapid) >= 0) {
+    double& dry = p.rapid ? by.dry.rapid : by.dry.cut;
+    dry = std::max({dry, chain_.scale.dry.of(p.rapid), most});
+    return l;
+  }
   switch (p.by) {
     case FeedBy::constant: return l;
     case FeedBy::signals: by.skip_feed = std::max(feed_of(p, l), most); return l;
