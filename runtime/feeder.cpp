@@ -193,7 +193,8 @@ std::string Feeder::place_bytes() {
     place.number = out.source.program;
     place.depth = out.source.depth;
     const std::string letters = nc_->axis_letters(s);
-    for (unsigned a = 0; a < letters.size(); ++a) place.at.emplace_back(letters[a], out.command.v[a]);
+    // Where the machine stands: what is counted in a machine lock is gone with the power.
+    for (unsigned a = 0; a < letters.size(); ++a) place.at.emplace_back(letters[a], out.command.v[a] - now.system[s].axes.counted[a]);
   }
   return encode_places(places);
 }

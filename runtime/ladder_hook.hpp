@@ -50,6 +50,9 @@ struct LadderRequests {
     std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n
     std::uint32_t interlocked[2] = {};  // bit n: axis n may not go in -, in +
     std::uint32_t servo_off = 0;        // bit n: the drive of axis n is to be off
+    bool machine_lock = false;          // every axis is to be locked
+    std::uint32_t axis_lock = 0;        // bit n: axis n is to be locked
+    std::uint8_t feed_code = 0;         // feed override as a code of five bits, inverted
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan
   };
   System system[NC_MAX_SYSTEMS];

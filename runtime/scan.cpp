@@ -323,6 +323,9 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (((ready != 0 ? ready : systems) & ~held) == 0) return Answer::kFeedHold;
   if (ready == 0) return Answer::kNoProgram;
   if (drives_not_following() || any_powerless()) return Answer::kDrivesOff;
+  for (unsigned s = 0; s < systems_; ++s)
+    for (unsigned a = 0; (ready >> s & 1u) != 0 && a < config_.nc.system[s].axis_count; ++a)
+      if (lock_left(s, a)) return Answer::kLockLeft;
   if (at_limit_switch(ready)) return Answer::kLimitSwitch;
   for (unsigned s = 0; s < systems_; ++s)
     if ((ready >> s & 1u) != 0 && axis_not_homed(s) >= 0) return Answer::kNotHomed;
@@ -367,6 +370,8 @@ void Scan::build_nc_inputs() noexcept {
     in.optional_stop = (optional_stop_ >> s & 1u) != 0;
     in.fin = machine.fin;
     in.fin2 = false;
+    in.fin_groups = 0;
+    in.auxiliary_lock = in.dry_run = false;
     in.interlock = false;
     in.macro_interrupt = false;
     in.tap_retract = taps_drawn_ >> s & 1u;
@@ -408,8 +413,8 @@ void Scan::write_outputs() noexcept {
     machine.enable = !drives_off_ || machine.off != all;  // a drive may have to hold until its brake does
     machine.reset = reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder;
     machine.position = out.command;
-    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) machine.position.v[a] -= axes_[s][a].shift;
     machine.velocity = out.velocity;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) give_to_drive(s, a);
     machine.strobe = out.strobe;
     machine.m = out.m;
     machine.t = out.t;

@@ -165,6 +165,10 @@ class Scan {
     bool waits_for_homing = false;  // home all has not come to it yet
     bool sets = false;     // its position is set in this scan ...
     double set_by = 0;     // ... by so much
+    bool sets_back = false;  // and that takes back what was counted in a machine lock
+    bool locked = false;     // machine lock (scan_lock.cpp)
+    double beside = 0;       // what was counted in it: machine position = drive + shift + that
+    double held = 0;         // newest place that the drive was given
     bool limit[2] = {};       // it stands on its switch in -, in +
     bool blind[2] = {};       // which cannot be read
     bool limit_told[2] = {};  // its alarm has been raised
@@ -247,6 +251,13 @@ class Scan {
   void take_positions() noexcept;
   void publish_axes(unsigned system) noexcept;
 
+  void follow_locks(unsigned system) noexcept;
+  bool lock_left(unsigned system, unsigned axis) const noexcept;
+  void ask_to_set_back() noexcept { set_back_asked_ = all_systems(); }
+  void set_back(unsigned system) noexcept;
+  void give_to_drive(unsigned system, unsigned axis) noexcept;
+  void publish_lock(unsigned system, unsigned axis) noexcept;
+
   void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
   void acknowledge_alarms() noexcept;
   bool holds_still(const ActiveAlarm& alarm) const noexcept;
@@ -307,6 +318,8 @@ class Scan {
   double feed_override_[NC_MAX_SYSTEMS], rapid_override_[NC_MAX_SYSTEMS];  // overrides that the operator has set
   bool machine_holds_[NC_MAX_SYSTEMS] = {};  // the machine gives a feed hold (plc.feed_hold_n is 0)
   bool machine_feeds_[NC_MAX_SYSTEMS] = {}, machine_rapids_[NC_MAX_SYSTEMS] = {};  // a switch of the machine gives the override
+  bool feed_codes_[NC_MAX_SYSTEMS] = {};  // a switch gives codes of the feed override: one has been seen since the start
+  std::uint32_t set_back_asked_ = 0;      // bit per part system: a reset takes back what was counted in a machine lock
   std::uint32_t single_block_ = 0, optional_stop_ = 0;  // set by the operator; one bit per part system
   LadderRequests last_requests_;     // requests of the previous scan
   unsigned ladder_start_scans_ = 0;  // number of scans for which the ladder's cycle start has been on
@@ -314,6 +327,7 @@ class Scan {
   std::uint64_t fin_scans_[NC_MAX_SYSTEMS] = {};  // number of scans for which a part system has waited for FIN
   std::uint64_t clamp_scans_[NC_MAX_SYSTEMS] = {};  // number of scans for which it has waited for the clamp of an index table
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // strobes of the previous scan
+  std::uint8_t fin_own_taken_[NC_MAX_SYSTEMS] = {};  // groups that have been completed by their own FIN, which is on now
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that have been completed by the FIN that is on now
   std::atomic<std::uint32_t> mdi_waits_[NC_MAX_SYSTEMS] = {};  // set_mdi_waits()
   std::uint32_t mdi_started_[NC_MAX_SYSTEMS] = {};  // number of the text that was started last

@@ -11,7 +11,7 @@ namespace nc::rt {
 void Scan::create_axes() {
   for (unsigned s = 0; s < systems_; ++s) {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
-      axes_[s][a].drive = config_.start[s].v[a];
+      axes_[s][a].drive = axes_[s][a].held = config_.start[s].v[a];
       axes_[s][a].power.create(config_.equipment[s][a].brake);
     }
   }
@@ -37,7 +37,7 @@ void Scan::read_machine() noexcept {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       double& actual = feedback_.system[s].actual.v[a];
       axes_[s][a].drive = actual;
-      actual += axes_[s][a].shift;
+      actual += axes_[s][a].shift + axes_[s][a].beside;
     }
   }
 }
@@ -113,6 +113,7 @@ bool Scan::at_limit_switch(std::uint32_t systems) const noexcept {
 void Scan::run_axes() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     in_[s].unlimited = 0;
+    follow_locks(s);
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       home(s, a);
       limit_by_hand(s, a);
@@ -120,6 +121,7 @@ void Scan::run_axes() noexcept {
     }
     hold_at_interlock(s);
     hold_positions(s);
+    set_back(s);
     set_positions(s);
   }
   begin_next_homing();
@@ -139,6 +141,7 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
   if (manual.kind == NC_MANUAL_REFERENCE && direction == 0) direction = direction_of(config_.nc.system[s].axis[a].reference[0] - out_[s].command.v[a]);
   Answer why = way_hindrance(s, a, direction);
   if (why == Answer::kDone && unknown && manual.kind == NC_MANUAL_HANDLE) why = Answer::kNotHomed;
+  if (why == Answer::kDone && manual.kind != NC_MANUAL_NONE && lock_left(s, a)) why = Answer::kLockLeft;
   if (why == Answer::kDone) return;
   hindered_[s][a] = why;
   // Nothing of it goes on by itself later.

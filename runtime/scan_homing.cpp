@@ -66,6 +66,7 @@ bool Scan::is_homing() const noexcept {
 Answer Scan::homing_hindrance(unsigned s, unsigned a) const noexcept {
   if (!config_.equipment[s][a].homing.present()) return Answer::kNoHoming;
   if (const Answer why = hand_hindrance(s, a); why != Answer::kDone) return why;
+  if (axes_[s][a].locked) return Answer::kLocked;
   if (active_systems() != 0) return Answer::kNotWhileRunning;
   if (axes_[s][a].homing.active()) return Answer::kHoming;
   return out_[s].velocity.v[a] != 0 ? Answer::kAxesMove : Answer::kDone;
@@ -152,7 +153,7 @@ Answer Scan::search_hindrance(unsigned s, unsigned a) const noexcept {
 
 void Scan::home(unsigned s, unsigned a) noexcept {
   AxisWork& axis = axes_[s][a];
-  axis.sets = false;
+  axis.sets = axis.sets_back = false;
   const int request = config_.equipment[s][a].homing.request;
   if (request >= 0) points_.value[request] = 0;
   if (!axis.homing.active()) return;
@@ -194,12 +195,13 @@ void Scan::take_positions() noexcept {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       AxisWork& axis = axes_[s][a];
       if (!axis.sets || std::abs(out_[s].command.v[a] - in_[s].actual.v[a]) > kSame) continue;
-      axis.shift += axis.set_by;
-      axis.homed = true;
+      if (axis.sets_back) axis.beside = 0;
+      else axis.shift += axis.set_by;
+      axis.homed |= !axis.sets_back;
       feedback_.system[s].actual.v[a] += axis.set_by;
       last_command_[s].v[a] += axis.set_by;
       stood_at_[s].v[a] += axis.set_by;
-      axis.homing.was_set();
+      if (!axis.sets_back) axis.homing.was_set();
     }
   }
 }
@@ -212,6 +214,7 @@ void Scan::publish_axes(unsigned s) noexcept {
     flags.homed |= static_cast<std::uint32_t>(axis.homed) << a;
     flags.homing |= static_cast<std::uint32_t>(axis.homing.active()) << a;
     for (unsigned side = 0; side < 2; ++side) flags.limit[side] |= static_cast<std::uint32_t>(axis.limit[side]) << a;
+    publish_lock(s, a);
   }
 }
 

@@ -10,6 +10,13 @@ namespace {
 // A cycle start that is on for fewer scans is taken for a bounce of the button and ignored.
 constexpr unsigned kStartMinScans = 2;
 
+// A switch that gives the feed override as a code of five bits, each of them inverted, in steps of 10 %. All bits off is the code of no place of the switch: a
+// broken cable, so nothing cuts.
+double share_of_code(std::uint8_t bits) {
+  constexpr std::uint8_t kBits = 0x1f;
+  return (bits & kBits) == 0 ? 0 : (~bits & kBits) * 0.1;
+}
+
 }  // namespace
 
 void Scan::run_ladder() noexcept {
@@ -26,6 +33,10 @@ void Scan::run_ladder() noexcept {
     in_[s].feed_hold |= (hold_request_ >> s & 1u) != 0;
   }
   decide_overrides(requests);
+  for (unsigned s = 0; s < systems_; ++s) {
+    in_[s].manual_feed = std::max(0, requests.system[s].jog_feed) / 60.0;
+    in_[s].manual_rapid = requests.system[s].rapid;
+  }
   follow_ladder(requests);
 }
 
@@ -73,9 +84,12 @@ void Scan::decide_overrides(const LadderRequests& requests) noexcept {
   constexpr double kHundredth = 1e-4;  // 0.01 %
   for (unsigned s = 0; s < systems_; ++s) {
     const LadderRequests::System& asked = requests.system[s];
-    machine_feeds_[s] = asked.feed_override != -1;
+    feed_codes_[s] |= static_cast<bool>(asked.feed_code);
+    const bool by_code = feed_codes_[s] && asked.feed_override == -1;
+    machine_feeds_[s] = asked.feed_override != -1 || by_code;
     machine_rapids_[s] = asked.rapid_override != -1;
-    if (machine_feeds_[s]) in_[s].feed_override = std::min(std::max(asked.feed_override, 0) * kHundredth, config_.nc.max_feed_override);
+    if (by_code) in_[s].feed_override = std::min(share_of_code(asked.feed_code), config_.nc.max_feed_override);
+    else if (machine_feeds_[s]) in_[s].feed_override = std::min(std::max(asked.feed_override, 0) * kHundredth, config_.nc.max_feed_override);
     if (machine_rapids_[s]) in_[s].rapid_override = std::min(std::max(asked.rapid_override, 0) * kHundredth, 1.0);
   }
 }
@@ -95,6 +109,7 @@ void Scan::request_reset() noexcept {
   if (reset_phase_ == ResetPhase::kStopping || reset_phase_ == ResetPhase::kFeeder) return;
   reset_phase_ = ResetPhase::kStopping;
   reset_scans_ = 0;
+  ask_to_set_back();
   for (unsigned i = 0; i < alarms_.count; ++i)  // the ladder program starts again; if the fault is still there, R17 comes back
     if (alarms_.alarm[i].id == AlarmId::kLadderStopped) ladder_->restart();
   acknowledge_alarms();  // an alarm whose cause is still there is raised again

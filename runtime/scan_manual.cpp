@@ -45,6 +45,7 @@ Answer Scan::hand_hindrance(unsigned system, unsigned axis) const noexcept {
   if ((feedback_.system[system].not_following >> axis & 1u) != 0 || is_powerless(system, axis)) return Answer::kDrivesOff;
   if (!out_[system].manual_allowed) return Answer::kMiddleOfBlock;
   if ((out_[system].tap_holds >> axis & 1u) != 0) return Answer::kTapInHole;
+  if (lock_left(system, axis)) return Answer::kLockLeft;
   if (in_[system].interlock) return Answer::kInterlock;
   return machine_holds_[system] ? Answer::kFeedHold : Answer::kDone;
 }

@@ -179,6 +179,8 @@ void Scan::watch_fin() noexcept {
     const bool fin = in_[s].fin || in_[s].fin2;
     if (!fin || strobe != 0) fin_taken_[s] = 0;
     else if (last_strobe_[s] != 0) fin_taken_[s] = last_strobe_[s];
+    fin_own_taken_[s] = static_cast<std::uint8_t>(in_[s].fin_groups & (fin_own_taken_[s] | (last_strobe_[s] & ~strobe)));
+    if ((active_systems() >> s & 1u) == 0) fin_own_taken_[s] = 0;  // a reset has taken the strobes away
     last_strobe_[s] = strobe;
   }
   if (config_.ladder.fin_timeout_s <= 0) return;
@@ -191,7 +193,10 @@ void Scan::watch_fin() noexcept {
     fin_scans_[s] = waits ? fin_scans_[s] + 1 : 0;
     if (fin_scans_[s] <= most) continue;
     std::uint32_t fault = out.fin_wait & kFinGroups;
-    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0);  // otherwise out.m and out.t are those of the codes before
+    const std::uint32_t own = fault & in_[s].fin_groups;
+    const bool by_own = own != 0 && !in_[s].fin && !in_[s].fin2;
+    if (by_own) fault = own | kFinOwn | ((own & fin_own_taken_[s]) != 0 ? kFinStays : kFinEarly);
+    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0) || (own & fin_own_taken_[s]) != 0;  // otherwise out.m and out.t are those of the codes before
     if (in_[s].fin) fault |= kFinOne;
     if (in_[s].fin2) fault |= kFinTwo;
     if ((fault & (kFinOne | kFinTwo)) != 0) fault |= out.strobe == 0 && given_out ? kFinStays : kFinEarly;

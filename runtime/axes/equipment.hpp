@@ -68,6 +68,9 @@ struct AxisFlags {
   std::uint32_t limit[2] = {};   // it stands on its limit switch in -, in +
   std::uint32_t brake_open = 0;  // the brake's output is on
   std::uint32_t servo_off = 0;   // its drive is off, or going to be, by plc.servo_off
+  std::uint32_t locked = 0;      // machine lock: its commands are counted, and its drive is not given them
+  std::uint32_t beside = 0;      // what was counted in a machine lock is not where it stands
+  double counted[NC_MAX_AXES] = {};  // so much, mm or deg
 };
 
 }  // namespace nc::rt

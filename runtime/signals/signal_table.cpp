@@ -48,6 +48,12 @@ AxisFlags axes(Image image, unsigned system) {
 bool flag(std::uint32_t bits, unsigned axis) {
   return (bits >> axis & 1u) != 0;
 }
+void complete(std::int32_t value, LadderImage* image, unsigned system, std::uint8_t group) {
+  if (value != 0) image->nc_in[system].fin_groups = static_cast<std::uint8_t>(image->nc_in[system].fin_groups | group);
+}
+void set_bit(std::int32_t value, unsigned index, std::uint8_t* bits) {
+  *bits = static_cast<std::uint8_t>(*bits | static_cast<unsigned>(value != 0) << index);
+}
 bool state(Image image, unsigned system, nc_run_state wanted) {
   return out(image, system).state == wanted;
 }
@@ -87,7 +93,8 @@ const SignalRow kSignals[] = {
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
      "why nothing moves: 1 FIN, 2 dwell, 3 in position, 4 M00, 5 block stop, 6 hold, 7 interlock, "
-     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 0, 12 no spindle, 13 angle, 14 thread fast, 15 servo off, 16 tap, 17 unmeasured, 18 no law, 19 reset, 20 reversed",
+     "8 override 0, 9 look-ahead, 10 alarm, 11 F1-F5 0, 12 no spindle, 13 angle, 14 thread fast, 15 servo off, 16 tap, 17 unmeasured, 18 no law, 19 reset, 20 reversed, "
+     "21 tap in its hole, 22 MDI done, 23 manual feed 0",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
     // ---- M, S, T, B ----
@@ -187,8 +194,8 @@ const SignalRow kSignals[] = {
      nullptr},
     {"moved_by_hand", kBit, kFrom, kAxis, 0, 0, "the axis was moved by hand in a block stop, and stays there until a block names it",
      "until the program moves it, or has ended", NC_READ { return (out(image, s).moved_by_hand >> i & 1u) != 0; }, nullptr},
-    {"at_reference", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to its first reference position and stands (ZP1)", "every scan",
-     NC_READ { return out(image, s).velocity.v[i] == 0 && (out(image, s).at_reference >> i & 1u) != 0; }, nullptr},
+    {"at_reference", kBit, kFrom, kAxis, 0, 0, "the axis is commanded to its first reference position and stands (ZP1); not where it is only counted there in a machine lock", "every scan",
+     NC_READ { return out(image, s).velocity.v[i] == 0 && flag(out(image, s).at_reference, i) && !flag(axes(image, s).beside, i); }, nullptr},
     {"unclamp", kBit, kFrom, kAxis, 0, 0, "the index table is to be unclamped (#2076)",
      "before the axis moves, until it stands where the program goes on without it",
      NC_READ { return static_cast<std::int32_t>(out(image, s).unclamp >> i & 1u); }, nullptr},
@@ -196,10 +203,14 @@ const SignalRow kSignals[] = {
      NC_READ { return out(image, s).servo_ready >> i & 1; }, nullptr},
     {"referenced", kBit, kFrom, kSpindleAxis, 0, 0, "its reference position return is complete: the Z phase has been passed", "level, with servo_ready",
      NC_READ { return out(image, s).referenced >> i & 1; }, nullptr},
+    {"axis_locked", kBit, kFrom, kAxis, 0, 0, "machine lock is in force for the axis", "level",
+     NC_READ { return flag(axes(image, s).locked, i); }, nullptr},
+    {"lock_left", kBit, kFrom, kAxis, 0, 0, "the axis was moved in the machine lock: it is not where it is shown", "until a reset",
+     NC_READ { return flag(axes(image, s).beside, i); }, nullptr},
     {"drive_fault", kBit, kFrom, kAxis, 0, 0, "the drive reports a fault", "level",
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
-    {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg", "every scan",
-     NC_READ { return to_int(image.feedback->system[s].actual.v[i] * 1000); }, nullptr},
+    {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg; in a machine lock where the axis stands, not what is counted", "every scan",
+     NC_READ { return to_int((image.feedback->system[s].actual.v[i] - axes(image, s).counted[i]) * 1000); }, nullptr},
     {"homed", kBit, kFrom, kAxis, 0, 0, "the axis knows where it stands: it has been homed, or needs no homing", "level",
      NC_READ { return flag(axes(image, s).homed, i); }, nullptr},
     {"all_homed", kBit, kFrom, kControl, 0, 0, "every axis does", "level", NC_READ { return image.status->all_homed; }, nullptr},
@@ -212,6 +223,23 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->nc_in[s].fin = value != 0; }},
     {"fin2", kBit, kTo, kSystem, 0, 0, "completion, FIN2: strobes go off and the program goes on when it rises",
      "as fin1", nullptr, NC_WRITE { image->nc_in[s].fin2 = value != 0; }},
+    {"mfin", kBit, kTo, kSystem, 0, 0, "completion of the M code alone (MFIN)", "as fin1", nullptr,
+     NC_WRITE { complete(value, image, s, kStrobeM); }},
+    {"sfin", kBit, kTo, kSystem, 0, 0, "completion of the S code alone (SFIN)", "as fin1", nullptr,
+     NC_WRITE { complete(value, image, s, kStrobeS); }},
+    {"tfin", kBit, kTo, kSystem, 0, 0, "completion of the T code alone (TFIN)", "as fin1", nullptr,
+     NC_WRITE { complete(value, image, s, kStrobeT); }},
+    {"bfin", kBit, kTo, kSystem, 0, 0, "completion of the second auxiliary function alone (BFIN)", "as fin1", nullptr,
+     NC_WRITE { complete(value, image, s, kStrobeB); }},
+    {"auxiliary_lock", kBit, kTo, kSystem, 0, 0, "M, S, T and B are not given out, but for M00, M01, M02 and M30 (AFL)", "level, where a code would be given out", nullptr,
+     NC_WRITE { image->nc_in[s].auxiliary_lock = value != 0; }},
+    {"dry_run", kBit, kTo, kSystem, 0, 0, "cuts go at plc.jog_feed in place of F, with plc.jog_rapid as fast as the axes may cut (DRN); rapid traverse too where a parameter says so",
+     "level; of a thread where it begins", nullptr, NC_WRITE { image->nc_in[s].dry_run = value != 0; }},
+    {"machine_lock", kBit, kTo, kSystem, 0, 0, "every axis is locked: it is commanded and shown, and its drive stands (MLK)",
+     "level; acts at rest: no program, or one between two blocks. Off: what was moved is given up by a reset before anything moves", nullptr,
+     NC_WRITE { image->requests->system[s].machine_lock = value != 0; }},
+    {"axis_lock", kBit, kTo, kAxis, 0, 0, "the axis alone is locked; that of the tool's axis is the Z lock (MLKn, Z axis cancel)", "as machine_lock", nullptr,
+     NC_WRITE { image->requests->system[s].axis_lock |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"cycle_start", kBit, kTo, kControl, 0, 0, "start or go on (ST)", "acts when it falls after 2 scans or more", nullptr,
      NC_WRITE { image->requests->cycle_start = value != 0; }},
     {"feed_hold_n", kBit, kTo, kSystem, 0, 1, "0: decelerate on the path and stay (*SP)", "level", nullptr,
@@ -230,6 +258,10 @@ const SignalRow kSignals[] = {
      "level", nullptr, NC_WRITE { image->nc_in[s].interlock |= value == 0; }},
     {"feed_override", kWord16, kTo, kSystem, 0, -1, "feed override in 0.01 %, at most the machine's; -1: the operator's counts, below that 0",
      "every scan; while it is not -1 the operator's commands for it are refused", nullptr, NC_WRITE { image->requests->system[s].feed_override = value; }},
+    {"feed_code", kBit, kTo, kNumbered, 5, 0,
+     "feed override as a code in steps of 10 %, inverted: .1 off is 10 %, .2 off 20 %, .3 off 40 %, .4 off 80 %, .5 off 160 % (*FV1 to *FV16); all off: 0 %",
+     "as feed_override, which wins; counts from the first scan in which one is on", nullptr,
+     NC_WRITE { set_bit(value, i, &image->requests->system[s].feed_code); }},
     {"f_digit_pulses", kWord16, kTo, kSystem, 0, 0,
      "pulses of the first handle since the last scan: they change F1 to F5 (#1506, #1507)", "every scan, during a cut with F1 to F5",
      nullptr, NC_WRITE { image->nc_in[s].feed_pulses = value; }},
