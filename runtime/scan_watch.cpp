@@ -196,7 +196,8 @@ void Scan::watch_fin() noexcept {
     const std::uint32_t own = fault & in_[s].fin_groups;
     const bool by_own = own != 0 && !in_[s].fin && !in_[s].fin2;
     if (by_own) fault = own | kFinOwn | ((own & fin_own_taken_[s]) != 0 ? kFinStays : kFinEarly);
-    const bool given_out = out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0) || (own & fin_own_taken_[s]) != 0;  // otherwise out.m and out.t are those of the codes before
+    // Otherwise out.m and out.t are those of the codes before.
+    const bool given_out = by_own ? (own & (out.strobe | fin_own_taken_[s])) != 0 : out.strobe != 0 || (in_[s].fin && fin_taken_[s] != 0);
     if (in_[s].fin) fault |= kFinOne;
     if (in_[s].fin2) fault |= kFinTwo;
     if ((fault & (kFinOne | kFinTwo)) != 0) fault |= out.strobe == 0 && given_out ? kFinStays : kFinEarly;
