@@ -38,7 +38,10 @@ struct OldOutputs {
 };
 static_assert(offsetof(OldOutputs, cause) == offsetof(nc_outputs, cause));
 
-/// The whole struct of the first version with this SONAME.
+/// The whole structs of the first version with this SONAME.
+struct alignas(nc_inputs) FirstInputs {
+  unsigned char bytes[offsetof(nc_inputs, tool_broken) + sizeof(nc_inputs::tool_broken)];
+};
 struct alignas(nc_outputs) FirstOutputs {
   unsigned char bytes[offsetof(nc_outputs, tool_group) + sizeof(nc_outputs::tool_group)];
 };
@@ -401,8 +404,8 @@ TEST(StructSize, CyclesOfAnyCallerAreTheSame) {
   for (Newer<nc_inputs>& i : newer) i.known.feed_override = i.known.rapid_override = 1;
   EXPECT_EQ(set_points(newer, std::vector<Newer<nc_outputs>>(2)), now);
   // Cleared in C: the struct of the first version.
-  std::vector<nc_inputs> cleared = in;
-  for (nc_inputs& i : cleared) i.struct_size = 0;
+  std::vector<FirstInputs> cleared = two<FirstInputs>(0);
+  for (FirstInputs& i : cleared) as<nc_inputs>(&i)->feed_override = as<nc_inputs>(&i)->rapid_override = 1;
   EXPECT_EQ(set_points(cleared, two<FirstOutputs>(0)), now);
 }
 

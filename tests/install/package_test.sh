@@ -33,7 +33,7 @@ holds() {  # holds PACKAGE MODE PATH...: files (globs) with this mode
   local package=$1 mode=$2 path
   shift 2
   for path in "$@"; do
-    awk -v mode="$mode" '{print $1 == mode, $6}' "$work/$package.files" | grep -qE "^1 \./${path//\*/[^/]*}\$" ||
+    awk -v mode="$mode" '{print $1 == mode, $6}' "$work/$package.files" | grep -E "^1 \./${path//\*/[^/]*}\$" >/dev/null ||
       fail "$package: no $mode $path"
   done
 }
