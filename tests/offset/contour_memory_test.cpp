@@ -481,6 +481,20 @@ TEST(ContourCheck, AHelixHasItsWallsUpToWhereItBegins) {
   EXPECT_EQ(alarm_of_program(round("", helix), 3.412, {}), "");
 }
 
+// Whole turns of a helix behind the start come back to where it ends. They are the contour, if there is nothing else; where it closes again further on they lead to it.
+TEST(ContourCheck, WholeTurnsOfAHelixOnTheWayIn) {
+  const auto hole = [](const char* turns, const char* contour) {
+    return std::string("G90 G17 G0 X-7. Y24. Z5.\nG1 G41 D1 X-6. Y24. F500\n") + turns + "G3 X0 Y30. J6. Z-2.\n" + contour + "G3 X-6. Y36. I-6.\nG1 G40 X-7.\nM30\n";
+  };
+  const char* const plate = "G1 Y60.\nX40.\nY0\nX0\nY30.\n";
+  const std::map<std::string, std::string> check = {{"CONTOUR_CHECK", "1"}};
+  EXPECT_EQ(alarm_of_program(hole("", plate), 5, check), "");
+  EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z0\n", plate), 5, check), "");
+  EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z2.\nG3 X-6. Y24. I0 J6. Z0\n", plate), 5, check), "");
+  EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6.\n", plate), 5, check), "P153");  // on one level it is a contour of its own
+  EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z0\n", "G1 Y60.\nX40.\nY30.\nX5.\nY20.\nX-12.\nY30.\nX0\n"), 5, check), "P153");  // through the way in's own walls no less
+}
+
 // A second round is a part of the contour, not a way out: its wall holds for the way out behind it, which is an arc larger than the hole.
 TEST(ContourMemory, ASecondRoundIsNoWayOut) {
   const auto hole = [](const char* round) {

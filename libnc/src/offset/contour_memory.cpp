@@ -69,11 +69,12 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
   state_.at = start + section.delta;
   const uint64_t place = behind_start(number);
   const bool round = std::abs(section.sweep) > kPi && norm(start - wall_of(section, start).center) > kAway_mm;
+  const bool first = state_.closure == 0 || state_.turned;
   for (unsigned i = 0; i < state_.joints; ++i) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
     if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm) continue;
-    if (state_.closure == 0 || state_.closure == number) {  // the way in ends where the contour first closes
+    if (first || state_.closure == number) {  // the way in ends where the contour first closes
       state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
       for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
     } else if ((2u << i) <= state_.closed) {  // a point of the way in, where the way out ends
@@ -81,6 +82,7 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
     }
     state_.closure = number;  // of another round, too: what is behind the last one may be a way out
   }
+  if (state_.closure == number) state_.turned = first && round && norm(section.delta) <= kCloses_mm && std::abs(section.level_end - section.level) > kLevel_mm;
   if (place > kWay) return;
   for (uint64_t i = state_.joints; i <= place; ++i) state_.joint[i] = i < place ? start : state_.at;
   state_.joints = static_cast<uint8_t>(place + 1);

@@ -36,6 +36,7 @@ class ContourMemory {
     uint64_t first = 0;      ///< number of its first block
     uint64_t first_path = 0; ///< ... and of its first path
     bool with_start = true;  ///< the first block is that of a start
+    bool turned = false;     ///< it has closed by whole turns of a helix alone, which are a way in where it closes again
     uint64_t end = 0;        ///< ... of the next block
     uint64_t closure = 0;    ///< of the block in which the contour has closed last; 0: not yet
     uint64_t out = 0;        ///< of a block behind it that a path comes too near to: it has to be a way out; 0: none
