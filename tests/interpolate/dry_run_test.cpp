@@ -18,7 +18,7 @@ AxisVec dry_place(double x, double z = 0) {
 
 class DryRun : public testing::TestWithParam<bool> {
  protected:
-  DryRun() : config(standard_config()), program(config), dry(&program) {
+  DryRun() : config(standard_config()), program(config), dry{&program} {
     config.optimal = GetParam();
     if (GetParam())
       for (unsigned i = 0; i < 3; ++i) config.limits[i] = {250, 250, 2000, 50000, 0.01};
