@@ -2,7 +2,7 @@
 """No call of nc_feed() takes more than its budget and 200,000 instructions: counted by callgrind, so that it does not hang on the machine.
 
 A program of each kind (corners, noise of a CAM system, a hatch, arcs, NURBS and splines, rests) is gone with small budgets, while holds and another override
-come again and again. Skipped where there is no valgrind, and under sanitizers, which count other instructions. With NC_SHORT=1 one program of each law is gone.
+come again and again. Skipped where there is no valgrind, and under sanitizers, which count other instructions. With NC_SHORT=1 four of the nine programs run.
 """
 import math
 import os
