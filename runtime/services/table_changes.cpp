@@ -8,6 +8,7 @@
 
 #include "runtime/services/table_toml.hpp"
 #include "runtime/services/tables.hpp"
+#include "runtime/toml_reader.hpp"
 
 namespace nc::rt::services {
 namespace {
@@ -141,7 +142,7 @@ Outcome set_tool(Runtime* runtime, const Call& call, Change* change) {
     TableValue& value = wanted.emplace_back();
     value.place.number = static_cast<std::uint32_t>(call.value(Field::kTool));
     value.place.column = c;
-    value.value = number_value(call.value(kToolColumns[c]));
+    value.value = number_text(call.value(kToolColumns[c]));
   }
   if (wanted.empty()) return Outcome::refused(Refused::kMalformed, "tools.set needs at least one of length, length_wear, radius, radius_wear");
   return set(runtime, std::move(wanted), change);
@@ -153,7 +154,7 @@ Outcome set_offset(Runtime* runtime, const Call& call, Change* change) {
   if (!system_of(*runtime, call, &value.place.system)) return no_system();
   value.place.number = static_cast<std::uint32_t>(call.value(Field::kOffset));
   value.place.axis = call.words(Field::kAxis)[0];
-  value.value = number_value(call.value(Field::kValue));
+  value.value = number_text(call.value(Field::kValue));
   return set(runtime, {value}, change);
 }
 
@@ -164,7 +165,7 @@ Outcome set_variable(Runtime* runtime, const Call& call, Change* change) {
   const bool vacant = call.has(Field::kVacant) && call.flag(Field::kVacant);
   if (vacant == call.has(Field::kVariableValue)) return Outcome::refused(Refused::kMalformed, "variables.set needs a value, or vacant and no value");
   value.place.number = static_cast<std::uint32_t>(call.value(Field::kVariable));
-  if (!vacant) value.value = number_value(call.value(Field::kVariableValue));
+  if (!vacant) value.value = number_text(call.value(Field::kVariableValue));
   return set(runtime, {value}, change);
 }
 

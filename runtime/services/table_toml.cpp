@@ -8,6 +8,7 @@
 #include "nc/nc.h"
 #include "runtime/config_sections.hpp"
 #include "runtime/nc_system.hpp"
+#include "runtime/toml_reader.hpp"
 #include "runtime/work_offset_name.hpp"
 
 namespace nc::rt::services {
@@ -31,7 +32,7 @@ void write_tools(const nc_control* control, const nc_config& config, std::string
     std::string row;
     for (unsigned c = 0; c < std::size(kToolColumns); ++c)
       if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK)
-        row += std::string(row.empty() ? "" : ", ") + row_of(kToolColumns[c]).name + " = " + number_value(value);
+        row += std::string(row.empty() ? "" : ", ") + row_of(kToolColumns[c]).name + " = " + number_text(value);
     *text += std::to_string(number) + " = { " + row + " }\n";
   }
 }
@@ -45,7 +46,7 @@ void write_offsets(const nc_control* control, const nc_config& config, std::stri
     for (unsigned s = 0; s < config.system_count; ++s)
       for (unsigned a = 0; a < config.system[s].axis_count; ++a)
         if (nc_work_offset_get(control, api_system(s), index, a, &value) == NC_OK)
-          row += std::string(row.empty() ? "" : ", ") + config.system[s].axis[a].name + suffix(s) + " = " + number_value(value);
+          row += std::string(row.empty() ? "" : ", ") + config.system[s].axis[a].name + suffix(s) + " = " + number_text(value);
     *text += "\"" + work_offset_name(index) + "\" = { " + row + " }\n";
   }
 }
@@ -55,7 +56,7 @@ void write_variables(const nc_control* control, const nc_config& config, std::st
     *text += "\n[variables" + suffix(s) + "]\n";
     double value = 0;
     for (std::uint32_t number = 0; nc_variable_next(control, api_system(s), number, &number, &value) == NC_OK; ++number)
-      *text += std::to_string(number) + " = " + number_value(value) + "\n";
+      *text += std::to_string(number) + " = " + number_text(value) + "\n";
   }
   *text += "\n[" + std::string(kNames) + "]\n";
   nc_variable_range named{};
@@ -96,7 +97,7 @@ void read_variables(TableReader* root, unsigned system, Values* values) {
       const auto* word = node.as_string();
       const bool vacant = word != nullptr && word->get() == kVacant;
       if (!vacant && !node_number(node, &value)) return reader.error(key, std::string("must be a finite number, or \"vacant\", not ") + shown_type(node));
-      if (!values->add(place, vacant ? "" : number_value(value))) reader.error(key, "stands twice");
+      if (!values->add(place, vacant ? "" : number_text(value))) reader.error(key, "stands twice");
     });
   });
 }
@@ -131,7 +132,7 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
       TablePlace place;
       place.number = setting.number;
       place.column = c;
-      if (setting.given[c] && !values->add(place, number_value(setting.column[c]))) errors->add(setting.place.line, setting.place.key, "stands twice");
+      if (setting.given[c] && !values->add(place, number_text(setting.column[c]))) errors->add(setting.place.line, setting.place.key, "stands twice");
     }
   for (const WorkOffsetSetting& setting : read->work_offsets) {
     TablePlace place;
@@ -139,7 +140,7 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
     place.system = setting.system;
     place.number = setting.index;
     place.axis = machine.nc.system[setting.system].axis[setting.axis].name;
-    if (!values->add(place, number_value(setting.value))) errors->add(setting.place.line, setting.place.key, "stands twice");
+    if (!values->add(place, number_text(setting.value))) errors->add(setting.place.line, setting.place.key, "stands twice");
   }
 }
 

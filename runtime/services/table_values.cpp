@@ -10,6 +10,7 @@
 #include "nc/nc.h"
 #include "runtime/nc_system.hpp"
 #include "runtime/retain/variables.hpp"
+#include "runtime/toml_reader.hpp"
 
 namespace nc::rt::services {
 namespace {
@@ -44,7 +45,7 @@ std::string parameter_now(const nc_control* control, const TablePlace& place) {
   for (unsigned at = 0; nc_parameter_next(control, api_system(place.system), at, &at, key, &axis, &value, text) == NC_OK; ++at) {
     if (axis != place.axis || !same_key(whole, key)) continue;
     if (whole.size() == place.key.size()) return parameter_value(value, text);
-    return nc_parameter_get(control, api_system(place.system), place.key.c_str(), place.axis, &value) == NC_OK ? number_value(value) : "";
+    return nc_parameter_get(control, api_system(place.system), place.key.c_str(), place.axis, &value) == NC_OK ? number_text(value) : "";
   }
   return "";
 }
@@ -60,11 +61,6 @@ Outcome write_parameter(nc_control* control, const TablePlace& place, const std:
 
 }  // namespace
 
-std::string number_value(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
 bool parse_number(const std::string& text, double* value) {
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, *value);
@@ -76,7 +72,7 @@ bool same_value(const std::string& one, const std::string& other) {
   return one == other || (parse_number(one, &a) && parse_number(other, &b) && a == b);
 }
 
-std::string parameter_value(double value, const char* text) { return text[0] != '\0' ? text : std::isfinite(value) ? number_value(value) : ""; }
+std::string parameter_value(double value, const char* text) { return text[0] != '\0' ? text : std::isfinite(value) ? number_text(value) : ""; }
 
 std::string place_key(const TablePlace& place) {
   const std::string number = std::to_string(place.number), system = std::to_string(place.system + 1);
@@ -142,17 +138,17 @@ Outcome read_value(const nc_control* control, const nc_config& config, const Tab
     case Table::kTool:
       if (nc_tool_offset_get(control, place.number, static_cast<nc_tool_column>(place.column), &number) != NC_OK)
         return Outcome::refused(Refused::kNotFound, "there is no such tool offset set");
-      *value = number_value(number);
+      *value = number_text(number);
       return Outcome::done();
     case Table::kOffset:
       if (!find_axis(config, place, &axis)) return Outcome::refused(Refused::kNotFound, "there is no such axis");
       if (nc_work_offset_get(control, api_system(place.system), place.number, axis, &number) != NC_OK)
         return Outcome::refused(Refused::kNotFound, "there is no such set of work offsets");
-      *value = number_value(number);
+      *value = number_text(number);
       return Outcome::done();
     case Table::kVariable:
       if (is_local_variable(control, place.number) || nc_variable_get(control, api_system(place.system), place.number, &number, &vacant) != NC_OK) return no_variable();
-      *value = vacant ? "" : number_value(number);
+      *value = vacant ? "" : number_text(number);
       return Outcome::done();
     case Table::kVariableName:
       (void)nc_variable_name_get(control, place.number, name);

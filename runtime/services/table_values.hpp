@@ -44,7 +44,6 @@ bool parse_place(const std::string& text, TablePlace* place);
 // The same for people: "tool 3 radius_wear", "offset 102 X of part system 1", "#501 of part system 1".
 std::string place_text(const TablePlace& place);
 
-std::string number_value(double value);
 // The number that the whole text is. False when it is none, or not finite.
 bool parse_number(const std::string& text, double* value);
 // The same number, or the same text.
