@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     double number = 0;
     if (place.table == Table::kVariableName) require(value.size() <= 7);
     else require(parse_number(value, &number) || (place.table == Table::kVariable && value.empty()));
-    if (!value.empty() && place.table != Table::kVariableName) require(number_text(number) == value);
+    if (!value.empty() && place.table != Table::kVariableName) require(nc::rt::number_text(number) == value);
   }
   return 0;
 }
