@@ -180,7 +180,7 @@ TEST(Avoidance, AnArcIsNotLengthenedThroughTheBlockInFront) {
 TEST(Avoidance, ABlockThatTheToolCanGoAlongIsNotLeftOut) {
   Bench bench;
   bench.tool(1, 2).param("8102", "1");
-  const Outcome run = bench.run("G90 G0 X45. Y70.\nG1 G42 D1 X42. Y60. F500\nX31.\nX31.3 Y58.3\nX-69.\nY30.\nG40 X-80.\nM30");
+  const Outcome run = bench.run("G90 G0 X45. Y70.\nG1 G42 D1 X42. Y60. F500\nX31.\nX31.012 Y59.98\nX-69.\nY30.\nG40 X-80.\nM30");
   EXPECT_EQ(run.alarm, "P153");
 }
 

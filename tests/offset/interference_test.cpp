@@ -102,6 +102,39 @@ TEST(Interference, WideAngleBetweenTheVectorsIsAnAlarm) {
   EXPECT_EQ(at, 0u);
 }
 
+// A step that is lower than the radius behind a corner of a little more than 90 degrees: the tool goes down by less than the radius, and never stands at right angles
+// to the step. The same the other way round.
+TEST(Interference, AVectorThatTheToolDoesNotReachTellsNothing) {
+  for (const char* const avoid : {"0", "1"}) {
+    for (const auto& [x, y] : {std::pair{"X0.001", "Y-0.2"}, std::pair{"X0.1", "Y-0.9"}, std::pair{"X0.0001", "Y-0.02"}}) {
+      const std::string edge = std::string(x) + ' ' + y;
+      Bench bench;
+      bench.tool(1, 1).param("8102", avoid);
+      const Outcome down = bench.run("G90 G0 X10. Y10.\nG1 G42 D1 X10. Y0 F500\nX0.\n" + edge + "\nX-10.\nG40 Y10.\nM30");
+      EXPECT_EQ(down.alarm, "") << edge;
+      Bench other;
+      other.tool(1, 1).param("8102", avoid);
+      const Outcome up = other.run(std::string("G90 G0 X-10. Y10.\nG1 G41 D1 X-10. ") + y + " F500\n" + edge + "\nX0. Y0\nX10.\nG40 Y10.\nM30");
+      EXPECT_EQ(up.alarm, "") << edge;
+      ASSERT_EQ(down.moves().size(), up.moves().size());
+      for (unsigned i = 1, n = static_cast<unsigned>(up.moves().size()); i + 1 < n; ++i) {  // without the ways there and away
+        EXPECT_NEAR(down.moves()[i].machine.v[0], up.moves()[n - 1 - i].machine.v[0], 1e-9) << edge;
+        EXPECT_NEAR(down.moves()[i].machine.v[1], up.moves()[n - 1 - i].machine.v[1], 1e-9) << edge;
+      }
+    }
+  }
+}
+
+// Where the block behind the step rises above what the corner in front of it is lengthened by, the ways themselves cut into it.
+TEST(Interference, AVectorThatTheToolDoesNotReachCountsWhereItsWaysCutIntoTheBlocks) {
+  Bench bench;
+  bench.tool(1, 1);
+  const Outcome run = bench.run(
+      "G90 G0 X-0.528607 Y2.443476\nG1 G42 D1 X0 Y0 F500\nX-4.939394 Y-1.068560\nX-4.939075 Y-1.070034\nG3 X-4.972010 Y-1.076423 I-0.010422 J-0.034361\n"
+      "G1 X-0.792280 Y-6.423044\nG1 G40 X-2.761861 Y-7.962768\nM30");
+  EXPECT_EQ(run.alarm, "P153");
+}
+
 /// A groove in a straight edge, its mouth at X0 to X`mouth`, cut with a tool of 10 mm; the walls go from there to X`from` and X`to` at Y-30.
 Outcome groove(const char* from, const char* to, const char* mouth, const char* avoid, double offset_x = 0, double offset_y = 0) {
   Bench bench;

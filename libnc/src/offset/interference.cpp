@@ -377,6 +377,53 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   return Finding::alarm;
 }
 
+// Do the ways along section i and the block in front of it, and round the corners at its two ends, keep the amount to these blocks and to the one behind? Places
+// count from its start.
+bool ways_keep_amount(const Chain& chain, unsigned i, Vec2 first_vector) {
+  const Section& section = chain[i];
+  const double least = std::abs(section.offset) - kEnters_mm;
+  Piece walls[3], ways[2 * ContourJoint::kMax];
+  unsigned of_walls = 0, of_ways = 0;
+  const auto along = [&](unsigned k, Vec2 start) {
+    walls[of_walls++] = wall_of(chain[k], start);
+    ways[of_ways++] = path_of(chain[k], start, start_vector(chain, k, first_vector), chain[k].joint.v[0]);
+    const ContourJoint& joint = chain[k].joint;
+    for (unsigned n = 0; n + 1 < joint.n; ++n) ways[of_ways++] = way_at(start + chain[k].delta, joint.v[n], joint.v[n + 1], false, section.offset);
+  };
+  if (i > 0 && !chain[i - 1].start) along(i - 1, -1 * chain[i - 1].delta);
+  along(i, {});
+  if (i + 1 < chain.size() && !chain[i + 1].cancel) walls[of_walls++] = wall_of(chain[i + 1], section.delta);
+  for (unsigned n = 0; n < of_ways; ++n)
+    for (unsigned k = 0; k < of_walls; ++k)
+      if (comes_nearer(ways[n], walls[k], least)) return false;
+  return true;
+}
+
+// The first and the last vector of a lengthened corner stand at right angles to lines, which pass them on the way to the others (OffsetStage::release()). A line that is
+// shorter than that, since it leads to an inner corner or comes from one, does not come there, and a vector that the tool does not reach tells nothing: what is
+// compared is where the tool leaves the line, or comes to it. Not where the ways themselves cut into these blocks: then the vectors that cross are right.
+void keep_to_the_way(Chain* chain, unsigned i, Vec2 first_vector) {
+  Section& section = (*chain)[i];
+  if (section.begin.curvature != 0 || section.commanded || section.dead || section.joint.n == 0) return;
+  const Vec2 u = section.begin.u;
+  if (ContourJoint* before = i == 0 ? nullptr : &(*chain)[i - 1].joint; before != nullptr && before->lengthened && (*chain)[i - 1].merge_last) {
+    const Vec2 end = section.delta + section.joint.v[0], last = before->v[before->n - 1], outer = before->v[before->n - 2];
+    const bool short_of_it = runs_beside(section, section.joint.v[0]) && dot(end - last, u) < 0 && dot(end - outer, u) >= 0;
+    if (short_of_it) {
+      before->v[before->n - 1] = end;
+      if (!ways_keep_amount(*chain, i, first_vector)) before->v[before->n - 1] = last;
+    }
+  }
+  if (section.joint.lengthened && section.merge_first) {
+    const Vec2 start = start_vector(*chain, i, first_vector), first = section.joint.v[0], outer = section.joint.v[1];
+    const bool behind_it = runs_beside(section, start) && dot(section.delta + first - start, u) < 0 && dot(section.delta + outer - start, u) >= 0;
+    if (behind_it) {
+      section.joint.v[0] = start - section.delta;
+      if (!ways_keep_amount(*chain, i, first_vector)) section.joint.v[0] = first;
+    }
+  }
+}
+
 // Vectors have been erased, and others held: what goes by them.
 void follow_changes(Chain* chain, const ChainStart& start) {
   bool erased_before = start.erased;
@@ -397,6 +444,10 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
   unsigned j = std::max(chain->compared(), 1u);
   for (; j < chain->size() && (*chain)[j].jointed; ++j) {
     const Section& section = (*chain)[j];
+    if (section.joint.lengthened || (*chain)[j - 1].joint.lengthened) {
+      if (j == 1) keep_to_the_way(chain, 0, first_vector);
+      keep_to_the_way(chain, j, first_vector);
+    }
     if (!may_be_erased(section) || section.dead) continue;
     bool crosses = false;
     Vec2 d;  // from the joint that it is compared with

@@ -4,7 +4,10 @@
 // blocks around them are joined directly.
 #pragma once
 
+#include <cmath>
+
 #include "base/fixed.hpp"
+#include "base/same_place.hpp"
 #include "offset/corner.hpp"
 #include "stream/stream.hpp"
 
@@ -59,6 +62,9 @@ struct Section {
   }
 };
 static_assert(sizeof(Section) == 256);
+
+/// Does a line that begins or ends with this vector run parallel to its programmed one? Not where another amount, or the program, has made the vector.
+inline bool runs_beside(const Section& line, Vec2 vector) { return std::abs(dot(vector, left_of(line.end.u)) - line.offset) <= kNoLength; }
 
 /// The blocks under consideration, in order. Only the last one may not be jointed yet. They lie in a ring, so that those in front go without the others
 /// being moved.

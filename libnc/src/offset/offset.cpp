@@ -54,9 +54,6 @@ bool vanishes(const Leg& begin, const Leg& end, double offset) {
   return !offset_exists(begin, offset) || !offset_exists(end, offset);
 }
 
-// Does a line that begins with this vector run parallel to its programmed one? Not where another amount, or the program, has made the vector.
-bool runs_beside(const Section& line, Vec2 from) { return std::abs(dot(from, left_of(line.end.u)) - line.offset) <= kNoLength; }
-
 Item alarm_in(const nc_source& source, Condition condition) {
   Item alarm;
   alarm.kind = ItemKind::alarm;
