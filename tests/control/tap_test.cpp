@@ -357,8 +357,8 @@ TEST_P(RealTap, TheWayBackGoesByTheReturnOverride) {
 
 class Retract : public RealTap {
  protected:
-  void into_the_hole() {
-    start("G84 Z-8. R2. S600 F1.5 ,R1");
+  void into_the_hole(const std::string& before = "") {
+    start(before + "G84 Z-8. R2. S600 F1.5 ,R1");
     ASSERT_TRUE(until([&] { return drive->out.tapping && z() < -3; }));
     drive->in.reset = true;
     ASSERT_TRUE(until([&] { return drive->out.state == NC_STATE_IDLE; }));
@@ -448,6 +448,51 @@ TEST_P(Retract, AStartIsRefusedWhileTheTapStandsInItsHole) {
   press();
   EXPECT_NE(drive->out.state, NC_STATE_IDLE) << "and the program begins";
   EXPECT_NE(drive->out.cause, NC_CAUSE_TAP_IN_HOLE);
+}
+
+// Out of its hole the tap lets its spindle go: rapid traverse of its axis, by hand or by a program, would turn it faster than it can.
+TEST_P(Retract, OutOfItsHoleTheSpindleIsLetGo) {
+  const auto out_by_signal = [&] {
+    into_the_hole("G0 Z30.\n");
+    drive->in.tap_retract = true;
+    ASSERT_TRUE(until([&] { return !drive->out.tap_retract_possible && drive->out.state == NC_STATE_IDLE; }));
+    drive->in.tap_retract = false;
+    rest();
+  };
+  const auto out_by_hand = [&] {
+    into_the_hole();
+    drive->in.manual[2] = {NC_MANUAL_JOG, 5, 0};
+    ASSERT_TRUE(until([&] { return z() > 2.05; }));
+  };
+  double angle = 0;
+  const auto jog_fast = [&] {
+    angle = spindle.turns();
+    drive->in.manual[2] = {NC_MANUAL_JOG, 100, 0};
+    EXPECT_TRUE(until([&] { return z() > 60; }));
+    drive->in.manual[2] = {};
+    rest();
+  };
+  const auto run_program = [&] {
+    angle = spindle.turns();
+    drive->in.cycle_start = true;
+    drive->step(50);
+    EXPECT_TRUE(until([&] { return z() < 0; })) << "the second time";
+    drive->in.reset = true;
+    rest();
+    drive->in.reset = false;
+  };
+  out_by_signal();
+  jog_fast();
+  EXPECT_EQ(drive->alarm(), "");
+  EXPECT_EQ(drive->out.spindle_synchronous, 0);
+  EXPECT_NEAR(spindle.turns(), angle, 0.1) << "it stands";
+  out_by_hand();
+  jog_fast();
+  EXPECT_EQ(drive->alarm(), "") << "faster, without a stop at R";
+  EXPECT_EQ(drive->out.spindle_synchronous, 0);
+  out_by_signal();
+  run_program();
+  EXPECT_EQ(drive->alarm(), "") << "rapid traverse up to the initial level";
 }
 
 // Whatever asks for X or Y by hand would tear the tap sideways out of its hole. Its own axis goes, and the spindle with it.

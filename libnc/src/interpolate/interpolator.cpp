@@ -336,6 +336,7 @@ void Interpolator::start(const nc_inputs& in) {
       last_staged_ = last_in_hole_ = block_waits_ = false;
       block_syncs_ = 0;
       by_hand_ = 0;
+      if (tap_.held) release_tap();  // out of its hole, or freed by hand: else the start was refused
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       run_.start();
       run_ended_ = false;
@@ -502,6 +503,7 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
     return;
   }
   const AxisVec before = wanted_;
+  let_tap_go_outside(in);
   if (manual_allowed_) filter_.use({});  // by hand each axis has an acceleration of its own
   manual_cycle(in);
   for (unsigned i = 0; i < config_.axis_count; ++i) {

@@ -169,6 +169,7 @@ class Interpolator {
   bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
   bool tap_stands_in_hole() const NC_RT;
   bool tap_bars() const NC_RT;
+  void let_tap_go_outside(const nc_inputs& in) NC_RT;
   uint32_t tap_holds(const nc_inputs& in) const NC_RT;
   void turn_tap_spindle(const nc_inputs& in, nc_outputs& out) NC_RT;
   nc_tap tap() const NC_RT;

@@ -108,7 +108,7 @@ void Interpolator::hold_tap() {
   tap_.stuck = false;
 }
 
-/// The next code for the spindle ends it.
+/// The next code for the spindle ends it, the next program, and motion by hand out of the hole.
 void Interpolator::release_tap() {
   tap_.held = tap_.known = tap_.drawing = false;
   tap_follower_.end();
@@ -191,6 +191,14 @@ bool Interpolator::tap_stands_in_hole() const {
 /// It stands there, and can be drawn out. Where its spindle does not follow any more there is no other way than to free it by hand, and the machine has to be
 /// moved for that.
 bool Interpolator::tap_bars() const { return !tap_.stuck && tap_stands_in_hole(); }
+
+/// By hand, out of its hole: the tap lets its spindle go, which could not turn as fast as its axis moves now. A C axis, whose turns are commands, is let go while
+/// it stands.
+void Interpolator::let_tap_go_outside(const nc_inputs& in) {
+  if (!tap_.held || (in.unlimited >> tap_.axis & 1) != 0 || tap_stands_in_hole()) return;
+  const bool moves = manual_.active(), begins = !moves && in.manual[tap_.axis].kind != NC_MANUAL_NONE;
+  if (tap_.c_axis >= 0 ? begins : moves || begins) release_tap();
+}
 
 /// The axes that would tear the tap sideways out of its hole. As long as its own axis does not know where it stands, the tap may be in it.
 uint32_t Interpolator::tap_holds(const nc_inputs& in) const {
