@@ -110,6 +110,7 @@ class Session {
   Session(uint64_t seed, bool optimal) : draw_{std::mt19937_64(seed)}, machine_(random_machine(draw_, optimal)), part_(random_part(draw_)), spindle_(machine_) {
     percent_ = std::to_string(draw_.chance(0.5) ? 0 : 50 + 10 * draw_.pick(15));
     back_to_r_ = draw_.chance(0.5);
+    if (std::getenv("NC_LOG") != nullptr) std::printf("cycle %g acceleration %g ramp %g lag %g\n", machine_.cycle_s, machine_.acceleration, machine_.ramp_rev_s2, machine_.lag_s);
     power_on({0, 0, 0});
     load();
   }
@@ -229,7 +230,7 @@ class Session {
   void log() const {
     const nc_inputs& in = drive_->in;
     const nc_outputs& out = drive_->out;
-    std::printf("%u state %d cause %d line %u place %.6f turns %.6f commanded %.4f synchronous %d tapping %d possible %d holds %d | start %d hold %d interlock %d reset %d retract %d jog %d single %d feed %.2f\n", drive_->cycle, out.state,
+    std::printf("%u state %d cause %d line %u place %.6f turns %.6f commanded %.7f synchronous %d tapping %d possible %d holds %d | start %d hold %d interlock %d reset %d retract %d jog %d single %d feed %.2f\n", drive_->cycle, out.state,
                 out.cause, out.source.line, place(), spindle_.turns(), out.spindle_turns, out.spindle_synchronous, out.tapping, out.tap_retract_possible, out.tap_holds, in.cycle_start, in.feed_hold, in.interlock, in.reset,
                 in.tap_retract, by_hand_, in.single_block, in.feed_override);
   }

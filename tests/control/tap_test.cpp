@@ -60,6 +60,25 @@ class Tap : public testing::TestWithParam<bool> {
     }
     return false;
   }
+  /// Stopped by an interlock: `feed` is what the feeder does meanwhile.
+  void stop_in_the_hole(unsigned feed) {
+    bench.param("3005", "3000").param("3013", "600").param("3017", "500").param("3037", "1200").param("3041", "2000").param("3045", "60000");
+    start("G84 Z-38. R2. F1.5 S600 ,R1");
+    ASSERT_TRUE(until([&] { return z() < -15; }));
+    drive->in.interlock = true;
+    double most = 0, before = drive->out.spindle_rev_min[0] / 60;
+    unsigned stands = 0;
+    for (unsigned n = 0; n < 2000 && stands < 20; ++n) {
+      drive->step(feed);
+      const double now = drive->out.spindle_rev_min[0] / 60;
+      most = std::max(most, std::fabs(now - before) / kCycle_s);
+      before = now;
+      stands = now == 0 ? stands + 1 : 0;
+    }
+    EXPECT_EQ(stands, 20U);
+    EXPECT_LT(most, 20.5) << "rev/s^2: 600 r/min in 0.5 s";
+    EXPECT_GT(z(), -20) << "before the bottom";
+  }
   double z() const { return drive->out.command.v[2]; }
   bool cuts() const { return drive->out.tapping && z() < 1.9 && z() > -7.9; }
 
@@ -118,6 +137,10 @@ TEST_P(Tap, TheSpindleAcceleratesByItsStages) {
   bench.param("3005", "6000");
   EXPECT_NEAR(steepest("S1000"), 20, 0.5) << "(13)";
 }
+
+// An interlock, a reset or an alarm stops a tap no faster than its spindle can, also where the feeder does not plan the stop.
+TEST_P(Tap, AStopInTheHoleKeepsTheStagesOfTheSpindle) { stop_in_the_hole(50); }
+TEST_P(Tap, AStopThatTheFeederDoesNotPlanKeepsThem) { stop_in_the_hole(0); }
 
 TEST_P(Tap, HoldBetweenRAndRActsBehindTheWayBack) {
   for (const char* words : {"G84 Z-8. R2. F900. P100 ,R0", "G84 Z-8. R2. S600 F1.5 P100 ,R1"}) {

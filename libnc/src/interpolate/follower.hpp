@@ -75,7 +75,8 @@ class Follower {
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, *limits_, use, pace);
+    const double share = store_->piece_at(store_->at(cell_).piece).share;
+    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, share < 1 ? part_of(*limits_, share) : *limits_, use, pace);
   }
   bool braking() const { return braking_; }
 
@@ -127,6 +128,14 @@ class Follower {
   static constexpr unsigned kOfGentle = 8;                ///< one of so many tries of brake() is gentle: it uses less than the limits leave
   static constexpr double kGentle[] = {0.6, 0.35, 0.15};  ///< shares that gentle tries use
 
+  /// The limits that a piece has which may use a share of them alone: a synchronous tap, whose spindle bears no more.
+  static optimal::Limits part_of(optimal::Limits limits, double share) NC_RT {
+    for (unsigned i = 0; i < limits.axis_count; ++i) {
+      limits.acceleration[i] *= share;
+      limits.jerk[i] *= share;
+    }
+    return limits;
+  }
   /// Goes on by `time` seconds of the plan. @return what is left behind a rest.
   double follow(double time) NC_RT {
     if (idle() || !(time > 0)) return time;
