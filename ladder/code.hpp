@@ -125,6 +125,11 @@ struct RetainedD {
   std::uint32_t first = 0, count = 0;
 };
 
+// The power of a line of the source is the result of logic behind this unit. A line that has several units has several places, in the order of their execution.
+struct FlowPlace {
+  std::uint32_t line, unit;
+};
+
 struct Code {
   std::vector<Unit> units;
   std::vector<std::uint32_t> lines;  // line of the source for each unit
@@ -140,7 +145,9 @@ struct Code {
   bool retain_counters = false;
   RetainedD retained_d;
   std::string file;
-  std::vector<std::string> source;  // the lines of the program, for messages about faults in the scan
+  std::vector<std::string> source;  // the lines of the program, for messages about faults in the scan and for listings
+  std::vector<FlowPlace> flow;        // in the order of the lines
+  std::vector<std::uint32_t> rungs;   // first line of each rung; a line that belongs to none is one of its own
   std::vector<Error> warnings;
 };
 
@@ -155,7 +162,9 @@ void lower(Code* code, const std::vector<std::uint32_t>& targets, std::uint32_t 
 // The interpreter, once with computed goto if the compiler has it, and once with a switch. Both have the same results.
 Outcome execute_threaded(const Code& code, DeviceImage* image) noexcept;
 Outcome execute_portable(const Code& code, DeviceImage* image) noexcept;
-// The interpreter with a switch that holds devices at a value.
-Outcome execute_held(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept;
+// The interpreter with a switch that holds devices at a value. `flow`: one byte for each unit, all 0; an instruction that was executed leaves kFlowExecuted there,
+// and in bit 0 the result of logic behind it. Null = nobody looks.
+inline constexpr std::uint8_t kFlowExecuted = 2;
+Outcome execute_watched(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count, std::uint8_t* flow) noexcept;
 
 }  // namespace nc::ladder

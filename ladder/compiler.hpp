@@ -116,6 +116,7 @@ class Compiler {
   bool take_result();  // an output uses the result, which must be a single block
   void gate();
   void close_rung();  // an error when a result is unused or a branch is open
+  void begin_rung();
   void note_coil(const Place& place);
   void note_rising();  // a warning when the result can never rise
 
@@ -152,6 +153,7 @@ class Compiler {
   std::vector<std::string_view> words_;
   const Rule* rule_ = nullptr;  // rule of the instruction in this line
   Rung rung_;
+  unsigned label_line_ = 0;  // line of a label in front of the rung that comes, 0 = there is none
   unsigned branches_ = 0;
   unsigned branch_line_ = 0;
   std::vector<Master> masters_;

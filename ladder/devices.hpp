@@ -18,6 +18,7 @@
 namespace nc::ladder {
 
 enum class DeviceType : std::uint8_t { kBit, kWord16, kWord32 };
+constexpr const char* type_name(DeviceType type) { return type == DeviceType::kBit ? "bit" : type == DeviceType::kWord16 ? "16 bit" : "32 bit"; }
 
 struct Device {
   std::string name;
@@ -72,6 +73,15 @@ struct DeviceImage {
   }
   void set_word32(std::uint32_t index, std::int32_t value) noexcept {
     std::memcpy(&word[index], &value, sizeof value);
+  }
+  // A device by its type and its index.
+  std::int32_t value(DeviceType type, std::uint32_t index) const noexcept {
+    return type == DeviceType::kBit ? bit[index] : type == DeviceType::kWord16 ? word[index] : word32(index);
+  }
+  void set_value(DeviceType type, std::uint32_t index, std::int32_t value) noexcept {
+    if (type == DeviceType::kBit) bit[index] = value != 0;
+    else if (type == DeviceType::kWord16) word[index] = static_cast<std::int16_t>(value);
+    else set_word32(index, value);
   }
 };
 

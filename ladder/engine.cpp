@@ -41,14 +41,15 @@ DeviceImage Engine::make_image() const {
   return image;
 }
 
-void Engine::scan(DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept {
+void Engine::scan(DeviceImage* image, const Hold* holds, unsigned hold_count, std::uint8_t* flow) noexcept {
   if (fault_ != kNoFault) return;
   const Layout& at = code_->layout;
   if (image->bit.size() != at.bits || image->word.size() != at.words) {
     fault_ = kImageSize;
     return;
   }
-  const Outcome outcome = hold_count == 0 ? execute_threaded(*code_, image) : execute_held(*code_, image, holds, hold_count);
+  const bool watched = hold_count != 0 || flow != nullptr;
+  const Outcome outcome = watched ? execute_watched(*code_, image, holds, hold_count, flow) : execute_threaded(*code_, image);
   fault_ = outcome.fault;
   fault_step_ = outcome.step;
 }

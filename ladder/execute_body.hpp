@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The body of the interpreter, which is included three times. With NC_LADDER_THREADED the code of every instruction ends with a jump to the code of
-// the next one, so the processor predicts each of these jumps separately; otherwise there is one switch in a loop. With NC_LADDER_HELD
-// the devices that are held get their value back after each instruction. NC_RT.
+// the next one, so the processor predicts each of these jumps separately; otherwise there is one switch in a loop. With NC_LADDER_WATCHED
+// the devices that are held get their value back after each instruction, and the result of logic behind it is noted. NC_RT.
 
-#ifdef NC_LADDER_HELD
-Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count) noexcept {
-  const auto keep = [=] {
+#ifdef NC_LADDER_WATCHED
+Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image, const Hold* holds, unsigned hold_count, std::uint8_t* flow) noexcept {
+  const auto after = [=, first = code.units.data()](const Unit* executed, std::uint32_t result) {
+    if (flow != nullptr && executed != nullptr) flow[executed - first] = static_cast<std::uint8_t>(kFlowExecuted | result);
     for (unsigned i = 0; i < hold_count; ++i) {
       const Hold& hold = holds[i];
       if (hold.type == DeviceType::kBit) image->bit[hold.index] = hold.value != 0;
@@ -13,10 +14,10 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image, const Hold* hold
       else image->set_word32(hold.index, hold.value);
     }
   };
-#define NC_LADDER_KEEP keep()
+#define NC_LADDER_AFTER(executed) after(executed, rlo)
 #else
 Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
-#define NC_LADDER_KEEP (void)0
+#define NC_LADDER_AFTER(executed) (void)0
 #endif
   Machine machine{
       code, code.layout, image->bit.data(), image->word.data(), code.units.data(), code.step_budget};
@@ -68,8 +69,14 @@ Outcome NC_LADDER_EXECUTE(const Code& code, DeviceImage* image) noexcept {
 #else
 #define NC_LADDER_DISPATCH goto dispatch
 #define NC_LADDER_CASE(name) case Op::name:
+#ifdef NC_LADDER_WATCHED
+  const Unit* last = nullptr;  // the instruction that was executed last
 dispatch:
-  NC_LADDER_KEEP;
+  after(last, rlo);
+  last = ip;
+#else
+dispatch:
+#endif
   switch (static_cast<Op>(ip->head.op)) {
 #define NC_LADDER_OP(name) case Op::name:
     NC_LADDER_OPS_LOGIC(NC_LADDER_OP)  // not reached, because lower() removes them
@@ -88,7 +95,7 @@ dispatch:
     const std::uint32_t table = in >> kLogicShift >> (2 * (bit[in & (kMaxBits - 1)] & 1u)); \
     rlo = table >> rlo & 1u;                                                                \
     bit[(unit).cell.out] = NC_LADDER_BYTE(rlo);                                             \
-    NC_LADDER_KEEP;                                                                         \
+    NC_LADDER_AFTER(&(unit));                                                               \
   }
   NC_LADDER_CASE(kCells) {
     const Unit* const end = ip + 1 + ip->head.a;
@@ -364,6 +371,6 @@ watchdog : return {kWatchdog, static_cast<std::uint32_t>(ip - units)};
 #undef NC_LADDER_DISPATCH
 #undef NC_LADDER_CASE
 #undef NC_LADDER_RUN_CELL
-#undef NC_LADDER_KEEP
+#undef NC_LADDER_AFTER
 #undef NC_LADDER_RISING
 #undef NC_LADDER_FALLING

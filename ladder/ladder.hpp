@@ -46,11 +46,29 @@ struct CompileOptions {
   std::uint32_t retain_d_count = 0;
 };
 
+// A line of a program that holds an instruction or a label, as a listing shows it.
+struct ListedLine {
+  enum class Power : std::uint8_t { kNone, kOff, kOn };  // kNone: it was not executed in this scan, or has none, as a label
+  unsigned line = 0;  // from 1
+  unsigned rung = 0;  // first line of its rung
+  std::string instruction;  // without its comment
+  std::vector<std::string> operands;
+  // The result of logic behind the instruction; of an output, in front of it. An instruction that was executed several times in the scan shows the last time.
+  Power power = Power::kNone;
+};
+
 // A compiled program. Copies share the code, which never changes.
 class Program {
  public:
   Program();
   unsigned instruction_count() const;
+  const std::string& file() const;
+  unsigned line_count() const;
+  std::size_t flow_bytes() const;
+  // The rungs that have a line from `first` on, whole, until there are `most` lines or more of them; more only when a rung is longer than that. `flow`: what Engine::scan() has
+  // left, null = without the power. `next`, when it is not null, becomes the first line
+  // of the rung behind them, 0 = there is none.
+  std::vector<ListedLine> listing(unsigned first, unsigned most, const std::uint8_t* flow, unsigned* next = nullptr) const;
   const std::vector<Error>& warnings() const;
   const std::shared_ptr<const Code>& code() const { return code_; }
 
@@ -101,7 +119,8 @@ class Engine {
 
   // Makes one pass through the program. NC_RT. Does nothing after a fault. Devices that are held have their value
   // before and after each instruction, which costs each instruction a store for each of them.
-  void scan(DeviceImage* image, const Hold* holds = nullptr, unsigned hold_count = 0) noexcept;
+  // `flow`, when it is not null, has Program::flow_bytes() bytes, all 0, which get the power flow of this scan, for Program::listing(). It takes as long as to hold a device.
+  void scan(DeviceImage* image, const Hold* holds = nullptr, unsigned hold_count = 0, std::uint8_t* flow = nullptr) noexcept;
 
   // To be called in the thread that scans.
   unsigned fault() const { return fault_; }

@@ -42,6 +42,7 @@ class Lowering {
       if (!reads_rlo(op)) kept_ = false;
       restore();
       flush();
+      if (has_power(op)) code_.flow.push_back({line_, static_cast<std::uint32_t>(code_.units.size())});
       for (unsigned unit = 0; unit < units_of(op); ++unit) append(from[i + unit]);
       i += units_of(op);
       skipped = op == Op::kSkipNotRising;
@@ -58,6 +59,10 @@ class Lowering {
     code_.units.push_back(unit);
     code_.lines.push_back(line_);
   }
+  // The power of this line is the result of the newest cell.
+  void show_power() { cell_flow_.push_back({line_, static_cast<std::uint32_t>(cells_.size() - 1)}); }
+  // False: what the instruction does hangs on no result of logic.
+  static bool has_power(Op op) { return op != Op::kEnd && op != Op::kJump && op != Op::kRet && op != Op::kFor && op != Op::kNext; }
   static bool reads_rlo(Op op) {
     switch (op) {
       case Op::kEnd:
@@ -75,7 +80,10 @@ class Lowering {
     }
   }
 
-  void cell(Logic logic, std::uint32_t in) { cell(logic, in, nowhere_); }
+  void cell(Logic logic, std::uint32_t in) {
+    cell(logic, in, nowhere_);
+    show_power();
+  }
   void cell(Logic logic, std::uint32_t in, std::uint32_t out) {
     Unit unit{};
     unit.cell = {in | static_cast<std::uint32_t>(logic) << kLogicShift, out};
@@ -100,6 +108,9 @@ class Lowering {
     unit.head.a = static_cast<std::uint32_t>(cells_.size());
     code_.units.push_back(unit);
     code_.lines.push_back(cell_lines_.front());
+    for (const FlowPlace& place : cell_flow_)
+      code_.flow.push_back({place.line, static_cast<std::uint32_t>(code_.units.size()) + place.unit});
+    cell_flow_.clear();
     code_.units.insert(code_.units.end(), cells_.begin(), cells_.end());
     code_.lines.insert(code_.lines.end(), cell_lines_.begin(), cell_lines_.end());
     cells_.clear();
@@ -116,6 +127,7 @@ class Lowering {
   void change(Logic logic, std::uint32_t device) {
     restore();
     out(keep_);
+    show_power();
     cell(logic, device, device);
     kept_ = true;
   }
@@ -165,6 +177,7 @@ class Lowering {
         restore();
         branches_.push_back(in_main_ ? of_depth(&branch_bits_, branches_.size()) : bit());
         out(branches_.back());
+        show_power();
         return true;
       case Op::kMrd:
         return begin(Logic::kLd, branches_.back());
@@ -176,6 +189,7 @@ class Lowering {
       case Op::kOut:
         restore();
         out(a);
+        show_power();
         return true;
       case Op::kSet:
         change(Logic::kOr, a);
@@ -203,6 +217,7 @@ class Lowering {
   std::vector<std::uint32_t> lines_from_;
   std::vector<Unit> cells_;
   std::vector<std::uint32_t> cell_lines_;
+  std::vector<FlowPlace> cell_flow_;  // `unit` counts the cells that are not in the code yet
   std::vector<std::uint32_t> block_bits_, branch_bits_, branches_;
   std::size_t depth_ = 0;
   std::uint32_t line_ = 0;

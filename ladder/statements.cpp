@@ -48,6 +48,12 @@ void Compiler::close_rung() {
   rung_ = Rung{};
 }
 
+// A label in front of a rung belongs to it.
+void Compiler::begin_rung() {
+  code_.rungs.push_back(label_line_ != 0 ? label_line_ : line_);
+  label_line_ = 0;
+}
+
 void Compiler::note_coil(const Place& place) {
   std::uint64_t key = place.index;
   if (!word_bits_.empty() && word_bits_.back().bit == place.index)
@@ -86,6 +92,8 @@ void Compiler::statement() {
     if (words_.size() == 1 && name.size() > 1 && name[0] == 'P' &&
         name.find_first_not_of("0123456789", 1) == std::string_view::npos) {
       if (number_after('P', name, kMaxLabel, &number)) label(name);
+      if (label_line_ != 0) begin_rung();
+      label_line_ = line_;
       return;
     }
     const std::string elsewhere = instruction_elsewhere(mnemonic);
@@ -95,6 +103,7 @@ void Compiler::statement() {
   ++code_.instructions;
   act(*rule_, pulse);
   close_word_bits();
+  if (rung_.blocks == 0 && rule_->action != Action::kMaster) begin_rung();  // a line without a condition, as FEND
 }
 
 bool Compiler::operand_count(const Rule& rule, std::size_t least, std::size_t most) {
@@ -179,6 +188,7 @@ void Compiler::load(const Rule& rule) {
     next.inherited = branches_;
     rung_ = next;
     rung_.used = false;
+    begin_rung();
   }
   const bool first = rung_.blocks == 0;
   rung_.always = false;
@@ -248,6 +258,7 @@ void Compiler::block(const Rule& rule) {
       code_.units.insert(code_.units.begin() + at, push);
       code_.lines.insert(code_.lines.begin() + at, line_);
     }
+    code_.rungs.pop_back();  // what looked like a rung of its own goes on from the one before
     rung_.before = false;
     rung_.joined = true;
     rung_.gated = rung_.gated_before;

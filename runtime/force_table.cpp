@@ -62,13 +62,14 @@ void ForceTable::free(unsigned place) noexcept {
 void ForceTable::begin(ladder::DeviceImage* image, hal::PointImage* points) noexcept {
   for (unsigned i = 0; i < freed_; ++i) {
     const Place& place = places_[released_[i].number];
-    set(place, released_[i].before, image);
+    image->set_value(place.type, place.index, released_[i].before);
     if (place.point >= 0 && place.output) points->value[place.point] = static_cast<std::uint32_t>(released_[i].before);
   }
   freed_ = 0;
   for (unsigned i = 0; i < count_; ++i) {
     if (active_[i].begun) continue;
-    active_[i].before = get(places_[active_[i].number], *image);
+    const Place& place = places_[active_[i].number];
+    active_[i].before = image->value(place.type, place.index);
     active_[i].begun = true;
   }
 }
@@ -81,34 +82,11 @@ void ForceTable::hold_points(hal::PointImage* points, bool outputs) const noexce
   }
 }
 
-std::int32_t ForceTable::get(const Place& place, const ladder::DeviceImage& image) noexcept {
-  switch (place.type) {
-    case ladder::DeviceType::kBit:
-      return image.bit[place.index];
-    case ladder::DeviceType::kWord16:
-      return image.word[place.index];
-    case ladder::DeviceType::kWord32:
-      return image.word32(place.index);
-  }
-  return 0;
-}
-
-void ForceTable::set(const Place& place, std::int32_t value, ladder::DeviceImage* image) noexcept {
-  switch (place.type) {
-    case ladder::DeviceType::kBit:
-      image->bit[place.index] = value != 0;
-      break;
-    case ladder::DeviceType::kWord16:
-      image->word[place.index] = static_cast<std::int16_t>(value);
-      break;
-    case ladder::DeviceType::kWord32:
-      image->set_word32(place.index, value);
-      break;
-  }
-}
-
 void ForceTable::hold_devices(ladder::DeviceImage* image) const noexcept {
-  for (unsigned i = 0; i < count_; ++i) set(places_[active_[i].number], active_[i].value, image);
+  for (unsigned i = 0; i < count_; ++i) {
+    const Place& place = places_[active_[i].number];
+    image->set_value(place.type, place.index, active_[i].value);
+  }
 }
 
 const ladder::Hold* ForceTable::holds(unsigned* count) noexcept {

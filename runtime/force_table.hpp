@@ -64,8 +64,6 @@ class ForceTable {
   };
   void hold_points(hal::PointImage* points, bool outputs) const noexcept;
   void free(unsigned place) noexcept;
-  static std::int32_t get(const Place& place, const ladder::DeviceImage& image) noexcept;
-  static void set(const Place& place, std::int32_t value, ladder::DeviceImage* image) noexcept;
 
   // Never reallocated: the scan reads entries without a lock, by the numbers that reach it through the queue of commands.
   const std::unique_ptr<Place[]> places_;

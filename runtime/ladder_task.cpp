@@ -88,9 +88,9 @@ void LadderTask::find_places(const Config& config, const ladder::DeviceTable& ta
 }
 
 void LadderTask::set_start_values(const Config& config) {
-  for (const SignalPlace& place : to_nc_) set(place.row->type, place.device, place.row->safe);
+  for (const SignalPlace& place : to_nc_) devices_.set_value(place.row->type, place.device, place.row->safe);
   for (const PointPlace& place : outputs_)
-    set(place.type, place.device, static_cast<std::int32_t>(config.points.at(place.point).initial));
+    devices_.set_value(place.type, place.device, static_cast<std::int32_t>(config.points.at(place.point).initial));
 }
 
 bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
@@ -129,7 +129,7 @@ bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
 std::int32_t LadderTask::signal(unsigned place) const noexcept {
   const SignalPlace* to_nc = by_signal_[place];
   if (to_nc == nullptr) return 0;
-  return engine_->fault() != ladder::kNoFault ? to_nc->row->safe : get(to_nc->row->type, to_nc->device);
+  return engine_->fault() != ladder::kNoFault ? to_nc->row->safe : devices_.value(to_nc->row->type, to_nc->device);
 }
 
 void LadderTask::restart() noexcept {
@@ -177,7 +177,7 @@ std::uint32_t LadderTask::read_device(const std::string& name, bool direct) {
   constexpr auto kPatience = std::chrono::milliseconds(200);
   const ladder::Device* device = find_device(name);
   if (device == nullptr) return 0;
-  if (direct) return static_cast<std::uint32_t>(get(device->type, device->index));
+  if (direct) return static_cast<std::uint32_t>(devices_.value(device->type, device->index));
   question_.type = device->type;
   question_.index = device->index;
   question_.turn.store(kWanted, std::memory_order_release);
@@ -247,36 +247,10 @@ bool LadderTask::take_retained(std::vector<RetainedRow>* rows) {
 
 // ---- the scan ----
 
-std::int32_t LadderTask::get(const ladder::DeviceType type, std::uint32_t device) const noexcept {
-  switch (type) {
-    case ladder::DeviceType::kBit:
-      return devices_.bit[device];
-    case ladder::DeviceType::kWord16:
-      return devices_.word[device];
-    case ladder::DeviceType::kWord32:
-      return devices_.word32(device);
-  }
-  return 0;
-}
-
-void LadderTask::set(ladder::DeviceType type, std::uint32_t device, std::int32_t value) noexcept {
-  switch (type) {
-    case ladder::DeviceType::kBit:
-      devices_.bit[device] = value != 0;
-      break;
-    case ladder::DeviceType::kWord16:
-      devices_.word[device] = static_cast<std::int16_t>(value);
-      break;
-    case ladder::DeviceType::kWord32:
-      devices_.set_word32(device, value);
-      break;
-  }
-}
-
 // Answers the question of read_device(), if there is one.
 void LadderTask::answer() noexcept {
   if (question_.turn.load(std::memory_order_acquire) != kWanted) return;
-  question_.value = get(question_.type, question_.index);
+  question_.value = devices_.value(question_.type, question_.index);
   question_.turn.store(kFilled, std::memory_order_release);
 }
 
@@ -286,7 +260,7 @@ void LadderTask::hold_outputs(hal::PointImage* points) noexcept {
 
 void LadderTask::scan(LadderImage* image) noexcept {
   for (const SignalPlace& place : from_nc_)
-    set(place.row->type, place.device, place.row->read(*image, place.system, place.index));
+    devices_.set_value(place.row->type, place.device, place.row->read(*image, place.system, place.index));
   hal::PointImage& points = *image->points;
   const bool forced = forces_.any() && engine_->fault() == ladder::kNoFault;
   if (forced) {
@@ -294,15 +268,16 @@ void LadderTask::scan(LadderImage* image) noexcept {
     forces_.hold_inputs(&points);
   }
   for (const PointPlace& place : inputs_)
-    set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
+    devices_.set_value(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   // The output devices start from the output points, because the NC program may have switched them since the last scan.
   for (const PointPlace& place : outputs_)
-    set(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
+    devices_.set_value(place.type, place.device, static_cast<std::int32_t>(points.value[place.point]));
   for (const PointPlace& place : quality_) devices_.bit[place.device] = points.good[place.point];
   unsigned held = 0;
   const ladder::Hold* const holds = forced ? forces_.holds(&held) : nullptr;
   if (forced) forces_.hold_devices(&devices_);
-  engine_->scan(&devices_, holds, held);
+  engine_->scan(&devices_, holds, held, look_.begin());
+  look_.end(devices_, image->status->scan);
   answer();
   if (turn_.load(std::memory_order_acquire) == kWanted) {
     copy_retained(devices_, &copied_);
@@ -316,9 +291,9 @@ void LadderTask::scan(LadderImage* image) noexcept {
     return;
   }
   for (const PointPlace& place : outputs_)
-    points.value[place.point] = static_cast<std::uint32_t>(get(place.type, place.device));
+    points.value[place.point] = static_cast<std::uint32_t>(devices_.value(place.type, place.device));
   for (const SignalPlace& place : to_nc_)
-    place.row->write(get(place.row->type, place.device), image, place.system, place.index);
+    place.row->write(devices_.value(place.row->type, place.device), image, place.system, place.index);
 }
 
 }  // namespace nc::rt

@@ -13,6 +13,7 @@
 #include "runtime/config.hpp"
 #include "runtime/force_table.hpp"
 #include "runtime/ladder_hook.hpp"
+#include "runtime/ladder_look.hpp"
 #include "runtime/retain/rows.hpp"
 #include "runtime/signals/signal_table.hpp"
 
@@ -49,7 +50,11 @@ class LadderTask final : public LadderHook {
   // A device by a name that the program may use, null = there is none. Any thread but the scan.
   const ladder::Device* find_device(const std::string& name) const;
   // Its value. Scan thread. NC_RT.
-  std::int32_t value(ladder::DeviceType type, std::uint32_t device) const noexcept { return get(type, device); }
+  std::int32_t value(ladder::DeviceType type, std::uint32_t device) const noexcept { return devices_.value(type, device); }
+
+  // ---- looking at the program in execution: one thread that is not the scan ----
+  LadderLook& look() { return look_; }
+  const ladder::Program& program() const { return program_; }
 
   // ---- retained devices ----
   // To be called only while no scan runs.
@@ -86,8 +91,6 @@ class LadderTask final : public LadderHook {
   void copy_retained(const ladder::DeviceImage& from, ladder::DeviceImage* to) const noexcept;
   std::vector<RetainedRow> rows_of(const ladder::DeviceImage& image) const;
   void answer() noexcept;
-  std::int32_t get(const ladder::DeviceType type, std::uint32_t device) const noexcept;
-  void set(ladder::DeviceType type, std::uint32_t device, std::int32_t value) noexcept;
 
   ladder::Program program_;
   std::unique_ptr<ladder::Engine> engine_;
@@ -109,6 +112,7 @@ class LadderTask final : public LadderHook {
     std::int32_t value = 0;
   };
   Question question_;  // what read_device() asks of the scan
+  LadderLook look_;
   std::vector<std::string> warnings_;
 };
 

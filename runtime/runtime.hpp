@@ -48,6 +48,7 @@ class Runtime {
   const nc_control* control() const { return control_; }
   // The configuration's ladder program; null without one.
   const LadderTask* ladder() const { return own_ladder_.get(); }
+  LadderTask* ladder() { return own_ladder_.get(); }
   // The values of the signals, for a single reader.
   SignalBoard* signals() { return board_.get(); }
   // Records signals in the scan, for a single owner.

@@ -17,7 +17,6 @@ namespace {
 using history::Entry;
 using history::EntryKind;
 
-constexpr unsigned kWholePage = 500;
 constexpr std::int64_t kRepeatNs = 1'000'000'000;
 constexpr std::size_t kMostNames = 1000;
 

@@ -34,7 +34,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kDevice, "device", Kind::kText, 1, 64, "", "device of the ladder, or a signal's name"},
     {Field::kDeviceValue, "value", Kind::kWhole, -2147483648.0, 4294967295.0, "", "value at which the device is held"},
     {Field::kFrom, "from", Kind::kWhole, 0, kMost32, "", "the list begins with this number, or behind so many entries; 0 when it is not given"},
-    {Field::kCount, "count", Kind::kWhole, 1, 500, "", "entries of the list at most; 500 when it is not given"},
+    {Field::kCount, "count", Kind::kWhole, 1, kWholePage, "", "entries of the list at most; 500 when it is not given"},
     {Field::kTool, "number", Kind::kWhole, 1, 999, "", "number of a tool offset set"},
     {Field::kLength, "length", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "tool length"},
     {Field::kLengthWear, "length_wear", Kind::kNumber, -kMostOffset, kMostOffset, "mm", "wear of the length"},
@@ -69,6 +69,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kSamples, "samples", Kind::kWhole, 1, trace::kMostRows, "", "scans that are recorded, at most as many as have room in 16 MiB: 63550 of 64 signals; 1000 when it is not given"},
     {Field::kBefore, "before", Kind::kWhole, 0, trace::kMostRows - 1.0, "", "how many of them are to be from before the trigger, fewer than samples; 0 when it is not given"},
     {Field::kRecording, "recording", Kind::kWhole, 1, kMost32, "", "number of the recording"},
+    {Field::kDevices, "devices", Kind::kList, 1, 64, "", "names of devices of the ladder, as in its program"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -105,6 +106,7 @@ constexpr Wanted kImportArguments[] = {must(Field::kToml)};
 constexpr Wanted kUndoArguments[] = {may(Field::kChange)};
 constexpr Wanted kTraceArguments[] = {must(Field::kSignals), may(Field::kTrigger), may(Field::kWhen), may(Field::kLevel), may(Field::kSamples), may(Field::kBefore)};
 constexpr Wanted kTraceReadArguments[] = {must(Field::kRecording), may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kDevicesOnly[] = {must(Field::kDevices)};
 constexpr Wanted kProtectArguments[] = {must(Field::kFile), must(Field::kOn)};
 
 // ---- replies ----
@@ -244,6 +246,22 @@ constexpr ReplyRow kTraceReadReply[] = {{"rows[].scan", "whole", "number of the 
                                         {"rows[].time_s", "number", "time at its start, counted from that of the trigger, s"},
                                         {"rows[].values[]", "whole", "the values, in the order of the signals"},
                                         {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kLadderRungsReply[] = {{"file", "text", "file of the program"},
+                                          {"flow_scan", "whole", "number of the scan whose power flow is shown, at most 0.2 s old"},
+                                          {"scan", "whole", "number of the scan that has left the values"},
+                                          {"lines[].line", "whole", "line of the program that holds an instruction or a label"},
+                                          {"lines[].rung", "whole", "first line of its rung; rungs are never divided"},
+                                          {"lines[].instruction", "text", "the instruction"},
+                                          {"lines[].operands[].name", "text", "device, constant or label, as it is written"},
+                                          {"lines[].operands[].value", "whole", "value of the device; no member = it is no device, or its place is known in the scan only"},
+                                          {"lines[].power", "flag", "result of logic behind the instruction, of an output in front of it; no member = it was not executed in this scan, or has none"},
+                                          {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kLadderDevicesReply[] = {{"scan", "whole", "number of the scan that has left the values"},
+                                            {"devices[].name", "text", "name as in the request"},
+                                            {"devices[].type", "text", "bit, 16 bit or 32 bit"},
+                                            {"devices[].value", "whole", "its value"},
+                                            {"devices[].forced", "flag", "it is held at this value"},
+                                            {"devices[].meaning", "text", "of signals and points"}};
 constexpr ReplyRow kTraceArmReply[] = {{"recording", "whole", "its number"}};
 constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
                                     {"tools[].length", "number", "mm"},
@@ -304,6 +322,9 @@ constexpr ServiceRow kRows[] = {
     {Service::kTraceSignals, "trace.signals", Right::kView, Lane::kData, kNo, kPage, kTraceSignalsReply, "the signals and points that can be recorded; devices of the ladder are named as in its program"},
     {Service::kTraceStatus, "trace.status", Right::kView, Lane::kData, kNo, {}, kTraceStatusReply, "how far the recording of signals is"},
     {Service::kTraceRead, "trace.read", Right::kView, Lane::kData, kNo, kTraceReadArguments, kTraceReadReply, "a recording that has ended, one row for each scan"},
+    {Service::kLadderRungs, "ladder.rungs", Right::kView, Lane::kData, kNo, kPage, kLadderRungsReply,
+     "the ladder program in whole rungs, with the power flow of one scan and the values of the devices; `from`: a line of the first rung, `count`: lines, more only to complete a rung"},
+    {Service::kLadderDevices, "ladder.devices", Right::kView, Lane::kData, kNo, kDevicesOnly, kLadderDevicesReply, "values of devices, all as one scan has left them"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
      "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},

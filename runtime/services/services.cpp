@@ -51,6 +51,7 @@ Services::Services(Runtime* runtime, const share::ProgramTable* programs, share:
       store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this] { return use(); }),
       log_(runtime->config().changes_path()),
       trace_(runtime),
+      ladder_(runtime),
       history_(history),
       notes_(history) {
   desk->set_witness([this](const share::Request* request, const share::Ack& ack) { notes_.answered(request, ack); });
@@ -204,6 +205,8 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kTraceSignals: return trace_.list_signals(call);
     case Service::kTraceStatus: return trace_.status();
     case Service::kTraceRead: return trace_.read(call);
+    case Service::kLadderRungs: return ladder_.list_rungs(call);
+    case Service::kLadderDevices: return ladder_.list_devices(call);
     case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
     case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:

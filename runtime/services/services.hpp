@@ -12,6 +12,7 @@
 #include "runtime/services/call.hpp"
 #include "runtime/services/change_log.hpp"
 #include "runtime/services/history.hpp"
+#include "runtime/services/ladder.hpp"
 #include "runtime/services/program_store.hpp"
 #include "runtime/services/trace.hpp"
 #include "runtime/share/intake_desk.hpp"
@@ -69,6 +70,7 @@ class Services {
   ProgramStore store_;
   ChangeLog log_;
   TraceDesk trace_;
+  LadderDesk ladder_;
   history::Recorder* const history_;
   ActionNotes notes_;
 };

@@ -12,17 +12,12 @@
 namespace nc::rt::services {
 namespace {
 
-constexpr double kWholePage = 500;
 constexpr double kStandardRows = 1000;
 constexpr auto kPatience = std::chrono::milliseconds(500);  // within which the scan gives a recording back
 // In the order of trace::When.
 constexpr const char* kWhens[] = {"", "rise", "fall", "change", "high", "low"};
 // In the order of trace::State.
 constexpr const char* kStates[] = {"waiting", "recording", "complete", "stopped"};
-
-const char* type_name(ladder::DeviceType type) {
-  return type == ladder::DeviceType::kBit ? "bit" : type == ladder::DeviceType::kWord16 ? "16 bit" : "32 bit";
-}
 
 }  // namespace
 
@@ -36,11 +31,11 @@ Outcome TraceDesk::list_signals(const Call& call) const {
   std::size_t i = from;
   for (; i < all && list.size() < count; ++i) {
     if (i < signals.size()) {
-      list.push_back({{"name", signals[i].name}, {"type", type_name(signals[i].row->type)}, {"meaning", signals[i].row->meaning}});
+      list.push_back({{"name", signals[i].name}, {"type", ladder::type_name(signals[i].row->type)}, {"meaning", signals[i].row->meaning}});
       continue;
     }
     const hal::Point& point = points.at(static_cast<unsigned>(i - signals.size()));
-    list.push_back({{"name", point.name}, {"type", point.type == hal::PointType::kBit ? "bit" : "32 bit"}, {"meaning", point.meaning}});
+    list.push_back({{"name", point.name}, {"type", ladder::type_name(point.type == hal::PointType::kBit ? ladder::DeviceType::kBit : ladder::DeviceType::kWord32)}, {"meaning", point.meaning}});
   }
   return Outcome::with({{"signals", std::move(list)}, {"next", i < all ? i : 0}});
 }

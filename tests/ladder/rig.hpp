@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small machine for the tests: some inputs and outputs, a program, scans. Every scan runs on all three interpreters,
-// which have to agree in every bit and word. The one for forced devices forces a device that never changes.
+// which have to agree in every bit and word. The one for forced devices and the power flow forces a device that never changes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ class Rig {
       ASSERT_EQ(portable_.bit, image.bit);
       ASSERT_EQ(portable_.word, image.word);
       const Hold off{DeviceType::kBit, program_.code()->layout.sm + kSmOff, 0};
-      const Outcome held = execute_held(*program_.code(), &held_, &off, 1);
+      std::vector<std::uint8_t> flow(program_.flow_bytes());
+      const Outcome held = execute_watched(*program_.code(), &held_, &off, 1, flow.data());
       ASSERT_EQ(held.fault, engine_.fault());
       ASSERT_EQ(held.step, engine_.fault_step());
       ASSERT_EQ(held_.bit, image.bit);

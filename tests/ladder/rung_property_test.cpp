@@ -17,6 +17,7 @@ namespace {
 struct Oracle {
   std::map<std::string, bool> device;
   std::map<unsigned, std::optional<bool>> memory;  // the last level at the edge in each line
+  std::map<unsigned, bool> power;                  // of each line but MCR in the last scan: its result, or of an output what is in front of it
 
   bool edge(unsigned line, bool now, bool rising) {
     const std::optional<bool> before = memory[line];
@@ -94,6 +95,7 @@ struct Oracle {
       else
         FAIL() << "the oracle does not know " << line;
       used = output && name != "MPS";
+      if (name != "MCR") power[n] = output ? on : results.back();
     }
   }
 };
@@ -201,21 +203,30 @@ RC_GTEST_PROP(LadderRungs, DoWhatTheirTextSays, (const std::vector<std::uint16_t
   std::vector<Error> errors;
   if (!compile(text, "rung.il", test_table(), {}, &program, &errors)) RC_FAIL(all_text(errors) + text);
   Engine engine(program);
-  DeviceImage image = engine.make_image(), portable = image;
+  Engine looked_at(program);
+  DeviceImage image = engine.make_image(), portable = image, watched = image;
   Oracle oracle;
   for (const std::uint8_t input : inputs) {
     for (unsigned i = 0; i < 6; ++i) {
       const std::string name = "X" + std::to_string(i);
       const bool on = (input >> i & 1u) != 0;
       oracle.device[name] = on;
-      image.bit[engine.find(name)->index] = portable.bit[engine.find(name)->index] = on ? 1 : 0;
+      image.bit[engine.find(name)->index] = portable.bit[engine.find(name)->index] = watched.bit[engine.find(name)->index] = on ? 1 : 0;
     }
     engine.scan(&image);
     RC_ASSERT(engine.fault() == static_cast<unsigned>(kNoFault));
     RC_ASSERT(execute_portable(*program.code(), &portable).fault == static_cast<unsigned>(kNoFault));
     RC_ASSERT(image.bit == portable.bit);
     RC_ASSERT(image.word == portable.word);
+    std::vector<std::uint8_t> flow(program.flow_bytes());
+    looked_at.scan(&watched, nullptr, 0, flow.data());
+    RC_ASSERT(image.bit == watched.bit);
+    RC_ASSERT(image.word == watched.word);
     oracle.scan(text);
+    std::map<unsigned, bool> power;
+    for (const ListedLine& line : program.listing(1, program.line_count(), flow.data()))
+      if (line.power != ListedLine::Power::kNone) power[line.line] = line.power == ListedLine::Power::kOn;
+    if (power != oracle.power) RC_FAIL("the power flow of\n" + text);
     for (const auto& [name, on] : oracle.device) {
       const bool of_word = name.rfind("D0.", 0) == 0;
       const Device* device = engine.find(of_word ? "D0" : name);

@@ -172,9 +172,9 @@ class LocalMachine : public testing::Test {
   }
   // Calls the service until its reply fulfils the condition.
   template <class Condition>
-  Json until(ServiceClient* client, const std::string& service, Condition condition) {
+  Json until(ServiceClient* client, const std::string& service, Condition condition, const Json& args = Json::object()) {
     for (;;) {
-      const Json reply = client->call(service);
+      const Json reply = client->call(service, args);
       if (reply.is_null() || condition(reply["reply"])) return reply.is_null() ? reply : reply["reply"];
       usleep(5000);
     }

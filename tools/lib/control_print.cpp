@@ -42,7 +42,8 @@ std::string value_text(std::string_view key, const Json& value) {
   if (value.is_array())
     for (const Json& element : value) {
       const bool pair = element.is_object() && element.contains("name") && element.contains("value");
-      text += (text.empty() ? "" : " ") + (pair ? value_text("", element["name"]) + " " + value_text("", element["value"]) : value_text("", element));
+      const bool single = element.is_object() && element.contains("name") && element.size() == 1;
+      text += (text.empty() ? "" : " ") + (pair ? value_text("", element["name"]) + " " + value_text("", element["value"]) : value_text("", single ? element["name"] : element));
     }
   if (value.is_object())
     for (const auto& [name, member] : value.items()) text += (text.empty() ? "" : " ") + name + "=" + value_text(name, member);
