@@ -148,6 +148,17 @@ def nearly_round(rng, r):
     return [Element(start, end, (0.0, 0.0), True), Element(end, start)]
 
 
+def scallops(rng, r):
+    """A plate with half circles side by side on one side: cusps, whose tangents are opposite to the last digit, or to the digits of a CAM system."""
+    x, elements = 0.0, []
+    for _ in range(rng.randint(2, 5)):
+        radius = round(r * rng.uniform(0.5, 6), 3)
+        centers = [(x - radius, 20.0), (round(x - radius, 3), round(20 + rng.uniform(-5e-4, 5e-4), 4))]
+        elements.append(Element(rounded((x, 20)), rounded((x - 2 * radius, 20)), rounded(rng.choice(centers)), True))
+        x = elements[-1].end[0]
+    return elements + polygon([(x, 20), (x, 0), (0, 0), (0, 20)])[:3]
+
+
 def circle(rng, r):
     """A whole circle in one block."""
     radius = round(r * rng.choice([0.5, 1, 1.05, 1.5, 4]) * rng.uniform(1, 1.2), 3)
@@ -243,8 +254,8 @@ class Contour:
         """Radius of the tool, shape of the part, side; gives the elements of the part."""
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle"])
-            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius)}[kind]()
+            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius)}[kind]()
             if any(e.start == e.end and e.center is None for e in elements):
                 continue
             ring = ring_of(elements)

@@ -107,6 +107,36 @@ TEST(OffsetCancel, TypeBObtuseIsTheIntersection) {
   expect_path(run_stage(path), path, {{0, 5}, {55, 5}, {50, -40}});
 }
 
+// Two humps that meet in a point, and a hump with the wall from whose foot it rises: straight back, but the tool is between the two, so it is an inner corner. The
+// circles of 6 mm about X5 and X15 meet at Y sqrt(36 - 25); the one of 6 mm about X5 and the line X9 at Y sqrt(36 - 16).
+TEST(OffsetArcs, ACuspIsAnInnerCornerOnTheSideOfTheHumps) {
+  const double beside = std::sqrt(11.0), wall = std::sqrt(20.0);
+  for (const double off : {0.0, 1e-4, -1e-4}) {  // as far as the last digits of the words lead
+    PathBuilder humps(-10, -10);
+    humps.side(1, 1);
+    humps.line(0, -5).line(0, 0).arc(false, 10, 0, 5, 0).arc(false, 20, 0, 5, off).line(20, -5).cancel().line(30, -10).end();
+    const auto out = run_stage(humps);
+    EXPECT_EQ(alarm_of(out), nullptr);
+    EXPECT_NEAR(at_block(out, humps.start(), 3)[0], 10, 3e-4);
+    EXPECT_NEAR(at_block(out, humps.start(), 3)[1], beside, 3e-4);
+  }
+  PathBuilder up(-10, -10);
+  up.side(1, 1);
+  up.line(0, -5).line(0, 0).arc(false, 10, 0, 5, 0).line(10, 20).line(0, 30).cancel().line(-10, 30).end();
+  expect_path(run_stage(up), up, {{-1, -5}, {-1, 0}, {9, wall}, {9, 20 - std::sqrt(2.0) + 1}, {-1 / std::sqrt(2.0), 30 - 1 / std::sqrt(2.0)}, {-10, 30}});
+  PathBuilder down(0, 40);
+  down.side(-1, 1);
+  down.line(10, 20).line(10, 0).arc(true, 0, 0, -5, 0).line(0, -5).cancel().line(-10, -10).end();
+  expect_path(run_stage(down), down, {{9, 20}, {9, wall}, {-1, 0}, {-1, -5}, {-10, -10}});
+}
+
+TEST(OffsetArcs, ACuspIsAnOuterCornerOnTheOtherSide) {
+  PathBuilder path(-10, -10);
+  path.side(-1, 1);
+  path.line(0, -5).line(0, 0).arc(false, 10, 0, 5, 0).line(10, 20).line(20, 20).cancel().line(20, 30).end();
+  expect_path(run_stage(path), path, {{1, -5}, {1, 0}, {9, 0}, {9, -1}, {11, -1}, {11, 19}, {20, 19}, {20, 30}});
+}
+
 TEST(OffsetArcs, TangentialChainKeepsCentres) {
   PathBuilder path(-20, 0);
   path.side(1, 3.5);

@@ -10,6 +10,8 @@ namespace nc {
 namespace {
 
 constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
+constexpr double kCusp = 1e-2;        // sine below which a turn back may be a cusp, depending on the curvatures
+constexpr double kCuspDigits_mm = 1e-3;  // words of three digits: by so much the centres of its arcs may lie beside where they belong
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
@@ -61,6 +63,28 @@ Vec2 nearest_on_curve(const Leg& leg, double offset, Vec2 point) {
   return center + std::abs(1 / leg.curvature - offset) * unit(point - center);
 }
 
+// Does the path turn back by half a turn, as far as the digits of its words can tell?
+bool is_cusp(double sine, double cosine) { return cosine < 0 && std::abs(sine) < kCusp; }
+
+// Where the offset curves of a cusp meet. With the way a along the block before and q = |w|^2 - o^2 the two equations of a point are
+//
+//     w.n = o + k q/2,   a c = d (w.n) - o - k' q/2
+//
+// so q is linear in a, q = q0 + g a, and a^2 = q + o^2 - (w.n)^2 is a quadratic that stays exact where c becomes nothing. The curves lie behind the corner,
+// so it is the negative a. False: they do not bend towards each other.
+bool meet_behind_cusp(const Leg& before, const Leg& behind, double offset, Vec2* w) {
+  const double c = cross(before.u, behind.u), d = dot(before.u, behind.u), o = offset, k = before.curvature;
+  const double bend = d * k - behind.curvature;
+  if (bend * o <= 0) return false;
+  const double q0 = 2 * o * (1 - d) / bend, g = 2 * c / bend;
+  const double a2 = 1 + 0.25 * k * k * g * g, a1 = g * (0.5 * k * k * q0 - (1 - o * k)), a0 = 0.25 * k * k * q0 * q0 - q0 * (1 - o * k);
+  const double discriminant = a1 * a1 - 4 * a2 * a0;
+  if (!(discriminant >= 0)) return false;
+  const double a = (-a1 - std::sqrt(discriminant)) / (2 * a2);
+  *w = a * before.u + (o + 0.5 * k * (q0 + g * a)) * left_of(before.u);
+  return a < 0 && std::isfinite(w->h) && std::isfinite(w->v);
+}
+
 // Of an arc whose radius is the amount there is no more than a point, its centre, and rounding decides whether that lies on the other curve. It does as far as the
 // words can tell: the vector leads to the place of the other curve beside it.
 bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, double offset, Vec2* w) {
@@ -100,8 +124,10 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
   return true;
 }
 
-Turn classify(Vec2 u_before, Vec2 u_behind, double offset) {
-  const double c = cross(u_before, u_behind), d = dot(u_before, u_behind);
+Turn classify(const Leg& before, const Leg& behind, double offset) {
+  double c = cross(before.u, behind.u);
+  const double d = dot(before.u, behind.u);
+  if (is_cusp(c, d)) c -= kCuspDigits_mm * (before.curvature + behind.curvature);
   if (std::abs(c) < kSmallTurn) return d > 0 ? Turn::straight : Turn::acute;  // straight back: round the end
   if ((c > 0) == (offset > 0)) return Turn::inner;  // the path turns towards the tool
   return d > -kRightAngle ? Turn::obtuse : Turn::acute;
@@ -110,6 +136,7 @@ Turn classify(Vec2 u_before, Vec2 u_behind, double offset) {
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w) {
   const double c = cross(before.u, behind.u), d = dot(before.u, behind.u);
   const double oa = offset_before, ob = offset_behind, ka = before.curvature, kb = behind.curvature;
+  if (oa == ob && is_cusp(c, d) && meet_behind_cusp(before, behind, oa, w)) return true;
   if (std::abs(c) < kSmallTurn) {
     if (d < 0 || oa != ob) return false;
     *w = oa * (left_of(before.u) -
@@ -152,7 +179,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
   }
   // The vectors at the end of a block have the amount of that block (M700 12.4.5 (2)).
   const double o = offset_before;
-  const Turn turn = classify(before.u, behind.u, o);
+  const Turn turn = classify(before, behind, o);
   Vec2 w;
   const bool curves = offset_exists(before, o) && offset_exists(behind, o);
   if (turn != Turn::acute && curves && intersection(before, o, behind, o, &w)) {
@@ -169,7 +196,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
 }
 
 ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b) {
-  const Turn turn = classify(before.u, behind.u, offset);
+  const Turn turn = classify(before, behind, offset);
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(behind, offset));
@@ -178,7 +205,7 @@ ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset,
 }
 
 ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
-  const Turn turn = classify(before.u, behind.u, offset);
+  const Turn turn = classify(before, behind, offset);
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(before, offset));
@@ -203,7 +230,7 @@ ContourJoint joint_corner_arc(const Leg& before, const Leg& behind, double offse
 }
 
 bool joint_of_outer_corner(const Leg& before, const Leg& behind, double offset, double arc_cos, ContourJoint* joint) {
-  const Turn turn = classify(before.u, behind.u, offset);
+  const Turn turn = classify(before, behind, offset);
   if (offset == 0 || (turn != Turn::obtuse && turn != Turn::acute)) return false;
   Vec2 w;
   const bool sharp = dot(before.u, behind.u) < arc_cos;

@@ -84,8 +84,8 @@ inline constexpr double kExtremelyLarge = 10;
 
 enum class Turn : uint8_t { straight, inner, obtuse, acute };
 
-/// Which kind of corner this is for a tool at the signed offset.
-Turn classify(Vec2 u_before, Vec2 u_behind, double offset);
+/// Which kind of corner this is for a tool at the signed offset. Of a cusp, where the path goes straight back, the curvatures tell on which side it does.
+Turn classify(const Leg& before, const Leg& behind, double offset);
 
 /// Vector at right angles to a block.
 inline Vec2 perpendicular(const Leg& leg, double offset) {

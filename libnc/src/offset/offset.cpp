@@ -45,7 +45,7 @@ bool cuts_inner_corner(const Section& before, const Move& move, const Section& b
   if (move.rule.corner_override <= 0 || move_behind.kind == NC_MOVE_RAPID) return false;
   const auto commanded = [](const Compensation& c) { return c.has_vector || c.hold_vector || c.corner_arc; };
   if (commanded(move.comp) || commanded(move_behind.comp) || before.offset * behind.offset <= 0) return false;
-  if (classify(before.end.u, behind.begin.u, before.offset) != Turn::inner) return false;
+  if (classify(before.end, behind.begin, before.offset) != Turn::inner) return false;
   const double turn = std::atan2(std::abs(cross(before.end.u, behind.begin.u)), dot(before.end.u, behind.begin.u));
   return kPi - turn < static_cast<double>(move.rule.corner_angle);
 }
