@@ -168,6 +168,7 @@ class Interpolator {
   void take_tap_where_it_stands(const nc_inputs& in) NC_RT;
   bool draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Rules* rules) NC_RT;
   bool tap_stands_in_hole() const NC_RT;
+  double out_by(double place) const NC_RT;
   bool tap_bars() const NC_RT;
   void let_tap_go_outside(const nc_inputs& in) NC_RT;
   uint32_t tap_holds(const nc_inputs& in) const NC_RT;

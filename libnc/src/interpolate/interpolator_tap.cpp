@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kStands_rev_s = 1e-3;
 constexpr double kDegrees = 360;  // of a turn
+constexpr double kOut = 1e-3;     // mm: so near to R a tap is out of its hole
 constexpr double kLongestWait_s = 1;  // for a spindle to come to the place where it is let go
 
 }  // namespace
@@ -182,20 +183,22 @@ bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Ru
 
 /// A tap was given up, and its axis is not yet back at R.
 bool Interpolator::tap_stands_in_hole() const {
-  constexpr double kOut = 1e-3;  // mm
-  if (!tap_.held) return false;
-  const double way = tap_.entry - wanted_[tap_.axis] - tap_follower_.beside();  // the axis is where its spindle is
-  return way * tap_.speed < 0 && std::fabs(way) > kOut;
+  return tap_.held && out_by(wanted_[tap_.axis] + tap_follower_.beside()) < -kOut;  // the axis is where its spindle is
 }
+
+/// How far out of the hole this place of its axis is, mm; in the hole less than 0.
+double Interpolator::out_by(double place) const { return std::copysign(1.0, tap_.speed) * (tap_.entry - place); }
 
 /// It stands there, and can be drawn out. Where its spindle does not follow any more there is no other way than to free it by hand, and the machine has to be
 /// moved for that.
 bool Interpolator::tap_bars() const { return !tap_.stuck && tap_stands_in_hole(); }
 
-/// By hand, out of its hole: the tap lets its spindle go, which could not turn as fast as its axis moves now. A C axis, whose turns are commands, is let go while
-/// it stands.
+/// By hand, out of its hole: the tap lets its spindle go, which could not turn as fast as its axis moves now. The axis comes back to its path then, and may be carried
+/// a little beyond it, so that has to be out by a turn of the thread where they are not together. A C axis, whose turns are commands, is let go while it stands.
 void Interpolator::let_tap_go_outside(const nc_inputs& in) {
   if (!tap_.held || (in.unlimited >> tap_.axis & 1) != 0 || tap_stands_in_hole()) return;
+  const double out = out_by(wanted_[tap_.axis]);
+  if (tap_follower_.on_path() ? out < -kOut : out * std::fabs(tap_.per_mm) < 1) return;
   const bool moves = manual_.active(), begins = !moves && in.manual[tap_.axis].kind != NC_MANUAL_NONE;
   if (tap_.c_axis >= 0 ? begins : moves || begins) release_tap();
 }
