@@ -435,7 +435,7 @@ typedef struct nc_outputs {
   double spindle_turns;     /**< revolutions, forward positive, that the spindle of a synchronous tap (M700 13.1.1) is to have turned since it was taken over;
                                  `spindle_rev_min` of it is then their change, signed */
   uint8_t spindle_synchronous; /**< bit n: spindle n+1 follows `spindle_turns`, standing first. Until R is reached again; behind a reset in the hole
-                                    it goes with the axis by hand until the next M or S that turns it */
+                                    it goes with the axis by hand until that is moved on outside, a program begins, or an M or S that turns it comes */
   bool tap_retract_possible; /**< a tap was given up in its hole and stands there: nc_inputs::tap_retract draws it out, by hand it turns with its axis */
   uint8_t tool_life;        /**< nc_tool_life_bits of the tool in the spindle */
   uint32_t tool_group;      /**< its group of tool life management, 0 = none */
