@@ -30,14 +30,21 @@ Path events(const Outcome& run) {
   return all;
 }
 
+/// How a tap is made: with a floating holder or with the spindle, the latter with ,S; and in cuts of Q.
+enum class TapBy { floating, floating_in_cuts, spindle, spindle_back_faster, spindle_in_cuts };
+
 struct Case {
   int plane;         ///< 17, 18, 19
-  bool incremental, to_r, dwell, twice, widths;
+  bool incremental, to_r, dwell, twice, width_over, width_back;
+  TapBy tap = TapBy::floating;
+  bool with_spindle() const { return tap != TapBy::floating && tap != TapBy::floating_in_cuts; }
+  bool in_cuts() const { return tap == TapBy::floating_in_cuts || tap == TapBy::spindle_in_cuts; }
 };
 
 constexpr double kX = 12.5, kY = -7.25;        // the hole, on the first and second axis of the plane
 constexpr double kTop = 50, kR = 3, kZ = -20;  // levels
 constexpr double kQ = 9, kShift[2] = {0.75, -0.5}, kFeed = 120, kOut = 1.5, kBreak = 0.5;
+constexpr double kSpeed = 600, kBackSpeed = 900, kLead = 1.25, kTapBack = 0.75;  // of taps; #8018
 
 /// The manual's figures in the words of its lists.
 class Figure {
@@ -63,9 +70,25 @@ class Figure {
   void m(int code) { list.push_back("M" + std::to_string(code)); }
   void sb() { list.push_back("stop"); }
   void end(bool of_block) { list.push_back(of_block ? "end" : "stop"); }
-  void width(double mm) {
-    if (c_.widths && moved_) list.push_back("width " + brief(mm));
+  void width_over() {
+    if (c_.width_over && moved_) list.push_back("width 0.2");
   }
+  void width_back() {
+    if (c_.width_back && moved_) list.push_back("width 0.3");
+  }
+  /// With the spindle, at this speed.
+  void g1_tap(double level, double speed) {
+    if (!c_.with_spindle()) return g1(level);
+    at_[axis_[2]] = level;
+    moved_ = at_ != before_;
+    before_ = at_;
+    if (moved_) list.push_back("tap" + place() + " F" + brief(kLead * speed));
+  }
+  /// No M code goes out while the tap turns the spindle.
+  void m_tap(int code) {
+    if (!c_.with_spindle()) m(code);
+  }
+  const Case& words() const { return c_; }
   double first() const { return at_[axis_[0]]; }
   double second() const { return at_[axis_[1]]; }
   double back() const { return c_.to_r ? kR : kTop; }
@@ -93,10 +116,23 @@ std::vector<double> bottoms(double from, double to, double q) {
   return all;
 }
 
+/// (d) and (k), `in` and `out` being the codes of the spindle; in cuts as docs/decisions.md has it, "Q of a tap".
+void tap(Figure& f, int in, int out) {
+  const double back = f.words().tap == TapBy::spindle_back_faster ? kBackSpeed : kSpeed;
+  if (f.words().in_cuts()) {
+    for (const double depth : bottoms(kR, kZ, kQ)) {
+      f.g1_tap(depth, kSpeed);
+      if (depth == kZ) break;
+      f.m_tap(out), f.g1_tap(depth + kTapBack, kSpeed), f.m_tap(in);
+    }
+  }
+  f.g1_tap(kZ, kSpeed), f.g4(), f.m_tap(out), f.g1_tap(kR, back), f.g4(), f.m_tap(in);
+}
+
 void hole(Figure& f, int code, double x, double y) {
   f.g0_plane(x, y);                            // (1)
-  if (code != 75 && code != 76 && code < 86) f.width(0.2);
-  if (code == 89) f.width(0.2);
+  if (code != 75 && code != 76 && code < 86) f.width_over();
+  if (code == 89) f.width_over();
   f.sb();
   if (code == 87) {
     f.m(19);                                          // (2)
@@ -113,7 +149,7 @@ void hole(Figure& f, int code, double x, double y) {
     return;
   }
   f.g0(kR), f.sb();  // (2)
-  const auto last = [&f] { f.g0(f.back()), f.width(0.3); };
+  const auto last = [&f] { f.g0(f.back()), f.width_back(); };
   switch (code) {
     case 81: f.g1(kZ), last(); break;
     case 82: f.g1(kZ), f.g4(), last(); break;
@@ -132,8 +168,8 @@ void hole(Figure& f, int code, double x, double y) {
       }
       last();
       break;
-    case 84: f.g1(kZ), f.g4(), f.m(4), f.g1(kR), f.g4(), f.m(3), last(); break;
-    case 74: f.g1(kZ), f.g4(), f.m(3), f.g1(kR), f.g4(), f.m(4), last(); break;
+    case 84: tap(f, 3, 4), last(); break;
+    case 74: tap(f, 4, 3), last(); break;
     case 85: f.g1(kZ), f.g1(kR), last(); break;
     case 86: f.g1(kZ), f.g4(), f.m(5), f.g0(f.back()), f.m(3); break;
     case 88: f.g1(kZ), f.g4(), f.m(5), f.sb(), f.g0(f.back()), f.m(3); break;
@@ -169,9 +205,13 @@ std::string program(int code, const Case& c) {
   if (code == 76 || code == 87) text += std::string(" ") + shift[0] + number(kShift[0]) + " " + shift[1] + number(kShift[1]);
   if (code == 75) text += " P7";
   if (code != 75 && c.dwell) text += " P350";
-  if (code == 84 || code == 74) text += " ,R0";
-  if (c.widths) text += " ,I0.2 ,J0.3";
-  text += " F" + number(kFeed) + (c.twice ? " L2" : "");
+  const bool taps = code == 84 || code == 74, with_spindle = taps && c.with_spindle();
+  if (taps) text += with_spindle ? " ,R1 S" + brief(kSpeed) : " ,R0";
+  if (taps && c.in_cuts()) text += " Q" + number(kQ);
+  if (taps && c.tap == TapBy::spindle_back_faster) text += " ,S" + brief(kBackSpeed);
+  if (c.width_over) text += " ,I0.2";
+  if (c.width_back) text += " ,J0.3";
+  text += " F" + number(with_spindle ? kLead : kFeed) + (c.twice ? " L2" : "");
   return text;
 }
 
@@ -187,23 +227,34 @@ Path expected(int code, const Case& c) {
   return f.list;
 }
 
+/// Compares a cycle with every combination of its words.
+unsigned compare(Bench& bench, int code, TapBy by) {
+  unsigned compared = 0;
+  for (unsigned bits = 0; bits < 3 * 64; ++bits) {
+    const Case c{17 + static_cast<int>(bits / 64), (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0, (bits & 32) != 0, by};
+    const char* const start[3] = {"Z50.", "Y50.", "X50."};
+    bench.at(0, 0, 0);
+    const std::string text = program(code, c);
+    const Outcome run = bench.run(std::string("G0 ") + start[c.plane - 17] + "\nS500\nM3\n" + text + "\nG80\nM30");
+    EXPECT_EQ(run.alarm, "") << text;
+    EXPECT_EQ(events(run), expected(code, c)) << text;
+    if (testing::Test::HasFailure()) return compared;
+    ++compared;
+  }
+  return compared;
+}
+
 TEST(Strokes, AreThoseOfTheManualsFigures) {
   Bench bench;
   bench.param("8013", "1.5").param("8012", "0.5").tool(7, 2);
-  unsigned compared = 0;
-  for (const int code : {73, 74, 75, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89}) {
-    for (unsigned bits = 0; bits < 3 * 32; ++bits) {
-      const Case c{17 + static_cast<int>(bits / 32), (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0};
-      const char* const start[3] = {"Z50.", "Y50.", "X50."};
-      bench.at(0, 0, 0);
-      const std::string text = program(code, c);
-      const Outcome run = bench.run(std::string("G0 ") + start[c.plane - 17] + "\nS500\nM3\n" + text + "\nG80\nM30");
-      ASSERT_EQ(run.alarm, "") << text;
-      ASSERT_EQ(events(run), expected(code, c)) << text;
-      ++compared;
-    }
-  }
-  EXPECT_EQ(compared, 13U * 96U);
+  for (const int code : {73, 74, 75, 76, 81, 82, 83, 84, 85, 86, 87, 88, 89}) EXPECT_EQ(compare(bench, code, TapBy::floating), 192U) << "G" << code;
+}
+
+TEST(Strokes, OfTapsInCutsAndWithTheSpindle) {
+  Bench bench;
+  bench.param("8018", "0.75").param("1272", "0");
+  for (const int code : {84, 74})
+    for (const TapBy by : {TapBy::floating_in_cuts, TapBy::spindle, TapBy::spindle_back_faster, TapBy::spindle_in_cuts}) EXPECT_EQ(compare(bench, code, by), 192U) << "G" << code;
 }
 
 }  // namespace
