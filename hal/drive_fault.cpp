@@ -66,6 +66,7 @@ const char* trouble_text(DriveTrouble trouble) {
     case DriveTrouble::kHoming: return "its homing has failed";
     case DriveTrouble::kTwice: return "two nodes send under its identifier";
     case DriveTrouble::kJump: return "the scan asks for a jump that the axis cannot do";
+    case DriveTrouble::kProbe: return "its touch probe has latched a place at which the axis was not";
     case DriveTrouble::kNone:
     case DriveTrouble::kEmergency: break;
   }

@@ -19,7 +19,8 @@ enum class DriveTrouble : std::uint8_t {
   kNotConfigured,  // the drive could not be set up again; the log says why
   kHoming,       // homing has ended with an error, or has not ended in time
   kTwice,        // two nodes send frames with the same identifier
-  kJump          // the set-point of one SYNC is farther than the axis can ever move in it
+  kJump,         // the set-point of one SYNC is farther than the axis can ever move in it
+  kProbe         // its touch probe has latched a place at which the axis was not
 };
 
 // Bits 0 to 15 are the EMCY code, 16 to 23 the error register, 24 to 30 the DriveTrouble.

@@ -22,6 +22,8 @@ struct SystemFeedback {
   std::uint32_t not_following = 0;    // bit per axis: its drive does not follow the command, because it is off, not yet on, or moves by itself. Then the
                                       // commanded position must follow the measured one
   std::uint32_t skip = 0;             // skip signals, bit n = signal n+1
+  std::uint32_t skip_latched = 0;     // of these, the signals that came where `skip_place` is, by what has latched it
+  nc_axes skip_place{};               // machine position, mm or deg
   std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};
   bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)

@@ -381,6 +381,8 @@ void Scan::build_nc_inputs() noexcept {
     in.alarm = false;
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
+    in.skip_latched = machine.skip_latched;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) in.skip_place.v[a] = machine.skip_place.v[a] + axes_[s][a].shift + axes_[s][a].beside;
     in.unclamped = machine.unclamped;
     in.mirror = 0;
     in.feed_override = feed_override_[s];  // decide_overrides() may replace it

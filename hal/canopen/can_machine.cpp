@@ -184,7 +184,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) {
     SystemFeedback& out = feedback->system[s];
     out.following_fault = out.drive_fault = out.not_following = 0;
-    out.skip = 0;
+    out.skip = out.skip_latched = 0;
     out.fin = bus_.completes_functions && strobe_[s];
     for (nc_spindle_inputs& spindle : out.spindle) spindle.unmeasured = true;
   }
@@ -194,7 +194,12 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     SystemFeedback& out = feedback->system[map.system];
     const std::uint32_t bit = 1u << map.axis;
     const auto machine = [&map](std::int64_t increments) { return static_cast<double>(increments) / map.increments_per_unit + map.zero; };
-    if (axis.probe_on) out.skip |= 1u << (map.skip_signal - 1);
+    if (axis.probe_on) {
+      const std::uint32_t signal = 1u << (map.skip_signal - 1);
+      out.skip |= signal;
+      out.skip_latched |= signal & shown.latched[map.system];
+    }
+    out.skip_place.v[map.axis] = machine(axis.edge);
     if (axis.homing) homing_[i].begun = true;
     if (map.homed >= 0) image->value[map.homed] = axis.homed ? 1 : 0;
     if (axis.known) out.actual.v[map.axis] = machine(axis.position);

@@ -58,6 +58,7 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
     for (unsigned i = 0; i < axes_.size(); ++i) watch_axis(i);
     const bool commanded = take_wanted(now_ns);
     for (unsigned i = 0; i < axes_.size(); ++i) move_axis(i, commanded);
+    note_edges();
   }
   if (now_ns - beat_ns_ >= heartbeat_ns_) {
     CanFrame beat;
@@ -186,6 +187,7 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
         axis.fresh = true;
         axis.probe_status = axis.probe_function = 0;
         axis.probe_on = false;
+        axis.track.clear();
       }
       if (silent) fault(&axis, DriveTrouble::kHeartbeat);
       if (!node.operational || (operational && !silent)) continue;
@@ -217,6 +219,7 @@ void Cyclic::publish() noexcept {
   }
   shown.lost = bus_off_ || !any;
   shown.serial = serial_;
+  shown.latched = latched_;
   for (unsigned i = 0; i < axes_.size(); ++i) {
     const Axis& axis = axes_[i];
     const Node& node = nodes_[axis.node];
@@ -231,7 +234,7 @@ void Cyclic::publish() noexcept {
     out.homing = axis.homing != Homing::kNo;
     out.following_fault = axis.following_fault;
     out.fault = axis.faulty ? kFaulty | fault_code(axis) : 0;
-    out.probe = axis.probe;
+    out.edge = axis.edge;
     out.probe_on = axis.probe_on;
   }
   shown_.publish();

@@ -18,6 +18,7 @@
 #include "hal/canopen/bus_map.hpp"
 #include "hal/canopen/can_port.hpp"
 #include "hal/canopen/drive_state.hpp"
+#include "hal/canopen/position_track.hpp"
 #include "hal/drive_fault.hpp"
 #include "hal/spsc.hpp"
 #include "hal/triple_buffer.hpp"
@@ -57,12 +58,13 @@ struct AxisShown {
   bool homing = false;
   bool following_fault = false;
   std::uint32_t fault = 0;    // drive_fault_code() | kFaulty
-  std::int64_t probe = 0;     // position latched by the touch probe, in increments
-  bool probe_on = false;
+  std::int64_t edge = 0;      // position at the newest edge of a touch probe in the part system, in increments
+  bool probe_on = false;      // the touch probe of this axis gives its skip signal
 };
 inline constexpr std::uint32_t kFaulty = 0x80000000u;
 struct BusShown {
   std::array<AxisShown, kMaxAxes> axis{};
+  std::array<std::uint32_t, NC_MAX_SYSTEMS> latched{};  // bit n: `edge` of the axes of the part system is where skip signal n+1 came
   bool lost = true;  // the bus is off, or no node is operational
   std::uint64_t serial = 0;  // serial number of the last command that has been carried out
 };
@@ -137,9 +139,11 @@ class Cyclic {
     // touch probe
     std::uint16_t probe_status = 0, probe_function = 0;
     std::int32_t probe_raw = 0;
-    std::int64_t probe = 0;
+    std::int64_t probe = 0;      // the place that the drive has latched, in increments
     unsigned probe_syncs = 0;
-    bool probe_on = false;
+    bool probe_on = false, edge_now = false;
+    std::int64_t edge = 0;       // position at the newest edge of a probe in the part system
+    PositionTrack track;
   };
   struct Node {
     unsigned id = 0;
@@ -169,6 +173,8 @@ class Cyclic {
   std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
   bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;
   void work_probe(Axis* axis) noexcept;
+  void note_edges() noexcept;
+  void note_edge(const Axis& probe) noexcept;
   void send_rpdo(const Axis& axis) noexcept;
   void send(const CanFrame& frame) noexcept;
   void fault(Axis* axis, DriveTrouble trouble) noexcept;
@@ -197,6 +203,7 @@ class Cyclic {
   unsigned cycles_ = 0, slow_wait_ = 0;
   std::int64_t beat_ns_ = 0;
   std::int64_t command_ns_ = 0;  // time at which the last new command of the scan was seen
+  std::array<std::uint32_t, NC_MAX_SYSTEMS> latched_{};  // as BusShown::latched
   std::uint64_t serial_ = 0;
   bool fresh_command_ = false;
   bool bus_off_ = false;

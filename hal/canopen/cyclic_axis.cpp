@@ -13,6 +13,7 @@ constexpr int kAheadLimit = 20;   // positions more than SYNCs until that is a f
 constexpr int kMostOwed = 200;    // positions fewer than SYNCs that are remembered: as late as a drive can be without looking like two
 constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which the status may still be that of the previous homing
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
+constexpr double kProbeSlack = 0.1;       // mm or deg beside its way at which an axis may have been when its drive latched the place
 constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
 constexpr double kJumpSlack = 0.02;       // mm or deg in addition
 constexpr unsigned kResetMs = 500;        // time that a drive may take to leave its fault
@@ -44,6 +45,8 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   axis.ahead = std::max(axis.ahead - 1, -kMostOwed);
   if (!axis.fresh) statistics_.missed_positions.fetch_add(1, std::memory_order_relaxed);
   axis.fresh = false;
+  if (axis.known && axis.homing == Homing::kNo) axis.track.note(axis.position);
+  else axis.track.clear();  // a drive that homes changes its position without moving
   if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
   if (silent_for_good(axis) && !axis.set_up_again) {
     axis.set_up_again = true;
@@ -187,6 +190,7 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
 // The drive latches the position of its axis at the edge of the probe. The skip signal is then on for some SYNCs, and after that the probe is made ready for
 // the next edge.
 void Cyclic::work_probe(Axis* axis) noexcept {
+  axis->edge_now = false;
   const bool falling = axis->map->skip_falling;
   const bool stored = (axis->probe_status & (falling ? kStoredFalling : kStoredRising)) != 0;
   if (axis->probe_on) {
@@ -198,9 +202,39 @@ void Cyclic::work_probe(Axis* axis) noexcept {
   } else if (stored) {
     const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->raw));
     axis->probe = axis->position + back;
-    axis->probe_on = true;
+    axis->probe_on = axis->edge_now = true;
     axis->probe_syncs = kProbeHold;
   }
+}
+
+// Where all axes of a part system were at the edge of a probe. When probes with different signals come with one SYNC, the first one has its place, and the
+// other signal counts as not latched.
+void Cyclic::note_edges() noexcept {
+  std::uint32_t noted = 0;
+  for (Axis& axis : axes_) {
+    const std::uint32_t system = 1u << axis.map->system;
+    if (axis.edge_now && (noted & system) == 0) {
+      note_edge(axis);
+      noted |= system;
+    }
+    axis.edge_now = false;
+  }
+}
+
+// An axis whose own drive has latched its place for the same signal has that. The others were, at the time at which the axis of the probe passed its place, on
+// the way between their positions of two SYNCs.
+void Cyclic::note_edge(const Axis& probe) noexcept {
+  const AxisMap& map = *probe.map;
+  latched_[map.system] = 0;
+  if (probe.track.empty()) return;
+  const double since = probe.track.since(probe.probe, std::llround(kProbeSlack * std::abs(map.increments_per_unit)));
+  if (since < 0) return fault(&axes_[static_cast<std::size_t>(&probe - axes_.data())], DriveTrouble::kProbe);
+  for (Axis& axis : axes_) {
+    if (axis.map->system != map.system) continue;
+    const bool own = axis.probe_on && axis.map->skip_signal == map.skip_signal;
+    axis.edge = own ? axis.probe : axis.track.at(since);
+  }
+  latched_[map.system] = 1u << (map.skip_signal - 1);
 }
 
 void Cyclic::send_rpdo(const Axis& axis) noexcept {

@@ -160,4 +160,68 @@ TEST(CanFunctions, ATouchProbeIsASkipSignalAndIsReadyAgain) {
   EXPECT_EQ(rig.alarms(), "");
 }
 
+constexpr const char* kSkipMove = "G90 G31 X100. Y50. F3354\n#500=#5061\n#501=#5062";
+
+double common(CanRig* rig, unsigned number) {
+  double value = 0;
+  bool vacant = true;
+  EXPECT_EQ(nc_variable_get(rig->runtime->control(), 0, number, &value, &vacant), NC_OK);
+  EXPECT_FALSE(vacant);
+  return value;
+}
+
+// The edge comes in the middle between two SYNCs, at 50 mm/s and a lag of the motor: the program gets the place that the drive has latched, and for the
+// other axes the place where they were then. The measured place would be 0.05 mm farther, the commanded one more.
+TEST(CanFunctions, ASkipMoveHasThePlaceThatTheDriveHasLatched) {
+  CanRig rig(can_toml("sync_us = 2000\n", "probe = { skip_signal = 1 }\n"));
+  for (auto& drive : rig.drives) drive->plant().lag = 0.5;
+  rig.bring_up();
+  rig.step(50);
+  ASSERT_EQ(rig.mdi(kSkipMove), Answer::kDone);
+  rig.step(300);
+  ASSERT_FALSE(rig.idle());
+  double x[2] = {}, y[2] = {};
+  for (double& place : x) {
+    y[&place - x] = rig.plant_mm(1);
+    place = rig.plant_mm(0);
+    if (&place == x) rig.step(2);
+  }
+  ASSERT_NEAR(x[1] - x[0], 0.1, 0.001);
+  const double edge = x[0] + 0.75 * (x[1] - x[0]);
+  rig.drives[0]->probe_edge(0, std::lround(edge * nc::test::kIncrementsPerMm));
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 1000)) << rig.alarms();
+  EXPECT_NEAR(common(&rig, 500), edge, 0.0006);
+  EXPECT_NEAR(common(&rig, 501), y[0] + 0.75 * (y[1] - y[0]), 0.0012);
+  EXPECT_EQ(rig.alarms(), "");
+}
+
+// A probe that is wired to all drives: each latches its own axis.
+TEST(CanFunctions, EachDriveOfTheSignalLatchesItsOwnAxis) {
+  std::string toml = can_toml("sync_us = 2000\n", "probe = { skip_signal = 1 }\n");
+  toml.insert(toml.find("[[canopen.drive]]\nname = \"Z"), "probe = { skip_signal = 1 }\n");
+  CanRig rig(toml);
+  rig.bring_up();
+  rig.step(50);
+  ASSERT_EQ(rig.mdi(kSkipMove), Answer::kDone);
+  rig.step(300);
+  const double x = rig.plant_mm(0), y = rig.plant_mm(1);
+  rig.drives[0]->probe_edge(0, std::lround((x - 0.02) * nc::test::kIncrementsPerMm));
+  rig.drives[1]->probe_edge(0, std::lround((y + 0.004) * nc::test::kIncrementsPerMm));  // not where the line was
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 1000)) << rig.alarms();
+  EXPECT_NEAR(common(&rig, 500), x - 0.02, 0.0006);
+  EXPECT_NEAR(common(&rig, 501), y + 0.004, 0.0006);
+}
+
+// What is no place of the last SYNCs, because 60BAh counts in another unit, would be a wrong measure: it is a fault.
+TEST(CanFunctions, APlaceWhereTheAxisWasNotIsAFault) {
+  CanRig rig(can_toml("sync_us = 2000\n", "probe = { skip_signal = 1 }\n"));
+  rig.bring_up();
+  rig.step(50);
+  ASSERT_EQ(rig.mdi("G90 G31 X100. F3000"), Answer::kDone);
+  rig.step(300);
+  rig.drives[0]->probe_edge(0, 7);
+  rig.step(400);
+  EXPECT_NE(rig.alarms().find("its touch probe has latched a place at which the axis was not, axis X"), std::string::npos) << rig.alarms();
+}
+
 }  // namespace

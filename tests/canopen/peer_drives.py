@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Three CiA 402 drives on python canopen (an independent implementation of CANopen) behind an slcan adapter. Object dictionary, SDO, NMT, heartbeat, EMCY and
-PDO mapping are the library's; the states of the drive and the plant are here.
+PDO mapping are the library's; the states of the drive, its touch probe and the plant are here.
 
-usage: peer_drives.py TTY [fault NODE POSITION]     prints "node N position P" for each drive when standard input ends
+usage: peer_drives.py TTY [fault NODE POSITION | wall NODE POSITION]     prints "node N position P" for each drive when standard input ends
+fault: that drive trips behind POSITION. wall: its touch probe input is on from POSITION on, to the increment.
 """
 import sys
 import threading
@@ -31,12 +32,13 @@ def dictionary(node):
     for index, kind, value, access in [
             (0x1000, U32, 0x00020192, "ro"), (0x1001, U8, 0, "ro"), (0x1006, U32, 0, "rw"), (0x1017, U16, 0, "rw"),
             (0x6007, U16, 1, "rw"), (0x6040, U16, 0, "rw"), (0x6041, U16, 0x40, "ro"), (0x605A, U16, 2, "rw"), (0x6060, I8, 0, "rw"),
-            (0x6061, I8, 0, "ro"), (0x6064, I32, 0, "ro"), (0x607A, I32, 0, "rw")]:
+            (0x6061, I8, 0, "ro"), (0x6064, I32, 0, "ro"), (0x607A, I32, 0, "rw"),
+            (0x60B8, U16, 0, "rw"), (0x60B9, U16, 0, "ro"), (0x60BA, I32, 0, "ro")]:
         od.add_object(variable(index, 0, kind, value, access))
     od.add_object(record(0x1018, {0: (U8, 2), 1: (U32, 0x77), 2: (U32, 0x88)}))
     od.add_object(record(0x1016, {0: (U8, 1), 1: (U32, 0)}))
     od.add_object(record(0x60C2, {0: (U8, 2), 1: (U8, 0), 2: (I8, 0)}))
-    for communication, mapping, base in ((0x1400, 0x1600, 0x200), (0x1800, 0x1A00, 0x180)):
+    for communication, mapping, base in ((0x1400, 0x1600, 0x200), (0x1800, 0x1A00, 0x180), (0x1801, 0x1A01, 0x280)):
         od.add_object(record(communication, {0: (U8, 2), 1: (U32, base + node), 2: (U8, 255)}))
         od.add_object(record(mapping, {0: (U8, 0), **{sub: (U32, 0) for sub in range(1, 9)}}))
     return od
@@ -47,6 +49,7 @@ class Drive:
         self.node = canopen.LocalNode(number, dictionary(number))
         network.add_node(self.node)
         self.state, self.before, self.position, self.received, self.running = "disabled", 0, 0, None, False
+        self.wall, self.probe, self.latched, self.stored = None, 0, 0, False
         self.node.add_write_callback(self.written)
         self.node.nmt.state = "PRE-OPERATIONAL"
 
@@ -63,7 +66,7 @@ class Drive:
         self.node.rpdo[1].add_callback(self.take)
 
     def take(self, pdo):
-        self.received = (pdo[0].raw, pdo[1].raw)
+        self.received = (pdo[0].raw, pdo[1].raw, pdo[2].raw if len(pdo) > 2 else 0)
 
     STATUS = {"disabled": 0x0240, "ready": 0x0221, "on": 0x0223, "enabled": 0x1227, "stop": 0x0207, "fault": 0x0208}
 
@@ -83,17 +86,29 @@ class Drive:
             self.state = "ready"
         self.before = control
 
+    def move(self, target):
+        """The motor turns to its set-point, and on its way over the edge of the probe: CiA 402, 60B8h bit 0 (on) and bit 4 (rising edge)."""
+        edge = self.wall is not None and self.position < self.wall <= target
+        if edge and self.probe & 0x11 == 0x11 and not self.stored:
+            self.stored, self.latched = True, self.wall
+        self.position = target
+
     def sync(self):
         if not self.running:
             return
         if self.received is not None:
-            control, target = self.received
+            control, target, self.probe = self.received
+            self.stored = self.stored and self.probe & 1 != 0
             self.command(control)
             if self.state == "enabled" and self.node.get_data(0x6061, 0) == b"\x08":
-                self.position = target
+                self.move(target)
         pdo = self.node.tpdo[1]
         pdo[0].raw, pdo[1].raw = self.STATUS[self.state], self.position
         pdo.transmit()
+        if len(self.node.tpdo[2]):
+            pdo = self.node.tpdo[2]
+            pdo[0].raw, pdo[1].raw = 1 | 2 * self.stored, self.latched
+            pdo.transmit()
 
     def trip(self):
         self.state = "fault"
@@ -104,7 +119,10 @@ def main():
     network = canopen.Network()
     network.connect(interface="slcan", channel=sys.argv[1])
     drives = [Drive(network, number) for number in (1, 2, 3)]
-    fault = (int(sys.argv[3]), int(sys.argv[4])) if len(sys.argv) > 2 else None
+    what, place = (sys.argv[2], (int(sys.argv[3]), int(sys.argv[4]))) if len(sys.argv) > 2 else (None, None)
+    fault = place if what == "fault" else None
+    if what == "wall":
+        drives[place[0] - 1].wall = place[1]
     lock, tripped = threading.Lock(), []
 
     def on_sync(_id, _data, _time):

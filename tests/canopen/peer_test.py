@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """ncrtd with drives of another maker, python canopen, through slcan over a pair of pseudo terminals. A block ends at its place; a drive that trips
-during it ends the run with the text of its EMCY."""
+during it ends the run with the text of its EMCY; a skip move has the place that the drive of the probe has latched, to the increment."""
 import fcntl
 import os
 import pathlib
@@ -110,16 +110,16 @@ class Cable:
                 frames = frames[os.write(target, frames):]
 
 
-def run(python, block, fault=()):
-    """(exit status of ncrtd, its output, the reports of the drives)"""
+def run(python, block, peer=(), probe=""):
+    """(exit status of ncrtd, its output, the reports of the drives). `probe` is a line more for the axis X."""
     cable = Cable()
     with tempfile.TemporaryDirectory() as folder:
         machine = os.path.join(folder, "machine.toml")
         with open(machine, "w") as out:
             out.write(MACHINE.replace("TTY", cable.name(0)))
             out.write("".join(AXIS.replace("NAME", name) for name in "XYZ"))
-            out.write("".join(DRIVE.replace("NAME", name).replace("NODE", str(n + 1)) for n, name in enumerate("XYZ")))
-        drives = subprocess.Popen([python, HERE / "peer_drives.py", cable.name(1), *fault], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            out.write("".join(DRIVE.replace("NAME", name).replace("NODE", str(n + 1)) + probe * (name == "X") for n, name in enumerate("XYZ")))
+        drives = subprocess.Popen([python, HERE / "peer_drives.py", cable.name(1), *peer], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         try:
             assert drives.stdout.readline() == "ready\n"
             done = subprocess.run([NCRTD, "--config", machine, "mdi", block, "--no-progress"], capture_output=True, text=True, timeout=PATIENCE)
@@ -145,6 +145,13 @@ def main():
     assert "R12 Drive fault: EMCY 3210h: DC link over-voltage (error register 05h), axis Y" in said
     places = [int(line.split()[3]) for line in drives]
     assert 20_000 < places[1] < 45_000 and places[0] < 180_000, places
+    # 500 increments of X in a SYNC: the measured place is hundreds away from the edge. Y, which has no probe, is where the line was at that moment.
+    block = "G90 G31 X80. Y40. F3354\nG01 X#5061 Y#5062 Z1. F3000"
+    status, said, drives = run(python, block, ("wall", "1", "12345"), "probe = { skip_signal = 1 }\n")
+    print(said, *drives, sep="\n")
+    assert status == 0, status
+    places = [int(line.split()[3]) for line in drives]
+    assert abs(places[0] - 12_345) <= 1 and abs(places[1] - 6_172) <= 2 and places[2] == 1_000, places
 
 
 main()

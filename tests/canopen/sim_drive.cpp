@@ -431,11 +431,13 @@ void SimDrive::emergency(std::uint16_t code, std::uint8_t error_register) {
   send(0x80 + node_, {static_cast<std::uint8_t>(code & 0xFF), static_cast<std::uint8_t>(code >> 8), error_register, 0, 0, 0, 0, 0});
 }
 
-void SimDrive::probe_edge(unsigned number) {
+void SimDrive::probe_edge(unsigned number) { probe_edge(number, std::lround(axis_[number].plant.position)); }
+
+void SimDrive::probe_edge(unsigned number, long place) {
   Axis& axis = axis_[number];
   if ((axis.probe_before & 0x11) != 0x11 || axis.probe_stored) return;
   axis.probe_stored = true;
-  axis.probe_position = static_cast<std::int32_t>(std::lround(axis.plant.position));
+  axis.probe_position = static_cast<std::int32_t>(place);
 }
 
 }  // namespace nc::test

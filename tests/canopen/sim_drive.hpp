@@ -66,7 +66,8 @@ class SimDrive {
   bool loses_position = false;     // its encoder counts from 0 when it boots
   unsigned stored_heartbeat = 0;   // 1017h, as it has it by itself
   void leave_enabled(unsigned axis) { axis_[axis].state = State::kSwitchOnDisabled; }  // as a safety input (STO) does
-  void probe_edge(unsigned axis = 0);  // its touch probe input rises
+  void probe_edge(unsigned axis = 0);  // its touch probe input rises ...
+  void probe_edge(unsigned axis, long place);  // ... where the axis was at `place`, in increments
 
   // Counts of what the drive has received.
   unsigned syncs = 0, rpdos = 0, resets_seen = 0;

@@ -153,6 +153,18 @@ TEST(Joints, MeasuredJointsBecomeThePlace) {
   EXPECT_EQ(arm.out.joint_faults, NC_JOINT_ACTUAL);
 }
 
+TEST(Joints, LatchedJointsBecomeTheSkipPosition) {
+  for (const bool good : {true, false}) {
+    Arm arm([](nc_kinematics& k) { k.forward = forward; });
+    arm.in.skip_latched = 1;
+    arm.in.skip_place.v[1] = 90;
+    if (!good) arm.in.skip_place.v[3] = 1;
+    arm.cycle();
+    EXPECT_EQ(arm.out.joint_faults, good ? 0 : NC_JOINT_ACTUAL);
+    EXPECT_EQ(arm.out.inputs_refused, 0u);
+  }
+}
+
 TEST(Joints, ANumberThatIsNoneIsOutOfReach) {
   Arm arm([](nc_kinematics& k) {
     k.inverse = [](void*, const nc_axes* machine, nc_axes* joint) {

@@ -66,6 +66,7 @@ const Field kFields[] = {
     {"rev_per_s", [](nc_inputs& in, double v) { in.spindle[0].rev_per_s = v; }, 10, true, NC_INPUT_SPINDLE},
     {"turns", [](nc_inputs& in, double v) { in.spindle[0].turns = v; }, 0, true, NC_INPUT_SPINDLE},
     {"actual", [](nc_inputs& in, double v) { in.actual.v[1] = v; }, 0, false, NC_INPUT_ACTUAL},
+    {"skip_place", [](nc_inputs& in, double v) { in.skip_latched = 1, in.skip_place.v[2] = v; }, 0, false, NC_INPUT_SKIP_PLACE},
     {"velocity", [](nc_inputs& in, double v) { in.manual[0].velocity = v; }, 0, false, NC_INPUT_MANUAL},
     {"distance", [](nc_inputs& in, double v) { in.manual[0].distance = v; }, 0, false, NC_INPUT_MANUAL},
 };

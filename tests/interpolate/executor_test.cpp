@@ -449,6 +449,51 @@ TEST(Executor, SkipUsesTheMeasuredPosition) {
   EXPECT_NEAR(w.skip_machine.v[2], -5 + 0.123, 0.011);
 }
 
+/// A drive has latched the place with its touch probe input, which is neither the measured place of this cycle nor the commanded one.
+TEST(Executor, SkipUsesThePlaceThatWasLatchedForItsSignal) {
+  for (const uint32_t latched : {2u, 1u}) {
+    const ExecutorConfig c = standard_config();
+    const Program p = skip_program(c);
+    Machine m(c);
+    m.in.actual_valid = true;
+    m.feed(p);
+    m.start();
+    const auto go = [&] {
+      m.in.actual = m.out.command;
+      return m.out.command.v[2] <= -5;
+    };
+    ASSERT_TRUE(m.until(p, go));
+    const double measured = m.in.actual.v[2];
+    m.in.skip_place.v[2] = -4.87;
+    m.in.skip_latched = latched;
+    m.in.skip = 3;
+    m.cycle();
+    EXPECT_EQ(m.out.inputs_refused, 0u);
+    m.in.skip_place.v[2] = -1;  // a later edge
+    nc_world w{};
+    ASSERT_TRUE(m.until(p, [&] {
+      m.in.actual = m.out.command;
+      return m.executor.sync_reached(3, &w);
+    }));
+    EXPECT_EQ(w.skip_machine.v[2], latched == 2 ? -4.87 : measured);
+  }
+}
+
+/// A place that was latched before the move is none of this move.
+TEST(Executor, APlaceThatWasLatchedBeforeTheSkipMoveDoesNotCount) {
+  const ExecutorConfig c = standard_config();
+  const Program p = skip_program(c);
+  Machine m(c);
+  m.feed(p);
+  m.in.skip = m.in.skip_latched = 2;
+  m.in.skip_place.v[2] = -4;
+  m.start();
+  nc_world w{};
+  ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }, 10));
+  EXPECT_TRUE(w.skipped);
+  EXPECT_EQ(w.skip_machine.v[2], 0);
+}
+
 TEST(Executor, SkipSignalOnAtTheStartMeansNoMove) {
   const ExecutorConfig c = standard_config();
   const Program p = skip_program(c);

@@ -348,6 +348,29 @@ TEST(Filtered, SkipPositionIsThatOfTheAxes) {  // 15.5 (12): #2102
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
 }
 
+TEST(Filtered, ALatchedPlaceIsTheSkipPositionWhileTheAxesDrain) {
+  const ExecutorConfig c = filtered_config();
+  Program p(c);
+  Segment& s = p.line(xyz(0, 0, -20), 40);
+  s.skip = true;
+  s.skip_mask = 2;
+  s.filter = after(100, 0, true);
+  p.mark();
+  p.sync(NC_SYNC_SKIP);
+  Machine m(c);
+  m.feed(p);
+  m.start();
+  ASSERT_TRUE(m.until(p, [&] { return m.out.command.v[2] <= -19; }));
+  for (unsigned n = 0; n < 30; ++n) m.cycle();
+  EXPECT_FALSE(m.still());
+  m.in.skip = m.in.skip_latched = 2;
+  m.in.skip_place.v[2] = -19.25;
+  nc_world w{};
+  ASSERT_TRUE(m.until(p, [&] { return m.executor.sync_reached(3, &w); }, 500));
+  EXPECT_TRUE(w.skipped);
+  EXPECT_EQ(w.skip_machine.v[2], -19.25);
+}
+
 /// The signal counts as long as the axes move: also in a hold, and after the end of the path.
 TEST(Filtered, SkipSignalWhileTheAxesDrain) {
   for (const bool held : {true, false}) {

@@ -243,7 +243,8 @@ typedef enum nc_input_bits {
   NC_INPUT_SPINDLE = 4,        /**< the spindle counts as turning on with its last speed for 20 ms, then as `unmeasured` until an input is accepted */
   NC_INPUT_ACTUAL = 8,         /**< the axis counts as standing at its last accepted position, but not as in position */
   NC_INPUT_MANUAL = 16,        /**< nothing is commanded by hand for the axis; set also for a kind that is no nc_manual_kind */
-  NC_INPUT_MANUAL_FEED = 32    /**< the last accepted manual feed rate acts */
+  NC_INPUT_MANUAL_FEED = 32,   /**< the last accepted manual feed rate acts */
+  NC_INPUT_SKIP_PLACE = 64     /**< the skip signals count as not latched */
 } nc_input_bits;
 
 /**
@@ -302,6 +303,11 @@ typedef struct nc_inputs {
                               #1085). Not so skip moves (M700 15.2), the tapping mode and taps (13.1.1). Of a thread the level counts where it begins, and
                               such a thread does not go with the spindle (6.7.1) */
   bool manual_rapid;     /**< level: in dry run rapid moves go as they are commanded, and cuts at the most that the axes may cut with */
+  nc_axes skip_place;    /**< measured machine position at which a signal of `skip_latched` came, mm or deg, -1e9..1e9; read only where such a signal ends a
+                              skip move */
+  uint32_t skip_latched; /**< bit n: what measures has noted where the axes were when skip signal n+1 came, as a touch probe input of a drive does.
+                              `skip_place` is then the skip position (M700 15.2). A signal that is not here, or that is on already where the skip move begins, has the
+                              measured or commanded position of the cycle in which it is seen */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.

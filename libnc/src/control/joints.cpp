@@ -25,16 +25,24 @@ void Joints::create(const nc_kinematics* kinematics, double cycle_s) {
 void Joints::before(nc_inputs* in) {
   actual_fault_ = 0;
   if (stops_) in->alarm = true;
-  if (kinematics_.forward == nullptr || !in->actual_valid) return;
-  nc_axes machine{};
-  bool finite = kinematics_.forward(kinematics_.user, &in->actual, &machine);
-  for (const double v : machine.v) finite = finite && std::isfinite(v);
-  if (finite) {
-    in->actual = machine;
-  } else {
+  if (kinematics_.forward == nullptr) return;
+  if (in->actual_valid && !turn(&in->actual)) {
     in->actual_valid = false;
     actual_fault_ = NC_JOINT_ACTUAL;
   }
+  if (in->skip_latched != 0 && !turn(&in->skip_place)) {
+    in->skip_latched = 0;
+    actual_fault_ = NC_JOINT_ACTUAL;
+  }
+}
+
+/// Measured joints into a machine position; false where there is none.
+bool Joints::turn(nc_axes* place) const {
+  nc_axes machine{};
+  bool finite = kinematics_.forward(kinematics_.user, place, &machine);
+  for (const double v : machine.v) finite = finite && std::isfinite(v);
+  if (finite) *place = machine;
+  return finite;
 }
 
 void Joints::after(nc_outputs* out) {

@@ -18,6 +18,7 @@ class Joints {
   void after(nc_outputs* out) NC_RT;
 
  private:
+  bool turn(nc_axes* place) const NC_RT;
   uint8_t follow(const nc_axes& machine) NC_RT;
 
   nc_kinematics kinematics_{};

@@ -33,6 +33,7 @@ const nc_inputs& InputBorder::check(const nc_inputs& in) {
   for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) spindle(n);
   manual_feed();
   actual();
+  skip_place();
   manual();
   return now_;
 }
@@ -99,6 +100,15 @@ void InputBorder::actual() {
     refused_ |= NC_INPUT_ACTUAL;
     lost_axes_ |= 1u << i;
     now_.actual.v[i] = actual_.v[i];
+  }
+}
+
+void InputBorder::skip_place() {
+  if (now_.skip_latched == 0) return;
+  for (unsigned i = 0; i < axis_count_; ++i) {
+    if (within(now_.skip_place.v[i], kMostPlace)) continue;
+    refused_ |= NC_INPUT_SKIP_PLACE;
+    now_.skip_latched = 0;
   }
 }
 

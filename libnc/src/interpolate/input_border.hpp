@@ -20,6 +20,7 @@ class InputBorder {
   void override_of(double* value, double most, double* last, uint32_t bit) NC_RT;
   void spindle(unsigned n) NC_RT;
   void actual() NC_RT;
+  void skip_place() NC_RT;
   void manual() NC_RT;
   void manual_feed() NC_RT;
 

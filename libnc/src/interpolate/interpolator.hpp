@@ -206,7 +206,7 @@ class Interpolator {
   // interpolator_filter.cpp: records that wait for the filters, and the compensation that is added behind interpolation
   bool waits_for_filters(const Record& record, const nc_inputs& in) NC_RT;
   bool filters_ready(const Record& record) NC_RT;
-  void note_skip(const nc_inputs& in) NC_RT;
+  void note_skip(const nc_inputs& in, uint32_t came) NC_RT;
   void watch_skip(const nc_inputs& in) NC_RT;
   void round_arc(const Segment& segment) NC_RT;
   void end_rounding() NC_RT;

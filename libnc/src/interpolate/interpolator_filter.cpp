@@ -46,13 +46,16 @@ bool Interpolator::filters_ready(const Record& r) {
   return true;
 }
 
-/// Notes where the skip signal came: the position that the axes had when the cycle began, which is when the signal was sampled.
-void Interpolator::note_skip(const nc_inputs& in) {
+/// Notes where the skip signal came: the place that was latched with one of the signals that `came` during the move, or else the position that the axes had
+/// when the cycle began, which is when the signal was sampled.
+void Interpolator::note_skip(const nc_inputs& in, uint32_t came) {
   skipped_ = true;
   skip_position_ = filter_.active() ? filter_.position() : wanted_;
-  if (!in.actual_valid) return;
+  const bool latched = (came & in.skip_latched) != 0;
+  if (!latched && !in.actual_valid) return;
+  const nc_axes& place = latched ? in.skip_place : in.actual;
   for (unsigned i = 0; i < config_.axis_count; ++i)
-    if ((spindles_now() >> i & 1) == 0) skip_position_[i] = in.actual.v[i];
+    if ((spindles_now() >> i & 1) == 0) skip_position_[i] = place.v[i];
 }
 
 /// When the path of a skip move rests, or has come to its end, the axes may still be moving behind the filters: the signal counts as long as they do.
@@ -67,7 +70,7 @@ void Interpolator::watch_skip(const nc_inputs& in) {
   if (skipped_ || mask == 0 || ((in.skip & mask) != 0) == away) return;
   skip_braking_ = inside;
   skip_behind_ = 0;
-  note_skip(in);
+  note_skip(in, away ? 0 : in.skip & mask);
 }
 
 /// M700 13.15 "circular error radius compensation control for each axis": moves the place outwards from the centre, by an amount that grows over the

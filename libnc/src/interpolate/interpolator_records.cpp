@@ -304,7 +304,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   if (!skipped_ && skip_ends(s, in)) {
     // The signal was sampled with the position that the axes had when this cycle began.
     skip_braking_ = true;
-    note_skip(in);
+    note_skip(in, begins || s.skip_away ? 0 : in.skip & s.skip_mask);
     // M700 15.2: a signal that is on already at the start leaves no movement. A path that comes at speed has to brake first.
     if (begins && follower_.at_rest()) {
       end_move(r, in);
