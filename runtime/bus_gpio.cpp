@@ -8,7 +8,7 @@
 namespace nc::rt {
 
 #ifdef NC_HAVE_LIBGPIOD
-std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusConfig& bus, const BusReport& report) {
+std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusConfig& bus, hal::Hal*, const BusReport& report) {
   return std::make_unique<hal::gpio::GpioBus>(config.gpio[bus.place].bank, hal::gpio::make_gpiod_chip(), report);
 }
 #endif

@@ -13,9 +13,9 @@ void check_gpio(TableReader* root, const Config& config);
 
 // ---- the bank: runtime/bus_gpio.cpp ----
 #ifdef NC_HAVE_LIBGPIOD
-std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusConfig& bus, const BusReport& report);
+std::unique_ptr<hal::PointBus> make_gpio(const Config& config, const PointBusConfig& bus, hal::Hal* machine, const BusReport& report);
 #else
-inline constexpr std::unique_ptr<hal::PointBus> (*make_gpio)(const Config& config, const PointBusConfig& bus, const BusReport& report) = nullptr;
+inline constexpr std::unique_ptr<hal::PointBus> (*make_gpio)(const Config& config, const PointBusConfig& bus, hal::Hal* machine, const BusReport& report) = nullptr;
 #endif
 // A lock for each line, for inputs as well: the kernel gives a line to one owner only.
 void gpio_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);

@@ -47,7 +47,7 @@ std::set<std::string> addresses_of(const std::string& host) {
 
 }  // namespace
 
-std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusConfig& bus, const BusReport& report) {
+std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusConfig& bus, hal::Hal*, const BusReport& report) {
   return std::make_unique<hal::modbus::ModbusLink>(config.modbus[bus.place].link, report);
 }
 

@@ -12,7 +12,7 @@ PlaceOnBus read_point_modbus(TableReader* point_reader, const hal::Point& point,
 void check_modbus(TableReader* root, const Config& config);
 
 // ---- the link: runtime/bus_modbus.cpp ----
-std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusConfig& bus, const BusReport& report);
+std::unique_ptr<hal::PointBus> make_modbus(const Config& config, const PointBusConfig& bus, hal::Hal* machine, const BusReport& report);
 // Each unit of a host that outputs are written to, or the serial line. Looks the host up: this may take the time of the resolver.
 void modbus_resources(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);
 

@@ -124,7 +124,7 @@ struct PointBusKind;
 // A bus that carries points, of any kind. The points name their bus by its place in Config::buses, counted from 1.
 struct PointBusConfig {
   const PointBusKind* kind = nullptr;
-  std::size_t place = 0;  // index among the buses of its kind: in Config::modbus or Config::gpio
+  std::size_t place = 0;  // index among the buses of its kind: in Config::modbus, Config::gpio or Config::can_io
   std::string name;
   unsigned ok_point = 0;  // the input point "<name>.ok"
   bool alarm = false;     // the loss of this bus is alarm R18
@@ -146,6 +146,16 @@ struct GpioBankConfig {
   std::uint8_t bus = 0;  // number of the bus in its points
   bool named = false;    // some point names this bank, even a point with an error, or the bank has a watchdog
   ConfigPlace place;
+};
+
+// An I/O module of CiA 401 on the bus of the machine's drives.
+struct CanIoConfig {
+  std::size_t node = 0;  // in hal::canopen::BusMap::nodes
+  std::uint8_t bus = 0;  // number of the bus in its points
+  bool named = false;    // some point names this module, even a point with an error
+  std::string name, eds;
+  ConfigPlace place;     // of its node number
+  ConfigPlace eds_place;
 };
 
 // The shared-memory segment for readers in other processes (runtime/share/).
@@ -214,6 +224,7 @@ struct Config {
   std::vector<PointBusConfig> buses;
   std::vector<ModbusLinkConfig> modbus;
   std::vector<GpioBankConfig> gpio;
+  std::vector<CanIoConfig> can_io;
   LadderConfig ladder;
   PowerConfig power;
   std::string place;           // file of the places in the programs when the power failed, relative like `print`; empty = see place_path()

@@ -155,23 +155,32 @@ void read_object(TableReader* reader, NodeMap* node) {
   node->objects.push_back(object);
 }
 
-void read_eds_file(TableReader* reader, const Config& config, const NodeMap& node) {
-  std::string name;
-  if (!reader->string("eds", &name)) return;
+}  // namespace
+
+void read_identity(TableReader* reader, NodeMap* node) {
+  reader->integer("vendor", &node->vendor, 0, 0xFFFFFFFFll);
+  reader->integer("product", &node->product, 0, 0xFFFFFFFFll);
+  reader->tables("objects", [&](TableReader& object, std::size_t) { read_object(&object, node); });
+}
+
+std::vector<std::string> eds_errors(const std::string& name, const Config& config, const NodeMap& node) {
   const std::filesystem::path own(name);
   const std::filesystem::path path = own.is_absolute() ? own : std::filesystem::path(config.file).parent_path() / own;
   std::error_code ignored;
   std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, ignored) || !stream) return reader->error("eds", "\"" + path.string() + "\" cannot be read");
+  if (!std::filesystem::is_regular_file(path, ignored) || !stream) return {"\"" + path.string() + "\" cannot be read"};
   std::string text(hal::canopen::kMostEdsBytes + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   hal::canopen::Eds eds;
   std::vector<hal::canopen::EdsError> errors = hal::canopen::read_eds(text, &eds);
   if (errors.empty()) errors = hal::canopen::check_eds(eds, node);
-  for (const hal::canopen::EdsError& error : errors)
-    reader->error("eds", name + (error.line != 0 ? ":" + std::to_string(error.line) : "") + ": " + error.text);
+  std::vector<std::string> texts;
+  for (const hal::canopen::EdsError& error : errors) texts.push_back(name + (error.line != 0 ? ":" + std::to_string(error.line) : "") + ": " + error.text);
+  return texts;
 }
+
+namespace {
 
 void read_drive(TableReader* reader, Config* config) {
   NodeMap node;
@@ -180,19 +189,19 @@ void read_drive(TableReader* reader, Config* config) {
   const bool numbered = reader->integer("node", &node.id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
   node.name = "drive " + std::to_string(node.id);
   reader->string("name", &node.name);
-  reader->integer("vendor", &node.vendor, 0, 0xFFFFFFFFll);
-  reader->integer("product", &node.product, 0, 0xFFFFFFFFll);
   reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, *config, &node); });
-  reader->tables("objects", [&](TableReader& object, std::size_t) { read_object(&object, &node); });
-  read_eds_file(reader, *config, node);
+  read_identity(reader, &node);
+  std::string eds;
+  if (reader->string("eds", &eds))
+    for (const std::string& error : eds_errors(eds, *config, node)) reader->error("eds", error);
   if (numbered && node.id == bus.own_id) reader->error("node", "is the control's own number: canopen.node_id");
   for (const NodeMap& other : bus.nodes)
-    if (numbered && other.id == node.id) reader->error("node", "drive \"" + other.name + "\" has this number already");
+    if (numbered && other.id == node.id) reader->error("node", (other.module ? "module \"" : "drive \"") + other.name + "\" has this number already");
   unsigned sends = 0;
   for (const AxisMap& axis : node.axes) sends += axis.has_probe() ? 2 : 1;
   if (node.axes.size() > hal::canopen::kMaxAxesPerNode || sends > hal::canopen::kMaxAxesPerNode)
     reader->error("axis", "a node has identifiers for four PDOs of each direction: an axis takes one, its probe another one");
-  if (bus.nodes.size() == hal::canopen::kMaxNodes) return reader->error("node", "there can be " + std::to_string(hal::canopen::kMaxNodes) + " drives");
+  if (bus.nodes.size() == hal::canopen::kMaxNodes) return reader->error("node", "there can be " + std::to_string(hal::canopen::kMaxNodes) + " drives and modules");
   bus.nodes.push_back(node);
 }
 
@@ -209,9 +218,9 @@ void check_axes(TableReader* root, const Config& config) {
 
 void check_load(TableReader* reader, const BusMap& bus) {
   const hal::canopen::BusLoad load = hal::canopen::bus_load(bus);
-  if (load.share > hal::canopen::kMostLoad)
+  if (load.share > hal::canopen::kMostLoad || load.together > hal::canopen::kMostTogether)
     reader->error(reader->find("sync_us") != nullptr ? "sync_us" : "interface",
-                  "the bus would be fuller than 80 %: " + load.arithmetic + "; a longer sync_us, or fewer axes on this bus");
+                  (load.share > hal::canopen::kMostLoad ? "the bus would be fuller than 80 %: " : "where the PDOs of all modules come together the bus would be fuller than 95 %: ") + load.arithmetic + "; a longer sync_us, or fewer axes on this bus");
 }
 
 }  // namespace
@@ -222,6 +231,9 @@ void read_canopen(TableReader* root, Config* config) {
   const bool there = root->table("canopen", [&](TableReader& reader) {
     read_bus(&reader, config);
     reader.tables("drive", [&](TableReader& drive, std::size_t) { read_drive(&drive, config); });
+    for (const CanIoConfig& module : config->can_io)
+      if (config->canopen.nodes[module.node].id == config->canopen.own_id)
+        reader.errors()->add(module.place.line, module.place.key, "is the control's own number: canopen.node_id");
     check_load(&reader, config->canopen);
   });
   if (!chosen) return;

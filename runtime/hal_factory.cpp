@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "hal/sim/sim_machine.hpp"
+#include "runtime/bus_can_io.hpp"
 #include "runtime/bus_gpio.hpp"
 #include "runtime/bus_modbus.hpp"
 #include "runtime/config_sections.hpp"
@@ -46,6 +47,14 @@ constexpr PointBusKind kPointBuses[] = {
      .resources = gpio_resources,
      .make = make_gpio,
      .on_virtual_time = "the lines are polled in real time, whatever the speed of the program"},
+    {.name = "can_io",
+     .needs = "",
+     .read = read_can_io,
+     .read_point = read_point_can_io,
+     .check = check_can_io,
+     .resources = nullptr,
+     .make = make_can_io,
+     .on_virtual_time = ""},
 };
 
 // The names of the kinds that are built in, as "sim", "canopen" in quotes.
@@ -127,7 +136,7 @@ MadeMachine make_machine(const Config& config, const BusReport& report) {
   for (const PointBusConfig& bus : config.buses) {
     BusReport with_kind;
     if (report) with_kind = [report, prefix = std::string(bus.kind->name) + ": "](const std::string& line) { report(prefix + line); };
-    machine.buses.push_back(bus.kind->make(config, bus, with_kind));
+    machine.buses.push_back(bus.kind->make(config, bus, machine.axes.get(), with_kind));
     buses.push_back(machine.buses.back().get());
   }
   machine.hal = std::make_unique<hal::Composite>(machine.axes.get(), buses, config.points);

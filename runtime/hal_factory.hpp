@@ -58,8 +58,8 @@ struct PointBusKind {
   void (*check)(TableReader* root, const Config& config);
   // Lists what only one control may use at a time (runtime/machine_lock.hpp). Null = nothing.
   void (*resources)(const Config& config, const PointBusConfig& bus, std::vector<MachineResource>* resources);
-  // Null = not built in. A bus keeps no reference to the configuration.
-  std::unique_ptr<hal::PointBus> (*make)(const Config& config, const PointBusConfig& bus, const BusReport& report);
+  // Null = not built in. A bus keeps no reference to the configuration. `machine` is the machine with the axes, for a bus that shares its line; it lives longer.
+  std::unique_ptr<hal::PointBus> (*make)(const Config& config, const PointBusConfig& bus, hal::Hal* machine, const BusReport& report);
   // Shown once when a program runs on virtual time, because a bus always works in real time. Empty = nothing is shown.
   std::string_view on_virtual_time;
 };

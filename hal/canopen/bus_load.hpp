@@ -13,6 +13,7 @@
 namespace nc::hal::canopen {
 
 inline constexpr double kMostLoad = 0.80;  // the rest is for SDO, EMCY and repeated frames
+inline constexpr double kMostTogether = 0.95;
 
 constexpr unsigned worst_bits(unsigned bytes) { return 47 + 8 * bytes + (34 + 8 * bytes - 1) / 4; }
 
@@ -21,7 +22,8 @@ unsigned rpdo_bytes(const AxisMap& axis);               // 6040h, 607Ah, and wit
 std::vector<unsigned> tpdo_bytes(const AxisMap& axis);  // 6041h, 6064h; with a touch probe a second PDO with 60B9h and 60BAh or 60BBh
 
 struct BusLoad {
-  double share = 0;       // fraction of a SYNC period in the worst case; heartbeats count with their average
+  double share = 0;       // fraction of a SYNC period in the worst case; heartbeats, and PDOs that come with every n-th SYNC only, count with their average
+  double together = 0;    // the same of a SYNC period in which the PDOs of all modules come
   std::string arithmetic;  // the calculation as text: "SYNC 55 + 6 PDOs of 6 bytes, 115 each + heartbeats ...: 74.8 %"
 };
 BusLoad bus_load(const BusMap& bus);

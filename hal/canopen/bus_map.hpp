@@ -6,9 +6,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hal/canopen/module_map.hpp"
 #include "nc/types.h"
 
 namespace nc::hal::canopen {
@@ -51,7 +53,8 @@ struct AxisMap {
 struct NodeMap {
   std::string name;
   unsigned id = 1;
-  std::vector<AxisMap> axes;
+  std::vector<AxisMap> axes;         // of a drive
+  std::optional<ModuleMap> module;   // of an I/O module, which has no axes
   std::vector<ObjectValue> objects;  // written after the objects that the control itself sets
   std::uint32_t vendor = 0, product = 0;  // required values of 1018h; 0 = any
 };

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kStackBytes = 256 * 1024;
 constexpr std::int64_t kServiceNs = 2'000'000;
+constexpr std::int64_t kModulesNs = 3'000'000'000;  // from the start on; so long I/O modules that do not answer hold it up
 constexpr std::int64_t kPhaseShare = 64;      // with each cycle the bus's thread corrects 1/64 of its distance from the middle between two scans
 constexpr std::int64_t kPhaseStepNs = 2'000;  // the largest such correction
 
@@ -67,11 +68,13 @@ CanMachine::~CanMachine() { stop(); }
 // ---- start and stop ----
 
 bool CanMachine::start(const PointImage& initial, std::string* error) {
-  (void)initial;
+  for (unsigned n = 0; n < cyclic_.module_count(); ++n) cyclic_.module(n)->begin(initial);
   if (!start_stepping(error) || !make_threads(error)) return false;
   const std::int64_t begin = monotonic_ns(), last = begin + bus_.boot_timeout_ms * 1'000'000LL;
-  while (!cyclic_.ready() && !service_.refused() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
-  if (cyclic_.ready()) return true;
+  const std::int64_t modules = std::min(last, begin + kModulesNs);
+  const auto waits = [&](std::int64_t now) { return cyclic_.ready() ? !service_.all_operational() && now < modules : now < last; };
+  while (!service_.refused() && waits(monotonic_ns())) sleep_until(monotonic_ns() + kServiceNs);
+  if (cyclic_.ready() && !service_.refused()) return true;
   const std::string missing = service_.missing();
   *error = "CANopen on " + bus_.interface + ": " + (missing.empty() ? "a drive is operational and sends no positions" : missing);
   return false;
@@ -156,6 +159,7 @@ void CanMachine::stop() noexcept {
     };
     const std::int64_t last = monotonic_ns() + bus_.stop_timeout_ms * 1'000'000LL;
     while (moving() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
+    end_modules();
   }
   end_threads();
   if (open_) {
@@ -163,6 +167,20 @@ void CanMachine::stop() noexcept {
     port_->close();
   }
   open_ = false;
+}
+
+// The drives are off: the outputs of the modules take their values for the end.
+void CanMachine::end_modules() {
+  unsigned slowest = 0;
+  for (const NodeMap& node : bus_.nodes) slowest = std::max(slowest, node.module ? node.module->every : 0);
+  const auto all_ended = [this] {
+    for (unsigned n = 0; n < cyclic_.module_count(); ++n)
+      if (!cyclic_.module(n)->ended()) return false;
+    return true;
+  };
+  for (unsigned n = 0; n < cyclic_.module_count(); ++n) cyclic_.module(n)->end();
+  const std::int64_t last = monotonic_ns() + 4LL * slowest * bus_.sync_us * 1000 + kServiceNs;
+  while (!all_ended() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
 }
 
 void CanMachine::stop_nodes() {

@@ -28,7 +28,8 @@ class CanMachine final : public Hal {
   CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report = {});
   ~CanMachine() override;
 
-  // Opens the port and waits until all drives are operational. False when they are not in time, as for any machine that cannot be reached.
+  // Opens the port and waits until all drives are operational. False when they are not in time, as for any machine that cannot be reached. An I/O module that
+  // does not answer is waited for shortly, and its points are not good until it does; one that cannot be set up is an error, too.
   bool start(const PointImage& initial, std::string* error) override;
   void read(Feedback* feedback, PointImage* image) noexcept override;
   void write(const Command& command, const PointImage& image) noexcept override;
@@ -40,6 +41,8 @@ class CanMachine final : public Hal {
   void step_bus(std::int64_t now_ns);  // one servo cycle of the bus and one step of the service
 
   // ---- any thread ----
+  // The inputs and outputs of the n-th I/O module, for its bus of points.
+  ModuleIo* module(unsigned index) const { return cyclic_.module(index); }
   Service& service() { return service_; }
   const Cyclic& cyclic() const { return cyclic_; }
 
@@ -49,6 +52,7 @@ class CanMachine final : public Hal {
   void service_thread();
   void end_threads();
   void stop_nodes();
+  void end_modules();
   bool asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept;
 
   const BusMap bus_;

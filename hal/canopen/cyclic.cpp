@@ -28,6 +28,8 @@ Cyclic::Cyclic(const BusMap& bus, CanPort* port)
     const NodeMap& node = bus_.nodes[n];
     nodes_.push_back({});
     nodes_.back().id = node.id;
+    nodes_.back().drives = !node.axes.empty();
+    if (node.module) modules_.push_back({n, std::make_unique<ModuleIo>(node, bus.lost_after)});
     node_at_[node.id & kLastNode] = static_cast<std::int8_t>(n);
     unsigned sends = 0, takes = 0;
     for (const AxisMap& map : node.axes) {
@@ -59,6 +61,7 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
     const bool commanded = take_wanted(now_ns);
     for (unsigned i = 0; i < axes_.size(); ++i) move_axis(i, commanded);
     note_edges();
+    work_modules();
   }
   if (now_ns - beat_ns_ >= heartbeat_ns_) {
     CanFrame beat;
@@ -115,7 +118,21 @@ void Cyclic::take_event(BusEvent event) noexcept {
   }
 }
 
+// A module whose node is operational while its inputs stay away is set up again.
+void Cyclic::work_modules() noexcept {
+  for (Module& module : modules_) {
+    const bool operational = nodes_[module.node].operational;
+    if (!module.io->sync(operational) && operational) set_phase(module.node, NodePhase::kAway);
+    module.io->give([this](const CanFrame& frame) { send(frame); });
+  }
+}
+
 bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
+  for (Module& module : modules_) {
+    const ModuleIo::Taken taken = module.io->take(frame, phase(module.node) == NodePhase::kOperational);
+    if (taken == ModuleIo::Taken::kStrange) statistics_.strange.fetch_add(1, std::memory_order_relaxed);
+    if (taken != ModuleIo::Taken::kNotMine) return true;
+  }
   for (Axis& axis : axes_) {
     if (frame.id != axis.tpdo_id && (axis.probe_id == 0 || frame.id != axis.probe_id)) continue;
     if (frame.length < 6) {  // the PDO does not have the mapping that was written into the drive
@@ -214,6 +231,7 @@ void Cyclic::publish() noexcept {
   BusShown& shown = shown_.back();
   bool any = false, all = !bus_off_;
   for (const Node& node : nodes_) {
+    if (!node.drives) continue;
     any |= node.operational;
     all &= node.operational;
   }

@@ -13,11 +13,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hal/canopen/bus_map.hpp"
 #include "hal/canopen/can_port.hpp"
 #include "hal/canopen/drive_state.hpp"
+#include "hal/canopen/module_io.hpp"
 #include "hal/canopen/position_track.hpp"
 #include "hal/drive_fault.hpp"
 #include "hal/spsc.hpp"
@@ -105,10 +107,13 @@ class Cyclic {
   void set_mode(unsigned axis, std::int8_t mode) noexcept { mode_[axis].store(mode, std::memory_order_release); }
 
   // ---- any thread ----
+  // The n-th I/O module of the bus.
+  ModuleIo* module(unsigned index) const noexcept { return modules_[index].io.get(); }
+  unsigned module_count() const noexcept { return static_cast<unsigned>(modules_.size()); }
   const CyclicStatistics& statistics() const { return statistics_; }
   unsigned axis_count() const { return static_cast<unsigned>(axes_.size()); }
   const AxisMap& axis(unsigned index) const { return *axes_[index].map; }
-  // True when every node is operational and every axis has sent its position.
+  // True when every drive is operational and every axis has sent its position.
   bool ready() const noexcept { return ready_.load(std::memory_order_acquire); }
   // True while the drive controls the axis: its operation is enabled, or it is stopping.
   bool is_enabled(unsigned index) const noexcept { return enabled_[index].load(std::memory_order_relaxed); }
@@ -149,6 +154,7 @@ class Cyclic {
     unsigned id = 0;
     std::int64_t heard_ns = 0;
     bool operational = false;  // state in the last cycle
+    bool drives = false;       // it has axes
     std::uint16_t emergency = 0;
     std::uint8_t error_register = 0;
   };
@@ -163,6 +169,7 @@ class Cyclic {
   void take_emergency(unsigned node, const CanFrame& frame) noexcept;
   void hand_over(const CanFrame& frame) noexcept;
   void watch_nodes(std::int64_t now_ns) noexcept;
+  void work_modules() noexcept;
   void watch_axis(unsigned index) noexcept;
   bool silent_for_good(const Axis& axis) const noexcept;
   bool take_wanted(std::int64_t now_ns) noexcept;
@@ -188,6 +195,11 @@ class Cyclic {
   const unsigned cycles_per_sync_, slow_every_;
   std::vector<Axis> axes_;
   std::vector<Node> nodes_;
+  struct Module {
+    unsigned node = 0;
+    std::unique_ptr<ModuleIo> io;
+  };
+  std::vector<Module> modules_;
   std::array<std::int8_t, kLastNode + 1> node_at_{};  // index in nodes_ for each node id, -1 = not configured
 
   TripleBuffer<BusWanted> wanted_{BusWanted{}};

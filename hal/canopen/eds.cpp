@@ -187,13 +187,13 @@ std::vector<EdsError> Reader::read(std::string_view text) {
 }
 
 // Checks whether one PDO can have its mapping.
-void check_pdo(const Eds& eds, const std::vector<std::uint32_t>& mapping, bool taken, std::vector<EdsError>* errors) {
+void check_pdo(const Eds& eds, const std::vector<std::uint32_t>& mapping, bool taken, const char* device, std::vector<EdsError>* errors) {
   for (const std::uint32_t entry : mapping) {
     const unsigned index = entry >> 16, sub = entry >> 8 & 0xFF, bits = entry & 0xFF;
     const std::string name = object_text(index, sub);
     const EdsObject* object = eds.find(index, sub);
     if (object == nullptr) {
-      errors->push_back({0, name + " does not exist in this drive"});
+      errors->push_back({0, name + " does not exist in this " + device});
       continue;
     }
     if (!object->mappable) errors->push_back({object->line, name + " cannot be mapped into a PDO (PDOMapping)"});
@@ -205,8 +205,8 @@ void check_pdo(const Eds& eds, const std::vector<std::uint32_t>& mapping, bool t
   }
 }
 
-void check_exists(const Eds& eds, unsigned index, unsigned sub, std::vector<EdsError>* errors) {
-  if (eds.find(index, sub) == nullptr) errors->push_back({0, object_text(index, sub) + " does not exist in this drive"});
+void check_exists(const Eds& eds, unsigned index, unsigned sub, const char* device, std::vector<EdsError>* errors) {
+  if (eds.find(index, sub) == nullptr) errors->push_back({0, object_text(index, sub) + " does not exist in this " + device});
 }
 
 }  // namespace
@@ -218,26 +218,34 @@ std::vector<EdsError> read_eds(std::string_view text, Eds* eds) {
 
 std::vector<EdsError> check_eds(const Eds& eds, const NodeMap& node) {
   std::vector<EdsError> errors;
+  const char* device = node.module ? "module" : "drive";
+  for (const bool output : {false, true}) {
+    if (!node.module) break;
+    for (const ModulePdo& pdo : module_pdos(*node.module, output)) {
+      check_pdo(eds, pdo.mapping, output, device, &errors);
+      check_exists(eds, (output ? 0x1600u : 0x1A00u) + pdo.number - 1, 0, device, &errors);
+    }
+  }
   for (const AxisMap& axis : node.axes) {
-    check_pdo(eds, rpdo_mapping(axis), true, &errors);
-    check_pdo(eds, tpdo_mapping(axis), false, &errors);
-    if (axis.has_probe()) check_pdo(eds, probe_mapping(axis), false, &errors);
-    check_exists(eds, 0x1600 + axis.rpdo - 1, 0, &errors);
-    check_exists(eds, 0x1A00 + axis.tpdo - 1, 0, &errors);
-    if (axis.has_probe()) check_exists(eds, 0x1A00 + axis.tpdo, 0, &errors);
-    for (const unsigned index : {0x6060u, 0x6061u}) check_exists(eds, axis.object(index), 0, &errors);
-    for (const unsigned sub : {1u, 2u}) check_exists(eds, axis.object(0x60C2), sub, &errors);
+    check_pdo(eds, rpdo_mapping(axis), true, device, &errors);
+    check_pdo(eds, tpdo_mapping(axis), false, device, &errors);
+    if (axis.has_probe()) check_pdo(eds, probe_mapping(axis), false, device, &errors);
+    check_exists(eds, 0x1600 + axis.rpdo - 1, 0, device, &errors);
+    check_exists(eds, 0x1A00 + axis.tpdo - 1, 0, device, &errors);
+    if (axis.has_probe()) check_exists(eds, 0x1A00 + axis.tpdo, 0, device, &errors);
+    for (const unsigned index : {0x6060u, 0x6061u}) check_exists(eds, axis.object(index), 0, device, &errors);
+    for (const unsigned sub : {1u, 2u}) check_exists(eds, axis.object(0x60C2), sub, device, &errors);
     if (axis.has_homing())
-      for (const unsigned index : {0x6098u, 0x609Au, 0x607Cu}) check_exists(eds, axis.object(index), 0, &errors);
+      for (const unsigned index : {0x6098u, 0x609Au, 0x607Cu}) check_exists(eds, axis.object(index), 0, device, &errors);
   }
   for (const ObjectValue& object : node.objects) {
-    check_exists(eds, object.index, object.sub, &errors);
+    check_exists(eds, object.index, object.sub, device, &errors);
     const EdsObject* found = eds.find(object.index, object.sub);
     if (found != nullptr && found->bits != 8u * object.bytes)
       errors.push_back({found->line, object_text(object.index, object.sub) + " has " + std::to_string(found->bits) + " bits, not " + std::to_string(8 * object.bytes)});
   }
-  if (node.vendor != 0 && eds.vendor != 0 && node.vendor != eds.vendor) errors.push_back({0, "is of another vendor (VendorNumber) than the drive is to be"});
-  if (node.product != 0 && eds.product != 0 && node.product != eds.product) errors.push_back({0, "is of another product (ProductNumber) than the drive is to be"});
+  if (node.vendor != 0 && eds.vendor != 0 && node.vendor != eds.vendor) errors.push_back({0, std::string("is of another vendor (VendorNumber) than the ") + device + " is to be"});
+  if (node.product != 0 && eds.product != 0 && node.product != eds.product) errors.push_back({0, std::string("is of another product (ProductNumber) than the ") + device + " is to be"});
   return errors;
 }
 

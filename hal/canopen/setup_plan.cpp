@@ -11,7 +11,7 @@ namespace {
 
 using Kind = SetupStep::Kind;
 
-constexpr std::uint32_t kPdoOff = 0x80000000, kEverySync = 1, kProfile402 = 0x0192;
+constexpr std::uint32_t kPdoOff = 0x80000000, kEverySync = 1, kAtOnce = 255, kProfile402 = 0x0192, kProfile401 = 0x0191;
 constexpr unsigned kDefaultPdos = 4;  // number of PDOs of each direction that a drive may have switched on by default
 constexpr double kPatience = 2.5;     // heartbeat periods after which the drive takes the control for lost
 
@@ -25,13 +25,13 @@ class Plan {
 
   // CiA 301: the identifier is switched off, the mapping is emptied, filled and its count written, then the identifier is switched on. The mapping
   // is read back, because some drives keep a mapping of their own without an error.
-  void pdo(unsigned communication, unsigned mapping, unsigned number, std::uint32_t cob_id, const std::vector<std::uint32_t>& objects) {
+  void pdo(unsigned communication, unsigned mapping, unsigned number, std::uint32_t cob_id, const std::vector<std::uint32_t>& objects, std::uint32_t type = kEverySync) {
     const unsigned c = communication + number - 1, m = mapping + number - 1;
     write(c, 1, 4, cob_id | kPdoOff);
     write(m, 0, 1, 0);
     for (unsigned i = 0; i < objects.size(); ++i) write(m, i + 1, 4, objects[i]);
     write(m, 0, 1, static_cast<std::uint32_t>(objects.size()));
-    write(c, 2, 1, kEverySync);
+    write(c, 2, 1, type);
     write(c, 1, 4, cob_id);
     check(m, 0, 1, static_cast<std::uint32_t>(objects.size()), 0xFF);
     for (unsigned i = 0; i < objects.size(); ++i) check(m, i + 1, 4, objects[i], 0xFFFFFFFF);
@@ -64,6 +64,31 @@ void homing(Plan* plan, const AxisMap& axis) {
   plan->write(axis.object(0x607C), 0, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::llround((axis.homing_position - axis.zero) * axis.increments_per_unit))));
 }
 
+// CiA 401: what the digital outputs become when the module does not hear the control any more. 1029h:1 = 0: it goes to "pre-operational" then; 6206h: an output
+// takes the value of 6207h in place of keeping its own. For analog outputs that is 6444h, which is the module's own (0 unless `objects` sets it).
+void outputs_at_loss(Plan* plan, const ModuleMap& module) {
+  std::uint8_t bytes[kMostDigital / 8] = {};
+  for (const IoPoint& point : module.points) {
+    if (!point.output || point.analog || (point.stop_value != 0) == point.active_low) continue;
+    bytes[point.channel / 8] = static_cast<std::uint8_t>(bytes[point.channel / 8] | 1u << point.channel % 8);
+  }
+  plan->try_write(0x1029, 1, 1, 0);
+  for (unsigned n = 0; n < (module.channels(true, false) + 7) / 8; ++n) {
+    plan->try_write(0x6206, n + 1, 1, 0xFF);
+    plan->try_write(0x6207, n + 1, 1, bytes[n]);
+  }
+}
+
+void set_up_module(Plan* plan, const NodeMap& node) {
+  const ModuleMap& module = *node.module;
+  for (const ModulePdo& pdo : module_pdos(module, false))
+    plan->pdo(0x1800, 0x1A00, pdo.number, kTpdoId + kPdoStep * (pdo.number - 1) + node.id, pdo.mapping, module.every);
+  for (const ModulePdo& pdo : module_pdos(module, true))
+    plan->pdo(0x1400, 0x1600, pdo.number, kRpdoId + kPdoStep * (pdo.number - 1) + node.id, pdo.mapping, kAtOnce);
+  if (module.channels(false, true) > 0) plan->try_write(0x6423, 0, 1, 1);  // analog inputs are sent at all
+  outputs_at_loss(plan, module);
+}
+
 }  // namespace
 
 InterpolationTime interpolation_time_of(unsigned us) {
@@ -84,7 +109,7 @@ std::vector<std::uint32_t> probe_mapping(const AxisMap& axis) {
 
 std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
   Plan plan;
-  plan.add(Kind::kCheck, 0x1000, 0, 4, kProfile402, 0xFFFF);
+  plan.add(Kind::kCheck, 0x1000, 0, 4, node.module ? kProfile401 : kProfile402, 0xFFFF);
   if (node.vendor != 0) plan.add(Kind::kCheck, 0x1018, 1, 4, node.vendor);
   if (node.product != 0) plan.add(Kind::kCheck, 0x1018, 2, 4, node.product);
   plan.write(0x1017, 0, 2, bus.heartbeat_ms);
@@ -94,6 +119,7 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
     plan.try_write(0x1400 + n, 1, 4, kPdoOff | (kRpdoId + kPdoStep * n + node.id));
     plan.try_write(0x1800 + n, 1, 4, kPdoOff | (kTpdoId + kPdoStep * n + node.id));
   }
+  if (node.module) set_up_module(&plan, node);
   unsigned takes = 0, sends = 0;
   for (const AxisMap& axis : node.axes) {
     plan.pdo(0x1400, 0x1600, axis.rpdo, kRpdoId + kPdoStep * takes++ + node.id, rpdo_mapping(axis));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hal/canopen/can_machine.hpp"
+#include "hal/canopen/module_bus.hpp"
 #include "loopback_bus.hpp"
 #include "runtime/runtime.hpp"
 
@@ -64,6 +65,7 @@ class CanRig {
     for (const rt::ConfigError& error : errors) ADD_FAILURE() << error.text();
     shell.inner = machine.get();
     shell.rig = this;
+    for (unsigned n = 0; n < machine->cyclic().module_count(); ++n) shell.modules.emplace_back(machine->module(n));
     std::string error;
     ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   }
@@ -128,10 +130,15 @@ class CanRig {
   struct Shell final : hal::Hal {
     hal::canopen::CanMachine* inner = nullptr;
     CanRig* rig = nullptr;
+    std::vector<hal::canopen::ModuleBus> modules;
     bool start(const hal::PointImage&, std::string*) override { return true; }
-    void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override { inner->read(feedback, image); }
+    void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override {
+      inner->read(feedback, image);
+      for (hal::canopen::ModuleBus& module : modules) module.read(image);
+    }
     void write(const hal::Command& command, const hal::PointImage& image) noexcept override {
       inner->write(command, image);
+      for (hal::canopen::ModuleBus& module : modules) module.write(image);
       rig->bus_step();
     }
     void stop() noexcept override {}

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """ncrtd with drives of another maker, python canopen, through slcan over a pair of pseudo terminals. A block ends at its place; a drive that trips
-during it ends the run with the text of its EMCY; a skip move has the place that the drive of the probe has latched, to the increment."""
+during it ends the run with the text of its EMCY; a skip move has the place that the drive of the probe has latched, to the increment; points lie on a CiA 401 module."""
 import fcntl
 import os
 import pathlib
@@ -54,6 +54,37 @@ product = 0x88
 name = "NAME"
 encoder = 10000
 pitch = 10.0
+"""
+
+
+MODULE = """
+[[can_io]]
+name = "io"
+node = 10
+every = 2
+[[point]]
+name = "out"
+direction = "output"
+can_io = { module = "io", digital = 11 }
+[[point]]
+name = "in"
+direction = "input"
+can_io = { module = "io", digital = 11 }
+[[point]]
+name = "volts"
+direction = "output"
+type = "word"
+can_io = { module = "io", analog = 2, on_stop = -321 }
+[[point]]
+name = "measured"
+direction = "input"
+type = "word"
+can_io = { module = "io", analog = 2 }
+[macro_interface]
+"#1100" = "out"
+"#1000" = "in"
+"#1133" = "volts"
+"#1033" = "measured"
 """
 
 
@@ -110,8 +141,8 @@ class Cable:
                 frames = frames[os.write(target, frames):]
 
 
-def run(python, block, peer=(), probe=""):
-    """(exit status of ncrtd, its output, the reports of the drives). `probe` is a line more for the axis X."""
+def run(python, block, peer=(), probe="", more=""):
+    """(exit status of ncrtd, its output, the reports of the drives). `probe` is a line more for the axis X, `more` stands at the end of the file."""
     cable = Cable()
     with tempfile.TemporaryDirectory() as folder:
         machine = os.path.join(folder, "machine.toml")
@@ -119,6 +150,7 @@ def run(python, block, peer=(), probe=""):
             out.write(MACHINE.replace("TTY", cable.name(0)))
             out.write("".join(AXIS.replace("NAME", name) for name in "XYZ"))
             out.write("".join(DRIVE.replace("NAME", name).replace("NODE", str(n + 1)) + probe * (name == "X") for n, name in enumerate("XYZ")))
+            out.write(more)
         drives = subprocess.Popen([python, HERE / "peer_drives.py", cable.name(1), *peer], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         try:
             assert drives.stdout.readline() == "ready\n"
@@ -152,6 +184,13 @@ def main():
     assert status == 0, status
     places = [int(line.split()[3]) for line in drives]
     assert abs(places[0] - 12_345) <= 1 and abs(places[1] - 6_172) <= 2 and places[2] == 1_000, places
+    # What the module's outputs are wired to comes back: bit 11 is 1, the word 1500, and the axes go there.
+    block = "#1100 = 1\n#1133 = 1500\nG04 X1.\nG90 G01 X[5 * #1000] Y[#1033 / 1000] Z2. F3000"
+    status, said, drives = run(python, block, ("module",), more=MODULE)
+    print(said, *drives, sep="\n")
+    assert status == 0, status
+    assert [int(line.split()[3]) for line in drives[:3]] == [5_000, 1_500, 2_000], drives
+    assert drives[3] == "module 0 0 0 -321", drives  # at the end of the control
 
 
 main()

@@ -69,6 +69,7 @@ void SimDrive::defaults() {
     set_object(b + 0xC2, 1, 1, 0);
     set_object(b + 0xC2, 2, 1, 0);
   }
+  if (more_defaults) more_defaults();
 }
 
 void SimDrive::set_object(unsigned index, unsigned sub, unsigned bytes, std::uint32_t value, bool writable) {
@@ -264,6 +265,7 @@ std::uint32_t SimDrive::value_of(unsigned entry) const {
 
 void SimDrive::take_value(unsigned entry, std::uint32_t value) {
   const unsigned index = entry >> 16;
+  if (index >= 0x6200 && index < 0x6800 && axis_.empty()) objects_.at(entry >> 8).value = value;
   for (unsigned a = 0; a < axis_.size(); ++a) {
     if (index == base(a) + 0x40) axis_[a].pending_control = static_cast<std::uint16_t>(value), axis_[a].pending = true;
     if (index == base(a) + 0x7A) axis_[a].pending_target = static_cast<std::int32_t>(value);
@@ -297,7 +299,8 @@ void SimDrive::on_sync() {
   for (const auto& [place, communication] : objects_) {
     const unsigned index = place >> 8;
     if (index < 0x1800 || index >= 0x1A00 || (place & 0xFF) != 1 || (communication.value & 0x80000000u) != 0) continue;
-    if (object(index, 2) != 1) continue;
+    const std::uint32_t type = object(index, 2);  // 1 to 240: with every n-th SYNC
+    if (type < 1 || type > 240 || syncs % type != 0) continue;
     std::vector<std::uint8_t> data;
     const unsigned mapping = index + 0x200;
     for (unsigned sub = 1; sub <= object(mapping, 0); ++sub) {

@@ -61,6 +61,7 @@ class SimDrive {
   void trip(unsigned axis, std::uint16_t code, std::uint8_t error_register);  // fault, and EMCY
   void emergency(std::uint16_t code, std::uint8_t error_register);
   void power_cycle();
+  std::function<void()> more_defaults;  // sets further objects, also when it boots again
   bool unheard = false;            // its boot-up message is lost
   bool starts_itself = false;      // it is "operational" behind its boot, with the PDOs that it has by itself
   bool loses_position = false;     // its encoder counts from 0 when it boots

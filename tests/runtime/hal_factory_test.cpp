@@ -31,13 +31,16 @@ const std::map<std::string_view, std::string> kLeastBus = {
     {"gpio",
      "[[gpio]]\nname = \"board\"\nchip = \"pinctrl\"\n"
      "[[point]]\nname = \"valve\"\ndirection = \"output\"\ngpio = { bank = \"board\", line = \"VALVE\" }\n"},
+    {"can_io",
+     "[[can_io]]\nname = \"io\"\nnode = 10\n"
+     "[[point]]\nname = \"valve\"\ndirection = \"output\"\ncan_io = { module = \"io\", digital = 1 }\n"},
 };
 
 // The shortest configuration of each kind of machine, without its name.
 const std::map<std::string_view, std::string> kLeastMachine = {
     {"sim", ""},
     {"canopen",
-     "[canopen]\ninterface = \"can0\"\n"
+     "[canopen]\ninterface = \"can0\"\nsync_us = 2000\n"
      "[[canopen.drive]]\nnode = 1\naxis = [{ name = \"X\", encoder = 10000, pitch = 10.0 }]\n"
      "[[canopen.drive]]\nnode = 2\naxis = [{ name = \"Y\", encoder = 10000, pitch = 10.0 }]\n"
      "[[canopen.drive]]\nnode = 3\naxis = [{ name = \"Z\", encoder = 10000, pitch = 10.0 }]\n"},
@@ -62,7 +65,9 @@ TEST(HalFactory, EachBusIsMadeFromALeastConfiguration) {
   for (const PointBusKind& kind : nc::rt::point_bus_kinds()) {
     if (kind.make == nullptr) continue;
     ASSERT_TRUE(kLeastBus.contains(kind.name)) << kind.name;
-    const Config config = nc::test::parse_or_fail(nc::test::base_toml() + kLeastBus.at(kind.name));
+    // A module is on the line of a machine of drives.
+    const std::string machine_text = kind.name == "can_io" ? with_hal("canopen") + kLeastMachine.at("canopen") : nc::test::base_toml();
+    const Config config = nc::test::parse_or_fail(machine_text + kLeastBus.at(kind.name));
     ASSERT_EQ(config.buses.size(), 1u);
     EXPECT_EQ(config.buses[0].kind, &kind);
     EXPECT_EQ(config.points.find(config.buses[0].name + ".ok"), static_cast<int>(config.buses[0].ok_point));
