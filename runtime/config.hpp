@@ -126,6 +126,7 @@ struct PointBusConfig {
   const PointBusKind* kind = nullptr;
   std::size_t place = 0;  // index among the buses of its kind: in Config::modbus, Config::gpio or Config::can_io
   std::string name;
+  std::string device;     // what is at its other end, for the alarm of its loss: "chip pinctrl-bcm2711", "192.168.1.20 port 502", "node 10"
   unsigned ok_point = 0;  // the input point "<name>.ok"
   bool alarm = false;     // the loss of this bus is alarm R18
 };

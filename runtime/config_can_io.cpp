@@ -39,6 +39,7 @@ void add_module(TableReader* reader, NodeMap node, CanIoConfig entry, PointBusCo
   node.module->ok_point = bus.ok_point = config->points.size();
   if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");
   bus.name = entry.name = node.name;
+  bus.device = "node " + std::to_string(node.id);
   bus.place = config->can_io.size();
   entry.node = config->canopen.nodes.size();
   config->canopen.nodes.push_back(std::move(node));

@@ -89,6 +89,7 @@ void read_bank(TableReader* reader, Config* config) {
   bank.ok_point = bus.ok_point = config->points.size();
   if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");
   bus.name = bank.name;
+  bus.device = "chip " + bank.chip;
   bus.place = config->gpio.size();
   config->buses.push_back(std::move(bus));
   config->gpio.push_back(std::move(entry));

@@ -131,6 +131,7 @@ void read_link(TableReader* reader, Config* config) {
   link.ok_point = bus.ok_point = config->points.size();
   if (!config->points.add(ok)) reader->error("name", "there is no room for the point \"" + ok.name + "\"");
   bus.name = link.name;
+  bus.device = link.serial.device.empty() ? link.host + " port " + std::to_string(link.port) : link.serial.device;
   bus.place = config->modbus.size();
   config->buses.push_back(std::move(bus));
   config->modbus.push_back(std::move(entry));

@@ -526,7 +526,10 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
     const std::string& own = config_.ladder.alarm[alarm.detail % config_.ladder.alarm.size()];
     text += " " + std::to_string(alarm.detail + 1) + (own.empty() ? "" : ": " + own);
   }
-  if (alarm.id == AlarmId::kLinkLost) text += ": " + config_.buses[alarm.detail % config_.buses.size()].name;
+  if (alarm.id == AlarmId::kLinkLost) {
+    const PointBusConfig& bus = config_.buses[alarm.detail % config_.buses.size()];
+    text += ": " + bus.name + " (" + bus.device + ")";
+  }
   if (alarm.id == AlarmId::kHoming) text += std::string(": ") + homing_fault_text(static_cast<HomingFault>(alarm.detail));
   if (alarm.id == AlarmId::kLimitSwitch) text += limit_text(alarm.detail);
   if (alarm.id == AlarmId::kBadInput) text += bad_input_text(alarm.detail);

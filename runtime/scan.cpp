@@ -29,6 +29,17 @@ bool selects_spindles(const Config& config) {
   });
 }
 
+// The points that are wired to the alarms of the ladder; -1 = none.
+std::array<int, kLadderAlarms> wired_alarms(const Config& config) {
+  const std::vector<Signal> signals = machine_signals(config.nc);
+  std::array<int, kLadderAlarms> points;
+  points.fill(-1);
+  for (const SignalWire& wire : config.wires)
+    for (unsigned n = 0; n < kLadderAlarms; ++n)
+      if (signals[wire.signal].name == "plc.alarm." + std::to_string(n + 1)) points[n] = static_cast<int>(wire.point);
+  return points;
+}
+
 // The time for the execution histogram. clock_gettime() of the monotonic clock does not enter the kernel.
 std::int64_t processor_ns() noexcept {
   timespec t{};
@@ -49,6 +60,7 @@ Scan::Scan(const Config& config, Clock* clock, hal::Hal* hal, LadderHook* ladder
       ladder_(ladder),
       nc_(nc),
       systems_(config.nc.system_count),
+      alarm_point_(wired_alarms(config)),
       selects_spindles_(selects_spindles(config)),
       period_ns_(static_cast<std::int64_t>(config.cycle_us) * 1000),
       points_(initial_image(config.points)),

@@ -195,6 +195,8 @@ class Scan {
   void watch_fin() noexcept;
   void watch_clamps(std::uint64_t most) noexcept;
   void watch_links() noexcept;
+  bool is_raised(AlarmId id, std::uint32_t detail) const noexcept;
+  bool is_of_lost_link(unsigned ladder_alarm) const noexcept;
   void watch_retained() noexcept;
   void watch_printer() noexcept;
   void watch_power(bool fails) noexcept;
@@ -300,6 +302,7 @@ class Scan {
   LadderHook* ladder_;
   NcPort* nc_;
   const unsigned systems_;
+  const std::array<int, kLadderAlarms> alarm_point_;  // the point that is wired to plc.alarm.n+1; -1 = none
   const bool selects_spindles_;  // the ladder or wired points give the signals that select spindles
   const std::int64_t period_ns_;
   std::int64_t next_ns_ = 0;

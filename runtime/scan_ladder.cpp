@@ -62,7 +62,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
   }
   if (modes == 1 && !last_requests_.mode[chosen]) settle(Asked::kMode, set_mode(static_cast<Mode>(chosen)), machine_asker());
   for (unsigned n = 0; n < kLadderAlarms; ++n)
-    if ((requests.alarm >> n & 1u) != 0) raise(AlarmId::kLadder, 0, -1, n);
+    if ((requests.alarm >> n & 1u) != 0 && !is_of_lost_link(n)) raise(AlarmId::kLadder, 0, -1, n);
   if (requests.stopped) raise(AlarmId::kLadderStopped, 0, -1, requests.stopped_line, requests.stopped_fault);
   watch_power(requests.power_fails);
   // Alarms that were raised above stop the machine already in this scan.

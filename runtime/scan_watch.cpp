@@ -141,6 +141,20 @@ void Scan::watch_links() noexcept {
   }
 }
 
+bool Scan::is_raised(AlarmId id, std::uint32_t detail) const noexcept {
+  for (unsigned i = 0; i < alarms_.count; ++i)
+    if (alarms_.alarm[i].id == id && alarms_.alarm[i].detail == detail) return true;
+  return false;
+}
+
+// A link that is lost is one alarm, and what the lost values of its points would be as alarms belongs to it. R18 stops the machine as those do.
+bool Scan::is_of_lost_link(unsigned ladder_alarm) const noexcept {
+  const int point = alarm_point_[ladder_alarm];
+  if (point < 0) return false;
+  const unsigned bus = config_.points.at(static_cast<unsigned>(point)).bus;
+  return bus != 0 && points_.good[point] == 0 && is_raised(AlarmId::kLinkLost, bus - 1);
+}
+
 // Raises the alarms that the thread of the retained data has reported. A trouble that comes again after it had ended needs another reset, even when its
 // first occurrence had been acknowledged.
 void Scan::watch_retained() noexcept {

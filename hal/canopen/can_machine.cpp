@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kStackBytes = 256 * 1024;
 constexpr std::int64_t kServiceNs = 2'000'000;
-constexpr std::int64_t kModulesNs = 3'000'000'000;  // from the start on; so long I/O modules that do not answer hold it up
+constexpr std::int64_t kModulesNs = 3'000'000'000;  // behind the drives; so long I/O modules that do not answer hold the start up
 constexpr std::int64_t kPhaseShare = 64;      // with each cycle the bus's thread corrects 1/64 of its distance from the middle between two scans
 constexpr std::int64_t kPhaseStepNs = 2'000;  // the largest such correction
 
@@ -71,9 +71,9 @@ bool CanMachine::start(const PointImage& initial, std::string* error) {
   for (unsigned n = 0; n < cyclic_.module_count(); ++n) cyclic_.module(n)->begin(initial);
   if (!start_stepping(error) || !make_threads(error)) return false;
   const std::int64_t begin = monotonic_ns(), last = begin + bus_.boot_timeout_ms * 1'000'000LL;
-  const std::int64_t modules = std::min(last, begin + kModulesNs);
-  const auto waits = [&](std::int64_t now) { return cyclic_.ready() ? !service_.all_operational() && now < modules : now < last; };
-  while (!service_.refused() && waits(monotonic_ns())) sleep_until(monotonic_ns() + kServiceNs);
+  while (!cyclic_.ready() && !service_.refused() && monotonic_ns() < last) sleep_until(monotonic_ns() + kServiceNs);
+  const std::int64_t modules = std::min(last, monotonic_ns() + kModulesNs);
+  while (cyclic_.ready() && !service_.all_operational() && !service_.refused() && monotonic_ns() < modules) sleep_until(monotonic_ns() + kServiceNs);
   if (cyclic_.ready() && !service_.refused()) return true;
   const std::string missing = service_.missing();
   *error = "CANopen on " + bus_.interface + ": " + (missing.empty() ? "a drive is operational and sends no positions" : missing);

@@ -78,7 +78,12 @@ struct ModuleRig : CanRig {
     bus.attach(&io());
   }
   SimDrive& io() { return *drives[3]; }
-  bool drives_follow() const { return following(); }
+  // Also the module, for which the drives do not wait.
+  void bring_all_up() {
+    bring_up();
+    ASSERT_TRUE(until([&] { return quality("door"); }, 3000)) << said();
+    step(20);
+  }
   std::uint32_t input(unsigned bit) const { return runtime->snapshot().interface_input[0] >> bit & 1u; }
   bool quality(const char* point) {
     nc::hal::Feedback feedback;
@@ -97,7 +102,7 @@ struct ModuleRig : CanRig {
 
 TEST(CanModule, InputsAndOutputsAreThoseOfTheModule) {
   ModuleRig rig;
-  rig.bring_up();
+  rig.bring_all_up();
   rig.step(50);
   EXPECT_TRUE(rig.quality("door"));
   EXPECT_TRUE(rig.quality("coolant"));
@@ -122,7 +127,7 @@ TEST(CanModule, InputsAndOutputsAreThoseOfTheModule) {
 
 TEST(CanModule, ItIsSetUpWithItsPdosAndWithWhatItDoesWithoutTheControl) {
   ModuleRig rig(with_module(replaced(kModule, "alarm = true", "every = 5")));
-  rig.bring_up();
+  rig.bring_all_up();
   rig.step(100);
   const SimDrive& io = rig.io();
   EXPECT_EQ(io.object(0x1800, 1), 0x18Au);
@@ -141,7 +146,7 @@ TEST(CanModule, ItIsSetUpWithItsPdosAndWithWhatItDoesWithoutTheControl) {
 
 TEST(CanModule, ALostModuleIsOneAlarmAndComesBack) {
   ModuleRig rig;
-  rig.bring_up();
+  rig.bring_all_up();
   rig.io().set_object(0x6000, 2, 1, 0x04, false);
   rig.step(50);
   ASSERT_EQ(rig.input(2), 0u);
@@ -149,13 +154,13 @@ TEST(CanModule, ALostModuleIsOneAlarmAndComesBack) {
   rig.step(50);
   rig.io().dead = true;
   rig.step(600);
-  EXPECT_EQ(rig.alarms(), "R18 Link lost: io\n");
+  EXPECT_EQ(rig.alarms(), "R18 Link lost: io (node 10) (line 1)\n");
   EXPECT_FALSE(rig.quality("door"));
   EXPECT_FALSE(rig.quality("coolant"));
   EXPECT_EQ(rig.input(1), 1u) << "on_loss";
   EXPECT_EQ(rig.input(2), 0u) << "it holds";
   EXPECT_EQ(rig.value("load"), static_cast<std::uint32_t>(-7));
-  EXPECT_TRUE(rig.drives_follow()) << "the axes hold";
+  EXPECT_TRUE(rig.following()) << "the axes hold";
   rig.io().power_cycle();
   ASSERT_TRUE(rig.until([&] { return rig.quality("door"); }, 12'000)) << rig.said();
   ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
@@ -167,7 +172,7 @@ TEST(CanModule, ALostModuleIsOneAlarmAndComesBack) {
 
 TEST(CanModule, InputsThatStayAwayAreALostModule) {
   ModuleRig rig;
-  rig.bring_up();
+  rig.bring_all_up();
   rig.step(50);
   rig.io().no_tpdo = true;
   ASSERT_TRUE(rig.until([&] { return !rig.quality("door"); }, 30));

@@ -8,6 +8,7 @@ whose inputs is wired to its output of the same number, digital and analog.
 """
 import sys
 import threading
+import time
 
 import canopen
 from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes as types
@@ -177,7 +178,10 @@ def main():
     nodes = drives + [module] * (module is not None)
     lock, tripped = threading.Lock(), []
 
+    heard = [time.monotonic()]
+
     def on_sync(_id, _data, _time):
+        heard[0] = time.monotonic()
         with lock:
             for node in nodes:
                 node.sync()
@@ -195,6 +199,8 @@ def main():
     network.subscribe(0, on_nmt)
     print("ready", flush=True)
     sys.stdin.read()
+    while time.monotonic() - heard[0] < 1.0:  # what the control has sent at its end is taken first
+        time.sleep(0.1)
     with lock:
         for drive in drives:
             print(f"node {drive.node.id} position {drive.position} state {drive.state} interpolation "

@@ -185,7 +185,7 @@ def main():
     places = [int(line.split()[3]) for line in drives]
     assert abs(places[0] - 12_345) <= 1 and abs(places[1] - 6_172) <= 2 and places[2] == 1_000, places
     # What the module's outputs are wired to comes back: bit 11 is 1, the word 1500, and the axes go there.
-    block = "#1100 = 1\n#1133 = 1500\nG04 X1.\nG90 G01 X[5 * #1000] Y[#1033 / 1000] Z2. F3000"
+    block = "#1100 = 1\n#1133 = 1500\nWHILE [#1000 EQ 0] DO1\nG04 X0.1\nEND1\nWHILE [#1033 NE 1500] DO1\nG04 X0.1\nEND1\nG90 G01 X[5 * #1000] Y[#1033 / 1000] Z2. F3000"
     status, said, drives = run(python, block, ("module",), more=MODULE)
     print(said, *drives, sep="\n")
     assert status == 0, status

@@ -22,10 +22,18 @@ using namespace nc::rt;
 // A link whose partner is present or not, as the test sets it.
 struct FakeLink final : nc::hal::PointBus {
   bool start(const nc::hal::PointImage&, std::string*) override { return true; }
-  void read(nc::hal::PointImage* image) noexcept override { image->value[ok_point] = ok; }
+  void read(nc::hal::PointImage* image) noexcept override {
+    image->value[ok_point] = ok;
+    if (values == nullptr) return;
+    for (const nc::hal::modbus::PointMap& map : *values) {
+      image->good[map.point] = static_cast<std::uint8_t>(ok);
+      image->value[map.point] = ok != 0 ? active : map.loss_value;
+    }
+  }
   void write(const nc::hal::PointImage&) noexcept override {}
   void stop() noexcept override {}
-  unsigned ok_point = 0, ok = 0;
+  unsigned ok_point = 0, ok = 0, active = 0;
+  const std::vector<nc::hal::modbus::PointMap>* values = nullptr;
 };
 
 class Board : public testing::Test {
@@ -185,11 +193,53 @@ TEST_F(Board, ALinkWithAnAlarmStopsTheMachineWhenItIsLost) {
   EXPECT_EQ(alarm(), "");
   link.ok = 0;
   steps(5);
-  EXPECT_EQ(alarm(), "R18 Link lost: io");
+  EXPECT_EQ(alarm(), "R18 Link lost: io (127.0.0.1 port 1)");
   link.ok = 1;
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   steps(100);
   EXPECT_EQ(alarm(), "");
+}
+
+// A chip with the contacts of eight alarms, the limit switches and the dogs of all axes: each of its points shows what is configured for a loss, and that says
+// nothing about the machine.
+TEST_F(Board, ALostChipIsOneAlarmAndNotOneForEachLine) {
+  std::string text = "[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\nport = 1\nalarm = true\n", wires = "[signals]\n";
+  for (int n = 1; n <= 8; ++n) {
+    const std::string number = std::to_string(n);
+    text += "[[point]]\nname = \"fault_" + number + "\"\ndirection = \"input\"\nmodbus = { link = \"io\", table = \"coil\", address = " + number + ", on_loss = 1 }\n";
+    wires += "\"plc.alarm." + number + "\" = \"fault_" + number + "\"\n";
+  }
+  build(text + wires);
+  const auto alarms = [&] {
+    const Snapshot now = runtime->snapshot();
+    std::string all;
+    for (unsigned i = 0; i < now.alarms.count; ++i) all += runtime->alarm_text(now.alarms.alarm[i]) + "\n";
+    return all;
+  };
+  link.ok = 1;
+  link.values = &config.modbus[0].link.points;
+  steps(100);
+  ASSERT_EQ(alarms(), "");
+  link.ok = 0;
+  steps(100);
+  EXPECT_EQ(alarms(), "R18 Link lost: io (127.0.0.1 port 1)\n");
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  steps(100);
+  EXPECT_EQ(alarms(), "R18 Link lost: io (127.0.0.1 port 1)\n") << "it is lost still";
+  link.ok = 1;
+  link.active = 1;
+  steps(100);
+  EXPECT_NE(alarms().find("R16 Alarm of the ladder 8\n"), std::string::npos) << "a contact of a chip that answers counts";
+}
+
+// Before the link counts as lost (it may come up later than the control) its values count as configured.
+TEST_F(Board, AContactOfALinkThatHasNotComeYetIsAnAlarm) {
+  build("[[modbus]]\nname = \"io\"\nhost = \"127.0.0.1\"\nport = 1\nalarm = true\n[[point]]\nname = \"p\"\ndirection = \"input\"\n"
+      "modbus = { link = \"io\", table = \"coil\", address = 0, on_loss = 1 }\n[signals]\n\"plc.alarm.3\" = \"p\"\n");
+  link.values = &config.modbus[0].link.points;
+  steps(100);
+  EXPECT_EQ(runtime->snapshot().alarms.count, 1u);
+  EXPECT_EQ(runtime->alarm_text(runtime->snapshot().alarms.alarm[0]).substr(0, 3), "R16");
 }
 
 TEST_F(Board, ALinkThatNeverComesIsAnAlarmAfterAWhile) {
