@@ -107,7 +107,7 @@ struct ActiveAlarm {
   std::uint8_t system = 0;  // index of the part system
   std::uint64_t scan = 0;   // when it came
   nc_source source{};       // block in execution at that moment
-  std::uint32_t detail = 0; // R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits; R22: LimitDetail; R23: HomingFault; R24: PowerDetail
+  std::uint32_t detail = 0; // R12: number of the spindle, from 1, 0 = an axis; R15: FinFault; R16: number; R17: line; R18: link; R19, R20: retain_detail(); R21: nc_input_bits; R22: LimitDetail; R23: HomingFault; R24: PowerDetail
   std::uint32_t code = 0;   // R15: the M code, or the T code when there is no M; ~0 = not given out yet; R12: hal/drive_fault.hpp; R24: PowerWatch::times(); R17: ladder::Fault
   bool acknowledged = false;  // a warning, or a limit switch, whose cause goes on: a reset has been made since, and it stops nothing any more
 };

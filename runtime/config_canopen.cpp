@@ -22,11 +22,11 @@ using hal::canopen::NodeMap;
 using hal::canopen::ObjectValue;
 
 constexpr double kMaxIncrements = 2147483647.0;  // the position of a drive is a signed number of 32 bits
-constexpr double kMaxSeconds = 600;
+constexpr double kMostCanSeconds = 600;
 
 void milliseconds(TableReader* reader, const char* key, unsigned* ms, double least) {
   double seconds = *ms / 1000.0;
-  if (reader->number(key, &seconds, least, kMaxSeconds)) *ms = static_cast<unsigned>(std::lround(seconds * 1000));
+  if (reader->number(key, &seconds, least, kMostCanSeconds)) *ms = static_cast<unsigned>(std::lround(seconds * 1000));
 }
 
 void read_bus(TableReader* reader, Config* config) {
@@ -52,32 +52,17 @@ void read_bus(TableReader* reader, Config* config) {
   bus.completes_functions = config->ladder.program.empty();
 }
 
-// Reads the name of a point of the homing: the output that requests it, or the input that reports it done.
-void read_point(TableReader* reader, const char* key, hal::PointDirection direction, const Config& config, int* place) {
-  std::string name;
-  reader->require(key);
-  if (!reader->string(key, &name)) return;
-  *place = config.points.find(name);
-  if (*place < 0) return reader->error(key, "no point is named \"" + name + "\"");
-  const hal::Point& point = config.points.at(static_cast<unsigned>(*place));
-  const bool output = direction == hal::PointDirection::kOutput;
-  if (point.type != hal::PointType::kBit || point.direction != direction)
-    reader->error(key, "point \"" + name + "\" must be a bit and an " + (output ? "output" : "input"));
-  else if (!output && point.bus != 0)
-    reader->error(key, "point \"" + name + "\" is on another bus");
-}
-
 void read_homing(TableReader* axis, const Config& config, AxisMap* map) {
   axis->table("homing", [&](TableReader& reader) {
-    for (const char* key : {"method", "fast", "slow", "acceleration"}) reader.require(key);
+    for (const char* key : {"method", "fast", "slow", "acceleration", "request", "done"}) reader.require(key);
     if (reader.integer("method", &map->homing_method, -128, 127) && map->homing_method == 0) reader.error("method", "0 is no homing: leave the table out");
     reader.number("fast", &map->homing_fast, 1e-6, 1e6);
     reader.number("slow", &map->homing_slow, 1e-6, 1e6);
     reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
     reader.number("position", &map->homing_position, -1e6, 1e6);
     reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
-    read_point(&reader, "request", hal::PointDirection::kOutput, config, &map->homing_request);
-    read_point(&reader, "done", hal::PointDirection::kInput, config, &map->homed);
+    read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, config, &map->homing_request);
+    read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, config, &map->homed);
   });
 }
 
@@ -119,18 +104,12 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   const bool named = reader->string("name", &map.name);
   const bool found = named && find_axis(config, map.name, &map.system, &map.axis);
   if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
-  map.slot = static_cast<unsigned>(node->axes.size());
-  reader->integer("slot", &map.slot, 0, 7);
-  map.rpdo = map.tpdo = 64 * map.slot + 1;  // default: the numbering that is usual for drives with several axes
-  reader->integer("rpdo", &map.rpdo, 1, 512);
-  reader->integer("tpdo", &map.tpdo, 1, 512);
+  read_drive_place(reader, *node, &map);
   read_scale(reader, &map);
   reader->number("zero", &map.zero, -1e6, 1e6);
   reader->number("following_error_limit", &map.following_limit, 0, 1e6);
   read_homing(reader, config, &map);
   read_probe(reader, &map);
-  for (const AxisMap& other : node->axes)
-    if (other.slot == map.slot) reader->error("slot", "axis " + other.name + " of this drive has it already");
   if (!found) return;
   map.max_velocity = config.nc.system[map.system].axis[map.axis].max_velocity;
   for (const NodeMap& other : config.canopen.nodes)
@@ -156,6 +135,29 @@ void read_object(TableReader* reader, NodeMap* node) {
 }
 
 }  // namespace
+
+void read_drive_place(TableReader* reader, const NodeMap& node, AxisMap* map) {
+  map->slot = static_cast<unsigned>(node.axes.size());
+  reader->integer("slot", &map->slot, 0, 7);
+  map->rpdo = map->tpdo = 64 * map->slot + 1;  // default: the numbering that is usual for drives with several axes
+  reader->integer("rpdo", &map->rpdo, 1, 512);
+  reader->integer("tpdo", &map->tpdo, 1, 512);
+  for (const AxisMap& other : node.axes)
+    if (other.slot == map->slot) reader->error("slot", (other.spindle ? "" : "axis ") + other.name + " of this drive has it already");
+}
+
+void read_drive_point(TableReader* reader, const char* key, hal::PointType type, hal::PointDirection direction, const Config& config, int* place) {
+  std::string name;
+  if (!reader->string(key, &name)) return;
+  *place = config.points.find(name);
+  if (*place < 0) return reader->error(key, "no point is named \"" + name + "\"");
+  const hal::Point& point = config.points.at(static_cast<unsigned>(*place));
+  const bool output = direction == hal::PointDirection::kOutput;
+  if (point.type != type || point.direction != direction)
+    reader->error(key, "point \"" + name + "\" must be a " + (type == hal::PointType::kBit ? "bit" : "word") + " and an " + (output ? "output" : "input"));
+  else if (!output && point.bus != 0)
+    reader->error(key, "point \"" + name + "\" is on another bus");
+}
 
 void read_identity(TableReader* reader, NodeMap* node) {
   reader->integer("vendor", &node->vendor, 0, 0xFFFFFFFFll);
@@ -185,11 +187,13 @@ namespace {
 void read_drive(TableReader* reader, Config* config) {
   NodeMap node;
   BusMap& bus = config->canopen;
-  for (const char* key : {"node", "axis"}) reader->require(key);
+  reader->require("node");
+  if (reader->find("axis") == nullptr && reader->find("spindle") == nullptr) reader->error("axis", "is missing: [[canopen.drive.axis]], or [[canopen.drive.spindle]]");
   const bool numbered = reader->integer("node", &node.id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
   node.name = "drive " + std::to_string(node.id);
   reader->string("name", &node.name);
   reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, *config, &node); });
+  reader->tables("spindle", [&](TableReader& spindle, std::size_t) { read_drive_spindle(&spindle, *config, &node); });
   read_identity(reader, &node);
   std::string eds;
   if (reader->string("eds", &eds))

@@ -4,6 +4,7 @@
 
 #include "hal/modbus/codec.hpp"
 #include "runtime/config_sections.hpp"
+#include "runtime/machine_canopen.hpp"
 
 namespace nc::rt {
 namespace {
@@ -92,7 +93,7 @@ void read_spindle_feedback(TableReader* root, Config* config) {
   for (unsigned s = 0; s < config->nc.system_count; ++s)
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
       SpindleFeedback& feedback = config->spindle_feedback[s][n];
-      const bool driven = s == 0 && config->sim.plant.spindle[n].driven;
+      const bool driven = is_on_drive(*config, s, n) || (s == 0 && config->sim.plant.spindle[n].driven);
       if (!feedback.given && !driven && !config->buses.empty()) feedback.by = SpindleFeedback::By::kNothing;
       const bool no_sign = feedback.sign == SpindleFeedback::Sign::kNo || (feedback.sign == SpindleFeedback::Sign::kAsPoint && point_without_sign(*config, feedback));
       if (no_sign) config->nc.system[s].spindle_unsigned |= std::uint64_t{1} << n;

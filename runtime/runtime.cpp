@@ -538,6 +538,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kLadderStopped) text += ": " + ladder_fault(alarm);
   if (alarm.id == AlarmId::kDriveFault)
     if (const std::string why = hal::drive_fault_text(alarm.code); !why.empty()) text += ": " + why;
+  if (alarm.id == AlarmId::kDriveFault && alarm.detail != 0) text += ", spindle " + std::to_string(alarm.detail);
   if (alarm.axis >= 0) text += std::string(", axis ") + config_.nc.system[alarm.system].axis[alarm.axis].name;
   return text + place_text(alarm.source);
 }

@@ -84,6 +84,8 @@ void Scan::watch_machine() noexcept {
   if (reset_phase_ == ResetPhase::kStopping && reset_scans_ == 0) return;  // a reset has just acknowledged the faults; those that stay are raised again in the next scan
   for (unsigned s = 0; s < systems_; ++s) {
     const hal::SystemFeedback& machine = feedback_.system[s];
+    for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n)
+      if ((machine.spindle_fault >> n & 1u) != 0) raise(AlarmId::kDriveFault, s, -1, n + 1, machine.spindle_fault_code[n]);
     if ((machine.following_fault | machine.drive_fault) == 0) continue;
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       if ((machine.drive_fault >> a & 1u) != 0) raise(AlarmId::kDriveFault, s, static_cast<int>(a), 0, machine.drive_fault_code[a]);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hal/canopen/module_map.hpp"
+#include "hal/canopen/spindle_loop.hpp"
 #include "nc/types.h"
 
 namespace nc::hal::canopen {
@@ -24,6 +25,21 @@ struct ObjectValue {
   std::uint8_t sub = 0;
   std::uint8_t bytes = 0;  // 1, 2 or 4
   std::uint32_t value = 0;
+};
+
+// Modes of operation (6060h) of an axis.
+inline constexpr std::int8_t kModeProfileVelocity = 3, kModeHoming = 6, kModeCyclicPosition = 8, kModeCyclicVelocity = 9;
+
+// An axis of a drive that is a spindle of the control. It is given a speed (60FFh) and measured by its position (6064h).
+struct SpindleMap {
+  unsigned number = 0;            // index among the spindles of the part system
+  std::vector<double> gears;      // turns of the motor for one of the spindle, in each gear step; negative: the motor turns the other way
+  int gear_select = -1;           // point: word output with the number of the gear step, from 1; another number is a gear that is not in
+  double increments = 1;          // of 6064h, per turn of the motor
+  double velocity_scale = 1;      // value of 60FFh at 1 r/min of the motor
+  int forward = -1, backward = -1;      // points: the outputs that turn it (M3, M4)
+  int orient = -1, oriented = -1;       // points: the output that asks for it, the input that says it is done
+  SpindleLaw law;
 };
 
 struct AxisMap {
@@ -41,6 +57,8 @@ struct AxisMap {
   double homing_position = 0;                                        // machine position of the reference mark
   double homing_timeout_s = 120;
   int homing_request = -1, homed = -1;  // points: the output whose rising edge starts homing; the input that is on when it is done
+  std::int8_t mode = kModeCyclicPosition;
+  std::optional<SpindleMap> spindle;  // `axis` is NC_MAX_AXES + its number then, and no axis of the control
   // The skip signal, 1 to 8, that touch probe 1 of the drive (60B8h) gives; 0 = the probe is not used.
   unsigned skip_signal = 0;
   bool skip_falling = false;

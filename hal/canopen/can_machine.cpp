@@ -61,7 +61,10 @@ bool make_thread(void* (*body)(void*), void* self, int priority, const char* nam
 }  // namespace
 
 CanMachine::CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report)
-    : bus_(bus), port_(std::move(port)), cyclic_(bus_, port_.get()), service_(bus_, &cyclic_, std::move(report)) {}
+    : bus_(bus), port_(std::move(port)), cyclic_(bus_, port_.get()), service_(bus_, &cyclic_, std::move(report)) {
+  for (unsigned i = 0; i < cyclic_.axis_count(); ++i)
+    if (cyclic_.axis(i).spindle) spindle_[i].loop = SpindleLoop(cyclic_.axis(i).spindle->law);
+}
 
 CanMachine::~CanMachine() { stop(); }
 
@@ -203,6 +206,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     SystemFeedback& out = feedback->system[s];
     out.following_fault = out.drive_fault = out.not_following = 0;
     out.skip = out.skip_latched = 0;
+    out.spindle_fault = 0;
     out.fin = bus_.completes_functions && strobe_[s];
     for (nc_spindle_inputs& spindle : out.spindle) spindle.unmeasured = true;
   }
@@ -210,6 +214,10 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     const AxisMap& map = cyclic_.axis(i);
     const AxisShown& axis = shown.axis[i];
     SystemFeedback& out = feedback->system[map.system];
+    if (map.spindle) {
+      read_spindle(i, map, shown, feedback, image);
+      continue;
+    }
     const std::uint32_t bit = 1u << map.axis;
     const auto machine = [&map](std::int64_t increments) { return static_cast<double>(increments) / map.increments_per_unit + map.zero; };
     if (axis.probe_on) {
@@ -232,6 +240,51 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
   }
 }
 
+// The turns are counted on by the way of the motor in the gear that is in.
+void CanMachine::read_spindle(unsigned index, const AxisMap& map, const BusShown& shown, Feedback* feedback, PointImage* image) noexcept {
+  const AxisShown& axis = shown.axis[index];
+  const SpindleMap& spindle = *map.spindle;
+  SystemFeedback& out = feedback->system[map.system];
+  Spindle& now = spindle_[index];
+  const double increments = spindle.increments * spindle.gears[now.gear];
+  if (axis.known && !now.known) {
+    now.turns = static_cast<double>(axis.position) / increments;
+    now.before.fill(now.turns);
+  } else if (axis.known) {
+    now.turns += static_cast<double>(axis.position - now.position) / increments;
+  }
+  now.known = axis.known;
+  now.position = axis.position;
+  double& oldest = now.before[now.scan++ % kSpeedScans];
+  const double speed = (now.turns - oldest) / (kSpeedScans * bus_.cycle_us * 1e-6);
+  oldest = now.turns;
+  const bool faulty = (axis.fault & kFaulty) != 0;
+  out.spindle[spindle.number] = {speed, now.turns, true, false, false, !axis.known || shown.lost || faulty};
+  if (spindle.oriented >= 0) image->value[spindle.oriented] = now.loop.oriented() ? 1 : 0;
+  if (!faulty || shown.serial < reset_serial_) return;
+  out.spindle_fault |= 1u << spindle.number;
+  out.spindle_fault_code[spindle.number] = axis.fault & ~kFaulty;
+}
+
+// A gear that is not in turns nothing: the motor stands until the ladder says which one is.
+std::int64_t CanMachine::spindle_target(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept {
+  const SpindleMap& spindle = *map.spindle;
+  Spindle& now = spindle_[index];
+  const auto is_on = [&image](int point) { return point >= 0 && image.value[point] != 0; };
+  const unsigned step = spindle.gear_select >= 0 ? image.value[spindle.gear_select] : 1;
+  const bool in_gear = step >= 1 && step <= spindle.gears.size();
+  if (in_gear) now.gear = step - 1;
+  const int way = static_cast<int>(is_on(spindle.forward)) - static_cast<int>(is_on(spindle.backward));
+  SpindleAsked asked;
+  asked.enabled = system.enable && cyclic_.shown().axis[index].follows;
+  asked.speed = in_gear ? way * std::abs(system.spindle_rev_min[spindle.number]) / 60 : 0;
+  asked.orient = in_gear && is_on(spindle.orient);
+  asked.synchronous = in_gear && (system.spindle_synchronous >> spindle.number & 1u) != 0;
+  asked.turns = system.spindle_turns;
+  const double speed = now.loop.step(asked, now.turns, bus_.cycle_us * 1e-6);
+  return std::llround(speed * 60 * spindle.gears[now.gear] * spindle.velocity_scale);
+}
+
 // True when the request point has risen and the drive has not begun homing since. While a program runs the request waits for its end.
 bool CanMachine::asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept {
   const bool on = map.homing_request >= 0 && image.value[map.homing_request] != 0;
@@ -248,6 +301,12 @@ void CanMachine::write(const Command& command, const PointImage& image) noexcept
     const AxisMap& map = cyclic_.axis(i);
     const SystemCommand& system = command.system[map.system];
     AxisWanted& axis = wanted.axis[i];
+    if (map.spindle) {
+      axis.target = spindle_target(i, map, system, image);
+      axis.on = system.enable;
+      axis.reset = system.reset;
+      continue;
+    }
     axis.target = std::llround((system.position.v[map.axis] - map.zero) * map.increments_per_unit);
     axis.on = system.enable && (system.off >> map.axis & 1u) == 0;
     axis.reset = system.reset;

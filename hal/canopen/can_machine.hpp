@@ -53,6 +53,8 @@ class CanMachine final : public Hal {
   void end_threads();
   void stop_nodes();
   void end_modules();
+  void read_spindle(unsigned index, const AxisMap& map, const BusShown& shown, Feedback* feedback, PointImage* image) noexcept;
+  std::int64_t spindle_target(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept;
   bool asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept;
 
   const BusMap bus_;
@@ -68,6 +70,16 @@ class CanMachine final : public Hal {
   };
   std::array<HomingRequest, kMaxAxes> homing_{};
   bool strobe_[NC_MAX_SYSTEMS] = {};
+  static constexpr unsigned kSpeedScans = 8;  // over which the speed of a spindle is measured
+  struct Spindle {
+    SpindleLoop loop;
+    std::int64_t position = 0;
+    double turns = 0;
+    std::array<double, kSpeedScans> before{};  // turns in the last scans
+    unsigned scan = 0, gear = 0;
+    bool known = false;
+  };
+  std::array<Spindle, kMaxAxes> spindle_{};
 
   pthread_t bus_pthread_{}, service_pthread_{};
   bool has_bus_thread_ = false, has_service_thread_ = false, open_ = false;

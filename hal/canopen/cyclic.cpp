@@ -40,7 +40,7 @@ Cyclic::Cyclic(const BusMap& bus, CanPort* port)
       axis.rpdo_id = static_cast<std::uint16_t>(kRpdoId + kPdoStep * takes++ + node.id);
       axis.tpdo_id = static_cast<std::uint16_t>(kTpdoId + kPdoStep * sends++ + node.id);
       if (map.has_probe()) axis.probe_id = static_cast<std::uint16_t>(kTpdoId + kPdoStep * sends++ + node.id);
-      wanted_mode_[axes_.size()].store(kModeCyclicPosition, std::memory_order_relaxed);
+      wanted_mode_[axes_.size()].store(map.mode, std::memory_order_relaxed);
       axes_.push_back(axis);
     }
   }

@@ -35,12 +35,9 @@ enum class NodePhase : std::uint8_t {
   kRefused       // it cannot be set up, which somebody has to look at; the set-up is tried again after some seconds
 };
 
-// Modes of operation (6060h) of an axis, which the slow part switches on request.
-inline constexpr std::int8_t kModeHoming = 6, kModeCyclicPosition = 8;
-
 // What the scan wants of one axis.
 struct AxisWanted {
-  std::int64_t target = 0;  // increments
+  std::int64_t target = 0;  // increments; of a spindle the value of 60FFh
   bool on = false;
   bool reset = false;       // clear faults; if the drive has a fault, reset it, too
   bool home = false;        // homing begins at the rising edge

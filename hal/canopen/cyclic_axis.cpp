@@ -31,8 +31,9 @@ void Cyclic::fault(Axis* axis, DriveTrouble trouble) noexcept {
 bool Cyclic::follows(unsigned index) const noexcept {
   const Axis& axis = axes_[index];
   return nodes_[axis.node].operational && axis.known && !axis.faulty && axis.homing == Homing::kNo && axis.control == kEnableOperation &&
-         drive_state(axis.status) == DriveState::kOperationEnabled && (axis.status & kStatusFollows) != 0 &&
-         mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
+         drive_state(axis.status) == DriveState::kOperationEnabled &&
+         ((axis.status & kStatusFollows) != 0 || axis.map->mode == kModeProfileVelocity) &&  // bit 12 is "stands" in that mode
+         mode_[index].load(std::memory_order_acquire) == axis.map->mode;
 }
 
 // Checks whether positions of the axis come, and whether its status reports a fault. A node whose heartbeat says "operational" while its positions stay away has
@@ -55,7 +56,7 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   if (axis.ahead >= kAheadLimit) fault(&axis, DriveTrouble::kTwice);
   const DriveState state = drive_state(axis.status);
   if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
-    axis.following_fault |= axis.was_on && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
+    axis.following_fault |= axis.was_on && !axis.map->spindle && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
     fault(&axis, DriveTrouble::kNone);
   }
 }
@@ -103,7 +104,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   const AxisWanted& wanted = wanted_.front().axis[index];
   if (!nodes_[axis.node].operational || !axis.known) {
     if (commanded && wanted.reset && nodes_[axis.node].operational) (void)wish_of(&axis, wanted, commanded);
-    if (axis.homing != Homing::kNo) wanted_mode_[index].store(kModeCyclicPosition, std::memory_order_release);
+    if (axis.homing != Homing::kNo) wanted_mode_[index].store(axis.map->mode, std::memory_order_release);
     axis.homing = Homing::kNo;
     axis.was_on = false;
     axis.on_syncs = 0;
@@ -111,7 +112,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   }
   const bool followed = follows(index);
   const DriveWish wish = wish_of(&axis, wanted, commanded);
-  const bool in_mode = mode_[index].load(std::memory_order_acquire) == kModeCyclicPosition;
+  const bool in_mode = mode_[index].load(std::memory_order_acquire) == axis.map->mode;
   const bool homing = home_axis(index, &axis, wanted);
   if (wish == DriveWish::kOn) {
     if (axis.was_on && !homing && drive_state(axis.status) != DriveState::kOperationEnabled) fault(&axis, DriveTrouble::kLeftEnabled);
@@ -123,8 +124,11 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   }
   axis.target[2] = axis.target[1];
   axis.target[1] = axis.target[0];
-  axis.target[0] = followed && wish == DriveWish::kOn ? target_of(&axis, wanted) : axis.position;
-  if (!followed) axis.target[1] = axis.target[2] = axis.target[0];
+  const bool led = followed && wish == DriveWish::kOn;
+  if (axis.map->spindle) axis.target[0] = led ? wanted.target : 0;  // a command that is missing: the speed stays
+  else axis.target[0] = led ? target_of(&axis, wanted) : axis.position;
+  if (axis.map->spindle) axis.target[1] = axis.target[2] = axis.target[0];
+  else if (!followed) axis.target[1] = axis.target[2] = axis.target[0];
   else check_following(&axis);
   const DriveWish now = axis.faulty && wish == DriveWish::kOn ? DriveWish::kOff : wish;
   axis.control = now == DriveWish::kOn && !in_mode && !homing ? kShutdown : axis.way.next(axis.status, now);

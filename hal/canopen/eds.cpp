@@ -234,7 +234,8 @@ std::vector<EdsError> check_eds(const Eds& eds, const NodeMap& node) {
     check_exists(eds, 0x1A00 + axis.tpdo - 1, 0, device, &errors);
     if (axis.has_probe()) check_exists(eds, 0x1A00 + axis.tpdo, 0, device, &errors);
     for (const unsigned index : {0x6060u, 0x6061u}) check_exists(eds, axis.object(index), 0, device, &errors);
-    for (const unsigned sub : {1u, 2u}) check_exists(eds, axis.object(0x60C2), sub, device, &errors);
+    for (const unsigned sub : {1u, 2u})
+      if (axis.mode != kModeProfileVelocity) check_exists(eds, axis.object(0x60C2), sub, device, &errors);
     if (axis.has_homing())
       for (const unsigned index : {0x6098u, 0x609Au, 0x607Cu}) check_exists(eds, axis.object(index), 0, device, &errors);
   }

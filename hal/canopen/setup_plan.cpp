@@ -98,7 +98,7 @@ InterpolationTime interpolation_time_of(unsigned us) {
 }
 
 std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis) {
-  std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, 0x607A, 32)};
+  std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, axis.spindle ? 0x60FF : 0x607A, 32)};
   if (axis.has_probe()) objects.push_back(map_entry(axis, 0x60B8, 16));
   return objects;
 }
@@ -127,7 +127,7 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
     if (axis.has_probe()) plan.pdo(0x1800, 0x1A00, axis.tpdo + 1, kTpdoId + kPdoStep * sends++ + node.id, probe_mapping(axis));
     plan.try_write(axis.object(0x6007), 0, 2, 3);  // when the connection is lost: quick stop
     plan.try_write(axis.object(0x605A), 0, 2, 2);  // at a quick stop: the drive's own ramp, then no torque
-    interpolation_time(&plan, axis, bus.sync_us);
+    if (axis.mode != kModeProfileVelocity) interpolation_time(&plan, axis, bus.sync_us);
     if (axis.has_homing()) homing(&plan, axis);
   }
   for (const ObjectValue& object : node.objects) plan.write(object.index, object.sub, object.bytes, object.value);

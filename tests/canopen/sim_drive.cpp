@@ -2,6 +2,7 @@
 // A simulated CiA 402 drive. See sim_drive.hpp.
 #include "sim_drive.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -66,6 +67,7 @@ void SimDrive::defaults() {
     set_object(b + 0xB9, 0, 2, 0, false);
     set_object(b + 0xBA, 0, 4, 0, false);
     set_object(b + 0xBB, 0, 4, 0, false);
+    set_object(b + 0xFF, 0, 4, 0);
     set_object(b + 0xC2, 1, 1, 0);
     set_object(b + 0xC2, 2, 1, 0);
   }
@@ -268,6 +270,7 @@ void SimDrive::take_value(unsigned entry, std::uint32_t value) {
   if (index >= 0x6200 && index < 0x6800 && axis_.empty()) objects_.at(entry >> 8).value = value;
   for (unsigned a = 0; a < axis_.size(); ++a) {
     if (index == base(a) + 0x40) axis_[a].pending_control = static_cast<std::uint16_t>(value), axis_[a].pending = true;
+    if (index == base(a) + 0xFF) axis_[a].pending_velocity = static_cast<std::int32_t>(value);
     if (index == base(a) + 0x7A) axis_[a].pending_target = static_cast<std::int32_t>(value);
     if (index == base(a) + 0xB8) axis_[a].pending_probe = static_cast<std::uint16_t>(value);
   }
@@ -326,7 +329,7 @@ std::uint16_t SimDrive::status(unsigned number) const {
     case State::kFault: word |= 0x0008; break;
   }
   const std::uint32_t mode = object(base(number) + 0x61, 0);
-  if (mode == 8 && axis.state == State::kEnabled) word |= 0x1000;
+  if ((mode == 8 || mode == 9) && axis.state == State::kEnabled) word |= 0x1000;
   if (mode == 6 && axis.homing_done) word |= 0x1400;
   if (mode == 6 && axis.homing_error) word |= 0x2000;
   return word;
@@ -394,6 +397,10 @@ void SimDrive::move(Axis& axis, unsigned number) {
     plant.coast = step;
     const double window = object(base(number) + 0x65, 0);
     if (std::abs(plant.command - plant.position) > window) trip(number, 0x8611, 0x21);
+  } else if (axis.state == State::kEnabled && (mode == 9 || mode == 3)) {
+    plant.velocity += std::clamp(axis.pending_velocity - plant.velocity, -velocity_ramp, velocity_ramp);
+    plant.coast = plant.velocity * sync_s;
+    plant.position += plant.coast;
   } else if (axis.state == State::kEnabled && mode == 6) {
     home(axis, number);
   } else {  // the drive's own ramp, or friction

@@ -25,6 +25,7 @@ struct SimPlantAxis {
   bool blocked = false;
   std::int32_t command = 0;
   bool enabled = false;     // torque
+  double velocity = 0;      // increments per second, in the velocity modes
   double coast = 0;         // increments per SYNC at which it coasts on without torque
 };
 
@@ -65,6 +66,8 @@ class SimDrive {
   bool unheard = false;            // its boot-up message is lost
   bool starts_itself = false;      // it is "operational" behind its boot, with the PDOs that it has by itself
   bool loses_position = false;     // its encoder counts from 0 when it boots
+  double sync_s = 0.001;           // time between two SYNCs, for its velocity modes
+  double velocity_ramp = 1e12;     // increments per second and SYNC that its motor gains
   unsigned stored_heartbeat = 0;   // 1017h, as it has it by itself
   void leave_enabled(unsigned axis) { axis_[axis].state = State::kSwitchOnDisabled; }  // as a safety input (STO) does
   void probe_edge(unsigned axis = 0);  // its touch probe input rises ...
@@ -80,6 +83,7 @@ class SimDrive {
     State state = State::kSwitchOnDisabled;
     std::uint16_t control = 0, before = 0, pending_control = 0;
     std::int32_t pending_target = 0;
+    std::int32_t pending_velocity = 0;  // 60FFh, increments per second
     std::uint16_t pending_probe = 0, probe_before = 0;
     bool pending = false;
     unsigned delay = 0;

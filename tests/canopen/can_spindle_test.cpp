@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// A spindle on a CiA 402 drive: speed, both ways, gear steps, orientation, synchronous taps from its encoder, and its faults.
+#include <gtest/gtest.h>
+
+#include "can_rig.hpp"
+#include "hal/canopen/spindle_loop.hpp"
+
+namespace {
+
+using nc::hal::canopen::SpindleAsked;
+using nc::hal::canopen::SpindleLaw;
+using nc::hal::canopen::SpindleLoop;
+using nc::rt::Answer;
+using nc::rt::CommandKind;
+using nc::rt::Config;
+using nc::test::can_toml;
+using nc::test::CanRig;
+
+constexpr const char* kSpindle =
+    "[[canopen.drive]]\nname = \"spindle drive\"\nnode = 4\n[[canopen.drive.spindle]]\nencoder = 10000\nmax_rpm = 3000.0\nacceleration = 6000.0\n"
+    "forward = \"m3\"\nbackward = \"m4\"\n";
+constexpr const char* kOrient = "orient = { request = \"m19\", done = \"m19_done\", angle = 90.0, speed = 120.0, window = 1.0 }\n";
+constexpr const char* kGears = "gears = [[4, 1], [1, 1]]\ngear_select = \"gear\"\n";
+
+std::string with_spindle(const std::string& more = "", const std::string& base = kSpindle) {
+  std::string text = can_toml("sync_us = 2000\n");
+  std::string points;
+  for (const char* name : {"m3", "m4", "m19"}) points += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"output\"\n";
+  points += "[[point]]\nname = \"m19_done\"\ndirection = \"input\"\n[[point]]\nname = \"gear\"\ndirection = \"output\"\ntype = \"word\"\ninitial = 1\n";
+  text.insert(text.find("[macro_interface]"), points);
+  text.insert(text.find("\"#1000\" = "), "\"#1103\" = \"m3\"\n\"#1104\" = \"m4\"\n\"#1119\" = \"m19\"\n\"#1019\" = \"m19_done\"\n\"#1133\" = \"gear\"\n");
+  return text + base + more + "[parameters]\n\"3005\" = 3000\n\"3013\" = 600\n\"3017\" = 250\n";
+}
+
+std::string errors_of(const std::string& text) {
+  Config config;
+  std::string all;
+  for (const auto& error : nc::rt::parse_config(text, "can.toml", &config)) all += error.text() + "\n";
+  return all;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+struct SpindleRig : CanRig {
+  explicit SpindleRig(const std::string& more = "", const std::string& base = kSpindle) : CanRig(with_spindle(more, base), {1, 2, 3, 4}) {
+    drives[3]->sync_s = 0.002;
+    bring_up();
+    step(200);
+  }
+  nc::test::SimDrive& motor() { return *drives[3]; }
+  double rpm() { return motor().plant().velocity * 60 / 10000; }
+  nc_spindle_inputs measured() const { return runtime->snapshot().system[0].spindle[0]; }
+  void block(const std::string& text, unsigned most = 5000) {
+    ASSERT_EQ(mdi(text), Answer::kDone) << text;
+    step(10);
+    ASSERT_TRUE(until([&] { return idle(); }, most)) << alarms();
+  }
+};
+
+TEST(CanSpindle, TurnsAtItsSpeedBothWays) {
+  SpindleRig rig;
+  EXPECT_EQ(rig.motor().object(0x6061, 0), 9u);
+  EXPECT_EQ(rig.motor().object(0x1600, 2), 0x60FF0020u);
+  rig.block("S600\n#1103 = 1");
+  rig.step(50);
+  EXPECT_GT(rig.rpm(), 200) << "6000 r/min in a second";
+  EXPECT_LT(rig.rpm(), 500);
+  rig.step(200);
+  EXPECT_NEAR(rig.rpm(), 600, 0.01);
+  EXPECT_NEAR(rig.measured().rev_per_s, 10, 0.02);
+  EXPECT_TRUE(rig.measured().turns_valid);
+  EXPECT_FALSE(rig.measured().unmeasured);
+  rig.block("#1103 = 0\n#1104 = 1");
+  rig.step(400);
+  EXPECT_NEAR(rig.rpm(), -600, 0.01);
+  EXPECT_NEAR(rig.measured().rev_per_s, -10, 0.02);
+  rig.block("#1104 = 0");
+  rig.step(400);
+  EXPECT_EQ(rig.rpm(), 0);
+  rig.block("S9000\n#1103 = 1");
+  rig.step(1000);
+  EXPECT_NEAR(rig.rpm(), 3000, 0.01) << "its highest";
+  EXPECT_EQ(rig.alarms(), "");
+}
+
+TEST(CanSpindle, FeedPerRevolutionGoesByItsEncoder) {
+  SpindleRig rig;
+  rig.block("S600\n#1103 = 1");
+  rig.step(300);
+  const double turned = rig.motor().plant().position;
+  rig.block("G91 G95 G01 X10. F0.5\nG94");
+  EXPECT_NEAR((rig.motor().plant().position - turned) / 10000, 20, 3);
+}
+
+TEST(CanSpindle, GearStepsTurnTheMotorFaster) {
+  SpindleRig rig(kGears);
+  rig.block("S300\n#1103 = 1");
+  rig.step(400);
+  EXPECT_NEAR(rig.rpm(), 1200, 0.01);
+  EXPECT_NEAR(rig.measured().rev_per_s, 5, 0.02);
+  const double before = rig.measured().turns;
+  rig.block("#1133 = 0");
+  rig.step(400);
+  EXPECT_EQ(rig.rpm(), 0) << "no gear is in";
+  rig.block("#1133 = 2");
+  rig.step(400);
+  EXPECT_NEAR(rig.rpm(), 300, 0.01);
+  EXPECT_NEAR(rig.measured().rev_per_s, 5, 0.02);
+  EXPECT_LT(rig.measured().turns - before, 20) << "the angle goes on";
+}
+
+TEST(CanSpindle, IsOrientedAndHolds) {
+  SpindleRig rig(kOrient);
+  rig.block("S600\n#1103 = 1");
+  rig.step(300);
+  rig.block("#1103 = 0\n#1119 = 1");
+  ASSERT_TRUE(rig.until([&] { return (rig.runtime->snapshot().interface_input[0] >> 19 & 1u) != 0; }, 4000));
+  rig.step(500);
+  const double turns = rig.motor().plant().position / 10000;
+  EXPECT_NEAR(turns - std::floor(turns), 0.25, 1.0 / 360);
+  EXPECT_NEAR(rig.rpm(), 0, 0.5);
+  rig.motor().plant().position += 400;  // something turns it
+  rig.step(500);
+  EXPECT_NEAR(rig.motor().plant().position / 10000, turns, 1.0 / 360) << "it holds";
+  rig.block("#1119 = 0");
+  rig.step(20);
+  EXPECT_EQ(rig.runtime->snapshot().interface_input[0] >> 19 & 1u, 0u);
+  rig.block("#1119 = 1");
+  rig.step(100);
+  EXPECT_NEAR(rig.motor().plant().position / 10000, turns, 1.0 / 360) << "it stands there, and does not turn once more";
+}
+
+TEST(CanSpindle, ATapIsCutWithItsEncoder) {
+  SpindleRig rig;
+  rig.block("G90 G00 Z2.");
+  rig.motor().velocity_ramp = 1500;  // 4500 r/min and s: less than twice what the tap asks for
+  double began = 0, worst = 0, deepest = 0;
+  ASSERT_EQ(rig.mdi("G90 G84 X0 Y0 Z-8. R2. S600 F1.5 ,R1\nG80"), Answer::kDone);
+  ASSERT_TRUE(rig.until(
+      [&] {
+        const auto out = rig.runtime->snapshot().system[0].nc;
+        const double turns = rig.measured().turns;
+        if (out.spindle_synchronous == 0 || !out.tapping) began = turns;
+        else worst = std::max(worst, std::abs(2 - rig.command(2) - 1.5 * (turns - began)));
+        deepest = std::min(deepest, rig.plant_mm(2));
+        return rig.idle() && deepest < -7;
+      },
+      20'000))
+      << rig.alarms() << rig.command(2);
+  EXPECT_EQ(rig.alarms(), "");
+  EXPECT_NEAR(deepest, -8, 0.1);
+  EXPECT_LT(worst, 0.1) << "mm between thread and axis: at 15 mm/s a SYNC is 0.03 mm, and the encoder is seen two to three SYNCs late";
+  rig.step(200);
+  EXPECT_NEAR(rig.rpm(), 0, 0.5);
+}
+
+TEST(CanSpindle, ItsFaultNamesItAndStopsTheAxes) {
+  SpindleRig rig;
+  rig.block("S600\n#1103 = 1");
+  ASSERT_EQ(rig.mdi("G91 G01 X100. F1000"), Answer::kDone);
+  rig.step(300);
+  rig.motor().trip(0, 0x3210, 0x05);
+  rig.step(20);
+  EXPECT_EQ(rig.alarms().rfind("R12 Drive fault: EMCY 3210h: DC link over-voltage (error register 05h), spindle 1", 0), 0u) << rig.alarms();
+  EXPECT_TRUE(rig.measured().unmeasured);
+  rig.step(500);
+  EXPECT_FALSE(rig.enabled());
+  ASSERT_EQ(rig.mdi("#1103 = 0"), Answer::kAlarmActive);
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
+}
+
+TEST(CanSpindle, WithoutItsDriveTheSpeedIsNotMeasured) {
+  SpindleRig rig;
+  rig.motor().dead = true;
+  rig.step(400);
+  EXPECT_TRUE(rig.measured().unmeasured);
+  EXPECT_NE(rig.alarms().find("spindle 1"), std::string::npos) << rig.alarms();
+}
+
+TEST(CanSpindle, WhatIsWrongInTheFileIsNamed) {
+  const struct {
+    const char *from, *to, *says;
+  } rows[] = {
+      {"encoder = 10000\nmax_rpm", "max_rpm", "canopen.drive[4].spindle[1].encoder: is missing"},
+      {"max_rpm = 3000.0", "max_rpm = -1.0", "canopen.drive[4].spindle[1].max_rpm: must be"},
+      {"acceleration = 6000.0\n", "", "canopen.drive[4].spindle[1].acceleration: is missing"},
+      {"forward = \"m3\"", "forward = \"m33\"", "canopen.drive[4].spindle[1].forward: no point is named \"m33\""},
+      {"forward = \"m3\"", "forward = \"m19_done\"", "canopen.drive[4].spindle[1].forward: point \"m19_done\" must be a bit and an output"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\nnumber = 2\n", "canopen.drive[4].spindle[1].number: must be"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\nmode = \"torque\"\n", "canopen.drive[4].spindle[1].mode: must be"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\ngears = [[1]]\n", "canopen.drive[4].spindle[1].gears: is one pair for each gear step"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\ngears = [[1, 0]]\n", "canopen.drive[4].spindle[1].gears: is one pair for each gear step"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\ngears = [[4, 1], [1, 1]]\n", "canopen.drive[4].spindle[1].gears: with several steps gear_select names the point"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\ngear_select = \"gear\"\n", "canopen.drive[4].spindle[1].gear_select: is for several gears"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\nvelocity_scale = 1e8\n", "canopen.drive[4].spindle[1].max_rpm: is more than the 32 bits of 60FFh can say"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\norient = { request = \"m19\" }\n", "canopen.drive[4].spindle[1].orient.done: is missing"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\n[[canopen.drive.spindle]]\nencoder = 1\nmax_rpm = 1.0\nacceleration = 1.0\nforward = \"m3\"\nbackward = \"m4\"\n",
+       "canopen.drive[4].spindle[2].encoder: spindle 1 is on this drive already"},
+  };
+  ASSERT_EQ(errors_of(with_spindle()), "");
+  for (const auto& row : rows) {
+    const std::string said = errors_of(replaced(with_spindle(), row.from, row.to));
+    EXPECT_NE(said.find(row.says), std::string::npos) << row.to << "\n" << said;
+    EXPECT_EQ(said.rfind("can.toml:", 0), 0u) << said;
+  }
+  const std::string both = errors_of(with_spindle(std::string(kGears) + kOrient));
+  EXPECT_NE(both.find("orient.request: a spindle with gear steps cannot be oriented by its motor"), std::string::npos) << both;
+}
+
+// ---- the law by itself ----
+
+TEST(SpindleLoop, AFollowedAngleIsReachedWithinTheRampOfADriveThatLags) {
+  SpindleLaw law;
+  law.acceleration = 50;
+  law.most = 50;
+  SpindleLoop loop(law);
+  double turns = 0.3, given[3] = {};  // the drive takes the speed three scans later
+  SpindleAsked asked;
+  asked.enabled = asked.synchronous = true;
+  double worst = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const double t = std::max(0, n - 100) * 0.001;
+    asked.turns = t < 0.2 ? 0.5 * 40 * t * t : 0.8 + 8 * (t - 0.2);
+    const double speed = loop.step(asked, turns, 0.001);
+    turns += given[0] * 0.001;
+    given[0] = given[1], given[1] = given[2], given[2] = speed;
+    if (n > 200) worst = std::max(worst, std::abs(turns - 0.3 - asked.turns));
+  }
+  EXPECT_LT(worst, 0.06);
+  EXPECT_NEAR(turns - 0.3, asked.turns, 0.03);
+}
+
+}  // namespace
