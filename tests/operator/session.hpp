@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A session at a machine: a random machine, random programs, and one of two operators, who does anything at any time. The quiet one uses override,
-// hold, interlock and single block, and has a late feeder; the machine must then execute the same as the trace. The wild one also resets, starts
-// again, enters MDI, moves by hand, changes tables, requests recalculation, sends interrupts and skip signals, and calls functions that are
+// hold, interlock, single block, dry run and the auxiliary lock, and has a late feeder; the machine must then execute the same as the trace. The wild one also resets, starts
+// again, enters MDI, moves by hand, changes tables, requests recalculation, sends interrupts and skip signals, locks axes, and calls functions that are
 // refused. At the end every switch is released: the machine must come to an end, and execute a part once more.
 #pragma once
 
@@ -95,6 +95,10 @@ class Session {
     toggle(in_.feed_hold, 0.003, 0.05);
     toggle(in_.interlock, 0.001, 0.05);
     toggle(in_.single_block, 0.001, 0.005);
+    toggle(in_.dry_run, 0.0005, 0.005);
+    toggle(in_.manual_rapid, 0.001, 0.005);
+    toggle(in_.auxiliary_lock, 0.0005, 0.005);
+    if (dice_.chance(0.002)) in_.manual_feed = dice_.chance(0.1) ? 0 : dice_.scale(1e-3, 500);
     if (wild_) interfere();
   }
   void toggle(bool& signal, double on, double off) {
@@ -110,6 +114,12 @@ class Session {
     toggle(in_.macro_interrupt, haste_ * 0.002, 0.1);
     toggle(in_.recalculate, haste_ * 0.001, 0.2);
     if (dice_.chance(0.002)) in_.skip ^= 1u << dice_.draw(4);
+    if (dice_.chance(0.001)) in_.locked ^= uint64_t{1} << dice_.draw(config_.system[0].axis_count);
+    if (dice_.chance(0.0005)) in_.manual_feed = any_number(dice_.uniform(-10, 500));
+    if (dice_.chance(0.002)) {
+      in_.skip_latched = dice_.draw(16);
+      for (double& place : in_.skip_place.v) place = any_number(dice_.uniform(-20, 20));
+    }
     if (dice_.chance(0.01)) in_.input[0] ^= 1u << dice_.draw(3);
     by_hand();
     if (out_.state == NC_STATE_STOPPED && dice_.chance(0.03)) enter_mdi();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -37,21 +38,26 @@ bool wait_until(Done done) {
 class SuppliedMachine final : public nc::hal::Hal {
  public:
   explicit SuppliedMachine(const Config& config)
-      : machine_(config.sim, config.points), point_(static_cast<unsigned>(config.points.find("power_good"))) {}
+      : machine_(config.sim, config.points), point_(static_cast<unsigned>(config.points.find("power_good"))), lock_(static_cast<unsigned>(config.points.find("locked"))) {}
   void power(bool good) { good_.store(good, std::memory_order_relaxed); }
+  void lock(bool on) { locked_.store(on, std::memory_order_relaxed); }
+  double stands_at(unsigned axis) const { return stands_[axis].load(std::memory_order_relaxed); }
 
   bool start(const nc::hal::PointImage& initial, std::string* error) override { return machine_.start(initial, error); }
   void read(nc::hal::Feedback* feedback, nc::hal::PointImage* image) noexcept override {
     machine_.set_input(point_, good_.load(std::memory_order_relaxed) ? 1 : 0);
+    machine_.set_input(lock_, locked_.load(std::memory_order_relaxed) ? 1 : 0);
     machine_.read(feedback, image);
+    for (unsigned a = 0; a < stands_.size(); ++a) stands_[a].store(feedback->system[0].actual.v[a], std::memory_order_relaxed);
   }
   void write(const nc::hal::Command& command, const nc::hal::PointImage& image) noexcept override { machine_.write(command, image); }
   void stop() noexcept override { machine_.stop(); }
 
  private:
   nc::hal::SimMachine machine_;
-  unsigned point_;
-  std::atomic<bool> good_{true};
+  unsigned point_, lock_;
+  std::atomic<bool> good_{true}, locked_{false};
+  std::array<std::atomic<double>, 3> stands_{};
 };
 
 class PowerKeep : public testing::Test {
@@ -70,7 +76,8 @@ class PowerKeep : public testing::Test {
     std::string text = nc::test::base_toml();
     text.replace(text.find("name = \"test\""), 13, "name = \"test\"\n" + kept);
     config = nc::test::parse_or_fail(text +
-                                     "[[point]]\nname = \"power_good\"\ndirection = \"input\"\ninitial = 1\n[signals]\n\"plc.power_fail_n\" = \"power_good\"\n"
+                                     "[[point]]\nname = \"power_good\"\ndirection = \"input\"\ninitial = 1\n[[point]]\nname = \"locked\"\ndirection = \"input\"\n"
+                                     "[signals]\n\"plc.power_fail_n\" = \"power_good\"\n\"plc.machine_lock\" = \"locked\"\n"
                                      "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[power]\nstop_s = 20.0\nsettle_s = 0.01\n" + power);
     config.file = (folder / "test.toml").string();
     machine = std::make_unique<SuppliedMachine>(config);
@@ -147,6 +154,28 @@ TEST_F(PowerKeep, WhatWasExecutedAndThePlaceAreOnTheDiskBeforeTheAlarmSaysSo) {
   ASSERT_TRUE(wait_until([&] { return alarms().empty(); })) << alarms();
   runtime.reset();
   EXPECT_TRUE(places().empty()) << "it has been seen";
+}
+
+// With the machine lock on the program is somewhere else than the axes. The place that is kept is where they stand: there the next start finds them.
+TEST_F(PowerKeep, UnderAMachineLockThePlaceIsWhereTheAxesStand) {
+  start(kKept, kPlace);
+  machine->lock(true);
+  ASSERT_TRUE(wait_until([&] { return runtime->snapshot().system[0].axes.locked == 7; }));
+  const double stood[] = {machine->stands_at(0), machine->stands_at(1), machine->stands_at(2)};
+  run_into_the_failure();
+  EXPECT_GT(std::fabs(runtime->snapshot().system[0].axes.counted[0]), 0.9) << "the program has gone on without its axes";
+  const std::vector<ProgramPlace> found = places();
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].line, 4u);
+  ASSERT_EQ(found[0].at.size(), 3u);
+  for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(found[0].at[a].second, stood[a], 0.01) << a;
+  power_goes();
+
+  start(kKept, kPlace);
+  char where[80];
+  std::snprintf(where, sizeof where, "R25 The power failed in a program: part.nc, line 4, X%.3f ", found[0].at[0].second);
+  ASSERT_TRUE(wait_until([&] { return says(where); })) << alarms() << where;
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kWarningActive);
 }
 
 TEST_F(PowerKeep, ThePlaceIsToldAtEveryStartUntilSomebodyHasSeenIt) {
