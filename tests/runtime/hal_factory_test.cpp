@@ -124,7 +124,7 @@ void read_nothing(TableReader* root, Config*) { (void)root->find("second"); }
 PlaceOnBus on_bus_two(TableReader*, const nc::hal::Point&, Config*) {
   return {2, [](Config*) {}};
 }
-std::unique_ptr<nc::hal::PointBus> make_nothing(const Config&, const PointBusConfig&, const BusReport&) { return nullptr; }
+std::unique_ptr<nc::hal::PointBus> make_nothing(const Config&, const PointBusConfig&, nc::hal::Hal*, const BusReport&) { return nullptr; }
 
 constexpr MachineKind kMachines[] = {
     {.name = "sim", .needs = "", .read = nullptr, .make = [](const Config&) { return std::unique_ptr<nc::hal::Hal>(); }, .resources = nullptr, .no_virtual_time = ""},
