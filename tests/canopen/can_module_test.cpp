@@ -8,6 +8,7 @@
 #include "can_rig.hpp"
 #include "hal/canopen/bus_load.hpp"
 #include "hal/canopen/setup_plan.hpp"
+#include "sim_module.hpp"
 
 namespace {
 
@@ -48,32 +49,11 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-void module_objects(SimDrive* module) {
-  module->set_object(0x1000, 0, 4, 0x000F0191, false);
-  for (unsigned n = 0; n < 4; ++n) {
-    for (const unsigned communication : {0x1400u, 0x1800u}) {
-      module->set_object(communication + n, 1, 4, (communication == 0x1400 ? 0x200u : 0x180u) + 0x100 * n + module->node());
-      module->set_object(communication + n, 2, 1, 255);
-    }
-    for (const unsigned mapping : {0x1600u, 0x1A00u})
-      for (unsigned sub = 0; sub <= 8; ++sub) module->set_object(mapping + n, sub, sub == 0 ? 1 : 4, 0);
-  }
-  for (unsigned n = 1; n <= 2; ++n) {
-    module->set_object(0x6000, n, 1, 0, false);
-    module->set_object(0x6200, n, 1, 0);
-    module->set_object(0x6206, n, 1, 0xFF);
-    module->set_object(0x6207, n, 1, 0);
-  }
-  for (unsigned n = 1; n <= 8; ++n) module->set_object(0x6401, n, 2, 0, false);
-  for (unsigned n = 1; n <= 2; ++n) module->set_object(0x6411, n, 2, 0);
-  module->set_object(0x6423, 0, 1, 0);
-}
-
 // The drives of CanRig, and a module with 16 digital inputs and outputs, 8 analog inputs and 2 analog outputs.
 struct ModuleRig : CanRig {
   explicit ModuleRig(const std::string& toml = with_module()) : CanRig(toml) {
     drives.push_back(std::make_unique<SimDrive>(10, 0));
-    io().more_defaults = [this] { module_objects(&io()); };
+    io().more_defaults = [this] { nc::test::module_objects(&io()); };
     io().more_defaults();
     bus.attach(&io());
   }

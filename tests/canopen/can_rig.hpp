@@ -44,6 +44,13 @@ class CanRig {
       bus.attach(drives.back().get());
     }
   }
+  // A machine file of the tree, whose drives the caller attaches.
+  struct File {
+    std::string path;
+  };
+  explicit CanRig(const File& file) {
+    for (const rt::ConfigError& error : rt::load_config(file.path, &config)) ADD_FAILURE() << error.text();
+  }
   ~CanRig() {
     if (machine != nullptr) machine->stop();
   }
