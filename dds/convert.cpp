@@ -353,7 +353,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   nc_CommandAck to{};
   set(to.client, ack.client);
   to.seq = ack.sequence;
-  to.kind = as_enum(ack.kind, nc_CMD_RELEASE_FORCE, nc_CMD_TAKE_CONTROL);
+  to.kind = as_enum(ack.kind, nc_CMD_WRITE_DEVICE, nc_CMD_TAKE_CONTROL);
   to.state = as_enum(ack.state, nc_ACK_FAILED, nc_ACK_REJECTED);
   to.reason = as_enum(ack.reason, nc_REASON_CLIENT_IN_USE, nc_REASON_REFUSED);
   to.repeated = ack.repeated != 0;
@@ -389,7 +389,7 @@ share::Request request(const nc_Command& command, const share::MachineBlock& mac
   static_assert(sizeof to.kind == sizeof command.kind);
   std::memcpy(&to.kind, &command.kind, sizeof to.kind);
   // The kinds that the gateway itself uses must not be sent from outside.
-  if (to.kind > static_cast<std::uint32_t>(nc_CMD_RELEASE_FORCE))
+  if (to.kind > static_cast<std::uint32_t>(nc_CMD_WRITE_DEVICE))
     to.kind = static_cast<std::uint32_t>(share::RequestKind::kCount);
   to.lifespan_ms = command.lifespan_ms;
   to.lease_ms = command.lease_ms;

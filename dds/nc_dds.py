@@ -138,6 +138,7 @@ class CommandKind(IdlEnum, typename="nc.CommandKind", default="CMD_TAKE_CONTROL"
     CMD_SELECT_PROGRAM = 12
     CMD_FORCE = 13
     CMD_RELEASE_FORCE = 14
+    CMD_WRITE_DEVICE = 15
 
 
 @annotate.appendable

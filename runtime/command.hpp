@@ -26,6 +26,7 @@ enum class CommandKind : std::uint8_t {
   kTapRetract,     // a synchronous tap that stands in its hole is drawn out, in mode MANUAL; number: 0 or 1, at 0 it stands where it is
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
   kRelease,        // number: the same, kAllForces
+  kWriteDevice,    // number: the same, value: what the device gets once
   kEnd,            // the control is being ended: to rest, and nothing starts any more, whatever the ladder asks for
   // for the feeder
   kSelectProgram,  // number: index of the file in the program store; in mode AUTO
@@ -79,6 +80,7 @@ enum class Answer : std::uint8_t {
   kNotLoaded,         // the program was not found or cannot be read
   kNoDevice,          // no such device, or one that cannot be forced
   kTooManyForces,
+  kForced,            // the device is held at a value
   kNoLadder,
   kMachineSwitch,     // a switch of the machine (plc.feed_override, plc.rapid_override) is in force
   kSpindleNow,        // the axis is a spindle as long as its servo is off
@@ -139,6 +141,8 @@ constexpr const char* answer_text(Answer answer) {
       return "no such device, or none that can be forced";
     case Answer::kTooManyForces:
       return "32 devices are forced already";
+    case Answer::kForced:
+      return "the device is forced: release it first";
     case Answer::kNoLadder:
       return "there is no ladder program";
     case Answer::kMachineSwitch:

@@ -53,6 +53,16 @@ Answer ForceTable::release(std::uint32_t number) noexcept {
   return Answer::kDone;
 }
 
+// A device that is written is treated as one that is released and had this value before.
+Answer ForceTable::write(std::uint32_t number, std::int32_t value) noexcept {
+  if (number >= kMaxNames) return Answer::kNoDevice;
+  for (unsigned i = 0; i < count_; ++i)
+    if (active_[i].number == number) return Answer::kForced;
+  if (freed_ == released_.size()) return Answer::kQueueFull;
+  released_[freed_++] = {number, 0, value, true};
+  return Answer::kDone;
+}
+
 void ForceTable::free(unsigned place) noexcept {
   const Active gone = active_[place];
   active_[place] = active_[--count_];

@@ -34,6 +34,8 @@ class ForceTable {
   // ---- scan. NC_RT ----
   Answer force(std::uint32_t number, std::int32_t value) noexcept;
   Answer release(std::uint32_t number) noexcept;
+  // The device gets the value at the beginning of the next scan, once. kForced while it is held.
+  Answer write(std::uint32_t number, std::int32_t value) noexcept;
   void forget() noexcept { count_ = freed_ = 0; }
   bool any() const noexcept { return count_ + freed_ != 0; }
   // To be called at the beginning of a scan. A released device gets back the value that it had before: without that, a relay or a signal to the

@@ -87,6 +87,11 @@ class LadderHook {
     (void)number;
     return Answer::kNoLadder;
   }
+  // A device gets a value once, before the next run of the program. NC_RT.
+  virtual Answer write(std::uint32_t number, std::int32_t value) noexcept {
+    (void)number, (void)value;
+    return Answer::kNoLadder;
+  }
   // Called after the NC, because a program of the NC may have switched outputs, too.
   virtual void hold_outputs(hal::PointImage* points) noexcept { (void)points; }
   virtual void list_forces(ForceList* list) const noexcept { list->count = 0; }

@@ -173,6 +173,14 @@ std::int64_t LadderTask::force_number(const std::string& name, std::int64_t valu
   return number >= 0 ? number : refuse("too many different devices have been forced since the start");
 }
 
+std::int64_t LadderTask::write_number(const std::string& name, std::int64_t value, std::string* error) {
+  if (const ladder::Device* device = find_device(name); device != nullptr && !device->writable) {
+    *error = "'" + name + "' gets its value from the machine or from the NC in each scan: force it";
+    return -1;
+  }
+  return force_number(name, value, error);
+}
+
 std::uint32_t LadderTask::read_device(const std::string& name, bool direct) {
   constexpr auto kPatience = std::chrono::milliseconds(200);
   const ladder::Device* device = find_device(name);

@@ -36,9 +36,12 @@ class LadderTask final : public LadderHook {
   // Number of a device for CommandKind::kForce; a device always has the same number. -1 with a sentence in *error when there
   // is no such device, when it cannot have this value, or when it belongs to the engine (SM, SD). Any thread.
   std::int64_t force_number(const std::string& name, std::int64_t value, std::string* error);
+  // The same for CommandKind::kWriteDevice: -1 also for a device that the machine or the NC writes in each scan.
+  std::int64_t write_number(const std::string& name, std::int64_t value, std::string* error);
   std::string force_name(std::uint32_t number) const { return forces_.name_of(number); }
   Answer force(std::uint32_t number, std::int32_t value) noexcept override { return forces_.force(number, value); }
   Answer release(std::uint32_t number) noexcept override { return forces_.release(number); }
+  Answer write(std::uint32_t number, std::int32_t value) noexcept override { return forces_.write(number, value); }
   void hold_outputs(hal::PointImage* points) noexcept override;
   void list_forces(ForceList* list) const noexcept override { forces_.list(list); }
 

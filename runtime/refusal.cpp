@@ -55,6 +55,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kAxisUnknown: return RefusalCause::kAxis;
     case Answer::kRefusedByControl: return RefusalCause::kControl;
     case Answer::kNotLoaded: return RefusalCause::kNotLoaded;
+    case Answer::kForced:
     case Answer::kNoDevice: return RefusalCause::kNoDevice;
     case Answer::kQueueFull:
     case Answer::kTooManyForces: return RefusalCause::kTooMany;

@@ -378,29 +378,30 @@ Answer Runtime::change(ControlJob job) {
   return with_job(CommandKind::kChange, std::move(job));
 }
 
-Answer Runtime::force(const std::string& device, std::int64_t value) {
+// Does something with a device of the ladder; `find` gives its number, or -1 with the reason in refused_.
+Answer Runtime::act_on_device(CommandKind kind, std::int64_t value, const std::function<std::int64_t()>& find) {
   const std::lock_guard lock(operator_);
   refused_.clear();
   if (own_ladder_ == nullptr) return Answer::kNoLadder;
-  const std::int64_t number = own_ladder_->force_number(device, value, &refused_);
+  const std::int64_t number = find();
   if (number < 0) return Answer::kNoDevice;
   Command command;
-  command.kind = CommandKind::kForce;
+  command.kind = kind;
   command.number = static_cast<std::uint32_t>(number);
   command.value = static_cast<double>(static_cast<std::int32_t>(value));
   return execute_alone(command);
 }
 
+Answer Runtime::force(const std::string& device, std::int64_t value) {
+  return act_on_device(CommandKind::kForce, value, [&] { return own_ladder_->force_number(device, value, &refused_); });
+}
+
+Answer Runtime::write_device(const std::string& device, std::int64_t value) {
+  return act_on_device(CommandKind::kWriteDevice, value, [&] { return own_ladder_->write_number(device, value, &refused_); });
+}
+
 Answer Runtime::release(const std::string& device) {
-  const std::lock_guard lock(operator_);
-  refused_.clear();
-  if (own_ladder_ == nullptr) return Answer::kNoLadder;
-  const std::int64_t number = device.empty() ? kAllForces : own_ladder_->force_number(device, 0, &refused_);
-  if (number < 0) return Answer::kNoDevice;
-  Command command;
-  command.kind = CommandKind::kRelease;
-  command.number = static_cast<std::uint32_t>(number);
-  return execute_alone(command);
+  return act_on_device(CommandKind::kRelease, 0, [&] { return device.empty() ? std::int64_t{kAllForces} : own_ladder_->force_number(device, 0, &refused_); });
 }
 
 std::string Runtime::forced_name(std::uint32_t number) const {

@@ -102,6 +102,8 @@ class Runtime {
   Answer release(const std::string& device);
   // What the last answer means, with its reason when that is known. To be called by the thread that got the answer, before its next command.
   std::string explain(Answer answer) const;
+  // Gives a device of the ladder a value once, before its next run.
+  Answer write_device(const std::string& device, std::int64_t value);
   std::string forced_name(std::uint32_t number) const;
 
   // ---- anyone ----
@@ -122,6 +124,7 @@ class Runtime {
   Answer with_job(CommandKind kind, ControlJob job);
   std::string retain_text(const ActiveAlarm& alarm) const;
   std::string ladder_fault(const ActiveAlarm& alarm) const;
+  Answer act_on_device(CommandKind kind, std::int64_t value, const std::function<std::int64_t()>& find);
   static void read_device(void* self, unsigned code, std::uint32_t number, std::uint32_t* value);
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();

@@ -232,6 +232,8 @@ Answer Scan::apply(const Command& command) noexcept {
       return ladder_->force(command.number, static_cast<std::int32_t>(command.value));
     case CommandKind::kRelease:
       return ladder_->release(command.number);
+    case CommandKind::kWriteDevice:
+      return ladder_->write(command.number, static_cast<std::int32_t>(command.value));
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
     case CommandKind::kSwitches:

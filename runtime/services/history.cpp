@@ -48,7 +48,8 @@ std::string words_of(const share::Request& r) {
     case share::RequestKind::kJog: return "axis " + std::to_string(r.axis + 1) + " at " + number_text(r.value) + system;
     case share::RequestKind::kMdi:
     case share::RequestKind::kSelectProgram: return text + system;
-    case share::RequestKind::kForce: return text + " = " + number_text(r.value);
+    case share::RequestKind::kForce:
+    case share::RequestKind::kWriteDevice: return text + " = " + number_text(r.value);
     case share::RequestKind::kReleaseForce: return text.empty() ? "all devices" : text;
     default: return system.empty() ? "" : system.substr(1);
   }

@@ -32,7 +32,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kBlocks, "blocks", Kind::kText, 1, share::kMdiText - 2, "", "blocks of a program, separated by line ends"},
     {Field::kFile, "name", Kind::kName, 1, 127, "", "name of a program in the folder of programs"},
     {Field::kDevice, "device", Kind::kText, 1, 64, "", "device of the ladder, or a signal's name"},
-    {Field::kDeviceValue, "value", Kind::kWhole, -2147483648.0, 4294967295.0, "", "value at which the device is held"},
+    {Field::kDeviceValue, "value", Kind::kWhole, -2147483648.0, 4294967295.0, "", "value of the device"},
     {Field::kFrom, "from", Kind::kWhole, 0, kMost32, "", "the list begins with this number, or behind so many entries; 0 when it is not given"},
     {Field::kCount, "count", Kind::kWhole, 1, kWholePage, "", "entries of the list at most; 500 when it is not given"},
     {Field::kTool, "number", Kind::kWhole, 1, 999, "", "number of a tool offset set"},
@@ -357,6 +357,8 @@ constexpr ServiceRow kRows[] = {
 
     {Service::kForce, "force", Right::kMaintain, Lane::kCommand, RequestKind::kForce, kForceArguments, kDoneReply, "holds a device of the ladder at a value until it is released"},
     {Service::kRelease, "release", Right::kMaintain, Lane::kCommand, RequestKind::kReleaseForce, kReleaseArguments, kDoneReply, "lets a device go; without one, all of them"},
+    {Service::kWriteDevice, "ladder.write", Right::kMaintain, Lane::kCommand, RequestKind::kWriteDevice, kForceArguments, kDoneReply,
+     "gives a device of the ladder a value once, before the next run of its program; what the machine or the NC writes in each scan is refused"},
     {Service::kSetParameter, "parameters.set", Right::kMaintain, Lane::kData, kNo, kParameterArguments, kDoneReply, "sets a parameter"},
     {Service::kUndoParameter, "parameters.undo", Right::kMaintain, Lane::kData, kNo, kUndoArguments, kDoneReply, "takes a change of a parameter back, as undo does with other tables"},
     {Service::kProgramProtect, "programs.protect", Right::kMaintain, Lane::kData, kNo, kProtectArguments, kDoneReply, "protects a program against every change, or takes its protection away"},

@@ -50,7 +50,7 @@ enum class Service : std::uint8_t {
   kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
   kSetTool, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
-  kForce, kRelease, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kServiceCount
+  kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kServiceCount
 };
 inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);
 

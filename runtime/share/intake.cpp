@@ -188,6 +188,7 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
     case RequestKind::kSelectProgram:
       return is_file_name(text) ? Verdict{} : bad("not the name of a file in the folder of programs");
     case RequestKind::kForce:
+    case RequestKind::kWriteDevice:
       if (!is_device_name(text)) return bad("not the name of a device");
       return r.value == std::floor(r.value) && r.value >= -2147483648.0 && r.value <= 4294967295.0
                  ? Verdict{}
@@ -299,6 +300,8 @@ Intake::Verdict Intake::execute(const Request& request) {
     answer = machine_.load_mdi(request.system, std::string(text_of(request.text)) + "\n");
   } else if (kind == RequestKind::kForce) {
     answer = machine_.force(std::string(text_of(request.text)), static_cast<std::int64_t>(request.value));
+  } else if (kind == RequestKind::kWriteDevice) {
+    answer = machine_.write_device(std::string(text_of(request.text)), static_cast<std::int64_t>(request.value));
   } else if (kind == RequestKind::kReleaseForce) {
     answer = machine_.release(std::string(text_of(request.text)));
   } else if (kind == RequestKind::kSelectProgram) {

@@ -51,6 +51,7 @@ class Machine {
   virtual Answer select_program(unsigned system, const std::string& file) = 0;
   // Devices of the ladder; "" releases all of them.
   virtual Answer force(const std::string& device, std::int64_t value) = 0;
+  virtual Answer write_device(const std::string& device, std::int64_t value) = 0;
   virtual Answer release(const std::string& device) = 0;
   // What the last answer means, with its reason when that is known.
   virtual std::string explain(Answer answer) { return answer_text(answer); }

@@ -22,7 +22,7 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 6;
+inline constexpr std::uint32_t kLayoutVersion = 7;
 inline constexpr unsigned kHistory = 256;  // alarms and messages that are kept
 inline constexpr unsigned kAlarms = 16;
 inline constexpr unsigned kMaxSignals = 1280;  // signals between NC and ladder
@@ -194,6 +194,7 @@ enum class RequestKind : std::uint32_t {
   kSelectProgram,  // system, text: file name in the folder of programs
   kForce,          // text: device of the ladder, value: value at which it is held
   kReleaseForce,   // text: device, "" = all of them
+  kWriteDevice,    // text: device, value: value that it gets once
   // from the gateway itself, without acknowledgement
   kClientGone,    // writer: this participant is dead or has left
   kGatewayBegan,  // a new gateway has started: every client of the previous one is gone

@@ -34,6 +34,7 @@ class RuntimeMachine final : public Machine {
     return runtime_.select_program(system, file);
   }
   Answer force(const std::string& device, std::int64_t value) override { return runtime_.force(device, value); }
+  Answer write_device(const std::string& device, std::int64_t value) override { return runtime_.write_device(device, value); }
   Answer release(const std::string& device) override { return runtime_.release(device); }
   std::string explain(Answer answer) override { return runtime_.explain(answer); }
 

@@ -29,6 +29,7 @@ class SignalBoard final : public LadderHook {
   Answer force(std::uint32_t number, std::int32_t value) noexcept override { return inner_->force(number, value); }
   Answer release(std::uint32_t number) noexcept override { return inner_->release(number); }
   void hold_outputs(hal::PointImage* points) noexcept override { inner_->hold_outputs(points); }
+  Answer write(std::uint32_t number, std::int32_t value) noexcept override { return inner_->write(number, value); }
   void list_forces(ForceList* list) const noexcept override { inner_->list_forces(list); }
 
   // The value of a signal, by its index in signals(), when the ladder has run. Scan thread. NC_RT.

@@ -29,6 +29,7 @@ class TraceTap final : public LadderHook {
   void restart() noexcept override { board_.restart(); }
   Answer force(std::uint32_t number, std::int32_t value) noexcept override { return board_.force(number, value); }
   Answer release(std::uint32_t number) noexcept override { return board_.release(number); }
+  Answer write(std::uint32_t number, std::int32_t value) noexcept override { return board_.write(number, value); }
   void hold_outputs(hal::PointImage* points) noexcept override;  // NC_RT
   void list_forces(ForceList* list) const noexcept override { board_.list_forces(list); }
 

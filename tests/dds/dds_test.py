@@ -499,6 +499,8 @@ def forces(plant, watch, operator, participant):
     check("x 30 % (machine)   rapid 100 %   S 0 of" in shown.stdout, "ncmon shows it")
     check(ask(CommandKind.CMD_RELEASE_FORCE, text="")[0] == AckState.ACK_DONE, "release of all")
     until(lambda: watch.look().status.forced == [], "nothing is forced any more")
+    check(ask(CommandKind.CMD_WRITE_DEVICE, text="pallet", value=1.0) == (*refused, "'pallet' gets its value from the machine or from the NC in each scan: force it"), "an input is not written")
+    check(ask(CommandKind.CMD_WRITE_DEVICE, text="D700", value=12.0)[0] == AckState.ACK_DONE, "a register is written once")
     check(ask(CommandKind.CMD_FORCE, text="pallet", value=5.0)[0] == AckState.ACK_DONE, "a force that the end of the control ends")
 
 

@@ -73,6 +73,7 @@ struct FuzzMachine final : Machine {
     ++executed;
     return answer;
   }
+  Answer write_device(const std::string& device, std::int64_t value) override { return force(device, value); }
   Answer release(const std::string& device) override {
     must(!only_stop && control == client && device.size() <= 64);
     ++executed;

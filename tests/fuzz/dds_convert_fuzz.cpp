@@ -169,7 +169,7 @@ void take_command(const share::MachineBlock& machine, Bytes* in) {
   const std::uint64_t writer = in->byte();
   const auto request = std::make_unique<share::Request>(nc::dds::request(*command, machine, writer, 5));
   require(request->writer == writer && request->issued_ns == 5 && request->sequence == command->seq);
-  require(request->kind <= static_cast<std::uint32_t>(share::RequestKind::kReleaseForce) ||
+  require(request->kind <= static_cast<std::uint32_t>(share::RequestKind::kWriteDevice) ||
           request->kind == static_cast<std::uint32_t>(share::RequestKind::kCount));
   for (const auto text : {share::text_of(request->client), share::text_of(request->expected_program), share::text_of(request->text)})
     require(nc::rt::valid_utf8(text) == text);
@@ -184,7 +184,7 @@ void answer(const share::MachineBlock&, Bytes* in) {
   require_enum(to.refusal, nc_REFUSED_NO_ANSWER);
   require_text(to.client);
   require_text(to.text);
-  require_enum(to.kind, nc_CMD_RELEASE_FORCE);
+  require_enum(to.kind, nc_CMD_WRITE_DEVICE);
   require_enum(to.state, nc_ACK_FAILED);
   require_enum(to.reason, nc_REASON_CLIENT_IN_USE);
   if (from.state > nc_ACK_FAILED) require(to.state == nc_ACK_REJECTED);  // an unknown state must not look as if it was done

@@ -164,6 +164,54 @@ TEST_F(Force, WhatCannotBeIsRefusedWithItsReason) {
   EXPECT_EQ(force("M500", 1), Answer::kDone);
 }
 
+TEST_F(Force, WrittenOnceADeviceKeepsTheValueUntilTheProgramWritesIt) {
+  run("LD in0\nINC D1\nLD SM400\nMOV D0 D2\nLD M1\nOUT M2\nEND\n");
+  const auto write = [this](const char* name, std::int64_t value) { return runtime->write_device(name, value); };
+  ASSERT_EQ(write("D0", 40000), Answer::kDone);
+  ASSERT_EQ(write("D1", 7), Answer::kDone);
+  ASSERT_EQ(write("M1", 1), Answer::kDone);
+  ASSERT_EQ(write("out0", 1), Answer::kDone);
+  ASSERT_EQ(write("word_out", -5), Answer::kDone);
+  steps(1);
+  EXPECT_EQ(device("D2"), static_cast<std::int16_t>(40000)) << "before the program has run";
+  EXPECT_EQ(device("M2"), 1);
+  steps(5);
+  EXPECT_EQ(output("out0"), 1u) << "nobody else writes it";
+  EXPECT_EQ(output("word_out"), static_cast<std::uint32_t>(-5));
+  EXPECT_EQ(device("D1"), 7);
+  in("in0", 1);
+  steps(4);
+  EXPECT_GE(device("D1"), 9) << "once, not again and again";
+  ASSERT_EQ(write("M2", 0), Answer::kDone);
+  steps(1);
+  EXPECT_EQ(device("M2"), 1) << "its coil writes it";
+  EXPECT_EQ(runtime->snapshot().forces.count, 0u);
+}
+
+TEST_F(Force, WhatCannotBeWrittenOnceIsSaid) {
+  run("LD in0\nOUT M0\nEND\n");
+  const auto refused = [&](const char* name, std::int64_t value, const char* text) {
+    ASSERT_NE(runtime->write_device(name, value), Answer::kDone) << name;
+    EXPECT_NE(runtime->explain(runtime->write_device(name, value)).find(text), std::string::npos) << name << ": " << runtime->explain(Answer::kNoDevice);
+  };
+  refused("nowhere", 1, "no such device 'nowhere'");
+  refused("in0", 1, "in each scan: force it");
+  refused("nc.mode_auto", 1, "in each scan: force it");
+  refused("SM0", 0, "belongs to the engine");
+  refused("M0", 2, "is a bit");
+  refused("D0", 65536, "has 16 bits");
+  ASSERT_EQ(force("D0", 3), Answer::kDone);
+  refused("D0", 4, "release it first");
+  steps(2);
+  EXPECT_EQ(device("D0"), 3);
+  // More than the table has room for in one scan: none is lost without a word.
+  unsigned done = 0;
+  for (int n = 0; n < 100; ++n)
+    if (runtime->write_device("D" + std::to_string(100 + n), n + 1) == Answer::kDone) ++done;
+  steps(2);
+  for (unsigned n = 0; n < done; ++n) EXPECT_EQ(device(("D" + std::to_string(100 + n)).c_str()), static_cast<int>(n) + 1);
+}
+
 TEST_F(Force, EndsWithTheProgramOfTheMachineAndWithTheControl) {
   run("LD M1\nCJ P1\nLD in0\nOUT M0\nJMP P2\nP1\nLD SM400\nCJ P1\nP2\nEND\n");
   ASSERT_EQ(force("M1", 1), Answer::kDone);

@@ -109,6 +109,16 @@ TEST_F(LadderServices, GivesValuesOfDevices) {
   EXPECT_EQ(client.outcome("ladder.devices", {{"devices", std::vector<std::string>(65, "D0")}}), "malformed");
 }
 
+TEST_F(LadderServices, RepliesHoldWhatTheTableSays) {
+  ServiceClient client(path_);
+  for (const Service service : {Service::kLadderRungs, Service::kLadderDevices}) {
+    std::set<std::string> known, found;
+    for (const ReplyRow& member : row_of(service).reply) known.insert(member.path);
+    test::collect_members(client.call(row_of(service).name, service == Service::kLadderDevices ? Json{{"devices", {"D0"}}} : Json::object())["reply"], "", &found);
+    EXPECT_EQ(found, known);
+  }
+}
+
 TEST_F(LadderServices, MarksWhatIsForced) {
   ServiceClient client(path_);
   ASSERT_EQ(client.outcome("control.take"), "");
@@ -116,6 +126,21 @@ TEST_F(LadderServices, MarksWhatIsForced) {
   const Json status = until(&client, "ladder.devices", [](const Json& now) { return now["devices"][0]["forced"] == true; }, {{"devices", {"D2", "D3"}}});
   EXPECT_EQ(status["devices"][0]["value"], 7);
   EXPECT_EQ(status["devices"][1]["forced"], false);
+}
+
+TEST_F(LadderServices, WritesOnce) {
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("ladder.write", {{"device", "M100"}, {"value", 1}}), "no control");
+  ASSERT_EQ(client.outcome("control.take"), "");
+  ASSERT_EQ(client.outcome("ladder.write", {{"device", "D500"}, {"value", -12}}), "");
+  EXPECT_EQ(until(&client, "ladder.devices", [](const Json& now) { return now["devices"][0]["value"] == -12; }, {{"devices", {"D500"}}})["devices"][0]["forced"], false);
+  const Json refused = client.call("ladder.write", {{"device", "in0"}, {"value", 1}});
+  EXPECT_EQ(refused["error"], "refused");
+  EXPECT_NE(refused["text"].get<std::string>().find("force it"), std::string::npos);
+  give({Right::kOperate, Right::kSetUp});
+  ServiceClient other(path_);
+  EXPECT_EQ(other.outcome("ladder.write", {{"device", "D500"}, {"value", 1}}), "no right");
+  EXPECT_NE(other.call("ladder.devices", {{"devices", {"D500"}}})["reply"], nullptr) << "looking needs the right to view alone";
 }
 
 using NoLadder = LocalMachine;

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include "hal/sim/sim_machine.hpp"
@@ -91,6 +92,16 @@ class ServiceClient {
   std::uint64_t id_ = 0;
   rt::services::FrameReader in_;
 };
+
+// The members of a reply, as the table of services writes them: "tools[].number".
+inline void collect_members(const Json& value, const std::string& path, std::set<std::string>* paths) {
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) collect_members(member, path.empty() ? key : path + "." + key, paths);
+  else if (value.is_array())
+    for (const Json& element : value) collect_members(element, path + "[]", paths);
+  else
+    paths->insert(path);
+}
 
 class LocalMachine : public testing::Test {
  protected:

@@ -92,15 +92,6 @@ TEST_F(LocalServices, ShowsTheMachine) {
 }
 
 // What a reply holds must stand in the table, and the members that are always there must be in the reply.
-void collect(const Json& value, const std::string& path, std::set<std::string>* paths) {
-  if (value.is_object())
-    for (const auto& [key, member] : value.items()) collect(member, path.empty() ? key : path + "." + key, paths);
-  else if (value.is_array())
-    for (const Json& element : value) collect(element, path + "[]", paths);
-  else
-    paths->insert(path);
-}
-
 TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
   ServiceClient client(path_);
   until(&client, "status", [](const Json& now) { return now["scan"] > 0; });
@@ -111,12 +102,13 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
   until(&client, "trace.status", [](const Json& now) { return now["state"] == "complete"; });
   for (const ServiceRow& row : service_table()) {
     if (row.right != Right::kView) continue;
+    if (row.service == Service::kLadderRungs || row.service == Service::kLadderDevices) continue;  // this machine has no ladder: ladder_test.cpp
     SCOPED_TRACE(row.name);
     const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : Json::object());
     ASSERT_EQ(reply["ok"], true) << reply;
     std::set<std::string> known, found;
     for (const ReplyRow& member : row.reply) known.insert(member.path);
-    collect(reply["reply"], "", &found);
+    test::collect_members(reply["reply"], "", &found);
     for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
     if (row.service == Service::kTools || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
         row.service == Service::kPrograms || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kTraceSignals ||

@@ -38,6 +38,7 @@ struct FakeMachine final : Machine {
     selected.push_back(file);
     return answer;
   }
+  Answer write_device(const std::string& device, std::int64_t value) override { return force(device + ".once", value); }
   Answer force(const std::string& device, std::int64_t value) override {
     forced.push_back(device + "=" + std::to_string(value));
     return answer;
@@ -499,17 +500,18 @@ TEST_F(IntakeRules, ForcesNeedControlANameAndAWholeNumber) {
   };
   EXPECT_EQ(ask(RequestKind::kForce, "M5", 1).state, state(AckState::kDone));
   EXPECT_EQ(ask(RequestKind::kForce, "plc.jog_p.X", 4294967295.0).state, state(AckState::kDone));
+  EXPECT_EQ(ask(RequestKind::kWriteDevice, "D5", -3).state, state(AckState::kDone));
   EXPECT_EQ(ask(RequestKind::kReleaseForce, "M5", 0).state, state(AckState::kDone));
   EXPECT_EQ(ask(RequestKind::kReleaseForce, "", 0).state, state(AckState::kDone));
-  EXPECT_EQ(machine_.forced, (std::vector<std::string>{"M5=1", "plc.jog_p.X=4294967295"}));
+  EXPECT_EQ(machine_.forced, (std::vector<std::string>{"M5=1", "plc.jog_p.X=4294967295", "D5.once=-3"}));
   EXPECT_EQ(machine_.released, (std::vector<std::string>{"M5", ""}));
   for (const double value : {0.5, -2147483649.0, 4294967296.0, 1e300, std::nan(""), HUGE_VAL})
-    expect_rejected(ask(RequestKind::kForce, "M5", value), AckReason::kMalformed);
+    for (const RequestKind kind : {RequestKind::kForce, RequestKind::kWriteDevice}) expect_rejected(ask(kind, "M5", value), AckReason::kMalformed);
   const std::string long_name(65, 'M');
   for (const char* device : {"", "M 5", "M5\n", "M\xc3\xa4", long_name.c_str()})
-    expect_rejected(ask(RequestKind::kForce, device, 1), AckReason::kMalformed);
+    for (const RequestKind kind : {RequestKind::kForce, RequestKind::kWriteDevice}) expect_rejected(ask(kind, device, 1), AckReason::kMalformed);
   expect_rejected(ask(RequestKind::kReleaseForce, "M 5", 0), AckReason::kMalformed);
-  EXPECT_EQ(machine_.forced.size(), 2u);
+  EXPECT_EQ(machine_.forced.size(), 3u);
 }
 
 TEST_F(IntakeRules, AcceptedBecomesFailedWhenItsStateDoesNotCome) {
