@@ -28,7 +28,7 @@ refuses "--control: must not be empty" "$bin/ncmon" --control ""
 # All programs use the same option for the file of a machine; if it is given here, the error names the option for a name.
 for option in --machine --config; do
   for value in mill3 etc/machine.toml ""; do refuses "$option: is the file of a machine, which ncmon does not read: the name of a control is --control NAME" "$bin/ncmon" --once "$option" "$value"; done
-  "$bin/ncmon" --help | grep -q -e "$option" && { echo "FAILED: ncmon --help names $option"; failures=$((failures + 1)); }
+  grep -q -e "$option" <<<"$("$bin/ncmon" --help)" && { echo "FAILED: ncmon --help names $option"; failures=$((failures + 1)); }
 done
 refuses "--machine: must not be empty" "$bin/ncdds" --config ""
 for program in ncdds ncmon; do

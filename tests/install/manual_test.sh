@@ -13,7 +13,7 @@ fail() { echo "FAILED: $*"; status=1; }
 for page in "$man"/*.[1-8]; do
   grep -q "^\.TH .*\"libnc $version\"" "$page" || fail "$(basename "$page") is of another version than $version"
 done
-head -n 1 "$NC_SOURCE_DIR/packaging/debian/changelog" | grep -qF "libnc ($version-" || fail "packaging/debian/changelog has another version"
+[[ $(head -n 1 "$NC_SOURCE_DIR/packaging/debian/changelog") == *"libnc ($version-"* ]] || fail "packaging/debian/changelog has another version"
 
 for page in "$man"/*.[18]; do
   name=$(basename "${page%.*}")

@@ -119,11 +119,11 @@ binaries=("$work"/all/usr/bin/* "$work/all/$lib/libnc.so.$version")
 [ ${#binaries[@]} -ge 3 ] || fail "only ${#binaries[@]} binaries"
 for binary in "${binaries[@]}"; do
   name=$(basename "$binary")
-  readelf -hW "$binary" | grep -qE 'Type: +DYN' || fail "$name: not position-independent"
+  grep -qE 'Type: +DYN' <<<"$(readelf -hW "$binary")" || fail "$name: not position-independent"
   readelf -lW "$binary" >"$work/segments"
   grep -q GNU_RELRO "$work/segments" || fail "$name: no relro"
-  grep -E 'GNU_STACK' "$work/segments" | grep -q 'RWE' && fail "$name: an executable stack"
-  readelf -dW "$binary" | grep -qE 'BIND_NOW|FLAGS_1.*NOW' || fail "$name: symbols are looked up late"
+  grep -qE 'GNU_STACK.*RWE' "$work/segments" && fail "$name: an executable stack"
+  grep -qE 'BIND_NOW|FLAGS_1.*NOW' <<<"$(readelf -dW "$binary")" || fail "$name: symbols are looked up late"
   readelf --dyn-syms -W "$binary" >"$work/symbols"
   grep -q '__stack_chk_fail' "$work/symbols" || fail "$name: no stack protector"
   grep -qE '__[a-z]+_chk(@|$)' "$work/symbols" || fail "$name: no fortified functions"

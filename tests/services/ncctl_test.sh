@@ -21,6 +21,11 @@ expect() {
 }
 said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
 # until_true COMMAND...: waits for it, as long as it takes; the time limit is that of the test.
+# says REGEX COMMAND...: what the command prints has a line with it.
+says() {
+  local regex=$1; shift
+  grep -qE "$regex" <<<"$("$@")"
+}
 until_true() { until "$@" >/dev/null 2>&1; do kill -0 "$server" 2>/dev/null || { fail "ncrtd has ended"; return; }; sleep 0.05; done; }
 
 mkdir "$work/programs"
@@ -101,10 +106,10 @@ assert {r[4] for r in rows} == {"1"}
 ' "$work/out" || fail "the CSV is not what was recorded"
 "$ncctl" trace record nc.mode_mdi M100 --trigger nc.mode_mdi --samples 100 --before 20 --file "$work/trace.csv" 2>"$work/err" &
 record=$!
-until_true sh -c "'$ncctl' trace status | grep -qE 'state +waiting'"
+until_true says 'state +waiting' "$ncctl" trace status
 expect 2 "$ncctl" trace arm D0
 said err "going on"
-until_true sh -c "'$ncctl' trace status | grep -qE 'recorded +100'"
+until_true says 'recorded +100' "$ncctl" trace status
 expect 0 "$ncctl" mode mdi
 wait "$record" || { fail "the recording with a trigger"; cat "$work/err"; }
 [ "$(sed -n '21p;22p' "$work/trace.csv" | cut -d, -f3 | tr '\n' ' ')" = '0 1 ' ] || { fail "the trigger is in another row"; sed -n '20,24p' "$work/trace.csv"; }
@@ -113,7 +118,7 @@ expect 0 "$ncctl" trace save "$work/saved.csv"
 cmp -s "$work/trace.csv" "$work/saved.csv" || fail "saved is another one than recorded"
 "$ncctl" trace record nc.alarm --trigger nc.alarm --samples 50 >"$work/out" 2>"$work/err" &
 record=$!
-until_true sh -c "'$ncctl' trace status | grep -qE 'recorded +50'"
+until_true says 'recorded +50' "$ncctl" trace status
 kill -INT "$record"
 wait "$record" || { fail "a recording that is ended by a signal"; cat "$work/err"; }
 [ "$(wc -l <"$work/out")" = 51 ] || { fail "what it had until then is not written"; cat "$work/out"; }
@@ -160,7 +165,7 @@ expect 0 "$ncctl" mdi --start "G90 G53 G0 X-1."
 expect 0 "$ncctl" override feed 50
 expect 1 "$ncctl" override feed 100000
 expect 0 "$ncctl" force M100 1
-until_true sh -c "'$ncctl' status | grep -qxF 'forced M100 = 1'"  # the status is up to 10 ms old
+until_true says '^forced M100 = 1$' "$ncctl" status  # the status is up to 10 ms old
 expect 0 "$ncctl" release
 expect 0 "$ncctl" alarms
 expect 0 "$ncctl" history
