@@ -58,22 +58,31 @@ class ServiceClient {
   bool ask(std::uint64_t id, const std::string& service, const Json& args = Json::object()) {
     return send_bytes(rt::services::frame_of(Json{{"id", id}, {"service", service}, {"args", args}}.dump()));
   }
-  // Sends a request without waiting. False when the server does not take any more.
+  // From now on only a few requests have room on their way to the server.
+  void queue_little() {
+    const int least = 1;  // the system makes more of it
+    EXPECT_EQ(setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &least, sizeof least), 0);
+  }
+  // Sends a request without waiting. False when there is no room for it, as the server has not read those before.
   bool offer(std::uint64_t id, const std::string& service) {
     const std::string frame = rt::services::frame_of(Json{{"id", id}, {"service", service}}.dump());
     return send(socket_, frame.data(), frame.size(), MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(frame.size());
   }
+  // The next message as it has come. False when the connection has ended.
+  bool receive_text(std::string* text) {
+    char bytes[4096];
+    while (in_.next(text) != rt::services::FrameReader::Next::kFrame) {
+      const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      in_.add({bytes, static_cast<std::size_t>(count)});
+    }
+    return true;
+  }
   // The next message; null when the connection has ended.
   Json receive() {
     std::string text;
-    char bytes[4096];
-    while (in_.next(&text) != rt::services::FrameReader::Next::kFrame) {
-      const ssize_t count = recv(socket_, bytes, sizeof bytes, 0);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return nullptr;
-      in_.add({bytes, static_cast<std::size_t>(count)});
-    }
-    return Json::parse(text);
+    return receive_text(&text) ? Json::parse(text) : Json(nullptr);
   }
   Json call(const std::string& service, const Json& args = Json::object()) {
     if (!ask(++id_, service, args)) return nullptr;
