@@ -16,7 +16,9 @@ constexpr auto kFlowPause = std::chrono::milliseconds(200);
 // A device that an operand names, and which of its bits: "D0.5" is bit 5 of D0.
 struct Named {
   const ladder::Device* device = nullptr;
-  int bit = -1;
+  int bit = -1;  // -1 = the whole device
+
+  std::int32_t part_of(std::int32_t value) const { return bit == -1 ? value : static_cast<std::int32_t>(static_cast<std::uint32_t>(value) >> bit & 1u); }
 };
 
 Named find(const LadderTask& task, const std::string& operand) {
@@ -66,8 +68,7 @@ Outcome LadderDesk::list_rungs(const Call& call) {
     for (const std::string& operand : line.operands) {
       Json shown = {{"name", operand}};
       const Named& of = *next_named++;
-      if (of.device != nullptr) shown["value"] = of.bit < 0 ? *next_value : static_cast<std::int32_t>(static_cast<std::uint32_t>(*next_value) >> of.bit & 1u);
-      if (of.device != nullptr) ++next_value;
+      if (of.device != nullptr) shown["value"] = of.part_of(*next_value++);
       operands.push_back(std::move(shown));
     }
     Json& shown = lines.emplace_back(Json{{"line", line.line}, {"rung", line.rung}, {"instruction", line.instruction}, {"operands", std::move(operands)}});
@@ -93,13 +94,11 @@ Outcome LadderDesk::list_devices(const Call& call) {
   Json list = Json::array();
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ladder::Device& device = *named[i].device;
-    const bool whole = named[i].bit < 0;
-    const std::int32_t value = look.values()[i];
     bool forced = false;
     for (unsigned f = 0; f < forces.count; ++f) forced |= task->find_device(runtime_.forced_name(forces.device[f].number)) == &device;
     list.push_back({{"name", names[i]},
-                    {"type", whole ? ladder::type_name(device.type) : "bit"},
-                    {"value", whole ? value : static_cast<std::int32_t>(static_cast<std::uint32_t>(value) >> named[i].bit & 1u)},
+                    {"type", named[i].bit == -1 ? ladder::type_name(device.type) : "bit"},
+                    {"value", named[i].part_of(look.values()[i])},
                     {"forced", forced},
                     {"meaning", device.comment}});
   }
