@@ -80,7 +80,7 @@ NC_PARTS(LifeInput, kind, flags, group, life)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
 NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)
-NC_PARTS(SpaceVector, on, axis, v)
+NC_PARTS(SpaceVector, on, turns, axis, v)
 NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
 
 template <class... Member>

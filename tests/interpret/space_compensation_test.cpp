@@ -54,6 +54,18 @@ TEST(SpaceCompensation, AVectorAloneCutsOnlyWithAFeed) {  // 3.2, P62: a line wi
   EXPECT_EQ(alarm_of("G1 F100\nG41 I1. J1. K1. D1\nG40\nM30"), " L0");
 }
 
+TEST(SpaceCompensation, TheArcOfARoundingHasRadiiThatAgree) {  // as an arc of the program: the centre does not shift
+  EXPECT_EQ(alarm_of("G1 F500\nG41 D1 X10. Y0 I5. J0 K0\nX20. ,R5.\nY20.\nG40\nM30"), "P70 L3");
+  const Outcome written = run_of("G1 F500\nG41 D1 X10. Y0 I5. J0 K0\nX15.\nG3 X20. Y5. I0 J5.\nG40\nM30");
+  EXPECT_EQ(written.alarm, "P70");
+  EXPECT_EQ(written.alarm_detail, run_of("G1 F500\nG41 D1 X10. Y0 I5. J0 K0\nX20. ,R5.\nY20.\nG40\nM30").alarm_detail);
+  EXPECT_NE(written.alarm_detail.find("two circles"), std::string::npos) << written.alarm_detail;
+  EXPECT_EQ(path_of("G1 F500\nG41 D1 X10. Y0 I0 J0 K1.\nX20. ,R5.\nY20.\nG40\nM30"),
+            (Path{"line 10 0 5", "line 15 0 5", "ccw 20 5 5 c15,5", "line 20 20 5", "line 20 20 0"}));
+  EXPECT_EQ(path_of("G1 F500\nG41 D1 X10. Y0 I5. J0 K0\nX20. ,C5.\nY20.\nG40\nM30"),
+            (Path{"line 15 0 0", "line 20 0 0", "line 25 5 0", "line 25 20 0", "line 20 20 0"}));
+}
+
 TEST(SpaceCompensation, ABlockWithoutVectorCarriesTheOldOne) {
   EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nX20.\nX30. I3. K4.\nX40.\nG40\nX50.\nM30"),
             (Path{"rapid 10 3 4", "rapid 20 3 4", "rapid 33 0 4", "rapid 43 0 4", "rapid 40 0 0", "rapid 50 0 0"}));

@@ -40,6 +40,16 @@ TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
             (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));
 }
 
+// A piece of a corner would end on the way of the axes that turn the tool, with the vector of another place.
+TEST(LengthAlongTool, NoCornerIsCutWhereTheToolTurns) {
+  EXPECT_EQ(alarm_of("F500\nG0 A30. C20.\nG43.1 Z0 H1\nG1 X20. ,R5.\nY20. A40.\nG49\nM30", "XYZac"), "P931 L4");
+  EXPECT_EQ(alarm_of("F500\nG0 A30. C20.\nG43.1 Z0 H1\nG1 X20. C30. ,C5.\nY20.\nG49\nM30", "XYZac"), "P931 L4");
+  EXPECT_EQ(alarm_of("F500\nG0 A90. C90.\nG43.1 X0 Z0 H1\nG1 X20. ,R5.\nY20.\nG49\nM30", "XYZac"), "P70 L4");
+  EXPECT_EQ(alarm_of("F500\nG0 A90. C90.\nG43.1 X0 Z0 H1\nG1 X20. ,C5.\nY20.\nG49\nM30", "XYZac"), " L0");
+  EXPECT_EQ(path_of("F500\nG0 G43.1 Z0 H1\nG1 X20. ,R5.\nY20.\nM30", "XYZac"),
+            (Path{"rapid 0 0 50 0 0", "line 15 0 50 0 0 F500", "ccw 20 5 50 0 0 c15,5 F500", "line 20 20 50 0 0 F500"}));
+}
+
 TEST(LengthAlongTool, AloneItCutsOnlyWithAFeed) {  // 3.2, P62: a line without a feed would never end
   EXPECT_EQ(alarm_of("G1\nG43.1 H1\nM30"), "P62 L2");
   EXPECT_EQ(alarm_of("G0 G43.1 H1\nG1\nG49\nM30"), "P62 L3");

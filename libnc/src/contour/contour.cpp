@@ -20,6 +20,14 @@ bool meets_later(const Move& m) { return m.corner == Corner::meet || m.corner ==
 /// A command of radius compensation without a movement (offset/offset.hpp).
 bool without_length(const Move& m) { return !m.circular && m.shape == 0 && m.corner == Corner::none && m.start == m.end; }
 
+/// Do rotary axes turn the tool, along which its length is compensated, between the ends of these moves? A piece that is cut off ends on the way (M700 12.3).
+bool turns_tool(const Move& first, const Move& next, uint32_t rotary, unsigned axis_count) {
+  if (!first.space.turns && !next.space.turns) return false;
+  for (unsigned i = 0; i < axis_count; ++i)
+    if ((rotary >> i & 1) != 0 && (first.end[i] != first.start[i] || next.end[i] != next.start[i])) return true;
+  return false;
+}
+
 }  // namespace
 
 void ContourStage::reset() {
@@ -100,6 +108,7 @@ void ContourStage::settle(const Item& next, ContourRule rule) {
   if (arcs && !is_cut(next.move)) return fail(Condition::corner_no_move, next.source, amount);
   // A line whose end is the point where the next block meets it (13.9) has no length yet from which the corner could take its part.
   if (is_line(next.move) && meets_later(next.move)) return fail(Condition::corner_option, next.source, amount);
+  if (turns_tool(line, next.move, rotary_, axis_count_)) return fail(Condition::tool_axis_code, first.item.source, amount);
   CornerCut cut;
   const Condition bad = arcs ? cut_arc_corner(line, next.move, axis_count_, &cut) : cut_corner(line, next.move, rotary_, axis_count_, &cut);
   const bool at_next = bad == Condition::corner_next_short || bad == Condition::corner_arc;

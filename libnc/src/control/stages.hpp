@@ -13,7 +13,7 @@ namespace nc {
 inline const FairingRule& rule_of(const FairingStage&, const MotionSettings& settings) { return settings.fairing; }
 inline ContourRule rule_of(const ContourStage&, const MotionSettings& settings) { return {settings.corner_arcs}; }
 inline NoRule rule_of(const OffsetStage&, const MotionSettings&) { return {}; }
-inline NoRule rule_of(const SpaceStage&, const MotionSettings&) { return {}; }
+inline SpaceRule rule_of(const SpaceStage&, const MotionSettings& settings) { return {settings.arc_tolerance}; }
 
 using Stages = StageRow<ContourStage, FairingStage, OffsetStage, SpaceStage>;
 

@@ -105,7 +105,7 @@ Move& BlockContext::emit_move(const AxisVec& start, const AxisVec& end) {
 
 [[gnu::noinline]] void BlockContext::take_settings_of_moves() {
   settings_of_moves_stale_ = false;
-  settings_of_moves_ = motion_settings.intern({settings.accuracy, settings.fairing, settings.filters, settings.index_axes, settings.machine_turn, settings.corner_arcs, settings.rapid_dry});
+  settings_of_moves_ = motion_settings.intern({settings.accuracy, settings.fairing, settings.filters, settings.index_axes, settings.machine_turn, settings.corner_arcs, settings.arc_tolerance, settings.rapid_dry});
 }
 
 void BlockContext::keep_call() {

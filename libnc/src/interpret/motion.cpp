@@ -509,8 +509,9 @@ Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, 
   return move_arc_by(in, plane, target, commanded, words, ccw);
 }
 
-/// M700 12.5: the ends of an arc are displaced, its centre is not; their distances from it have to agree all the same.
-static bool meets_displaced(const BlockContext& in, const MoveFrame& frame, unsigned h, unsigned v, const Circle& circle, double tolerance) {
+/// M700 12.5: the ends of an arc are displaced, its centre is not; their distances from it have to agree all the same. By how much they differ; without end
+/// where one of them lies in the centre.
+static double displaced_apart(const BlockContext& in, const MoveFrame& frame, unsigned h, unsigned v, const Circle& circle) {
   const SpaceVector end = space_vector(in, frame.to_machine.apply(frame.end));
   const auto radius = [&circle, h, v](const AxisVec& at, const SpaceVector& vector) {
     double d[2] = {at[h] - circle.center[0], at[v] - circle.center[1]};
@@ -520,8 +521,7 @@ static bool meets_displaced(const BlockContext& in, const MoveFrame& frame, unsi
     }
     return std::hypot(d[0], d[1]);
   };
-  const double from = radius(frame.start, in.state.moved_space), to = radius(frame.end, end);
-  return from >= kNoRadius_mm && to >= kNoRadius_mm && std::fabs(from - to) <= tolerance + 1e-9;
+  return circle_apart(radius(frame.start, in.state.moved_space), radius(frame.end, end));
 }
 
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
@@ -555,8 +555,10 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
     move_linear(in, target, commanded, style);
     return Execution::done;
   }
-  if (leads_beside(in.state) && !meets_displaced(in, frame, h, v, circle, arc_tolerance(in, words)))
-    return in.raise(Condition::arc_deviation, words.has_radius ? Role::arc_radius : plane.center[0], words.has_radius ? words.radius : circle.radius_end);
+  if (leads_beside(in.state)) {
+    const double apart = displaced_apart(in, frame, h, v, circle);
+    if (!(apart <= arc_tolerance(in, words) + kRadiusRounding_mm)) return in.raise(Condition::arc_displaced, words.has_radius ? Role::arc_radius : plane.center[0], apart);
+  }
   bool helix = false;
   for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(frame.end[i] - frame.start[i]) > kNoMotion);
   emit_circular(in, frame, plane, circle, helix ? NC_MOVE_HELIX : NC_MOVE_ARC);

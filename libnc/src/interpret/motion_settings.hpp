@@ -16,6 +16,7 @@ struct MotionSettings {
   uint32_t index_axes = 0;      ///< bit i: axis i is an index table (M700 9.3)
   uint32_t machine_turn = 0;    ///< bit i: the machine coordinate of axis i is shown within one turn (M700 14.13)
   bool corner_arcs = false;     ///< ,C and ,R beside arcs are cut (corner_ii)
+  double arc_tolerance = 0.1;   ///< mm, by which the radii of an arc may differ (M700 6.4, #1084)
   bool rapid_dry = false;       ///< dry run concerns rapid traverse (M700 13.1.1, #1085)
   bool operator==(const MotionSettings&) const = default;
 };

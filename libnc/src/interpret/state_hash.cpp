@@ -89,8 +89,8 @@ class Hash {
     add(kind, ccw, by_radius, choice, angle_deg, center, radius, start);
   }
   void add_one(const SpaceVector& space) {
-    const auto& [on, axis, v] = space;
-    add(on, axis, v);
+    const auto& [on, turns, axis, v] = space;
+    add(on, turns, axis, v);
   }
   void add_one(const LeftByEnd& left) {
     const auto& [feed, motion, feed_mode, any] = left;

@@ -2,11 +2,16 @@
 #include "offset/space.hpp"
 
 #include <cmath>
+#include <new>
 
+#include "alarm/condition.hpp"
 #include "base/same_place.hpp"
 
 namespace nc {
 namespace {
+
+/// What rounding makes of two radii that the interpreter has found to agree.
+constexpr double kRounding_mm = 1e-6;
 
 bool is_nothing(const SpaceVector& vector) { return vector.v[0] == 0 && vector.v[1] == 0 && vector.v[2] == 0; }
 
@@ -41,18 +46,40 @@ void follow_ends(const AxisVec& start, const AxisVec& end, Move& move) {
 }  // namespace
 
 void SpaceStage::reset() {
-  full_ = false;
+  full_ = failed_ = false;
   vector_ = {};
 }
 
-bool SpaceStage::push(const Item& item, NoRule) {
+bool SpaceStage::push(const Item& item, SpaceRule rule) {
   if (full_) return false;
+  if (failed_) return true;  // nothing is read behind an alarm
   item_ = item;
   full_ = true;
   if (item_.kind != ItemKind::move) return true;
+  const bool displaced = vector_.on;
   displace(item_.move);
+  if (item_.move.circular && (displaced || vector_.on)) {
+    const double apart = circle_apart(item_.move.circle.radius_start, item_.move.circle.radius_end);
+    if (!(apart <= rule.arc_tolerance + kRounding_mm)) {
+      stop(apart);
+      return true;
+    }
+  }
   full_ = goes_anywhere(item_.move);  // a command without a movement, and without another vector
   return true;
+}
+
+/// The program stops in front of the arc: the alarm takes its place.
+void SpaceStage::stop(double apart) {
+  const nc_source source = item_.source;
+  item_ = Item();
+  item_.kind = ItemKind::alarm;
+  item_.source = source;
+  new (&item_.alarm) Fault();
+  item_.alarm.condition = Condition::arc_displaced;
+  item_.alarm.has_value = true;
+  item_.alarm.value = apart;
+  failed_ = true;
 }
 
 void SpaceStage::displace(Move& move) {

@@ -4,7 +4,8 @@
 //
 // How it works. A vector belongs to the end of a block: a move leads from its start with the vector of the move before to its end with its
 // own. So a line becomes another line, and the two radii of an arc are those of its displaced ends about the programmed centre, which stays
-// (12.5: "the centre does not shift"); the interpreter has compared them. A move without a vector leads back, and so does one that takes the
+// (12.5: "the centre does not shift"). The interpreter has compared them, but for arcs that a stage in front of this one has made or cut (13.7, 13.9): where those of
+// one are too far apart it is an alarm in its place. A move without a vector leads back, and so does one that takes the
 // vectors away for a while (Compensation::transparent); the one behind it leads out again. A command without a movement is a move without
 // length, which leads from one vector to the next.
 //
@@ -19,14 +20,18 @@ namespace nc {
 using SpaceResume = SpaceVector;
 inline bool in_force(const SpaceResume& resume) { return resume.on; }
 
+struct SpaceRule {
+  double arc_tolerance = 0.1;  ///< by which the radii of an arc may differ, mm
+};
+
 class SpaceStage {
  public:
   static constexpr unsigned kHeld = 1;
-  using Rule = NoRule;
+  using Rule = SpaceRule;
   using Resume = SpaceResume;
-  bool takes(const Item& item, NoRule, bool) const { return item.move.space.on; }
+  bool takes(const Item& item, SpaceRule, bool) const { return item.move.space.on; }
   /// False: the item before has to be fetched first.
-  bool push(const Item& item, NoRule = {});
+  bool push(const Item& item, SpaceRule rule = {});
   bool pop(Item& out);
   void reset();
   SpaceResume resume_point() const { return vector_; }
@@ -36,13 +41,15 @@ class SpaceStage {
   }
   /// Vectors, not points, are carried on.
   void displaced() {}
-  bool idle() const { return !full_ && !vector_.on; }
+  bool idle() const { return !full_ && !vector_.on && !failed_; }
 
  private:
   void displace(Move& move);
+  void stop(double apart);
 
   Item item_;
   bool full_ = false;
+  bool failed_ = false;  ///< an alarm of this stage ended the stream
   SpaceVector vector_;  ///< behind the move that was pushed last; `on`: it is not nothing
 };
 

@@ -38,7 +38,9 @@
 // Nothing beyond a sync has ever been read when it is answered, so checkpoints never reach across one.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "alarm/fault.hpp"
 #include "nc/item.h"
@@ -91,6 +93,7 @@ inline bool stands_beside(const Compensation& comp) { return comp.by_hand[0] != 
 /// the axis of the tool (12.3). offset/space.hpp adds it.
 struct SpaceVector {
   bool on = false;             ///< such a mode is in force; else the move leads back from the vector before it
+  bool turns = false;          ///< it goes by the rotary axes (12.3)
   uint8_t axis[3] = {0, 1, 2};
   double v[3] = {0, 0, 0};     ///< mm, along these axes of the compensation frame
   bool operator==(const SpaceVector&) const = default;
@@ -99,6 +102,13 @@ struct SpaceVector {
 /// An arc with less than this from its centre begins or ends in it: a tenth of the smallest command unit there is, far above what
 /// rounding leaves of two equal positions.
 inline constexpr double kNoRadius_mm = 1e-7;
+
+/// By how much the two radii of an arc differ; without end where one is none.
+inline double circle_apart(double radius_start, double radius_end) {
+  return radius_start >= kNoRadius_mm && radius_end >= kNoRadius_mm ? std::abs(radius_start - radius_end) : std::numeric_limits<double>::infinity();
+}
+/// By so much two radii that agree within the tolerance may be computed to differ.
+inline constexpr double kRadiusRounding_mm = 1e-9;
 
 /// Geometry of a move on the plane (h, v) = plane_axis; all other axes go linearly along.
 struct Circle {

@@ -35,6 +35,7 @@ const AlarmRow kConditions[kConditionRows] = {
     // motion
     {C::no_feed, "P62", nullptr},
     {C::arc_deviation, "P70", nullptr},  // 6.4
+    {C::arc_displaced, "P70", nullptr},  // 12.5
     {C::arc_center, "P71", nullptr},     // 6.5
     {C::helix_option, "P72", nullptr},   // 6.6
     {C::plane_mismatch, "P113", nullptr},

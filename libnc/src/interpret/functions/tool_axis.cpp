@@ -49,6 +49,7 @@ SpaceVector space_vector(const BlockContext& in, const AxisVec& machine) {
     vector.on = true;
     for (unsigned i = 0; i < 3; ++i) vector.axis[i] = static_cast<uint8_t>(in.axis_called(basic_along(i)));
   }
+  vector.turns = true;
   add_along_tool(in, machine, vector);
   return vector;
 }
