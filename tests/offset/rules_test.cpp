@@ -130,6 +130,25 @@ TEST(OffsetArcs, ACuspIsAnInnerCornerOnTheSideOfTheHumps) {
   expect_path(run_stage(down), down, {{9, 20}, {9, wall}, {-1, 0}, {-1, -5}, {-10, -10}});
 }
 
+// An arc that the tool fills, and an outer corner of less than 90 degrees behind it: the offset curves do not meet, and the tangents meet before they are as long as the
+// amount. Lengthened by all of it they would lead into the arc.
+TEST(OffsetArcs, ASmallOuterCornerWithoutAMeetingHasTheOneOfItsTangents) {
+  const double i = 2, j = 0.9793, r = std::hypot(i, j), h = -2 * i / r, v = -2 * j / r;  // the vector at right angles to the second arc
+  const double along = 1 / (1 + i / r);                                                  // 1 / (1 + cosine of the turn)
+  PathBuilder path(-10, 6);
+  path.side(-1, 2);
+  path.line(0, 6).line(0, 12).arc(false, 4, 12, 2, 0).arc(true, 8, 12, i, j).line(8, 0).cancel().line(20, 0).end();
+  const std::vector<Move> moves = moves_of(run_stage(path));
+  ASSERT_GE(moves.size(), 5u);
+  const auto ends_at = [&](unsigned move, double x, double y) {
+    EXPECT_NEAR(moves[move].end[0], x, 1e-9) << move;
+    EXPECT_NEAR(moves[move].end[1], y, 1e-9) << move;
+  };
+  ends_at(1, 2, 12);
+  ends_at(2, 4 + along * (h - 2), 12 + along * v);
+  ends_at(3, 4 + h, 12 + v);
+}
+
 TEST(OffsetArcs, ACuspIsAnOuterCornerOnTheOtherSide) {
   PathBuilder path(-10, -10);
   path.side(-1, 1);

@@ -19,15 +19,22 @@ Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
 }
 
 // Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset
-// line is lengthened by the amount and the ends are linked, as is usual.
-ContourJoint lengthened_joint(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
+// line is lengthened by the amount and the ends are linked, as is usual. Up to a right angle the two meet before that, and their meeting is one vector in place of
+// the two: behind it each would lead through what the other one is beside.
+ContourJoint lengthened_joint(const Leg& before, const Leg& behind, double offset) {
   ContourJoint joint;
-  joint.n = 4;
   joint.lengthened = true;
-  joint.v[0] = perpendicular(before, offset_before);
-  joint.v[1] = joint.v[0] + std::abs(offset_before) * before.u;
-  joint.v[3] = perpendicular(behind, offset_behind);
-  joint.v[2] = joint.v[3] - std::abs(offset_behind) * behind.u;
+  joint.v[0] = perpendicular(before, offset);
+  const double d = dot(before.u, behind.u);
+  if (d > -kRightAngle) {
+    joint.n = 3;
+    joint.v[1] = (1 / (1 + d)) * (joint.v[0] + perpendicular(behind, offset));
+  } else {
+    joint.n = 4;
+    joint.v[1] = joint.v[0] + std::abs(offset) * before.u;
+    joint.v[2] = perpendicular(behind, offset) - std::abs(offset) * behind.u;
+  }
+  joint.v[joint.n - 1] = perpendicular(behind, offset);
   return joint;
 }
 
@@ -191,7 +198,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     joint->set(w);
     return true;
   }
-  *joint = lengthened_joint(before, o, behind, o);
+  *joint = lengthened_joint(before, behind, o);
   return true;
 }
 
@@ -201,7 +208,7 @@ ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset,
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(behind, offset));
   if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
-  return lengthened_joint(before, offset, behind, offset);
+  return lengthened_joint(before, behind, offset);
 }
 
 ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
@@ -210,7 +217,7 @@ ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(before, offset));
   if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
-  return lengthened_joint(before, offset, behind, offset);
+  return lengthened_joint(before, behind, offset);
 }
 
 ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset) {
