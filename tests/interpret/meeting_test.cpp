@@ -75,6 +75,12 @@ TEST(LineAngle, IsRotatedScaledAndMirroredWithItsLine) {
 TEST(LineAngle, Alarms) {
   EXPECT_EQ(alarm_of("G1 F100\nX30. A90.\nM30"), "P395 L2");  // never gets there
   EXPECT_EQ(alarm_of("G1 F100\nY30. A180.\nM30"), "P395 L2");
+  // Neither here: a coordinate that no word could say (2.1).
+  EXPECT_EQ(alarm_of("G1 F100\nX10. A89.99999999\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nY9999. ,A0.0001\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nG91 X10. A89.995\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nX10. A89.995\nM30"), "P395 L2");
+  EXPECT_EQ(alarm_of("G1 F100\nX10. A89.9\nM30"), " L0");
   EXPECT_EQ(alarm_of("G0 X30. ,A45.\nM30"), "P390 L1");       // (6)
   EXPECT_EQ(alarm_of("G0 X30. A45.\nM30"), "P130 L1");
   EXPECT_EQ(alarm_of("G1 F100\n,A45.\nX5. Y5. ,A3.\nM30", "XYZa"), "P390 L2");  // a geometric command: not with an axis A

@@ -155,11 +155,8 @@ constexpr Sentence kSentences[] = {
     {C::arc_deviation,
      "Start and end of the arc are not on one circle: the radius at the end would be {value} mm.",
      "Start and end of the arc are not on one circle about its centre."},
-    {C::arc_displaced,
-     "The vectors at its ends (compensation in three dimensions, length along the tool axis) put the ends of the arc on two circles about its centre, {value} mm apart. "
-     "Program it with vectors across its plane, or as lines.",
-     "The vectors at its ends (compensation in three dimensions, length along the tool axis) put the ends of the arc on two circles about its centre. "
-     "Program it with vectors across its plane, or as lines."},
+    {C::arc_displaced, "Vectors in space make the radii at both ends of the arc differ by {value} mm. Use vectors across its plane, or lines.",
+     "Vectors in space make the radii at both ends of the arc differ. Use vectors across its plane, or lines."},
     {C::arc_center,
      "{vector_x} {vector_y} {vector_z} have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program {arc_radius}.",
      nullptr, nullptr, of_unsigned_centre},

@@ -557,7 +557,9 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   }
   if (leads_beside(in.state)) {
     const double apart = displaced_apart(in, frame, h, v, circle);
-    if (!(apart <= arc_tolerance(in, words) + kRadiusRounding_mm)) return in.raise(Condition::arc_displaced, words.has_radius ? Role::arc_radius : plane.center[0], apart);
+    const Role word = words.has_radius ? Role::arc_radius : plane.center[0];
+    if (!std::isfinite(apart)) return in.raise(Condition::arc_displaced, word);
+    if (apart > arc_tolerance(in, words) + kRadiusRounding_mm) return in.raise(Condition::arc_displaced, word, apart);
   }
   bool helix = false;
   for (unsigned i = 0; i < in.axis_count; ++i) helix = helix || (i != h && i != v && std::fabs(frame.end[i] - frame.start[i]) > kNoMotion);

@@ -77,8 +77,8 @@ void SpaceStage::stop(double apart) {
   item_.source = source;
   new (&item_.alarm) Fault();
   item_.alarm.condition = Condition::arc_displaced;
-  item_.alarm.has_value = true;
-  item_.alarm.value = apart;
+  item_.alarm.has_value = std::isfinite(apart);
+  item_.alarm.value = item_.alarm.has_value ? apart : 0;
   failed_ = true;
 }
 

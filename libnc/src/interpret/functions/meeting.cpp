@@ -380,8 +380,10 @@ Execution take_line_angle(BlockContext& in) {
   const double way = w.target.counts_on(given) ? w.target[given] : w.target[given] - from;
   // The line never gets there: it runs across the direction of the coordinate that is given.
   const double along = has_h ? cosine : sine, across = has_h ? sine : cosine;
-  if (along == 0) return in.raise_axis(Condition::geometric_address, given, w.target[given]);
-  w.target.set(other, TargetKind::incremental, way * across / along);
+  const double end = way * across / along, last = in.state.modal.is(Function::inch) ? in.settings.last_inch : in.settings.last_mm;
+  const bool arrives = along != 0 && std::fabs(end) <= last && std::fabs((has_h ? plane.at.v : plane.at.h) + end) <= last;  // within the range of coordinates (2.1)
+  if (!arrives) return in.raise_axis(Condition::geometric_address, given, w.target[given]);
+  w.target.set(other, TargetKind::incremental, end);
   return Execution::done;
 }
 
