@@ -136,16 +136,21 @@ TEST_F(OtherDialects, AShortProgramIsRecognised) {
 }
 
 TEST(CodesOfLine, AreThoseOutsideOfComments) {
-  EXPECT_EQ(codes_of_line("N10 G90g1 X2 (G4) G38.2G 0 5. ; G7"), (CodeSet{900, 10, 382, 50}));
-  EXPECT_EQ(codes_of_line("IF [#1 EQ 1] GOTO 12"), CodeSet());
-  EXPECT_EQ(codes_of_line("G#1 G[2] G1.2.3 G123456 G-4 ,G5"), CodeSet());
-  EXPECT_EQ(codes_of_line("G G5"), CodeSet());
-  // A name and a formula are none, and a variable that is written beside codes leaves them codes.
-  EXPECT_EQ(codes_of_line("G1 X#<g4_x> F[100 + #<g7>] #<g8>=2 G90"), (CodeSet{10, 900}));
+  EXPECT_EQ(codes_of_line(NC_DIALECT_ISO, "N10 G90g1 X2 (G4) G38.2G 0 5. ; G7"), (CodeSet{900, 10, 382, 50}));
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "IF [#1 EQ 1] GOTO 12"), CodeSet());
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G#1 G[2] G1.2.3 G123456 G-4 ,G5"), CodeSet());
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G G5"), (CodeSet{50})) << "G alone is a word without a number";
+  // A name and a formula are none; what stands behind a fault is not looked at.
+  EXPECT_EQ(codes_of_line(NC_DIALECT_ISO, "G1 X#<g4_x> F[100 + #<g7>] G90"), (CodeSet{10, 900}));
+  EXPECT_EQ(codes_of_line(NC_DIALECT_ISO, "G1 X#<g4_x> #<g8>=2 G90"), (CodeSet{10}));
+  EXPECT_EQ(codes_of_line(NC_DIALECT_DGSHAPE, "G1 X1 #<g8>"), (CodeSet{10}));
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G90G10L2P1,C1G1"), (CodeSet{900, 100, 10}));
   const CodeSet own = codes_of_family(NC_DIALECT_SERIES8);
   EXPECT_EQ(own.count(60), 1u);
   EXPECT_EQ(own.count(640), 0u);
   EXPECT_EQ(codes_of_family(NC_DIALECT_ISO).count(382), 1u);
+  EXPECT_EQ(codes_of_family(NC_DIALECT_M700).count(710), 1u);
+  EXPECT_EQ(codes_of_family(NC_DIALECT_M700, true).count(710), 0u) << "listed, and not there";
 }
 
 /// The note about `text` as a program of `own`, and how much was read for it.

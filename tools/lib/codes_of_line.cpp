@@ -3,27 +3,31 @@
 
 #include <cmath>
 
-#include "tools/lib/line_words.hpp"
-
 namespace nc::tools {
 
-CodeSet codes_of_line(std::string_view line) {
-  constexpr size_t kLongest = 5;  // "102.5"; a longer number is no code
+int code_of(const nc_plain_word& word) {
+  constexpr double kMost = 1000;  // a larger number is no code
+  return word.kind == NC_NUMBER_CODE && word.value >= 0 && word.value < kMost ? static_cast<int>(std::lround(word.value * 10)) : -1;
+}
+
+CodeSet codes_of_line(nc_dialect dialect, std::string_view line) {
   CodeSet codes;
-  LineWords words;
-  words.read(line);
-  for (const PlainWord& word : words.words()) {
-    if (word.letter != 'G' || word.comma || words.number(word).size() > kLongest) continue;
-    const double number = words.value(word);
-    if (number >= 0) codes.insert(static_cast<int>(std::lround(number * 10)));
+  nc_plain_word words[NC_MAX_WORDS];
+  while (!line.empty()) {
+    nc_block_text block = NC_INIT(nc_block_text);
+    if (nc_block_words(dialect, "", line.data(), line.size(), &block, words) != NC_OK) break;
+    for (unsigned i = 0; i < block.count; ++i)
+      if (const int code = code_of(words[i]); code >= 0) codes.insert(code);
+    line.remove_prefix(block.used);
   }
   return codes;
 }
 
-CodeSet codes_of_family(nc_dialect dialect) {
+CodeSet codes_of_family(nc_dialect dialect, bool supported) {
   CodeSet codes;
   nc_function row = NC_INIT(nc_function);
-  for (unsigned i = 0; nc_function_row(dialect, i, &row) == NC_OK; ++i) codes.merge(codes_of_line(row.code));
+  for (unsigned i = 0; nc_function_row(dialect, i, &row) == NC_OK; ++i)
+    if (row.supported || !supported) codes.merge(codes_of_line(dialect, row.code));
   return codes;
 }
 

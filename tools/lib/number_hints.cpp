@@ -3,11 +3,9 @@
 #include "tools/lib/number_hints.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <string_view>
-#include <vector>
-
-#include "tools/lib/line_words.hpp"
+#include <cstddef>
 
 namespace nc::tools {
 namespace {
@@ -21,6 +19,15 @@ std::string switched_off(const Session& session, nc_parameter_role role) {
   double value = 0;
   if (nc_parameter_key_get(session.control(), role, key) != NC_OK) return "";
   return nc_parameter_get(session.control(), kPartSystem, key, 0, &value) == NC_OK && value == 0 ? key : "";
+}
+
+/// The word as it is written in the block at `begin`, without blanks; its address alone where the block is so long that its place is not known.
+std::string spelled(const std::string& text, size_t begin, const nc_plain_word& word) {
+  std::string spelling = word.comma ? "," : "";
+  if (word.end == 0) return spelling + word.letter;
+  for (size_t i = begin + word.begin; i < begin + word.end; ++i)
+    if (text[i] != ' ' && text[i] != '\t') spelling += static_cast<char>(std::toupper(static_cast<unsigned char>(text[i])));
+  return spelling;
 }
 
 }  // namespace
@@ -40,35 +47,29 @@ NumberHints number_hints(const std::string& text, nc_dialect dialect, const std:
   NumberHints hints;
   bool plain_place[256] = {};  // a line of nothing but these characters commands places: no dwell
   for (const unsigned char c : axes + "0123456789+-. \t\r") plain_place[c] = true;
-  uint32_t line = 0;
-  bool data = false;
-  LineWords of_line;
-  std::vector<nc_plain_word> plain;
-  std::vector<uint8_t> kinds;
-  for (size_t begin = 0; begin < text.size();) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view of_text = std::string_view(text).substr(begin, end - begin);
-    ++line;
-    begin = end + 1;
-    if (!lengths && std::all_of(of_text.begin(), of_text.end(), [&](unsigned char c) { return plain_place[c]; })) continue;
-    of_line.read(of_text);
-    if (of_line.assigns()) continue;
-    const std::vector<PlainWord>& words = of_line.words();
-    plain.clear();
-    for (const PlainWord& word : words) plain.push_back({word.letter, word.comma, of_line.value(word)});
-    kinds.assign(words.size(), 0);
-    if (nc_number_kinds(dialect, axes.c_str(), plain.data(), static_cast<unsigned>(plain.size()), &data, kinds.data()) != NC_OK) return {};
-    for (size_t i = 0; i < words.size(); ++i) {
-      const PlainWord& word = words[i];
-      if (plain[i].value == 0 || std::isnan(plain[i].value)) continue;  // 0 is the same in every unit
-      if (kinds[i] == NC_NUMBER_LENGTH) {
-        if (of_line.point(word)) ++hints.with_point;
-        else hints.count_without_point(of_line.text(word), std::fabs(plain[i].value), line);
-      }
-      if (kinds[i] != NC_NUMBER_DWELL || !of_line.point(word) || hints.dwells++ != 0) continue;
-      hints.first_dwell = line;
-      hints.dwell_word = of_line.text(word);
+  uint32_t line = 1;
+  nc_block_text block = NC_INIT(nc_block_text);
+  nc_plain_word words[NC_MAX_WORDS];
+  for (size_t begin = 0; begin < text.size(); begin += block.used) {
+    const size_t line_end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    if (!lengths && std::all_of(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(line_end) - 1, [&](unsigned char c) { return plain_place[c]; })) {
+      block.used = line_end - begin;
+      ++line;
+      continue;
     }
+    if (nc_block_words(dialect, axes.c_str(), text.data() + begin, text.size() - begin, &block, words) != NC_OK || block.used == 0) return {};
+    for (uint32_t i = 0; i < block.count; ++i) {
+      const nc_plain_word& word = words[i];
+      if (word.value == 0) continue;  // the same in every unit
+      if (word.kind == NC_NUMBER_LENGTH) {
+        if (word.point) ++hints.with_point;
+        else hints.count_without_point(spelled(text, begin, word), std::fabs(word.value), line);
+      }
+      if (word.kind != NC_NUMBER_DWELL || !word.point || hints.dwells++ != 0) continue;
+      hints.first_dwell = line;
+      hints.dwell_word = spelled(text, begin, word);
+    }
+    if (text[begin + block.used - 1] == '\n') ++line;
   }
   return hints;
 }
@@ -99,7 +100,7 @@ bool note_numbers(const Session& session, std::FILE* err) {
   if (!dwell_point.empty() && hints.dwells != 0)
     std::fprintf(err, "note: %s:%u: %s of a dwell counts milliseconds, and the point does not count (#%s)%s\n", file.c_str(), hints.first_dwell,
                  hints.dwell_word.c_str(), dwell_point.c_str(), hints.dwells == 1 ? "" : ("; " + more(hints.dwells - 1, "dwell")).c_str());
-  return !whole && hints.doubtful() && type_2.empty();
+  return !whole && hints.probably_whole() && type_2.empty();
 }
 
 }  // namespace nc::tools

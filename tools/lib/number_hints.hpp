@@ -28,6 +28,12 @@ struct NumberHints {
    * program whose numbers are all in thousandths is probably meant so; for it there is only a note.
    */
   bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
+
+  /** They were probably meant in whole mm or inch: they are not only doubtful, but are places on a machine as such. One of them that would be metres away is not. */
+  bool probably_whole() const { return doubtful() && largest_without < 1000; }
+
+  /** They were probably meant in the least unit: one of them is farther away in whole mm than machines are long. */
+  bool probably_least() const { return largest_without >= 5000; }
 };
 
 /**

@@ -164,30 +164,21 @@ std::string note(const std::vector<Found>& found) {
   return "note: this looks like a program of " + names + ", as which " + how + "; try --dialect " + found.front().family;
 }
 
-/** The lines of the text that were refused, with their codes. */
-std::map<uint32_t, CodeSet> codes_of_lines(std::string_view text, const std::set<uint32_t>& refused) {
-  std::map<uint32_t, CodeSet> codes;
+/** Of lines of the text the codes that the other family reads there and has, and the own one does not have. */
+std::map<uint32_t, CodeSet> foreign_codes(std::string_view text, const std::set<uint32_t>& lines, const std::string& own, const std::string& other) {
+  std::map<uint32_t, CodeSet> foreign;
+  nc_dialect of_own{}, of_other{};
+  if (nc_dialect_get(own.c_str(), &of_own) != NC_OK || nc_dialect_get(other.c_str(), &of_other) != NC_OK) return foreign;
+  const CodeSet has = codes_of_family(of_own), wanted = codes_of_family(of_other);
   uint32_t line = 1;
-  for (size_t begin = 0; begin < text.size() && line <= *refused.rbegin(); ++line) {
+  for (size_t begin = 0; begin < text.size() && line <= *lines.rbegin(); ++line) {
     const size_t end = std::min(text.find('\n', begin), text.size());
-    if (refused.count(line) != 0) codes[line] = codes_of_line(text.substr(begin, end - begin));
+    if (lines.count(line) != 0)
+      for (const int code : codes_of_line(of_other, text.substr(begin, end - begin)))
+        if (has.count(code) == 0 && wanted.count(code) != 0) foreign[line].insert(code);
     begin = end + 1;
   }
-  return codes;
-}
-
-/** Of the codes of lines those that one family does not have and another one has. */
-std::map<uint32_t, CodeSet> foreign_codes(const std::map<uint32_t, CodeSet>& lines, const CodeSet& own, const CodeSet& other) {
-  std::map<uint32_t, CodeSet> foreign;
-  for (const auto& [line, codes] : lines)
-    for (const int code : codes)
-      if (own.count(code) == 0 && other.count(code) != 0) foreign[line].insert(code);
   return foreign;
-}
-
-CodeSet codes_of_name(const std::string& name) {
-  nc_dialect dialect{};
-  return nc_dialect_get(name.c_str(), &dialect) == NC_OK ? codes_of_family(dialect) : CodeSet();
 }
 
 }  // namespace
@@ -206,20 +197,20 @@ std::string other_dialect_note(const SessionOptions& options, const RunLimits& l
   const Reading as_own = read_as(own, options, text, limits, false);
   if (work != nullptr) *work = as_own.work;
   if (as_own.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
-  std::map<uint32_t, CodeSet> codes;
   bool mm_lengths = false;
-  if (!whole_numbers && text.size() <= kLongestText) {
-    codes = codes_of_lines(text, as_own.refused);
+  const bool looked_at = !whole_numbers && text.size() <= kLongestText;
+  if (looked_at) {
     nc_dialect dialect{};
     mm_lengths = !as_own.whole_numbers && nc_dialect_get(own.c_str(), &dialect) == NC_OK && number_hints(text, dialect, axes, true).doubtful();
   }
-  const CodeSet own_codes = codes_of_name(own);
   std::vector<Found> found;
   for (const std::string& family : dialect_names()) {
     if (family == own) continue;
     const Reading other = read_as(family, options, text, limits, whole_numbers);
     if (work != nullptr) *work += other.work;
-    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own, {foreign_codes(codes, own_codes, codes_of_name(family)), mm_lengths && other.whole_numbers});
+    TextSigns signs;
+    if (looked_at) signs = {foreign_codes(text, as_own.refused, own, family), mm_lengths && other.whole_numbers};
+    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own, signs);
     if (looks_so) found.push_back({family, other.refused.size()});
   }
   size_t least = ~size_t{0};

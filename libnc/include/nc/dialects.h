@@ -68,32 +68,48 @@ typedef enum nc_code_role {
  */
 NC_API nc_code_role nc_code_role_get(nc_dialect dialect, char letter, uint32_t number) NC_RT;
 
-/** A word of a block as it is written, for hosts that look at the text of a program. */
-typedef struct nc_plain_word {
-  char letter;          /**< its address, a capital */
-  bool comma;           /**< a comma stands before it */
-  double value;         /**< its number as written */
-} nc_plain_word;
-
-/** What kind of number a word has, as far as its decimal point makes a difference. */
+/** What kind of number a word has, as far as a host that looks at a text has to tell them apart. */
 typedef enum nc_number_kind {
   NC_NUMBER_OTHER = 0,  /**< none of those below */
   NC_NUMBER_LENGTH = 1, /**< a position, a length or an angle of an axis: parameters decide what unit it has without a decimal point (M700 5.3) */
-  NC_NUMBER_DWELL = 2   /**< the time of a dwell, whose decimal point a parameter may make ignored (M700 8.1) */
+  NC_NUMBER_DWELL = 2,  /**< the time of a dwell, whose decimal point a parameter may make ignored (M700 8.1) */
+  NC_NUMBER_CODE = 3    /**< a code of the function table (nc_function_row()): G01 */
 } nc_number_kind;
 
+/** A word of a block whose number is written there. */
+typedef struct nc_plain_word {
+  char letter;          /**< its address, a capital */
+  bool comma;           /**< a comma stands before it */
+  bool point;           /**< its number is written with a decimal point */
+  uint8_t kind;         /**< nc_number_kind */
+  uint32_t begin, end;  /**< where it is written in the text: from its address to behind its number; both 0 where a block is so long that this is not known */
+  double value;         /**< its number as written */
+} nc_plain_word;
+
+/** The most words that a block has. */
+#define NC_MAX_WORDS 48
+
+/** What a text shows of a block, for hosts that look at programs without executing them. */
+typedef struct nc_block_text {
+  NC_STRUCT_SIZE(nc_block_text); /**< see NC_STRUCT_SIZE */
+  bool data;            /**< before the call: this block stands in parameter input (false for the first block of a program); after it: the next block does */
+  bool fault;           /**< from somewhere on this is no block of the dialect's language; the words in front of it are there */
+  uint32_t count;       /**< number of words whose numbers are written there; a word that has a formula, or no number, is none of them */
+  size_t used;          /**< bytes from here to the first character of the next block, at least one */
+} nc_block_text;
+
 /**
- * Tell which kind each number of a block is, from the codes of this block. Modes set by earlier blocks do not count, with one exception: blocks
- * between the beginning and the end of parameter input are data. Any thread; needs no control.
+ * Read the words of a block as the dialect reads them, and tell which kind of number each has. The kind comes from the codes of this block. Modes set by earlier
+ * blocks do not count, with one exception: blocks between the beginning and the end of parameter input are data. Any thread; needs no control.
  * @param dialect the controller family
  * @param axes letters of the machine's axes, ended by a NUL
- * @param words the words of the block, in their order
- * @param count number of words
- * @param data before the call: this block stands in parameter input (false for the first block of a program); after it: the next block does
- * @param kinds receives `count` elements, an nc_number_kind for each word
- * @return NC_OK; NC_E_ARGUMENT: an argument is not valid
+ * @param text the program from the first character of the block on
+ * @param length of the text, at least 1
+ * @param block receives what there is
+ * @param words receives the words, in their order; room for NC_MAX_WORDS
+ * @return NC_OK; NC_E_ARGUMENT: an argument is not valid, or the struct_size of `block`
  */
-NC_API nc_status nc_number_kinds(nc_dialect dialect, const char* axes, const nc_plain_word* words, unsigned count, bool* data, uint8_t* kinds);
+NC_API nc_status nc_block_words(nc_dialect dialect, const char* axes, const char* text, size_t length, nc_block_text* block, nc_plain_word* words);
 
 /** One row of a dialect's function table, for documentation and HMIs. */
 typedef struct nc_function {

@@ -51,6 +51,8 @@ inline constexpr uint32_t kFirstSize<nc_kinematics> = padded<nc_kinematics>(NC_E
 template <>
 inline constexpr uint32_t kFirstSize<nc_function> = padded<nc_function>(NC_END_OF(nc_function, section));
 template <>
+inline constexpr uint32_t kFirstSize<nc_block_text> = padded<nc_block_text>(NC_END_OF(nc_block_text, used));
+template <>
 inline constexpr uint32_t kFirstSize<nc_system_variable> = padded<nc_system_variable>(NC_END_OF(nc_system_variable, section));
 template <>
 inline constexpr uint32_t kFirstSize<nc_parameter> = padded<nc_parameter>(NC_END_OF(nc_parameter, section));
