@@ -112,6 +112,29 @@ TEST_F(OtherDialects, AMistakeIsNoSignOfAnotherFamily) {
   }
 }
 
+// A family that reads every line is not passed over for one that refuses some of them, whose gaps look like many mistakes of the family in between. Printed
+// in the manual of the Series 8 (G57).
+TEST_F(OtherDialects, TheOneThatReadsMoreIsNamed) {
+  file("s8.nc", "G90G71G17G94\nG00X5Y5 ;move 1\nG57R.5;turn on scaling with a factor of .5\nG01F50X6 ;move 2\nY10 ;move 3\nX8Y12 ;move 4\nG58 ;turn off scaling\nM30\n");
+  EXPECT_EQ(ncsim("check --dialect series8 s8.nc").code, 0);
+  for (const char* other : {"m700", "dgshape", "iso", "hx"})
+    EXPECT_NE(ncsim(std::string("check --dialect ") + other + " s8.nc").err.find("looks like a program of series8,"), std::string::npos) << other;
+  file("macro.nc", "G90 G17 G94 G21\n#111=123\n#112=5.55\nG00 X#111 Y#112\n#113=#111+#112\n#114=#111-#112\n#115=#111*#112\n#116=#111/#112\n#117=#112/#111\nG00 X#116 Y#117\nM30\n");
+  EXPECT_NE(ncsim("check --dialect series8 macro.nc").err.find("looks like a program of m700 or hx,"), std::string::npos);
+}
+
+TEST_F(OtherDialects, AProgramFromStandardInputIsRecognised) {
+  file("ngc.nc", "G21 ; millimetres\n#<depth> = 2\nG0 X1\nG1 Z[-#<depth>] F100\nM2\n");
+  EXPECT_NE(ncsim("check - < ngc.nc").err.find("looks like a program of iso,"), std::string::npos);
+}
+
+// Numbers with and without a point, as DGSHAPE 1-5 prints them side by side, are no sign of another family where one of them would be metres away.
+TEST_F(OtherDialects, LengthsThatMachinesDoNotHaveAreThousandths) {
+  file("p.nc", "%\nG90G21G17G54\nG10L2P1X10.Y20.\nG10L2P6X-5000Z-2000\nG00X0Y0Z0\nG59X1.Y1.Z1.\nM02\n");
+  EXPECT_EQ(ncsim("check --dialect dgshape p.nc").code, 0);
+  EXPECT_EQ(ncsim("check --dialect dgshape p.nc").err.find("looks like"), std::string::npos);
+}
+
 // A few blocks, of which each line that shows it stands behind another one: a code that the family does not have is no consequence of the alarm in front of it,
 // and it tells more than what the other family finds in this line (a probe that has not touched).
 TEST_F(OtherDialects, AShortProgramIsRecognised) {
@@ -138,7 +161,8 @@ TEST_F(OtherDialects, AShortProgramIsRecognised) {
 TEST(CodesOfLine, AreThoseOutsideOfComments) {
   EXPECT_EQ(codes_of_line(NC_DIALECT_ISO, "N10 G90g1 X2 (G4) G38.2G 0 5. ; G7"), (CodeSet{900, 10, 382, 50}));
   EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "IF [#1 EQ 1] GOTO 12"), CodeSet());
-  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G#1 G[2] G1.2.3 G123456 G-4 ,G5"), CodeSet());
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G#1 G[2] G123456 G-4 ,G5"), CodeSet());
+  EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G90 G1.2.3 G3"), (CodeSet{900, 12})) << "up to the second point";
   EXPECT_EQ(codes_of_line(NC_DIALECT_M700, "G G5"), (CodeSet{50})) << "G alone is a word without a number";
   // A name and a formula are none; what stands behind a fault is not looked at.
   EXPECT_EQ(codes_of_line(NC_DIALECT_ISO, "G1 X#<g4_x> F[100 + #<g7>] G90"), (CodeSet{10, 900}));

@@ -276,7 +276,9 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   if (result.how == RunResult::How::kAlarmed || foreign_numbers) {
     const std::string own = nc_dialect_name(static_cast<nc_dialect>(session.config().dialect));
     const bool alarmed = result.how == RunResult::How::kAlarmed;
-    const std::string other = other_dialect_note(options, limits, own, !alarmed);
+    SessionOptions again = options;
+    if (options.program == "-" && !session.main_text().empty()) again.text = session.main_text();  // what came from standard input is not there a second time
+    const std::string other = other_dialect_note(again, limits, own, !alarmed);
     if (!other.empty()) std::fprintf(err, "%s\n", other.c_str());
   }
   if (result.how == RunResult::How::kAlarmed)

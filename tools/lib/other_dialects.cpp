@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -20,7 +19,7 @@ namespace {
 constexpr size_t kMostRefused = 12;          // so many lines show well enough that a family does not read a text
 constexpr size_t kLongestText = 1024 * 1024;  // a longer one is run once by each family: it is not run again without lines
 constexpr uint64_t kLongestRun = 400'000;    // blocks and moves of one run, which shows enough of a program; the same for each family, so that they are compared fairly
-constexpr uint64_t kWholePart = 12;          // a program of so many blocks is a part: that a family reads it without an alarm is no accident
+constexpr uint64_t kWholePart = 12;          // a program of so many blocks is a part: that a family reads it better in each line is no accident
 
 /** What a family makes of a text. */
 struct Reading {
@@ -87,7 +86,7 @@ Reading read_as(const std::string& family, const SessionOptions& given, const st
     RunResult result;
     bool in_main = false;
     if (!run_once(options, limits, whole_numbers, &result, &in_main, &reading)) break;
-    reading.ends = result.how == RunResult::How::kEnded || result.how == RunResult::How::kStopped;
+    reading.ends = result.how == RunResult::How::kEnded || result.how == RunResult::How::kStopped || result.how == RunResult::How::kEndless;
     reading.moves = result.moves;
     reading.blocks = result.blocks;
     if (result.how != RunResult::How::kAlarmed || !in_main) break;
@@ -104,56 +103,102 @@ std::vector<uint32_t> only_in(const std::set<uint32_t>& these, const std::set<ui
   return lines;
 }
 
-/** What a text shows of two families without being run. */
-struct TextSigns {
-  std::map<uint32_t, CodeSet> codes;  // of the lines that have codes which the own family's table does not have, and the other's has
-  bool lengths = false;               // lengths without a point, which the own family reads in thousandths and the other in mm, are probably meant in mm
+/** What a text shows to the reader of a family before it is run, line by line: what is here is never a consequence of another line. */
+struct LineText {
+  bool readable = true;  // every block of the line is one of the family's language
+  CodeSet codes;         // numbers of its codes, up to where it is readable
+};
+
+std::vector<LineText> lines_as(nc_dialect dialect, std::string_view text) {
+  std::vector<LineText> lines(1);
+  nc_block_text block = NC_INIT(nc_block_text);
+  nc_plain_word words[NC_MAX_WORDS];
+  for (size_t begin = 0; begin < text.size(); begin += block.used) {
+    if (nc_block_words(dialect, "", text.data() + begin, text.size() - begin, &block, words) != NC_OK) break;
+    LineText& line = lines.back();
+    line.readable = line.readable && !block.fault;
+    for (uint32_t i = 0; i < block.count; ++i)
+      if (const int code = code_of(words[i]); code >= 0) line.codes.insert(code);
+    if (text[begin + block.used - 1] == '\n') lines.emplace_back();
+  }
+  return lines;
+}
+
+/** A family, what it makes of the program, and what the text shows to it. */
+struct Family {
+  std::string name;
+  Reading reading;
+  std::vector<LineText> lines;
+  CodeSet codes;  // those that it executes
+};
+
+/** What speaks for one family and against another one, in signs. */
+struct Signs {
+  size_t count = 0;
+  size_t shown = 0;  // of them those that the text alone shows
 };
 
 /**
- * Mistakes that lines show: an alarm in the line behind another one may be its consequence. A code that the family does not have is none, whatever stands in
- * front of it.
+ * The signs that a program is of family `these` and not of family `those`: a line that is written in the language of the first one alone, each code that only
+ * the first one has, and lines that the second one refuses and the first one does not. Of the latter those in a row count as one mistake, because an alarm in
+ * the line behind another one may be its consequence.
  */
-size_t mistakes(const std::vector<uint32_t>& lines, const std::map<uint32_t, CodeSet>& foreign) {
-  size_t count = 0;
+Signs signs_for(const Family& these, const Family& those) {
+  Signs signs;
+  std::set<uint32_t> shown;  // lines whose text shows it
   CodeSet seen;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    const auto codes = foreign.find(lines[i]);
-    bool another = i == 0 || lines[i] != lines[i - 1] + 1;
-    if (codes != foreign.end())
-      for (const int code : codes->second) another = seen.insert(code).second || another;
-    if (another) ++count;
+  for (uint32_t i = 0; i < these.lines.size() && i < those.lines.size(); ++i) {
+    const LineText &here = these.lines[i], &there = those.lines[i];
+    if (!here.readable) continue;
+    if (!there.readable) ++signs.count, shown.insert(i + 1);
+    for (const int code : here.codes) {
+      if (these.codes.count(code) == 0 || those.codes.count(code) != 0) continue;
+      shown.insert(i + 1);
+      signs.count += seen.insert(code).second;
+    }
   }
-  return count;
+  signs.shown = signs.count;
+  uint32_t before = 0;
+  for (const uint32_t line : those.reading.refused) {
+    if (these.reading.refused.count(line) != 0) continue;
+    if (shown.count(line) == 0 && (before == 0 || line != before + 1)) ++signs.count;
+    before = line;
+  }
+  return signs;
+}
+
+constexpr size_t kEnough = 2;  // signs: one alone is a slip
+constexpr size_t kFactor = 3;  // so many times more speaks for a family than against it
+
+/** Lengths without a point are probably meant as one family reads them, and not as another one does. */
+bool fits_better(const NumberHints& numbers, bool whole, bool others_whole) {
+  return whole != others_whole && (whole ? numbers.probably_whole() : numbers.probably_least());
 }
 
 /** The family reads the program clearly better than the own one. A program without moves does not show that it is of a family. */
-bool clearly_better(const Reading& other, const Reading& own, const TextSigns& text) {
-  if (!other.ends || other.moves == 0) return false;
-  std::vector<uint32_t> gained = only_in(own.refused, other.refused);
-  bool foreign = false;  // the own family refuses a line because of a code that it does not have
-  for (const auto& [line, codes] : text.codes) {
-    if (own.refused.count(line) == 0) continue;
-    foreign = true;  // and where the other one refuses this line, it does so for another reason: it has the code
-    if (other.refused.count(line) != 0) gained.push_back(line);
-  }
-  std::sort(gained.begin(), gained.end());
-  std::vector<uint32_t> lost = only_in(other.refused, own.refused);
-  size_t signs = mistakes(gained, text.codes);
-  if (!own.ends) {  // of what lies behind, the own family says nothing; and what it refuses line by line is no consequence of one mistake
-    std::erase_if(lost, [&](uint32_t line) { return line > *own.refused.rbegin(); });
-    signs = gained.size();
-  }
-  if (foreign && text.lengths && other.refused.empty()) ++signs;
-  constexpr size_t kEnough = 2, kFactor = 3;
-  if (lost.empty()) return signs >= kEnough || (signs > 0 && other.blocks >= kWholePart);
-  return signs >= std::max(kEnough, kFactor * lost.size());
+bool clearly_better(const Family& other, const Family& own, const NumberHints& numbers) {
+  const Signs gained = signs_for(other, own);
+  if (!other.reading.ends || (other.reading.moves == 0 && gained.shown < kEnough)) return false;
+  const size_t lost = signs_for(own, other).count;
+  size_t signs = gained.count;
+  // What the own family refuses line by line until it gives up is no consequence of one mistake; of what lies behind it says nothing.
+  if (!own.reading.ends) signs = std::max(signs, only_in(own.reading.refused, other.reading.refused).size());
+  if (gained.shown != 0 && other.reading.refused.empty() && fits_better(numbers, other.reading.whole_numbers, own.reading.whole_numbers)) ++signs;
+  if (lost == 0) return signs >= kEnough || (signs > 0 && other.reading.blocks >= kWholePart);
+  return signs >= std::max(kEnough, kFactor * lost);
 }
 
 struct Found {
   std::string family;
   size_t refused;
 };
+
+/** Another family reads all that this one reads, and lines that it refuses. */
+bool is_worse_than_any(const Family& one, const std::vector<Family>& others) {
+  return std::any_of(others.begin(), others.end(), [&one](const Family& other) {
+    return other.reading.ends && other.reading.refused.size() < one.reading.refused.size() && only_in(other.reading.refused, one.reading.refused).empty();
+  });
+}
 
 std::string note(const std::vector<Found>& found) {
   if (found.empty()) return "";
@@ -164,27 +209,10 @@ std::string note(const std::vector<Found>& found) {
   return "note: this looks like a program of " + names + ", as which " + how + "; try --dialect " + found.front().family;
 }
 
-/** Of lines of the text the codes that the other family reads there and has, and the own one does not have. */
-std::map<uint32_t, CodeSet> foreign_codes(std::string_view text, const std::set<uint32_t>& lines, const std::string& own, const std::string& other) {
-  std::map<uint32_t, CodeSet> foreign;
-  nc_dialect of_own{}, of_other{};
-  if (nc_dialect_get(own.c_str(), &of_own) != NC_OK || nc_dialect_get(other.c_str(), &of_other) != NC_OK) return foreign;
-  const CodeSet has = codes_of_family(of_own), wanted = codes_of_family(of_other);
-  uint32_t line = 1;
-  for (size_t begin = 0; begin < text.size() && line <= *lines.rbegin(); ++line) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    if (lines.count(line) != 0)
-      for (const int code : codes_of_line(of_other, text.substr(begin, end - begin)))
-        if (has.count(code) == 0 && wanted.count(code) != 0) foreign[line].insert(code);
-    begin = end + 1;
-  }
-  return foreign;
-}
-
 }  // namespace
 
 std::string other_dialect_note(const SessionOptions& options, const RunLimits& limits, const std::string& own, bool whole_numbers, uint64_t* work) {
-  if (options.program == "-" || !options.tape.empty()) return "";
+  if ((options.program == "-" && !options.text) || !options.tape.empty()) return "";
   std::string text, axes;
   {
     Session session;
@@ -194,24 +222,31 @@ std::string other_dialect_note(const SessionOptions& options, const RunLimits& l
     const nc_system_config& system = session.config().system[kPartSystem];
     for (unsigned i = 0; i < system.axis_count; ++i) axes += system.axis[i].name;
   }
-  const Reading as_own = read_as(own, options, text, limits, false);
-  if (work != nullptr) *work = as_own.work;
-  if (as_own.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
-  bool mm_lengths = false;
   const bool looked_at = !whole_numbers && text.size() <= kLongestText;
-  if (looked_at) {
+  const auto family = [&](const std::string& name) {
+    Family read{name, read_as(name, options, text, limits, whole_numbers && name != own), {}, {}};
     nc_dialect dialect{};
-    mm_lengths = !as_own.whole_numbers && nc_dialect_get(own.c_str(), &dialect) == NC_OK && number_hints(text, dialect, axes, true).doubtful();
-  }
+    if (looked_at && nc_dialect_get(name.c_str(), &dialect) == NC_OK) {
+      read.lines = lines_as(dialect, text);
+      read.codes = codes_of_family(dialect, true);
+    }
+    if (work != nullptr) *work += read.reading.work;
+    return read;
+  };
+  if (work != nullptr) *work = 0;
+  const Family of_own = family(own);
+  if (of_own.reading.refused.empty() != whole_numbers) return "";  // no alarm with a default setup: it comes from the setup or the machine
+  nc_dialect dialect{};
+  NumberHints numbers;
+  if (looked_at && nc_dialect_get(own.c_str(), &dialect) == NC_OK) numbers = number_hints(text, dialect, axes, true);
+  std::vector<Family> others;
+  for (const std::string& name : dialect_names())
+    if (name != own) others.push_back(family(name));
   std::vector<Found> found;
-  for (const std::string& family : dialect_names()) {
-    if (family == own) continue;
-    const Reading other = read_as(family, options, text, limits, whole_numbers);
-    if (work != nullptr) *work += other.work;
-    TextSigns signs;
-    if (looked_at) signs = {foreign_codes(text, as_own.refused, own, family), mm_lengths && other.whole_numbers};
-    const bool looks_so = whole_numbers ? other.ends && other.refused.empty() && other.moves > 0 : clearly_better(other, as_own, signs);
-    if (looks_so) found.push_back({family, other.refused.size()});
+  for (const Family& other : others) {
+    const Reading& reading = other.reading;
+    const bool looks_so = whole_numbers ? reading.ends && reading.refused.empty() && reading.moves > 0 : clearly_better(other, of_own, numbers);
+    if (looks_so && !is_worse_than_any(other, others)) found.push_back({other.name, reading.refused.size()});
   }
   size_t least = ~size_t{0};
   for (const Found& one : found) least = std::min(least, one.refused);

@@ -181,6 +181,7 @@ bool Session::add_main(const SessionOptions& options, std::string* error) {
     }
   }
   main_name_ = options.program;
+  given_ = options.text ? &*options.text : nullptr;
   if (options.text) return nc_program_add_text(control_, options.program.c_str(), options.text->data(), options.text->size(), &main_file_) == NC_OK;
   if (options.program == "-") return add_standard_input(!options.tape.empty(), error);
   return files_->add(control_, options.program, &main_file_, error, !options.tape.empty()) == NC_OK;
@@ -210,6 +211,7 @@ bool Session::add_standard_input(bool tape, std::string* error) {
 }
 
 std::string Session::main_text() const {
+  if (given_ != nullptr) return *given_;
   const ProgramFiles::Text text = files_->text_of(main_file_);
   return text == nullptr || !text->copied() ? "" : whole_text(text.get());
 }

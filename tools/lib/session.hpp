@@ -82,6 +82,7 @@ class Session {
   nc_control* control_ = nullptr;
   rt::ProgramText::Options text_;
   std::string main_name_;  // for messages
+  const std::string* given_ = nullptr;  // text of the main program that did not come from a file
   unsigned main_file_ = 0;
 };
 
