@@ -79,4 +79,18 @@ Reading find_caller(const Block& block, FrontEnd& front, bool functions_only, bo
   return Reading::done;
 }
 
+Reading goes_on_elsewhere(const Block& block, FrontEnd& front, bool* elsewhere) {
+  for (const Word& word : block.words) {
+    if (!plain_number(word) || !front.is(word, Role::misc_code)) continue;
+    Value value;
+    const Reading read = front.value_of(block, word, &value);
+    if (read != Reading::done) return read;
+    uint32_t code = 0;
+    if (value.vacant || !whole_number(value.number, &code)) continue;
+    const MiscFunction function = misc_function(*front.dialect, code);
+    *elsewhere = *elsewhere || calls_program(function) || function == MiscFunction::program_end;
+  }
+  return Reading::done;
+}
+
 }  // namespace nc

@@ -40,8 +40,12 @@ Execution run_rest_first(Interpreter& in, const Caller& caller) {
   in.block = &copy;
   in.after_block = caller.call;
   if (!in.dialect->rules.code_call.one_in_block) return Execution::done;
+  bool elsewhere = false;  // there is no place behind the block, where the program could be called
+  Execution did = in.executed(goes_on_elsewhere(copy, in.front, &elsewhere));
+  if (did != Execution::done) return did;
+  if (elsewhere) return in.raise(Condition::illegal_address, caller.word, caller.value);
   Caller other;
-  const Execution did = in.executed(find_caller(copy, in.front, false, false, &other));
+  did = in.executed(find_caller(copy, in.front, false, false, &other));
   if (did != Execution::done || other.call == nullptr) return did;
   return in.raise(Condition::illegal_address, other.word, other.value);
 }
