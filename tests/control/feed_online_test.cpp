@@ -112,6 +112,21 @@ TEST(FeedOnline, CornerOverrideActsInsideOnly) {  // M700 7.10
   EXPECT_EQ(slowest_part("G62 G42 D1\n", 3), 0);      // 90 degrees is not sharp enough
 }
 
+TEST(FeedOnline, CornerOverrideOfHxGoesByItsParameters) {  // HX 5.3.5, PI 124, 125, 130
+  Bench bench(NC_DIALECT_HX, quick_machine);
+  bench.tool(1, 2, NC_TOOL_RADIUS).param("3124", "50").param("3125", "5");
+  const auto is_slow = [&](const char* angle) {
+    bench.param("3130", angle).at(0, 0, 0);
+    bool slow = false;
+    run_online(bench, "G62 G42 D1\nG01 X0 Y5. F1200\nX0 Y50.\nX50.\nY20.\nG40 G00 X0 Y0\nM30", [&](nc_inputs&, const nc_outputs& out) {
+      slow = slow || (out.source.line == 3 && !out.distance_zero && std::fabs(out.feed_mm_min - 600) < 1);
+    });
+    return slow;
+  };
+  EXPECT_TRUE(is_slow("120"));
+  EXPECT_FALSE(is_slow("80"));
+}
+
 TEST(FeedOnline, CornerOverrideReachesBackOverShortBlocks) {  // M700 7.10
   const auto slow_way = [](const char* zone) {  // along Y before the corner at Y50, which the tool centre passes at Y48
     Bench bench(NC_DIALECT_M700, quick_machine);
