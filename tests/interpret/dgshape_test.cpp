@@ -41,6 +41,9 @@ TEST(Dgshape, TheUnitIsThatOfTheProgram) {  // 2-2, G20 G21
   EXPECT_EQ(said("G21\nG20\nG00X1."), "");  // nothing has counted in it yet
   EXPECT_EQ(said("F100.\nG01X1.\nX2.\nG20X1."), stays);
   EXPECT_EQ(said("G00X1.\nG20"), stays);
+  EXPECT_EQ(said("G10P1R2.5\nG20"), stays);
+  EXPECT_EQ(said("G43H1\nG20"), stays);
+  EXPECT_EQ(said("G40G49\nG20\nG00X1."), "");
   // Each program has its own.
   Bench bench(NC_DIALECT_DGSHAPE);
   EXPECT_EQ(bench.run("%\nG21G00X1.\nM02").alarm, "");

@@ -433,6 +433,18 @@ TEST(Hx, MeasuringGoesByItsParametersAndSignal) {  // 4.10
   EXPECT_EQ(bench.run("G43 H1 G00 Z50.\nG37 Z20.\nM30").alarm, "F_84022");  // no signal has come
 }
 
+// 13.1.3, 14.2.3: an offset is one value, which G10 L10 and #2240 set and show; there is no wear beside it, in which the measurement of the tool before would stay.
+TEST(Hx, AMeasurementCorrectsTheOffsetItself) {
+  Bench bench(NC_DIALECT_HX);
+  bench.param("3141", "5").param("3142", "2").param("3143", "30").tool(1, 10);
+  bench.skip_at = [](const nc_item&) { return 0.5; };  // 1.5 mm above the place
+  const Outcome run = bench.run("G43 H1 G00 Z50.\nG37 Z20.\n#100=#2240\nG10 L10 P1 R10.\n#101=#2240\nG43 H1 Z50.\nM30");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_NEAR(run.var(100), 11.5, 1e-9);
+  EXPECT_NEAR(run.var(101), 10, 1e-9);
+  EXPECT_NEAR(run.moves().back().machine.v[2], 60, 1e-9) << "what was measured is gone";
+}
+
 // ---- programs and macros -------------------------------------------------------------------------------------------------------
 
 TEST(Hx, ASubProgramIsRunFromQToR) {  // 2.4.3, the printed program
@@ -674,6 +686,24 @@ TEST(Hx, ACycleGoesOnWithItsDataUntilAMotionEndsIt) {  // 12.2.1
             (Path{"rapid 0 0 20", "rapid 1 0 20", "rapid 1 0 2", "line 1 0 -3 F100", "rapid 1 0 2", "rapid 2 0 2", "line 2 0 -3 F100", "rapid 2 0 2"}));
 }
 
+TEST(Hx, CompensationBeginsByTheTypeOfItsParameter) {  // 13.2.2, PI 128
+  const auto path = [](const char* type) {
+    Bench bench(NC_DIALECT_HX);
+    bench.tool(1, 3, NC_TOOL_RADIUS).param("3128", type);
+    return bench.run("G42 D1 G01 X10. F100\nX20. Y10.\nY30.\nG40 X40.\nM30").path();
+  };
+  EXPECT_EQ(path("0").front(), "line 12.12132 -2.12132 0 F100");
+  EXPECT_EQ(path("1").front(), "line 11.242641 -3 0 F100");
+}
+
+TEST(HxLength, DoesNotBeginBesideAnArc) {  // docs/decisions.md
+  Bench bench(NC_DIALECT_HX);
+  bench.tool(1, 10);
+  const Outcome run = bench.run("G00 X0 Y0\nG43 H1 G02 X10. Y0 R6. F100\nM30");
+  EXPECT_EQ(run.alarm, "F_82004");
+  EXPECT_EQ(run.alarm_detail, "G43 cannot stand in the block of an arc. Give it a block in front.");
+}
+
 TEST(Hx, G39LeadsOnFromTheCornerOnAnArc) {  // 13.2.1, N3 to N5 of the printed program
   for (const char* words : {"X40. Y20.", "I40. J20."}) {
     Bench bench(NC_DIALECT_HX);
@@ -748,6 +778,8 @@ TEST(Hx, AStitchHasTheFeedAndTheWaitOfItsLength) {  // 15.6
   EXPECT_EQ(run.dwells(), (std::vector<double>{0.01, 0.02, 0.01, 0.04}));
   EXPECT_EQ(Bench(NC_DIALECT_HX).run("G63.1\nG00 X1.\nG01 X2. F50.\nM30").path(), (Path{"rapid 1 0 0", "line 2 0 0 F50"}));  // nothing is set
   EXPECT_EQ(alarm_of("G63.1\nG01 X2.\nM30"), "F_84020");
+  const std::vector<nc_move> slow = bench.run("G91 G00 X1.\nG63.1\nG01 X.3 Y3. F60\nG63.2\nM30").moves();  // of the way of Y the table says nothing
+  EXPECT_NEAR(slow.back().feed_mm_min, 60, 1e-9);
 }
 
 /// What a run gives out, in its order: moves, dwells, questions for inputs, and the bit of PPF.

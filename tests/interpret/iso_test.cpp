@@ -290,6 +290,29 @@ TEST(IsoLength, ByTheWordsOfTheBlock) {  // LinuxCNC G43.1
   EXPECT_EQ(Bench(NC_DIALECT_ISO).tool(1, 10).run("G0 G43 Z5 H1").path(), (Path{"rapid 0 0 15"}));  // as most posts write it
 }
 
+// LinuxCNC #5061, #5420: in the coordinates that are read, in which the tool's end is.
+TEST(IsoLength, CountsInTheVariablesOfPositions) {
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 10, NC_TOOL_LENGTH);
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  const Outcome run = bench.run("G43 H1\nG0 Z20\nG38.2 Z-60 F100\n#100=#5063 #101=#5422\nG10 L20 P1 Z0\n#102=#5422\nM2");
+  ASSERT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_NEAR(run.var(100), -20, 1e-9);
+  EXPECT_NEAR(run.var(101), -20, 1e-9);
+  EXPECT_NEAR(run.var(102), 0, 1e-9);
+}
+
+TEST(IsoLength, MayBeginBesideAnArc) {  // LinuxCNC, order of execution: the length acts before the motion
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 10, NC_TOOL_LENGTH);
+  EXPECT_EQ(bench.run("G21 F100\nG0 X0 Y0\nG43 H1 G2 X10 Y0 R6\nM2").alarm, "");
+}
+
+TEST(IsoArc, ATolerancesPIsNoNumberOfTurns) {  // G64 P behind an arc
+  EXPECT_EQ(alarm_of("G21 G17 F100\nG3 X10 Y0 I5\nG64 P0.02\nG1 X20"), "");
+  EXPECT_EQ(alarm_of("G21 G17 F100\nG3 X10 Y0 I5\nX20 Y0 I5 P0.5"), "NC-FORMAT");
+}
+
 TEST(IsoRadius, WithoutDThatOfTheTool) {  // RS-274/NGC 3.5.10
   Bench bench(NC_DIALECT_ISO);
   bench.tool(3, 2, NC_TOOL_RADIUS);

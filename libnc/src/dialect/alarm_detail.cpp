@@ -157,6 +157,8 @@ constexpr Sentence kSentences[] = {
      "Start and end of the arc are not on one circle about its centre."},
     {C::arc_displaced, "Vectors in space make the radii at both ends of the arc differ by {value} mm. Use vectors across its plane, or lines.",
      "Vectors in space make the radii at both ends of the arc differ. Use vectors across its plane, or lines."},
+    {C::length_beside_arc, "{word} cannot stand in the block of an arc. Give it a block in front.",
+     "Length compensation cannot begin in the block of an arc. Give it a block in front."},
     {C::arc_center,
      "{vector_x} {vector_y} {vector_z} have no sign and give no centre from which both ends are as far and within one quadrant. Divide the arc, or program {arc_radius}.",
      nullptr, nullptr, of_unsigned_centre},

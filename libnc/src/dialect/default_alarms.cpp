@@ -188,6 +188,7 @@ constexpr AlarmRow kRows[] = {
     {C::probe_no_contact, "NC-PROBE", nullptr},
     {C::probe_contact, "NC-PROBE", nullptr},
     {C::two_words, "NC-FORMAT", nullptr},
+    {C::length_beside_arc, "NC-FORMAT", nullptr},
     {C::comment_open, "NC-FORMAT", nullptr},
     {C::level_below_bottom, "NC-RANGE", nullptr},
     {C::cavity_size, "NC-RANGE", nullptr},

@@ -134,6 +134,9 @@ struct SkipRules {
   bool feed_is_modal;
   /// The place where a measurement of a tool has ended is that of the last skip, too (HX 4.10). Otherwise only a skip stores one (M700 15.1).
   bool measurement_stores = false;
+  /// A measurement corrects the offset itself, which is one value (HX 13.1.3, 14.2.3 have no wear beside it). Otherwise one that is not 0 is corrected in its wear,
+  /// where the tool memory has wear (M700 15.1).
+  bool measurement_sets_length = false;
   /// A measurement without its distances or without a feed is a fault (HX 4.10 has parameters for them and no values without). Otherwise it goes to the measuring
   /// position in rapid traverse, and the least feed is taken (M700 15.1 (3), (9)).
   bool measurement_needs_values = false;
@@ -247,6 +250,8 @@ struct LengthRules {
   /// Beginning and end leave the axis where it is, but change its coordinate there; an incremental word counts from the new coordinate
   /// (RS-274/NGC 3.5.11). Otherwise the next command of the axis also makes up for the offset, even if it is incremental (M700 12.2).
   bool shifts_reading;
+  /// A code of length compensation may stand beside an arc: it acts before the motion (LinuxCNC, order of execution). Otherwise it is a fault (M700 App. 2).
+  bool stands_beside_arc = false;
   /// The code without H takes the number of the tool as the offset number (LinuxCNC G43). Otherwise the last offset number stays (M700 12.2
   /// (2) (d)), or H is required (DGSHAPE G43).
   bool number_is_that_of_tool;
@@ -364,6 +369,9 @@ struct CoordinateRules {
   bool pole_stays = false;
   /// The stroke check looks at the way of a block (HX 15.5.3). Otherwise at its start and end (M700 15.7).
   bool stroke_check_sees_way = false;
+  /// The code of the stroke check without an area is a fault (HX 15.5.3: the words are the area). Otherwise words that are not there are 0, and nothing is
+  /// checked (M700 15.7 (2), (3)).
+  bool stroke_check_needs_area = false;
   /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
   bool shift_ends_with_program = false;
   /// Coordinate system setting without axis words is a fault (RS-274/NGC 3.5.18). Otherwise it shifts nothing (M700 14.5).
@@ -411,6 +419,9 @@ struct MillRules {
   bool rotary_in_block;
   /// In polar coordinates nothing but cuts and what belongs to them goes (HX 4.6). Else rapid traverse and cycles as well (M700 6.10).
   bool polar_cuts_only;
+  /// Scaling in force in front of the code is a fault, as rotation is (HX 15.2.1: factors act on axes alike, and the one that turns is a length there). Otherwise it
+  /// scales the linear axes (M700 6.9, 6.10 do not name it).
+  bool bars_scaling = false;
 };
 
 /// Codes that call programs because a parameter says so.

@@ -6,6 +6,8 @@
 //   3. S, T, second auxiliary function, M codes
 //   4. the one-shot function, or the fixed cycle, or the motion in force
 //   5. M00 M01 M02 M30 M98 M99
+#include <algorithm>
+
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -394,7 +396,8 @@ bool names_managed_tool(const BlockContext& in) {
 Execution check_unit(Interpreter& in) {
   for (const FunctionRow* row : in.words.functions)
     if (mode_of(row->function) == Mode::unit && in.state.unit_used && !in.state.modal.is(row->function)) return in.raise_code(Condition::not_accepted, *row);
-  in.state.unit_used = in.state.unit_used || in.words.any(in.axis_words.all() | in.set_of({Role::feed}));
+  const bool moves_length = std::any_of(in.words.functions.begin(), in.words.functions.end(), [](const FunctionRow* row) { return mode_of(row->function) == Mode::length && row->function != Function::length_off; });
+  in.state.unit_used = in.state.unit_used || moves_length || in.words.any(in.axis_words.all() | in.set_of({Role::feed, Role::input_amount, Role::arc_radius}));
   return Execution::done;
 }
 
@@ -476,11 +479,11 @@ Execution execute_read_words(Interpreter& in) {
   did = apply_systems(in);
   in.words.vector_in_space = had_one || has_vector_in_space();
   if (did != Execution::done) return did;
-  if (is_arc(in.state.modal.of(Mode::motion)) && w.target.axes() != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
+  if (!in.dialect->rules.length.stands_beside_arc && is_arc(in.state.modal.of(Mode::motion)) && w.target.axes() != 0 && w.one_shot == nullptr && w.cycle == nullptr) {
     // M700 App.2: an arc and G43/G44 in one block.
     for (const FunctionRow* row : w.functions)
       if (row->function == Function::length_plus || row->function == Function::length_minus)
-        return in.raise_code(Condition::arc_deviation, *row);
+        return in.raise_code(Condition::length_beside_arc, *row);
   }
   if (!w.functions.empty()) did = set_surface_speed(in);
   if (did == Execution::done && !codes_behind_motion(in)) did = auxiliary_before(in);

@@ -151,6 +151,12 @@ bool refused_in_inverse_time(Function function) {
     case Function::holes_on_line:
     case Function::holes_on_arc:
     case Function::holes_on_grid:
+    case Function::holes_on_frame_ccw:
+    case Function::holes_on_frame_cw:
+    case Function::sine_loop:      // as the patterns and cycles: a block of many moves has no one time
+    case Function::cavity_ccw:
+    case Function::cavity_cw:
+    case Function::cavity_circle:
     case Function::measure_length:
     case Function::surface_on: return true;
     case Function::cycle_off:

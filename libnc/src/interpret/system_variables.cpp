@@ -363,11 +363,12 @@ Eval read_machine(Access& a) {
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   return give(a, shown_position(a.in, a.index, axes_of(a.in.world.machine), machine_shown));
 }
-Eval read_work_position(Access& a) {  // it includes tool compensation (M700 13.5.5 (10.11))
+/// It includes tool compensation (M700 13.5.5 (10.11)), but for a length that shifts what is read (RS-274/NGC 3.5.11, LinuxCNC #5420).
+Eval read_work_position(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);
-  work[a.index] -= a.in.zero()[a.index];
+  work[a.index] -= a.in.zero()[a.index] + (a.in.dialect->rules.length.shifts_reading ? a.in.state.applied[a.index] : 0);
   return give(a, shown_position(a.in, a.index, work, work_shown));
 }
 Eval read_skip(Access& a) {

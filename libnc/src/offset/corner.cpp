@@ -140,6 +140,11 @@ Turn classify(const Leg& before, const Leg& behind, double offset) {
   return d > -kRightAngle ? Turn::obtuse : Turn::acute;
 }
 
+bool turns_to_tool(Vec2 before, Vec2 behind, double offset) {
+  const double c = cross(before, behind);
+  return std::abs(c) >= kSmallTurn * offset * offset && (c > 0) == (offset > 0);
+}
+
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w) {
   const double c = cross(before.u, behind.u), d = dot(before.u, behind.u);
   const double oa = offset_before, ob = offset_behind, ka = before.curvature, kb = behind.curvature;

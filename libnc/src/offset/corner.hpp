@@ -87,6 +87,9 @@ enum class Turn : uint8_t { straight, inner, obtuse, acute };
 /// Which kind of corner this is for a tool at the signed offset. Of a cusp, where the path goes straight back, the curvatures tell on which side it does.
 Turn classify(const Leg& before, const Leg& behind, double offset);
 
+/// The path turns towards the tool from one vector at right angles to the next one: an arc about such a corner would lead into it.
+bool turns_to_tool(Vec2 before, Vec2 behind, double offset);
+
 /// Vector at right angles to a block.
 inline Vec2 perpendicular(const Leg& leg, double offset) {
   return offset * left_of(leg.u);

@@ -419,8 +419,10 @@ void OffsetStage::intake_command(Held* held) {
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
     close();
     if (failed_) return;
+    const Vec2 vector = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
+    if (turns_to_tool(tail_, vector, signed_offset(comp))) return fail(next_index(), Condition::comp_interference, nc_source(held->item.source));
     start_commanded_ = held->lead_arc = true;
-    lead(held, signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]})));
+    lead(held, vector);
     if (!look_at_step(*held)) return;
   } else if (comp.corner_arc) {
     if (last) bend_behind(last->index, held->item);

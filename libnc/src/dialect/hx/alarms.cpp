@@ -61,6 +61,7 @@ const AlarmRow kConditions[] = {
     {C::mill_state, "F_82208", nullptr},
     {C::mill_axis, "F_82208", nullptr},
     {C::two_words, "F_82004", nullptr},          // 2.2.2
+    {C::length_beside_arc, "F_82004", nullptr},
     {C::comment_open, "F_82004", nullptr},
     {C::reference_compare, "F_82209", nullptr},  // 6.4
     {C::no_feed, "F_84020", nullptr},            // 5.2

@@ -42,7 +42,7 @@ inline constexpr Rules kRules = {
                 .limits_by_coordinate_setting = true,  // 9.3
                 .skips_repeated_codes = false},
     .feed = {.inch_is_ten_degrees = false, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false, .no_way_needs_none = true},
-    .skip = {.feed_is_modal = true, .measurement_stores = true, .measurement_needs_values = true},  // 4.9: like G01
+    .skip = {.feed_is_modal = true, .measurement_stores = true, .measurement_sets_length = true, .measurement_needs_values = true},  // 4.9: like G01
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,
@@ -95,7 +95,8 @@ inline constexpr Rules kRules = {
                    .machine_move_by_motion = false,
                    .incremental_machine_move_rests = true,
                    .pole_stays = true,
-                   .stroke_check_sees_way = true},
+                   .stroke_check_sees_way = true,
+                   .stroke_check_needs_area = true},
     .scaling = {.all_linear_axes = true,  // 15.2.1: about the point of G51 where no word names it
                 .factor_required = false,
                 .factor_of_word = factor_of_word,
@@ -110,7 +111,7 @@ inline constexpr Rules kRules = {
     .program = {.macro_interrupt = false, .motion_outlives_end = false, .loops_in_one_another = 3, .main_program_counts = true, .no_call_in_mdi = true, .sub_programs_in_one_another = 4},
     .motion = {.accuracy_limits = nullptr, .accuracy_joint_speed = nullptr, .spline_speed_mm_min = nullptr, .filter_times = nullptr},
     .rotation = {.plane_in_block = true, .angle_by_parameter = true, .centre_is_scaled = true},
-    .mill = {.rotary_in_block = true, .polar_cuts_only = true},
+    .mill = {.rotary_in_block = true, .polar_cuts_only = true, .bars_scaling = true},
     .code_call = {.first_of_g = 9010, .first_of_m = 9020, .arguments_behind_m = true, .tool_program = tool_program,
                   .tool_variable = 149, .one_in_block = true},
     .stitch = {.call = 1u << 31, .done = 1u << 30, .next_may = 1u << 31},  // PPF #7531, PPE #7030, NPFIN #7031: the manual gives them no numbers

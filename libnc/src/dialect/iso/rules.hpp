@@ -47,7 +47,8 @@ inline constexpr Rules kRules = {
             .degree_is_tenth_of_inch = false,
             .turns_exclude_radius = false,
             .closed_by_radius_is_fault = true,
-            .turns_count_last = true},
+            .turns_count_last = true,
+            .radius_excludes_centre = true},  // LinuxCNC G2: mixed formats are an error
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false, .refuses_axes = true},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
                      .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
@@ -64,6 +65,7 @@ inline constexpr Rules kRules = {
                .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
                .moves_at_once = false,
                .shifts_reading = true,
+               .stands_beside_arc = true,
                .number_is_that_of_tool = true,
                .axis_on_plane = false},
     .cycle = {.beside = CycleBeside::fault,

@@ -36,6 +36,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::no_feed, "P62", nullptr},
     {C::arc_deviation, "P70", nullptr},  // 6.4
     {C::arc_displaced, "P70", nullptr},  // 12.5
+    {C::length_beside_arc, "P70", nullptr},  // App. 2
     {C::arc_center, "P71", nullptr},     // 6.5
     {C::helix_option, "P72", nullptr},   // 6.6
     {C::plane_mismatch, "P113", nullptr},

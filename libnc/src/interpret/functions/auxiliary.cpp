@@ -131,7 +131,8 @@ WordSet whole_words(const BlockContext& in) {
     if (calls_program(m.function)) whole |= in.set_of({Role::call_program});
   const bool arc = is_arc(in.state.modal.of(Mode::motion));
   const bool hole = w.cycle != nullptr || (in.state.cycle.kind != CycleKind::none && w.motion == nullptr && w.one_shot == nullptr);
-  if (arc && !hole && one_shot == Function::count_) whole |= in.set_of({Role::arc_turns});
+  const bool moves = w.target.axes() != 0 || w.any({Role::vector_x, Role::vector_y, Role::vector_z});  // else P is another code's (LinuxCNC G64)
+  if (arc && moves && !hole && one_shot == Function::count_) whole |= in.set_of({Role::arc_turns});
   if (hole && !arc) whole |= in.set_of({Role::cycle_count, Role::cycle_count_2});
   if (hole && !arc && !in.dialect->rules.cycle.dwell_in_seconds) whole |= in.set_of({Role::cycle_dwell});  // milliseconds, HX 12.3.2
   const bool turns = in.settings.dwell_in_revolutions && in.state.modal.is(Function::feed_per_revolution);

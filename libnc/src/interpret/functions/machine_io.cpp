@@ -125,6 +125,8 @@ bool waits_for_input(const BlockContext& in) { return waiting(in) != nullptr; }
 Execution wait_for_input(BlockContext& in) {
   const Command& w = in.words;
   if (w.auxiliary.size() > 1 || !w.functions.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, waiting(in)->number);
+  const WordSet own = in.set_of({Role::sequence_number, Role::program_number, Role::misc_code, Role::output_number, Role::word_number, Role::input_wait, Role::input_limit});
+  if (const WordSet others = w.present & ~own; others != 0) return in.raise_first(Condition::illegal_address, others);  // they would be lost
   InputWait wait;
   const bool analog = w.has(Role::word_number);
   if (analog == w.has(Role::output_number)) return in.raise(analog ? Condition::two_words : Condition::words_missing, Role::output_number, w.get(Role::output_number));

@@ -107,9 +107,10 @@ Execution measured(BlockContext& in) {
   const double longer = state.modal.is(Function::length_minus) ? -difference : difference;
   const Frames& f = in.frames;
   const unsigned length = f.tool_key(state.modal.h, NC_TOOL_LENGTH), wear = f.tool_key(state.modal.h, NC_TOOL_LENGTH_WEAR);
-  const double amount = f.get(length) + (in.settings.tool_memory_2 ? f.get(wear) : 0);
+  const bool has_wear = in.settings.tool_memory_2 && !in.dialect->rules.skip.measurement_sets_length;
+  const double amount = f.get(length) + (has_wear ? f.get(wear) : 0);
   // An offset that is not 0 is corrected in its wear, where the tool memory has wear.
-  const unsigned key = in.settings.tool_memory_2 && amount != 0 ? wear : length;
+  const unsigned key = has_wear && amount != 0 ? wear : length;
   const double corrected = f.get(key) + longer;
   if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, Role::length_number, corrected);
   in.set_table(key, corrected);  // (4): it acts from the next command of the axis on

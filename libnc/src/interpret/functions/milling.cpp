@@ -20,6 +20,7 @@ Execution check_modes_before_milling(BlockContext& in, const FunctionRow& row) {
   if (state.compensated()) return in.raise_code(modal, row);
   if (state.modal.is(Function::surface_on)) return in.raise_code(modal, row);
   if (!state.modal.is(Function::rotation_off) || state.work_turned) return in.raise_code(modal, row);
+  if (in.dialect->rules.mill.bars_scaling && state.scaled != 0) return in.raise_code(modal, row);
   if (is_space_arc(state.modal.of(Mode::motion))) return in.raise_code(modal, row);  // 6.14 (a)
   if (state.any_mirror() != 0) return in.raise_code(mode, row);
   if (!state.modal.is(Function::normal_line_off)) return in.raise_code(mode, row);

@@ -42,7 +42,8 @@ bool wants_signal(const BlockContext& in) {
 void store_skip_position(BlockContext& in, const AxisVec& machine) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
-  for (unsigned i = 0; i < in.axis_count; ++i) skip.work[i] = machine[i] - zero[i];
+  const bool shifted = in.dialect->rules.length.shifts_reading;  // LinuxCNC #5061: in the coordinates in which the move took place
+  for (unsigned i = 0; i < in.axis_count; ++i) skip.work[i] = machine[i] - zero[i] - (shifted ? in.state.applied[i] : 0);
   in.change(&ProgramRecords::skip, skip);
 }
 

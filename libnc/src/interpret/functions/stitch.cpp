@@ -81,6 +81,7 @@ Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commande
   const PlaneAxes plane = plane_axes(in);
   const int axes[2] = {plane.h, plane.v};
   double way = 0, feed = 0, wait_s = 0, call_s = 0, in_plane = 0;
+  bool limited = true;  // by values of all axes that move
   for (unsigned i = 0; i < in.axis_count; ++i)
     if ((in.rotary >> i & 1) == 0) way += (target[i] - at[i]) * (target[i] - at[i]);
   way = std::sqrt(way);
@@ -91,6 +92,7 @@ Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commande
     in_plane = std::hypot(in_plane, length);
     const double own = in.settings.stitch_feed[i][range] * way / length;
     if (own > 0 && (feed == 0 || own < feed)) feed = own;
+    limited = limited && own > 0;
     wait_s = std::fmax(wait_s, in.settings.stitch_wait_s[i][range]);
     call_s = std::fmax(call_s, in.settings.stitch_call_s[i][range]);
   }
@@ -105,9 +107,10 @@ Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commande
     style.exact_stop = stitches;
     move_linear(in, target, commanded, style);
   } else {
-    if (feed == 0) {
+    if (!rapid && (feed == 0 || !limited)) {  // F limits what the stitch does not
       const Execution did = check_feed(in, Function::linear);
       if (did != Execution::done) return did;
+      if (feed > 0) feed = std::fmin(feed, feed_mm_min(in));
     }
     LinearStyle style;
     style.feed_mm_min = feed > 0 ? feed : feed_mm_min(in);

@@ -38,6 +38,7 @@ Execution do_stroke_check(BlockContext& in) {
   if (other != 0) {
     return in.raise_first(Condition::illegal_address, other);
   }
+  if (!any && in.dialect->rules.coordinate.stroke_check_needs_area) return in.raise_code(Condition::words_missing, *w.one_shot);
   box.outside = in.settings.box_outside;
   box.way = in.dialect->rules.coordinate.stroke_check_sees_way;
   in.state.stroke_box = any ? in.stroke_boxes.intern(box) + 1 : 0;

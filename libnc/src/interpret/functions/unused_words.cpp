@@ -26,7 +26,7 @@ WordSet words_of_cycle(const BlockContext& in, Function cycle) {
     case Function::cycle_step: return words | in.set_of({Role::cycle_depth_step, Role::cycle_first_depth});
     case Function::cycle_back_bore: return words | vectors;
     case Function::cycle_bore_oriented:
-    case Function::cycle_face_upwards: return words | vectors | in.set_of({Role::cycle_dwell});
+    case Function::cycle_face_upwards: return words | vectors_of_plane(in) | in.set_of({Role::cycle_dwell});
     case Function::cycle_fine_bore: return words | vectors | in.set_of({Role::cycle_depth_step, Role::cycle_dwell});
     case Function::cycle_tap:
     case Function::cycle_reverse_tap: return words | in.set_of({Role::tap_lead, Role::cycle_dwell});
