@@ -142,5 +142,37 @@ TEST(TapFollower, WhatASpindleThatStandsHasLeftFadesAtRest) {
   }
 }
 
+// The next tap takes its spindle in the cycle in which the axis comes to R, braking with all that it can, while what the tap before has left still fades.
+TEST(TapFollower, TheNextTapBeginsAmidTheFadeOfTheOneBefore) {
+  const TapFollower::Limits all = limits(500);
+  TapFollower follower;
+  follower.begin(0, 0);
+  double place = 0, before = 0, most = 0;
+  unsigned n = 0;
+  const auto step = [&](double path, bool measured) {
+    TapFollower::Limits now = all;
+    now.before = place;
+    const double added = follower.step(measured, 0.0005, 0, kPerMm, path, now), next = path + added;
+    if (n++ > 1) most = std::max(most, std::fabs(next - 2 * place + before) / (kCycle_s * kCycle_s));
+    before = place;
+    place = next;
+  };
+  for (unsigned k = 0; k < 500; ++k) step(0, true);
+  follower.end();
+  for (unsigned k = 0; k < 10; ++k) step(0, true);
+  ASSERT_TRUE(follower.active()) << "it fades";
+  const unsigned ramp = 40;  // up and down again, each within 500 mm/s^2
+  double path = 0, speed = 0;
+  for (unsigned k = 0; k < 2 * ramp; ++k) {
+    speed += (k < ramp ? 1 : -1) * 0.498 * kCycle_s * 1000;
+    path += speed * kCycle_s;
+    if (k + 1 == 2 * ramp) follower.begin(0.0005, 0);
+    step(path, true);
+  }
+  for (unsigned k = 0; k < 200; ++k) step(path, true);
+  EXPECT_LE(most, 500 * 1.001);
+  EXPECT_NEAR(place, path, 1e-3);
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -33,7 +33,8 @@ class TapFollower {
     began_ = turns - commanded;
     commanded_ = commanded;
     aim_ = beside_;
-    fresh_ = active_ = true;
+    fresh_ = !active_;
+    active_ = true;
     ends_ = stands_ = fades_ = rests_ = false;
     earlier_[0] = earlier_[1] = beside_;
     turns_ = turns;
@@ -82,7 +83,7 @@ class TapFollower {
     stands_ = !measured || std::fabs(turns - turns_) <= kStill;
     if (measured) turns_ = turns;
     seen_ = measured;
-    if (fresh_) {  // it stands
+    if (fresh_) {  // it stands; where what an earlier tap has left still fades, place and speed are known
       last_ = limits.before;
       speed_ = 0;
       fresh_ = false;
@@ -134,10 +135,13 @@ class TapFollower {
       active_ = fades_ = false;
       return beside_ = 0;
     }
+    const double before = last_;
     const double t = faded_ / fade_s_, b = from_[0], v = from_[1] * fade_s_, a = from_[2] * fade_s_ * fade_s_;
     const double c3 = -10 * b - 6 * v - 1.5 * a, c4 = 15 * b + 8 * v + 1.5 * a, c5 = -6 * b - 3 * v - 0.5 * a;
     const double x = b + t * (v + t * (0.5 * a + t * (c3 + t * (c4 + t * c5))));
-    return beside_ = std::clamp(place + x, limits.low, limits.high) - place;
+    last_ = std::clamp(place + x, limits.low, limits.high);
+    speed_ = (last_ - before) / time;
+    return beside_ = last_ - place;
   }
 
   void begin_fade(const Limits& limits) NC_RT {
