@@ -169,7 +169,7 @@ class Session {
   }
 
   double place() const { return drive_->out.command.v[part_.axis]; }
-  bool in_hole() const { return known_ && place() < kR - 2e-3; }
+  bool in_hole() const { return known_ && place() < kR - 3e-3; }  // 1 um beside, 1 um that it is carried on, and rounding
   const Hole& hole() const { return part_.holes[hole_]; }
   double at_beside() const { return place() - (thread_ - hole().hand * hole().lead * spindle_.turns()); }
 
