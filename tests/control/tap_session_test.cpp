@@ -169,7 +169,8 @@ class Session {
   }
 
   double place() const { return drive_->out.command.v[part_.axis]; }
-  bool in_hole() const { return known_ && place() < kR - 3e-3; }  // 1 um beside, 1 um that it is carried on, and rounding
+  /// A spindle that stands may be beside its command by 0.02 turns as it is let go at R (docs/cycles.md), and the axis with it: it is in the hole below that.
+  bool in_hole() const { return known_ && place() < kR - 0.05; }
   const Hole& hole() const { return part_.holes[hole_]; }
   double at_beside() const { return place() - (thread_ - hole().hand * hole().lead * spindle_.turns()); }
 

@@ -333,6 +333,24 @@ TEST_P(RealTap, TheAxisFollowsTheAngleThatTheSpindleHas) {
   }
 }
 
+// In cuts that go back to R both are at their beginning again, but the thread goes on: the spindle that still turns there is not taken anew.
+TEST_P(RealTap, CutsBackToRKeepOneThread) {
+  bench.param("1272", "16");
+  for (const double stopped_at : {9.0, 0.5, 1.0, 1.3, 1.5, 1.7, 1.9}) {  // on the way back, by an interlock that lasts
+    start("G84 Z-4. R2. S600 F1.5 Q2. ,R1");
+    double worst = 0;
+    unsigned lasts = 0;
+    ASSERT_TRUE(until([&] {
+      if (drive->out.velocity.v[2] > 0 && drive->out.tapping && z() > stopped_at && z() < 2) ++lasts;
+      drive->in.interlock = lasts > 0 && lasts++ < 100;
+      if ((drive->out.spindle_synchronous & 1) != 0 && drive->out.tapping && z() < 2 - 1e-3) worst = std::max(worst, std::fabs(2 - z() - kLead * spindle.since_taken()));
+      return drive->ended;
+    }));
+    EXPECT_EQ(drive->alarm(), "");
+    EXPECT_LT(worst, 1e-3 + kLead * kRamp * kLag * kCycle_s) << "mm, stopped at " << stopped_at;
+  }
+}
+
 TEST_P(RealTap, WithoutMeasuredTurnsTheAxisGoesByItsPath) {
   start("G84 Z-8. R2. S600 F1.5 P200 ,R1");
   double worst = 0;

@@ -383,6 +383,7 @@ class Interpolator {
   DryFeeds dry_;                     ///< of dry run, where it is on
   struct TapInHand {                 ///< the synchronous tap (M700 13.1.1) in force, or left in its hole by a reset
     bool known = false;              ///< a stroke has begun: what stands below is its
+    bool taken = false;              ///< the same of the strokes of this hole: its spindles have been taken over
     bool held = false;               ///< in the hole without a program: the spindle turns with its axis by hand, and not else
     bool drawing = false;            ///< it is drawn out
     bool stuck = false;              ///< held, and its spindle has not followed: it cannot be drawn out with it

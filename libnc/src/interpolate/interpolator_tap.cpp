@@ -27,9 +27,9 @@ int Interpolator::tap_as_axis() const {
   return -1;
 }
 
-/// A synchronous tap takes its spindles over where they stand.
+/// A synchronous tap takes its spindles over where they stand: once, also where its cuts go back to where they have begun.
 bool Interpolator::tap_spindle_ready(const nc_inputs& in) {
-  if (tap_.turns != 0) return true;
+  if (tap_.taken) return true;
   tap_.c_axis = tap_as_axis();
   if (tap_.c_axis >= 0) return true;
   const nc_spindle_inputs& spindle = encoder(in);
@@ -47,7 +47,8 @@ bool Interpolator::tap_spindle_ready(const nc_inputs& in) {
 
 /// The move that begins is a stroke of a tap: what a retract needs to know of it.
 void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
-  if (tap_.turns != 0) return;
+  if (tap_.taken) return;
+  tap_.taken = true;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double way = s.curve.delta[i];
     if (std::fabs(way) <= kAddingUp) continue;
@@ -85,7 +86,7 @@ Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
   tap_.waited_s = 0;
   if ((bits & ~tapping_ & NC_TAPPING_SYNCHRONOUS) != 0) {
     tap_.turns = 0;
-    tap_.held = false;
+    tap_.held = tap_.taken = false;
   }
   if ((bits & NC_TAPPING_STROKES) == 0) tap_follower_.end();
   if ((bits & (NC_TAPPING_CYCLE | NC_TAPPING_SYNCHRONOUS)) == 0) tap_.known = false;
