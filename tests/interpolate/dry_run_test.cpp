@@ -190,6 +190,29 @@ TEST_P(DryRun, AnInterlockStopsAThreadInDryRun) {
   ends_well();
 }
 
+/// The switch that goes off in a thread does not end its dry run, and does not keep the feed that it had then either: a thread that stood at a manual feed of 0
+/// would stand for ever.
+TEST_P(DryRun, AThreadInDryRunGoesByTheManualFeedUntilItsEnd) {
+  Segment& s = dry(dry_place(0, -60), 0);
+  s.thread = true;
+  s.feed_mm_rev = 2;
+  program.end();
+  run();
+  machine->in.dry_run = true;
+  EXPECT_NEAR(after(400), 40, 1e-6);
+  machine->in.manual_feed = 0;
+  EXPECT_EQ(after(200), 0);
+  machine->in.dry_run = false;
+  EXPECT_EQ(after(200), 0);
+  EXPECT_EQ(machine->out.cause, NC_CAUSE_MANUAL_FEED_ZERO);
+  machine->in.manual_feed = 20;
+  EXPECT_NEAR(after(200), 20, 1e-6);
+  machine->in.feed_override = 0;
+  EXPECT_EQ(after(200), 0);
+  machine->in.feed_override = 1;
+  ends_well();
+}
+
 TEST_P(DryRun, TheHandleAndTheCornerOverrideDoNotAct) {  // M700 7.3 (5), 7.10
   Segment& digit = dry(dry_place(50), 20);
   digit.feed_digit = 2;

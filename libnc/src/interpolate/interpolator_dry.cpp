@@ -7,12 +7,12 @@
 namespace nc {
 
 /// Dry run may be switched at any time, and the path goes over to its other feed within the limits of the axes; but a thread that has begun ends as it has
-/// begun (M700 6.7.1 (12)).
+/// begun (M700 6.7.1 (12)), and goes by the manual feed of each cycle until then.
 void Interpolator::take_dry_run(const nc_inputs& in) {
   const bool in_thread = moving_ ? current().segment.thread && law_.s > current().segment.begun : block_has_thread_ && !at_rest();
-  if (in_thread && in.dry_run != dry_.on()) return;
+  const bool on = in_thread ? dry_.on() : in.dry_run;
   dry_ = {};
-  if (!in.dry_run) return;
+  if (!on) return;
   const double share = feed_override(in), feed = in.manual_feed * share;
   // Where the manual prints feeds of dry run (13.19) the override acts on the manual feed rate and not on what the axes may cut with.
   dry_.cut = in.manual_rapid ? (share > 0 ? DryFeeds::kUnbound : 0) : feed;
