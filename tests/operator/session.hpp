@@ -232,6 +232,7 @@ class Session {
     const int64_t clock = in_.clock_ms;
     in_ = {};
     in_.feed_override = in_.rapid_override = 1;
+    in_.manual_feed = 50;  // a thread that has begun in dry run goes on with it
     in_.spindle[0] = spindle;
     in_.clock_ms = clock;
   }
