@@ -159,6 +159,27 @@ def scallops(rng, r):
     return elements + polygon([(x, 20), (x, 0), (0, 0), (0, 20)])[:3]
 
 
+def flared(rng, r):
+    """A slot end about as large as the tool, between two flares: outer corners beside an arc of which the tool's offset leaves next to nothing. In half of them the slot
+    is in the part, in the others it is all that is not."""
+    radius, half = round(r * rng.choice([1, 1.002, rng.uniform(0.95, 1.3)]), 3), math.radians(rng.choice([90, 90, rng.uniform(40, 90)]))
+    corner = (radius * math.sin(half), -radius * math.cos(half))  # the arc lies below its centre 0, 0; the slot is open upwards
+    flares = []
+    for _ in range(2):
+        way = half - math.radians(rng.uniform(1, 110))
+        u, length, bend = (math.cos(way), math.sin(way)), r * rng.uniform(0.5, 8), rng.choice([0, 0, -0.3, -0.1, 0.1])
+        chord = 2 * math.atan(bend)  # between the tangent at the corner and the chord
+        end = rounded((corner[0] + length * math.cos(way + chord), corner[1] + length * math.sin(way + chord)))
+        flares.append(bulged(rounded(corner), end, bend) if bend else Element(rounded(corner), end))
+    mirrored = Element((-flares[1].end[0], flares[1].end[1]), (-flares[1].start[0], flares[1].start[1]), flares[1].center and (-flares[1].center[0], flares[1].center[1]), flares[1].ccw)
+    bottom, far = [mirrored, Element(mirrored.end, flares[0].start, (0.0, 0.0), True), flares[0]], 12 * r + 20
+    left, right = mirrored.start, flares[0].end
+    if rng.random() < 0.5:
+        return bottom + polygon([right, (far, right[1]), (far, far), (-far, far), (-far, left[1]), left])[:5]
+    back = [Element(e.end, e.start, e.center, not e.ccw) for e in reversed(bottom)]
+    return back + polygon([left, (-far, left[1]), (-far, -far), (far, -far), (far, right[1]), right])[:5]
+
+
 def circle(rng, r):
     """A whole circle in one block."""
     radius = round(r * rng.choice([0.5, 1, 1.05, 1.5, 4]) * rng.uniform(1, 1.2), 3)
@@ -254,8 +275,8 @@ class Contour:
         """Radius of the tool, shape of the part, side; gives the elements of the part."""
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops"])
-            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius)}[kind]()
+            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "flared": lambda: flared(rng, self.radius)}[kind]()
             if any(e.start == e.end and e.center is None for e in elements):
                 continue
             ring = ring_of(elements)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "alarm/condition.hpp"
+#include "base/units.hpp"
 #include "path_builder.hpp"
 
 namespace nc::test {
@@ -154,6 +155,40 @@ TEST(OffsetArcs, ACuspIsAnOuterCornerOnTheOtherSide) {
   path.side(-1, 1);
   path.line(0, -5).line(0, 0).arc(false, 10, 0, 5, 0).line(10, 20).line(20, 20).cancel().line(20, 30).end();
   expect_path(run_stage(path), path, {{1, -5}, {1, 0}, {9, 0}, {9, -1}, {11, -1}, {11, 19}, {20, 19}, {20, 30}});
+}
+
+// A slot end that the tool all but fills, and a flare of 30 degrees behind it, or in front of it: the offset curves do not meet, and the tangents of both cross
+// 5 tan(15) mm ahead. The tool has nothing to go to beyond that: lengthened by 5 mm they led back through the arc's own wall.
+TEST(OffsetArcs, AnOuterCornerBesideAnArcThatTheToolFillsIsWhereTheTangentsCross) {
+  const double ahead = 5 * std::tan(kPi / 12), i = 40 * std::cos(kPi / 6), from = 5 * std::cos(kPi / 6);
+  for (const double radius : {5.01, 5.1, 5.3}) {
+    const double room = radius - 5, end = radius + i;
+    PathBuilder out(0, -30);
+    out.side(-1, 5);
+    out.line(-radius, -30).line(-radius, 0).arc(false, radius, 0, radius, 0).arc(true, end, -20, i, 20).cancel().line(end, -40).end();
+    expect_path(run_stage(out), out, {{-room, -30}, {-room, 0}, {room, 0}, {room, -ahead}, {radius - from, -2.5}, {end, -25}, {end, -40}});
+    PathBuilder in(end, -40);
+    in.side(1, 5);
+    in.line(end, -20).arc(false, radius, 0, 0, 40).arc(true, -radius, 0, -radius, 0).line(-radius, -30).cancel().line(0, -30).end();
+    expect_path(run_stage(in), in, {{end, -25}, {radius - from, -2.5}, {room, -ahead}, {room, 0}, {-room, 0}, {-room, -30}, {0, -30}});
+  }
+}
+
+TEST(OffsetArcs, AlongALineTheSamePointLiesOnItsWay) {
+  const double ahead = 5 * std::tan(kPi / 8), beside = 5 * std::sqrt(0.5);
+  PathBuilder path(0, -30);
+  path.side(-1, 5);
+  path.line(-20.01, -15).line(-5.01, 0).arc(false, 5.01, 0, 5.01, 0).line(20.01, -15).cancel().line(0, -30).end();
+  expect_path(run_stage(path), path, {{-20.01 + beside, -15 - beside}, {-0.01, -ahead}, {-0.01, 0}, {0.01, 0}, {0.01, -ahead}, {20.01 - beside, -15 - beside}, {0, -30}});
+}
+
+TEST(OffsetArcs, TypeBStartsAndEndsInThatPoint) {
+  const double slope = std::hypot(9.9, 20.0), ahead = 5 * (9.9 / slope) / (1 + 20 / slope);
+  PathBuilder path(-15, -20);
+  path.side(-1, 5);
+  path.comp.type_b = true;
+  path.line(-5.1, 0).arc(false, 5.1, 0, 5.1, 0).cancel().line(15, -20).end();
+  expect_path(run_stage(path), path, {{-0.1, -ahead}, {-0.1, 0}, {0.1, 0}, {0.1, -ahead}, {15, -20}});
 }
 
 TEST(OffsetArcs, TangentialChainKeepsCentres) {

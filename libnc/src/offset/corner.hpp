@@ -46,7 +46,7 @@ struct ContourJoint {
   uint8_t n = 0;
   bool corner_arc = false;  ///< from v[0] to v[1] on an arc about the programmed point (G39), else straight
   bool lengthened =
-      false;  ///< v[0], v[1] lie on the lengthened block before, v[2], v[3] on the one behind (acute corner)
+      false;  ///< the first two vectors lie on the lengthened block before, the last two on the one behind (outer corner of four vectors, or of three with one on both)
   bool first_erased = false;  ///< 12.4.8 has erased the vector on the curve of the block before: where that one ends now need not lie on it
   bool last_erased = false;   ///< ... and the one on the curve of the block behind, where that one begins
 
