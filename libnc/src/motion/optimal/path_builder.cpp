@@ -84,6 +84,7 @@ void PathBuilder::create(const Limits& limits, double tolerance, double period, 
   room_.corner = arena.make<unsigned>(kKnots);
   room_.cell = arena.make<SmoothCell>(kKnots);
   room_.knots = kKnots;
+  relaxation_ = Relaxation::create(kKnots, arena);
   out_ = arena.make<Piece>(kKnots);
   made_ = arena.make<Transition>();
 }
@@ -546,6 +547,14 @@ Task<unsigned> PathBuilder::smoothed(Work& work, bool whole, unsigned count, Smo
   co_return cells;
 }
 
+/// The first `to` of the smoothed cells as they are gone fastest. A thread keeps the shape that it had.
+Task<bool> PathBuilder::relaxed(Work& work, const SmoothRequest& request, unsigned cells, unsigned to) {
+  if (cells == 0 || by_ == FeedBy::spindle) co_return false;
+  const Relaxing how{&limits_, goes_by_spindle(by_) ? kTurns : 1};
+  const bool changed = co_await optimal::relax(work, request, room_, relaxation_, how, out_, cells, to);
+  co_return changed;
+}
+
 /// The transition from the smoothed line into the arc behind it leaves the path by more than the tolerance.
 bool PathBuilder::meets_arc_badly(unsigned cells) {
   if (!(joint_.reach > 0)) return false;
@@ -601,6 +610,7 @@ Task<bool> PathBuilder::close_smooth_line(Work& work) {
       cells = straight();
     } else {
       cells = co_await smoothed(work, true, count_, &request);
+      co_await relaxed(work, request, cells, cells);
     }
     if (lone || cells != 0) {
       if (!room(cells + kOfArc)) co_return false;
@@ -638,6 +648,8 @@ Task<bool> PathBuilder::give_settled(Work& work) {
     const unsigned most = kPieces - kOfArc - (head_ - tail_);
     const Border border = find_border(request, room_, out_, cells, most);
     if (border.cells == 0) co_return false;
+    const bool amid = border.u < room_.knot[border.cells];  // of a straight cell, which stays as it is
+    co_await relaxed(work, request, cells, amid ? border.cells - 1 : border.cells);
     Piece& last = out_[border.cells - 1];
     last.length = border.u - room_.knot[border.cells - 1];
     hold();

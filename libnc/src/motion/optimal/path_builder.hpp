@@ -6,7 +6,7 @@
 
 #include "base/arena.hpp"
 #include "motion/optimal/plan_cell.hpp"
-#include "motion/optimal/smooth.hpp"
+#include "motion/optimal/relax.hpp"
 #include "motion/optimal/transition.hpp"
 #include "ring/record.hpp"
 
@@ -76,6 +76,7 @@ class PathBuilder {
   void go_there(const AxisVec& to, const Piece& curve);
   unsigned straight();
   Task<unsigned> smoothed(Work& work, bool whole, unsigned count, SmoothRequest* request);
+  Task<bool> relaxed(Work& work, const SmoothRequest& request, unsigned cells, unsigned to);
   Task<bool> give_settled(Work& work);
   bool meets_arc_badly(unsigned cells);
   Task<bool> close_line(Work& work, unsigned cells);
@@ -155,6 +156,7 @@ class PathBuilder {
   double joint_feed_ = 0;
 
   SmoothRoom room_;
+  Relaxation* relaxation_ = nullptr;
   Piece* out_ = nullptr;
   static constexpr unsigned kKnots = 2048;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "motion/optimal/smooth.hpp"
+#include "motion/optimal/smoother.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@ namespace nc::optimal {
 namespace {
 
 constexpr double kUse = 0.94;       ///< of the tolerance, that one corner is given
-constexpr double kUseMost = 0.98;   ///< of the tolerance, that any of the places may use
 constexpr double kUseTurn = 0.975;  ///< the same at a sharp corner, which is cut by a known depth
 constexpr double kSharp = 0.5;      ///< |t2 - t1| of a corner that always has its own knots
 constexpr double kAlone = 1.7;      ///< of its room, that a corner may ask for and is still one by itself, with what there is
@@ -20,11 +19,8 @@ constexpr double kApart = 0.1;      ///< of the reach of a corner, that its knot
 constexpr double kShared = 1e-6;    ///< of it: a knot so near to its place is the last one, too
 constexpr double kHigh = 2;         ///< in tolerances: a sharp corner of shorter edges is what the lines are rough by
 constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
-constexpr double kLongEdge = 8;     ///< in spacings
-constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
 constexpr unsigned kFine = 8;       ///< more of them, where they leave it open
 constexpr double kRounding = 1e-11;  ///< of q'
-constexpr double kOtherFeed = 1.5;   ///< times the lowest feed of the cells that a control point bends: it is fitted up to there
 constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
 constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
 constexpr unsigned kRounds = 40;
@@ -34,23 +30,20 @@ constexpr double kGrowth = 0.5;     ///< and by this much of the way more: where
 constexpr unsigned kRemembered = 4;  ///< cells that are known, the longest of which counts
 /// Times that a cell is halved until its control points lie on the line, where halving is known to end.
 constexpr unsigned char kFitted = 6;
-/// Added at a knot at a corner that is kept, whose control points lie on the line, too; and the times alone.
-constexpr unsigned char kCorner = 0x80, kTimes = 0x7f;
 constexpr double kLeastSpacing = 0.005;  ///< mm, that a slow feed asks for
 constexpr double kShortestSpacing = 1e-4;  ///< mm, that short lines do
-constexpr double kUseStart = 0.998; ///< of the tolerance, that the cells behind a border may use: they have to come back to the line
-constexpr unsigned kStartCells = 3;
 constexpr double kUseBorder = 0.9;  ///< of the tolerance, which a border is preferably no farther away from the line than
 constexpr unsigned kLast = 3;       ///< knots that belong to the end
 constexpr unsigned kFinal = 6;      ///< cells at the end that hang on the end
 constexpr unsigned kBorders = 24;   ///< places that are looked at for such a one
 constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near to its end
-constexpr unsigned kAtOnce = 32;    ///< vertices or cells, then others may have their turn
 constexpr int64_t kPlaces = 256;    ///< and of places where the distance is measured
 constexpr unsigned kMeasured = 512; ///< the same of vertices where the line is measured
 // Instructions: to measure along a vertex, to look whether it wants a knot, of an edge in a sum; of a cell for each axis: its control point, its
 // polynomial, the distance of a place; and to move a cell.
 constexpr int64_t kAlongCost = 12, kVertexCost = 150, kEdgeCost = 100, kControlCost = 150, kPieceCost = 120, kPlaceCost = 15, kMoveCost = 80;
+
+}  // namespace
 
 /// Of the knots about an edge: it goes by the lines there and by nothing that lies farther away.
 double spacing_of(const SmoothRequest& in, const SmoothRoom& room, unsigned edge) {
@@ -64,69 +57,10 @@ double spacing_of(const SmoothRequest& in, const SmoothRoom& room, unsigned edge
   return most;
 }
 
-class Smoother {
- public:
-  Smoother(const SmoothRequest& request, const SmoothRoom& room, Piece* out, unsigned capacity)
-      : in_(request), room_(room), out_(out), capacity_(capacity) {}
-  Task<unsigned> run(Work& work);
-
- private:
-  void set(double u, double apart);
-  void fresh(unsigned k);
-  void find_feeds(SmoothCell* cell) const;
-  void set_corner(double u, double apart);
-  void sum_up(unsigned k, unsigned* edge);
-  void controls(unsigned from, unsigned to, unsigned* edge);
-  bool fits(unsigned j) const;
-  void set_turn(unsigned vertex, double reach);
-  void turn_controls(unsigned first);
-  double corner(unsigned k) const;
-  Task<bool> first_knots(Work& work);
-  void begin_knots();
-  void measure(unsigned from, unsigned to);
-  void knots(unsigned from, unsigned to);
-  void end_knots();
-  double spacing(unsigned edge) const {
-    const double grown = kGrown * grown_ + kGrowth * std::max(room_.u[edge] - grown_at_, 0.0);
-    return std::min(spacing_of(in_, room_, edge), grown);
-  }
-  void start_controls();
-  Task<bool> controls(Work& work);
-  void pieces(unsigned from, unsigned to, unsigned* edge);
-  Task<bool> pieces(Work& work);
-  bool far(unsigned cell, double most, unsigned* vertex, unsigned* edge) const;
-  /// A look at the distances of all cells.
-  struct Look {
-    double kept = 0;  ///< up to here cells are halved only where they must be
-    unsigned cell = 0, vertex = 1, edge = 0;
-    bool good = true;
-  };
-  int64_t look_on(Look* look);
-  Task<bool> near_enough(Work& work);
-  bool halved(unsigned k) const {  // those of a sharp corner are not: they have their shape
-    return room_.cell[k].split && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
-  }
-  Task<bool> split(Work& work);
-  AxisVec on_line(double u, unsigned* edge) const;
-  double distance2(unsigned cell, double u, const AxisVec& p) const;
-  double t(int k) const {
-    return room_.knot[k < 0 ? 0 : k > static_cast<int>(last_) ? last_ : static_cast<unsigned>(k)];
-  }
-
-  const SmoothRequest& in_;
-  const SmoothRoom& room_;
-  Piece* out_;
-  unsigned capacity_;
-  unsigned last_ = 0;  ///< index of the last knot
-  double grown_ = HUGE_VAL, grown_at_ = 0;  ///< the longest of the last cells that are known, and where they end
-  bool full_ = false;
-  bool one_feed_ = true;
-  // while the first knots are set
-  double keep_ = 0;     ///< the knots behind a corner stay clear of what follows up to here
-  double apart_ = 0;
-  unsigned first_ = 1;  ///< vertex that may want one
-  unsigned valid_ = 0;  ///< up to this vertex the spacing is as good as the same
-};
+double Smoother::spacing(unsigned edge) const {
+  const double grown = kGrown * grown_ + kGrowth * std::max(room_.u[edge] - grown_at_, 0.0);
+  return std::min(spacing_of(in_, room_, edge), grown);
+}
 
 /// A knot at u, unless it lies less than `apart` behind the last one.
 void Smoother::set(double u, double apart) {
@@ -611,8 +545,6 @@ Task<unsigned> Smoother::run(Work& work) {
   }
   co_return 0;
 }
-
-}  // namespace
 
 namespace {
 
