@@ -10,6 +10,7 @@ constexpr unsigned kRounds = 2;       ///< the second with the speeds of the fir
 constexpr unsigned kSteps = 25;       ///< of a fit
 constexpr unsigned kMoreSteps = 10;   ///< of one whose places have been told to come nearer to the line
 constexpr unsigned kTrials = 12;      ///< until all cells are near enough
+constexpr double kWorthwhile = 0.97;  ///< of the time of a run: less is not worth a path that uses more of the limits, since a hold stops later on it
 constexpr double kWithin = 0.96;      ///< of the tolerance, for the places of a fit
 constexpr double kTighter = 0.93;     ///< of that, in each trial
 constexpr double kBetween = 0.1;      ///< of the tolerance: a cell that bends by more between two places has twice as many
@@ -129,11 +130,12 @@ Task<bool> Smoother::tightened(Work& work, Relaxation* room, unsigned from, unsi
   co_return near;
 }
 
-/// Control points from `from` on, which may all be moved. Where they end in no tube they stay. @return how many of them this was about
-Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, unsigned from, unsigned to) {
+/// Control points from `from` on, which may all be moved. Where they end in no tube, or hardly faster, they stay. @return how many of them this was about
+Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned from, unsigned to) {
   const unsigned count = co_await begin_fit(work, room, from, to);
   if (count == 0) co_return 0;
   AxisVec* const control = room_.control;
+  const double before = co_await path_speeds(work, out_ + from - 3, count + 3, *how.limits, how.turns, room->of_run);
   std::copy(control + from, control + from + count, room->kept);
   for (unsigned trial = 0; trial < kTrials; ++trial) {
     for (unsigned step = 0; step < (trial == 0 ? kSteps : kMoreSteps); ++step) {
@@ -146,7 +148,10 @@ Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, unsigned from, 
       co_await work.pause(count * in_.axis_count * kSolveCost);
     }
     const bool near = co_await tightened(work, room, from - 3, from + count);
-    if (near) co_return count;
+    if (!near) continue;
+    const double now = co_await path_speeds(work, out_ + from - 3, count + 3, *how.limits, how.turns, room->of_run);
+    if (now < (first ? kWorthwhile : 1) * before) co_return count;
+    break;
   }
   std::copy(room->kept, room->kept + count, control + from);
   unsigned edge = room_.cell[from - 3].first_edge;
@@ -158,13 +163,13 @@ Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, unsigned from, 
 }
 
 /// Every run of control points that may be moved and has cells that were halved.
-Task<bool> Smoother::relax_once(Work& work, Relaxation* room, unsigned to) {
+Task<bool> Smoother::relax_once(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned to) {
   for (unsigned j = 3; j < to;) {
     unsigned end = j;
     bool halved = false;
     for (; end < to && end - j < TubeFit::kControls && moves(end); ++end) halved = halved || (room_.cell[end].halved & kTimes) > 0;
     unsigned count = 0;
-    if (halved) count = co_await relax_run(work, room, j, end);
+    if (halved) count = co_await relax_run(work, room, how, first, j, end);
     j = count > 0 ? j + count : std::max(end, j + 1);
     co_await work.pause(kCellCost);
   }
@@ -182,7 +187,7 @@ Task<bool> Smoother::relax(Work& work, Relaxation* room, const Relaxing& how, un
   bool changed = false;
   for (unsigned round = 0; round < kRounds; ++round) {
     std::copy(room_.control, room_.control + cells + 3, room->before);
-    co_await relax_once(work, room, to);
+    co_await relax_once(work, room, how, round == 0, to);
     const double seconds = co_await path_speeds(work, out_, to, *how.limits, how.turns, room->speed);
     if (!(seconds < best)) {
       std::copy(room->before, room->before + cells + 3, room_.control);
@@ -199,7 +204,7 @@ Task<bool> Smoother::relax(Work& work, Relaxation* room, const Relaxing& how, un
   co_return changed;
 }
 
-Task<bool> relax(Work& work, const SmoothRequest& request, const SmoothRoom& room, Relaxation* relaxation, const Relaxing& how, Piece* out,
+Task<bool> relax(Work& work, const SmoothRequest& request, const SmoothRoom& room, Relaxation* relaxation, Relaxing how, Piece* out,
                  unsigned cells, unsigned to) {
   Smoother smoother(request, room, out, cells);
   const bool changed = co_await smoother.relax(work, relaxation, how, cells, to);

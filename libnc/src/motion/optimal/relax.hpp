@@ -23,6 +23,7 @@ struct Relaxation {
   PieceSpeed* speed = nullptr;       ///< of each cell
   AxisVec* before = nullptr;         ///< control points, as they were in front of a round
   AxisVec kept[TubeFit::kControls];  ///< and those of one run
+  PieceSpeed of_run[TubeFit::kControls + 3];
 
   /// nullptr where the arena only measures.
   static Relaxation* create(unsigned knots, Arena& arena) {
@@ -37,7 +38,7 @@ struct Relaxation {
 /// Moves control points of the first `to` of the `cells` pieces that smooth() has just made of the same request in the same room. Where these end the
 /// path keeps its position, tangent and curvature. It stays within the tolerance. True where pieces have changed: these can be gone in less time, as
 /// far as path_speeds() knows.
-Task<bool> relax(Work& work, const SmoothRequest& request, const SmoothRoom& room, Relaxation* relaxation, const Relaxing& how, Piece* out,
+Task<bool> relax(Work& work, const SmoothRequest& request, const SmoothRoom& room, Relaxation* relaxation, Relaxing how, Piece* out,
                  unsigned cells, unsigned to);
 
 }  // namespace nc::optimal

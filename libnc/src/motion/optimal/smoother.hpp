@@ -77,9 +77,9 @@ class Smoother {
   void basis(unsigned cell, double x, double* out) const;
   bool add_cell(unsigned cell, Relaxation* room) const;
   Task<unsigned> begin_fit(Work& work, Relaxation* room, unsigned from, unsigned to) const;
-  Task<unsigned> relax_run(Work& work, Relaxation* room, unsigned from, unsigned to);
+  Task<unsigned> relax_run(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned from, unsigned to);
   Task<bool> tightened(Work& work, Relaxation* room, unsigned from, unsigned to);
-  Task<bool> relax_once(Work& work, Relaxation* room, unsigned to);
+  Task<bool> relax_once(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned to);
 
   const SmoothRequest& in_;
   const SmoothRoom& room_;
