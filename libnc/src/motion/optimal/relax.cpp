@@ -7,13 +7,14 @@ namespace nc::optimal {
 namespace {
 
 constexpr unsigned kRounds = 2;       ///< the second with the speeds of the first one
-constexpr unsigned kSteps = 25;       ///< of a fit
+constexpr unsigned kSteps = 15;       ///< of a fit
 constexpr unsigned kMoreSteps = 10;   ///< of one whose places have been told to come nearer to the line
 constexpr unsigned kTrials = 12;      ///< until all cells are near enough
 constexpr double kWorthwhile = 0.97;  ///< of the time of a run: less is not worth a path that uses more of the limits, since a hold stops later on it
 constexpr double kWithin = 0.96;      ///< of the tolerance, for the places of a fit
 constexpr double kTighter = 0.93;     ///< of that, in each trial
 constexpr double kBetween = 0.1;      ///< of the tolerance: a cell that bends by more between two places has twice as many
+constexpr unsigned kVertices = 8;     ///< of a cell that a fit looks at, at most; the look at its distance is at all of them
 constexpr unsigned kFewest = 8;       ///< control points that are worth a fit
 constexpr unsigned kCellsAtOnce = 8;  ///< then others may have their turn
 constexpr unsigned kPlacesAtOnce = 64;
@@ -81,7 +82,8 @@ bool Smoother::add_cell(unsigned k, Relaxation* room) const {
     basis(k, x, values);
     room_left = room->fit.add_place(k, values, on_line(from + x, &edge), radius);
   }
-  for (unsigned e = room_.cell[k].first_edge; e <= room_.cell[k].last_edge; ++e) {
+  const unsigned first = room_.cell[k].first_edge, last = room_.cell[k].last_edge;
+  for (unsigned e = first; e <= last; e += 1 + (last - first) / kVertices) {
     if (!(room_.u[e] > from) || !(room_.u[e] < from + h)) continue;
     basis(k, room_.u[e] - from, values);
     room_left = room->fit.add_place(k, values, in_.line.vertex[e], radius);
@@ -93,7 +95,7 @@ bool Smoother::add_cell(unsigned k, Relaxation* room) const {
 Task<unsigned> Smoother::begin_fit(Work& work, Relaxation* room, unsigned from, unsigned to) const {
   unsigned end = from - 3;
   for (unsigned places = 0; end < to; ++end) {
-    places += 2 * kLooks + 1 + room_.cell[end].last_edge - room_.cell[end].first_edge;
+    places += 2 * kLooks + 1 + std::min(kVertices, room_.cell[end].last_edge - room_.cell[end].first_edge);
     if (places > TubeFit::kPlaces) break;
   }
   if (end < from + kFewest && end < to) co_return 0;
@@ -107,7 +109,7 @@ Task<unsigned> Smoother::begin_fit(Work& work, Relaxation* room, unsigned from, 
     // the cell takes, and less weight of the fastest cells than by v^5.
     fit.add_third(k, row, (room_.knot[k + 1] - room_.knot[k]) * speed * speed * speed, room_.control);
     add_cell(k, room);
-    co_await work.pause(kAddCost * (2 * kLooks + room_.cell[k].last_edge - room_.cell[k].first_edge));
+    co_await work.pause(kAddCost * (2 * kLooks + kVertices));
   }
   const bool solvable = fit.prepare(room_.control);
   co_await work.pause(kAddCost * fit.places());
@@ -153,6 +155,7 @@ Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, const Relaxing&
     if (now < (first ? kWorthwhile : 1) * before) co_return count;
     break;
   }
+  room_.cell[from].stays = true;
   std::copy(room->kept, room->kept + count, control + from);
   unsigned edge = room_.cell[from - 3].first_edge;
   for (unsigned k = from - 3; k < from + count; ++k) {
@@ -169,7 +172,7 @@ Task<bool> Smoother::relax_once(Work& work, Relaxation* room, const Relaxing& ho
     bool halved = false;
     for (; end < to && end - j < TubeFit::kControls && moves(end); ++end) halved = halved || (room_.cell[end].halved & kTimes) > 0;
     unsigned count = 0;
-    if (halved) count = co_await relax_run(work, room, how, first, j, end);
+    if (halved && (first || !room_.cell[j].stays)) count = co_await relax_run(work, room, how, first, j, end);
     j = count > 0 ? j + count : std::max(end, j + 1);
     co_await work.pause(kCellCost);
   }
@@ -179,7 +182,10 @@ Task<bool> Smoother::relax_once(Work& work, Relaxation* room, const Relaxing& ho
 Task<bool> Smoother::relax(Work& work, Relaxation* room, const Relaxing& how, unsigned cells, unsigned to) {
   last_ = cells;
   bool halved = false;
-  for (unsigned k = 0; k < to; ++k) halved = halved || (room_.cell[k].halved & kTimes) > 0;
+  for (unsigned k = 0; k < to; ++k) {
+    room_.cell[k].stays = false;
+    halved = halved || (room_.cell[k].halved & kTimes) > 0;
+  }
   if (!halved) co_return false;
   const double* const feed = in_.line.feed;
   for (unsigned k = 0; k + 1 < in_.line.count && feed != nullptr; ++k) one_feed_ = one_feed_ && feed[k] == feed[0];

@@ -30,6 +30,7 @@ struct SmoothCell {
   bool summed = false;       ///< the moments, edges and feeds are those of the cell
   bool near = false;         ///< it was near enough to the line, and nothing that it hangs on has changed
   bool split = false;        ///< it is to be halved
+  bool stays = false;        ///< relax() did not find the control points from its knot on a better place
   unsigned char halved = 0;  ///< how often it was; kCorner: its knot is that of a corner that is kept
 };
 
