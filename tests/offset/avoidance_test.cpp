@@ -184,6 +184,17 @@ TEST(Avoidance, ABlockThatTheToolCanGoAlongIsNotLeftOut) {
   EXPECT_EQ(run.alarm, "P153");
 }
 
+// A step is left out, and the block behind the short one that is joined in its place cuts its upper corner off by 0.07 mm.
+TEST(Avoidance, TheBlockBehindTheJoinedOnesKeepsTheAmountToWhatIsLeftOut) {
+  for (const auto& [corner, alarm] : {std::pair{"Y-0.1", "P153"}, std::pair{"Y-0.01", ""}}) {
+    Bench bench;
+    bench.tool(1, 1).param("8102", "1");
+    const Outcome run = bench.run(std::string("G90 G0 X0 Y2.5\nG41 D1 G1 X0 Y0 F500\nX7.5\n") + corner + "\nX7.506 " + (*alarm != 0 ? "Y-0.093" : "Y-0.003") + "\nX12. Y-3.2\nG40 X13.4 Y-1.2\nM30");
+    EXPECT_EQ(run.alarm, alarm) << corner;
+    EXPECT_EQ(run.alarm_line, *alarm != 0 ? 3u : 0u);
+  }
+}
+
 // A change of side has a vector on each side; without the one of its own side a block would run on the other's.
 TEST(Avoidance, TheVectorsOfAChangeOfSideAreNotErasedOneByOne) {
   Chain chain;

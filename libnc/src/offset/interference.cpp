@@ -152,6 +152,20 @@ unsigned live_at(const Chain& chain, unsigned i) {
   return i;
 }
 
+// The way of the block behind section j, which starts at `d`. As long as the joint at its end is not known, it is the way up to an inner corner of a right angle.
+// False: there is none to speak of.
+bool way_behind(const Chain& chain, unsigned j, Vec2 d, Piece* way) {
+  const Section& section = chain[j];
+  if (j + 1 >= chain.size() || !section.jointed || section.commanded || section.joint.n == 0) return false;
+  const Section& next = chain[j + 1];
+  if (next.cancel || next.vanished || next.offset != section.offset) return false;
+  const bool known = next.jointed && next.joint.n > 0;
+  if (!known && (next.begin.curvature != 0 || norm(next.delta) <= std::abs(next.offset))) return false;
+  const Vec2 leave = known ? next.joint.v[0] : perpendicular(next.end, next.offset) - std::abs(next.offset) * next.end.u;
+  *way = path_of(next, d + section.delta + next.approach, section.joint.v[section.joint.n - 1], leave);
+  return true;
+}
+
 // Does the tool go along the two sections, joined at `x`, without coming nearer than the amount to what is left out between them, or to the other one? Places count
 // from the end of section i; `d` is the start of section j.
 bool keeps_amount(const Chain& chain, unsigned i, unsigned j, Vec2 d, Vec2 from, Vec2 x, Vec2 leave) {
@@ -160,10 +174,12 @@ bool keeps_amount(const Chain& chain, unsigned i, unsigned j, Vec2 d, Vec2 from,
   const Piece first = path_of(before, -1 * before.delta, from, x), second = path_of(behind, d, x - d, leave);
   const double least = std::abs(before.offset) - kEnters_mm;
   if (comes_nearer(first, wall_of(behind, d), least) || comes_nearer(second, wall_of(before, -1 * before.delta), least)) return false;
+  Piece third;
+  const bool goes_on = way_behind(chain, j, d, &third);
   Vec2 start;
   for (unsigned k = i + 1; k < j; ++k) {
     const Piece wall = wall_of(chain[k], start + chain[k].approach);
-    if (comes_nearer(first, wall, least) || comes_nearer(second, wall, least)) return false;
+    if (comes_nearer(first, wall, least) || comes_nearer(second, wall, least) || (goes_on && comes_nearer(third, wall, least))) return false;
     start = wall.to;
   }
   return true;
