@@ -248,6 +248,7 @@ class Session {
     for (unsigned i = 0; i < part_.holes.size(); ++i)
       if (part_.holes[i].line == drive_->out.source.line) hole_ = i;
     known_ = true;
+    broken_ = false;
     thread_ = kR + hole().hand * hole().lead * turns;
     deepest_ = kTop;
     for (unsigned i = 0; i < 3; ++i) over_[i] = drive_->out.command.v[i];
@@ -268,6 +269,7 @@ class Session {
     fresh_ = false;
     last_ = at;
     if (out.state == NC_STATE_ALARM) fail("alarm " + drive_->alarm(), at, spindle_.turns());
+    broken_ = broken_ || drive_->in.reset || drive_->cycle < 3;
     if (!in_hole()) {
       if (known_ && deepest_ < kR && (out.spindle_synchronous & 1) == 0) finish_hole();
       return;
@@ -285,7 +287,6 @@ class Session {
     for (unsigned i = 0; i < 3; ++i)
       if (i != part_.axis && std::fabs(out.command.v[i] - over_[i]) > 1e-9) fail("moves aside in the hole", out.command.v[i], over_[i]);
     if (out.state == NC_STATE_HOLD || out.state == NC_STATE_STOPPED) fail("stops in the hole", at, out.state);
-    broken_ = broken_ || drive_->in.reset || drive_->cycle < 3;
     if (broken_ && out.state == NC_STATE_RUNNING && drive_->in.cycle_start) fail("a program begins in the hole", at, 0);
   }
 
