@@ -105,7 +105,8 @@ typedef struct nc_inputs {
   bool tap_retract;      /**< rising edge while nc_outputs::tap_retract_possible: a synchronous tap is drawn out of its hole, up to R. While it is off the
                               tap stands there and goes on when it is on again; a reset, a feed hold and an interlock give the way up */
   bool tool_broken;      /**< rising edge: the tool in the spindle is not used any more: its status in the table of tool life becomes 3 */
-  double manual_feed;    /**< manual feed rate, mm/s along the path, 0..1e6; the feed override acts on it. Read only in dry run */
+  double manual_feed;    /**< manual feed rate, mm/s along the path, 0..1e6; the feed override acts on it. Read only in dry run, and until
+                              the end of a thread that has begun in it */
   uint64_t locked;       /**< machine lock, bit n: axis n is commanded, but its drive does not follow. libnc has to know because a skip move ends by no
                               signal when all the axes that it moves are locked (M700 15.2 (8)); what keeps the drives still is the host's */
   uint8_t fin_groups;    /**< completion of one group alone, bits as in nc_outputs::strobe, each of them as `fin`: when it rises the strobe of its group

@@ -49,10 +49,10 @@ void InputBorder::override_of(double* value, double most, double* last, uint32_t
   *last = *value;
 }
 
-/// Read in dry run only, so that a machine without one need not give it.
+/// A machine without dry run need not give it, so nothing is refused while the switch is off. It is kept then, because a thread that has begun in dry run ends so.
 void InputBorder::manual_feed() {
   if (!now_.dry_run) {
-    now_.manual_feed = 0;
+    if (!(now_.manual_feed >= kLeastByHand && now_.manual_feed <= kMostByHand)) now_.manual_feed = 0;
     return;
   }
   if (!(now_.manual_feed >= 0 && now_.manual_feed <= kMostByHand)) {
