@@ -55,6 +55,9 @@ PROGRAMS = {
     "surface_rows_noise": lambda: surface_rows(True),
     "arcs": lambda: of_shop("arc_fitted", 24),
     "adaptive_passes": lambda: of_shop("adaptive", 10),
+    "random_03_lines": lambda: of_shop("random_03", 200),
+    "random_06_lines": lambda: of_shop("random_06", 150),
+    "random_18_lines": lambda: of_shop("random_18", 60),
 }
 
 

@@ -170,6 +170,7 @@ void PathBuilder::add_line(const Record& r) {
     const bool from_machine = resumes(s);
     begin_line(from_machine ? resumed_at_ : s.curve.start, head_u_);
     epoch_ = r.epoch;
+    beside_ = from_machine;
     if (from_machine) length = std::max(length - resumed_s_, kLeastLength);
     resumed_ = false;
   }
@@ -505,6 +506,7 @@ void PathBuilder::go_on(const Border& border) {
   for (unsigned i = 0; i < limits_.axis_count; ++i) vertex_[gone][i] += share * (vertex_[gone + 1][i] - vertex_[gone][i]);
   length_[gone] -= cut;
   drop(gone);
+  beside_ = beside_ && gone == 0;
   line_start_u_ += u;
   border_ = border;
   goes_on_ = true;
@@ -547,9 +549,10 @@ Task<unsigned> PathBuilder::smoothed(Work& work, bool whole, unsigned count, Smo
   co_return cells;
 }
 
-/// The first `to` of the smoothed cells as they are gone fastest. A thread keeps the shape that it had.
+/// The first `to` of the smoothed cells as they are gone fastest. A thread keeps the shape that it had; and where the axes stand beside the line, the way
+/// back to it is not to lie beside that by the tolerance once more.
 Task<bool> PathBuilder::relaxed(Work& work, const SmoothRequest& request, unsigned cells, unsigned to) {
-  if (cells == 0 || by_ == FeedBy::spindle) co_return false;
+  if (cells == 0 || beside_ || by_ == FeedBy::spindle) co_return false;
   const Relaxing how{&limits_, goes_by_spindle(by_) ? kTurns : 1};
   const bool changed = co_await optimal::relax(work, request, room_, relaxation_, how, out_, cells, to);
   co_return changed;
@@ -580,7 +583,7 @@ Task<bool> PathBuilder::close_line(Work& work, unsigned cells) {
 void PathBuilder::forget_line() {
   count_ = 0;
   cut_ = hidden_ = 0;
-  goes_on_ = joined_start_ = false;
+  goes_on_ = joined_start_ = beside_ = false;
 }
 
 /// `whole`: to its end. False when there is no room yet, and without that when nothing of it is settled.

@@ -126,6 +126,7 @@ class PathBuilder {
   bool closing_ = false;     ///< it ends at its last vertex, whatever comes
   double line_start_u_ = 0;  ///< of vertex 0
   bool goes_on_ = false;
+  bool beside_ = false;      ///< its first edge leads from where the axes stand, which is within the tolerance of the line
   CurvePoint at_;            ///< where the pieces of this line end, when it goes on
   Border border_;
   double hidden_ = 0;        ///< of the first edge, in front of it
