@@ -432,13 +432,13 @@ double Smoother::distance2(unsigned cell, double u, const AxisVec& p) const {
   return sum;
 }
 
-/// A cell is no farther from the polyline than `most` (squared), at its places that are looked at and at the vertices. Between two of them the
+/// A cell is no farther from the polyline than `most` (squared), at its places that are looked at, its start among them, and at the vertices. Between two of them the
 /// polyline is straight and the distance bends by q'' alone: with d the places' distance it may be larger by d^2 / 8 max|q''|.
 bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) const {
   const Polyline& l = in_.line;
   const double from = room_.knot[k], to = room_.knot[k + 1], h = to - from;
   double worst = 0;
-  for (unsigned n = 1; n <= kLooks; ++n) {
+  for (unsigned n = 0; n <= kLooks; ++n) {
     const double u = n == kLooks ? to : from + h * n / kLooks;
     worst = std::max(worst, distance2(k, u, on_line(u, edge)));
   }
@@ -455,7 +455,7 @@ bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) co
   const double between = h / kLooks * h / kLooks / 8 * std::sqrt(bend2);
   if (std::sqrt(worst) + between <= in_.tolerance) return false;
   const double fine2 = std::max(in_.tolerance - between / (kFine * kFine), 0.0) * std::max(in_.tolerance - between / (kFine * kFine), 0.0);
-  for (unsigned n = 1; n < kFine * kLooks; ++n) {
+  for (unsigned n = 0; n < kFine * kLooks; ++n) {
     const double u = from + h * n / (kFine * kLooks);
     if (distance2(k, u, on_line(u, edge)) > fine2) return true;
   }
