@@ -101,7 +101,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE ${NC_PACKAGE_RELEASE})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_COMPRESSION_TYPE gzip)    # finish_debs.cmake packs them again with xz, which takes long
 set(CPACK_PRE_BUILD_SCRIPTS ${nc_packaging}/finish.cmake)
 set(CPACK_POST_BUILD_SCRIPTS ${nc_packaging}/finish_debs.cmake)
 set(CPACK_NC_PACKAGING ${nc_packaging})

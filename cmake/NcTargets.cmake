@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 # How the rooms around libnc (hal, runtime, tools, tests, bench) make their targets.
 
-# nc_room_around(TARGET): for a room around libnc. Several of its files are compiled as one source, since most of the compilation goes into headers that
+# nc_room_around(TARGET [FILES]): for a room around libnc. Several of its files are compiled as one source, since most of the compilation goes into headers that
 # they have in common; so a name in an unnamed namespace occurs once in its folder. scripts/tidy compiles each file that has changed by itself, and
 # finds an include that is missing. Under the sanitizers clang's precompiled headers of the standard library help once more; GCC 12 gives false
 # warnings about std::string when it optimizes precompiled headers. Nor is a room optimized there: two fifths of its compilation went into that, and what
-# takes long in the tests is libnc.
+# takes long in the tests is libnc. FILES is how many are joined under the sanitizers, where it is another number; then a name in an unnamed namespace occurs
+# once in the room.
 function(nc_room_around target)
   if(NC_FILES_PER_SOURCE GREATER 1)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${NC_FILES_PER_SOURCE})
   endif()
   if(NOT NC_SANITIZE)
     return()
+  endif()
+  if(NC_FILES_PER_SOURCE GREATER 1 AND ARGC GREATER 1)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARGV1})
   endif()
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <atomic> <charconv> <cmath> <functional> <map> <memory> <mutex> <optional>

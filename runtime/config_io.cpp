@@ -12,7 +12,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMaxSeconds = 3600;
+constexpr double kLongestSimulatedTime = 3600;
 constexpr std::size_t kMaxPointName = 55, kMaxMeaning = 127;  // bytes that monitors can show
 
 bool valid_point_name(std::string_view name) {
@@ -301,9 +301,9 @@ void read_sim(TableReader* root, Config* config) {
     hal::SimConfig& sim = config->sim;
     reader.number("spindle_ramp_rpm_per_s", &sim.spindle_ramp_rpm_per_s, 1, 1e9);
     reader.number("spindle_max_rpm", &sim.spindle_max_rpm, 0, 1e6);
-    reader.number("tool_change_s", &sim.tool_change_s, 0, kMaxSeconds);
-    reader.number("tool_select_s", &sim.tool_select_s, 0, kMaxSeconds);
-    reader.number("m_time_s", &sim.m_time_s, 0, kMaxSeconds);
+    reader.number("tool_change_s", &sim.tool_change_s, 0, kLongestSimulatedTime);
+    reader.number("tool_select_s", &sim.tool_select_s, 0, kLongestSimulatedTime);
+    reader.number("m_time_s", &sim.m_time_s, 0, kLongestSimulatedTime);
     read_sim_plant(&reader, config);
     read_sim_axes(&reader, config);
     reader.tables("solid", [&](TableReader& solid, std::size_t) { read_solid(&solid, config); });

@@ -25,16 +25,22 @@ dialects_of_machines() { example_machines | xargs sed -n 's/^dialect = "\([^"]*\
 # packages_in FILE...: prints the package names of the lists, without comments and blank lines.
 packages_in() { sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$@"; }
 
+# missing_packages FILE...: prints those of the lists that are not installed.
+missing_packages() {
+  local package
+  packages_in "$@" | while read -r package; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || say "$package"
+  done
+}
+
 # ensure_packages FILE...: installs the Debian packages of the lists that are missing, and prints their names.
 ensure_packages() {
-  local package missing=()
+  local missing=()
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     say "This is not a Debian system; needed are the equivalents of: $(packages_in "$@" | tr '\n' ' ')"
     return 0
   fi
-  while read -r package; do
-    [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
-  done < <(packages_in "$@")
+  mapfile -t missing < <(missing_packages "$@")
   [ ${#missing[@]} -gt 0 ] || return 0
   say "Installing missing Debian packages: ${missing[*]}"
   if [ ${#as_root[@]} -gt 0 ] && ! command -v sudo >/dev/null; then

@@ -41,11 +41,11 @@ std::string Sha256::finish() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> hash{};
   unsigned size = 0;
   check(EVP_DigestFinal_ex(sum_.get(), hash.data(), &size));
-  constexpr char kDigits[] = "0123456789abcdef";
+  constexpr char kHexDigits[] = "0123456789abcdef";
   std::string text;
   for (unsigned i = 0; i < size; ++i) {
-    text += kDigits[hash[i] >> 4];
-    text += kDigits[hash[i] & 15];
+    text += kHexDigits[hash[i] >> 4];
+    text += kHexDigits[hash[i] & 15];
   }
   return text;
 }
