@@ -6,7 +6,7 @@
 
 namespace nc::hal::canopen {
 
-ModuleIo::ModuleIo(const NodeMap& node, unsigned lost_after) : node_(node), module_(*node.module), lost_after_(lost_after) {
+ModuleIo::ModuleIo(const NodeMap& node, unsigned lost_after) : module_(*node.module), lost_after_(lost_after) {
   for (const ModulePdo& pdo : module_pdos(module_, false))
     sends_[pdo.number - 1] = {static_cast<std::uint16_t>(kTpdoId + kPdoStep * (pdo.number - 1) + node.id), pdo.bytes, 0, false};
   for (const ModulePdo& pdo : module_pdos(module_, true))

@@ -63,7 +63,6 @@ class ModuleIo {
   std::uint32_t get(const Channels& channels, const IoPoint& point) const noexcept;
   CanFrame frame_of(unsigned pdo) const noexcept;
 
-  const NodeMap& node_;
   const ModuleMap& module_;
   const unsigned lost_after_;
   TripleBuffer<Channels> outputs_{Channels{}};
