@@ -440,6 +440,20 @@ TEST(ContourCheck, ATangentAndTheFarEndOfItsArc) {
   EXPECT_EQ(alarm_of_program("G0 X-40. Y20.\nG1 G42 D1 X-20. Y-10. F500\nX0 Y-6.\nG3 X5.196152 Y3. I0 J6.\nG1 X0 Y20.\nG40 X0 Y40.\nM30\n", 5, check), "");
 }
 
+// What is inserted at a corner and cuts one of the two blocks there is no way in or out, so nothing has to be waited for: the machine stops in front of it.
+TEST(ContourCheck, WhatACornerInsertsIsNotInDoubt) {
+  const auto line = [](const std::string& text) {
+    Bench bench;
+    bench.tool(1, 5).param("CONTOUR_CHECK", "1");
+    const Outcome run = bench.run(text);
+    EXPECT_EQ(run.alarm, "P153");
+    return run.alarm_line;
+  };
+  EXPECT_EQ(line("G0 X0 Y0\nG41 D1 G1 X20. Y20. F500\nG39 X60.\nY60.\nX0\nY80.\nG40 X-20.\nM30\n"), 3u) << "the arc of G39 at an inner corner";
+  EXPECT_EQ(line("G90 G17 G0 X40. Y60.\nG1 G42 D1 X20. Y25.05 F500\nX0 Y5.05\nG2 X-2.134222 Y-4.576855 I0 J-5.05\nG40 G1 X0 Y0\nM30\n"), 3u) << "in front of a hole";
+  EXPECT_EQ(line("G90 G17 G0 X0 Y0\nG1 G41 D1 X-2.134222 Y-4.576855 F500\nG3 X0 Y5.05 I2.134222 J4.576855\nG1 X20. Y25.05\nG40 X40. Y60.\nM30\n"), 3u) << "behind it";
+}
+
 TEST(ContourCheck, BesideAChangeOfSideAreTwoBlocks) {
   const auto behind = [](const char* block) {  // the tool comes up at X-5
     return std::string("G0 X-20. Y-40.\nG41 D1 G1 X0 Y-40. F500\nX0 Y0\nG42 X-20. Y10.\n") + block + "\nG40 X-40. Y40.\nM30\n";

@@ -116,6 +116,9 @@ bool ContourMemory::no_way(uint64_t cancel) const {
 /// Between the path and the wall, which are neighbours, lies a joint at which the tool stands on the contour.
 bool ContourMemory::across_contour(const Path& path, uint64_t number) { return number < path.number ? path.from_contour : path.to_contour; }
 
+/// What is inserted at a corner leads round it: it cuts neither of the two blocks there, be they a part of the contour or of a way in or out.
+bool ContourMemory::at_its_own_corner(const Path& path, uint64_t number) { return path.of_joint && (number == path.number || number == path.number + 1); }
+
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0) return false;
   // The cutter cuts all that is above its tip, so what has been cut above a path is a wall for it; a block above it that comes later is a way across the part. A wall
@@ -209,6 +212,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.from_contour = path.crosses_own = false;
   path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
+    path.of_joint = true;
     path.prolongs = section.joint.lengthened;
     path.of_next = section.joint.lengthened && k + 1 == section.joint.n;
     add(path, way_at(end, section.joint.v[k - 1], section.joint.v[k], path.bends, section.offset));
@@ -244,7 +248,7 @@ Clearance ContourMemory::take(const Path& path) {
   const Box box = box_of(path.piece);
   if (path.offset == 0) return Clearance::fits;
   paths_.push(path, box);
-  const bool near = walls_.any(state_.first, box.grown(std::abs(path.offset)), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && blame(number); });
+  const bool near = walls_.any(state_.first, box.grown(std::abs(path.offset)), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && (at_its_own_corner(path, number) || blame(number)); });
   return near ? Clearance::enters : Clearance::fits;
 }
 

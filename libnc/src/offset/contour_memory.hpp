@@ -105,6 +105,7 @@ class ContourMemory {
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
     bool crosses_own = false;  ///< the move of a block, one of whose ends is given, or has lost its vector: it need not lie beside its own wall
     bool prolongs = false;     ///< a piece of a lengthened joint: it leads straight on, and an arc beside it may come back to it
+    bool of_joint = false;     ///< what is inserted at the corner behind the block
     bool of_next = false;      ///< the last piece of a lengthened joint: it lies beside the block behind, and so is compared like that one's path
     Vec2 contour;         ///< starts, cancels: where the tool comes to the contour, or leaves it
   };
@@ -115,6 +116,7 @@ class ContourMemory {
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
+  static bool at_its_own_corner(const Path& path, uint64_t number);
   bool blame(uint64_t number);
   bool no_way(uint64_t cancel) const;
   Clearance take(const Path& path);

@@ -19,33 +19,33 @@ Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
 }
 
 // Perpendicular, lengthened, lengthened, perpendicular. The form of the manual's figure is lost: each offset
-// line is lengthened by the amount and the ends are linked, as is usual.
+// line is lengthened by the amount and the ends are linked, as is usual. Up to a right angle the two meet before that, and their meeting is one vector in place of
+// the two: behind it each would lead through what the other one is beside.
 ContourJoint lengthened_joint(const Leg& before, const Leg& behind, double offset) {
   ContourJoint joint;
   joint.lengthened = true;
   joint.v[0] = perpendicular(before, offset);
-  joint.v[1] = joint.v[0] + std::abs(offset) * before.u;
-  joint.v[3] = perpendicular(behind, offset);
-  joint.v[2] = joint.v[3] - std::abs(offset) * behind.u;
+  const double d = dot(before.u, behind.u);
+  if (d > -kRightAngle) {
+    joint.n = 3;
+    joint.v[1] = (1 / (1 + d)) * (joint.v[0] + perpendicular(behind, offset));
+  } else {
+    joint.n = 4;
+    joint.v[1] = joint.v[0] + std::abs(offset) * before.u;
+    joint.v[2] = perpendicular(behind, offset) - std::abs(offset) * behind.u;
+  }
+  joint.v[joint.n - 1] = perpendicular(behind, offset);
   return joint;
 }
 
-// Perpendicular, the point in which the two lengthened tangents cross, perpendicular: an outer corner up to 90 degrees, beside which one curve at least is a circle so
-// small that they do not meet. The tangents cross no farther ahead than the amount, so lengthened by all of it they would lead past each other, and the link back.
-ContourJoint crossing_tangents(const Leg& before, const Leg& behind, double offset) {
-  const Vec2 n = left_of(before.u), m = left_of(behind.u);
-  ContourJoint joint;
-  joint.n = 3;
-  joint.lengthened = true;
-  joint.v[0] = offset * n;
-  joint.v[1] = (offset / (1 + dot(n, m))) * (n + m);
-  joint.v[2] = offset * m;
+// Up to a right angle the tool comes to the contour (type B) straight in a point on the lengthened start block, and leaves it in one on the lengthened cancel: of these
+// blocks the perpendicular is none that it has to go by.
+ContourJoint joint_beside_way(const Leg& before, const Leg& behind, double offset, bool starts) {
+  ContourJoint joint = lengthened_joint(before, behind, offset);
+  if (joint.n == ContourJoint::kMax) return joint;
+  --joint.n;
+  for (unsigned k = 0; starts && k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
   return joint;
-}
-
-// An outer corner whose joint is no one point of both curves.
-ContourJoint outer_corner(Turn turn, const Leg& before, const Leg& behind, double offset) {
-  return turn == Turn::acute ? lengthened_joint(before, behind, offset) : crossing_tangents(before, behind, offset);
 }
 
 ContourJoint two_perpendiculars(const Leg& before, double offset_before, const Leg& behind, double offset_behind) {
@@ -213,7 +213,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     joint->set(w);
     return true;
   }
-  *joint = outer_corner(turn, before, behind, o);
+  *joint = lengthened_joint(before, behind, o);
   return true;
 }
 
@@ -222,13 +222,8 @@ ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset,
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(behind, offset));
-  if (turn == Turn::acute) return lengthened_joint(before, behind, offset);
-  if (intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
-  // Up to 90 degrees the tool goes straight to a point on the lengthened start block.
-  ContourJoint joint = crossing_tangents(before, behind, offset);
-  --joint.n;
-  for (unsigned k = 0; k < joint.n; ++k) joint.v[k] = joint.v[k + 1];
-  return joint;
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
+  return joint_beside_way(before, behind, offset, true);
 }
 
 ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset, bool type_b) {
@@ -236,11 +231,8 @@ ContourJoint joint_at_cancel(const Leg& before, const Leg& behind, double offset
   Vec2 w;
   if (!type_b || turn == Turn::inner || turn == Turn::straight)
     return ContourJoint::single(perpendicular(before, offset));
-  if (turn == Turn::acute) return lengthened_joint(before, behind, offset);
-  if (intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
-  ContourJoint joint = crossing_tangents(before, behind, offset);
-  --joint.n;  // ... and leaves in such a point
-  return joint;
+  if (turn == Turn::obtuse && intersection(before, offset, behind, offset, &w)) return ContourJoint::single(w);
+  return joint_beside_way(before, behind, offset, false);
 }
 
 ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double offset) {
