@@ -73,6 +73,18 @@ TEST(PositionOffset, HalfAndThreeQuartersOfACircle) {
   EXPECT_EQ(bench.at(12, 0, 0).run("G91 G45 G2 X-10. Y-10. I-10. F100 D1\nM30").path(), (Path{"cw 0 -12 0 c0,0 F100"}));
 }
 
+// Precaution (2) turns a way round that becomes less than nothing; an arc whose radius does has no circle about its centre, nor has one that keeps none.
+TEST(PositionOffset, AnArcThatIsSmallerThanTheAmountIsRefused) {
+  Bench bench;
+  bench.tool(1, 5);
+  for (const char* block : {"G46 G3 X4. Y4. J4.", "G46 G3 X4. Y4. R4.", "G46 G3 X5. Y5. J5.", "G48 G2 X-8. I-4.", "G46 G2 X-4. Y4. J4."}) {
+    const Outcome run = bench.at(0, 0, 0).run("G91 F100 D1\n" + std::string(block) + "\nM30");
+    EXPECT_EQ(run.alarm, "P142") << block;
+    EXPECT_TRUE(run.moves().empty()) << block;
+  }
+  EXPECT_EQ(bench.at(0, 0, 0).run("G91 G46 G3 X6. Y6. J6. F100 D1\nM30").alarm, "");
+}
+
 TEST(PositionOffset, OtherArcsAreRefused) {  // appendix 1, P142
   Bench bench;
   bench.tool(1, 2);

@@ -58,8 +58,10 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   if (did == Execution::done) did = read_arc_words(in, plane, in.words.target.axes(), &words);
   if (did != Execution::done) return did;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
-  lengthen_ways(in, amount, true);
   const double by = amount / std::fabs(scale_of(in, h));
+  const auto vanishes = [by](double word) { return word != 0 && std::fabs(word) + by <= 0; };
+  if (vanishes(words.radius) || vanishes(words.center[0]) || vanishes(words.center[1])) return in.raise_code(Condition::offset_arc, row);
+  lengthen_ways(in, amount, true);
   if (words.has_radius) words.radius = longer(words.radius, by);
   for (double& center : words.center)
     if (center != 0) center = longer(center, by);
