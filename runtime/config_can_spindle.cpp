@@ -13,7 +13,7 @@ using hal::canopen::AxisMap;
 using hal::canopen::NodeMap;
 using hal::canopen::SpindleMap;
 
-constexpr double kMostRpm = 6e5, kMostRatio = 1e6;
+constexpr double kMostRatio = 1e6;
 constexpr std::size_t kMostGears = 8;
 constexpr double kMostVelocity = 2147483647.0;  // 60FFh is a signed number of 32 bits
 

@@ -11,6 +11,7 @@
 namespace nc::rt {
 
 inline constexpr double kMaxLength = 1e6;  // mm or deg; a greater number is a typing error
+inline constexpr double kMostRpm = 6e5;     // largest speed that nc_spindle_inputs accepts
 
 void read_machine(TableReader* root, Config* config);
 void read_scheduling(TableReader* root, Config* config);

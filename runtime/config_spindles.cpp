@@ -9,8 +9,6 @@
 namespace nc::rt {
 namespace {
 
-constexpr double kMostRpm = 6e5;  // largest speed that nc_spindle_inputs accepts
-
 void read_feedback(TableReader* reader, const Config& config, SpindleFeedback* feedback) {
   std::string by;
   if (!reader->string("feedback", &by)) return;

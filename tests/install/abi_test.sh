@@ -25,8 +25,8 @@ passes() {
   with "$@"
   "$check" --check "$work/include" >"$work/out" 2>&1 || { echo "FAILED: $1:"; cat "$work/out"; status=1; }
 }
-breaks 'a member in the middle' run.h 's/^(  bool fin2;.*)$/  double later;\n\1/'
-breaks 'a member that is gone' run.h '/^  bool follow_up;/d'
+breaks 'a member in the middle' inputs.h 's/^(  bool fin2;.*)$/  double later;\n\1/'
+breaks 'a member that is gone' inputs.h '/^  bool follow_up;/d'
 breaks 'a member of another type' config.h 's/^  double cycle_s;/  float cycle_s;/'
 breaks 'a struct without size that grows' types.h 's/^(  uint16_t file; .*)$/\1\n  uint32_t later;/'
 breaks 'a function that is gone' run.h 's/^NC_API nc_status nc_recalculate/static inline nc_status nc_recalculate/'

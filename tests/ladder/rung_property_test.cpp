@@ -95,7 +95,8 @@ struct Oracle {
       else
         FAIL() << "the oracle does not know " << line;
       used = output && name != "MPS";
-      if (name != "MCR") power[n] = output ? on : results.back();
+      if (output) results.back() = on;  // what goes on from an output, or into a branch, goes by the master controls, too
+      if (name != "MCR") power[n] = results.back();
     }
   }
 };
