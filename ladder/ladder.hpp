@@ -119,7 +119,7 @@ class Engine {
 
   // Makes one pass through the program. NC_RT. Does nothing after a fault. Devices that are held have their value
   // before and after each instruction, which costs each instruction a store for each of them.
-  // `flow`, when it is not null, has Program::flow_bytes() bytes, all 0, which get the power flow of this scan, for Program::listing(). It takes as long as to hold a device.
+  // `flow`, when it is not null, has Program::flow_bytes() bytes, all 0, which get the power flow of this scan, for Program::listing(). Such a scan runs on the interpreter that holds devices.
   void scan(DeviceImage* image, const Hold* holds = nullptr, unsigned hold_count = 0, std::uint8_t* flow = nullptr) noexcept;
 
   // To be called in the thread that scans.
