@@ -124,8 +124,8 @@ class Result:
 
 
 def run_all(programs):
-    """Results of programs (lists of blocks)."""
-    text = "".join("\n".join(["!1229/bit2 0", "G17 G90 G21 G94", *blocks, "M30", "%", ""]) for blocks in programs)
+    """Results of programs (lists of blocks). Each begins at zero: where the one before it ended, and at which height, is no part of it."""
+    text = "".join("\n".join(["!1229/bit2 0", "G17 G90 G21 G94 G0 X0 Y0 Z0", *blocks, "M30", "%", ""]) for blocks in programs)
     tool = os.path.join(os.environ.get("NC_BINARY_DIR", "build/release"), "bin", "contour_paths")
     answers = subprocess.run([tool], input=text, stdout=subprocess.PIPE, check=True, text=True).stdout.split("\n.\n")
     assert len(answers) == len(programs) + 1, "an answer for each program"
