@@ -69,6 +69,7 @@ nc_StopCause cause_of(std::uint32_t cause) {
     case NC_CAUSE_TAP_IN_HOLE: return nc_CAUSE_TAP_IN_HOLE;
     case NC_CAUSE_MDI_ENDED: return nc_CAUSE_MDI_ENDED;
     case NC_CAUSE_MANUAL_FEED_ZERO: return nc_CAUSE_MANUAL_FEED_ZERO;
+    case NC_CAUSE_RESTART: return nc_CAUSE_RESTART;
   }
   return nc_CAUSE_OTHER;
 }

@@ -57,6 +57,7 @@ const char* cause_name(nc_StopCause cause) {
     case nc_CAUSE_SPINDLE_REVERSED: return "spindle turns the wrong way";
     case nc_CAUSE_TAP_IN_HOLE: return "tap in its hole";
     case nc_CAUSE_MDI_ENDED: return "MDI done";
+    case nc_CAUSE_RESTART: return "restart";
     case nc_CAUSE_MANUAL_FEED_ZERO: return "manual feed 0";
     default: return "other";
   }

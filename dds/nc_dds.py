@@ -73,6 +73,7 @@ class StopCause(IdlEnum, typename="nc.StopCause", default="CAUSE_NONE"):
     CAUSE_TAP_IN_HOLE = 22
     CAUSE_MDI_ENDED = 23
     CAUSE_MANUAL_FEED_ZERO = 24
+    CAUSE_RESTART = 25
 
 
 @annotate.appendable

@@ -145,6 +145,8 @@ std::string state_alone(const nc_outputs& outputs) {
       return "waits for blocks";
     case NC_CAUSE_FEED_ZERO:
       return "104 F1 to F5 is 0";
+    case NC_CAUSE_RESTART:
+      return outputs.restart_axes != 0 ? "at the place of restart, axes away" : "at the place of restart";
     case NC_CAUSE_MANUAL_FEED_ZERO:
       return "dry run: the manual feed rate is 0";
     case NC_CAUSE_SPINDLE_STOPPED:

@@ -28,7 +28,9 @@ typedef enum nc_manual_kind {
                                axis plus its braking distance ahead; the rest of the way is dropped, so that the axis is at rest soon after the
                                wheel. Also dropped is the way beyond a soft limit, the way commanded while commands are refused, and the way that
                                a stop or a jog ends. nc_outputs::handle_dropped tells it */
-  NC_MANUAL_REFERENCE = 4 /**< the axis goes to its first reference position */
+  NC_MANUAL_REFERENCE = 4, /**< the axis goes to its first reference position */
+  NC_MANUAL_RETURN = 5    /**< in a block stop: the axis goes back to where the program has left it, or, where the program is begun inside (nc/restart.h), to where it
+                               goes on. An axis that stands there already does not move. Of a velocity the amount counts, 0 means the top speed of the axis */
 } nc_manual_kind;
 
 typedef struct nc_manual {

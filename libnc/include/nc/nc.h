@@ -8,5 +8,6 @@
 #ifndef NC_NC_H
 #define NC_NC_H
 #include "nc/control.h"
+#include "nc/restart.h"
 #include "nc/run.h"
 #endif

@@ -238,7 +238,9 @@ typedef enum nc_stop_cause {
   NC_CAUSE_TAP_IN_HOLE = 21,      /**< a cycle start was refused because a synchronous tap stands in its hole: it is drawn out first, by the signal
                                        or by hand (nc_inputs::tap_retract). Not behind NC-TAP in such an attempt, since its spindle does not follow */
   NC_CAUSE_MDI_ENDED = 22,        /**< the blocks of MDI that interrupt a program have been executed: cycle start goes on with the program */
-  NC_CAUSE_MANUAL_FEED_ZERO = 23  /**< dry run, and the manual feed rate is 0 */
+  NC_CAUSE_MANUAL_FEED_ZERO = 23, /**< dry run, and the manual feed rate is 0 */
+  NC_CAUSE_RESTART = 24           /**< the program is begun inside (nc/restart.h), and stands at the place: cycle start goes on. It is refused while
+                                       nc_outputs::restart_axes is not 0 */
 } nc_stop_cause;
 
 /** Bits of nc_outputs::fin_wait in addition to those of M, S, T and B. */
@@ -328,6 +330,7 @@ typedef struct nc_outputs {
   uint32_t tap_holds;       /**< bit n: axis n is not moved by hand, because a tap that was given up stands in its hole and would break, or tear the hole.
                                  The axis of the tap is free, and the way out; when its spindle does not follow, that is an alarm, which ends this */
   bool followed;            /**< in this cycle `command` was taken from nc_inputs::actual (nc_inputs::follow_up) */
+  uint32_t restart_axes;    /**< bit n: a program that is begun inside (nc/restart.h) waits for axis n, which is not where it goes on */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

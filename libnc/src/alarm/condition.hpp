@@ -39,7 +39,7 @@ enum class Condition : uint16_t {
   control_structure, name_without_value, too_many_names, probe_no_contact, call_in_mdi,
   contour_too_long,
   tap_no_speed, tap_no_pitch, tap_pitch, tap_speed_word, no_holes, hole_angle_zero, drilling_axis_changed,
-  life_full, life_group, tap_apart, encoder_jumps,
+  life_full, life_group, tap_apart, encoder_jumps, restart_void,
   block_skip, sub_without_return,
   polar_code, polar_axis, polar_modal, polar_state,   // as those of mill_..., of the polar coordinate interpolation
   probe_contact, two_words, comment_open, level_below_bottom, cavity_size, cavity_corner, cavity_step,

@@ -56,6 +56,10 @@ template <>
 inline constexpr uint32_t kFirstSize<nc_system_variable> = padded<nc_system_variable>(NC_END_OF(nc_system_variable, section));
 template <>
 inline constexpr uint32_t kFirstSize<nc_parameter> = padded<nc_parameter>(NC_END_OF(nc_parameter, section));
+template <>
+inline constexpr uint32_t kFirstSize<nc_restart_place> = padded<nc_restart_place>(NC_END_OF(nc_restart_place, start));
+template <>
+inline constexpr uint32_t kFirstSize<nc_restart_found> = padded<nc_restart_found>(NC_END_OF(nc_restart_found, output_written));
 #undef NC_END_OF
 
 /// More bytes than any struct of any version will have. A larger struct_size is one that was never set.

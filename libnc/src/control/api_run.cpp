@@ -48,6 +48,7 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
   if (!has_system(c, system) || item == nullptr) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
+  c->system[system].forget_restart();
   c->system[system].publish_all();
   const uint32_t bytes = nc::caller_bytes(item);
   if (bytes == sizeof(nc_item)) return c->system[system].pull(budget, item);
@@ -83,6 +84,7 @@ nc_status nc_rewind(nc_control* c, unsigned system, uint64_t serial) {
   if (!has_system(c, system)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;
   c->system[system].interpreter.forget_vendor_call();
+  c->system[system].forget_restart();
   return c->system[system].rewind(serial);
 }
 

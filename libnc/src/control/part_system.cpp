@@ -446,6 +446,29 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   }
 }
 
+/// It stands here because of the inlined functions of the stream. An item that commit leaves out is passed as a mark without meaning.
+PartSystem::Passed PartSystem::pass_item(uint32_t& budget) {
+  const Item* item = nullptr;
+  Passed passed;
+  passed.status = next(budget, &item);
+  if (passed.status != NC_OK) return passed;
+  passed.reached = search_.reached(*item);
+  passed.source = item->source;
+  if (passed.reached) return passed;
+  passed.status = pump(budget, &item);
+  if (passed.status != NC_OK || item == nullptr) return passed;
+  passed.kind = pulled_ = item->kind;
+  search_.note(*item);
+  if (item->kind == ItemKind::mark) {
+    restart_modal_ = item->mark.modal;
+    note_mark(*item);
+  } else {
+    note_given(*item);
+  }
+  take();
+  return passed;
+}
+
 nc_status PartSystem::move_point(double share, nc_axes* machine) const {
   const Curve& curve = commit_.curve();
   if (online_ || !(curve.length > 0)) return NC_E_STATE;
@@ -562,6 +585,7 @@ nc_status PartSystem::rewind(Serial serial) {
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   forget_mdi();
+  search_.forget();
   stop_ = Stop::none;
   interpreter.set_feeding(run_.active());
   publish_all();
@@ -620,6 +644,7 @@ void PartSystem::forget_mdi() {
 }
 
 void PartSystem::set_position(const AxisVec& machine) {
+  search_.forget();
   interpreter.set_machine(machine);
   commit_.set_machine(machine);
   executor.set_position(machine);
@@ -716,7 +741,7 @@ void PartSystem::follow_run() {
     interpreter.set_alarm_calls(calls, count);
   }
   if (!now.active() && now.epoch() == before.epoch()) interpreter.keep_place(false);  // the program has ended
-  if (now.active()) {
+  if (now.active() && !begin_found()) {
     interpreter.set_mirror_signal(executor.mirror());
     restart(executor.commanded(), interpreter.is_mdi());
     commit_.restart();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "control/commit.hpp"
+#include "control/restart_search.hpp"
 #include "interpolate/executor.hpp"
 #include "interpolate/run_word.hpp"
 #include "interpret/part_interpreter.hpp"
@@ -45,6 +46,11 @@ class PartSystem {
   /// Offline: the level of the interrupt signal (M700 13.12). *take_back becomes true when the item pulled last must not be executed.
   nc_status interrupt_signal(bool on, bool* take_back);
   nc_status feed(uint32_t budget);
+  // restart.cpp: a program that is begun inside (nc/restart.h)
+  nc_status restart_begin(const nc_restart_place& place, const nc_world& world);
+  nc_status restart_find(uint32_t budget, nc_restart_found* found);
+  nc_status restart_cancel();
+  void forget_restart() { search_.forget(); }
   /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
   static constexpr int64_t kUnit = 20000, kItem = 2500;
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
@@ -131,6 +137,18 @@ class PartSystem {
   void put_fault(const Fault& fault, const nc_source& source, nc_alarm* out) const;
   unsigned stop_calls(nc_source (&calls)[NC_MAX_CALLS]) const;
   void restart(const AxisVec& machine, bool keep_modal = false);
+  /// What the search for a place has come to: an item that it has passed, or the place, whose first item stays. NC_BUDGET and others: neither.
+  struct Passed {
+    nc_status status = NC_OK;
+    ItemKind kind = ItemKind::mark;
+    bool reached = false;
+    nc_source source{};
+  };
+  Passed pass_item(uint32_t& budget);
+  nc_status find_sequence();
+  void answer_search();
+  nc_status give_up_search(nc_status status);
+  bool begin_found();
   void follow_run();
   void read_on(int64_t* left);
   nc_status feed_program(int64_t left);
@@ -215,6 +233,8 @@ class PartSystem {
   ProgramRef mdi_blocks_;    ///< online: blocks of MDI that wait for the start ...
   uint32_t mdi_stop_ = 0;    ///< ... that comes behind this number of starts; 0 = there are none
   AxisParameters told_axes_; ///< online: the axis parameters that the scan has been told
+  RestartSearch search_;
+  ModalId restart_modal_ = 0;  ///< of the newest mark that the search has passed
   BlockSeq executed_ = 0;    ///< online: newest block that has been executed, as feed() found it
   nc_source sync_source_{};
   Serial open_sync_ = 0;

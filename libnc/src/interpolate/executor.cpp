@@ -258,6 +258,11 @@ void Executor::reread_done() {
   shared.reread_done.store(shared.reread_request.load(std::memory_order_relaxed), std::memory_order_release);
 }
 
+void Executor::restart_at(const AxisVec& machine, uint64_t blocks) {
+  state_->shared.restart_at = machine;
+  state_->shared.restart_blocks = blocks;
+}
+
 bool Executor::poll_event(nc_event* event, uint64_t* dropped) {
   return state_->shared.events.pop(event, dropped);
 }

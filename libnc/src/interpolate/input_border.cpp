@@ -118,7 +118,7 @@ void InputBorder::manual() {
     nc_manual& m = now_.manual[i];
     if (m.kind == NC_MANUAL_NONE) continue;
     const bool slow = m.velocity != 0 && within(m.velocity, kLeastByHand);
-    if (m.kind <= NC_MANUAL_REFERENCE && within(m.velocity, kMostByHand) && !slow && within(m.distance, kMostByHand)) continue;
+    if (m.kind <= NC_MANUAL_RETURN && within(m.velocity, kMostByHand) && !slow && within(m.distance, kMostByHand)) continue;
     refused_ |= NC_INPUT_MANUAL;
     m = {};
   }

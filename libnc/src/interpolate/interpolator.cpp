@@ -301,9 +301,10 @@ void Interpolator::states(const nc_inputs& in) {
   }
   if (start_ && !frozen_ && !rereading_) {
     const bool mdi = starts_ != 0 && shared_->mdi_waits.load(std::memory_order_acquire) == starts_;
+    if (restart_bars(mdi)) return;
     // Axes were moved by hand, or there are blocks of MDI: the start acts when blocks have been read again.
     if ((displaced_ || mdi) && still && state_ == NC_STATE_STOPPED) {
-      rereading_ = true;
+      rereading_ = start_read_again_ = true;
       shared_->reread_mdi.store(mdi ? 1 : 0, std::memory_order_relaxed);
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
@@ -317,7 +318,7 @@ void Interpolator::states(const nc_inputs& in) {
       return;
     }
     if (state_ == NC_STATE_IDLE && shared_->run_taken.load(std::memory_order_acquire) != run_.word()) return;  // the start acts when the feeder has taken it
-    start_ = false;
+    start_ = start_read_again_ = false;
     if (still || state_ == NC_STATE_HOLD) start(in);
   }
 }
@@ -367,6 +368,7 @@ void Interpolator::give_up() {
   hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = elsewhere_ = false;
   tapping_ = 0;
   by_hand_ = 0;
+  begins_again_ = start_read_again_ = false;
   fin1_groups_ = own_groups_ = 0;
   strobe_ = 0;               // a FIN that comes after the reset completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
@@ -511,6 +513,7 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
     leave_at(before);
     displaced_ = true;
     by_hand_ |= 1u << i;
+    if (wanted_[i] == left_at_[i]) by_hand_ &= ~(1u << i);  // it has gone back
   }
 }
 
@@ -650,6 +653,7 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.followed = followed_;
   out.handle_dropped = manual_.handle_dropped();
   out.moved_by_hand = by_hand_;
+  out.restart_axes = begins_again_ ? axes_off_restart() : 0;
   out.manual_absolute = !in.manual_absolute_off;
   out.message = message_;
   out.message_text = message_text_.id;

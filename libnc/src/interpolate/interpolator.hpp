@@ -80,6 +80,8 @@ struct ScanShared {
   std::atomic<uint32_t> reread_mdi{0};  ///< by the scan, with the request: 1: the feeder is to begin with them
   AxisVec reread_from;                      ///< by the scan, with the request: where the program has left the axes, before they were moved by hand
   AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
+  AxisVec restart_at;                       ///< by the feeder, before it pushes the gate of a program that is begun inside: Executor::restart_at()
+  uint64_t restart_blocks = 0;              ///< ... and with it
   std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;
@@ -125,6 +127,11 @@ class Interpolator {
   }
   void note_block_stop() NC_RT;
   void end_mdi() NC_RT;
+  // interpolator_restart.cpp
+  void stand_at_restart() NC_RT;
+  uint32_t axes_off_restart() const NC_RT;
+  bool restart_bars(bool mdi) NC_RT;
+  uint32_t return_places(const AxisVec** places) const NC_RT;
   void follow(const nc_inputs& in) NC_RT;
   void run(const nc_inputs& in) NC_RT;
   void manual(const nc_inputs& in, bool rested) NC_RT;
@@ -283,6 +290,9 @@ class Interpolator {
   AxisVec path_end_;  ///< end of the newest move that has been executed
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
+  bool begins_again_ = false;  ///< a program that is begun inside stands at its place, and has not gone on yet
+  AxisVec restart_at_;         ///< where its axes have to be
+  bool start_read_again_ = false;  ///< the cycle start that waits has had blocks read again
   uint32_t starts_ = 0;       ///< ScanStatus::starts, and below block_stop and stop_behind
   bool block_stop_ = false;
   BlockSeq stop_behind_ = 0;

@@ -99,6 +99,7 @@ void Interpolator::manual_cycle(const nc_inputs& in) {
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   rules.unlimited = static_cast<uint32_t>(in.unlimited);
+  rules.returns = return_places(&rules.back);
   const nc_manual* wish = in.manual;
   nc_manual with_tap[kMaxAxes];
   if (tap_.held) {

@@ -475,7 +475,8 @@ Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
       return optional_stop(in);
     case NC_GATE_STOP:
       state_ = NC_STATE_STOPPED;
-      cause_ = g.behind_mdi ? NC_CAUSE_MDI_ENDED : NC_CAUSE_PROGRAM_STOP;
+      cause_ = g.behind_mdi ? NC_CAUSE_MDI_ENDED : g.begins_again ? NC_CAUSE_RESTART : NC_CAUSE_PROGRAM_STOP;
+      if (g.begins_again) stand_at_restart();
       return Done::yes;
   }
   return Done::yes;

@@ -79,6 +79,10 @@ void PartInterpreter::select(const ProgramRef& program, bool mdi) {
   in_->forget_place();
 }
 bool PartInterpreter::is_selected() const { return in_->main_program.valid(); }
+const ProgramRef& PartInterpreter::selected() const { return in_->main_program; }
+bool PartInterpreter::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again) {
+  return in_->reader.find_sequence(file, n, offset, line, 0, bytes, again);
+}
 bool PartInterpreter::is_mdi() const { return in_->mdi; }
 void PartInterpreter::reset(bool keep_modal) { in_->reset(keep_modal); }
 void PartInterpreter::clear_by_reset() { in_->clear_by_reset(); }

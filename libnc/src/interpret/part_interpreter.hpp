@@ -106,6 +106,9 @@ class PartInterpreter {
   /// Selects a program; reset() goes to its beginning. `mdi`: it is a text of MDI, whose end without M02 is not an alarm.
   void select(const ProgramRef& program, bool mdi);
   bool is_selected() const;
+  const ProgramRef& selected() const;
+  /// BlockReader::find_sequence(), up to the end of the program at *offset, of which that is the head.
+  bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again);
   bool is_mdi() const;
   /// Goes to the beginning of the selected program; the modal state becomes that of reset 2 (M700 3.7). With `keep_modal` (MDI after MDI, M700 5.1) modal
   /// codes and words, work system and tool length stay; cycles and radius compensation do not.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every kind of manual motion goes to a target with a top speed. The target of a jog is the soft limit (or far away), that of a step or a handle is
-// `distance` further on, that of a reference return is the reference position. When a jog or a reference return is released the axis brakes to rest.
+// `distance` further on, that of a reference return is the reference position, that of a return the place that the program has left. When a jog or one
+// of the returns is released the axis brakes to rest.
 #include "manual/manual.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
   Axis& a = axis_[i];
   const bool turning = (rules.turning >> i & 1) != 0;
   const bool edge = w.kind != a.kind;
-  const bool was = a.kind == NC_MANUAL_JOG || a.kind == NC_MANUAL_REFERENCE;
+  const bool was = a.kind == NC_MANUAL_JOG || a.kind == NC_MANUAL_REFERENCE || a.kind == NC_MANUAL_RETURN;
   a.kind = w.kind;
   switch (w.kind) {
     case NC_MANUAL_JOG:
@@ -83,6 +84,17 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       a.target = within(i, rules, a.target, position);
       a.cap = top_speed(i);
       a.going = true;
+      break;
+    case NC_MANUAL_RETURN:
+      if ((rules.returns >> i & 1) == 0) {
+        a.going = a.going && !was;
+        break;
+      }
+      give_up_handle(i);
+      a.target = within(i, rules, (*rules.back)[i], position);
+      a.cap = top_speed(i);
+      if (w.velocity != 0) a.cap = std::min(a.cap, std::fabs(w.velocity));
+      a.going = a.target != position;
       break;
     default:
       if (was) a.going = false;  // let go

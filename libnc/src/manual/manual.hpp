@@ -32,6 +32,8 @@ class Manual {
     uint32_t gentle = 0;     ///< axes that accelerate no faster than `gentle_acceleration`
     double gentle_acceleration = 0;  ///< mm/s^2
     uint32_t unlimited = 0;  ///< axes without soft limits, because it is not known where they stand
+    uint32_t returns = 0;    ///< axes that can go back to `back`
+    const AxisVec* back = nullptr;
   };
   /// One cycle, in which `position` is moved. To be called only while no program moves.
   void cycle(const nc_manual* wish, const Rules& rules, AxisVec* position) NC_RT;

@@ -214,6 +214,7 @@ struct Gate {
   double value = 0;
   uint8_t skip_mask = 0;  ///< dwell: ends where one of these signals is on (M700 8.1 (8))
   bool behind_mdi = false;  ///< stop: blocks of MDI that interrupt a program have ended (M700 12.4.4)
+  bool begins_again = false;  ///< stop: the program is begun inside, and the axes have to be where it goes on (nc/restart.h)
 };
 
 struct Sync {

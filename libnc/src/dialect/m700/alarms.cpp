@@ -196,6 +196,7 @@ const AlarmText kAlarms[] = {
     {"M01-0007", "S/W stroke end"},
     {"P452", "Limit before travel"},
     {"NC-TAP", "Spindle does not follow its tap"},
+    {"NC-RESTART", "Place of restart is out of date"},
     {"NC-VENDOR", "Function of the machine failed"},
     {"NC-INTERNAL", "Internal error of the control"},
 };

@@ -184,6 +184,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::drilling_axis_changed, "P33", nullptr},  // 13.1.1 note 2 has no code: a block that may not be written so
     {C::tap_apart, "NC-TAP", nullptr},       // the manual prints no number
     {C::encoder_jumps, "NC-TAP", nullptr},
+    {C::restart_void, "NC-RESTART", nullptr},  // the manual is silent about restarts
     {C::internal, "NC-INTERNAL", nullptr},
 };
 

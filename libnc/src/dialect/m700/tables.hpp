@@ -11,7 +11,7 @@ namespace nc::m700 {
 inline constexpr unsigned kFunctionRows = 286;
 inline constexpr unsigned kMiscRows = 9;
 inline constexpr unsigned kOutputRows = 5;
-inline constexpr unsigned kAlarmRows = 190;
+inline constexpr unsigned kAlarmRows = 191;
 inline constexpr unsigned kConditionRows = static_cast<unsigned>(Condition::count_) - 1;
 
 struct FunctionTable {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "control/restart_search.hpp"
+
+#include <algorithm>
+
+namespace nc {
+
+void RestartSearch::begin(const nc_restart_place& place, unsigned file, const nc_world& world) {
+  *this = {};
+  place_ = place;
+  world_ = world;
+  wanted_.file = static_cast<uint16_t>(file);
+  phase_ = place.by == NC_RESTART_SEQUENCE ? Phase::sequence : Phase::passing;
+  if (place.by == NC_RESTART_LINE) wanted_.line = static_cast<uint32_t>(place.number);
+}
+
+void RestartSearch::found_sequence(uint32_t on_line) {
+  wanted_.line = on_line;
+  phase_ = Phase::passing;
+}
+
+bool RestartSearch::reached(const Item& item) {
+  if (item.kind == ItemKind::alarm || item.kind == ItemKind::end) return false;  // of them the host is told otherwise
+  if (in_block_) return false;
+  in_block_ = true;
+  if (wanted_.line == 0) return blocks_ == place_.number;
+  in_wanted_ = item.source.file == wanted_.file && item.source.line == wanted_.line;
+  if (in_wanted_) ++passings_;
+  return in_wanted_ && passings_ == std::max(place_.passing, 1u);
+}
+
+void RestartSearch::note(const Item& item) {
+  if (item.kind == ItemKind::mark && item.mark.report) {
+    ++blocks_;
+    in_block_ = false;
+  }
+  if (item.kind == ItemKind::sync) given_.asked |= item.sync.what;
+  if (item.kind == ItemKind::action) note_action(item.action);
+}
+
+void RestartSearch::note_action(const Action& action) {
+  const bool number = action.value >= 0 && action.value < 4294967296.0;
+  const auto code = number ? static_cast<uint32_t>(action.value) : uint32_t{0};
+  switch (action.kind) {
+    case NC_ACTION_M: return note_m(code);
+    case NC_ACTION_S: given_.s_given = true, given_.s = action.value; return;
+    case NC_ACTION_T: given_.t_given = true, given_.t = code; return;
+    case NC_ACTION_B: given_.b_given = true, given_.b = code; return;
+    case NC_ACTION_OUTPUT:
+      if (action.index >= NC_WORDS) return;
+      given_.output[action.index] = (given_.output[action.index] & ~action.mask) | (action.bits & action.mask);
+      given_.output_written[action.index] |= action.mask;
+      return;
+    case NC_ACTION_CONTROL:
+    case NC_ACTION_CURRENT_LIMIT: return note_control(action);
+    default: return;
+  }
+}
+
+/// Each M code once, the newest at the end. Where there are too many the oldest goes, since the newest tell more.
+void RestartSearch::note_m(uint32_t number) {
+  const unsigned kept = std::min<uint32_t>(given_.m_count, NC_RESTART_CODES);
+  uint32_t* const end = given_.m + kept;
+  uint32_t* at = std::find(given_.m, end, number);
+  if (at == end) ++given_.m_count;
+  if (at == end && kept < NC_RESTART_CODES) {
+    *end = number;
+    return;
+  }
+  if (at == end) at = given_.m;
+  std::copy(at + 1, end, at);
+  end[-1] = number;
+}
+
+void RestartSearch::note_control(const Action& action) {
+  if (action.kind == NC_ACTION_CONTROL && action.index == NC_CONTROL_TOOL_LIFE) return;
+  const auto same = [&](const Action& other) { return other.kind == action.kind && other.index == action.index; };
+  Action* const end = std::remove_if(control_, control_ + control_count_, same);
+  control_count_ = static_cast<unsigned>(end - control_);
+  if (control_count_ == kControls) std::copy(control_ + 1, control_ + control_count_--, control_);  // there are not so many kinds and axes
+  control_[control_count_++] = action;
+}
+
+void RestartSearch::tell(nc_restart_found* out) const {
+  const uint32_t size = out->struct_size;
+  *out = given_;
+  out->struct_size = size;
+  out->blocks = blocks_;
+}
+
+}  // namespace nc

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// A place in a program that is looked for, and what the program has given to the machine on the way there (nc/restart.h).
+#pragma once
+
+#include "nc/restart.h"
+#include "stream/stream.hpp"
+
+namespace nc {
+
+class RestartSearch {
+ public:
+  enum class Phase : uint8_t { none, sequence, passing, found };
+
+  /// Looks for `place` in the text `file`, from the head of the program on.
+  void begin(const nc_restart_place& place, unsigned file, const nc_world& world);
+  void forget() { phase_ = Phase::none; }
+  Phase phase() const { return phase_; }
+  bool looks() const { return phase_ == Phase::sequence || phase_ == Phase::passing; }
+  const nc_restart_place& place() const { return place_; }
+  const nc_world& world() const { return world_; }
+
+  /// A sequence number was found on a line of its text.
+  void found_sequence(uint32_t line);
+  /// Where the search for the sequence number goes on.
+  uint64_t offset = 0;
+  uint32_t line = 1;
+
+  /// The item, which has not been executed yet, belongs to the block that is looked for. To be asked of each item before note().
+  bool reached(const Item& item);
+  /// Behind an item that has been executed up to the machine: what it would have done there.
+  void note(const Item& item);
+  uint64_t blocks() const { return blocks_; }
+  /// The place is reached. `hash` is that of the state in which the program goes on.
+  void found(uint64_t hash) { phase_ = Phase::found, hash_ = hash; }
+  uint64_t hash() const { return hash_; }
+  /// What was given to the machine; where the place is and in which state the program is there says the part system.
+  void tell(nc_restart_found* out) const;
+
+  /// States of the scan, as the program has set them last before the place, in the order in which it has: the scan of a program that begins here has
+  /// to be told them. The tool in the spindle is none of them: it is the one that is there.
+  const Action* controls() const { return control_; }
+  unsigned control_count() const { return control_count_; }
+
+ private:
+  void note_action(const Action& action);
+  void note_m(uint32_t number);
+  void note_control(const Action& action);
+  static constexpr unsigned kControls = 16;
+
+  Phase phase_ = Phase::none;
+  nc_restart_place place_{};
+  nc_world world_{};
+  nc_source wanted_{};      ///< file and line of the block; line 0: blocks are counted
+  bool in_block_ = false;   ///< items of the block in hand have come
+  bool in_wanted_ = false;  ///< ... which is one on the line that is looked for
+  uint32_t passings_ = 0;   ///< so often has the program come to it
+  uint64_t blocks_ = 0;
+  uint64_t hash_ = 0;
+  nc_restart_found given_{};
+  Action control_[kControls];
+  unsigned control_count_ = 0;
+};
+
+}  // namespace nc

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that is begun inside stands at the place (nc/restart.h), and axes go back by hand to where a program goes on.
+#include <cmath>
+
+#include "interpolate/interpolator.hpp"
+
+namespace nc {
+
+/// The axes count as moved by hand from where the program goes on to where they stand, so that blocks of MDI, and motion by hand, find them here.
+void Interpolator::stand_at_restart() {
+  begins_again_ = true;
+  restart_at_ = shared_->restart_at;
+  blocks_ = shared_->restart_blocks;
+  by_hand_ = axes_off_restart();
+  if (by_hand_ == 0) return;
+  leave_at(restart_at_);
+  displaced_ = true;
+}
+
+uint32_t Interpolator::axes_off_restart() const {
+  uint32_t off = 0;
+  for (unsigned i = 0; i < config_.axis_count; ++i)
+    if (std::fabs(wanted_[i] - restart_at_[i]) > kAddingUp && (spindles_now() >> i & 1) == 0) off |= 1u << i;
+  return off;
+}
+
+/// Whether a cycle start has to be refused: the block would begin from another place than the program comes from. Blocks of MDI (`mdi`) begin anywhere.
+bool Interpolator::restart_bars(bool mdi) {
+  if (!begins_again_ || state_ != NC_STATE_STOPPED || mdi || start_read_again_) return false;
+  if (axes_off_restart() != 0) {
+    start_ = false;
+    cause_ = NC_CAUSE_RESTART;
+    return true;
+  }
+  begins_again_ = false;
+  return false;
+}
+
+/// Bit i: there is a place to which axis i can go back, in *places.
+uint32_t Interpolator::return_places(const AxisVec** places) const {
+  if (state_ != NC_STATE_STOPPED || !(begins_again_ || elsewhere_)) return 0;
+  *places = begins_again_ ? &restart_at_ : &left_at_;
+  return (1u << config_.axis_count) - 1;
+}
+
+}  // namespace nc

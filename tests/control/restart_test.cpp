@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// Programs that are begun inside (nc/restart.h): from the place on the machine does what it does when the program runs from its head, nothing moves before the
+// operator moves it, and no step of an axis is larger than it can be.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "support/random_program.hpp"
+#include "support/seeds.hpp"
+#include "support/watched_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+constexpr unsigned kAxes = 3;
+
+nc_restart_place at_block(uint64_t blocks) {
+  nc_restart_place place;
+  nc_restart_place_init(&place);
+  place.number = blocks;
+  return place;
+}
+nc_restart_place at_line(uint32_t line, uint32_t passing = 1) {
+  nc_restart_place place = at_block(line);
+  place.by = NC_RESTART_LINE;
+  place.passing = passing;
+  return place;
+}
+nc_restart_place at_sequence(uint32_t n, uint32_t passing = 1) {
+  nc_restart_place place = at_line(n, passing);
+  place.by = NC_RESTART_SEQUENCE;
+  return place;
+}
+
+/// A machine with a program that has not been started.
+class RestartMachine : public WatchedMachine {
+ public:
+  RestartMachine(bool optimal, const std::string& text) : WatchedMachine(NC_DIALECT_M700, "XYZ", {200, 200, 200}, optimal, 40) {
+    bench.tool(1, 4).param("1084", "0.1");
+    drive = std::make_unique<Drive>(bench, text);
+    step(3);
+  }
+  nc_status find(const nc_restart_place& place) {
+    nc_restart_found_init(&found);
+    const nc_status begun = nc_restart_begin(bench.control(), 0, &place, nullptr);
+    if (begun != NC_OK) return begun;
+    nc_status status = NC_BUDGET;
+    for (unsigned n = 0; n < 100000 && status == NC_BUDGET; ++n) {
+      status = nc_restart_find(bench.control(), 0, 3, &found);
+      if (n % 16 == 0) step();  // the scan goes on meanwhile, and so does the feeder
+    }
+    return status;
+  }
+  /// Moves each axis back, one behind the other, in the order of their numbers.
+  void bring_axes() {
+    for (unsigned i = 0; i < kAxes; ++i) {
+      drive->in.manual[i] = {NC_MANUAL_RETURN, 0, 0};
+      for (unsigned n = 0; n < 20000 && (n < 3 || drive->out.state == NC_STATE_MANUAL); ++n) step();
+      drive->in.manual[i] = {};
+      step(2);
+    }
+  }
+  bool until_stop() {
+    step(12);
+    for (unsigned n = 0; n < 4000000 && (drive->out.state == NC_STATE_RUNNING || drive->out.state == NC_STATE_MANUAL); ++n) step();
+    step(3);
+    return drive->out.state != NC_STATE_RUNNING;
+  }
+  /// The start that comes to the place, and stands there.
+  void enter() {
+    press();
+    ASSERT_TRUE(until_stop());
+    ASSERT_EQ(drive->out.state, NC_STATE_STOPPED);
+    ASSERT_EQ(drive->out.cause, NC_CAUSE_RESTART);
+  }
+  bool to_end() {
+    for (unsigned n = 0; n < 60 && !drive->ended; ++n) {  // M01 and M00 stop
+      press();
+      if (!until_stop()) return false;
+      if (drive->out.state == NC_STATE_ALARM) return false;
+    }
+    return drive->ended;
+  }
+  bool at(const nc_axes& place) const {
+    for (unsigned i = 0; i < kAxes; ++i)
+      if (std::fabs(drive->out.command.v[i] - place.v[i]) > 1e-9) return false;
+    return true;
+  }
+  nc_restart_found found{};
+};
+
+class Restart : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(BothLaws, Restart, testing::Bool(), [](const auto& law) { return law.param ? "Optimal" : "Trapezoid"; });
+
+TEST_P(Restart, TellsTheStateAndGoesOnFromThePlace) {
+  RestartMachine m(GetParam(), "G90 G54 G21\nM3 S1200\nT7 M6\nM8\nG0 X10. Y5.\nG91 G18\nN50 G1 Z-3. F600\nG90 X40.\nM9\nM30");
+  ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+  EXPECT_EQ(m.found.source.line, 7u);
+  EXPECT_EQ(m.found.blocks, 6u);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[0], 10);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[1], 5);
+  EXPECT_TRUE(m.found.s_given && m.found.t_given && !m.found.b_given);
+  EXPECT_EQ(m.found.s, 1200);
+  EXPECT_EQ(m.found.t, 7u);
+  ASSERT_EQ(m.found.m_count, 3u);
+  EXPECT_EQ(m.found.m[0], 3u);
+  EXPECT_EQ(m.found.m[1], 6u);
+  EXPECT_EQ(m.found.m[2], 8u);
+  EXPECT_EQ(m.found.asked, 0u);
+  nc_modal modal = NC_INIT(nc_modal);
+  ASSERT_EQ(nc_modal_get(m.bench.control(), 0, m.found.modal, &modal), NC_OK);
+  EXPECT_EQ(modal.code[2], 180) << "G18";
+  EXPECT_EQ(modal.code[3], 910) << "G91";
+  m.enter();
+  EXPECT_EQ(m.drive->out.restart_axes, 3u);
+  EXPECT_EQ(m.drive->out.command.v[0], 0) << "nothing moves by itself";
+  EXPECT_EQ(m.drive->out.strobe, 0) << "and nothing is given out";
+  m.press();
+  m.step(50);
+  EXPECT_EQ(m.drive->out.state, NC_STATE_STOPPED) << "the axes are not there";
+  EXPECT_EQ(m.drive->out.cause, NC_CAUSE_RESTART);
+  m.bring_axes();
+  EXPECT_EQ(m.drive->out.restart_axes, 0u);
+  EXPECT_TRUE(m.at(m.found.machine));
+  EXPECT_EQ(m.drive->out.moved_by_hand, 0u);
+  ASSERT_TRUE(m.to_end());
+  EXPECT_NEAR(m.drive->out.command.v[0], 40, 1e-9);
+  EXPECT_NEAR(m.drive->out.command.v[1], 5, 1e-9);
+  EXPECT_NEAR(m.drive->out.command.v[2], -3, 1e-9);
+  EXPECT_EQ(m.drive->out.m, 30u);
+  EXPECT_LT(m.worst, 1.001);
+}
+
+TEST_P(Restart, BlocksOfMdiBringSpindleAndToolThereAndAxesComeBackBehindThem) {
+  RestartMachine m(GetParam(), "M3 S1200\nG0 X10. Y5.\nG1 Z-3. F600\nX40.\nM30");
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  m.enter();
+  const std::string blocks = "M3 S1200\nG0 X-50. Z20.";
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  EXPECT_EQ(m.drive->out.cause, NC_CAUSE_MDI_ENDED);
+  EXPECT_EQ(m.drive->out.s, 1200);
+  EXPECT_NEAR(m.drive->out.command.v[0], -50, 1e-9);
+  EXPECT_EQ(m.drive->out.restart_axes, 7u);
+  m.press();
+  m.step(30);
+  EXPECT_EQ(m.drive->out.state, NC_STATE_STOPPED);
+  EXPECT_EQ(m.drive->out.cause, NC_CAUSE_RESTART);
+  m.bring_axes();
+  ASSERT_TRUE(m.at(m.found.machine));
+  ASSERT_TRUE(m.to_end());
+  EXPECT_NEAR(m.drive->out.command.v[0], 40, 1e-9);
+  EXPECT_NEAR(m.drive->out.command.v[2], -3, 1e-9);
+  EXPECT_LT(m.worst, 1.001);
+}
+
+TEST_P(Restart, AResetInTheStopGivesThePlaceUp) {
+  RestartMachine m(GetParam(), "G0 X10.\n#100=7\nX20.\nX30.\nM30");
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  m.enter();
+  m.drive->in.reset = true;
+  m.step(5);
+  m.drive->in.reset = false;
+  m.step(5);
+  EXPECT_EQ(m.drive->out.state, NC_STATE_IDLE);
+  EXPECT_EQ(m.drive->out.restart_axes, 0u);
+  ASSERT_TRUE(m.to_end());
+  EXPECT_EQ(m.drive->ends().size(), 3u) << "from the head";
+  EXPECT_TRUE(m.drive->alarm().empty());
+}
+
+TEST_P(Restart, WhatHasChangedBehindTheSearchIsAnAlarm) {
+  RestartMachine m(GetParam(), "G0 X10.\nG54\nX20.\nX30.\nM30");
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  m.bench.work_offset(1, {5, 0, 0});
+  m.press();
+  m.step(50);
+  EXPECT_EQ(m.drive->out.state, NC_STATE_ALARM);
+  EXPECT_EQ(m.drive->alarm(), "NC-RESTART");
+  EXPECT_EQ(m.drive->out.command.v[0], 0);
+  m.drive->in.reset = true;
+  m.step(5);
+  m.drive->in.reset = false;
+  m.step(5);
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[0], 15);
+  m.drive->in.mirror = 1;
+  m.press();
+  m.step(50);
+  EXPECT_EQ(m.drive->alarm(), "NC-RESTART") << "mirrored the program would go elsewhere";
+}
+
+TEST_P(Restart, PassingsAndProgramsThatAreCalled) {
+  const std::string text = "O1\n#1=0\nWHILE[#1 LT 5] DO1\nN10 G91 G0 X1.\n#1=#1+1\nEND1\nM98 P2 L3\nG90 X0\nM30\nO2\nN10 G91 Y2.\nM99\n%";
+  RestartMachine m(GetParam(), text);
+  ASSERT_EQ(m.find(at_sequence(10, 4)), NC_OK);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[0], 3);
+  ASSERT_EQ(m.find(at_line(11, 2)), NC_OK);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[0], 5);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[1], 2);
+  EXPECT_EQ(m.found.source.depth, 1u);
+  EXPECT_EQ(m.find(at_sequence(10, 6)), NC_ENDED);
+  EXPECT_EQ(m.find(at_sequence(11)), NC_E_NOT_FOUND);
+  EXPECT_EQ(m.find(at_line(500)), NC_ENDED);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  EXPECT_EQ(m.drive->ends().size(), 5u + 3 + 1) << "where nothing was found, the next start begins at the head";
+}
+
+TEST_P(Restart, AnAlarmBeforeThePlace) {
+  RestartMachine m(GetParam(), "G0 X10.\nG2 X1. Y1. I1. J9.\nX20.\nM30");
+  EXPECT_EQ(m.find(at_line(3)), NC_ALARMED);
+  nc_alarm alarm = NC_INIT(nc_alarm);
+  ASSERT_EQ(nc_alarm_get(m.bench.control(), 0, &alarm), NC_OK);
+  EXPECT_EQ(std::string(alarm.code), "P62");
+  EXPECT_EQ(alarm.source.line, 2u);
+  EXPECT_EQ(nc_restart_find(m.bench.control(), 0, 10, &m.found), NC_E_STATE);
+}
+
+TEST_P(Restart, ArgumentsThatAreRefused) {
+  RestartMachine m(GetParam(), "G0 X10.\nX20.\nM30");
+  nc_control* const c = m.bench.control();
+  nc_restart_place place = at_line(0);
+  EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_ARGUMENT);
+  place = at_line(2);
+  place.by = 3;
+  EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_ARGUMENT);
+  place = at_line(2);
+  place.in_file = true;
+  place.file = 9999;
+  EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_ARGUMENT);
+  place = at_line(2);
+  place.start_given = true;
+  place.start.v[1] = NAN;
+  EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_begin(c, 7, &place, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_begin(c, 0, nullptr, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_find(c, 0, 10, &m.found), NC_E_STATE);
+  EXPECT_EQ(nc_restart_cancel(c, 0), NC_OK);
+  place = at_line(2);
+  m.press();
+  EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_STATE) << "the program runs";
+  EXPECT_EQ(nc_restart_cancel(c, 0), NC_E_STATE);
+}
+
+TEST_P(Restart, CancelBeginsAtTheHead) {
+  RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nM30");
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  EXPECT_EQ(nc_restart_cancel(m.bench.control(), 0), NC_OK);
+  ASSERT_TRUE(m.to_end());
+  EXPECT_EQ(m.drive->ends().size(), 3u);
+}
+
+/// States that the scan keeps have to be those of the program there: overrides that it has switched off, a clamp of the spindle.
+TEST_P(Restart, TheScanGetsTheStatesOfTheProgram) {
+  RestartMachine m(GetParam(), "#3004=2\nG92 S500\nM3 S1200\nG0 X10.\nG1 X20. F600\nM30");
+  m.drive->in.feed_override = 0.5;
+  ASSERT_EQ(m.find(at_line(5)), NC_OK);
+  m.enter();
+  m.bring_axes();
+  m.press();
+  m.step(200);
+  EXPECT_EQ(m.drive->out.override_source, NC_OVERRIDE_PROGRAM);
+  ASSERT_TRUE(m.to_end());
+}
+
+/// The moves of a program that runs from its head, and which of its block ends each comes behind.
+struct WholeRun {
+  std::vector<nc_item> moves;
+  std::vector<size_t> behind;  ///< [n]: number of moves in front of the end of block n
+  std::map<uint32_t, double> vars;
+};
+
+void load_subs(Bench& bench, const RandomProgram& program) {
+  for (size_t i = 0; i < program.subs.size(); ++i) bench.add("O" + std::to_string(i + 1), program.subs[i]);
+}
+
+TEST_P(Restart, AnywhereInRandomPrograms) {
+  unsigned begun = 0, hang_together = 0;
+  const auto from = static_cast<uint32_t>(wish("NC_FIRST_SEED", 1));
+  for (uint32_t seed = from; seed < from + seeds(60, 15); ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomProgram program = ProgramMaker(seed, false).make();
+    RestartMachine whole(GetParam(), program.main);
+    load_subs(whole.bench, program);
+    RestartMachine part(GetParam(), program.main);
+    load_subs(part.bench, program);
+    std::mt19937 random(seed);
+    // The whole run, offline.
+    WholeRun run;
+    {
+      Bench bench(NC_DIALECT_M700, [](nc_config& c) { axes("XYZ")(c); });
+      bench.tool(1, 4).param("1084", "0.1");
+      load_subs(bench, program);
+      const Outcome done = bench.run(program.main);
+      if (!done.alarm.empty()) continue;
+      for (const Step& step : done.steps) {
+        if (step.item.kind == NC_ITEM_MOVE) run.moves.push_back(step.item);
+        if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.report) run.behind.push_back(run.moves.size());
+      }
+      run.vars = done.vars;
+    }
+    const uint64_t blocks = std::uniform_int_distribution<uint64_t>(1, run.behind.size() - 2)(random);
+    nc_restart_place place = at_block(blocks);
+    place.start_given = true;
+    nc_axes stands{};
+    for (unsigned i = 0; i < kAxes; ++i) stands.v[i] = std::uniform_real_distribution<double>(-30, 30)(random);
+    for (unsigned i = 0; i < kAxes; ++i) {
+      part.drive->in.manual[i] = {NC_MANUAL_STEP, 0, stands.v[i]};
+    }
+    part.step(1200);
+    for (nc_manual& manual : part.drive->in.manual) manual = {};
+    part.step(3);
+    const nc_status status = part.find(place);
+    if (status == NC_E_NOT_FOUND) {
+      ++hang_together;
+      continue;
+    }
+    ASSERT_EQ(status, NC_OK) << part.drive->alarm();
+    EXPECT_EQ(part.found.blocks, blocks);
+    ++begun;
+    part.enter();
+    EXPECT_TRUE(part.at(stands)) << "nothing has moved";
+    part.bring_axes();
+    ASSERT_TRUE(part.at(part.found.machine));
+    ASSERT_TRUE(part.to_end()) << part.drive->alarm() << " line " << part.drive->out.source.line << " cause " << int{part.drive->out.cause} << " behind " << part.drive->out.blocks << " blocks";
+    EXPECT_LT(part.worst, 1.001) << "axis " << part.worst_axis << " line " << part.worst_line;
+    const std::vector<nc_axes> ends = part.drive->ends();
+    const size_t first = run.behind[blocks - 1];
+    ASSERT_EQ(ends.size(), run.moves.size() - first) << program.main;
+    for (size_t i = 0; i < ends.size(); ++i)
+      for (unsigned a = 0; a < kAxes; ++a) ASSERT_NEAR(ends[i].v[a], run.moves[first + i].u.move.machine.v[a], GetParam() ? 0.021 : 1e-6) << "move " << i << " line " << run.moves[first + i].source.line << "\n" << program.main;
+    for (unsigned n = 100; n < 110; ++n) {
+      const double value = part.bench.var_now(n);
+      const double wanted = run.vars.contains(n) ? run.vars.at(n) : NAN;
+      EXPECT_TRUE(value == wanted || (std::isnan(value) && std::isnan(wanted))) << "#" << n;
+    }
+  }
+  EXPECT_GT(begun, 5u);
+  std::printf("%u begun inside, %u where blocks hang together\n", begun, hang_together);
+}
+
+}  // namespace
+}  // namespace nc::test
