@@ -63,6 +63,43 @@ double way_to_circle(const Leg& leg, double radius) {
   return half <= 1 ? 2 * std::asin(half) / std::abs(leg.curvature) : kBeyond_mm;
 }
 
+/// How much a cut takes of the two blocks, and the centre of a rounding.
+struct Taken {
+  double before = 0, behind = 0;
+  Vec2 center;
+  double left = 1;  ///< the rounding turns to the left, -1 to the right
+};
+
+Condition fits(const Side& before, const Side& behind, const Taken& taken) {
+  if (before.length < taken.before - kCornerSlack_mm) return Condition::corner_short;
+  if (behind.length < taken.behind - kCornerSlack_mm) return Condition::corner_next_short;
+  return Condition::none;
+}
+
+/// The rounding on one side of travel.
+Condition round_on_side(const Side& before, const Side& behind, double radius, double left, Taken* taken) {
+  const double beside = left * radius;
+  taken->left = left;
+  if (!offset_exists(before.leg, beside)) return Condition::corner_short;  // an arc that turns to that side, and is smaller
+  if (!offset_exists(behind.leg, beside)) return Condition::corner_next_short;
+  if (!intersection(before.leg, beside, behind.leg, beside, &taken->center)) return Condition::corner_short;
+  taken->before = -way_to(before.leg, taken->center);
+  taken->behind = way_to(behind.leg, taken->center);
+  if (taken->before < 0) return Condition::corner_short;
+  if (taken->behind < 0) return Condition::corner_next_short;
+  return fits(before, behind, *taken);
+}
+
+/// The rounding lies on the side to which the path turns. At a cusp the tangents may tell one side of a gap of micrometres, behind which the blocks cross and
+/// lie apart on the other: there it is the side on which the rounding has room.
+Condition round_between(const Side& before, const Side& behind, double radius, Taken* taken) {
+  const double sine = sine_of_turn(before.leg, behind.leg), left = sine > 0 ? 1 : -1;
+  const Condition bad = round_on_side(before, behind, radius, left, taken);
+  if (bad == Condition::none || !is_cusp(before.leg, behind.leg)) return bad;
+  if (round_on_side(before, behind, radius, -left, taken) == Condition::none) return Condition::none;
+  return std::abs(sine) < kNoTurn ? Condition::corner_reversal : bad;
+}
+
 }  // namespace
 
 void end_arc_at(Move* arc, const AxisVec& end) {
@@ -94,27 +131,18 @@ Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_coun
   if (!side_of(first, first.plane_axis, true, &before)) return Condition::corner_short;
   if (next.circular && (next.plane_axis[0] != first.plane_axis[0] || next.plane_axis[1] != first.plane_axis[1])) return Condition::corner_arc;
   if (!side_of(next, first.plane_axis, false, &behind)) return Condition::corner_next_short;
-  double taken[2] = {way_to_circle(before.leg, first.corner_mm), way_to_circle(behind.leg, first.corner_mm)};
-  Vec2 center;
-  const double sine = cross(before.leg.u, behind.leg.u), left = sine > 0 ? 1 : -1;
-  if (first.corner == Corner::rounding) {
-    const double beside = left * first.corner_mm;
-    if (std::abs(sine) < kNoTurn) return dot(before.leg.u, behind.leg.u) > 0 ? Condition::none : Condition::corner_reversal;
-    if (!offset_exists(before.leg, beside)) return Condition::corner_short;  // an arc that turns to that side, and is smaller
-    if (!offset_exists(behind.leg, beside)) return Condition::corner_next_short;
-    if (!intersection(before.leg, beside, behind.leg, beside, &center)) return Condition::corner_short;
-    taken[0] = -way_to(before.leg, center);
-    taken[1] = way_to(behind.leg, center);
-    if (taken[0] < 0) return Condition::corner_short;
-    if (taken[1] < 0) return Condition::corner_next_short;
-  }
-  if (before.length < taken[0] - kCornerSlack_mm) return Condition::corner_short;
-  if (behind.length < taken[1] - kCornerSlack_mm) return Condition::corner_next_short;
-  const Vec2 from = point_along(before.leg, -taken[0]), to = point_along(behind.leg, taken[1]);
+  const bool round = first.corner == Corner::rounding;
+  if (round && !is_cusp(before.leg, behind.leg) && std::abs(sine_of_turn(before.leg, behind.leg)) < kNoTurn) return Condition::none;
+  Taken taken;
+  taken.before = way_to_circle(before.leg, first.corner_mm);
+  taken.behind = way_to_circle(behind.leg, first.corner_mm);
+  const Condition bad = round ? round_between(before, behind, first.corner_mm, &taken) : fits(before, behind, taken);
+  if (bad != Condition::none) return bad;
+  const Vec2 from = point_along(before.leg, -taken.before), to = point_along(behind.leg, taken.behind);
   const unsigned h = first.plane_axis[0], v = first.plane_axis[1];
   for (unsigned i = 0; i < axis_count; ++i) {
-    cut->before[i] = first.end[i] - (first.end[i] - first.start[i]) * (taken[0] / before.length);
-    cut->lead[i] = (next.end[i] - next.start[i]) * (taken[1] / behind.length);
+    cut->before[i] = first.end[i] - (first.end[i] - first.start[i]) * (taken.before / before.length);
+    cut->lead[i] = (next.end[i] - next.start[i]) * (taken.behind / behind.length);
   }
   cut->before[h] = first.end[h] + from.h;
   cut->before[v] = first.end[v] + from.v;
@@ -122,16 +150,16 @@ Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_coun
   cut->lead[v] = to.v;
   for (unsigned i = 0; i < axis_count; ++i) cut->behind[i] = first.end[i] + cut->lead[i];
   cut->any = true;
-  if (first.corner != Corner::rounding) return Condition::none;
+  if (!round) return Condition::none;
   cut->round = true;
-  const Vec2 begin = from - center;
-  cut->circle.center[0] = first.end[h] + center.h;
-  cut->circle.center[1] = first.end[v] + center.v;
+  const Vec2 begin = from - taken.center;
+  cut->circle.center[0] = first.end[h] + taken.center.h;
+  cut->circle.center[1] = first.end[v] + taken.center.v;
   cut->circle.radius_start = cut->circle.radius_end = first.corner_mm;
   cut->circle.angle_start = std::atan2(begin.v, begin.h);
-  double sweep = left * turned(begin, to - center);
+  double sweep = taken.left * turned(begin, to - taken.center);
   if (sweep < -kNoTurn) sweep += 2 * kPi;
-  cut->circle.sweep = left * sweep;
+  cut->circle.sweep = taken.left * sweep;
   return Condition::none;
 }
 

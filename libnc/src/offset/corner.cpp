@@ -80,8 +80,7 @@ Vec2 nearest_on_curve(const Leg& leg, double offset, Vec2 point) {
   return center + std::abs(1 / leg.curvature - offset) * unit(point - center);
 }
 
-// Does the path turn back by half a turn, as far as the digits of its words can tell?
-bool is_cusp(double sine, double cosine) { return cosine < 0 && std::abs(sine) < kCusp; }
+bool turns_back(double sine, double cosine) { return cosine < 0 && std::abs(sine) < kCusp; }
 
 // Where the offset curves of a cusp meet. With the way a along the block before and q = |w|^2 - o^2 the two equations of a point are
 //
@@ -141,10 +140,15 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
   return true;
 }
 
+bool is_cusp(const Leg& before, const Leg& behind) { return turns_back(cross(before.u, behind.u), dot(before.u, behind.u)); }
+
+double sine_of_turn(const Leg& before, const Leg& behind) {
+  const double c = cross(before.u, behind.u);
+  return is_cusp(before, behind) ? c - kCuspDigits_mm * (before.curvature + behind.curvature) : c;
+}
+
 Turn classify(const Leg& before, const Leg& behind, double offset) {
-  double c = cross(before.u, behind.u);
-  const double d = dot(before.u, behind.u);
-  if (is_cusp(c, d)) c -= kCuspDigits_mm * (before.curvature + behind.curvature);
+  const double c = sine_of_turn(before, behind), d = dot(before.u, behind.u);
   if (std::abs(c) < kSmallTurn) return d > 0 ? Turn::straight : Turn::acute;  // straight back: round the end
   if ((c > 0) == (offset > 0)) return Turn::inner;  // the path turns towards the tool
   return d > -kRightAngle ? Turn::obtuse : Turn::acute;
@@ -158,7 +162,7 @@ bool turns_to_tool(Vec2 before, Vec2 behind, double offset) {
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w) {
   const double c = cross(before.u, behind.u), d = dot(before.u, behind.u);
   const double oa = offset_before, ob = offset_behind, ka = before.curvature, kb = behind.curvature;
-  if (oa == ob && is_cusp(c, d) && meet_behind_cusp(before, behind, oa, w)) return true;
+  if (oa == ob && turns_back(c, d) && meet_behind_cusp(before, behind, oa, w)) return true;
   if (std::abs(c) < kSmallTurn) {
     if (d < 0 || oa != ob) return false;
     *w = oa * (left_of(before.u) -

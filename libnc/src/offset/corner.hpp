@@ -87,6 +87,12 @@ enum class Turn : uint8_t { straight, inner, obtuse, acute };
 /// Which kind of corner this is for a tool at the signed offset. Of a cusp, where the path goes straight back, the curvatures tell on which side it does.
 Turn classify(const Leg& before, const Leg& behind, double offset);
 
+/// Does the path turn back by half a turn, as far as the digits of its words can tell?
+bool is_cusp(const Leg& before, const Leg& behind);
+
+/// Sine of the turn to the left; of a cusp its sign is that of the side on which the two blocks lie apart, which the curvatures tell.
+double sine_of_turn(const Leg& before, const Leg& behind);
+
 /// The path turns towards the tool from one vector at right angles to the next one: an arc about such a corner would lead into it.
 bool turns_to_tool(Vec2 before, Vec2 behind, double offset);
 
