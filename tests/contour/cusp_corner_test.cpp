@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
-#include "support/seeds.hpp"
 #include "support/pull.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -26,8 +26,7 @@ struct Track {
   double sense = 1, radius = 0;
   /// Its radius is the one at the corner: at both ends of an arc they differ by the last digits of the words.
   Track(const nc_move& move, bool corner_at_end)
-      : start(move.machine_start.v[0], move.machine_start.v[1]), end(move.machine.v[0], move.machine.v[1]), center(move.machine_center[0], move.machine_center[1]), round(move.plane != NC_PLANE_NONE),
-        sense(move.ccw ? 1 : -1), radius(std::abs((corner_at_end ? end : start) - center)) {}
+      : start(move.machine_start.v[0], move.machine_start.v[1]), end(move.machine.v[0], move.machine.v[1]), center(move.machine_center[0], move.machine_center[1]), round(move.plane != NC_PLANE_NONE), sense(move.ccw ? 1 : -1), radius(std::abs((corner_at_end ? end : start) - center)) {}
   double sweep_to(Point place) const {
     double angle = sense * std::arg((place - center) / (start - center));
     if (angle < -1e-9) angle += 2 * kPi;

@@ -154,6 +154,18 @@ TEST(Meeting, AWholeCircleInFrontOfAnArcThatStandsByItself) {
   EXPECT_EQ(path_of("G3 I-4. J4.7 F100\nG2 X2. Y1.4 R-5.6\nM30").size(), 2u);  // the two would not meet
 }
 
+// Of the same sense: the second one is none by itself, since its ends are farther apart than twice its radius.
+TEST(Meeting, AnArcOfARadiusThatIsNoneByItselfTouchesTheCircleBeforeFromInside) {
+  const Path path = path_of("G1 X-20. F100\nG2 I20.\nX10. Y-10. R10.\nM30");
+  EXPECT_EQ(path, (Path{"line -20 0 0", "cw 20 0 0 c0,0", "cw 10 -10 0 c10,0"}));
+  const Outcome run = run_of("G1 X12.816 Y2.506 F500\nG2 I-0.382948 J10.731673\nG2 X14.964342 Y21.552032 R7.930520\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  ASSERT_EQ(run.moves().size(), 3u);
+  EXPECT_NEAR(run.moves()[1].machine.v[0], 4.428, 1e-3);
+  EXPECT_NEAR(run.moves()[1].machine.v[1], 20.396, 1e-3);
+  EXPECT_EQ(alarm_of("G1 X-20. F100\nG2 I20.\nX30. Y-10. R10.\nM30"), "P397 L3");  // outside of the circle: they do not meet
+}
+
 TEST(Meeting, AnArcOfARadiusWithoutAnEndIsNothingWhereNothingMeetsIt) {  // 6.5
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nG1 X5.\nM30"), (Path{"line -10 0 0", "line 5 0 0"}));
   EXPECT_EQ(path_of("G1 X-10. F100\nG2 R10.\nX0 R10.\nM30"), (Path{"line -10 0 0", "cw 0 0 0 c-5,-8.660254"}));
@@ -191,6 +203,12 @@ TEST(Meeting, Alarms) {
   EXPECT_EQ(alarm_of("G1 F100\nA10.\nG91 X60. Y0 A80.\nM30"), "P393 L3");
   EXPECT_EQ(alarm_of("G1 F100\nA10.\nM8\nM30"), "P394 L3");
   EXPECT_EQ(alarm_of("G1 F100\nA10.\nG0 X60. Y0\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG0 X60. Y0 A90.\nM30"), "P394 L3");  // App. 1: no G01, whatever else is in the block
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG90 G0 A90.\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG3 J10. H1\nG0 X60. Y0 A90.\nM30"), "P394 L3");
+  EXPECT_EQ(alarm_of("G1 F100\nG3 J10.\nG0 X60. Y0 A90.\nM30"), "P130 L3");  // a whole circle, and a rapid beside which A means nothing
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG2 X60. Y0 R40. A90.\nM30"), "P395 L3");  // an arc has no angle
+  EXPECT_EQ(alarm_of("G1 F100\nA10.\nG81 X60. Y0 Z-1. R0 A90.\nM30"), "P395 L3");
   EXPECT_EQ(alarm_of("G1 F100\nA10.\nM30"), "P394 L3");
   EXPECT_EQ(alarm_of("G1 F100\nA10. M0\nX60. Y0 A80.\nM30"), "P394 L2");
   EXPECT_EQ(alarm_of("G1 F100\nG3 J10. H1\nM8\nM30"), "P394 L3");

@@ -84,7 +84,7 @@ Execution check_axis_words(BlockContext& in, WordSlot second) {
   const WordSet auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
   WordSet known = in.axis_words.all() | set_of(second);
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::dwell) known |= addresses.set({Role::dwell_seconds});
-  if (has_line_angle(in)) known |= addresses.set({Role::line_angle});
+  if (says_line_angle(in)) known |= addresses.set({Role::line_angle});
   const WordSet unknown = in.words.present & in.dialect->axis_addresses & ~known;
   if (unknown == 0) return Execution::done;
   const bool aux = holds(auxiliary, first_of_block(*in.block, unknown)) && second != kNoWord;

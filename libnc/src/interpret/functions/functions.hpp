@@ -95,6 +95,7 @@ WordSlot second_function(const BlockContext& in);  ///< auxiliary.cpp: the secon
 
 /// Lines by their angle and blocks without an end (M700 13.8, 13.9): meeting.cpp.
 bool has_line_angle(const BlockContext& in);       ///< the block is a line, and A or ,A in it is its angle
+bool says_line_angle(const BlockContext& in);      ///< ... or the block has to be the second of a pair, which says itself what does not fit
 bool begins_or_ends_meeting(const BlockContext& in);
 Execution execute_motion_of_words(BlockContext& in);  ///< execute_block.cpp: the one-shot function, the cycle or the motion of the block
 Execution move_to_meet(BlockContext& in);          ///< such a block

@@ -223,10 +223,9 @@ bool stands_by_itself(const BlockContext& in, const MeetingFirst& first, const S
     const double h = second.circle.center.h - second.end.h, v = second.circle.center.v - second.end.v;
     return std::fabs(std::hypot(h, v) - std::hypot(start.h + h - second.end.h, start.v + v - second.end.v)) <= tolerance + 1e-9;
   }
-  if (meet && (first.by_radius || first.ccw == second.circle.ccw)) return true;
   const double chord = std::hypot(second.end.h - start.h, second.end.v - start.v);
-  if (chord > 2 * std::fabs(second.circle.radius) || chord == 0) return false;
-  if (!meet) return true;
+  if (chord / 2 - std::fabs(second.circle.radius) > tolerance || chord == 0) return false;  // 6.5: no circle of that radius goes through both
+  if (!meet || first.ccw == second.circle.ccw) return true;
   const PlanePoint center = center_of_radius(start, second.end, second.circle.radius, second.circle.ccw);
   const double a[2] = {first.center[0] - start.h, first.center[1] - start.v}, b[2] = {center.h - start.h, center.v - start.v};
   return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
@@ -280,6 +279,9 @@ Execution make_second(BlockContext& in, const InPlane& plane, const Second& seco
   return Execution::done;
 }
 
+/// A line without an end and a choice of the point are nothing by themselves; an arc without an end is.
+bool needs_second(const MeetingFirst& first) { return first.kind == Kind::line || first.choice >= 0; }
+
 Condition option_of(const MeetingFirst& first, const Second& second) {
   if (first.kind == Kind::line && second.line) return Condition::geometric_option;
   const bool by_radius = (second.arc && second.circle.by_radius) || (first.kind == Kind::arc && first.by_radius);
@@ -299,19 +301,19 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   in.state.meeting = {};
   const InPlane plane = in_plane(in);
   Second second = second_block(in, plane);
-  // A line without an end and a choice of the point are nothing by themselves; an arc without an end is.
-  const bool needs_second = first.kind == Kind::line || first.choice >= 0;
-  if (needs_second) {
+  const bool needed = needs_second(first);
+  if (needed) {
     const Execution did = check_second_words(in);
     if (did != Execution::done) return did;
     const Function motion = in.state.modal.of(Mode::motion);
     if (in.words.target.axes() == 0 || !free_for_lines(in) || !(motion == Function::linear || is_arc(motion))) return in.raise(Condition::geometric_no_line);
+    if (in.words.has(Role::line_angle) && !has_line_angle(in)) return in.raise(Condition::geometric_address, Role::line_angle, in.words.get(Role::line_angle));
     if (second.incremental) return in.raise(Condition::geometric_incremental);
     if (!second.line && !second.arc) return in.raise(Condition::geometric_address);
   }
   const bool both_by_radius = first.kind == Kind::arc && first.by_radius && second.arc && second.circle.by_radius;
   const bool pair = (second.line || second.arc) && !both_by_radius && !(first.kind == Kind::arc && second.arc && stands_by_itself(in, first, second, true));
-  if (!pair) return needs_second ? in.raise(Condition::geometric_address) : Execution::later;
+  if (!pair) return needed ? in.raise(Condition::geometric_address) : Execution::later;
   if (second.incremental) return in.raise(Condition::geometric_incremental);
   if (!choice_of_block(in, &second.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
   Execution did = check_second_words(in);
@@ -320,7 +322,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   const Meeting meeting = solve(in, first, second);
   if (meeting.bad != Condition::none) {
     // Two arcs that do not meet, and each of which means something by itself (6.4, 6.5), are no pair.
-    if (!needs_second && second.arc && stands_by_itself(in, first, second, false)) return Execution::later;
+    if (!needed && second.arc && stands_by_itself(in, first, second, false)) return Execution::later;
     return in.raise(meeting.bad);
   }
   return make_second(in, plane, second, meeting);
@@ -344,6 +346,8 @@ bool has_line_angle(const BlockContext& in) {
   if (!in.state.modal.is(Function::linear) || !free_for_lines(in)) return false;
   return w.has_angle || !word_is_taken(in);
 }
+
+bool says_line_angle(const BlockContext& in) { return has_line_angle(in) || needs_second(in.state.meeting); }
 
 bool begins_or_ends_meeting(const BlockContext& in) {
   const Command& w = in.words;
