@@ -99,6 +99,7 @@ TEST(HxBlocks, HaveOneWordThatCallsBehindThem) {  // 14.1.5, 14.1.6
   EXPECT_EQ(run("T5 M8"), "1") << "M8 calls nothing";
   for (const char* block : {"M98 P30 T5", "T5 M98 P30", "X5. M98 P30 L2 T5", "M30 T5", "M02 T5"}) EXPECT_EQ(run(block), "F_82001 The word T5 is not possible in this block.") << block;
   EXPECT_EQ(run("M98 P30 M6"), "F_82001 The word M06 is not possible in this block.");
+  EXPECT_EQ(run("M99 T5"), "F_82001 The word T5 is not possible in this block.") << "of a sub program it would return without the call";
 }
 
 TEST(HxBlocks, CodesThatKeepTheirMeaningCallNothing) {  // 14.1.3 (2), 14.1.4 (3)

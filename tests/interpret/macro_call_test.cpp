@@ -244,6 +244,28 @@ TEST(CodeCall, ToolChangeMacro) {  // 13.5.2: the code is not output; T is outpu
   EXPECT_EQ(run.var(101), 6);
 }
 
+TEST(CodeCall, AsM98HasNoPlaceBesideAnotherWayOn) {  // 13.5.2 (1): M50 is M98 P9020, and two of M98 M99 M02 M30 are P33 (13.3.1)
+  Bench bench;
+  bench.add("O30", "#100=1\nM99\n");
+  bench.add("O31", "#100=2\nM99 M50\n");
+  bench.add("O9020", "#101=1\nM99\n");
+  bench.param("7001", "50").param("7002", "0").param("7003", "9020").param("7312", "0").param("7313", "9020");
+  bench.param("7201", "120").param("7202", "0").param("7203", "9020");
+  bench.param("7401", "1").param("7402", "D").param("7403", "0").param("7404", "9020").param("7405", "146");
+  for (const char* block : {"M98 P30 M50", "M50 M98 P30", "M98 P30 T5", "G120 M98 P30", "X5. M98 P30 L2 T5", "M198 P30 M50", "M98 P30 M198 P30", "M30 T5", "M50 M02", "M99 M50", "D2000 M98 P30"}) {
+    const Outcome run = bench.at(0, 0, 0).run(std::string("#100=0 #101=0 #146=0\n") + block + "\nM30");
+    EXPECT_EQ(run.alarm, "P33") << block;
+    EXPECT_EQ(run.alarm_line, 2u) << block;
+    EXPECT_EQ(run.var(100) + run.var(101) + run.var(146), 0) << block;
+  }
+  EXPECT_EQ(bench.run("M98 P31\nM30").alarm, "P33") << "M99 would return without the call";
+  Outcome run = bench.run("#101=0\nT5 M50\nM30");  // two that would call, and none of them is M98: the second is an ordinary code (13.5.3 (5))
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.aux(), "M50 M30");
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(bench.run("#101=0\nM00 T5\nM30").var(101), 1);
+}
+
 TEST(CodeCall, SAndTAndB) {
   Bench bench;
   bench.add("O8", "#100=#19\n#101=#20\n#102=#2\nM99\n");

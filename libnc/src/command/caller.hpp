@@ -19,7 +19,7 @@ struct Caller {
 /// of the vendor count. `in_cycle`: a fixed cycle is in force.
 Reading find_caller(const Block& block, FrontEnd& front, bool functions_only, bool in_cycle, Caller* caller);
 
-/// The block has a code of the control by which it goes on in another program, or ends this one.
+/// The block has a code of the control by which it goes on in another program, or returns from this one, or ends it.
 Reading goes_on_elsewhere(const Block& block, FrontEnd& front, bool* elsewhere);
 
 }  // namespace nc

@@ -32,22 +32,28 @@ Execution apply_codes_before(Interpreter& in, unsigned at) {
   return did;
 }
 
-/// A call as M98: the rest of the block is executed as if the code was not there, then the program is called.
-Execution run_rest_first(Interpreter& in, const Caller& caller) {
-  const Block* original = in.block;
-  Block& copy = *in.rewritten;
-  copy_without(*original, caller.at, copy);
-  in.block = &copy;
-  in.after_block = caller.call;
-  if (!in.dialect->rules.code_call.one_in_block) return Execution::done;
-  bool elsewhere = false;  // there is no place behind the block, where the program could be called
-  Execution did = in.executed(goes_on_elsewhere(copy, in.front, &elsewhere));
+/// A word that calls as M98 has no place beside a code by which the block goes on in another program, returns, or ends this one: one of them would be lost
+/// (M700 13.5.2 (1), 13.3.1; HX 14.1.5). Nor, where the family says so, has a second word that would call.
+Execution check_calls_alone(Interpreter& in, const Caller& caller) {
+  const bool one = in.dialect->rules.code_call.one_in_block;
+  bool elsewhere = false;
+  Execution did = in.executed(goes_on_elsewhere(*in.block, in.front, &elsewhere));
   if (did != Execution::done) return did;
-  if (elsewhere) return in.raise(Condition::illegal_address, caller.word, caller.value);
+  if (elsewhere) return in.raise(one ? Condition::illegal_address : Condition::format_error, caller.word, caller.value);
+  if (!one) return Execution::done;
   Caller other;
-  did = in.executed(find_caller(copy, in.front, false, false, &other));
+  did = in.executed(find_caller(*in.block, in.front, false, false, &other));
   if (did != Execution::done || other.call == nullptr) return did;
   return in.raise(Condition::illegal_address, other.word, other.value);
+}
+
+/// A call as M98: the rest of the block is executed as if the code was not there, then the program is called.
+Execution run_rest_first(Interpreter& in, const Caller& caller) {
+  Block& copy = *in.rewritten;
+  copy_without(*in.block, caller.at, copy);
+  in.block = &copy;
+  in.after_block = caller.call;
+  return check_calls_alone(in, caller);
 }
 
 /// The common variable in which the called program finds the value of the word: of an ASCII code, or of a tool number, which is a whole one.
@@ -127,9 +133,8 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
   if (caller.ascii && std::fabs(caller.value) > in.dialect->rules.range.largest_calling_value) return in.raise(Condition::value_range, caller.word, caller.value);
   show_code(in, caller);
   if (type_of_call(in, caller) == CodeCallType::sub) {
-    did = set_variable_of_call(in, caller);
-    if (did != Execution::done) return did;
-    return run_rest_first(in, caller);
+    did = run_rest_first(in, caller);
+    return did == Execution::done ? set_variable_of_call(in, caller) : did;
   }
   *taken = true;
   did = apply_codes_before(in, caller.at);

@@ -7,12 +7,12 @@
 namespace nc {
 namespace {
 
-/// M98 or M99 beside another of M98 M99 M02 M30: only the first would ever act.
+/// M98, M198 or M99 beside another of these, M02 or M30: only the first would ever act.
 bool two_ways_on(const BlockContext& in) {
   unsigned ways = 0;
   bool call = false;
   for (const Auxiliary& m : in.words.auxiliary) {
-    const bool here = m.function == MiscFunction::call_sub || m.function == MiscFunction::return_sub;
+    const bool here = calls_program(m.function) || m.function == MiscFunction::return_sub;
     call = call || here;
     ways += here || m.function == MiscFunction::program_end ? 1u : 0u;
   }
