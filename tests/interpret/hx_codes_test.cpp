@@ -38,7 +38,7 @@ const CodeRow kRows[] = {
     {"G21", "G20\nG21\nX1.\nX5000", {"rapid 1 0 0 0", "rapid 5 0 0 0"}, "M30", {}},
     {"G22", "X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nY20.", {"rapid -20 0 0 0", "rapid -20 20 0 0"}, "M30",
      {{"X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nX0", "NC-LIMIT"}, {"X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nX20.", "NC-LIMIT"},
-      {"G22", "NC-WORDS"}, {"X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nG23\nG22", "NC-WORDS"}}},
+      {"G22", "NC-WORDS"}, {"X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nG23\nG22\nX0", "NC-LIMIT"}}},
     {"G23", "X-20.\nG22 X10. Y10. Z10. I-10. J-10. K-10.\nG23\nX0", {"rapid -20 0 0 0", "rapid 0 0 0 0"}, "M30", {}},
     {"G27", "X5.\nG27 X0", {"rapid 5 0 0 0", "rapid 0 0 0 0"}, "M30", {{"G27 X5.", "F_82209"}, {"G27", "NC-WORDS"}, {"G51 X0 Y0 P2000\nG27 X0", "NC-MODE"}}},
     {"G28", "X5. Y5.\nG28 X10.", {"rapid 5 5 0 0", "rapid 10 5 0 0", "rapid 0 5 0 0"}, "M30", {{"G28", "NC-WORDS"}, {"G68 X0 Y0 R30.\nG28 X0", "NC-MODE"}}},

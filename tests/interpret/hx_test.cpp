@@ -196,6 +196,63 @@ TEST(Hx, AWayThroughTheAreaOfTheStrokeCheckIsProhibited) {  // 15.5.3
   EXPECT_EQ(outside("X70.\nG03 X70. Y40. J20. F100\n"), "");
 }
 
+TEST(Hx, AnAreaOfTheStrokeCheckHasBothPointsOfEachAxis) {  // 15.5.3
+  const auto detail = [](const std::string& text) {
+    const Outcome run = hx(text + "\nM30");
+    return run.alarm + " " + run.alarm_detail;
+  };
+  EXPECT_EQ(detail("G22 X40. Y10. I30."), "NC-WORDS The block needs the word J.");
+  EXPECT_EQ(detail("G22 X40. I30. K5."), "NC-WORDS The block needs the word Z.");
+  EXPECT_EQ(alarm_of("G22 X40. I30. Y5. J5.\nM30"), "F_82002");  // "I > X": the two are not the same
+  // The printed G22 X-120 Y-100 I-190 J-150 names no Z: the area goes on along it without an end.
+  const std::string printed = "G22 X-120. Y-100. I-190. J-150.\nG00 Z-500.\n";
+  EXPECT_EQ(alarm_of(printed + "X-110. Y-90.\nX-130.\nM30"), "");
+  EXPECT_EQ(alarm_of(printed + "X-110. Y-110.\nX-130.\nM30"), "NC-LIMIT");
+  // While an area guards an axis, another one does not drop it unsaid.
+  const std::string full = "G22 X20. Y20. Z20. I10. J10. K-10.\n";
+  EXPECT_EQ(detail(full + "G22 X40. I30."), "NC-WORDS The block needs the word Y.");
+  EXPECT_EQ(detail(full + "G22 X40. I30. Y5. J9."), "NC-WORDS The block needs the word Z.");
+  EXPECT_EQ(alarm_of(full + "G22 X40. I30. Y5. J9. Z5. K0.\nM30"), "");
+  EXPECT_EQ(alarm_of(full + "G23\nG22 X40. I30.\nM30"), "");
+}
+
+TEST(Hx, TheAreaOfTheStrokeCheckIsStored) {  // 15.5.3 "Stored Stroke Check", 3.2 PI 148
+  const std::string full = "G22 X20. Y20. Z20. I10. J10. K-10.\n";
+  Bench bench(NC_DIALECT_HX);
+  Outcome run = bench.run("G22\nM30");
+  EXPECT_EQ(run.alarm + " " + run.alarm_detail, "NC-WORDS G22 needs a word that is not there.");  // there is none yet
+  EXPECT_EQ(bench.at(0, 0, 0).run(full + "G23\nG00 X5. Y15.\nG22\nX15.\nM30").alarm, "NC-LIMIT");
+  EXPECT_EQ(bench.at(0, 0, 0).run("G00 X5. Y15.\nX15.\nX5.\nG22\nX15.\nM30").alarm_line, 5u);  // in the next program too, where it is off until G22
+  Bench start(NC_DIALECT_HX);
+  start.param("3148", "0");
+  run = start.run("G00 X5.\nM30");
+  EXPECT_EQ(run.alarm + " " + run.alarm_detail, "NC-LIMIT G22 is in force from the start of the program, and no area has been given yet. Program G22 with its area, or G23.");
+  EXPECT_EQ(run.alarm_line, 1u);
+  EXPECT_EQ(run.path(), Path{});
+  EXPECT_EQ(start.at(0, 0, 0).run("M08\nG28 X0\nG23\nG00 X5.\nM30").alarm, "");
+  EXPECT_EQ(start.at(0, 0, 0).run("G81 Z-5. R2. F100\nM30").alarm, "NC-LIMIT");
+  EXPECT_EQ(start.at(0, 0, 0).run(full + "G00 X5.\nM30").alarm, "");
+  EXPECT_EQ(start.at(0, 0, 0).run("G00 X5. Y15.\nX15.\nM30").alarm_line, 2u);  // in force with the area of the program before
+  ASSERT_EQ(nc_reset(start.control(), 0), NC_OK);
+  EXPECT_EQ(start.at(0, 0, 0).run("G00 X5. Y15.\nX15.\nM30").alarm_line, 2u);
+  // What was read ahead and taken back has not been stored.
+  Bench back(NC_DIALECT_HX);
+  back.start("G00 X1.\n" + full + "G23\nM30");
+  Step step;
+  ASSERT_EQ(back.pull(&step), NC_OK);
+  const nc_axes zero{};
+  back.finish();
+  ASSERT_EQ(back.rewind(0, zero), NC_OK);
+  EXPECT_EQ(back.run("G22\nM30").alarm, "NC-WORDS");
+}
+
+TEST(Hx, ASkipIsFedPerMinute) {  // 4.9, 5.2: the speed of the spindle says nothing of a probe
+  const Outcome run = hx("G95 S100 M03\nG31 X100. F0.1\nM30");
+  EXPECT_EQ(run.alarm + " " + run.alarm_detail, "F_84020 A skip is fed per minute. Program G94 and F in front of it.");
+  EXPECT_EQ(hx("G95 S100 M03\nG94 G31 X100. F100.\nM30").alarm, "");
+  EXPECT_EQ(hx("G31 X100.\nM30").alarm_detail, "The feed rate of the skip is 0. Program F in this block or set the skip feed rate.");
+}
+
 TEST(Hx, TheSkipPositionIsOfAllAxes) {  // 14.2.3 (7)
   Bench bench(NC_DIALECT_HX);
   bench.skip_at = [](const nc_item&) { return std::optional<double>(0.5); };

@@ -16,14 +16,14 @@ enum class Condition : uint16_t {
   illegal_g, no_function, must_stand_alone, words_missing, center_missing,
   // motion
   no_feed, arc_deviation, arc_displaced, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
-  no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, no_reference, soft_limit, spindle_not_turning,
+  no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, skip_feed_mode, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
   comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_reversal, corner_next_short,
   corner_motion, pre_read, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
   nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero, circle_radius,
   reference_compare, reference_check_m, start_return_m,
-  measure_axis, measure_h, measure_no_length, measure_signal, stroke_check,
+  measure_axis, measure_h, measure_no_length, measure_signal, stroke_check, stroke_area_unknown,
   not_accepted, in_high_accuracy, high_speed_3,
   // offsets
   data_input_kind, data_input_number, local_in_extended,

@@ -227,6 +227,7 @@ Committed Commit::commit(const Item& item, const Named& named) {
     if (any_limit_ && !inside_limits(curve_)) return Committed::soft_limit;
     if (move.stroke_box != 0) [[unlikely]] {  // M700 15.7 (2)
       const StrokeBox& box = (*config_.stroke_boxes)[move.stroke_box - 1];
+      if (box.unknown) return Committed::unknown_area;
       if (box.prohibits(machine_) || box.prohibits(end) || (box.way && enters(box))) return Committed::prohibited;
     }
     if (shape != nullptr) ++shape_count_;

@@ -45,6 +45,7 @@ struct Named {
 enum class Committed : uint8_t {
   yes,
   nothing,       ///< the item is a move without length: it is left out
+  unknown_area,  ///< G22 is in force and no area is known: nothing was committed
   prohibited,    ///< the move starts or ends in the area of G22: nothing was committed
   displaced,     ///< the axes are not where the curve of the move begins: nothing was committed
   at_pole,       ///< the rotary axis of polar coordinate interpolation would jump: nothing was committed

@@ -155,8 +155,8 @@ Fault PartSystem::refused(Committed committed) const {
     fault.condition = map == AxisMap::Kind::polar ? Condition::polar_state : map != AxisMap::Kind::none ? Condition::mill_state : curve.shape != nullptr ? Condition::displaced : Condition::arc_deviation;
     return fault;
   }
-  if (committed == Committed::prohibited) {
-    fault.condition = Condition::stroke_check;
+  if (committed == Committed::prohibited || committed == Committed::unknown_area) {
+    fault.condition = committed == Committed::prohibited ? Condition::stroke_check : Condition::stroke_area_unknown;
     return fault;
   }
   fault.condition = Condition::soft_limit;

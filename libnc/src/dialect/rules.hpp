@@ -369,8 +369,8 @@ struct CoordinateRules {
   bool pole_stays = false;
   /// The stroke check looks at the way of a block (HX 15.5.3). Otherwise at its start and end (M700 15.7).
   bool stroke_check_sees_way = false;
-  /// The code of the stroke check without an area is a fault (HX 15.5.3: the words are the area). Otherwise words that are not there are 0, and nothing is
-  /// checked (M700 15.7 (2), (3)).
+  /// An area of the stroke check has both points of each axis that it limits, and is stored: the code alone takes it again, and so does a program that begins in
+  /// the mode (HX 15.5.3, 3.2). Otherwise words that are not there are 0, and the code alone checks nothing (M700 15.7 (2), (3)).
   bool stroke_check_needs_area = false;
   /// The shift of coordinate system setting ends with the program and with a reset (Series 8 G92). Otherwise it stays (M700 9.1).
   bool shift_ends_with_program = false;

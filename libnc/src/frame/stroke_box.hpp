@@ -16,10 +16,13 @@ struct StrokeBox {
   bool way = false;                        ///< the way of a block is looked at (HX 15.5.3), and not its two ends (M700 15.7)
   bool outside = false;                    ///< it is what lies around the box that is prohibited (HX 15.5.3)
 
+  bool unknown = false;                    ///< the check is in force and has no area yet: no way is known to be allowed (HX PI 148)
+
+  bool limits_any() const { return axis[0] >= 0 || axis[1] >= 0 || axis[2] >= 0; }
   bool operator==(const StrokeBox& other) const {
     for (unsigned i = 0; i < kBasicAxes; ++i)
       if (axis[i] != other.axis[i] || turns[i] != other.turns[i] || low[i] != other.low[i] || high[i] != other.high[i]) return false;
-    return outside == other.outside && way == other.way;
+    return outside == other.outside && way == other.way && unknown == other.unknown;
   }
 
   /// The position is in the area. The border belongs to the area: 15.7 (8) prints 45 <= Z <= 315.
@@ -56,9 +59,7 @@ struct StrokeBox {
   }
   bool any_turns() const { return turns[0] || turns[1] || turns[2]; }
   bool prohibits(const AxisVec& machine) const {
-    bool any = false;
-    for (const int8_t of : axis) any = any || of >= 0;
-    return any && holds(machine) != outside;
+    return limits_any() && holds(machine) != outside;
   }
 };
 

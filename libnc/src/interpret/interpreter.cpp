@@ -117,7 +117,7 @@ InitialValues Interpreter::initial_values() const {
   if (settings.start_synchronous) modal.set(Function::feed_per_revolution);  // M700 7.4 note 6, 7.5 (3)
   if (settings.start_high_accuracy) modal.set(Function::high_accuracy_mode);  // M700 13.15 (4)
   if (settings.start_linear) modal.set(Function::linear);  // HX 3.2
-  if (settings.start_stroke_check) modal.set(Function::stroke_check_on);  // HX 3.2: no area yet
+  if (settings.start_stroke_check) modal.set(Function::stroke_check_on);  // HX 3.2
   if (settings.start_scaling) modal.set(Function::scaling_on);
   if (settings.start_rotation) modal.set(Function::rotation_on);
   modal.set(settings.start_plane);
@@ -143,6 +143,15 @@ void Interpreter::start_maps(ProgramMaps* maps) {
   maps->rotation_deg = settings.rotation_deg;
   maps->rotation_center[0] = maps->rotation_center[1] = 0;
   state.rotated = true;
+}
+
+/// HX 3.2: the stroke check begins with the program, for the area that was given last. Without one nothing may move.
+void Interpreter::start_stroke_check() {
+  if (!settings.start_stroke_check) return;
+  StrokeBox box = records->area.box;
+  box.outside = settings.box_outside;
+  box.unknown = !box.limits_any();
+  state.stroke_box = stroke_boxes.intern(box) + 1;
 }
 
 void Interpreter::refresh_derived() {
@@ -176,6 +185,7 @@ void Interpreter::reset(bool keep_modal) {
   ProgramRecords left = *records;
   begin_program(left, keep_modal, dialect->rules.reference.forgets_with_program);
   if (!keep_modal) start_maps(&left.maps);
+  if (!keep_modal) start_stroke_check();
   records.change_from_outside(left);
   program_changed();
   refresh_derived();

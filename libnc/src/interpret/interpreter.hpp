@@ -175,6 +175,7 @@ struct Interpreter : BlockContext {
 
   /// Makes everything that follows from the groups of the state anew, after they have been assigned.
   void start_maps(ProgramMaps* maps);
+  void start_stroke_check();
   void refresh_derived();
 
  private:

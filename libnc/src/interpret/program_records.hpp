@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include "base/optional_double.hpp"
+#include "frame/stroke_box.hpp"
 #include "frame/tool_life.hpp"
 #include "macro/journalled.hpp"
 #include "macro/variables.hpp"
@@ -115,6 +116,12 @@ struct ShiftKept {
   bool operator==(const ShiftKept&) const = default;
 };
 
+/// The area that the newest G22 has given, where the family keeps it (CoordinateRules::stroke_check_needs_area).
+struct StoredArea {
+  StrokeBox box;
+  bool operator==(const StoredArea&) const = default;
+};
+
 /// Where the newest G31 has ended, workpiece coordinates (#5061).
 struct SkipPosition {
   AxisVec work;
@@ -165,6 +172,7 @@ struct MachineRecordsLife {
   WorkpieceCounts workpieces;
   InputAnswer answer;
   ShiftKept shift_kept;
+  StoredArea area;
   ToolsInUse tools;
   bool operator==(const MachineRecordsLife&) const = default;
 };

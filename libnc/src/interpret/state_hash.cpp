@@ -96,6 +96,10 @@ class Hash {
     const auto& [feed, motion, feed_mode, any] = left;
     add(feed, motion, feed_mode, any);
   }
+  void add_one(const StrokeBox& box) {
+    const auto& [axis, turns, low, high, way, outside, unknown] = box;
+    add(axis, turns, low, high, way, outside, unknown);
+  }
   void add_one(const ProgramRef& program) {
     const auto& [file, number, offset, line] = program;
     add(file, number, offset, line);
@@ -179,8 +183,7 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);
     if (stroke_box != 0) {
-      const auto& [axis, turns, low, high, way, outside] = in.stroke_boxes[stroke_box - 1];
-      hash.add(axis, turns, low, high, way, outside);
+      hash.add(in.stroke_boxes[stroke_box - 1]);
     }
   }
   {
@@ -251,8 +254,8 @@ void add_records(Hash& hash, const ProgramRecords& records) {
     hash.add(maps);
   }
   {
-    const auto& [midpoints, skip, output, workpieces, answer, shift_kept, tools] = static_cast<const MachineRecordsLife&>(records);
-    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at, tools);
+    const auto& [midpoints, skip, output, workpieces, answer, shift_kept, area, tools] = static_cast<const MachineRecordsLife&>(records);
+    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at, area.box, tools);
     for (const InterfaceOutput& word : output) hash.add(word.bits);
   }
 }

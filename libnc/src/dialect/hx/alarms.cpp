@@ -67,6 +67,7 @@ const AlarmRow kConditions[] = {
     {C::no_feed, "F_84020", nullptr},            // 5.2
     {C::measure_signal, "F_84022", nullptr},     // 4.10
     {C::skip_feed_zero, "F_84020", nullptr},     // 4.9: the F of 5.2
+    {C::skip_feed_mode, "F_84020", nullptr},
     {C::arc_feed_zero, "F_84020", nullptr},
 };
 

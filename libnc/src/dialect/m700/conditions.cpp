@@ -48,6 +48,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::cycle_in_compensation, "P155", nullptr},
     {C::skip_in_compensation, "P608", nullptr},
     {C::skip_feed_zero, "P603", nullptr},
+    {C::skip_feed_mode, "P603", nullptr},  // does not occur: the feed of a skip is its own (15.2)
     {C::no_reference, "P430", nullptr},
     {C::soft_limit, "M01-0007", nullptr},
     {C::spindle_not_turning, "P132",
@@ -99,6 +100,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::measure_no_length, "P606", nullptr},
     {C::measure_signal, "P607", nullptr},
     {C::stroke_check, "P452", nullptr},        // 15.7 prints no number; this one is from later manuals of the family
+    {C::stroke_area_unknown, "P452", nullptr},  // does not occur: words that are missing are 0 (15.7 (2))
     {C::not_accepted, "P29", nullptr},         // 13.15
     {C::in_high_accuracy, "P126", nullptr},    // 13.15, appendix 1
     {C::high_speed_3, "P65", nullptr},         // appendix 1

@@ -62,7 +62,8 @@ Execution do_skip(BlockContext& in) {
   const bool inch = in.state.modal.is(Function::inch);
   double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
   if (in.dialect->rules.skip.feed_is_modal) {
-    feed = in.state.modal.is(Function::feed_per_minute) ? feed_mm_min(in) : 0;
+    if (!in.state.modal.is(Function::feed_per_minute)) return in.raise_code(Condition::skip_feed_mode, *w.one_shot);
+    feed = feed_mm_min(in);
   } else if (w.has(Role::feed)) {
     const Execution did = feed_of(in, &feed);
     if (did != Execution::done) return did;
