@@ -310,6 +310,13 @@ TEST(Series8, AnArcHasRadiusOrCentre) {  // G02
   EXPECT_EQ(alarm_of("F50\nG02X2Y0R5"), "");
 }
 
+TEST(Series8Cycle, CutsDownwardsFromRInAllButG89) {  // G80: "the R-plane is typically a clearance position", "the Z-plane the final depth"; both are saved
+  const Outcome run = series8("M03S600F50\nG89X1R-9Z-5I.5J0\nG81X10");
+  EXPECT_EQ(run.alarm + " " + run.alarm_detail, "NC-RANGE R must be above the bottom.");  // it would go down to R in rapid traverse, through the part
+  EXPECT_EQ(run.path().back(), "rapid 1 0 0");
+  EXPECT_EQ(series8("M03S600F50\nG89X1R-9Z-5I.5J0\nG81X10R2").alarm, "");
+}
+
 TEST(Series8Cycle, WhatWouldCutTheWallIsAnAlarm) {  // G88, G89: "shifted off-center to allow passing the boring tool through the hole"
   for (const char* block : {"G89X3R-3Z-1", "G88X3R1Z-1"}) EXPECT_EQ(alarm_of(std::string("F100M3S100\nG00Z10\n") + block + "\nM30"), "NC-WORDS") << block;
 }

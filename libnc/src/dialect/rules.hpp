@@ -322,7 +322,7 @@ struct CycleRules {
   /// The code of a cycle begins its data anew: what its block does not give is not that of the cycle before (DGSHAPE G80 to G89: without Z nothing is
   /// drilled, without R the initial level is taken, without P there is no dwell). Otherwise they hold as long as the mode (M700 13.1.1).
   bool code_begins_data = false;
-  /// A bottom above R is a fault (LinuxCNC G81). Otherwise the hole is made upwards (M700 13.1.1).
+  /// A bottom above R is a fault (LinuxCNC G81; Series 8 G80: R is the clearance, Z the final depth, and both stay known from one cycle to the next). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
   /// The codes that stop the program act over the first hole of their block, "after positioning" (M700 13.1.1 (2)). Otherwise they act behind the block, as
   /// elsewhere (RS-274/NGC 3.8), or stand alone (DGSHAPE 2).

@@ -85,7 +85,8 @@ inline constexpr Rules kRules = {
               .tap_follows_spindle = true,
               .takes_length_number = true,
               .shift_needs_words = true,  // G88, G89
-              .shift_is_of_spindle = true},
+              .shift_is_of_spindle = true,
+              .bottom_is_below_r = true},
     .reference = {.remembered_axes_go = false,
                   .forgets_with_program = true,
                   .takes_rotary_axes = true,

@@ -270,7 +270,8 @@ Execution check_hole(BlockContext& in) {
     return in.raise(Condition::words_missing, Role::vector_x);
   const double depth = c.z_incremental ? -c.z : c.r - c.z;  // below R
   const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);
-  if (rules.bottom_is_below_r && c.has_z && same_kind && c.kind != CycleKind::back_bore_to_level && depth < 0) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
+  const bool cuts_upwards = c.kind == CycleKind::back_bore_to_level || c.kind == CycleKind::face_upwards;
+  if (rules.bottom_is_below_r && c.has_z && same_kind && !cuts_upwards && depth < 0) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
   // Series 8 G89, step 6: from below it cuts in the positive direction.
   if (c.kind == CycleKind::face_upwards && c.has_z && same_kind && !(depth < 0)) return in.raise(Condition::value_range, Role::basic_z, c.z);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
