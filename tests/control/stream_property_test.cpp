@@ -205,6 +205,23 @@ TEST(Rewind, WhatTheHostChangesStays) {  // nc/run.h: changed offsets and variab
   EXPECT_EQ(bench.work_offset_now(1, 2), 7);
 }
 
+TEST(Rewind, TheBlockInExecutionIsTheSameAgain) {  // M700 13.5.5: macro statements are executed together with the block before them
+  Bench bench;
+  bench.start("N1 G54 G0 X1.\nN2 #1=1\nN3 #500=#4314\nN4 G0 X2.\nN5 #501=#4314\nN6 #502=#4314\nM30");
+  const std::vector<Step> steps = bench.finish().steps;
+  const double expected[] = {1, 4, 4};
+  for (unsigned i = 0; i < 3; ++i) ASSERT_EQ(bench.var_now(500 + i), expected[i]);
+  unsigned marks = 0;
+  for (const Step& step : steps) {
+    if (step.item.kind != NC_ITEM_MARK || !step.item.u.mark.report) continue;
+    ++marks;
+    ASSERT_EQ(bench.rewind(step.item.serial, step.machine), NC_OK);
+    bench.finish();
+    for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(bench.var_now(500 + i), expected[i]) << "from line " << step.item.source.line;
+  }
+  EXPECT_EQ(marks, 7u);
+}
+
 TEST(Rewind, SwitchesActFromTheNextBlock) {  // M700 4.2 with a recalculation request
   Bench bench;
   bench.start("G0 X1.\n/X2.\nX3.\nM30");

@@ -31,7 +31,7 @@ struct Anything {
 template <class T, class... Base>
 concept HasOnly = requires { T{Base{}...}; }
 &&!requires { T{Base{}..., Anything{}}; };
-static_assert(HasOnly<State, StateValues, CallStack>);
+static_assert(HasOnly<State, StateValues, CallStack, ModesInExecution>);
 template <class... Group>
 struct Groups {
   static constexpr size_t kCount = sizeof...(Group);
@@ -39,13 +39,13 @@ struct Groups {
 };
 using AllGroups = Groups<BlockLife, MachinePosition, AppliedLength, ModalLife, ModalInProgram, ProgramLife, UntilReset, UntilOperatorReset, UntilPowerOff,
                          Derived>;
-static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack));
+static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack) + sizeof(ModesInExecution));
 
 // An example of a member outside the groups.
-struct OneMore : StateValues, CallStack {
+struct OneMore : StateValues, CallStack, ModesInExecution {
   bool one_more = false;
 };
-static_assert(!HasOnly<OneMore, StateValues, CallStack>);
+static_assert(!HasOnly<OneMore, StateValues, CallStack, ModesInExecution>);
 
 struct Bytes {
   std::string name;
@@ -109,7 +109,7 @@ Fields fields_at(const StateValues& state, const char* names, const Member&... m
 std::map<std::string, Fields> groups_of_state() {
   static const State state;
   std::map<std::string, Fields> groups;
-  NC_FIELDS(BlockLife, seq, repeat, owes_mark, stop_reading)
+  NC_FIELDS(BlockLife, seq, repeat, owes_mark, stop_reading, modes_ahead)
   NC_FIELDS(MachinePosition, machine)
   NC_FIELDS(AppliedLength, applied)
   NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,

@@ -7,13 +7,15 @@
 namespace nc {
 namespace {
 
-// What is kept of a state, in this order: its values, the call stack up to the last frame in use, the loops in use.
+// What is kept of a state, in this order: its values, the call stack up to the last frame in use, the loops in use, and the modes in execution where they
+// are not those of the values.
 constexpr size_t kDepth = sizeof(StateValues) + offsetof(CallStack, depth);
 constexpr size_t kFrames = sizeof(StateValues) + offsetof(CallStack, frame);
 
-/// Bytes of the state up to the end of the last frame in use; the loops in use follow.
+/// Bytes of the state up to the end of the last frame in use; the loops in use follow, and behind them the modes in execution.
 uint32_t head_size(const State& state) { return static_cast<uint32_t>(kFrames + (state.depth + 1u) * sizeof(CallFrame)); }
 uint32_t loops_size(const State& state) { return static_cast<uint32_t>(state.loop_count * sizeof(Loop)); }
+uint32_t modes_size(const State& state) { return state.modes_ahead ? sizeof state.executed : 0; }
 
 constexpr uint32_t kOrdinary = 736;  // bytes of a state with the main program and one or two further levels
 
@@ -51,7 +53,7 @@ void Checkpoints::save(const State& state) {
   } else {
     next_ = seq;
   }
-  const uint32_t head = head_size(state), size = head + loops_size(state);
+  const uint32_t head = head_size(state), loops = loops_size(state), modes = modes_size(state), size = head + loops + modes;
   uint32_t begin = next_ > oldest_ ? entry(next_ - 1).end : 0;
   if (begin + size > capacity_) {
     // The ring begins again: states that lie between the last state and the end of the ring are given up first.
@@ -61,7 +63,8 @@ void Checkpoints::save(const State& state) {
   // Entries lie in their order, so those that are in the way are the oldest ones.
   while (oldest_ < next_ && (next_ - oldest_ > mask_ || (entry(oldest_).begin < begin + size && entry(oldest_).end > begin))) ++oldest_;
   std::memcpy(bytes_ + begin, static_cast<const void*>(&state), head);
-  std::memcpy(bytes_ + begin + head, state.loop, loops_size(state));
+  std::memcpy(bytes_ + begin + head, state.loop, loops);
+  if (modes != 0) std::memcpy(bytes_ + begin + head + loops, static_cast<const void*>(&state.executed), modes);
   entry(seq) = Entry{begin, begin + size};
   next_ = seq + 1;
 }
@@ -91,7 +94,10 @@ void Checkpoints::restore(BlockSeq seq, State* state) {
   std::memcpy(static_cast<void*>(state), bytes_ + e.begin, kFrames);
   const uint32_t head = head_size(*state);
   std::memcpy(static_cast<void*>(state), bytes_ + e.begin, head);
-  std::memcpy(state->loop, bytes_ + e.begin + head, loops_size(*state));
+  const uint32_t loops = loops_size(*state), modes = modes_size(*state);
+  std::memcpy(state->loop, bytes_ + e.begin + head, loops);
+  if (modes != 0) std::memcpy(static_cast<void*>(&state->executed), bytes_ + e.begin + head + loops, modes);
+  else state->executed = state->modal;
   next_ = seq + 1;
 }
 

@@ -112,7 +112,7 @@ void BlockContext::keep_call() {
   ++state.seq;
   state.repeat = {};
   if (state.interrupt_depth != 0) note_interrupt_items();
-  checkpoints_.save(state);
+  keep_state();
 }
 
 void BlockContext::emit_stop_point(bool resume) {
@@ -125,10 +125,10 @@ void BlockContext::emit_stop_point(bool resume) {
 ModalId BlockContext::modal_now(bool executable) {
   // Macro statements and most moves change no mode: behind them the modal state is that of the mark before.
   if (!modal_unchanged_) newest_modal_ = modals.intern(state.modal);
-  if (modal_unchanged_ && !finished_behind_) return newest_modal_;
+  if (modal_unchanged_ && !state.modes_ahead) return newest_modal_;
   // M700 13.5.5: G codes beside G65 are pre-read modals; for #4201 and so on the block in execution is still the one before the call.
-  finished_behind_ = !executable;
-  if (executable) finished_modal = state.modal;
+  if (executable) state.executed = state.modal;
+  state.modes_ahead = !executable && !(state.executed == state.modal);
   return newest_modal_;
 }
 

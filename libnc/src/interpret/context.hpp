@@ -179,7 +179,6 @@ struct BlockContext {
   bool world_fresh = false;        ///< `world` is the answer to a sync and nothing has been emitted since
   bool begins_again = false;       ///< the block holds M99 of the main program, which its mark has to say
   bool ended = false, alarmed = false;
-  ModalState finished_modal;       ///< modal state after the last finished block; at a sync that is the block in execution (#4201...)
 
   /// The word with a meaning, kNoWord = the family has none; and the set of several. A word may have several meanings; the function in hand decides which one
   /// it asks for.
@@ -310,11 +309,16 @@ struct BlockContext {
  protected:
   static constexpr unsigned kReserve = 24;  ///< the most items that one step of a block makes
 
+  /// Keeps a checkpoint of the state, whose modes may have changed since the newest mark.
+  void keep_state() {
+    state.modes_ahead = !(state.executed == state.modal);
+    checkpoints_.save(state);
+  }
   void note_parameter(unsigned index, ParameterValue old);
   void note_interrupt_items();
   void emit_end();
   Item& next_item(ItemKind kind, bool block_end);
-  /// Id of the modal state, for a mark. When the block is executable, its modal state also becomes finished_modal.
+  /// Id of the modal state, for a mark. When the block counts as executed, its modal state is also that in execution.
   ModalId modal_now(bool executable);
   bool settings_stale_ = false;
   bool settings_of_moves_stale_ = true;   ///< they are interned anew with the next move, so that only moves take up numbers
@@ -325,7 +329,6 @@ struct BlockContext {
   static constexpr ModalId kNoModal = ~ModalId{0};
   ModalId newest_modal_ = kNoModal;  ///< modal state of the newest mark
   bool modal_unchanged_ = false;     ///< the modal state has not changed since the newest mark
-  bool finished_behind_ = false;     ///< a block that is not executable may have changed the modal state since the block of finished_modal
 };
 
 /// M700 12.1: an offset amount that is changed while it is in force acts from the next block on; a length acts with the next command of its axis.

@@ -196,13 +196,12 @@ void Interpreter::reset(bool keep_modal) {
   alarm_fault = Fault{};
   answered_ = ~BlockSeq{0};
   checkpoints_.clear();
-  checkpoints_.save(state);
+  keep_state();
   forget_vendor_call();
 }
 
 /// Forgets everything that was under way, because reading begins at another place.
 void Interpreter::forget_block() {
-  finished_modal = state.modal;
   newest_modal_ = kNoModal;
   queue.clear();
   waiting_ = false;
@@ -262,7 +261,7 @@ void Interpreter::set_machine(const AxisVec& machine) {
   }
   if (state.seq == 0) take_work_rotation(*this, true);
   checkpoints_.clear();
-  checkpoints_.save(state);
+  keep_state();
 }
 
 void Interpreter::clear_by_reset() {

@@ -83,7 +83,7 @@ struct Interpreter : BlockContext {
     state.machine = machine;
     displace_compensated(beside);
     moved_by_hand();
-    checkpoints_.save(state);
+    keep_state();
   }
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);

@@ -116,7 +116,7 @@ bool Interpreter::begin_interrupt(bool inside_block, unsigned items, const AxisV
   interrupted_.world_known = inside_block && answered == head;
   begin_interrupt_program(state, machine);
   announce(*this);
-  checkpoints_.save(state);
+  keep_state();
   return true;
 }
 

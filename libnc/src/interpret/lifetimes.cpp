@@ -49,6 +49,7 @@ void begin_program(State& state, const InitialValues& initial, bool mdi) {
   } else {
     set_initial_modes(state, before, initial);
   }
+  state.executed = state.modal;
 }
 
 void begin_program(ProgramRecords& records, bool mdi, bool forgets_midpoints) {

@@ -53,7 +53,7 @@ void Interpreter::enter_mdi(const ProgramRef& blocks) {
   state.frame[state.depth].modal_call = 0;  // no macro is called behind the moves of blocks that do not belong to the program
   state.spline_way = {};                    // the curve of fine segments begins again
   show_modal_call(*this);
-  checkpoints_.save(state);
+  keep_state();
 }
 
 Execution Interpreter::leave_mdi() {

@@ -19,6 +19,7 @@
 //   UntilPowerOff         yes          -          yes         yes          yes            -
 //   Derived            is made of the other groups whenever one of them has been assigned
 //   CallStack          is what M98 and G65 push and M99 pops; empty where a program or a text of MDI begins
+//   ModesInExecution   is set by each block that counts as executed; the modes that a program or a text of MDI begins with are its first value
 //
 //   M98, G65, M99   M700 13.3.1, 13.5.1: a program that is called uses and changes the modes of the program that calls it
 //   interrupt       M700 13.12. RETURNS: has the value from before the interrupt again; - : goes on with what the interrupt program made
@@ -187,6 +188,7 @@ struct BlockLife {
   Repeat repeat;                ///< of the next block; its mark carries it to the stages and to control, which drop what has been executed
   bool owes_mark = false;       ///< a block has called a program, which has returned, and its mark is still to be made
   bool stop_reading = false;    ///< an M code that prohibits reading ahead stood in the block before
+  bool modes_ahead = false;     ///< blocks that do not count as executed have changed `modal` since: it is not ModesInExecution::executed
 };
 
 /// Where the axes are.
@@ -306,7 +308,13 @@ struct CallStack {
   Loop loop[kMaxLoops];
 };
 
-/// All groups except the call stack: small, of fixed size, copied at every block.
+/// What is shown of the block in execution (#4201, #4301 ..., M700 13.5.5). Macro statements and calls are executed together with the block before them, so
+/// behind them that is still this block. It is copied into checkpoints only where it is not `modal` (BlockLife::modes_ahead).
+struct ModesInExecution {
+  ModalState executed;
+};
+
+/// All groups except the call stack and the modes in execution: small, of fixed size, copied at every block.
 struct StateValues : BlockLife,
                      MachinePosition,
                      AppliedLength,
@@ -319,7 +327,7 @@ struct StateValues : BlockLife,
                      Derived {};
 
 /// It has no members of its own: each member is in exactly one group (tests/interpret/lifetimes_test.cpp).
-struct State : StateValues, CallStack {
+struct State : StateValues, CallStack, ModesInExecution {
   /// Radius compensation is in force, in the plane or in space.
   bool compensated() const { return comp.side != 0 || space.on; }
   uint8_t any_mirror() const { return mirror | switch_mirror; }
@@ -335,6 +343,6 @@ struct State : StateValues, CallStack {
   }
 };
 // The call stack lies behind the values without a gap, so that a checkpoint copies the values and the frames in use in one piece.
-static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack) && alignof(CallStack) == alignof(State));
+static_assert(sizeof(State) == sizeof(StateValues) + sizeof(CallStack) + sizeof(ModesInExecution) && alignof(CallStack) == alignof(State));
 
 }  // namespace nc

@@ -163,9 +163,9 @@ class Hash {
 /// instead.
 void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
   {
-    const auto& [seq, repeat, owes_mark, stop_reading] = static_cast<const BlockLife&>(values);
+    const auto& [seq, repeat, owes_mark, stop_reading, modes_ahead] = static_cast<const BlockLife&>(values);
     static_cast<void>(seq);
-    hash.add(repeat, owes_mark, stop_reading);
+    hash.add(repeat, owes_mark, stop_reading, modes_ahead);
   }
   {
     const auto& [machine] = static_cast<const MachinePosition&>(values);
@@ -267,7 +267,7 @@ uint64_t state_hash(const Interpreter& in) {
   add_values(hash, in, in.state);
   add_calls(hash, in.state);
   add_values(hash, in, in.interrupted_state());
-  hash.add(in.finished_modal);
+  hash.add(in.state.executed);
   hash.add(in.input_wait.left);  // a wait comes to its end, though nothing else changes
   add_variables(hash, in);
   for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));

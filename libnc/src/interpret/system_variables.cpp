@@ -295,7 +295,7 @@ Eval give_group(Access& a, const ModalState& modal) {
   return give(a, code / 10.0);
 }
 Eval read_group_ahead(Access& a) { return give_group(a, a.in.state.modal); }
-Eval read_group_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_group(a, a.in.finished_modal) : Eval::need_sync; }
+Eval read_group_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_group(a, a.in.state.executed) : Eval::need_sync; }
 
 /// M700 13.5.5 (10.10): the number that the name of the file stands for; where it is no number the variable is vacant ("blank").
 Eval give_program(Access& a, uint32_t number) {
@@ -331,7 +331,7 @@ Eval read_extended_work(Access& a) {
   return give(a, system < Frames::kStandardSystems ? 0 : system - Frames::kStandardSystems + 1);
 }
 Eval read_word_ahead(Access& a) { return give_word(a, a.in.state.modal); }
-Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.finished_modal) : Eval::need_sync; }
+Eval read_word_now(Access& a) { return world_known(a, NC_SYNC_MODAL) ? give_word(a, a.in.state.executed) : Eval::need_sync; }
 
 /// The modal state when the interrupt program was entered, which can be read only in it (M700 13.12).
 Eval read_group_interrupt(Access& a) {
