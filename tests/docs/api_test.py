@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every function and callback of the public headers says in its comment what each parameter is, what it returns and in which thread it may be
-called; every parameter has a name. Every member of a public struct says what it is, and types.h names the structs that begin with their size. What the comments name is declared.
+called; every parameter has a name, and a number that has a unit says which. Every member of a public struct says what it is, and types.h names the structs that begin with their size. What the comments name is declared.
 Each header has one concept, as its length shows."""
 import os
 import pathlib
@@ -84,6 +84,23 @@ def unlisted_structs(headers):
     return sorted(sized ^ named)
 
 
+UNIT = re.compile(r"\b(?:mm|deg|s|ms|rev|r/min|seconds|revolutions|units?|share)\b|1 = 100 %|must be 0")
+
+
+def without_unit(text):
+    """Members and parameters of the type double whose comment says neither their unit nor that they have none (or where it is said), as "owner: name". Those of
+    the type nc_axes have theirs there."""
+    bare = [f"{name}: {member.split('[')[0]}" for name, body in STRUCT.findall(text)
+            for member, comment in re.findall(r"^ *double ([^;]*); */\*\*<(.*?)\*/", body, re.S | re.M) if not UNIT.search(comment)]
+    for match in DECLARATION.finditer(text):
+        row = match.groupdict()
+        for name in re.findall(r"\bdouble\s*\*?\s*(\w+)\s*(?:,|$)", row["parameters"] or row["parameters2"] or row["parameters3"] or ""):
+            said = re.search(rf"@param {name}\b(.*?)(?=@param|@return|\*/)", row["comment"] or "", re.S)
+            if not said or not UNIT.search(said.group(1)):
+                bare.append(f"{row['name'] or row['name2'] or row['name3']}: {name}")
+    return bare
+
+
 NAME = re.compile(r"\b(?:nc_[a-z0-9_]+\(\)|NC_[A-Z0-9_]*[A-Z0-9]\b(?!_))")
 
 
@@ -98,6 +115,10 @@ def main():
     total, faults = 0, []
     headers = {path.name: path.read_text(encoding="utf-8") for path in HEADERS.glob("*.h")}
     faults += [f"{name}: says nothing of {member}" for name, text in headers.items() for member in bare_members(text)]
+    faults += [f"{name}: says no unit of {member}" for name, text in headers.items() for member in without_unit(text)]
+    sample = "typedef struct nc_s {\n  double a; /**< x */\n  double b; /**< x, mm */\n} nc_s;\n/**\n * @param v x\n * @param w x, s\n */\nNC_API void nc_f(double v, double* w);"
+    if without_unit(sample) != ["nc_s: a", "nc_f: v"]:
+        faults.append("this check does not see a number without a unit")
     faults += [f"types.h: begins with its size, or is listed there, but not both: {name}" for name in unlisted_structs(headers)]
     faults += [f"{name}: {text.count(chr(10))} lines, more than {MOST_LINES}: split it by concept" for name, text in headers.items() if text.count("\n") > MOST_LINES]
     faults += [f"mentions what is not declared: {mention}" for mention in unknown_names(headers)]

@@ -23,8 +23,8 @@ typedef struct nc_axis_config {
   double max_jerk;         /**< mm/s^3 or deg/s^3 */
   double in_position;      /**< in-position width, mm or deg */
   bool soft_limited;       /**< true: soft_min and soft_max limit the axis; false: they mean nothing */
-  double soft_min, soft_max; /**< stored stroke limits, machine coordinates */
-  double reference[4];     /**< 1st to 4th reference position, machine coordinates */
+  double soft_min, soft_max; /**< stored stroke limits, machine coordinates, mm or deg */
+  double reference[4];     /**< 1st to 4th reference position, machine coordinates, mm or deg */
   uint8_t spindle;         /**< a C axis: number (from 1) of the spindle that becomes this rotary axis while its servo is on (M700 10.5); 0 = no spindle */
   double reserved[8];      /**< for members of later versions, must be 0 */
 } nc_axis_config;
@@ -67,7 +67,7 @@ typedef struct nc_config {
   uint32_t variable_sets;  /**< number of common variables, as the option of the manual: 100, 200, 300 or 600 (M700 13.4); default 600 */
   bool extended_variables; /**< true: the common variables #900000 to #907399 of later models exist, too; default false */
   uint32_t window_bytes;   /**< bytes of program text that each part system holds in memory at once, 512..16777216; default 65536 */
-  double max_feed_override; /**< largest value of nc_inputs::feed_override, 1..10; default 2.0 */
+  double max_feed_override; /**< largest value of nc_inputs::feed_override, 1..10 (1 = 100 %); default 2.0 */
   uint8_t motion_mode;     /**< nc_motion_mode; default NC_MOTION_TRAPEZOID (ncrtd and ncsim choose NC_MOTION_OPTIMAL where every axis has all limits) */
   double path_tolerance;   /**< mm, 0 or 1e-5..10; default 0.01. NC_MOTION_OPTIMAL: the largest distance by which corners between lines may leave the
                                 programmed path; 0: the path is kept exactly, with a rest at each corner. NC_MOTION_TRAPEZOID: the largest distance by

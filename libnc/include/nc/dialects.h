@@ -83,7 +83,7 @@ typedef struct nc_plain_word {
   bool point;           /**< its number is written with a decimal point */
   uint8_t kind;         /**< nc_number_kind */
   uint32_t begin, end;  /**< where it is written in the text: from its address to behind its number; both 0 where a block is so long that this is not known */
-  double value;         /**< its number as written */
+  double value;         /**< its number as written, in the unit that its word has there (nc_number_kind) */
 } nc_plain_word;
 
 /** The most words that a block has. */

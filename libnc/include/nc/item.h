@@ -142,9 +142,9 @@ typedef struct nc_move {
   nc_axes work;             /**< programmed end point */
   nc_axes machine_start;    /**< start point */
   nc_axes machine;          /**< end point */
-  double center[3];         /**< circular: programmed centre; element k is the coordinate on axis plane_axis[k]. The third element counts only where
+  double center[3];         /**< circular: programmed centre, mm or deg; element k is the coordinate on axis plane_axis[k]. The third element counts only where
                                  `center_axes` is 3 */
-  double machine_center[3]; /**< circular: centre of the machine path, on the same axes */
+  double machine_center[3]; /**< circular: centre of the machine path, mm or deg, on the same axes */
   double radius;            /**< circular: radius of the machine path at its start, mm */
   double sweep_deg;         /**< circular: angle of the machine path about the plane normal, deg, counter-clockwise positive */
   double feed_mm_min;       /**< feed that the block commands, mm/min; 0 for rapid */
@@ -165,7 +165,7 @@ typedef struct nc_move {
 
 /** Payload of an action. */
 typedef struct nc_action {
-  double value;        /**< what it means is said at each nc_action_kind and nc_control_index */
+  double value;        /**< what it means, and its unit, is said at each nc_action_kind and nc_control_index */
   uint32_t mask, bits; /**< NC_ACTION_OUTPUT and some of NC_ACTION_CONTROL */
   uint32_t index;      /**< what it means is said at each nc_action_kind */
   uint32_t text;       /**< NC_ACTION_MESSAGE: id for nc_text_get() */

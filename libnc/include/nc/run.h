@@ -278,7 +278,7 @@ typedef struct nc_outputs {
   double s;                 /**< spindle speed that the S command means now, r/min: spindle_rev_min of the selected spindle; while no spindle is
                                  selected, the S code */
   uint16_t current_limit[NC_MAX_AXES]; /**< percent of the rated current of each drive, 0 = none set (M700 15.6); stays until it is changed */
-  double spindle_rev_min[NC_MAX_SPINDLES]; /**< commanded speed of each spindle: the S code, or the speed that gives the constant surface speed (G96),
+  double spindle_rev_min[NC_MAX_SPINDLES]; /**< commanded speed of each spindle, r/min: the S code, or the speed that gives the constant surface speed (G96),
                                                 within the clamp of G92 S Q; it stays while the spindle is not selected, and is 0 while it is a C axis */
   uint8_t spindle_selected; /**< bit n: spindle n+1 follows the S command */
   uint8_t spindle_encoder;  /**< number (from 1) of the spindle whose encoder is used, 0 = none */

@@ -170,7 +170,7 @@ typedef enum nc_life_column {
  * @param control the control
  * @param number of the tool in the table, 1 to NC_TOOL_LIVES: the tools of a group are used in this order
  * @param column nc_life_column
- * @param value in the range of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY. NC_LIFE_FLAGS says whether NC_LIFE_LIFE and NC_LIFE_USED are
+ * @param value in the range and the unit of its column; whole numbers but for minutes and NC_LIFE_AUXILIARY. NC_LIFE_FLAGS says whether NC_LIFE_LIFE and NC_LIFE_USED are
  *        minutes or times and so which range they have: it is set before them, and that of a tool with a group cannot become minutes while they are beyond those
  * @return NC_OK; NC_E_ARGUMENT: no such number or column, or the value is out of range
  */
@@ -181,7 +181,7 @@ NC_API nc_status nc_tool_life_set(nc_control* control, unsigned number, nc_life_
  * @param control the control
  * @param number of the tool in the table, 1 to NC_TOOL_LIVES
  * @param column nc_life_column
- * @param value receives it
+ * @param value receives it, in the unit of its column
  * @return NC_OK; NC_E_ARGUMENT: no such number or column, or `value` is NULL
  */
 NC_API nc_status nc_tool_life_get(const nc_control* control, unsigned number, nc_life_column column, double* value);
@@ -193,7 +193,7 @@ NC_API nc_status nc_tool_life_get(const nc_control* control, unsigned number, nc
  * @param control the control
  * @param system part system, from 0; a variable that all part systems share is set for all of them, whichever one is given
  * @param number of the variable; local ones are those of the program that is being read
- * @param value its value, finite
+ * @param value its value, finite; a variable has no unit
  * @param vacant true: it becomes vacant (#0), and `value` does not count
  * @return NC_OK; NC_E_ARGUMENT: no such part system, or `value` is no finite number; NC_E_NOT_FOUND: no such variable, or a system variable
  */
@@ -205,7 +205,7 @@ NC_API nc_status nc_variable_set(nc_control* control, unsigned system, uint32_t 
  * @param control the control
  * @param system part system, from 0
  * @param number of the variable; local ones are those of the program that is being read
- * @param value receives its value
+ * @param value receives its value, which has no unit
  * @param vacant receives whether it is vacant (#0)
  * @return NC_OK; NC_E_ARGUMENT: no such part system, or a pointer is NULL; NC_E_NOT_FOUND: no such variable, or a system variable
  */
@@ -217,7 +217,7 @@ NC_API nc_status nc_variable_get(const nc_control* control, unsigned system, uin
  * @param system part system, from 0
  * @param from number at which the search begins
  * @param number receives its number: the next search begins at number + 1
- * @param value receives its value
+ * @param value receives its value, which has no unit
  * @return NC_OK; NC_E_NOT_FOUND: there is none; NC_E_ARGUMENT: no such part system, or a pointer is NULL
  */
 NC_API nc_status nc_variable_next(const nc_control* control, unsigned system, uint32_t from, uint32_t* number, double* value);

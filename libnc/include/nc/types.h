@@ -64,7 +64,7 @@ typedef struct nc_control nc_control;
 
 /** Position of each axis of one part system, mm or deg. */
 typedef struct nc_axes {
-  double v[NC_MAX_AXES]; /**< in the order of the configuration */
+  double v[NC_MAX_AXES]; /**< mm or deg, in the order of the configuration */
 } nc_axes;
 
 /** Result of a call. Values below zero are errors of the caller; the call has changed nothing then. */

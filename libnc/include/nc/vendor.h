@@ -28,7 +28,7 @@ typedef enum nc_call_type {
 /** One word of a block. */
 typedef struct nc_word {
   char address; /**< the letter, for example 'X' */
-  double value; /**< the number as programmed; where an expression stands, its value */
+  double value; /**< the number as programmed, in the unit of the program; where an expression stands, its value */
 } nc_word;
 
 /** The block in which a code of the vendor stands, at a time when everything before it has been executed. */
