@@ -48,10 +48,13 @@ void BlockContext::note_parameter(unsigned index, ParameterValue old) {
   refresh_settings();
 }
 
-bool BlockContext::set_parameter(ParameterOf parameter, double number) {
+bool BlockContext::set_parameter(ParameterOf parameter, double number, int axis) {
   ParameterId id;
   int bit = -1;
-  return parameter_place(*dialect, parameter, &id, &bit) && bit < 0 && set_parameter(id, bit, -1, number);
+  if (!parameter_place(*dialect, parameter, &id, &bit, axis) || bit >= 0) return false;
+  const ParameterRow* const row = parameter_row(*dialect, parameter.what);
+  const bool number_says_axis = row != nullptr && row->axis_step != 0;
+  return set_parameter(id, bit, number_says_axis ? -1 : axis, number);
 }
 
 void BlockContext::refresh_settings() {

@@ -233,7 +233,8 @@ struct BlockContext {
     note_parameter(index, old);
     return true;
   }
-  bool set_parameter(ParameterOf parameter, double number);
+  /// The same by meaning; `axis` is the index of the axis for a parameter that each axis has for itself, -1 = one of all axes.
+  bool set_parameter(ParameterOf parameter, double number, int axis = -1);
   /// Journalled write to a record, or to a field of one: change(&ProgramRecords::figure, &Figure::angle, angle).
   template <class... Change>
   void change(const Change&... what) {
