@@ -338,6 +338,9 @@ TEST(VendorCodes, WhatIsRefusedIsNamed) {
   EXPECT_TRUE(begins(refused({program('M', 500, 0, NC_CALL_SUB)}), "vendor_codes[0].function"));
   EXPECT_TRUE(begins(refused({program('M', 500, 100000000, NC_CALL_SUB)}), "vendor_codes[0].program"));
   EXPECT_TRUE(begins(refused({program('M', 500, 1, static_cast<nc_call_type>(4))}), "vendor_codes[0].call"));
+  nc_vendor_code no_type = function('M', 500, &host);
+  no_type.call = 4;
+  EXPECT_TRUE(begins(refused({no_type}), "vendor_codes[0].call must be an nc_call_type")) << "also beside a function, where it means nothing";
   EXPECT_TRUE(begins(refused({program('M', 500, 1, NC_CALL_SUB)}, NC_DIALECT_DGSHAPE), "vendor_codes[0].program"));
   nc_vendor_code both = function('M', 500, &host);
   both.program = 1;

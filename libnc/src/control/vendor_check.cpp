@@ -35,10 +35,10 @@ VendorFault check_number(const Dialect& dialect, const nc_vendor_code& code) {
 }
 
 VendorFault check_call(const Dialect& dialect, const nc_vendor_code& code) {
+  if (code.call > NC_CALL_EVERY_BLOCK) return {"call", "must be an nc_call_type"};
   if (code.function != nullptr) return code.program == 0 ? VendorFault{} : VendorFault{"program", "must be 0 where there is a function"};
   if (code.program == 0) return {"function", "must not be NULL where program is 0"};
   if (code.program > 99999999) return {"program", "must be 1 to 99999999"};
-  if (code.call > NC_CALL_EVERY_BLOCK) return {"call", "must be an nc_call_type"};
   if (dialect.call_depth == 0 || dialect.argument_of == nullptr) return {"program", "must be 0: this dialect calls no programs"};
   return {};
 }
