@@ -82,11 +82,12 @@ def meant(name):
 
 
 def called_after(family, name):
-    """Whether an identifier contains the family as a whole word: m700_seconds, isM700, kDgshape."""
+    """Whether an identifier contains the family as a whole word: m700_seconds, isM700, kDgshape. A part of a word of capitals is none: OPEN."""
     for match in re.finditer(re.escape(family), name, re.I):
         first, last = match.span()
-        begins = first == 0 or name[first - 1] == "_" or name[first].isupper()
-        ends = last == len(name) or name[last] == "_" or name[last].isupper()
+        begins = first == 0 or name[first - 1] == "_" or (name[first].isupper() and not name[first - 1].isupper())
+        new_word = name[last:last + 1].isupper() and (not name[last - 1].isupper() or name[last + 1:last + 2].islower())
+        ends = last == len(name) or name[last] == "_" or new_word
         if begins and ends:
             return True
     return False

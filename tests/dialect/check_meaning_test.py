@@ -281,6 +281,13 @@ class Found(unittest.TestCase):
     def test_a_file_called_after_a_family_is_found(self):
         self.assertIn("family", kinds("int x;", "libnc/src/motion/m700_filters.hpp"))
 
+    def test_a_family_is_a_whole_word_of_a_name(self):
+        for name in ("FLAG_OPEN_DRAIN", "O_APPEND", "kOpenDrain", "pending", "open_pen2", "SUSPEND"):
+            self.assertFalse(checker.called_after("pen", name), name)
+        for name in ("pen", "kPen", "isPEN", "NC_DIALECT_PEN", "pen_seconds", "PENLexer", "kPENLexer", "penWords", "PEN_2"):
+            self.assertTrue(checker.called_after("pen", name), name)
+        self.assertTrue(checker.called_after("m700", "isM700Code"))
+
     def test_a_private_function_is_no_other_file_s(self):
         taker = "unsigned whole(unsigned key, unsigned parameter) { return 0; }"
         sources = {"tools/a.cpp": taker, "tools/b.cpp": "void f() { whole(1, 1081); }"}
