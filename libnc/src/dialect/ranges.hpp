@@ -11,7 +11,7 @@ namespace nc {
 
 struct RangeRules {
   // ---- numbers of programs and of the functions of the machine
-  uint32_t largest_program;         ///< number of a program, where it is called, searched for or the name of a file
+  uint32_t largest_program;         ///< number of a program, where it is called, searched for or the name of a file (and so never 0)
   uint32_t largest_misc;            ///< M
   uint32_t largest_second_misc;     ///< the second auxiliary function
   uint32_t largest_spindle_value;   ///< S, and the limits of the spindle speed
