@@ -262,8 +262,11 @@ class OfflineRun {
 
 bool has_decision(const std::string& text) {
   bool comment = false;
+  bool matters[256] = {};  // nearly all characters are others
+  for (const unsigned char c : {'(', ')', '\n', 'I', 'i', 'W', 'w'}) matters[c] = true;
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (!matters[static_cast<unsigned char>(c)]) continue;
     if (c == '(') comment = true;
     if (c == ')' || c == '\n') comment = false;
     const auto is = [&](const char* word, size_t length) {  // small letters count, too, as in the lexer
@@ -271,7 +274,7 @@ bool has_decision(const std::string& text) {
         if (i + k >= text.size() || (text[i + k] & ~0x20) != word[k]) return false;
       return true;
     };
-    if (c < 'I' || comment) continue;  // most characters are digits
+    if (c < 'I' || comment) continue;
     const int capital = c & ~0x20;
     if (capital != 'I' && capital != 'W') continue;
     if (is("IF", 2) || is("WHILE", 5)) return true;

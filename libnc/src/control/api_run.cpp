@@ -43,6 +43,16 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
   }
   return NC_OK;
 }
+
+/// nc_pull() for a caller that was compiled with another version of the headers.
+[[gnu::noinline, gnu::cold]] nc_status pull_for_another_version(nc::PartSystem& system, uint32_t budget, nc_item* item) {
+  if (nc::caller_bytes(item) == 0) return NC_E_ARGUMENT;
+  nc_item known;
+  const nc_status status = system.pull(budget, &known);
+  if (status == NC_OK) nc::give_struct(known, item);
+  return status;
+}
+
 }  // namespace
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
@@ -50,13 +60,8 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
   if (c->system[system].busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
   c->system[system].forget_restart();
   c->system[system].publish_all();
-  const uint32_t bytes = nc::caller_bytes(item);
-  if (bytes == sizeof(nc_item)) return c->system[system].pull(budget, item);
-  if (bytes == 0) return NC_E_ARGUMENT;
-  nc_item known;
-  const nc_status status = c->system[system].pull(budget, &known);
-  if (status == NC_OK) nc::give_struct(known, item);
-  return status;
+  if (nc::caller_bytes(item) != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(c->system[system], budget, item);
+  return c->system[system].pull(budget, item);
 }
 
 nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {

@@ -435,7 +435,7 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     } else {
       commit_.to_public(*item, out);
       if (item->kind == ItemKind::move) [[likely]] {
-        move_zero_ = (*interpreter.pools().transforms)[item->move.transform].offset();
+        move_transform_ = item->move.transform;
       } else {
         note_given(*item);
         note_interrupt_mode(*item);
@@ -479,7 +479,7 @@ nc_status PartSystem::move_point(double share, nc_axes* machine) const {
 
 nc_status PartSystem::move_zero(nc_axes* zero) const {
   if (online_ || pulled_ != ItemKind::move) return NC_E_STATE;
-  std::memcpy(zero->v, move_zero_.v, sizeof zero->v);
+  std::memcpy(zero->v, (*interpreter.pools().transforms)[move_transform_].offset().v, sizeof zero->v);
   return NC_OK;
 }
 
@@ -502,8 +502,7 @@ PartSystem* PartSystem::first_executed(uint32_t until, BlockSeq* seq) {
   return first;
 }
 
-void PartSystem::publish_all() {
-  if (system_count_ == 0) return;
+void PartSystem::publish_systems() {
   uint32_t until = executor.cycle_seen();
   for (unsigned i = 0; i < system_count_; ++i) {
     PartSystem& system = systems_[i];

@@ -28,7 +28,9 @@ class PartSystem {
     interpreter.join(shared);
   }
   /// Makes what the machine has executed in each part system known to the others, in the order of execution. It is called before blocks are read.
-  void publish_all();
+  void publish_all() {
+    if (system_count_ != 0) publish_systems();
+  }
 
   /// `mdi`: MDI blocks, which go on with the modal state that the MDI blocks before them have left.
   nc_status select(const ProgramRef& program, bool mdi = false);
@@ -131,6 +133,7 @@ class PartSystem {
     if (mark.mark.place == 0) return commit_.remember(mark);
     commit_.remember(mark, stages_.behind(mark.mark));
   }
+  void publish_systems();
   Fault refused(Committed committed) const;
   void stop_on(const Fault& fault, const nc_source& source);
   void describe_alarm();
@@ -222,7 +225,7 @@ class PartSystem {
   InterruptRest uit_rest_;                   ///< when an interrupt signal that stays on counts again
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   bool pulled_in_hole_ = false;              ///< ... which belongs to a hole (Item::in_hole)
-  AxisVec move_zero_;                        ///< workpiece zero, with the tool length, of the move given out last
+  TransformId move_transform_ = 0;           ///< the map of the move given out last
   unsigned drop_ = 0;                        ///< number of items to come that have been executed already, before an interrupt
   bool resumes_ = false;                     ///< online: the item behind these has been executed in part, as cut_ says
   Cut cut_;

@@ -83,7 +83,12 @@ struct CycleTable {
   bool shifts;         ///< it goes beside the hole
 };
 
-const CycleTable& strokes_of(CycleKind kind);
+struct CycleTables {
+  CycleTable of[static_cast<unsigned>(CycleKind::count_)];
+};
+extern const CycleTables kCycleTables;
+
+inline const CycleTable& strokes_of(CycleKind kind) { return kCycleTables.of[static_cast<unsigned>(kind)]; }
 
 constexpr bool is_tap(CycleKind kind) {
   switch (kind) {

@@ -271,18 +271,13 @@ constexpr CycleTable table_of(CycleKind kind) {
   return table(kNothing, false);
 }
 
-struct AllTables {
-  CycleTable of[static_cast<unsigned>(CycleKind::count_)];
-};
-constexpr AllTables all_tables() {
-  AllTables all{};
+constexpr CycleTables all_tables() {
+  CycleTables all{};
   for (unsigned i = 0; i < static_cast<unsigned>(CycleKind::count_); ++i) all.of[i] = table_of(static_cast<CycleKind>(i));
   return all;
 }
-constexpr AllTables kTables = all_tables();
-
 }  // namespace
 
-const CycleTable& strokes_of(CycleKind kind) { return kTables.of[static_cast<unsigned>(kind)]; }
+constexpr CycleTables kCycleTables = all_tables();
 
 }  // namespace nc

@@ -94,6 +94,15 @@ struct HolesOfBlock {
   bool whole = false;         ///< no pecks: what is tried before the block begins
   bool tapping = false;       ///< between R and R again
   bool inside = false;        ///< the item in hand belongs to a stroke
+
+  /// A block begins: what says whether another member means anything is as at first. The others are not cleared, for they are many, and set where they mean
+  /// something.
+  void begin() {
+    left = 0;
+    polar.on = false;
+    pattern.kind = PatternKind::none;
+    whole = tapping = inside = false;
+  }
 };
 
 /// The cavity that the block in hand mills (functions/cavity.cpp); lengths as programmed.

@@ -384,6 +384,24 @@ Execution execute_move(Interpreter& in) {
   return in.after_block == nullptr ? Execution::done : call_behind_block(in);
 }
 
+/// The block has only axis words, and a cycle is in force that takes nothing from the spindle, as most blocks of a drilling program. As in only_moves(),
+/// everything that concerns other words is left out.
+bool only_drills(const Interpreter& in) {
+  const Command& w = in.words;
+  const State& s = in.state;
+  return s.cycle.kind != CycleKind::none && !is_tap(s.cycle.kind) && w.functions.empty() && w.auxiliary.empty() && !w.has_angle &&
+         (w.present & ~in.axis_words.all()) == 0 && (w.present & in.axis_words.all()) != 0 && s.special == 0 && !s.work_turned && s.modal_call == 0 &&
+         s.meeting.kind == MeetingFirst::Kind::none && !s.compensated() && plain_motion(s.modal.of(Mode::motion));
+}
+
+Execution execute_holes(Interpreter& in) {
+  in.distance_by_word = false;
+  Execution did = resolve_axes(in);
+  if (did == Execution::done && (in.words.target.axes() & in.rotary) != 0) did = check_index_positions(in);
+  if (did == Execution::done) did = do_cycle(in);
+  return finish(in, did);
+}
+
 /// T and M06 under tool life management go by what the machine has counted when it comes to them.
 bool names_managed_tool(const BlockContext& in) {
   if (in.words.has(Role::tool)) return true;
@@ -436,6 +454,7 @@ Execution execute_read_words(Interpreter& in) {
     if (did != Execution::done) return did;
   }
   if (only_moves(in)) return execute_move(in);
+  if (only_drills(in)) return execute_holes(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);
   const Function motion_before = in.state.modal.of(Mode::motion);  // M700 App.2: codes of motions beside G37 are ignored
   if (!in.shared_known() && adds_to_shared(in)) return in.need(NC_SYNC_SHARED);

@@ -308,6 +308,24 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
   check_deceleration(in, style.kind, style.in_position);
 }
 
+void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style) {
+  if (program_mapped(in) || (in.state.special & kSpecialMap) != 0) {
+    AxisVec target = in.position();
+    target[axis] = to;
+    return move_linear(in, target, 1u << axis, style);
+  }
+  in.state.applied[axis] = axis == in.state.length_axis ? in.state.length_value : 0.0;  // M700 12.2
+  if (std::fabs(in.state.machine[axis] - (in.zero()[axis] + in.state.applied[axis]) - to) <= kNoMotion) return;
+  const AxisVec offset = offset_in_force(in);
+  AxisVec start;
+  for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
+  AxisVec end = start;
+  end[axis] = to;
+  Move& move = begin_moved(in, offset, start, end);
+  set_style(in, move, style);
+  check_deceleration(in, style.kind, style.in_position);
+}
+
 void move_nowhere(BlockContext& in) {
   const MoveFrame frame = frame_of_move(in, AxisVec{}, 0);
   const AxisVec before = in.state.machine;

@@ -28,6 +28,8 @@ struct LinearStyle {
 };
 /// Makes a straight move to `target` in the active coordinates; `commanded`: the axes named in the block, to which tool length is applied.
 void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);
+/// The same of one axis alone, to this coordinate, as the strokes of a hole are.
+void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style);
 /// Makes a straight rapid to machine coordinates of the `commanded` axes (G53, second part of G28); those of them that are in `bare` get no compensation.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
 /// Moves end beside their programmed ends, by a vector in space (M700 12.3, 12.5).

@@ -13,7 +13,7 @@ bool plain_modes(const BlockContext& in) {
   const State& s = in.state;
   const ModalState& m = s.modal;
   return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input && s.life_input.kind == LifeInput::Kind::none && s.meeting.kind == MeetingFirst::Kind::none &&
-         s.fine_mode == FineMode::none && s.cycle.kind == CycleKind::none && m.is(Function::absolute) &&
+         s.fine_mode == FineMode::none && m.is(Function::absolute) &&
          m.is(Function::metric) && m.feed > 0 && !in.code_calls.any && !in.settings.check_cutting && !in.settings.corners_always && !stands_beside(s.comp) &&
          (s.unit_used || !in.dialect->rules.block.unit_is_of_program);
 }
@@ -22,6 +22,7 @@ bool plain_modes(const BlockContext& in) {
 
 bool execute_plain_line(BlockContext& in) {
   State& s = in.state;
+  if (s.cycle.kind != CycleKind::none) return false;  // its words mean holes
   const Function before = s.modal.of(Mode::motion);
   PlainLine line;
   if (!read_plain_line(*in.block, in.front, in.settings.last_mm, [&in] { return in.variables.locals(in.macro_level()); }, kLocals, &line)) return false;

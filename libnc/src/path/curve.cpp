@@ -123,11 +123,16 @@ void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, ui
   curve->end = end;
   double linear = 0, turned = 0;
   // Each way is squared where it is made: to read it back from the curve would wait for its store.
-  for (unsigned i = 0; i < kMaxAxes; ++i) {
-    const double way = i < axis_count ? end[i] - start[i] : 0;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const double way = end[i] - start[i];
     curve->delta[i] = way;
-    ((rotary >> i & 1) != 0 ? turned : linear) += squared(way);
+    if ((rotary >> i & 1) != 0) [[unlikely]] {
+      turned += squared(way);
+    } else {
+      linear += squared(way);
+    }
   }
+  for (unsigned i = axis_count; i < kMaxAxes; ++i) curve->delta[i] = 0;
   curve->length = std::sqrt(linear > 0 ? linear : turned);
 }
 

@@ -314,7 +314,7 @@ Execution do_cycle(BlockContext& in) {
   CycleState& c = in.state.cycle;
   if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
   if (count == 0) return Execution::done;  // data only
-  in.holes = HolesOfBlock{};
+  in.holes.begin();
   in.holes.target = w.target;
   if (in.state.modal.is(Function::polar_command_on)) in.holes.polar = in.polar_holes;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);

@@ -58,7 +58,7 @@ void resolve_levels(BlockContext& in) {
   Hole& h = in.holes.hole;
   h.kind = tap_in_cuts(in, c.kind);
   h.has_first = c.has_first;
-  h.first = mapped_on(in, c.drill_axis, c.first);
+  h.first = c.first;
   h.synchronous = c.synchronous;
   // As a coordinate of now: the zero point may have changed since the cycle was commanded. A tool length that comes into
   // force in between (also one that is pending, M700 12.2) displaces this level like every other end point.
@@ -72,7 +72,8 @@ void resolve_levels(BlockContext& in) {
   h.third = c.third_incremental ? h.bottom + c.third : c.third;
   const bool below = h.bottom < h.r ? h.initial < h.r : h.initial > h.r;
   if (rules.rises_before_positioning && below) h.initial = h.r;  // it has gone up
-  for (double* level : {&h.initial, &h.r, &h.bottom, &h.third}) *level = mapped_on(in, c.drill_axis, *level);  // M700 13.6, 13.19
+  if (program_mapped(in))  // M700 13.6, 13.19
+    for (double* level : {&h.initial, &h.r, &h.bottom, &h.third, &h.first}) *level = mapped_on(in, c.drill_axis, *level);
   h.return_to = rules.ends_at_r || in.state.modal.is(Function::return_r) ? h.r : h.initial;
 }
 
@@ -209,18 +210,16 @@ void set_tap(const BlockContext& in, const CycleStep& step, LinearStyle* style) 
 
 void move_along(BlockContext& in, const CycleStep& step) {
   const CycleState& c = in.state.cycle;
-  AxisVec target = in.position();
-  target[c.drill_axis] = step.to;
   LinearStyle style;
   style.kind = step.kind == StrokeKind::rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
-  style.feed_mm_min = feed_mm_min(in);
+  if (style.kind != NC_MOVE_RAPID) style.feed_mm_min = feed_mm_min(in);
   style.special_feed = style.kind != NC_MOVE_RAPID && special_feed(in);
   style.exact_stop = true;  // every level of a hole is reached
   style.tapping = (step.flags & kStrokeTaps) != 0;
   if (style.tapping && c.synchronous) set_tap(in, step, &style);
   if ((step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths) style.in_position = c.in_position;
   style.flows = style.kind == NC_MOVE_RAPID && style.in_position == 0 && strokes_flow(in);
-  move_linear(in, target, 1u << c.drill_axis, style);
+  move_axis(in, c.drill_axis, step.to, style);
 }
 
 /// M700 13.1.1 (7): #3028 names the M of the spindle forward in taps; reverse is the one behind it.
@@ -297,8 +296,10 @@ void position_over_hole(BlockContext& in) {
   if (in.words.one_shot != nullptr && in.words.one_shot->function == Function::unidirectional)  // M700 6.8, HX 4.2: not the axis that drills
     move_linear(in, before_creep(in, target, axes), axes, style);
   if (!in.dialect->rules.cycle.others_keep_motion_mode) return move_linear(in, target, axes, style);  // all of them together (Series 8 G81: X Y A)
-  const LinearStyle other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
-  move_linear(in, target, axes & ~over_hole, other);
+  if ((axes & ~over_hole) != 0) {
+    const LinearStyle other = by_motion_in_force(in, start, plain_end(start, target, axes & ~over_hole));
+    move_linear(in, target, axes & ~over_hole, other);
+  }
   move_linear(in, target, axes & over_hole, style);
 }
 

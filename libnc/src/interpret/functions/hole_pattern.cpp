@@ -148,7 +148,7 @@ Execution do_hole_pattern(BlockContext& in) {
     did = check_feed(in, Function::linear);
   }
   if (did != Execution::done) return did;
-  in.holes = HolesOfBlock{};
+  in.holes.begin();
   in.holes.pattern = pattern;
   in.holes.pattern_at = reference_point(in);
   in.holes.left = pattern.count();
