@@ -130,6 +130,21 @@ struct FlowPlace {
   std::uint32_t line, unit;
 };
 
+// A bit that remembers what an instruction has seen when it was executed last: the memory of an edge, the coil of a counter, the gate of a master control. When a program takes
+// the place of another one (exchange.hpp), the bits of instructions that both have keep their values.
+struct Memory {
+  std::uint32_t bit = 0;    // index in DeviceImage::bit
+  std::uint64_t key = 0;    // of what decides about its value: the text of the rung up to the instruction, and the master controls around it
+  std::uint64_t rung_key = 0;  // of the whole rung and the place in it; while compiling: number of the rung
+  std::uint32_t unit = 0;   // while compiling: its first unit
+  std::uint32_t area = 0;   // number of the instructions in front of it that direct the flow
+  bool always = false;      // it is executed exactly once in each scan
+};
+
+struct TimerCoil {
+  std::uint32_t number = 0, unit_us = 0, line = 0;
+};
+
 struct Code {
   std::vector<Unit> units;
   std::vector<std::uint32_t> lines;  // line of the source for each unit
@@ -138,6 +153,10 @@ struct Code {
   DeviceTable table;
   std::map<std::string, std::string> aliases;  // maps a name in the program to its device
   std::vector<std::uint8_t> edge_start;        // initial values of the bits from Layout::edges on: kEdgeUnknown, or 0 for bits of MC, blocks and branches
+  std::vector<Memory> memories;                // at most one for each bit
+  std::uint64_t flow_key = 0;                  // of the instructions that direct the flow, with their conditions
+  std::vector<TimerCoil> timer_coils;
+  std::vector<bool> bits_written, words_written;  // for each bit and word of the table: an instruction may write it
   std::uint32_t scan_ns = 1000000;
   std::uint32_t step_budget = 0;
   unsigned instructions = 0;

@@ -120,6 +120,7 @@ void Compiler::finish() {
   if (!errors_.empty()) return;
   std::vector<std::uint32_t> targets;
   for (const auto& [number, label] : labels_) targets.push_back(label.step);
+  finish_memories();
   lower(&code_, targets, main_end_);
   if (code_.layout.edges + code_.edge_start.size() > kMaxBits)
     return error_at(0, "more than " + std::to_string(kMaxBits) + " bits");

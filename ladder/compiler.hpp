@@ -20,6 +20,8 @@ class Compiler {
   Compiler(const std::string& file, const DeviceTable& table, const CompileOptions& options)
       : file_(file), table_(table), options_(options), names_(table, code_.layout) {
     code_.layout = make_layout(table, 0, 0);
+    code_.bits_written.assign(table.bits(), false);
+    code_.words_written.assign(table.words(), false);
   }
   Compiler(const Compiler&) = delete;
   Compiler& operator=(const Compiler&) = delete;
@@ -45,6 +47,7 @@ class Compiler {
     std::uint32_t level;
     std::uint32_t gate;  // index of the bit that is on when the master control is
     unsigned line;
+    std::uint64_t key;   // of its rung
   };
   struct Loop {
     unsigned id;
@@ -137,8 +140,19 @@ class Compiler {
   bool encode_words(const Operand& operand, std::uint32_t width, std::string_view word, Encoded* out);
   std::string other_width(bool wide) const;
 
+  // memories.cpp
+  void add_to_rung();
+  void begin_key();
+  void join_key();
+  std::uint64_t key_here() const;
+  void note_flow(std::string_view text);
+  void remember(std::uint32_t bit);
+  void note_written(const Place& place);
+  void finish_memories();
+
   // code
-  std::uint32_t new_edge(std::uint8_t start = kEdgeUnknown);
+  std::uint32_t new_edge();  // the memory of an edge
+  std::uint32_t new_bit();   // a bit for what is within one scan
   void emit(Op op, std::uint32_t a = 0, unsigned mode = 0);
   void emit2(std::uint32_t b, std::uint32_t c);
   void emit_pulse(Op next, bool pulse);
@@ -159,6 +173,12 @@ class Compiler {
   std::vector<Master> masters_;
   std::vector<Loop> open_loops_;
   std::uint32_t loops_ = 0;
+  std::string line_text_;             // this line with devices in the place of other names
+  std::uint64_t rung_key_ = 0;        // of the lines of the rung so far
+  std::uint64_t key_before_line_ = 0; // the same without this line
+  std::uint64_t key_before_rung_ = 0; // that of the rung before
+  std::uint32_t flows_ = 0;           // instructions that direct the flow
+  std::vector<std::uint64_t> whole_rungs_ = {0};  // keys of the rungs, as far as they are read
   std::map<std::uint32_t, Label> labels_;
   std::vector<Jump> jumps_;
   std::map<std::uint64_t, unsigned> coils_;  // maps a bit, or a word and its bit, to the line of its OUT

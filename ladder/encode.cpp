@@ -6,9 +6,16 @@
 
 namespace nc::ladder {
 
-std::uint32_t Compiler::new_edge(std::uint8_t start) {
-  code_.edge_start.push_back(start);
+std::uint32_t Compiler::new_bit() {
+  code_.edge_start.push_back(0);
   return code_.layout.edges + static_cast<std::uint32_t>(code_.edge_start.size()) - 1;
+}
+
+std::uint32_t Compiler::new_edge() {
+  const std::uint32_t bit = new_bit();
+  code_.edge_start.back() = kEdgeUnknown;
+  remember(bit);
+  return bit;
 }
 
 void Compiler::emit(Op op, std::uint32_t a, unsigned mode) {
@@ -54,13 +61,14 @@ bool Compiler::bit_operand(std::string_view word, bool written, Place* place) {
     return false;
   }
   *place = operand->place;
+  if (written) note_written(*place);
   if (place->kind == Kind::kWordBit) open_word_bit(place, written);
   return true;
 }
 
 // Instructions cannot work on a bit of a word directly. So it is copied into a bit of its own before the instruction, and copied back after it.
 void Compiler::open_word_bit(Place* place, bool written) {
-  const WordBit bit{place->index, place->number, new_edge(0)};
+  const WordBit bit{place->index, place->number, new_bit()};
   emit(Op::kWordBit, bit.word);
   emit2(bit.number, bit.bit);
   if (written) word_bits_.push_back(bit);
@@ -146,6 +154,7 @@ bool Compiler::encode_row(const Operand& operand, bool written, Encoded* out) {
     error("the destination is read-only");
     return false;
   }
+  if (written) note_written(place);
   code_.indirect.push_back({place.index, operand.z, place.first, place.end, 0});
   *out = {Mode::kIndirect, static_cast<std::uint32_t>(code_.indirect.size() - 1)};
   return true;
@@ -205,6 +214,7 @@ bool Compiler::encode(char letter, std::string_view word, Encoded* out) {
     error("'" + std::string(word) + "': the second of the two words does not exist");
     return false;
   }
+  if (written) note_written(place);
   *out = {Mode::kDirect, place.index};
   return true;
 }

@@ -33,10 +33,11 @@ void Compiler::master(const Rule& rule) {
   branches_ = 0;
   if (!good) return;
   note_coil(place);
-  const std::uint32_t gate_bit = new_edge(0);
+  const std::uint32_t gate_bit = new_bit();
+  remember(gate_bit);
   emit(Op::kOut, place.index);
   emit(Op::kOut, gate_bit);
-  masters_.push_back({level, gate_bit, line_});
+  masters_.push_back({level, gate_bit, line_, rung_key_});
   rung_ = Rung{};
 }
 
@@ -64,6 +65,7 @@ void Compiler::label(std::string_view name) {
   close_rung();
   const Label here{static_cast<std::uint32_t>(code_.units.size()), line_, loop_path(), main_ended_};
   const auto [known, added] = labels_.emplace(number, here);
+  note_flow(name);
   if (!added) error("the label is in line " + std::to_string(known->second.line) + " already");
 }
 

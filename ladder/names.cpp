@@ -197,6 +197,17 @@ std::optional<Operand> Names::operand(std::string_view word, std::string* messag
   return operand;
 }
 
+std::string Names::without_aliases(std::string_view word) const {
+  if (const auto alias = aliases_.find(std::string(word)); alias != aliases_.end()) return alias->second;
+  if (table_.find(word) != nullptr) return std::string(word);
+  if (const std::size_t dot = word.rfind('.'); dot != std::string_view::npos && dot != 0 && dot + 2 == word.size())
+    return without_aliases(word.substr(0, dot)) + std::string(word.substr(dot));
+  if (word.size() > 3 && word[0] == 'K' && is_digit(word[1]) && !is_digit(word[2]))
+    return std::string(word.substr(0, 2)) + without_aliases(word.substr(2));
+  if (const auto [base, z] = split_index(word); !base.empty()) return without_aliases(base) + without_aliases(z);
+  return std::string(word);
+}
+
 bool Names::alias(std::string_view name, std::string_view target, std::string* message) {
   if (name.size() > kMaxName || !std::all_of(name.begin(), name.end(), is_name_char)) {
     *message = "a name consists of at most 64 letters, digits, '_', '-' and '.'";

@@ -32,6 +32,8 @@ class Names {
   // False when the name is taken or is not a valid name; then *message says why.
   bool alias(std::string_view name, std::string_view target, std::string* message);
   const std::map<std::string, std::string>& aliases() const { return aliases_; }
+  // An operand with the devices in the place of other names for them.
+  std::string without_aliases(std::string_view word) const;
 
  private:
   std::optional<Place> word_bit(std::string_view word) const;

@@ -52,6 +52,7 @@ void Compiler::close_rung() {
 void Compiler::begin_rung() {
   code_.rungs.push_back(label_line_ != 0 ? label_line_ : line_);
   label_line_ = 0;
+  begin_key();
 }
 
 void Compiler::note_coil(const Place& place) {
@@ -91,6 +92,8 @@ void Compiler::statement() {
     std::uint32_t number;
     if (words_.size() == 1 && name.size() > 1 && name[0] == 'P' &&
         name.find_first_not_of("0123456789", 1) == std::string_view::npos) {
+      line_text_ = name;
+      key_before_line_ = rung_key_;
       if (number_after('P', name, kMaxLabel, &number)) label(name);
       if (label_line_ != 0) begin_rung();
       label_line_ = line_;
@@ -101,6 +104,7 @@ void Compiler::statement() {
     return;
   }
   ++code_.instructions;
+  add_to_rung();
   act(*rule_, pulse);
   close_word_bits();
   if (rung_.blocks == 0 && rule_->action != Action::kMaster) begin_rung();  // a line without a condition, as FEND
@@ -258,6 +262,7 @@ void Compiler::block(const Rule& rule) {
       code_.units.insert(code_.units.begin() + at, push);
       code_.lines.insert(code_.lines.begin() + at, line_);
     }
+    join_key();
     code_.rungs.pop_back();  // what looked like a rung of its own goes on from the one before
     rung_.before = false;
     rung_.joined = true;
@@ -317,6 +322,7 @@ void Compiler::out_timer(const Rule& rule, const Place& place) {
   if (target.mode == Mode::kConstant && static_cast<std::int32_t>(target.value) < 0)
     return error("the set value is from K0 to K32767");
   note_coil(place);
+  code_.timer_coils.push_back({place.number, rule.extra, line_});
   emit(place.number < kTimers ? Op::kOutTimer : Op::kOutRetentive, target.value,
        static_cast<unsigned>(target.mode));
   emit2(place.number, rule.extra * 1000);
@@ -331,6 +337,7 @@ void Compiler::out_counter(const Place& place) {
     return error("the set value is from K0 to K32767; for more count in 32 bits, with DINCP and LDD>=");
   if (!encode('s', words_[2], &target)) return;
   note_coil(place);
+  remember(code_.layout.counter_on + place.number);
   emit(Op::kOutCounter, target.value, static_cast<unsigned>(target.mode));
   emit2(place.number, 0);
 }

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: any bytes as a ladder program. The result is errors that name the file, or a program whose scans end,
 // with the same result on both interpreters, and write no device that they must not write.
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "ladder/code.hpp"
+#include "ladder/exchange.hpp"
 
 namespace {
 
@@ -64,6 +68,40 @@ void run(const Program& program, std::size_t size) {
   }
 }
 
+// The program takes its own place between two scans, and another one comes and goes: nobody may see that.
+void exchange(const Program& program, std::size_t size) {
+  static const Program other = [] {
+    Program made;
+    require(compile("LDP X0\nINC D8000\nLD X1\nOUT C511 K3\nEND\n", "other.il", machine(), {}, &made, nullptr));
+    return made;
+  }();
+  Engine plain(program), exchanged(program);
+  DeviceImage image = plain.make_image(), moved = image;
+  Exchange self, there;
+  std::string reason;
+  // A timer with two units in one program is none that can go on.
+  if (!self.prepare(program, program, &reason)) return require(!reason.empty());
+  for (unsigned scan = 0; scan < 4 && plain.fault() == kNoFault; ++scan) {
+    put_inputs(&image, scan, size);
+    put_inputs(&moved, scan, size);
+    DeviceImage next = exchanged.make_image();
+    self.carry(moved, &next);
+    plain.scan(&image);
+    exchanged.scan(&next);
+    moved = std::move(next);
+    require(plain.fault() == exchanged.fault());
+    const auto common = static_cast<std::ptrdiff_t>(program.code()->layout.edges);
+    require(std::equal(image.bit.begin(), image.bit.begin() + common, moved.bit.begin()));
+    require(std::equal(image.word.begin(), image.word.begin() + program.code()->layout.loops, moved.word.begin()));
+  }
+  if (!there.prepare(program, other, &reason)) return require(!reason.empty());
+  Engine last(other);
+  DeviceImage end = last.make_image();
+  there.carry(moved, &end);
+  last.scan(&end);
+  require(last.fault() == kNoFault);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -75,6 +113,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (compile(text, "fuzz.il", machine(), options, &program, &errors)) {
     require(errors.empty());
     run(program, size);
+    exchange(program, size);
   } else {
     require(!errors.empty() && program.instruction_count() == 0);
     for (const Error& error : errors)
