@@ -134,7 +134,7 @@ void LocalServer::serve() {
     }
     ready.assign({{wake_, POLLIN, 0}, {full_ ? -1 : listen_, POLLIN, 0}});
     for (const auto& connection : connections_) {
-      const bool reads = !connection->closing && connection->outstanding < kOutstanding && connection->out.size() - connection->sent < kMostOut;
+      const bool reads = !connection->closing && connection->outstanding < kOutstanding && has_room(*connection);
       const bool writes = connection->sent < connection->out.size();
       ready.push_back({connection->socket, static_cast<short>((reads ? POLLIN : 0) | (writes ? POLLOUT : 0)), 0});
     }
@@ -154,8 +154,10 @@ void LocalServer::serve() {
   connections_.clear();
 }
 
+bool LocalServer::has_room(const Connection& connection) { return connection.out.size() - connection.sent < kMostOut; }
+
 bool LocalServer::late(const Connection& connection, std::int64_t now) const {
-  const bool frame = connection.in.waits() && connection.outstanding == 0 && now - connection.read_ns > kPatienceNs;
+  const bool frame = connection.in.waits() && connection.outstanding == 0 && has_room(connection) && now - connection.read_ns > kPatienceNs;
   const bool reader = connection.sent < connection.out.size() && now - connection.written_ns > kPatienceNs;
   return frame || reader;
 }
@@ -206,7 +208,10 @@ void LocalServer::turn(Connection* connection, short events) {
   if (connection->socket < 0 || events == 0) return;
   if ((events & POLLIN) != 0) receive(connection);
   else if ((events & (POLLERR | POLLHUP | POLLNVAL)) != 0) close_connection(connection);
-  if (connection->socket >= 0 && (events & POLLOUT) != 0) send_out(connection);
+  if (connection->socket >= 0 && (events & POLLOUT) != 0) {
+    send_out(connection);
+    if (connection->socket >= 0) take_frames(connection);  // those that had to wait for room
+  }
 }
 
 void LocalServer::receive(Connection* connection) {
@@ -219,10 +224,21 @@ void LocalServer::receive(Connection* connection) {
   take_frames(connection);
 }
 
-// Takes the frames that have come, as long as the client may have more requests.
+// Takes the frames that have come, as long as the client may have more requests and reads their answers.
 void LocalServer::take_frames(Connection* connection) {
+  bool more = true;
+  while (more && connection->socket >= 0) {
+    more = take_while_room(connection);
+    send_out(connection);
+    more = more && has_room(*connection);  // else it goes on when the client has read
+  }
+}
+
+// True when there was no more room for answers.
+bool LocalServer::take_while_room(Connection* connection) {
   std::string frame;
-  while (connection->socket >= 0 && !connection->closing && connection->outstanding < kOutstanding) {
+  while (!connection->closing && connection->outstanding < kOutstanding) {
+    if (!has_room(*connection)) return true;
     const FrameReader::Next next = connection->in.next(&frame);
     if (next == FrameReader::Next::kNone) break;
     if (next == FrameReader::Next::kTooLong) {
@@ -232,7 +248,7 @@ void LocalServer::take_frames(Connection* connection) {
     }
     take(connection, frame);
   }
-  if (connection->socket >= 0) send_out(connection);
+  return false;
 }
 
 void LocalServer::take(Connection* connection, const std::string& frame) {
@@ -277,6 +293,7 @@ void LocalServer::put(Connection* connection, const std::string& text) {
     connection->written_ns = now_ns();
   }
   connection->out += frame_of(text);
+  most_waiting_.store(std::max(most_waiting_.load(), connection->out.size() - connection->sent));
 }
 
 void LocalServer::send_out(Connection* connection) {

@@ -7,6 +7,7 @@
 // with it: control, jogs, uploads.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -50,6 +51,8 @@ class LocalServer {
   // Starts the threads. False with a sentence in *error.
   bool start(std::string* error);
   void stop();
+  // The most bytes that have waited for one client since the start. Any thread.
+  std::size_t most_waiting() const { return most_waiting_.load(); }
   // The commands of local clients that were answered later. Any thread.
   void settled(const share::Ack& ack);
 
@@ -89,12 +92,14 @@ class LocalServer {
   void turn(Connection* connection, short events);
   void receive(Connection* connection);
   void take_frames(Connection* connection);
+  bool take_while_room(Connection* connection);
   void take(Connection* connection, const std::string& frame);
   void send_out(Connection* connection);
   void deny(const std::shared_ptr<Session>& session, const Call& call);
   void put(Connection* connection, const std::string& text);
   void close_connection(Connection* connection);
   void deliver();
+  static bool has_room(const Connection& connection);
   bool late(const Connection& connection, std::int64_t now_ns) const;
   void work(Worker* worker, Lane lane);
   void execute(const Job& job, Lane lane);
@@ -118,6 +123,7 @@ class LocalServer {
     unsigned more = 0;
   };
   std::map<uid_t, Denied> denied_;  // who was refused, so that nobody fills the history by it
+  std::atomic<std::size_t> most_waiting_{0};
   bool full_ = false;  // no descriptors are left: nobody is let in for a while
 
   std::mutex mutex_;  // guards what follows

@@ -118,6 +118,25 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
   }
 }
 
+// What a client sends in one piece is not answered in one piece: above the bound nothing more is taken until it reads.
+TEST_F(LocalServices, AnswersWaitOnlyUpToTheirBound) {
+  constexpr unsigned kRequests = 400;
+  std::string all;
+  for (unsigned id = 0; id < kRequests; ++id) all += frame_of("{\"id\":" + std::to_string(id) + ",\"service\":\"services\"}");
+  ServiceClient client(path_), other(path_);
+  ASSERT_TRUE(client.send_bytes(all));
+  for (unsigned n = 0; n < 20; ++n) ASSERT_EQ(other.outcome("status"), "");
+  std::string text;
+  ASSERT_TRUE(client.receive_text(&text));
+  EXPECT_LT(server_->most_waiting(), LocalServer::kMostOut + text.size() + 10);
+  for (unsigned id = 0; id < kRequests; ++id) {
+    if (id != 0 && !client.receive_text(&text)) FAIL() << "request " << id;
+    ASSERT_EQ(Json::parse(text)["id"], id);
+  }
+  EXPECT_LT(server_->most_waiting(), LocalServer::kMostOut + text.size() + 10);
+  EXPECT_EQ(client.outcome("status"), "");
+}
+
 TEST_F(LocalServices, OnlyTheOneWithControlCommands) {
   ServiceClient one(path_), two(path_);
   EXPECT_EQ(one.outcome("mode", {{"mode", "manual"}}), "no control");
