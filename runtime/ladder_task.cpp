@@ -87,41 +87,43 @@ void LadderTask::find_places(const Config& config, const ladder::DeviceTable& ta
   }
 }
 
-void LadderTask::set_start_values(const Config& config) {
-  for (const SignalPlace& place : to_nc_) devices_.set_value(place.row->type, place.device, place.row->safe);
-  for (const PointPlace& place : outputs_)
-    devices_.set_value(place.type, place.device, static_cast<std::int32_t>(config.points.at(place.point).initial));
+void LadderTask::set_start_values(ladder::DeviceImage* image) const {
+  for (const SignalPlace& place : to_nc_) image->set_value(place.row->type, place.device, place.row->safe);
+  for (const PointPlace& place : outputs_) image->set_value(place.type, place.device, static_cast<std::int32_t>(points_->at(place.point).initial));
+}
+
+bool LadderTask::compile(const std::string& text, const std::string& file, ladder::Program* program, std::vector<ladder::Error>* errors) const {
+  if (!ladder::compile(text, file, table_, options_, program, errors)) return false;
+  if (program->instruction_count() != 0) return true;
+  errors->push_back({file, 0, "", "holds no instruction: a ladder program has at least END"});
+  return false;
 }
 
 bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
   const std::size_t before = errors->size();
-  const ladder::DeviceTable table = device_table(config, errors);
+  table_ = device_table(config, errors);
   const std::string path = config.ladder_file();
   std::string text, error;
   const ConfigPlace& place = config.ladder.program_place;
   if (!read_text(path, &text, &error)) errors->push_back({config.file, place.line, place.key, path + ": " + error});
   if (errors->size() != before) return false;
-  ladder::CompileOptions options;
-  options.scan_s = config.cycle_us * 1e-6;
-  options.retain_counters = config.ladder.retain_counters;
-  options.retain_d_first = config.ladder.retain_d_first;
-  options.retain_d_count = config.ladder.retain_d_count;
+  options_.scan_s = config.cycle_us * 1e-6;
+  options_.retain_counters = config.ladder.retain_counters;
+  options_.retain_d_first = config.ladder.retain_d_first;
+  options_.retain_d_count = config.ladder.retain_d_count;
   std::vector<ladder::Error> found;
-  if (!ladder::compile(text, path, table, options, &program_, &found)) {
+  if (!compile(text, path, &program_, &found)) {
     for (const ladder::Error& e : found) errors->push_back({e.file, e.line, e.instruction, e.message});
-    return false;
-  }
-  if (program_.instruction_count() == 0) {
-    errors->push_back({path, 0, "", "holds no instruction: a ladder program has at least END"});
     return false;
   }
   for (const ladder::Error& e : program_.warnings()) warnings_.push_back(e.text());
   engine_ = std::make_unique<ladder::Engine>(program_);
+  names_ = std::make_unique<ladder::Engine>(program_);
   devices_ = engine_->make_image();
   ranges_ = engine_->retained();
   points_ = &config.points;
-  find_places(config, table);
-  set_start_values(config);
+  find_places(config, table_);
+  set_start_values(&devices_);
   fresh_ = copied_ = devices_;
   return true;
 }
@@ -129,7 +131,7 @@ bool LadderTask::load(const Config& config, std::vector<ConfigError>* errors) {
 std::int32_t LadderTask::signal(unsigned place) const noexcept {
   const SignalPlace* to_nc = by_signal_[place];
   if (to_nc == nullptr) return 0;
-  return engine_->fault() != ladder::kNoFault ? to_nc->row->safe : devices_.value(to_nc->row->type, to_nc->device);
+  return fault() != ladder::kNoFault ? to_nc->row->safe : devices_.value(to_nc->row->type, to_nc->device);
 }
 
 void LadderTask::restart() noexcept {
@@ -138,13 +140,16 @@ void LadderTask::restart() noexcept {
   std::copy(fresh_.bit.begin(), fresh_.bit.end(), devices_.bit.begin());
   std::copy(fresh_.word.begin(), fresh_.word.end(), devices_.word.begin());
   engine_->reset_fault();
+  kept_fault_ = kept_line_ = 0;
+  fault_kept_.store(false, std::memory_order_release);
 }
 
 // ---- forced devices, and reading one device from another thread ----
 
-const ladder::Device* LadderTask::find_device(const std::string& name) const {
+std::optional<ladder::Device> LadderTask::find_device(const std::string& name) const {
   const std::lock_guard lock(find_mutex_);
-  return engine_->find(name);
+  const ladder::Device* device = names_->find(name);
+  return device == nullptr ? std::nullopt : std::optional<ladder::Device>(*device);
 }
 
 std::int64_t LadderTask::force_number(const std::string& name, std::int64_t value, std::string* error) {
@@ -152,8 +157,8 @@ std::int64_t LadderTask::force_number(const std::string& name, std::int64_t valu
     *error = why;
     return std::int64_t{-1};
   };
-  const ladder::Device* device = find_device(name);
-  if (device == nullptr) return refuse("no such device '" + name + "'");
+  const std::optional<ladder::Device> device = find_device(name);
+  if (!device) return refuse("no such device '" + name + "'");
   if (device->name.size() > 2 && (device->name.substr(0, 2) == "SM" || device->name.substr(0, 2) == "SD") &&
       device->name[2] >= '0' && device->name[2] <= '9')
     return refuse("'" + name + "' belongs to the engine and cannot be forced");
@@ -174,7 +179,7 @@ std::int64_t LadderTask::force_number(const std::string& name, std::int64_t valu
 }
 
 std::int64_t LadderTask::write_number(const std::string& name, std::int64_t value, std::string* error) {
-  if (const ladder::Device* device = find_device(name); device != nullptr && !device->writable) {
+  if (const auto device = find_device(name); device && !device->writable) {
     *error = "'" + name + "' gets its value from the machine or from the NC in each scan: force it";
     return -1;
   }
@@ -183,8 +188,8 @@ std::int64_t LadderTask::write_number(const std::string& name, std::int64_t valu
 
 std::uint32_t LadderTask::read_device(const std::string& name, bool direct) {
   constexpr auto kPatience = std::chrono::milliseconds(200);
-  const ladder::Device* device = find_device(name);
-  if (device == nullptr) return 0;
+  const auto device = find_device(name);
+  if (!device) return 0;
   if (direct) return static_cast<std::uint32_t>(devices_.value(device->type, device->index));
   question_.type = device->type;
   question_.index = device->index;
@@ -263,14 +268,15 @@ void LadderTask::answer() noexcept {
 }
 
 void LadderTask::hold_outputs(hal::PointImage* points) noexcept {
-  if (forces_.any() && engine_->fault() == ladder::kNoFault) forces_.hold_outputs(points);
+  if (forces_.any() && fault() == ladder::kNoFault) forces_.hold_outputs(points);
 }
 
 void LadderTask::scan(LadderImage* image) noexcept {
+  take_swap(image->points);
   for (const SignalPlace& place : from_nc_)
     devices_.set_value(place.row->type, place.device, place.row->read(*image, place.system, place.index));
   hal::PointImage& points = *image->points;
-  const bool forced = forces_.any() && engine_->fault() == ladder::kNoFault;
+  const bool forced = forces_.any() && fault() == ladder::kNoFault;
   if (forced) {
     forces_.begin(&devices_, &points);
     forces_.hold_inputs(&points);
@@ -284,17 +290,18 @@ void LadderTask::scan(LadderImage* image) noexcept {
   unsigned held = 0;
   const ladder::Hold* const holds = forced ? forces_.holds(&held) : nullptr;
   if (forced) forces_.hold_devices(&devices_);
-  engine_->scan(&devices_, holds, held, look_.begin());
+  std::uint8_t* const flow = look_.begin();
+  if (kept_fault_ == ladder::kNoFault) engine_->scan(&devices_, holds, held, flow);
   look_.end(devices_, image->status->scan);
   answer();
   if (turn_.load(std::memory_order_acquire) == kWanted) {
     copy_retained(devices_, &copied_);
     turn_.store(kFilled, std::memory_order_release);
   }
-  if (engine_->fault() != ladder::kNoFault) {  // signals to the NC get their safe values; output points keep theirs
+  if (fault() != ladder::kNoFault) {  // signals to the NC get their safe values; output points keep theirs
     image->requests->stopped = true;
-    image->requests->stopped_line = engine_->fault_line();
-    image->requests->stopped_fault = engine_->fault();
+    image->requests->stopped_line = kept_fault_ != ladder::kNoFault ? kept_line_ : engine_->fault_line();
+    image->requests->stopped_fault = fault();
     for (const SignalPlace& place : to_nc_) place.row->write(place.row->safe, image, place.system, place.index);
     return;
   }

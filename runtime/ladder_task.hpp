@@ -4,8 +4,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,7 @@
 #include "runtime/force_table.hpp"
 #include "runtime/ladder_hook.hpp"
 #include "runtime/ladder_look.hpp"
+#include "runtime/ladder_swap.hpp"
 #include "runtime/retain/rows.hpp"
 #include "runtime/signals/signal_table.hpp"
 
@@ -50,14 +54,25 @@ class LadderTask final : public LadderHook {
   // scan runs in the calling thread, so the device is read at once. 0 when there is no such device, or when no scan runs.
   std::uint32_t read_device(const std::string& name, bool direct);
 
-  // A device by a name that the program may use, null = there is none. Any thread but the scan.
-  const ladder::Device* find_device(const std::string& name) const;
+  // A device by a name that the program may use. Any thread but the scan.
+  std::optional<ladder::Device> find_device(const std::string& name) const;
   // Its value. Scan thread. NC_RT.
   std::int32_t value(ladder::DeviceType type, std::uint32_t device) const noexcept { return devices_.value(type, device); }
 
   // ---- looking at the program in execution: one thread that is not the scan ----
   LadderLook& look() { return look_; }
   const ladder::Program& program() const { return program_; }
+
+  // ---- another program takes the place of the one in execution, between two scans: the thread that looks ----
+  // Compiles a text for this machine, and sees whether the state of the program in execution means the same in it. Null with the errors when not. `file`: its name, for messages.
+  std::unique_ptr<LadderSwap> prepare_swap(const std::string& text, const std::string& file, std::vector<ladder::Error>* errors) const;
+  // Waits until the scan has taken it; `meanwhile` is called again and again until then. False: no scan has run within `patience`, and nothing has changed. The one that ran until then
+  // is destroyed here and not in the scan.
+  bool swap(std::unique_ptr<LadderSwap> next, std::chrono::milliseconds patience, const std::function<void()>& meanwhile);
+  // Number of programs that have taken the place of the configuration's one. Any thread.
+  unsigned swaps() const { return swaps_.load(std::memory_order_acquire); }
+  // The text of a fault that a scan has passed on in LadderRequests. Any thread.
+  std::string fault_text(unsigned fault, unsigned line) const;
 
   // ---- retained devices ----
   // To be called only while no scan runs.
@@ -89,14 +104,20 @@ class LadderTask final : public LadderHook {
 
   LadderTask() = default;
   bool load(const Config& config, std::vector<ConfigError>* errors);
+  bool compile(const std::string& text, const std::string& file, ladder::Program* program, std::vector<ladder::Error>* errors) const;
+  void set_start_values(ladder::DeviceImage* image) const;
+  void take_swap(hal::PointImage* points) noexcept;  // NC_RT
+  // Of the program in execution, or of the one before it that had the fault with which this one stands. Scan thread.
+  unsigned fault() const noexcept { return kept_fault_ != ladder::kNoFault ? kept_fault_ : engine_->fault(); }
   void find_places(const Config& config, const ladder::DeviceTable& table);
-  void set_start_values(const Config& config);
   void copy_retained(const ladder::DeviceImage& from, ladder::DeviceImage* to) const noexcept;
   std::vector<RetainedRow> rows_of(const ladder::DeviceImage& image) const;
   void answer() noexcept;
 
+  ladder::DeviceTable table_;
+  ladder::CompileOptions options_;
   ladder::Program program_;
-  std::unique_ptr<ladder::Engine> engine_;
+  std::unique_ptr<ladder::Engine> engine_;  // of the scan; what other threads ask for names is names_
   ladder::DeviceImage devices_, fresh_;  // fresh_: the state at power on
   std::vector<ladder::RetainedRange> ranges_;
   enum Turn : unsigned { kIdle, kWanted, kFilled };
@@ -107,7 +128,17 @@ class LadderTask final : public LadderHook {
   std::vector<PointPlace> inputs_, outputs_, quality_;
   const hal::PointTable* points_ = nullptr;  // point table of the configuration
   ForceTable forces_;
-  mutable std::mutex find_mutex_;  // Engine::find() must not be called by two threads at once; never taken by the scan
+  mutable std::mutex find_mutex_;  // guards names_, next_names_ and before_names_; never taken by the scan
+  std::unique_ptr<ladder::Engine> names_;         // knows the names of the program in execution
+  std::unique_ptr<ladder::Engine> next_names_;    // while a swap waits: those of the next program
+  std::unique_ptr<ladder::Engine> before_names_;  // of the program that had the fault with which this one stands
+  std::atomic<LadderSwap*> wanted_swap_{nullptr};
+  std::atomic<unsigned> swaps_{0};
+  std::atomic<bool> fault_kept_{false};      // the program was swapped while it stood with a fault; until it begins again
+  std::atomic<unsigned> faults_kept_{0};     // how often that was so
+  unsigned swaps_known_ = 0;                 // names_ are those behind so many swaps
+  unsigned faults_known_ = 0;                // of them before_names_ has that of this one
+  unsigned kept_fault_ = 0, kept_line_ = 0;  // scan
   struct Question {
     std::atomic<unsigned> turn{kIdle};
     ladder::DeviceType type = ladder::DeviceType::kBit;

@@ -449,7 +449,7 @@ std::string Runtime::retain_text(const ActiveAlarm& alarm) const {
 // The fault of the ladder program, such as "mill.il:40: CJ P1: watchdog: ...", with the file named as in the configuration.
 std::string Runtime::ladder_fault(const ActiveAlarm& alarm) const {
   if (own_ladder_ == nullptr) return "line " + std::to_string(alarm.detail);
-  std::string text = own_ladder_->engine().fault_text(alarm.code, alarm.detail);
+  std::string text = own_ladder_->fault_text(alarm.code, alarm.detail);
   const std::string path = config_.ladder_file();
   if (text.rfind(path, 0) == 0) text.replace(0, path.size(), config_.ladder.program);
   return text;

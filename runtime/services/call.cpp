@@ -68,7 +68,7 @@ std::string take(const FieldInfo& row, const Json& value, Call* call) {
       const auto& text = value.get_ref<const std::string&>();
       if (static_cast<double>(text.size()) < row.least || static_cast<double>(text.size()) > row.most) return "must have " + range_text(row) + " bytes";
       if (row.kind == Kind::kName && !is_program_name(text)) return "must be a name in the folder of programs, without a path";
-      if (!is_printable(text, row.field == Field::kBlocks || row.field == Field::kToml)) return "must not have control characters";
+      if (!is_printable(text, row.field == Field::kBlocks || row.field == Field::kToml || row.field == Field::kLadderText)) return "must not have control characters";
       call->text[at] = text;
       return "";
     }

@@ -2,9 +2,12 @@
 // See ladder.hpp.
 #include "runtime/services/ladder.hpp"
 
-#include <optional>
+#include <memory>
+#include <thread>
+#include <utility>
 
-#include "runtime/ladder_task.hpp"
+#include "runtime/services/named_device.hpp"
+#include "runtime/services/sha256.hpp"
 
 namespace nc::rt::services {
 namespace {
@@ -13,22 +16,11 @@ constexpr auto kScanPatience = std::chrono::milliseconds(500);  // within which 
 // At 1 ms one scan in two hundred at most notes its power flow, so the 99th percentile of the scan does not feel it.
 constexpr auto kFlowPause = std::chrono::milliseconds(200);
 
-// A device that an operand names, and which of its bits: "D0.5" is bit 5 of D0.
-struct Named {
-  const ladder::Device* device = nullptr;
-  int bit = -1;  // -1 = the whole device
+constexpr std::size_t kMostReasons = 20, kShownDigits = 16;
 
-  std::int32_t part_of(std::int32_t value) const { return bit == -1 ? value : static_cast<std::int32_t>(static_cast<std::uint32_t>(value) >> bit & 1u); }
-};
-
-Named find(const LadderTask& task, const std::string& operand) {
-  if (const ladder::Device* device = task.find_device(operand)) return {device};
-  constexpr std::string_view kBits = "0123456789ABCDEF";
-  if (operand.size() < 3 || operand[operand.size() - 2] != '.') return {};
-  const std::size_t bit = kBits.find(operand.back());
-  const ladder::Device* device = bit == std::string_view::npos ? nullptr : task.find_device(operand.substr(0, operand.size() - 2));
-  if (device == nullptr || device->type == ladder::DeviceType::kBit) return {};
-  return {device, static_cast<int>(bit)};
+// A program in the list of changes: its name without the path, and its length.
+std::string described(const ladder::Program& program) {
+  return program.file().substr(program.file().rfind('/') + 1) + ", " + std::to_string(program.instruction_count()) + " instructions";
 }
 
 Outcome no_ladder() { return Outcome::refused(Refused::kNotFound, "the machine has no ladder program"); }
@@ -47,10 +39,10 @@ Outcome LadderDesk::list_rungs(const Call& call) {
 
   const std::vector<ladder::ListedLine> plain = program.listing(from, count, nullptr);
   std::vector<LadderLook::Source> sources;
-  std::vector<Named> named;  // of all operands, in their order
+  std::vector<NamedDevice> named;  // of all operands, in their order
   for (const ladder::ListedLine& line : plain)
     for (const std::string& operand : line.operands)
-      if (named.push_back(find(*task, operand)); named.back().device != nullptr) sources.push_back({named.back().device->type, named.back().device->index});
+      if (named.push_back(find_named(*task, operand)); named.back().device) sources.push_back({named.back().device->type, named.back().device->index});
   LadderLook& look = task->look();
   if (!look.take(std::move(sources), anew ? program.flow_bytes() : 0, kScanPatience)) return no_scan();
   if (anew) {
@@ -67,14 +59,14 @@ Outcome LadderDesk::list_rungs(const Call& call) {
     Json operands = Json::array();
     for (const std::string& operand : line.operands) {
       Json shown = {{"name", operand}};
-      const Named& of = *next_named++;
-      if (of.device != nullptr) shown["value"] = of.part_of(*next_value++);
+      const NamedDevice& of = *next_named++;
+      if (of.device) shown["value"] = of.part_of(*next_value++);
       operands.push_back(std::move(shown));
     }
     Json& shown = lines.emplace_back(Json{{"line", line.line}, {"rung", line.rung}, {"instruction", line.instruction}, {"operands", std::move(operands)}});
     if (line.power != ladder::ListedLine::Power::kNone) shown["power"] = line.power == ladder::ListedLine::Power::kOn;
   }
-  return Outcome::with({{"file", program.file()}, {"flow_scan", flow_scan_}, {"scan", look.scan()}, {"lines", std::move(lines)}, {"next", next}});
+  return Outcome::with({{"file", program.file()}, {"swaps", task->swaps()}, {"flow_scan", flow_scan_}, {"scan", look.scan()}, {"lines", std::move(lines)}, {"next", next}});
 }
 
 Outcome LadderDesk::list_devices(const Call& call) {
@@ -82,10 +74,10 @@ Outcome LadderDesk::list_devices(const Call& call) {
   if (task == nullptr) return no_ladder();
   const std::vector<std::string>& names = call.list(Field::kDevices);
   std::vector<LadderLook::Source> sources;
-  std::vector<Named> named;
+  std::vector<NamedDevice> named;
   for (const std::string& name : names) {
-    named.push_back(find(*task, name));
-    if (named.back().device == nullptr) return Outcome::refused(Refused::kNotFound, "there is no device \"" + name + "\"");
+    named.push_back(find_named(*task, name));
+    if (!named.back().device) return Outcome::refused(Refused::kNotFound, "there is no device \"" + name + "\"");
     sources.push_back({named.back().device->type, named.back().device->index});
   }
   LadderLook& look = task->look();
@@ -95,14 +87,41 @@ Outcome LadderDesk::list_devices(const Call& call) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ladder::Device& device = *named[i].device;
     bool forced = false;
-    for (unsigned f = 0; f < forces.count; ++f) forced |= task->find_device(runtime_.forced_name(forces.device[f].number)) == &device;
+    for (unsigned f = 0; f < forces.count; ++f) {
+      const auto held = task->find_device(runtime_.forced_name(forces.device[f].number));
+      forced |= held && held->index == device.index && (held->type == ladder::DeviceType::kBit) == (device.type == ladder::DeviceType::kBit);
+    }
     list.push_back({{"name", names[i]},
-                    {"type", named[i].bit == -1 ? ladder::type_name(device.type) : "bit"},
+                    {"type", named[i].type()},
                     {"value", named[i].part_of(look.values()[i])},
                     {"forced", forced},
                     {"meaning", device.comment}});
   }
   return Outcome::with({{"scan", look.scan()}, {"devices", std::move(list)}});
+}
+
+Outcome LadderDesk::swap(const Call& call, Change* change) {
+  LadderTask* const task = runtime_.ladder();
+  if (task == nullptr) return no_ladder();
+  const std::string name = call.has(Field::kLadderName) ? call.words(Field::kLadderName) : "swapped", &text = call.words(Field::kLadderText);
+  std::vector<ladder::Error> errors;
+  std::unique_ptr<LadderSwap> next = task->prepare_swap(text, name, &errors);
+  if (next == nullptr) {
+    std::string reasons;
+    for (std::size_t i = 0; i < errors.size() && i < kMostReasons; ++i) reasons += (i == 0 ? "" : "\n") + errors[i].text();
+    if (errors.size() > kMostReasons) reasons += "\nand " + std::to_string(errors.size() - kMostReasons) + " more";
+    return Outcome::refused(Refused::kState, reasons);
+  }
+  Json warnings = Json::array(), set_back = Json::array();
+  for (const ladder::Error& warning : next->program().warnings()) warnings.push_back(warning.text());
+  for (const std::string& device : next->set_back()) set_back.push_back(device);
+  change->what = "ladder program";
+  change->before = described(task->program());
+  Sha256 sum;
+  sum.add(text);
+  change->after = described(next->program()) + ", SHA-256 " + sum.finish().substr(0, kShownDigits);
+  if (!task->swap(std::move(next), kScanPatience, [] { std::this_thread::sleep_for(std::chrono::microseconds(200)); })) return no_scan();
+  return Outcome::with({{"text", "until ncrtd ends: its next start takes " + runtime_.config().ladder_file()}, {"swaps", task->swaps()}, {"warnings", std::move(warnings)}, {"set_back", std::move(set_back)}});
 }
 
 }  // namespace nc::rt::services

@@ -9,6 +9,7 @@
 
 #include "runtime/runtime.hpp"
 #include "runtime/services/call.hpp"
+#include "runtime/services/change_log.hpp"
 
 namespace nc::rt::services {
 
@@ -19,6 +20,8 @@ class LadderDesk {
 
   Outcome list_rungs(const Call& call);
   Outcome list_devices(const Call& call);
+  // `change` gets what was done, when it was.
+  Outcome swap(const Call& call, Change* change);
 
  private:
   Runtime& runtime_;

@@ -3,8 +3,10 @@
 #include "runtime/services/local_server.hpp"
 
 #include <fcntl.h>
+#include <linux/sockios.h>
 #include <poll.h>
 #include <sys/eventfd.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -12,8 +14,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "runtime/services/system_error.hpp"
 
@@ -296,6 +300,18 @@ void LocalServer::put(Connection* connection, const std::string& text) {
   most_waiting_.store(std::max(most_waiting_.load(), connection->out.size() - connection->sent));
 }
 
+// An update is left out, as a whole, while the client has not read what it has got before: so what it gets is fresh, and nobody waits for it.
+void LocalServer::give_update(Connection* connection, const Answer& update) {
+  std::uint64_t& left_out = connection->left_out[update.watch];
+  int unread = 0;
+  if (connection->sent < connection->out.size() || (ioctl(connection->socket, SIOCOUTQ, &unread) == 0 && unread > kMostUnread)) {
+    ++left_out;
+    return;
+  }
+  put(connection, "{\"left_out\":" + std::to_string(left_out) + "," + update.frame.substr(1));
+  left_out = 0;
+}
+
 void LocalServer::send_out(Connection* connection) {
   while (connection->sent < connection->out.size()) {
     const ssize_t count = send(connection->socket, connection->out.data() + connection->sent, connection->out.size() - connection->sent, MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -335,6 +351,10 @@ void LocalServer::deliver() {
   for (const Answer& answer : answers)
     for (const auto& connection : connections_) {
       if (connection->socket < 0 || connection->session->number != answer.session) continue;
+      if (answer.watch != 0) {
+        if (!connection->closing) give_update(connection.get(), answer);
+        continue;
+      }
       --connection->outstanding;
       put(connection.get(), answer.frame);
     }
@@ -358,13 +378,32 @@ void LocalServer::work(Worker* worker, Lane lane) {
     Job job;
     {
       std::unique_lock lock(worker->mutex);
-      worker->wake.wait(lock, [&] { return worker->stop || !worker->jobs.empty(); });
+      const auto woken = [&] { return worker->stop || !worker->jobs.empty(); };
+      // The lists that are watched belong to this thread.
+      const std::int64_t next = lane == Lane::kData ? services_.next_update_ns() : WatchDesk::kNever;
+      if (next == WatchDesk::kNever) worker->wake.wait(lock, woken);
+      else worker->wake.wait_for(lock, std::chrono::nanoseconds(std::max(std::int64_t{0}, next - now_ns())), woken);
+      if (!woken() || (next <= now_ns() && !worker->stop)) {
+        lock.unlock();
+        post_updates();
+        continue;
+      }
       if (worker->jobs.empty()) return;  // it stops only when everything was executed, so that uploads are removed
       job = std::move(worker->jobs.front());
       worker->jobs.pop_front();
     }
     execute(job, lane);
   }
+}
+
+void LocalServer::post_updates() {
+  std::vector<Update> updates = services_.updates(now_ns());
+  if (updates.empty()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    for (Update& update : updates) answers_.push_back({update.session, std::move(update.text), update.watch});
+  }
+  wake_up();
 }
 
 void LocalServer::execute(const Job& job, Lane lane) {
@@ -407,7 +446,7 @@ void LocalServer::settled(const share::Ack& ack) {
 void LocalServer::answer(std::uint64_t session, std::uint64_t id, const Outcome& outcome) {
   {
     const std::lock_guard lock(mutex_);
-    answers_.push_back({session, encode_reply(id, outcome)});
+    answers_.push_back({session, encode_reply(id, outcome), 0});
   }
   wake_up();
 }

@@ -37,6 +37,7 @@ class LocalServer {
 
   static constexpr unsigned kConnections = 64, kPerUser = 24, kOutstanding = 8;
   static constexpr std::size_t kMostOut = 1u << 20;
+  static constexpr int kMostUnread = 32 * 1024;  // bytes on their way to a client that it has not read; above that it gets no update of a watch list
   static constexpr std::int64_t kPatienceNs = 10'000'000'000;
   static constexpr std::int64_t kDenyNs = 60'000'000'000;  // a user's refusals are written down once in this time
 
@@ -65,6 +66,7 @@ class LocalServer {
     std::size_t sent = 0;      // bytes of `out` that were sent
     unsigned outstanding = 0;  // requests without an answer
     std::int64_t read_ns = 0, written_ns = 0;  // since when the rest of a frame, or a reader, is waited for
+    std::map<std::uint32_t, std::uint64_t> left_out;  // updates of its watch lists that were left out since the last one
     bool closing = false;      // nothing more is read; the connection ends when everything was sent
   };
   struct Job {
@@ -85,6 +87,7 @@ class LocalServer {
   struct Answer {
     std::uint64_t session;
     std::string frame;
+    std::uint32_t watch = 0;  // an update of this watch list, 0 = the answer to a request
   };
 
   void serve();
@@ -99,6 +102,7 @@ class LocalServer {
   void put(Connection* connection, const std::string& text);
   void close_connection(Connection* connection);
   void deliver();
+  void give_update(Connection* connection, const Answer& update);
   static bool has_room(const Connection& connection);
   bool late(const Connection& connection, std::int64_t now_ns) const;
   void work(Worker* worker, Lane lane);
@@ -106,6 +110,7 @@ class LocalServer {
   void execute_command(const Job& job);
   void answer(std::uint64_t session, std::uint64_t id, const Outcome& outcome);
   void post(Lane lane, Job job);
+  void post_updates();
   void wake_up();
 
   Services& services_;

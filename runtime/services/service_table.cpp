@@ -70,6 +70,10 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kBefore, "before", Kind::kWhole, 0, trace::kMostRows - 1.0, "", "how many of them are to be from before the trigger, fewer than samples; 0 when it is not given"},
     {Field::kRecording, "recording", Kind::kWhole, 1, kMost32, "", "number of the recording"},
     {Field::kDevices, "devices", Kind::kList, 1, 64, "", "names of devices of the ladder, as in its program"},
+    {Field::kLadderText, "program", Kind::kText, 1, kMostLadder, "", "text of a ladder program"},
+    {Field::kLadderName, "name", Kind::kName, 1, 127, "", "name of the ladder program in messages; \"swapped\" when it is not given"},
+    {Field::kInterval, "interval_ms", Kind::kWhole, kShortestInterval, kLongestInterval, "ms", "time between two updates; 200 when it is not given"},
+    {Field::kWatch, "watch", Kind::kWhole, 1, kMost32, "", "number of a watch list of this connection"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -107,6 +111,9 @@ constexpr Wanted kUndoArguments[] = {may(Field::kChange)};
 constexpr Wanted kTraceArguments[] = {must(Field::kSignals), may(Field::kTrigger), may(Field::kWhen), may(Field::kLevel), may(Field::kSamples), may(Field::kBefore)};
 constexpr Wanted kTraceReadArguments[] = {must(Field::kRecording), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kDevicesOnly[] = {must(Field::kDevices)};
+constexpr Wanted kSwapArguments[] = {must(Field::kLadderText), may(Field::kLadderName)};
+constexpr Wanted kWatchArguments[] = {must(Field::kDevices), may(Field::kInterval)};
+constexpr Wanted kWatchOnly[] = {must(Field::kWatch)};
 constexpr Wanted kProtectArguments[] = {must(Field::kFile), must(Field::kOn)};
 
 // ---- replies ----
@@ -246,7 +253,8 @@ constexpr ReplyRow kTraceReadReply[] = {{"rows[].scan", "whole", "number of the 
                                         {"rows[].time_s", "number", "time at its start, counted from that of the trigger, s"},
                                         {"rows[].values[]", "whole", "the values, in the order of the signals"},
                                         {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
-constexpr ReplyRow kLadderRungsReply[] = {{"file", "text", "file of the program"},
+constexpr ReplyRow kLadderRungsReply[] = {{"file", "text", "file of the program, or the name under which it was swapped in"},
+                                          {"swaps", "whole", "programs that were swapped in since the start of ncrtd; 0 = it is that of the configuration"},
                                           {"flow_scan", "whole", "number of the scan whose power flow is shown, at most 0.2 s old"},
                                           {"scan", "whole", "number of the scan that has left the values"},
                                           {"lines[].line", "whole", "line of the program that holds an instruction or a label"},
@@ -262,6 +270,11 @@ constexpr ReplyRow kLadderDevicesReply[] = {{"scan", "whole", "number of the sca
                                             {"devices[].value", "whole", "its value"},
                                             {"devices[].forced", "flag", "it is held at this value"},
                                             {"devices[].meaning", "text", "of signals and points"}};
+constexpr ReplyRow kLadderSwapReply[] = {{"text", "text", "how long it stays"},
+                                         {"swaps", "whole", "programs that were swapped in since the start of ncrtd"},
+                                         {"warnings[]", "text", "what in the program is probably a mistake"},
+                                         {"set_back[]", "text", "outputs and signals to the NC that no instruction writes any more: they have the value of the start again"}};
+constexpr ReplyRow kWatchReply[] = {{"watch", "whole", "number of the watch list, in its updates"}, {"devices[].name", "text", "name as in the request"}, {"devices[].type", "text", "bit, 16 bit or 32 bit"}};
 constexpr ReplyRow kTraceArmReply[] = {{"recording", "whole", "its number"}};
 constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the set"},
                                     {"tools[].length", "number", "mm"},
@@ -325,6 +338,9 @@ constexpr ServiceRow kRows[] = {
     {Service::kLadderRungs, "ladder.rungs", Right::kView, Lane::kData, kNo, kPage, kLadderRungsReply,
      "the ladder program in whole rungs, with the power flow of one scan and the values of the devices; `from`: a line of the first rung, `count`: lines, more only to complete a rung"},
     {Service::kLadderDevices, "ladder.devices", Right::kView, Lane::kData, kNo, kDevicesOnly, kLadderDevicesReply, "values of devices, all as one scan has left them"},
+    {Service::kWatchBegin, "watch.begin", Right::kView, Lane::kData, kNo, kWatchArguments, kWatchReply,
+     "the values of the devices come again and again without a request, all of one scan, until watch.end or the end of the connection; see Watch lists"},
+    {Service::kWatchEnd, "watch.end", Right::kView, Lane::kData, kNo, kWatchOnly, kDoneReply, "ends a watch list of this connection; no update comes behind the reply"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
      "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
@@ -365,6 +381,8 @@ constexpr ServiceRow kRows[] = {
     {Service::kTraceArm, "trace.arm", Right::kMaintain, Lane::kData, kNo, kTraceArguments, kTraceArmReply,
      "records the values of signals in each scan, from the next one on, or from so many before a trigger on. The recording before it is forgotten; one that has not ended is busy"},
     {Service::kTraceStop, "trace.stop", Right::kMaintain, Lane::kData, kNo, {}, kDoneReply, "ends the recording; what it has can be read"},
+    {Service::kLadderSwap, "ladder.swap", Right::kMaintain, Lane::kData, kNo, kSwapArguments, kLadderSwapReply,
+     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; refused with lines and reasons when it cannot. It stays until ncrtd ends: each start takes the file of the configuration"},
 };
 static_assert(std::size(kRows) == kServiceRows);
 

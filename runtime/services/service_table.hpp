@@ -17,7 +17,7 @@ namespace nc::rt::services {
 enum class Field : std::uint8_t {
   kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
-  kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kFields
+  kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -47,10 +47,10 @@ struct ReplyRow {
 
 enum class Service : std::uint8_t {
   kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead,
-  kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices,
+  kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
   kSetTool, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
-  kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kServiceCount
+  kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kLadderSwap, kServiceCount
 };
 inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);
 
@@ -78,6 +78,9 @@ const FieldInfo& row_of(Field field);
 inline constexpr std::size_t kChunkBytes = 256 * 1024;            // of a program, in one request or reply
 inline constexpr std::size_t kMostFrameBytes = 512 * 1024;        // of one request or reply, without its length
 inline constexpr std::size_t kMostToml = 384 * 1024;             // bytes of tables in one request: with the signs that JSON adds they have room in a frame
+inline constexpr std::size_t kMostLadder = 384 * 1024;            // bytes of a ladder program in one request
+inline constexpr unsigned kMostWatched = 64;                       // devices of one watch list
+inline constexpr unsigned kShortestInterval = 20, kLongestInterval = 60000;  // ms, between two updates of a watch list
 inline constexpr std::size_t kLongestText = 64;                    // bytes of one text of a list
 inline constexpr unsigned kWholePage = 500;                        // elements of a list in one reply, unless `count` asks for fewer
 inline constexpr std::uint32_t kProtocol = 1;

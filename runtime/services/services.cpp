@@ -52,6 +52,7 @@ Services::Services(Runtime* runtime, const share::ProgramTable* programs, share:
       log_(runtime->config().changes_path()),
       trace_(runtime),
       ladder_(runtime),
+      watch_(runtime),
       history_(history),
       notes_(history) {
   desk->set_witness([this](const share::Request* request, const share::Ack& ack) { notes_.answered(request, ack); });
@@ -207,6 +208,8 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kTraceRead: return trace_.read(call);
     case Service::kLadderRungs: return ladder_.list_rungs(call);
     case Service::kLadderDevices: return ladder_.list_devices(call);
+    case Service::kWatchBegin: return watch_.begin(session.number, call, RealClock().now_ns());
+    case Service::kWatchEnd: return watch_.end(session.number, call);
     case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
     case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:
@@ -214,6 +217,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kSetVariable:
     case Service::kSetParameter:
     case Service::kImport:
+    case Service::kLadderSwap:
       return change(session, call);
     case Service::kUndo:
     case Service::kUndoParameter:
@@ -231,6 +235,10 @@ Outcome Services::change(const Session& session, const Call& call) {
     case Service::kSetOffset: outcome = set_offset(&runtime_, call, &change); break;
     case Service::kSetVariable: outcome = set_variable(&runtime_, call, &change); break;
     case Service::kImport: outcome = import_tables(&runtime_, call, &change); break;
+    case Service::kLadderSwap:
+      outcome = ladder_.swap(call, &change);
+      if (outcome.ok) note(session, call, std::move(change), &outcome);
+      return outcome;
     default: outcome = set_parameter(&runtime_, call, &change); break;
   }
   if (!change.values.empty()) note(session, call, std::move(change), &outcome);

@@ -15,6 +15,7 @@
 #include "runtime/services/ladder.hpp"
 #include "runtime/services/program_store.hpp"
 #include "runtime/services/trace.hpp"
+#include "runtime/services/watch.hpp"
 #include "runtime/share/intake_desk.hpp"
 #include "runtime/share/program_table.hpp"
 
@@ -49,7 +50,13 @@ class Services {
 
   // The client is gone. In the thread of the lane.
   void command_gone(const Session& session);
-  void data_gone(const Session& session) { store_.abandon_all(session.number); }
+  void data_gone(const Session& session) {
+    store_.abandon_all(session.number);
+    watch_.gone(session.number);
+  }
+  // Watch lists, in the thread of Lane::kData: when there is something to do next, on RealClock, and what it is.
+  std::int64_t next_update_ns() const { return watch_.next_ns(); }
+  std::vector<Update> updates(std::int64_t now_ns) { return watch_.updates(now_ns); }
 
   static Outcome outcome_of(const share::Ack& ack);
   // Where commands are written down, and who was refused.
@@ -71,6 +78,7 @@ class Services {
   ChangeLog log_;
   TraceDesk trace_;
   LadderDesk ladder_;
+  WatchDesk watch_;
   history::Recorder* const history_;
   ActionNotes notes_;
 };

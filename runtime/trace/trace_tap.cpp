@@ -19,8 +19,8 @@ bool TraceTap::find(const std::string& name, Source* source) const {
     *source = {Source::Kind::kPoint, ladder::DeviceType::kWord32, static_cast<std::uint32_t>(point)};
     return true;
   }
-  const ladder::Device* device = ladder_ != nullptr ? ladder_->find_device(name) : nullptr;
-  if (device == nullptr) return false;
+  const auto device = ladder_ != nullptr ? ladder_->find_device(name) : std::nullopt;
+  if (!device) return false;
   *source = {Source::Kind::kDevice, device->type, device->index};
   return true;
 }

@@ -26,6 +26,7 @@ TEST(RtTrap, NeedsTheOrdinaryAllocator) {
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -286,6 +287,31 @@ TEST(RtTrap, SoDoHomingAndLimitSwitches) {
   EXPECT_EQ(homed, 7u);
   EXPECT_TRUE(stopped);
   EXPECT_LT(machine.place(0, 0), -5);
+  expect_nothing_trapped();
+}
+
+// Another ladder program in each scan.
+TEST(RtTrap, SoDoesTheSwapOfTheLadder) {
+  nc::rt::Config config;
+  ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
+  nc::hal::SimMachine machine(config.sim, config.points);
+  nc::rt::VirtualClock clock;
+  std::vector<nc::rt::ConfigError> errors;
+  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  ASSERT_NE(runtime, nullptr);
+  std::string error;
+  ASSERT_TRUE(runtime->start_stepping(&error));
+  const std::string texts[] = {"LDP nc.m_strobe\nINC D0\nLD M0\nOUT C1 K5\nEND\n", "LD SM400\nOUT spindle_forward\nLD M0\nOUT C1 K5\nLDP nc.m_strobe\nINC D0\nEND\n"};
+  clear_counts();
+  const bool refusing = refuse_system_calls();
+  bool good = true;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<nc::ladder::Error> wrong;
+    auto next = runtime->ladder()->prepare_swap(texts[i % 2], "next.il", &wrong);
+    good = good && next != nullptr && runtime->ladder()->swap(std::move(next), std::chrono::milliseconds(60000), [&] { runtime->step(); });
+  }
+  if (refusing) allow_system_calls();
+  EXPECT_TRUE(good);
   expect_nothing_trapped();
 }
 

@@ -2,6 +2,7 @@
 // The ladder in execution, seen through the services: rungs with their power flow, and values of devices of one scan.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <set>
@@ -111,10 +112,10 @@ TEST_F(LadderServices, GivesValuesOfDevices) {
 
 TEST_F(LadderServices, RepliesHoldWhatTheTableSays) {
   ServiceClient client(path_);
-  for (const Service service : {Service::kLadderRungs, Service::kLadderDevices}) {
+  for (const Service service : {Service::kLadderRungs, Service::kLadderDevices, Service::kWatchBegin}) {
     std::set<std::string> known, found;
     for (const ReplyRow& member : row_of(service).reply) known.insert(member.path);
-    test::collect_members(client.call(row_of(service).name, service == Service::kLadderDevices ? Json{{"devices", {"D0"}}} : Json::object())["reply"], "", &found);
+    test::collect_members(client.call(row_of(service).name, service != Service::kLadderRungs ? Json{{"devices", {"D0"}}} : Json::object())["reply"], "", &found);
     EXPECT_EQ(found, known);
   }
 }
@@ -143,11 +144,196 @@ TEST_F(LadderServices, WritesOnce) {
   EXPECT_NE(other.call("ladder.devices", {{"devices", {"D500"}}})["reply"], nullptr) << "looking needs the right to view alone";
 }
 
+// ---- another program ----
+
+// Both count the scans in D0: what a client sees must be without a gap, whichever of them runs.
+constexpr const char* kCountsOn = "; the next one\nLD SM400\nINC D0\nLD M0\nINC D2\nLDI M0\nINC D3\nLDP SM413\nINC D9\nEND\n";
+
+TEST_F(LadderServices, SwapsTheProgram) {
+  ServiceClient client(path_);
+  EXPECT_EQ(client.call("ladder.rungs")["reply"]["swaps"], 0);
+  const Json before = client.call("ladder.devices", {{"devices", {"D0"}}})["reply"];
+  const Json reply = client.call("ladder.swap", {{"program", kCountsOn}, {"name", "next.il"}});
+  ASSERT_EQ(reply["ok"], true) << reply;
+  EXPECT_EQ(reply["reply"]["swaps"], 1);
+  EXPECT_NE(reply["reply"]["text"].get<std::string>().find("until ncrtd ends"), std::string::npos);
+  EXPECT_EQ(reply["reply"]["set_back"], Json::array({"plc.fin2"}));
+  const Json after = client.call("ladder.devices", {{"devices", {"D0"}}})["reply"];
+  EXPECT_EQ(static_cast<std::int16_t>(after["devices"][0]["value"].get<int>() - before["devices"][0]["value"].get<int>()),
+            static_cast<std::int16_t>(after["scan"].get<std::int64_t>() - before["scan"].get<std::int64_t>()));
+  const Json rungs = client.call("ladder.rungs")["reply"];
+  EXPECT_EQ(rungs["file"], "next.il");
+  EXPECT_EQ(rungs["swaps"], 1);
+  EXPECT_EQ(line(rungs, 8)["instruction"], "LDP");
+  EXPECT_EQ(client.outcome("ladder.devices", {{"devices", {"half"}}}), "not found") << "a name of the program before";
+
+  const Json change = client.call("changes")["reply"]["changes"][0];
+  EXPECT_EQ(change["service"], "ladder.swap");
+  EXPECT_EQ(change["client"], client.greeting["client"]);
+  EXPECT_NE(change["user"], "");
+  EXPECT_EQ(change["before"], "own.il, 12 instructions");
+  EXPECT_EQ(change["after"].get<std::string>().rfind("next.il, 9 instructions, SHA-256 ", 0), 0u) << change["after"];
+  const Json entry = until(&client, "history.list", [](const Json& now) { return now["entries"][0]["service"] == "ladder.swap"; }, {{"kind", "change"}})["entries"][0];
+  EXPECT_EQ(entry["client"], client.greeting["client"]);
+  EXPECT_NE(client.outcome("parameters.undo"), "") << "a program is no value of a table";
+
+  stop();
+  start();
+  ServiceClient again(path_);
+  EXPECT_EQ(again.call("ladder.rungs")["reply"]["file"], folder_ + "/own.il") << "the file of the configuration is what a start takes";
+  EXPECT_EQ(again.call("changes")["reply"]["changes"][0]["service"], "ladder.swap");
+}
+
+TEST_F(LadderServices, ABadProgramIsRefusedWithAllItsLines) {
+  ServiceClient client(path_);
+  const Json reply = client.call("ladder.swap", {{"program", "LD SM400\nOUT nowhere\nLD M0\nAND\nOUT M1\nEND\n"}});
+  EXPECT_EQ(reply["error"], "refused");
+  EXPECT_EQ(reply["text"], "swapped:2: OUT nowhere: no such device 'nowhere'\nswapped:4: AND: operands: bit");
+  std::string many;
+  for (unsigned n = 0; n < 50; ++n) many += "LD nowhere\nOUT M1\n";
+  EXPECT_NE(client.call("ladder.swap", {{"program", many}})["text"].get<std::string>().find("\nand 30 more"), std::string::npos);
+  EXPECT_EQ(client.outcome("ladder.swap", {{"program", ""}}), "malformed");
+  EXPECT_EQ(client.outcome("ladder.swap", {{"program", std::string(kMostLadder + 1, ';')}}), "malformed");
+  EXPECT_EQ(client.outcome("ladder.swap", {{"program", "END\n"}, {"name", "../etc/x.il"}}), "malformed");
+  EXPECT_EQ(client.outcome("ladder.swap", {{"program", std::string("END\0", 4)}}), "malformed");
+  EXPECT_EQ(client.call("ladder.rungs")["reply"]["swaps"], 0);
+  EXPECT_TRUE(client.call("changes")["reply"]["changes"].empty());
+}
+
+// One client swaps again and again, another one looks at the rungs and the values, a third one has a watch list. The counter of the scans has no gap for any of them.
+TEST_F(LadderServices, SwapsWhileOthersLook) {
+  const std::string own = "LD SM400\nINC D0\nFF M0\nLD M0\nINC D2\nLDI M0\nINC D3\nLD D0.0\nOUT M1\nEND\n";
+  ServiceClient watcher(path_);
+  ASSERT_EQ(watcher.outcome("watch.begin", {{"devices", {"D0", "D2", "D3"}}, {"interval_ms", 20}}), "");
+  std::atomic<bool> done{false};
+  std::atomic<unsigned> looks{0};
+  std::thread looking([&] {
+    ServiceClient client(path_);
+    std::int64_t offset = -1;
+    while (!done) {
+      const Json rungs = client.call("ladder.rungs")["reply"];
+      if (rungs["lines"].size() < 9) ADD_FAILURE() << rungs.dump(1);
+      const Json reply = client.call("ladder.devices", {{"devices", {"D0"}}})["reply"];
+      const auto now = (reply["scan"].get<std::int64_t>() - reply["devices"][0]["value"].get<std::int64_t>()) & 0xffff;
+      if (offset == -1) offset = now;
+      EXPECT_EQ(now, offset) << "a scan was counted twice, or not";
+      ++looks;
+    }
+  });
+  ServiceClient client(path_);
+  for (unsigned n = 0; n < 60 || looks < 10; ++n) ASSERT_EQ(client.outcome("ladder.swap", {{"program", n % 2 == 0 ? kCountsOn : own.c_str()}}), "") << n;
+  done = true;
+  looking.join();
+  std::int64_t offset = -1;
+  for (unsigned n = 0; n < 20; ++n) {
+    const Json update = watcher.receive();
+    ASSERT_EQ(update["watch"], 1) << update;
+    const auto now = (update["scan"].get<std::int64_t>() - update["values"][0].get<std::int64_t>()) & 0xffff;
+    if (offset == -1) offset = now;
+    ASSERT_EQ(now, offset);
+    ASSERT_EQ(static_cast<std::int16_t>(update["values"][1].get<int>() + update["values"][2].get<int>()), update["values"][0].get<int>()) << "one scan has left all of them";
+  }
+}
+
+// ---- watch lists ----
+
+TEST_F(LadderServices, AWatchListComesWithoutBeingAskedFor) {
+  ServiceClient client(path_);
+  const Json reply = client.call("watch.begin", {{"devices", {"D0", "D0.0", "half", "D3", "in0", "plc.feed_override"}}, {"interval_ms", 20}});
+  ASSERT_EQ(reply["ok"], true) << reply;
+  const Json watch = reply["reply"]["watch"];
+  EXPECT_EQ(reply["reply"]["devices"][1], (Json{{"name", "D0.0"}, {"type", "bit"}}));
+  std::int64_t scan = 0;
+  for (unsigned n = 0; n < 20; ++n) {
+    const Json update = client.receive();
+    ASSERT_EQ(update.size(), 4u) << update;
+    ASSERT_EQ(update["watch"], watch);
+    ASSERT_EQ(update["left_out"], 0);
+    ASSERT_EQ(update["values"].size(), 6u);
+    ASSERT_EQ(update["values"][0].get<int>() & 1, update["values"][1].get<int>());
+    ASSERT_EQ(static_cast<std::int16_t>(update["values"][2].get<int>() + update["values"][3].get<int>()), update["values"][0].get<int>());
+    ASSERT_GT(update["scan"].get<std::int64_t>(), scan);
+    scan = update["scan"].get<std::int64_t>();
+  }
+  ASSERT_TRUE(client.ask(99, "watch.end", {{"watch", watch}}));
+  for (Json message = client.receive(); !message.contains("id"); message = client.receive()) ASSERT_EQ(message["watch"], watch);
+  EXPECT_EQ(client.outcome("watch.end", {{"watch", watch}}), "not found") << "and nothing has come behind the reply";
+}
+
+TEST_F(LadderServices, ANameThatASwapTakesAwayHasNoValue) {
+  ServiceClient client(path_), other(path_);
+  ASSERT_EQ(client.outcome("watch.begin", {{"devices", {"half", "D3"}}, {"interval_ms", 20}}), "");
+  ASSERT_TRUE(client.receive()["values"][0].is_number());
+  ASSERT_EQ(other.outcome("ladder.swap", {{"program", kCountsOn}}), "");
+  Json update;
+  do update = client.receive();
+  while (!update.is_null() && !update["values"][0].is_null());
+  EXPECT_TRUE(update["values"][1].is_number()) << update;
+}
+
+TEST_F(LadderServices, WatchListsAreBounded) {
+  ServiceClient client(path_);
+  std::vector<Json> numbers;
+  const auto names = [](unsigned from) {
+    std::vector<std::string> some;
+    for (unsigned n = 0; n < kMostWatched; ++n) some.push_back("D" + std::to_string(from + n));
+    return some;
+  };
+  const auto begin = [](ServiceClient* of, const std::vector<std::string>& devices, const Json& interval = 60000) {
+    if (!of->ask(1, "watch.begin", {{"devices", devices}, {"interval_ms", interval}})) return std::string("no connection");
+    Json reply;
+    do reply = of->receive();
+    while (reply.contains("watch"));  // the first update of a list before it
+    return reply["ok"] == true ? std::string() : reply["error"].get<std::string>();
+  };
+  EXPECT_EQ(begin(&client, {"D0", "nowhere"}), "not found");
+  EXPECT_EQ(begin(&client, {}), "malformed");
+  EXPECT_EQ(begin(&client, std::vector<std::string>(kMostWatched + 1, "D0")), "malformed");
+  EXPECT_EQ(begin(&client, {"D0"}, 19), "malformed");
+  for (unsigned n = 0; n < WatchDesk::kLists; ++n) EXPECT_EQ(begin(&client, names(64 * n)), "");
+  EXPECT_EQ(begin(&client, {"D0"}), "busy") << "a client has so many lists";
+  ServiceClient other(path_);
+  EXPECT_EQ(begin(&other, {"D5000"}), "busy") << "and all clients so many different devices";
+  EXPECT_EQ(begin(&other, {"D0"}), "");
+  client.leave();
+  for (std::string outcome = "busy"; !outcome.empty(); usleep(1000)) outcome = begin(&other, {"D5000"});
+}
+
+// A client that does not read gets no update until it has read, then the next one, which says how many there were in between. None is torn, and nobody else feels it.
+TEST_F(LadderServices, ASlowReaderLosesWholeUpdatesAndOthersNone) {
+  std::vector<std::string> names = {"D0"};
+  for (unsigned n = 1; n < kMostWatched; ++n) names.push_back("D" + std::to_string(100 + n));
+  ServiceClient slow(path_), fast(path_);
+  ASSERT_EQ(slow.outcome("watch.begin", {{"devices", names}, {"interval_ms", 20}}), "");
+  ASSERT_EQ(fast.outcome("watch.begin", {{"devices", names}, {"interval_ms", 20}}), "");
+  std::uint64_t all = 0;
+  for (; all < 200; ++all) {
+    const Json update = fast.receive();
+    ASSERT_EQ(update["left_out"], 0) << "after " << all;
+  }
+  std::uint64_t got = 0, left_out = 0;
+  std::int64_t offset = -1;
+  while (left_out == 0) {
+    const Json update = slow.receive();
+    ASSERT_EQ(update["values"].size(), names.size()) << update;
+    const auto now = (update["scan"].get<std::int64_t>() - update["values"][0].get<std::int64_t>()) & 0xffff;
+    if (offset == -1) offset = now;
+    ASSERT_EQ(now, offset);
+    left_out += update["left_out"].get<std::uint64_t>();
+    ++got;
+    ASSERT_LT(got, 190u) << "what nobody reads waits";
+  }
+  EXPECT_GE(got + left_out, 190u) << "each that is missing is counted";
+  EXPECT_EQ(slow.receive()["left_out"], 0) << "it reads again";
+}
+
 using NoLadder = LocalMachine;
 TEST_F(NoLadder, SaysThatThereIsNone) {
   ServiceClient client(path_);
   EXPECT_EQ(client.outcome("ladder.rungs"), "not found");
   EXPECT_EQ(client.outcome("ladder.devices", {{"devices", {"M0"}}}), "not found");
+  EXPECT_EQ(client.outcome("ladder.swap", {{"program", "END\n"}}), "not found");
+  EXPECT_EQ(client.outcome("watch.begin", {{"devices", {"M0"}}}), "not found");
 }
 
 }  // namespace

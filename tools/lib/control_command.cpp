@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -46,7 +47,7 @@ class Command {
     rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP});
     if (!connect()) return status_;
     switch (command_.what) {
-      case What::kWatch: return watch();
+      case What::kWatch: return command_.args.contains("devices") ? watch_devices() : watch();
       case What::kJog: return jog();
       case What::kMdi: return mdi();
       case What::kPut: return put();
@@ -54,6 +55,7 @@ class Command {
       case What::kPipe: return pipe();
       case What::kExport: return export_tables();
       case What::kImport: return import_tables();
+      case What::kSwap: return swap_ladder();
       case What::kRecord: return record();
       case What::kSave: return save();
       default: return service();
@@ -63,8 +65,16 @@ class Command {
  private:
   int failed(const ServiceRefusal& refusal) {
     if (command_.json) std::fprintf(out_, "%s\n", Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}}.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-    else std::fprintf(err_, "ncctl: %s\n", terminal_text(refusal.text.empty() ? refusal.error : refusal.text).c_str());
+    else print_lines(refusal.text.empty() ? refusal.error : refusal.text);
     return status_ = refusal.status;
+  }
+  // What is wrong in several lines of a file has as many lines.
+  void print_lines(const std::string& text) {
+    for (std::size_t at = 0; at <= text.size();) {
+      const std::size_t end = std::min(text.find('\n', at), text.size());
+      std::fprintf(err_, "ncctl: %s\n", terminal_text(text.substr(at, end - at)).c_str());
+      at = end + 1;
+    }
   }
   int failed(int status, const std::string& text) { return failed({status, status == kControlUsage ? "usage" : "failed", text}); }
 
@@ -140,6 +150,32 @@ class Command {
       const auto next = begin + std::chrono::duration<double>(static_cast<double>(line + 1) / command_.rate);
       if (command_.seconds > 0 && next - begin > std::chrono::duration<double>(command_.seconds)) return 0;
       std::this_thread::sleep_until(std::chrono::time_point_cast<Clock::duration>(next));
+    }
+    return 0;
+  }
+
+  // One line for each update: the scan and the values, in the order of the names in the first line. A line that says how many are missing comes in front of an update behind which this side has lagged.
+  int watch_devices() {
+    Json args = command_.args, reply;
+    args["interval_ms"] = std::clamp(std::lround(1000 / command_.rate), static_cast<long>(rt::services::kShortestInterval), static_cast<long>(rt::services::kLongestInterval));
+    if (!call("watch.begin", args, &reply)) return status_;
+    std::string head = "scan";
+    for (const Json& device : reply.value("devices", Json::array())) head += "\t" + terminal_text(device.value("name", ""));
+    if (!command_.json) std::fprintf(out_, "%s\n", head.c_str());
+    const auto end = Clock::now() + std::chrono::duration<double>(command_.seconds);
+    while (rt::end_signal() == 0 && (command_.seconds == 0 || Clock::now() < end)) {
+      Json update;
+      ServiceRefusal refusal;
+      if (!client_.next_update(&update, &refusal)) return failed(refusal);
+      if (command_.json) {
+        std::fputs(json_line(update).c_str(), out_);
+      } else {
+        if (const std::uint64_t missing = update.value("left_out", std::uint64_t{0}); missing != 0) std::fprintf(out_, "# %llu left out\n", static_cast<unsigned long long>(missing));
+        std::string line = update.value("scan", Json()).dump();
+        for (const Json& value : update.value("values", Json::array())) line += value.is_number() ? "\t" + value.dump() : "\t-";
+        std::fprintf(out_, "%s\n", line.c_str());
+      }
+      if (std::fflush(out_) != 0) return failed(kControlFailed, "the output cannot be written");
     }
     return 0;
   }
@@ -252,18 +288,35 @@ class Command {
     return write_out(command_.json ? json_line(reply) : toml.get<std::string>()) ? 0 : status_;
   }
 
-  int import_tables() {
+  // The whole file of this side, or standard input. False when it cannot be sent.
+  bool read_text(std::size_t most, std::string* text) {
     const bool named = command_.file != "-";
     const File file(named ? std::fopen(command_.file.c_str(), "rbe") : nullptr);
-    if (named && file == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
-    std::string text(rt::services::kMostToml + 1, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), named ? file.get() : in_));
-    if (std::ferror(named ? file.get() : in_) != 0) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
-    if (text.size() > rt::services::kMostToml) return failed(kControlUsage, command_.file + ": has more than " + std::to_string(rt::services::kMostToml) + " bytes: import it in parts");
-    if (rt::valid_utf8(text) != text) return failed(kControlUsage, command_.file + ": must be UTF-8");
+    if (named && file == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno)) == 0;
+    text->assign(most + 1, '\0');
+    text->resize(std::fread(text->data(), 1, text->size(), named ? file.get() : in_));
+    if (std::ferror(named ? file.get() : in_) != 0) return failed(kControlUsage, command_.file + ": " + std::strerror(errno)) == 0;
+    if (text->size() > most) return failed(kControlUsage, command_.file + ": has more than " + std::to_string(most) + " bytes") == 0;
+    return rt::valid_utf8(*text) == *text || failed(kControlUsage, command_.file + ": must be UTF-8") == 0;
+  }
+
+  int import_tables() {
+    std::string text;
     Json reply;
-    if (!call("tables.import", {{"toml", text}}, &reply)) return status_;
+    if (!read_text(rt::services::kMostToml, &text) || !call("tables.import", {{"toml", text}}, &reply)) return status_;
     print(rt::services::row_of(rt::services::Service::kImport), reply);
+    return 0;
+  }
+
+  int swap_ladder() {
+    Json args = command_.args, reply;
+    const std::string name = command_.file.substr(command_.file.rfind('/') + 1);
+    if (!args.contains("name") && rt::services::is_program_name(name) && name != "-") args["name"] = name;
+    std::string text;
+    if (!read_text(rt::services::kMostLadder, &text)) return status_;
+    args["program"] = std::move(text);
+    if (!call("ladder.swap", args, &reply)) return status_;
+    print(rt::services::row_of(rt::services::Service::kLadderSwap), reply);
     return 0;
   }
 

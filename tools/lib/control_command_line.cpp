@@ -104,7 +104,12 @@ void add_service(CLI::App* app, const ServiceRow& row, ControlCommand* command) 
 }
 
 void add_own_commands(CLI::App* app, ControlCommand* command) {
-  CLI::App* watch = app->add_subcommand("watch", "the status again and again, until Ctrl-C (view)");
+  CLI::App* watch = app->add_subcommand("watch", "the status again and again, or the values of devices, until Ctrl-C (view)");
+  watch->add_option_function<std::vector<std::string>>("DEVICES", [command](const std::vector<std::string>& names) { command->args["devices"] = names; }, "devices of the ladder, signals and points; without them, the status")
+      ->expected(-1)
+      ->each([](const std::string& text) {
+        if (rt::valid_utf8(text) != text) throw CLI::ValidationError("DEVICES", "must be UTF-8");
+      });
   watch->add_option("--rate", command->rate, "lines per second, at most 50")->check(CLI::Range(0.1, 50.0));
   watch->add_option("--for", command->seconds, "seconds, then end")->check(CLI::Range(0.01, 1e6));
   watch->callback([command] { command->what = What::kWatch; });
@@ -156,6 +161,11 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
   import->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
   import->callback([command] { command->what = What::kImport;
 });
+
+CLI::App* swap = subcommand(app, "ladder.swap", "a ladder program takes the place of the one in execution (maintain)");
+swap->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
+swap->add_option_function<std::string>("--name", [command](const std::string& name) { command->args["name"] = name; }, "its name in messages; without it, that of the file");
+swap->callback([command] { command->what = What::kSwap; });
 
 CLI::App* record = subcommand(app, "trace.record", "records signals in each scan and writes them as CSV; Ctrl-C ends the recording (maintain)");
 add_fields(record, rt::services::row_of(rt::services::Service::kTraceArm), command);

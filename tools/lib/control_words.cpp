@@ -25,11 +25,13 @@ struct OwnCommand {
 constexpr OwnCommand kOwn[] = {
     {"history", "[--since TIME] [--until TIME] [--kind KIND] [--user USER] [--count N | --all]", Right::kView,
      "the memory of the machine, the newest last: alarms, messages, actions of operators, changes, runs of programs; 50 entries without --count. TIME is 90s, 15m, 8h or 7d ago, or a date and time as '2026-01-31 08:00' or '2026-01-31'"},
-    {"watch", "[--rate N] [--for SECONDS]", Right::kView, "the status again and again, until Ctrl-C"},
+    {"watch", "[DEVICES...] [--rate N] [--for SECONDS]", Right::kView, "the status again and again, or the values of devices of the ladder, signals and points, until Ctrl-C"},
     {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
     {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},
     {"tables export", "[FILE] [--table TABLE]", Right::kView, "tool offsets, work offsets and common variables as TOML, to standard output without FILE"},
     {"tables import", "FILE", Right::kSetUp, "sets what the sections of the file name and leaves everything else as it is; - is standard input"},
+    {"ladder swap", "FILE [--name NAME]", Right::kMaintain,
+     "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; - is standard input. It stays until ncrtd ends"},
     {"trace record", "SIGNALS... [--trigger TRIGGER] [--when WHEN] [--level LEVEL] [--samples SAMPLES] [--before BEFORE] [--file FILE]", Right::kMaintain,
      "records signals in each scan and writes them as CSV, to standard output without --file. Ctrl-C ends the recording, and what it has is written"},
     {"trace save", "[FILE]", Right::kView, "the recording that has ended as CSV, to standard output without FILE"},
@@ -111,7 +113,7 @@ std::string joined(const std::set<std::string>& words) {
 }  // namespace
 
 bool is_command(const ServiceRow& row) {
-  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kLadderSwap, Service::kWatchBegin, Service::kWatchEnd, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
   return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
 }
 
@@ -204,7 +206,7 @@ std::string services_bash() {
   for (const auto& [first, next] : tree)
     if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next) + "' -- \"$word\")) ;;\n";
   text += "        mode) COMPREPLY=($(compgen -W 'auto mdi manual' -- \"$word\")) ;;\n        single | optional) COMPREPLY=($(compgen -W 'on off' -- \"$word\")) ;;\n      esac\n      ;;\n"
-      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'tables import' | 'tables export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
+      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'ladder swap' | 'tables import' | 'tables export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
       "  esac\n}\ncomplete -F _ncctl ncctl\n";
   return text;
 }

@@ -42,6 +42,9 @@ ServiceRefusal refusal_of(const Json& message) {
   return refusal;
 }
 
+// An update of a watch list comes without a request.
+bool is_update(const Json& message) { return message.contains("watch") && !message.contains("id"); }
+
 void add_sockets(const std::string& folder, std::vector<std::string>* paths) {
   DIR* stream = opendir(folder.c_str());
   if (stream == nullptr) return;
@@ -128,13 +131,20 @@ bool ServiceClient::call(const std::string& service, const Json& args, Json* rep
   Json message;
   do {
     if (!receive(&message, refusal)) return false;
-  } while (message.value("id", std::uint64_t{0}) != next_id_ && message.value("ok", false));
+  } while (is_update(message) || (message.value("id", std::uint64_t{0}) != next_id_ && message.value("ok", false)));
   ++next_id_;
   if (!message.value("ok", false)) {
     *refusal = refusal_of(message);
     return false;
   }
   *reply = message.value("reply", Json::object());
+  return true;
+}
+
+bool ServiceClient::next_update(Json* update, ServiceRefusal* refusal) {
+  do {
+    if (!receive(update, refusal)) return false;
+  } while (!is_update(*update));
   return true;
 }
 

@@ -38,6 +38,8 @@ class ServiceClient {
   bool open(const std::string& path, ServiceRefusal* refusal);
   /** Asks for a service and waits for its reply, at most 30 s. On failure `refusal` says why. */
   bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal);
+  /** Waits for the next update of a watch list, at most 30 s. On failure `refusal` says why. */
+  bool next_update(Json* update, ServiceRefusal* refusal);
   /** What the control said when it let the client in. */
   const Json& greeting() const { return greeting_; }
 
