@@ -267,6 +267,7 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   if (job.call.row->lane == Lane::kNow) return put(connection, encode_reply(job.call.id, services_.show(session, job.call)));
   ++connection->outstanding;
   job.session = connection->session;
+  job.came_ns = now_ns();
   const Lane lane = job.call.row->lane;
   post(lane, std::move(job));
 }
@@ -423,7 +424,7 @@ void LocalServer::execute_command(const Job& job) {
     waiting_[{session->number, number}] = job.call.id;
   };
   Outcome outcome;
-  if (!services_.command(session, job.call, expect, &outcome)) return;
+  if (!services_.command(session, job.call, job.came_ns, expect, &outcome)) return;
   {
     const std::lock_guard lock(mutex_);
     waiting_.erase({session->number, sequence});

@@ -72,6 +72,7 @@ class LocalServer {
   struct Job {
     std::shared_ptr<Session> session;
     Call call;
+    std::int64_t came_ns = 0;
     bool gone = false;  // the client has gone, and there is no call
     bool denied = false;  // it had not the right; `more` refusals to its user before this one were not written down
     unsigned more = 0;

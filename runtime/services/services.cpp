@@ -125,7 +125,7 @@ bool Services::fill(const Call& call, share::Request* request, Outcome* outcome)
   return true;
 }
 
-bool Services::command(Session* session, const Call& call, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome) {
+bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome) {
   if (const std::string lacks = lack(*session, *call.row); !lacks.empty()) {
     *outcome = Outcome::refused(Refused::kNoRight, lacks);
     return true;
@@ -135,11 +135,12 @@ bool Services::command(Session* session, const Call& call, const std::function<v
   share::set_text(&request->client, session->client);
   request->writer = session->number;
   request->sequence = ++session->sequence;
-  request->issued_ns = share::wall_ns();
+  const share::Now now{share::wall_ns(), RealClock().now_ns()};
+  request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
   expect(request->sequence);
   notes_.came(session->number, session->user);
   std::vector<share::Ack> acks;
-  desk_.take(*request, {share::wall_ns(), RealClock().now_ns()}, share::Way::kLocal, &acks);
+  desk_.take(*request, now, share::Way::kLocal, &acks);
   if (acks.empty()) {
     *outcome = Outcome::refused(Refused::kFailed, "the intake does not answer");
     return true;

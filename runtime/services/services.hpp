@@ -44,9 +44,9 @@ class Services {
   // One function for each lane, each to be called in one thread of its own.
   Outcome show(const Session& session, const Call& call) const;
   Outcome data(const Session& session, const Call& call);
-  // False: the answer comes later, to IntakeDesk::set_local(), with the session's number as writer and the sequence *sequence. `expect` is called with the sequence
+  // `came_ns`: when the request came, on RealClock: its lifespan counts from there. False: the answer comes later, to IntakeDesk::set_local(), with the session's number as writer and the sequence *sequence. `expect` is called with the sequence
   // before the command is given, because that answer may come before this function returns.
-  bool command(Session* session, const Call& call, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome);
+  bool command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome);
 
   // The client is gone. In the thread of the lane.
   void command_gone(const Session& session);

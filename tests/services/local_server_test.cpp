@@ -165,6 +165,22 @@ TEST_F(LocalServices, ACommandThatTakesTimeIsAnsweredWhenItsStateIsThere) {
   EXPECT_EQ(client.outcome("override.feed", {{"percent", 900}}), "malformed");
 }
 
+// The lifespan of a command counts from its arrival, and commands wait for those before them: here for a large program that is read.
+TEST_F(LocalServices, ACommandThatHasWaitedTooLongIsNotExecuted) {
+  std::string text;
+  while (text.size() < 3u << 20) text += "G1 X1. Y2.5 F500.\n";
+  write_program("large.nc", text + "M30\n");
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  const auto frame = [](unsigned id, const char* service, const Json& args) { return frame_of(Json{{"id", id}, {"service", service}, {"args", args}}.dump()); };
+  ASSERT_TRUE(client.send_bytes(frame(1000, "select", {{"name", "large.nc"}}) + frame(1001, "mode", {{"mode", "manual"}, {"lifespan_ms", 1}}) + frame(1002, "single", {{"on", true}, {"lifespan_ms", 10000}})));
+  EXPECT_EQ(client.receive()["ok"], true);
+  const Json late = client.receive();
+  EXPECT_EQ(late["error"], "late") << late;
+  EXPECT_EQ(client.receive()["ok"], true) << "this one had the time";
+  EXPECT_EQ(client.call("status")["reply"]["mode"], "auto");
+}
+
 TEST_F(LocalServices, TheJogOfAClientEndsWithIt) {
   ServiceClient watcher(path_);
   {
