@@ -64,7 +64,7 @@ typedef struct nc_restart_found {
   uint32_t asked;       /**< nc_sync_what bits: what the program has asked the machine on the way. Inputs and the clock were answered by nc_restart_begin()'s
                              `world`, and of a skip move (NC_SYNC_SKIP) no signal has come: with another answer the program may come there otherwise */
   bool s_given, t_given, b_given; /**< a code of the kind has come */
-  double s;             /**< the last S, as nc_action::value */
+  double s;             /**< the last S, as nc_action::value: r/min, in G96 m/min */
   uint32_t t, b;        /**< the last T and second auxiliary function */
   uint32_t m_count;     /**< number of different M codes that have come; those behind the first NC_RESTART_CODES of `m` are not told */
   uint32_t m[NC_RESTART_CODES]; /**< each of them once, in the order in which they have come last: the newest is the last */
