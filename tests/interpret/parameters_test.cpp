@@ -69,6 +69,26 @@ TEST_F(ParametersTest, ANumberIsOneParameterHoweverItIsWritten) {
   EXPECT_STREQ(key, "50000");
 }
 
+// M700 #2037 to #2040 have a value for each axis; of HX's reference positions each axis has numbers of its own (6.2).
+TEST_F(ParametersTest, AMeaningIsSetForAnAxisWhereverTheFamilyKeepsIt) {
+  const ParameterOf second{Parameter::reference_position, 1};
+  unsigned index = 0;
+  ParameterValue old;
+  double value = 0;
+  ASSERT_EQ(parameters.set(dialect, second, 2, 12.5, &index, &old), NC_OK);
+  EXPECT_EQ(get(2038, -1, 2), 12.5);
+  EXPECT_EQ(get(2038, -1, 1), -1);
+  EXPECT_TRUE(parameters.get(dialect, second, 2, &value));
+  EXPECT_EQ(value, 12.5);
+  const Dialect& hx = nc::dialect(NC_DIALECT_HX);
+  ASSERT_EQ(parameters.set(hx, second, 2, -3, &index, &old), NC_OK);
+  EXPECT_EQ(get(22099), -3);
+  EXPECT_TRUE(parameters.get(hx, second, 2, &value));
+  EXPECT_EQ(value, -3);
+  EXPECT_EQ(parameters.set(hx, {Parameter::reference_position, 0}, 2, 1, &index, &old), NC_E_NOT_FOUND) << "HX has the 2nd to the 4th";
+  EXPECT_EQ(parameters.set(nc::dialect(NC_DIALECT_DGSHAPE), second, 2, 1, &index, &old), NC_E_NOT_FOUND);
+}
+
 TEST_F(ParametersTest, AWriteGivesWhatIsToBePutBack) {
   unsigned index = 0;
   ParameterValue old;

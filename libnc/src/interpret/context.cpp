@@ -49,12 +49,11 @@ void BlockContext::note_parameter(unsigned index, ParameterValue old) {
 }
 
 bool BlockContext::set_parameter(ParameterOf parameter, double number, int axis) {
-  ParameterId id;
-  int bit = -1;
-  if (!parameter_place(*dialect, parameter, &id, &bit, axis) || bit >= 0) return false;
-  const ParameterRow* const row = parameter_row(*dialect, parameter.what);
-  const bool number_says_axis = row != nullptr && row->axis_step != 0;
-  return set_parameter(id, bit, number_says_axis ? -1 : axis, number);
+  unsigned index = 0;
+  ParameterValue old;
+  if (parameters.set(*dialect, parameter, axis, number, &index, &old) != NC_OK) return false;
+  note_parameter(index, old);
+  return true;
 }
 
 void BlockContext::refresh_settings() {

@@ -120,6 +120,15 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
   return put(id, bit, axis, row != nullptr && nc::is_common(row->what), ParameterValue{number}, index, old);
 }
 
+nc_status Parameters::set(const Dialect& dialect, ParameterOf parameter, int axis, double number, unsigned* index, ParameterValue* old) {
+  ParameterId id;
+  int bit = -1;
+  if (!parameter_place(dialect, parameter, &id, &bit, axis) || bit >= 0) return NC_E_NOT_FOUND;
+  const ParameterRow* const row = parameter_row(dialect, parameter.what);
+  const bool number_says_axis = row != nullptr && row->axis_step != 0;
+  return set(dialect, id, bit, number_says_axis ? -1 : axis, number, index, old);
+}
+
 /// What the whole parameter is when one of its bits becomes `on`.
 double Parameters::with_bit(ParameterId id, int bit, int axis, bool on) const {
   double before = 0;

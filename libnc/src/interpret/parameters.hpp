@@ -200,6 +200,8 @@ class Parameters {
   /// Sets a parameter, or one bit of it (-1 = the whole parameter), from a number or from a text.
   nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, double number, unsigned* index, ParameterValue* old);
   nc_status set(const Dialect& dialect, ParameterId id, int bit, int axis, const char* text, unsigned* index, ParameterValue* old);
+  /// Sets a whole parameter by its meaning, to a number as the manual has it; `axis` is -1 for one of all axes. NC_E_NOT_FOUND: the family has no such parameter, or it is a bit of one.
+  nc_status set(const Dialect& dialect, ParameterOf parameter, int axis, double number, unsigned* index, ParameterValue* old);
   void restore(unsigned index, ParameterValue old) { exchange(index, old); }
   /// Sets the value of an entry and returns the previous value.
   ParameterValue exchange(unsigned index, ParameterValue value) {
