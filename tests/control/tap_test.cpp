@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "online_helpers.hpp"
+#include "real_spindle.hpp"
 
 namespace nc::test {
 namespace {
@@ -241,31 +242,6 @@ TEST_P(Tap, WithoutAnEncoderItWaits) {  // appendix 1, P182
 
 // ---- the spindle as it really turns --------------------------------------------------------------------------------------------
 
-/// A spindle that accelerates no faster than its motor can, and is behind its command by a time constant.
-class RealSpindle {
- public:
-  explicit RealSpindle(double ramp_rev_s2, double lag_s) : ramp_(ramp_rev_s2), lag_(lag_s) {}
-  void step(const nc_outputs& out, double cycle_s) {
-    const bool follows = (out.spindle_synchronous & 1) != 0;
-    double wanted = follows ? 0 : out.spindle_rev_min[0] / 60;
-    if (follows && !taken_ && speed_ == 0) {
-      taken_ = true;
-      taken_at_ = turns_ - out.spindle_turns;
-    }
-    if (!follows) taken_ = false;
-    if (taken_) wanted = (taken_at_ + out.spindle_turns - turns_) / lag_;
-    speed_ += std::clamp(wanted - speed_, -ramp_ * cycle_s, ramp_ * cycle_s);
-    turns_ += speed_ * cycle_s;
-  }
-  double turns() const { return turns_; }
-  double speed() const { return speed_; }
-  double since_taken() const { return taken_ ? turns_ - taken_at_ : 0; }
-
- private:
-  double ramp_, lag_, turns_ = 0.3, speed_ = 0, taken_at_ = 0;
-  bool taken_ = false;
-};
-
 class RealTap : public testing::TestWithParam<bool> {
  protected:
   static constexpr double kRamp = 25, kLag = 0.02;  // rev/s^2, s
@@ -278,15 +254,11 @@ class RealTap : public testing::TestWithParam<bool> {
     drive = std::make_unique<Drive>(bench, "G0 X0\n" + block + "\nG80\nM30");
     read();
   }
-  void read() {
-    drive->in.spindle[0].rev_per_s = spindle.speed();
-    drive->in.spindle[0].turns = spindle.turns();
-    drive->in.spindle[0].turns_valid = true;
-  }
+  void read() { spindle.show(drive->in); }
   void step() {
     drive->press_start();
     drive->step(50);
-    spindle.step(drive->out, kCycle_s);
+    spindle.step(drive->out);
     read();
   }
   template <class Done>
@@ -300,7 +272,7 @@ class RealTap : public testing::TestWithParam<bool> {
   double z() const { return drive->out.command.v[2]; }
 
   Bench bench;
-  RealSpindle spindle{kRamp, kLag};
+  RealSpindle spindle{kRamp, kLag, kCycle_s};
   std::unique_ptr<Drive> drive;
 };
 
@@ -473,7 +445,7 @@ TEST_P(Retract, AStartIsRefusedWhileTheTapStandsInItsHole) {
   const auto press = [&] {
     drive->in.cycle_start = true;
     drive->step(50);
-    spindle.step(drive->out, kCycle_s);
+    spindle.step(drive->out);
     read();
     rest();
   };
@@ -651,12 +623,12 @@ TEST_P(Retract, BehindAPowerCutItIsDrawnOut) {
   after.at(0, 0, stands);
   ASSERT_EQ(nc_tap_set(after.control(), 0, &tap), NC_OK);
   drive = std::make_unique<Drive>(after, "M30");
-  spindle = RealSpindle{kRamp, kLag};
+  spindle = RealSpindle{kRamp, kLag, kCycle_s};
   const double before = spindle.turns();
   const auto cycle = [&] {
     read();
     drive->step(50);
-    spindle.step(drive->out, kCycle_s);
+    spindle.step(drive->out);
   };
   for (unsigned n = 0; n < 100; ++n) cycle();
   EXPECT_TRUE(drive->out.tap_retract_possible);

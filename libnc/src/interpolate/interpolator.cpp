@@ -337,7 +337,7 @@ void Interpolator::start(const nc_inputs& in) {
       last_staged_ = last_in_hole_ = block_waits_ = false;
       block_syncs_ = 0;
       by_hand_ = 0;
-      if (tap_.held) release_tap();  // out of its hole, or freed by hand: else the start was refused
+      if (tap_.held) leave_tap();  // out of its hole, or freed by hand: else the start was refused
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
       run_.start();
       run_ended_ = false;

@@ -170,6 +170,7 @@ class Interpolator {
   Done take_tapping(uint8_t bits) NC_RT;
   void hold_tap() NC_RT;
   void release_tap() NC_RT;
+  void leave_tap() NC_RT;
   double tap_turns() const NC_RT;
   void follow_tap(const nc_inputs& in) NC_RT;
   void take_tap_where_it_stands(const nc_inputs& in) NC_RT;

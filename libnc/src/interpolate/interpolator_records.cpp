@@ -289,6 +289,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   }
   if ((filter_.active() || s.filter.kind != FilterTimes::Kind::none) && !filters_ready(r)) return alarmed_ ? Done::no : wait(NC_CAUSE_IN_POSITION);
   if (begins && tapping_ != 0 && at_rest() && tap_disturbed(in)) return wait(NC_CAUSE_TAP_SPINDLE);
+  if (begins && at_rest() && tap_follower_.waited_for()) return wait(NC_CAUSE_SPINDLE_ANGLE);
   if ((s.index_axes | s.unclamps) != 0) {
     if (begins && !unclamp_for(s, in)) return Done::no;
     if (law_.s > s.begun) index_.leave(s.index_axes);

@@ -116,6 +116,13 @@ void Interpolator::release_tap() {
   tap_follower_.end();
 }
 
+/// The next program begins. What the axis is beside its path by then is taken away before its first move, which has all of the acceleration for itself.
+void Interpolator::leave_tap() {
+  const bool beside = !tap_follower_.on_path();
+  release_tap();
+  if (beside) tap_follower_.end_at_rest();
+}
+
 /// Revolutions since the tap has taken its spindle over. With an axis that stands in a machine lock it would turn in one place, so it stands as well.
 double Interpolator::tap_turns() const {
   if (tap_.locked) return 0;

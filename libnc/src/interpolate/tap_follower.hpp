@@ -51,7 +51,7 @@ class TapFollower {
   bool ended() const NC_RT { return ends_; }
   bool waited_for() const NC_RT { return active_ && rests_; }
   /// The axis is on its path, but for the resolution of an encoder, and stays so while what is left fades beside other moves.
-  bool on_path() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled() && carried_away() <= kArrived); }
+  bool on_path() const NC_RT { return !active_ || (std::fabs(beside_) <= kArrived && settled() && unfelt() && carried_away() <= kArrived); }
   bool active() const NC_RT { return active_; }
   /// on_path(), or the spindle stands near its command and comes no nearer.
   bool arrived() const NC_RT { return on_path() || (stands_ && settled() && trouble_ == Trouble::none && std::fabs(apart_) <= kStands); }
@@ -118,6 +118,8 @@ class TapFollower {
   double own_speed() const NC_RT { return (beside_ - earlier_[0]) / cycle_s_ + 0.5 * own_acceleration() * cycle_s_; }
   /// The axis has no speed and no acceleration of its own to speak of.
   bool settled() const NC_RT { return std::fabs((beside_ - earlier_[0]) / cycle_s_) <= kSlow && std::fabs(own_acceleration()) <= kSteady; }
+  /// Its acceleration is too little to be felt beside moves that use all that the axis can.
+  bool unfelt() const NC_RT { return acceleration_ <= 0 || std::fabs(own_acceleration()) <= kUnfelt * acceleration_; }
   /// The farthest that the speed and the acceleration with which an unfelt fade begins carry the axis, mm: their parts of the polynomial are at most 0.19 v T and
   /// 0.018 a T^2.
   double carried_away() const NC_RT {
@@ -184,7 +186,7 @@ class TapFollower {
 
   static constexpr double kArrived = 1e-3;        ///< mm
   static constexpr double kStill = 1e-6;          ///< revolutions in one cycle
-  static constexpr double kUnfelt = 5e-4;         ///< share of the limits of the axis that is not felt ...
+  static constexpr double kUnfelt = 3e-4;         ///< share of the limits of the axis that is not felt ...
   static constexpr double kAtRest = 0.25;         ///< ... and that it may have of them alone; each of three parts has so much
   static constexpr double kFaded = 0.05, kSlow = 0.1, kSteady = 3;  ///< mm, mm/s, mm/s^2: what may fade
   static constexpr double kOfAcceleration = 0.5;  ///< share of the axis' acceleration with which it comes back
