@@ -24,8 +24,9 @@ class OfflineRun {
       // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
       // marks.
       constexpr uint64_t kLinesForABlock = 1000;
-      empty_lines_ = status == NC_BUDGET ? empty_lines_ + kBudget : 0;
-      if (max_silent_blocks && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks)
+      if (status == NC_BUDGET) empty_lines_ += kBudget;
+      else empty_lines_ = 0;
+      if (max_silent_blocks && (silent_ >= max_silent_blocks || (empty_lines_ != 0 && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks)))
         return endless();
       if (status == NC_BUDGET) continue;
       if (status == NC_ENDED || status == NC_ALARMED) break;

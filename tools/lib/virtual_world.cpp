@@ -35,7 +35,7 @@ void OutsideSignals::change(const SetupEvent& event) {
 }
 
 VirtualWorld::VirtualWorld(const Setup& setup, const nc_system_config& system)
-    : setup_(setup), axis_count_(system.axis_count), machine_(setup.start), skip_machine_(setup.start), schedule_(setup) {
+    : setup_(setup), axis_count_(system.axis_count), machine_(setup.start), skip_machine_(setup.start), work_(setup.start), schedule_(setup) {
   for (int w = 0; w < NC_WORDS; ++w) signals_.input[w] = setup.inputs.bits[w];
   for (const SetupEvent& event : setup.events)
     if (event.seconds) time_events_.push_back(&event);
@@ -68,7 +68,7 @@ bool VirtualWorld::fire_due(const nc_item& item, uint32_t main_line) {
 
 uint32_t VirtualWorld::signals_at(const nc_axes& machine) const {
   nc_axes work = machine;
-  for (unsigned a = 0; a < axis_count_; ++a) work.v[a] += work_offset_.v[a];
+  for (unsigned a = 0; a < axis_count_; ++a) work.v[a] += work_.v[a] - machine_.v[a];
   return signals_at(machine, work);
 }
 
@@ -248,7 +248,7 @@ bool VirtualWorld::execute(nc_move* move) {
     move->length *= part;
   }
   machine_ = move->machine;
-  for (unsigned a = 0; a < axis_count_; ++a) work_offset_.v[a] = move->work.v[a] - move->machine.v[a];
+  work_ = move->work;
   seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + duration(*move);
   return part > 0.0;
 }

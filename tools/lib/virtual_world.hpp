@@ -128,7 +128,7 @@ class VirtualWorld {
   nc_axes skip_machine_;
   bool skipped_ = false;
   OutsideSignals signals_;
-  nc_axes work_offset_ = {};  // workpiece minus machine coordinates in the last move
+  nc_axes work_;  // machine_ in the workpiece coordinates of the last move
   nc_source now_ = {};
   std::vector<HitState> hits_;
   double seconds_ = 0.0;

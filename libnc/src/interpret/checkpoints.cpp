@@ -63,7 +63,7 @@ void Checkpoints::save(const State& state) {
   // Entries lie in their order, so those that are in the way are the oldest ones.
   while (oldest_ < next_ && (next_ - oldest_ > mask_ || (entry(oldest_).begin < begin + size && entry(oldest_).end > begin))) ++oldest_;
   std::memcpy(bytes_ + begin, static_cast<const void*>(&state), head);
-  std::memcpy(bytes_ + begin + head, state.loop, loops);
+  if (loops != 0) std::memcpy(bytes_ + begin + head, state.loop, loops);
   if (modes != 0) std::memcpy(bytes_ + begin + head + loops, static_cast<const void*>(&state.executed), modes);
   entry(seq) = Entry{begin, begin + size};
   next_ = seq + 1;

@@ -71,15 +71,6 @@ void BlockContext::refresh_settings() {
   codes_call = code_calls.any || vendor->any();
 }
 
-Item& BlockContext::next_item(ItemKind kind, bool block_end) {
-  Item& item = queue.add();
-  item.kind = kind;
-  item.block_end = block_end;
-  item.in_hole = holes.inside;
-  item.source = source;
-  return item;
-}
-
 Item& BlockContext::emit(ItemKind kind) {
   Item& item = next_item(kind, kind == ItemKind::mark);
   if (kind != ItemKind::mark) world_fresh = false;
@@ -93,16 +84,6 @@ Item& BlockContext::emit(ItemKind kind) {
     case ItemKind::end: new (&item.end) End(); break;
   }
   return item;
-}
-
-Move& BlockContext::emit_move(const AxisVec& start, const AxisVec& end) {
-  Item& item = emit(ItemKind::move);
-  // Constructed with its values, because clearing three positions before they are set would be felt in every block.
-  Move& move = *new (&item.move) Move(start, end, state.comp);
-  move.stroke_box = state.stroke_box;
-  if (settings_of_moves_stale_) [[unlikely]] take_settings_of_moves();
-  move.settings = settings_of_moves_;
-  return move;
 }
 
 [[gnu::noinline]] void BlockContext::take_settings_of_moves() {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstring>
+#include <new>
 #include <optional>
 
 #include "base/intern_pool.hpp"
@@ -305,7 +306,16 @@ struct BlockContext {
   /// A new item at the end of the queue, with the default payload of its kind; moves are made by emit_move().
   Item& emit(ItemKind kind);
   /// A move with the compensation in force; the caller sets its transform and kind.
-  Move& emit_move(const AxisVec& start, const AxisVec& end);
+  Move& emit_move(const AxisVec& start, const AxisVec& end) {
+    Item& item = next_item(ItemKind::move, false);
+    world_fresh = false;
+    // Constructed with its values, because clearing three positions before they are set would be felt in every block.
+    Move& move = *new (&item.move) Move(start, end, state.comp);
+    move.stroke_box = state.stroke_box;
+    if (settings_of_moves_stale_) [[unlikely]] take_settings_of_moves();
+    move.settings = settings_of_moves_;
+    return move;
+  }
   ItemQueue queue;   ///< items of the block in hand that have been made and not yet taken
   bool queue_has_room() const { return queue.room() > kReserve; }
   /// The block of `source` has ended: emits its mark (and the end, after M02/M30), and keeps the checkpoint to rewind to. `executable`: the block counts
@@ -327,7 +337,14 @@ struct BlockContext {
   void note_parameter(unsigned index, ParameterValue old);
   void note_interrupt_items();
   void emit_end();
-  Item& next_item(ItemKind kind, bool block_end);
+  Item& next_item(ItemKind kind, bool block_end) {
+    Item& item = queue.add();
+    item.kind = kind;
+    item.block_end = block_end;
+    item.in_hole = holes.inside;
+    item.source = source;
+    return item;
+  }
   /// Id of the modal state, for a mark. When the block counts as executed, its modal state is also that in execution.
   ModalId modal_now(bool executable);
   bool settings_stale_ = false;
