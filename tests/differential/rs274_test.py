@@ -12,6 +12,9 @@ With --dialect iso both read the same text: that of before, and programs with wh
 either case, blanks in words, expressions, parameters by number and by name, G59.1-G59.3, G10 L2 P0 and L20, G92.1, G43 and G49, G53 with G0 and G1, G73 G74 G83 G84 G86 G87, G90.1 G91.1,
 G93. What a cycle does to the spindle, and its dwells, stand between the moves and must agree, too.
 
+Last comes the board of bench/check_vs_rs274.py, plain, pecked and reamed holes in rows, in both dialects: path, feeds, and the time that they take with rapid
+traverse at 10 m/min.
+
 Exit status 77 (skipped) where rs274 is absent.
 """
 import json
@@ -24,8 +27,12 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
+from check_vs_rs274 import write_board  # noqa: E402
+
 PROGRAMS = 80
 BLOCKS = 60
+BOARD = 100_000     # holes
 EXACT = 1e-6        # mm; numbers that rs274 can print
 PRINTED = 6e-5      # half of its last digit, and a little
 AXES = "XYZ"
@@ -347,7 +354,7 @@ def without_stops(moves):
 # ---- the two interpreters: lists of (kind, end, centre or None, turns signed by direction, feed), machine coordinates in mm ----
 
 def ncsim_moves(ncsim, dialect, setup, path):
-    offsets = ["--setup", setup] if dialect == "iso" else []
+    offsets = ["--setup", setup] if setup else []
     done = subprocess.run([ncsim, "trace", "--dialect", dialect, *offsets, path], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise RuntimeError(f"ncsim: exit {done.returncode}: {done.stdout[-400:]}{done.stderr[-400:]}")
@@ -426,6 +433,18 @@ def rs274_moves(rs274, path, folder):
     return moves
 
 
+def seconds(moves):
+    """How long the moves and dwells take one behind the other, with rapid traverse at 10 m/min; no arcs."""
+    total, at = 0.0, [0.0] * 3
+    for kind, end, _, _, feed, _ in moves:
+        if kind == "dwell":
+            total += end[0]
+        elif kind in ("rapid", "line"):
+            total += math.dist(at, end) / (feed if kind == "line" else 10_000.0) * 60
+            at = end
+    return total
+
+
 def compare(ours, theirs, tolerance, radius_lines):
     """The first difference as a sentence, or None."""
     while theirs and theirs[-1][0] == "M5" and (not ours or ours[-1][0] != "M5"):
@@ -486,11 +505,29 @@ class Run:
                     raise
                 print(f"{name}: rs274 does not take it")
 
+    def boards(self):
+        """A board of holes in each dialect, as each has it: #8013 is the way by which LinuxCNC stops above the last cut of a peck."""
+        setup = self.write("board.json", json.dumps({"params": {"1078": 1, "8013": 0.254}}))
+        for dialect, holes in (("m700", BOARD), ("iso", BOARD // 10)):
+            program = os.path.join(self.folder, "board.ngc")
+            write_board(program, holes)
+            ours = ncsim_moves(self.ncsim, dialect, setup if dialect == "m700" else "", program)
+            theirs = rs274_moves(self.rs274, program, self.folder)
+            times = seconds(ours), seconds(theirs)
+            difference = compare(ours, theirs, PRINTED if dialect == "iso" else EXACT, set())
+            if difference is None and abs(times[0] - times[1]) > 1e-6 * times[1]:
+                difference = f"{times[0]:.3f} s, rs274 {times[1]:.3f} s"
+            self.programs += 1
+            self.moves += len(ours)
+            if difference:
+                self.failures += 1
+            print(f"{dialect}, board of {holes} holes: {len(ours)} moves, {times[0]:.1f} s" + (f": {difference}" if difference else ""))
+
     def compare(self, what, dialect, maker, text_of_ours, text_of_theirs):
         variables = os.path.join(self.folder, "rs274ngc.var")
         if os.path.exists(variables):
             os.remove(variables)    # offsets must not live on from program to program
-        ours = ncsim_moves(self.ncsim, dialect, self.setup, self.write("ours.ngc", text_of_ours))
+        ours = ncsim_moves(self.ncsim, dialect, self.setup if dialect == "iso" else "", self.write("ours.ngc", text_of_ours))
         theirs = rs274_moves(self.rs274, self.write("theirs.ngc", text_of_theirs), self.folder)
         lines = text_of_ours.splitlines()
         radius_lines = {i + 1 for i, line in enumerate(lines) if re.search(r"R", line.split(";")[0].upper())}
@@ -529,6 +566,7 @@ def main():
             program = maker.make()
             run.compare(f"iso, program {seed}", "iso", maker, program["rs274"], program["rs274"])
         run.real_programs()
+        run.boards()
     print(f"{run.programs} programs, {run.moves} moves, {run.arcs} arcs: {run.failures} differ")
     return 1 if run.failures else 0
 
