@@ -22,9 +22,6 @@ constexpr double kSameJoint_mm = 0.01;
 /// Levels that differ by less are one; so are distances from a wall.
 constexpr double kLevel_mm = 1e-3;
 
-/// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
-double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
-
 uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
 
 }  // namespace

@@ -240,6 +240,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first
     if (!(*chain)[k].dead && can_be_reached(*chain, k, i, j)) return false;
   if (!keeps_amount(*chain, i, j, d, from, x, leave)) return false;  // a rib that stands between them, or a circle that runs on through a wall
   chain->note_compared(0);  // joints have changed
+  chain->note_left_out();
   before.joint = ContourJoint::single(x);
   for (unsigned k = i + 1; k < j; ++k) {
     (*chain)[k].joint = ContourJoint::single(x - joint_distance(*chain, i, k));

@@ -70,7 +70,8 @@ inline bool runs_beside(const Section& line, Vec2 vector) { return std::abs(dot(
 /// being moved.
 class Chain {
  public:
-  /// A block that comes lets those go that have three behind them; an arc that only the avoidance can leave out waits for two more.
+  /// A block that comes lets those go that have three behind them; an arc that only the avoidance can leave out waits for two more, and behind a block
+  /// that is left out they wait for one more.
   static constexpr unsigned kMost = 8;
   unsigned size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -105,7 +106,7 @@ class Chain {
   void keep_front(unsigned count) {
     size_ = count;
     if (compared_ > size_) compared_ = size_;
-    if (size_ == 0) vanishes_ = changed_ = walls_ = false;
+    if (size_ == 0) vanishes_ = changed_ = walls_ = left_out_ = false;
   }
   /// False: none of them asks for its walls.
   bool may_have_walls() const { return walls_; }
@@ -113,6 +114,10 @@ class Chain {
   void note_change() { changed_ = true; }
   /// False: since the chain was empty no vector of it has been erased, and none is held.
   bool may_have_changed() const { return changed_; }
+  /// The avoidance has left one of the blocks out.
+  void note_left_out() { left_out_ = true; }
+  /// False: since the chain was empty it has left none out.
+  bool may_have_left_out() const { return left_out_; }
   /// So many at the front need not be compared again: the vectors at their ends, as they all stand now, cross none of those in front of them.
   unsigned compared() const { return compared_; }
   void note_compared(unsigned count) { compared_ = count; }
@@ -122,7 +127,7 @@ class Chain {
  private:
   Section ring_[kMost];
   unsigned front_ = 0, size_ = 0, compared_ = 0;
-  bool vanishes_ = false, changed_ = false, walls_ = false;
+  bool vanishes_ = false, changed_ = false, walls_ = false, left_out_ = false;
 };
 
 enum class Finding : uint8_t { none, alarm };

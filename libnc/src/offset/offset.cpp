@@ -9,6 +9,7 @@
 #include "alarm/condition.hpp"
 #include "base/same_place.hpp"
 #include "base/units.hpp"
+#include "offset/left_out.hpp"
 #include "stream/copy_item.hpp"
 
 namespace nc {
@@ -75,10 +76,12 @@ bool OffsetStage::can_push() const {
 unsigned OffsetStage::may_release() const {
   const unsigned size = chain_.size();
   if (mode_ == Mode::off) return size;
+  // Behind a block that has been left out all five of the pre-read have their joints when they are compared with it (left_out.hpp).
+  const unsigned more = chain_.may_have_left_out() ? 1 : 0;
   unsigned n = 0;
   for (; n < size; ++n) {
     const Section& s = chain_[n];
-    if (s.check && size - n < kChain && blocks_ - s.block < kLookAheadBlocks) break;
+    if (s.check && size - n < kChain + more && blocks_ - s.block < kLookAheadBlocks + more) break;
     if (!s.jointed || s.vanished) break;
     if (chain_.may_have_vanished() && n + 1 < size && chain_[n + 1].vanished) break;
   }
@@ -565,15 +568,27 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
 // Interference check of what is held; sections below `last_call` are about to be released. False: the program
 // stops.
 bool OffsetStage::check_joints(unsigned last_call) {
-  if (chain_.size() < 2) return look_at_walls(last_call);
+  if (chain_.size() < 2) return look_at_left_out(last_call) && look_at_walls(last_call);
   unsigned at = 0;
   if (check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
+  if (!look_at_left_out(last_call)) return false;
   if (chain_.may_have_walls() && !look_at_walls(last_call)) return false;
   const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
   tail_ = joint.v[joint.n - 1];
+  return true;
+}
+
+// With the avoidance: these sections, which have their joints for good, and those that have been read behind them against what it leaves out.
+bool OffsetStage::look_at_left_out(unsigned sections) {
+  for (unsigned i = 0; i < sections && i < chain_.size(); ++i) {
+    const Section& section = chain_[i];
+    if (!section.avoid || !section.check || !cuts_into_left_out(chain_, i, chain_start())) continue;
+    fail(section.index, Condition::comp_interference, held_at(section.index).item.source);
+    return false;
+  }
   return true;
 }
 

@@ -141,6 +141,7 @@ class OffsetStage {
   void join(const Section& behind, Held* held_behind);
   static bool find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint);
   bool check_joints(unsigned last_call);
+  bool look_at_left_out(unsigned sections);
   bool look_at_walls(unsigned sections);
   unsigned first_too_near(unsigned sections, Clearance* found);
   uint32_t stop_at(uint32_t index, Item* alarm);

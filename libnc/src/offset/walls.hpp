@@ -43,6 +43,9 @@ double distance(const Piece& path, const Piece& wall, OpenEnds open = {});
 /// Whether they come nearer to each other than `least`, also where radii change, to a tenth of a micrometre.
 bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds open = {});
 
+/// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
+inline double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
+
 /// By how much a path may come nearer than the radius: rounding, and the micrometre that a vector may be off where an arc ends beside its circle.
 inline constexpr double kEnters_mm = 1e-3;
 
