@@ -94,15 +94,14 @@ class OfflineRun {
   }
 
   bool handle(nc_item& item) {
+    if (item.kind == NC_ITEM_MOVE) {  // most items are, and a jump by a table is foreseen less often than this one
+      move(item);
+      if (++moves_in_block_ < kMostMovesInBlock) return true;
+      give_up("line " + std::to_string(item.source.line) + ": " + std::to_string(kMostMovesInBlock) +
+              " moves of this block alone, and it goes on: is a decimal point missing in its words?");
+      return false;
+    }
     switch (item.kind) {
-      case NC_ITEM_MOVE:
-        move(item);
-        if (++moves_in_block_ >= kMostMovesInBlock) {
-          give_up("line " + std::to_string(item.source.line) + ": " + std::to_string(kMostMovesInBlock) +
-                  " moves of this block alone, and it goes on: is a decimal point missing in its words?");
-          return false;
-        }
-        break;
       case NC_ITEM_ACTION:
         action(item);
         break;

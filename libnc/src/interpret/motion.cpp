@@ -26,12 +26,33 @@ bool same_place(const AxisVec& a, const AxisVec& b, unsigned count) {
   return true;
 }
 
+/// It is written only where it changes, which it does in hardly any block: all axes are read right behind it.
+inline void apply_length_to(State& state, unsigned axis) {
+  const double length = axis == state.length_axis ? state.length_value : 0.0;
+  if (state.applied[axis] != length) [[unlikely]] state.applied[axis] = length;
+}
+
 /// Applies the tool length to an axis when the axis is commanded (M700 12.2).
 void apply_length(BlockContext& in, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((commanded >> i) & 1) == 0) continue;
-    in.state.applied[i] = i == in.state.length_axis ? in.state.length_value : 0.0;
+    apply_length_to(in.state, i);
   }
+}
+
+/// The coordinates of `named` for the axes of its bits, those of `others` for the rest. The two of a pair are chosen at once: what is written one by one and read
+/// in pairs right behind it, as every line would be, has to wait for the stores.
+inline AxisVec choose(uint32_t axes, const AxisVec& named, const AxisVec& others) {
+  static_assert(kMaxAxes % 2 == 0 && sizeof(double) == sizeof(uint64_t));
+  constexpr uint64_t kAll = ~uint64_t{0};
+  static constexpr uint64_t kPair[4][2] = {{0, 0}, {kAll, 0}, {0, kAll}, {kAll, kAll}};
+  AxisVec chosen;
+  for (unsigned i = 0; i < kMaxAxes; i += 2) {
+    const uint64_t(&mask)[2] = kPair[axes >> i & 3];
+    for (unsigned k = 0; k < 2; ++k)
+      chosen[i + k] = std::bit_cast<double>((std::bit_cast<uint64_t>(named[i + k]) & mask[k]) | (std::bit_cast<uint64_t>(others[i + k]) & ~mask[k]));
+  }
+  return chosen;
 }
 
 /// The shift from the compensation frame to machine coordinates: the zero point and the tool length that is applied.
@@ -299,9 +320,7 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
   const AxisVec offset = offset_in_force(in);
   AxisVec start;
   for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
-  AxisVec end = target;
-  for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((commanded >> i) & 1) == 0) end[i] = start[i];  // an axis that is not named stays where it is
+  const AxisVec end = choose(commanded, target, start);  // an axis that is not named stays where it is
   if (same_place(start, end, in.axis_count)) return;
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
@@ -314,13 +333,14 @@ void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& st
     target[axis] = to;
     return move_linear(in, target, 1u << axis, style);
   }
-  in.state.applied[axis] = axis == in.state.length_axis ? in.state.length_value : 0.0;  // M700 12.2
+  apply_length_to(in.state, axis);
   if (std::fabs(in.state.machine[axis] - (in.zero()[axis] + in.state.applied[axis]) - to) <= kNoMotion) return;
   const AxisVec offset = offset_in_force(in);
   AxisVec start;
   for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
-  AxisVec end = start;
-  end[axis] = to;
+  AxisVec there;
+  for (unsigned i = 0; i < kMaxAxes; ++i) there[i] = to;
+  const AxisVec end = choose(1u << axis, there, start);
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
   check_deceleration(in, style.kind, style.in_position);

@@ -217,8 +217,9 @@ void move_along(BlockContext& in, const CycleStep& step) {
   style.exact_stop = true;  // every level of a hole is reached
   style.tapping = (step.flags & kStrokeTaps) != 0;
   if (style.tapping && c.synchronous) set_tap(in, step, &style);
-  if ((step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths) style.in_position = c.in_position;
-  style.flows = style.kind == NC_MOVE_RAPID && style.in_position == 0 && strokes_flow(in);
+  const double width = (step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths ? c.in_position : 0;
+  style.in_position = width;
+  style.flows = in.retract_overlap > 0 && style.kind == NC_MOVE_RAPID && width == 0 && strokes_flow(in);
   move_axis(in, c.drill_axis, step.to, style);
 }
 
