@@ -9,6 +9,7 @@ namespace nc::rt {
 
 std::unique_ptr<LadderSwap> LadderTask::prepare_swap(const std::string& text, const std::string& file, std::vector<ladder::Error>* errors) const {
   auto next = std::make_unique<LadderSwap>();
+  next->from_ = program_;
   errors->clear();
   if (!compile(text, file, &next->program_, errors)) return nullptr;
   std::string reason;
@@ -30,6 +31,7 @@ std::unique_ptr<LadderSwap> LadderTask::prepare_swap(const std::string& text, co
 }
 
 bool LadderTask::swap(std::unique_ptr<LadderSwap> next, std::chrono::milliseconds patience, const std::function<void()>& meanwhile) {
+  if (next->from_.code() != program_.code()) return false;  // it was prepared for another one
   {
     const std::lock_guard lock(find_mutex_);
     next_names_ = std::make_unique<ladder::Engine>(next->program_);

@@ -31,7 +31,7 @@ class LadderSwap {
     std::int32_t value = 0;
     int point = -1;  // of an output, -1 = it is none
   };
-  ladder::Program program_;
+  ladder::Program from_, program_;  // the one whose place it is to take, and itself
   ladder::Exchange exchange_;
   std::unique_ptr<ladder::Engine> engine_;
   ladder::DeviceImage image_, fresh_;

@@ -66,7 +66,7 @@ class LadderTask final : public LadderHook {
   // ---- another program takes the place of the one in execution, between two scans: the thread that looks ----
   // Compiles a text for this machine, and sees whether the state of the program in execution means the same in it. Null with the errors when not. `file`: its name, for messages.
   std::unique_ptr<LadderSwap> prepare_swap(const std::string& text, const std::string& file, std::vector<ladder::Error>* errors) const;
-  // Waits until the scan has taken it; `meanwhile` is called again and again until then. False: no scan has run within `patience`, and nothing has changed. The one that ran until then
+  // Waits until the scan has taken it; `meanwhile` is called again and again until then. False: no scan has run within `patience`, or it was prepared for another program than the one in execution; nothing has changed then. The one that ran until then
   // is destroyed here and not in the scan.
   bool swap(std::unique_ptr<LadderSwap> next, std::chrono::milliseconds patience, const std::function<void()>& meanwhile);
   // Number of programs that have taken the place of the configuration's one. Any thread.

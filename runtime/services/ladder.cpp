@@ -121,6 +121,7 @@ Outcome LadderDesk::swap(const Call& call, Change* change) {
   sum.add(text);
   change->after = described(next->program()) + ", SHA-256 " + sum.finish().substr(0, kShownDigits);
   if (!task->swap(std::move(next), kScanPatience, [] { std::this_thread::sleep_for(std::chrono::microseconds(200)); })) return no_scan();
+  flow_.clear();  // it was that of the program before
   return Outcome::with({{"text", "until ncrtd ends: its next start takes " + runtime_.config().ladder_file()}, {"swaps", task->swaps()}, {"warnings", std::move(warnings)}, {"set_back", std::move(set_back)}});
 }
 

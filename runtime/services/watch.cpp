@@ -96,11 +96,13 @@ std::vector<Update> WatchDesk::updates(std::int64_t now_ns) {
   if (due.empty()) return updates;
   LadderLook& look = runtime_.ladder()->look();
   const bool seen = look.take(std::move(sources), 0, kScanPatience);
+  // With a long period of the scan the look has taken a while. The next one is behind it, so that other work of this thread has its turn.
+  const std::int64_t done_ns = std::max(now_ns, RealClock().now_ns());
   for (const auto& [key, list] : due) {
     list->next_ns += list->interval_ns;
-    if (list->next_ns <= now_ns) list->next_ns = now_ns + list->interval_ns;
+    if (list->next_ns <= done_ns) list->next_ns = done_ns + list->interval_ns;
     if (seen) updates.push_back({key->first, key->second, text_of(key->second, *list, places, look)});
-    else list->next_ns = now_ns + kRestNs;
+    else list->next_ns = done_ns + kRestNs;
   }
   return updates;
 }

@@ -186,6 +186,16 @@ TEST_F(LadderSwap, WithoutAScanNothingIsSwapped) {
   EXPECT_EQ(device("D1"), 2);
 }
 
+TEST_F(LadderSwap, WhatWasPreparedForAnotherProgramIsNotTaken) {
+  use("LD SM400\nINC D0\nEND\n");
+  build();
+  std::vector<ladder::Error> errors;
+  auto old = runtime->ladder()->prepare_swap("LDP in0\nINC D1\nEND\n", "old.il", &errors);
+  ASSERT_EQ(take("LD SM400\nINC D2\nEND\n"), "");
+  EXPECT_FALSE(runtime->ladder()->swap(std::move(old), milliseconds(60000), [&] { runtime->step(); }));
+  EXPECT_EQ(runtime->ladder()->swaps(), 1u);
+}
+
 TEST_F(LadderSwap, OtherNamesAreThoseOfTheNewProgram) {
   use("ALIAS one M1\nLD SM400\nOUT one\nEND\n");
   build();

@@ -184,6 +184,17 @@ TEST_F(LadderServices, SwapsTheProgram) {
   EXPECT_EQ(again.call("changes")["reply"]["changes"][0]["service"], "ladder.swap");
 }
 
+// The power flow that is kept for a while is that of its program, also where the next one is as long.
+TEST_F(LadderServices, ThePowerIsThatOfTheNewProgram) {
+  ServiceClient client(path_);
+  for (unsigned n = 0; n < 6; ++n) {
+    ASSERT_EQ(client.outcome("ladder.swap", {{"program", n % 2 == 0 ? "LD SM400\nOUT M5\nEND\n" : "LD SM401\nOUT M5\nEND\n"}}), "");
+    const Json rungs = client.call("ladder.rungs")["reply"];
+    ASSERT_EQ(line(rungs, 1)["power"], n % 2 == 0) << rungs.dump(1);
+    ASSERT_EQ(line(rungs, 2)["operands"][0]["value"], n % 2 == 0 ? 1 : 0);
+  }
+}
+
 TEST_F(LadderServices, ABadProgramIsRefusedWithAllItsLines) {
   ServiceClient client(path_);
   const Json reply = client.call("ladder.swap", {{"program", "LD SM400\nOUT nowhere\nLD M0\nAND\nOUT M1\nEND\n"}});
