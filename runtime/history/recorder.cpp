@@ -212,7 +212,7 @@ void Recorder::take_messages(std::int64_t wall_ns) {
   messages_ = info_.messages;
 }
 
-// The entries keep the time that the clock showed; their numbers tell their order.
+// The entries keep the time that the clock showed; their numbers tell their order. The two clocks are not read at the same moment, so a step of whole seconds seems to be a little more or less.
 void Recorder::watch_clock(std::int64_t wall_ns, std::int64_t steady_ns) {
   const std::int64_t step = wall_ns - steady_ns - offset_ns_;
   if (std::abs(step) < kJumpNs) {
@@ -220,7 +220,7 @@ void Recorder::watch_clock(std::int64_t wall_ns, std::int64_t steady_ns) {
     return;
   }
   offset_ns_ += step;
-  Entry entry = system_entry("clock", std::string("the time of day was set ") + (step > 0 ? "forward" : "back") + " by " + std::to_string(std::abs(step) / kSecond) + " s", wall_ns);
+  Entry entry = system_entry("clock", std::string("the time of day was set ") + (step > 0 ? "forward" : "back") + " by " + std::to_string((std::abs(step) + kSecond / 2) / kSecond) + " s", wall_ns);
   put(&entry);
 }
 
