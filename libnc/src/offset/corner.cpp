@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
 constexpr double kCusp = 1e-2;        // sine below which a turn back may be a cusp, depending on the curvatures
-constexpr double kCuspDigits_mm = 1e-3;  // words of three digits: by so much the centres of its arcs may lie beside where they belong
+// Where the tangents of a cusp tell another side than its curvatures do, the blocks overlap behind it until they cross, sin^2 / 2 (k + k') at most. What the last of three
+// digits makes, of the ends of lines that are long enough for the tool and of centres, is less than this.
+constexpr double kOverlap_mm = 2e-5;
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
@@ -143,8 +145,9 @@ bool make_legs(const Move& move, Leg* begin, Leg* end) {
 bool is_cusp(const Leg& before, const Leg& behind) { return turns_back(cross(before.u, behind.u), dot(before.u, behind.u)); }
 
 double sine_of_turn(const Leg& before, const Leg& behind) {
-  const double c = cross(before.u, behind.u);
-  return is_cusp(before, behind) ? c - kCuspDigits_mm * (before.curvature + behind.curvature) : c;
+  const double c = cross(before.u, behind.u), bend = before.curvature + behind.curvature;
+  const double least = 2 * kOverlap_mm * std::abs(bend);
+  return is_cusp(before, behind) && c * c < least ? -std::copysign(std::sqrt(least), bend) : c;
 }
 
 Turn classify(const Leg& before, const Leg& behind, double offset) {
