@@ -127,6 +127,15 @@ TEST(Series8Compensation, BeginsBesideTheStart) {  // G41
   bench.tool(1, 2, NC_TOOL_RADIUS);
   EXPECT_EQ(bench.run("F10\nT01D01\nG41\nG01X10\nY10\nX0\nY0\nG40\nX-5").path(),
             (Path{"line 0 2 0 F10", "line 8 2 0 F10", "line 8 8 0 F10", "line 2 8 0 F10", "line 2 0 0 F10", "line -5 0 0 F10"}));
+  // The same with decimal points, as the shortest way through the interpreter takes such lines.
+  for (const char* line : {"G1 X10.", "G1 X10. Y0", "G1 X10. Z5.", "M08\nG1 X10.", "G1 X10. F10"}) {
+    Bench pointed(NC_DIALECT_SERIES8);
+    pointed.tool(1, 2, NC_TOOL_RADIUS);
+    const std::vector<std::string> path = pointed.run(std::string("G17 G90\nF10\nG41 D1\n") + line + "\nY10.\nG40\nX0.\nM02").path();
+    ASSERT_GE(path.size(), 2u) << line;
+    EXPECT_EQ(path[0], "line 0 2 0 F10") << line;
+    EXPECT_EQ(path[1].substr(0, 9), "line 8 2 ") << line;
+  }
   Bench straight(NC_DIALECT_SERIES8);
   straight.tool(1, 2, NC_TOOL_RADIUS);
   EXPECT_EQ(straight.run("F10\nT01D01\nG41G43G01X10\nX20\nG40\nX30").path()[0], "line 10 2 0 F10");  // G43: docs/series8.md
