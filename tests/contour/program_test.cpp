@@ -46,6 +46,19 @@ TEST(Corners, TheSizeIsALength) {
   EXPECT_EQ(path_of("G91 G1 X50. F200 ,C#9\nY50.\nM30"), (Path{"line 50 0 0", "line 50 50 0"}));  // a vacant variable is no word
 }
 
+// The arc would be shorter than what has a direction, and in compensation smaller than the tool.
+TEST(Corners, BlocksThatGoOnButForTheLastDigitHaveNone) {
+  for (const std::string next : {"G1 X20. Y0.0001\n", "G1 X20. Y-0.0001\n", "G1 X20. Y0.001\n", "G3 X20. Y10. I0.0001 J10.\n"}) {
+    const auto contour = [&next](const char* corner, bool compensated) {
+      return std::string("G0 X-10. Y9.\n") + (compensated ? "G41 D1 " : "") + "G1 X0 Y0 F500\nX10. " + corner + "\n" + next + "G1 X30. Y40.\nG40 X50.\nM30";
+    };
+    const auto machine = [](Bench& bench) { bench.tool(1, 2).param("corner_ii", "1"); };
+    EXPECT_EQ(path_of(contour(",R1.", false), machine), path_of(contour("", false), machine));
+    EXPECT_EQ(path_of(contour(",R1.", true), machine), path_of(contour("", true), machine));
+  }
+  EXPECT_EQ(path_of("G1 X10. ,R1. F500\nX20. Y0.01\nM30").size(), 3u);  // a micrometre
+}
+
 TEST(Corners, Alarms) {
   EXPECT_EQ(alarm_of("G1 X30. ,C4. F100\nG2 X40. Y-10. J-10.\nM30"), "P381 L2");
   EXPECT_EQ(alarm_of("G1 X30. F100\nG2 X40. Y-10. J-10. ,R1.\nG1 X50.\nM30"), "P381 L2");

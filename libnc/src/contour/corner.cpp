@@ -139,6 +139,9 @@ Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_coun
   const Condition bad = round ? round_between(before, behind, first.corner_mm, &taken) : fits(before, behind, taken);
   if (bad != Condition::none) return bad;
   const Vec2 from = point_along(before.leg, -taken.before), to = point_along(behind.leg, taken.behind);
+  double sweep = taken.left * turned(from - taken.center, to - taken.center);
+  if (sweep < -kNoTurn) sweep += 2 * kPi;
+  if (round && sweep * first.corner_mm < kNoDirection_mm) return Condition::none;
   const unsigned h = first.plane_axis[0], v = first.plane_axis[1];
   for (unsigned i = 0; i < axis_count; ++i) {
     cut->before[i] = first.end[i] - (first.end[i] - first.start[i]) * (taken.before / before.length);
@@ -157,8 +160,6 @@ Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_coun
   cut->circle.center[1] = first.end[v] + taken.center.v;
   cut->circle.radius_start = cut->circle.radius_end = first.corner_mm;
   cut->circle.angle_start = std::atan2(begin.v, begin.h);
-  double sweep = taken.left * turned(begin, to - taken.center);
-  if (sweep < -kNoTurn) sweep += 2 * kPi;
   cut->circle.sweep = taken.left * sweep;
   return Condition::none;
 }
@@ -187,7 +188,7 @@ Condition cut_corner(const Move& first, const Move& next, uint32_t rotary, unsig
     const double sine = u1[0] * u2[1] - u1[1] * u2[0], cosine = u1[0] * u2[0] + u1[1] * u2[1];
     if (1 + cosine < kWayBack) return Condition::corner_reversal;
     taken = amount * std::fabs(sine) / (1 + cosine);  // tan(turn / 2) = sin / (1 + cos)
-    if (taken < kCornerSlack_mm) return Condition::none;
+    if (amount * std::atan2(std::fabs(sine), cosine) < kNoDirection_mm) return Condition::none;
     // Beyond a right angle it takes more than its radius: where there is not that much, there is no such arc.
     if (length < taken - kCornerSlack_mm) return Condition::corner_short;
     if (length_next < taken - kCornerSlack_mm) return Condition::corner_next_short;
