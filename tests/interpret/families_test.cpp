@@ -206,7 +206,7 @@ const Difference kDifferences[] = {
     {"The code of radius compensation alone, then a line",
      {{"the tool goes beside the start at once, 12.4.2", "G41 D1 F100\nG01 X10.\nX20.\nM30", "line 0 2 0 F100, line 10 2 0 F100, line 20 2 0 F100"},
       {"the same, G41", "%\nG41D1F100.\nG01X10.\nX20.\nM30", "line 0 2 0 F100, line 10 2 0 F100, line 20 2 0 F100"},
-      {"the code waits, and the line leads beside its end; without D it is the tool's number", "G41 D1 F100\nG1 X10\nX20\nM2", "line 10 2 0 F100, line 20 2 0 F100"},
+      {"the code waits, and the line leads beside its end; without D it is the number of the tool in the spindle", "G41 D1 F100\nG1 X10\nX20\nM2", "line 10 2 0 F100, line 20 2 0 F100"},
       {"as m700, 13.2", "G41 D1 F100\nG01 X10.\nX20.\nM30", "line 0 2 0 F100, line 10 2 0 F100, line 20 2 0 F100"},
       {"the code waits, and the line begins beside its start (G43: leads beside its end)", "D1F100\nG41\nG01X10\nX20", "line 0 2 0 F100, line 10 2 0 F100, line 20 2 0 F100"}}},
     {"G42 while G41 is in force",

@@ -608,6 +608,46 @@ TEST(Hx, TheProgramThatATCallsKnowsTheTool) {  // 10.1.1, 14.1.6, docs/decisions
   EXPECT_NE(calls("T5.5").alarm, "");
 }
 
+TEST(Hx, TheManualBoringCycleWaitsForTheHand) {  // 12.3.11 "(handle, JOG)"
+  const Outcome run = hx("S300 M03\nG00 Z20.\nG99 G88 X1. Z-5. R2. P200 F100\nG80\nM30");
+  EXPECT_EQ(run.alarm, "");
+  Path order;
+  for (const Step& step : run.steps) {
+    const nc_item& item = step.item;
+    if (item.kind == NC_ITEM_GATE && item.u.gate.kind == NC_GATE_STOP) order.push_back("stop");
+    if (item.kind == NC_ITEM_ACTION && item.u.action.kind == NC_ACTION_M) order.push_back("M" + brief(item.u.action.value));
+    if (item.kind == NC_ITEM_MOVE) order.push_back(brief(item.u.move.work.v[2]));
+  }
+  EXPECT_EQ(order, (Path{"M3", "20", "20", "2", "-5", "M5", "stop", "2", "M3", "M30"}));
+}
+
+TEST(Hx, TheBackBoringCycleCutsUpwards) {  // 12.3.10: from R under the part up to Z
+  const auto bore = [](const std::string& levels) { return alarm_of("S300 M03\nG00 Z20.\nG98 G87 X1. " + levels + " I.5 F100\nM30"); };
+  EXPECT_EQ(bore("Z-25. R-30."), "");
+  EXPECT_EQ(bore("Z-30. R-25."), "F_82002");
+  EXPECT_EQ(bore("Z-30. R-30."), "F_82002");
+  EXPECT_EQ(bore("G91 Z5. R-50."), "");
+  EXPECT_EQ(bore("G91 Z-5. R-50."), "F_82002");
+}
+
+TEST(Hx, WhatIsNoCircleAnyMoreIsAnAlarm) {  // 15.2.2 with different factors, also where both ends happen to lie on one circle
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J500\nG02 I10. J0 F100\nM30"), "F_82112");
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J500\nG02 X20. I10. F100\nM30"), "F_82112");
+  EXPECT_EQ(alarm_of("G51 X0 Y0 I2000 J-2000\nG02 I10. J0 F100\nM30"), "");
+  // A corner: R is that of an arc; C would have a leg of its own for each axis.
+  EXPECT_EQ(hx("G51 X0 Y0 I500 J1000\nG01 X20. ,R4. F100\nY20.\nM30").path(), (Path{"line 6 0 0 F100", "ccw 10 4 0 c6,4 F100", "line 10 20 0 F100"}));
+  EXPECT_EQ(hx("G51 X0 Y0 I1000 J500\nG01 X20. ,R4. F100\nY20.\nM30").path(), (Path{"line 16 0 0 F100", "ccw 20 4 0 c16,4 F100", "line 20 10 0 F100"}));
+  const Outcome cut = hx("G51 X0 Y0 I500 J1000\nG01 X20. ,C4. F100\nY20.\nM30");
+  EXPECT_EQ(cut.alarm + " " + cut.alarm_detail, "F_82112 The two axes of the plane are scaled differently, so C4 would not be the corner that is written.");
+  EXPECT_EQ(m700("G51 X0 P0.5\nG1 X20. ,R4. F100\nY20.\nM30").alarm, "P70");  // M700 13.19 (4): no arc there
+}
+
+TEST(Hx, FactorsAreOfOneFormat) {  // 15.2.1, 15.2.2: P, or I J K
+  const Outcome run = hx("G51 X0 Y0 P2000 I1000\nG00 X10.\nM30");
+  EXPECT_EQ(run.alarm + " " + run.alarm_detail, "F_82004 P2000 and another word of the block exclude each other.");
+  EXPECT_EQ(hx("G51 X0 Y0 I1000 J2000 K1000\nG00 X10. Y10.\nM30").path(), (Path{"rapid 10 20 0"}));
+}
+
 TEST(Hx, WhatACycleTakesFromTheOneBefore) {
   // 12.3.8: G86 has no P; 12.3.10: Q of the block goes before I and J of an earlier one.
   EXPECT_EQ(hx("S500 M03\nG00 Z20.\nG99 G88 X1. Z-5. R2. P500 F100\nG86 X2.\nG89 X3.\nG80\nM30").dwells(), (std::vector<double>{0.5, 0.5}));

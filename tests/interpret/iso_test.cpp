@@ -548,5 +548,19 @@ TEST(Iso, WhatIsNotBuiltSaysSo) {
   EXPECT_EQ(alarm_of("E5"), "NC-ADDRESS");  // a letter of M66 to M68 alone
 }
 
+TEST(Iso, AUnitLeavesTheFeedAsFast) {  // LinuxCNC: F has been given in the unit of its block
+  const auto feeds = [](const std::string& text) {
+    std::string all;
+    const Outcome run = Bench(NC_DIALECT_ISO).run(text + "\nM2");
+    for (const nc_move& move : run.moves()) all += brief(move.feed_mm_min) + " ";
+    return all + run.alarm;
+  };
+  EXPECT_EQ(feeds("G21 G90 F100\nG20\nG1 X1\nG21\nG1 X0"), "100 100 ");
+  EXPECT_EQ(feeds("G20 G90 F10\nG21 G1 X1"), "254 ");
+  EXPECT_EQ(feeds("G20 F10\nG20 G1 X1\nF20 X2"), "254 508 ");
+  EXPECT_EQ(feeds("G21\nG20 F10\nG1 X1"), "254 ");  // of the block of the code: as the program writes it
+  EXPECT_EQ(feeds("G21 G93 G1 X10 F2\nG20 X1 F2"), "20 30.8 ");
+}
+
 }  // namespace
 }  // namespace nc::test

@@ -119,7 +119,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)
   NC_FIELDS(UntilOperatorReset, left_by_end)
-  NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open)
+  NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open, selected_tool, spindle_tool)
   NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)
   return groups;
 }

@@ -110,6 +110,28 @@ TEST(Overrides, AreBarredOneByOne) {
   EXPECT_EQ(alarm_of("M52 P1\nM2"), "NC-NOT-BUILT");
 }
 
+TEST(ToolInTheSpindle, IsTheOneThatWasChangedIn) {  // LinuxCNC G43, G41 without a number, #5400: "currently loaded"; T only selects
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 10).tool(1, 1, NC_TOOL_RADIUS).tool(2, 20).tool(2, 4, NC_TOOL_RADIUS);
+  Outcome run = bench.run("T2 M6\nT1\n#100=#5400\nG43\nG0 Z0\nM2");
+  EXPECT_EQ(run.path(), (Path{"rapid 0 0 20"}));
+  EXPECT_EQ(run.var(100), 2);
+  run = bench.at(0, 0, 0).run("G40 T2 M6\nT1\nG1 F100 G41 X10\nX20\nM2");
+  EXPECT_EQ(run.path().back(), "line 20 4 0 F100");
+  run = bench.at(0, 0, 0).run("#100=#5400\nM6\n#101=#5400\nG43\nG0 Z0\nM2");  // the tool, and the one that is selected, outlive the program
+  EXPECT_EQ(run.var(100), 2);
+  EXPECT_EQ(run.var(101), 1);
+  EXPECT_EQ(run.path(), (Path{"rapid 0 0 10"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("T2\nM6 T1\nG43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 10"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("M61 Q2\nT1\nG43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 20"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("T0 M6\nG43\nG0 Z1\nM2").path(), (Path{"rapid 0 0 1"}));  // an empty spindle has no length
+  for (const char* block : {"G43", "G41"}) {
+    Bench fresh(NC_DIALECT_ISO);
+    const Outcome unknown = fresh.tool(1, 10).run(std::string("T1\n") + block + "\nM2");
+    EXPECT_EQ(unknown.alarm + " " + unknown.alarm_detail, "NC-OFFSET-DATA Which tool is in the spindle is not known. Program M06 or M61, or the number of the offset.") << block;
+  }
+}
+
 TEST(ToolInTheSpindle, IsNamed) {  // M61
   Bench bench(NC_DIALECT_ISO);
   bench.tool(7, 12);

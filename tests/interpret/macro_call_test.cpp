@@ -266,6 +266,20 @@ TEST(CodeCall, AsM98HasNoPlaceBesideAnotherWayOn) {  // 13.5.2 (1): M50 is M98 P
   EXPECT_EQ(bench.run("#101=0\nM00 T5\nM30").var(101), 1);
 }
 
+TEST(SubProgram, TheOtherCodesOfItsBlockComeFirst) {  // 13.5.2, differences (3): "after all the commands except M, P, H and L"
+  for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_HX}) {
+    Bench bench(family);
+    bench.add("O30", "#100=#100+1\nM99 M00\n");
+    const Outcome run = bench.run("#100=0\nM98 P30 M00 L2\nM98 P30 M01 M08\nM30");
+    EXPECT_EQ(run.alarm, "");
+    EXPECT_EQ(run.aux(), "M0 M0 M0 M8 M0 M30") << family;
+    EXPECT_EQ(run.var(100), 3);
+    unsigned optional = 0;
+    for (const nc_item& item : run.of(NC_ITEM_GATE)) optional += item.u.gate.kind == NC_GATE_OPTIONAL_STOP ? 1 : 0;
+    EXPECT_EQ(optional, 1u);
+  }
+}
+
 TEST(CodeCall, SAndTAndB) {
   Bench bench;
   bench.add("O8", "#100=#19\n#101=#20\n#102=#2\nM99\n");

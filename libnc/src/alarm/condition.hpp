@@ -43,7 +43,7 @@ enum class Condition : uint16_t {
   block_skip, sub_without_return,
   polar_code, polar_axis, polar_modal, polar_state,   // as those of mill_..., of the polar coordinate interpolation
   probe_contact, two_words, comment_open, level_below_bottom, cavity_size, cavity_corner, cavity_step,
-  head_silent, length_beside_arc,
+  head_silent, length_beside_arc, tool_unknown, corner_uneven,
   internal,
   count_
 };

@@ -22,6 +22,7 @@ enum class CycleKind : uint8_t {
   bore_feed,          ///< back with the feed
   bore_stop,          ///< back with the spindle stopped
   back_bore,          ///< from below
+  bore_waits_for_hand, ///< the program stops at the bottom with the spindle stopped; what the hand has left of the way back is made in rapid
   bore_by_hand,       ///< a place where single block stops at the bottom, with the spindle stopped
   bore_dwell,         ///< a dwell at the bottom, back with the feed
   // RS-274/NGC 3.5.16, where the same names have other strokes.

@@ -109,6 +109,16 @@ constexpr Stroke kBoreByHand[] = {
     {rapid, L::exit},                          // 8
     kForward,                                  // 9
 };
+// HX 12.3.11 G88: the hand draws the tool back.
+constexpr Stroke kBoreWaitsForHand[] = {
+    kToR,
+    kToBottom,
+    kDwell,
+    kStop,
+    {StrokeKind::program_stop},
+    {rapid, L::exit},
+    kForward,
+};
 // (i) G89
 constexpr Stroke kBoreDwell[] = {
     kToR,          // 2
@@ -257,6 +267,7 @@ constexpr CycleTable table_of(CycleKind kind) {
     case CycleKind::bore_feed: return table(kBoreFeed, true);
     case CycleKind::bore_stop: return table(kBoreStop, false);
     case CycleKind::back_bore: return table(kBackBore, false);
+    case CycleKind::bore_waits_for_hand: return table(kBoreWaitsForHand, false);
     case CycleKind::bore_by_hand: return table(kBoreByHand, false);
     case CycleKind::bore_dwell: return table(kBoreDwell, true);
     case CycleKind::tap_by_direction: return table(kTapByDirection<S::forward, S::reverse>, true);

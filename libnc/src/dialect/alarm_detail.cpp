@@ -91,7 +91,7 @@ struct NamedMisc {
 };
 constexpr NamedMisc kNamedMisc[] = {
     {"program_end", MiscFunction::program_end}, {"call_sub", MiscFunction::call_sub},
-    {"tool_change", MiscFunction::tool_change}, {"spindle_forward", MiscFunction::spindle_forward},
+    {"tool_change", MiscFunction::tool_change}, {"tool_number", MiscFunction::tool_number}, {"spindle_forward", MiscFunction::spindle_forward},
 };
 /// A name that may stand for a word: {feed} becomes the letter of its address.
 struct NamedWord {
@@ -158,6 +158,9 @@ constexpr Sentence kSentences[] = {
      "Start and end of the arc are not on one circle about its centre."},
     {C::arc_displaced, "Vectors in space make the radii at both ends of the arc differ by {value} mm. Use vectors across its plane, or lines.",
      "Vectors in space make the radii at both ends of the arc differ. Use vectors across its plane, or lines."},
+    {C::corner_uneven, "The two axes of the plane are scaled differently, so {word} would not be the corner that is written.",
+     "The two axes of the plane are scaled differently, so the corner would not be the one that is written."},
+    {C::tool_unknown, "Which tool is in the spindle is not known. Program {tool_change} or {tool_number}, or the number of the offset.", nullptr},
     {C::length_beside_arc, "{word} cannot stand in the block of an arc. Give it a block in front.",
      "Length compensation cannot begin in the block of an arc. Give it a block in front."},
     {C::arc_center,

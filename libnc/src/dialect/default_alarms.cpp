@@ -192,6 +192,8 @@ constexpr AlarmRow kRows[] = {
     {C::probe_contact, "NC-PROBE", nullptr},
     {C::two_words, "NC-FORMAT", nullptr},
     {C::length_beside_arc, "NC-FORMAT", nullptr},
+    {C::corner_uneven, "NC-CORNER", nullptr},
+    {C::tool_unknown, "NC-OFFSET-DATA", nullptr},
     {C::comment_open, "NC-FORMAT", nullptr},
     {C::level_below_bottom, "NC-RANGE", nullptr},
     {C::cavity_size, "NC-RANGE", nullptr},

@@ -70,6 +70,9 @@ struct BlockRules {
   /// The unit is that of the whole program: a code that changes it behind an axis word or an F is a fault (DGSHAPE 2-2, G20). Otherwise it may change
   /// in any block.
   bool unit_is_of_program = false;
+  /// A code that changes the unit leaves the feed in force as fast as it was (LinuxCNC G20: F is taken in the unit of its block). Otherwise the number stays, and
+  /// counts in the new unit.
+  bool unit_keeps_speed = false;
 };
 
 /// M, T and the second auxiliary function.
@@ -208,7 +211,7 @@ struct CompensationRules {
   /// The code of compensation in a block without a move does nothing yet; the next move leads to the contour, or away from it (LinuxCNC G40
   /// to G42). Otherwise the tool goes at once to the point beside the contour, or back from there (M700 12.4.2; DGSHAPE G41).
   bool code_alone_waits;
-  /// The code without D takes the number of the tool as the offset number (RS-274/NGC 3.5.10). Otherwise the last offset number stays (M700
+  /// The code without D takes the number of the tool in the spindle as the offset number (RS-274/NGC 3.5.10). Otherwise the last offset number stays (M700
   /// 12.4.1; DGSHAPE G41).
   bool number_is_that_of_tool;
   /// The first move begins with a line to the place beside its start, unless its block has the code of an entry (Series 8 G41, G43). Otherwise it leads
@@ -252,7 +255,7 @@ struct LengthRules {
   bool shifts_reading;
   /// A code of length compensation may stand beside an arc: it acts before the motion (LinuxCNC, order of execution). Otherwise it is a fault (M700 App. 2).
   bool stands_beside_arc = false;
-  /// The code without H takes the number of the tool as the offset number (LinuxCNC G43). Otherwise the last offset number stays (M700 12.2
+  /// The code without H takes the number of the tool in the spindle as the offset number (LinuxCNC G43). Otherwise the last offset number stays (M700 12.2
   /// (2) (d)), or H is required (DGSHAPE G43).
   bool number_is_that_of_tool;
   /// The axis is the one that stands on the plane in force (HX 13.1.1). Else axis_by_words says (M700 12.2 (3); DGSHAPE G43).
@@ -324,6 +327,11 @@ struct CycleRules {
   bool code_begins_data = false;
   /// A bottom above R is a fault (LinuxCNC G81; Series 8 G80: R is the clearance, Z the final depth, and both stay known from one cycle to the next). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
+  /// The bore that is drawn back by hand stops the program at its bottom (HX 12.3.11 "Manual Boring Cycle"). Otherwise single block has a place to stop there, and
+  /// without it the way back begins by itself (M700 13.1.1 (h)).
+  bool bore_waits_for_hand = false;
+  /// The bottom of a back bore lies below its end (HX 12.3.10). Otherwise the signs say the way (M700 13.1.1 (g)).
+  bool back_bore_is_upwards = false;
   /// The codes that stop the program act over the first hole of their block, "after positioning" (M700 13.1.1 (2)). Otherwise they act behind the block, as
   /// elsewhere (RS-274/NGC 3.8), or stand alone (DGSHAPE 2).
   bool stops_over_hole = false;

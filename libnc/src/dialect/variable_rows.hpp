@@ -55,7 +55,7 @@ struct VariableRow {
 };
 
 /// Words whose last value a program can read in a system variable.
-enum class ModalWord : uint8_t { none, second_auxiliary, radius_number, feed, length_number, misc, sequence, program, spindle, tool };
+enum class ModalWord : uint8_t { none, second_auxiliary, radius_number, feed, length_number, misc, sequence, program, spindle, tool, spindle_tool };
 
 /// A kind of ladder device that programs can read.
 struct DeviceRow {

@@ -8,6 +8,7 @@
 //   5. M00 M01 M02 M30 M98 M99
 #include <algorithm>
 
+#include "base/units.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
@@ -75,6 +76,13 @@ Execution drop_beside_cancel(Interpreter& in) {
   return Execution::done;
 }
 
+/// LinuxCNC G20, G21: the feed in force is as fast in the new unit as it was. A feed in inverse time has none.
+void keep_speed(BlockContext& in, Function unit) {
+  if (!in.dialect->rules.block.unit_keeps_speed || in.state.modal.is(unit) || in.state.modal.is(Function::inverse_time_feed)) return;
+  double& feed = in.state.modal.feed;
+  feed = unit == Function::inch ? feed / kMillimetresPerInch : feed * kMillimetresPerInch;
+}
+
 }  // namespace
 
 /// Step 1: modes that decide how other words are read.
@@ -98,6 +106,9 @@ Execution apply_reading_modes(Interpreter& in) {
       }
       case Function::inch:
       case Function::metric:
+        keep_speed(in, row->function);
+        in.state.modal.set(*row);
+        break;
       case Function::feed_per_minute:
       case Function::feed_per_revolution:
       case Function::inverse_time_feed:

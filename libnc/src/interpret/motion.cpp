@@ -572,7 +572,8 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (program_mapped(in)) {
     if (tilts_plane(in, h, v)) return in.raise_mode(Condition::plane_mismatch, Mode::motion);  // 13.21
     const bool uneven = scaled_unevenly(in, h, v);
-    if (uneven && !in.dialect->rules.scaling.arcs_may_be_uneven) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
+    // HX 15.2.2 prints an arc by R; one about a centre would be no circle any more, also where its ends happen to lie on one.
+    if (uneven && !(in.dialect->rules.scaling.arcs_may_be_uneven && words.has_radius)) return in.raise_mode(Condition::arc_deviation, Mode::motion);  // 13.19 (4)
     words.radius *= std::fmax(std::fabs(scale_of(in, h)), uneven ? std::fabs(scale_of(in, v)) : 0);
     map_arc(in, h, v, words.center, &ccw);
   }
@@ -659,7 +660,13 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
   double amount = length_value(in, w.corner_size, false, true);
   if (amount < 0) return in.raise(Condition::value_range, word, w.corner_size.value);
-  if (program_mapped(in)) amount *= std::fabs(scale_of(in, static_cast<unsigned>(plane.h)));  // 13.7.1: the corner is scaled, too
+  if (program_mapped(in)) {  // 13.7.1: the corner is scaled, too
+    const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
+    // A chamfer would have a leg of its own for each axis; a rounding is an arc by R.
+    const bool arc = in.dialect->rules.scaling.arcs_may_be_uneven && w.corner != Corner::chamfer;
+    if (scaled_unevenly(in, h, v) && !arc) return in.raise(Condition::corner_uneven, word, w.corner_size.value);
+    amount *= std::fmax(std::fabs(scale_of(in, h)), std::fabs(scale_of(in, v)));
+  }
   if (!(amount > 0)) return Execution::done;  // no corner is cut
   style->corner = w.corner;
   style->corner_mm = amount;

@@ -281,11 +281,15 @@ struct UntilOperatorReset {
   LeftByEnd left_by_end;
 };
 
+inline constexpr uint32_t kNoTool = ~0u;
+
 /// What neither a program nor a reset ends.
 struct UntilPowerOff {
   double clock_base[2] = {0, 0};  ///< time of the machine, ms, at which #3001 and #3002 are 0 (M700 13.5.5: only writing to them changes them)
   int64_t clock_shift_s = 0;      ///< s by which the clock of programs (#3011, #3012) is ahead of the machine's
   bool port_open = false;         ///< POPEN has been executed (M700 13.5.8)
+  uint32_t selected_tool = 0;     ///< of the last T
+  uint32_t spindle_tool = kNoTool;  ///< of the last tool change; kNoTool = there was none yet
 };
 
 /// Follows from the other groups, the records and the parameters, and is kept because every block or move needs it (refresh_special, refresh_accuracy,

@@ -208,8 +208,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(left_by_end);
   }
   {
-    const auto& [clock_base, clock_shift_s, port_open] = static_cast<const UntilPowerOff&>(values);
-    hash.add(clock_base, clock_shift_s, port_open);
+    const auto& [clock_base, clock_shift_s, port_open, selected_tool, spindle_tool] = static_cast<const UntilPowerOff&>(values);
+    hash.add(clock_base, clock_shift_s, port_open, selected_tool, spindle_tool);
   }
   // The group Derived follows from the other groups, the records and the parameters.
 }

@@ -321,6 +321,7 @@ Eval give_word(Access& a, const ModalState& m) {
     case ModalWord::program: return give_program(a, a.in.source.program);
     case ModalWord::spindle: return give(a, m.spindle);
     case ModalWord::tool: return give(a, m.tool);
+    case ModalWord::spindle_tool: return give(a, a.in.state.spindle_tool == kNoTool ? 0 : a.in.state.spindle_tool);
     case ModalWord::none: break;
   }
   return no_variable(a);

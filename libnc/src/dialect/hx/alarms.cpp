@@ -63,6 +63,7 @@ const AlarmRow kConditions[] = {
     {C::two_words, "F_82004", nullptr},          // 2.2.2
     {C::length_beside_arc, "F_82004", nullptr},
     {C::comment_open, "F_82004", nullptr},
+    {C::corner_uneven, "F_82112", nullptr},      // 4.4: no arc
     {C::reference_compare, "F_82209", nullptr},  // 6.4
     {C::no_feed, "F_84020", nullptr},            // 5.2
     {C::measure_signal, "F_84022", nullptr},     // 4.10

@@ -83,7 +83,9 @@ inline constexpr Rules kRules = {
               .shift_needs_words = true,
               .shift_is_of_spindle = true,
               .words_of_all = true,  // 12.3.9, 12.3.10
-              .bore_stop_dwells = false},  // 12.3.8
+              .bore_stop_dwells = false,       // 12.3.8
+              .bore_waits_for_hand = true,     // 12.3.11
+              .back_bore_is_upwards = true},   // 12.3.10
     .reference = {.remembered_axes_go = false,  // 6.1
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,

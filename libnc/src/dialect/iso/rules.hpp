@@ -32,7 +32,8 @@ inline constexpr Rules kRules = {
               .dwell_stands_alone = false,
               .words_stand_once = true,
               .assigns_at_once = true,
-              .unused_words_are_faults = true},
+              .unused_words_are_faults = true,
+              .unit_keeps_speed = true},
     .auxiliary = {.most_m_codes = ~0u, .tool_change_is_pair = false},  // RS-274/NGC 3.6.3: T selects the tool, M6 changes it
     .spindle = {.speed_of_word = speed_of_word,
                 .limits_by_coordinate_setting = false,

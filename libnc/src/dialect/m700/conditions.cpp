@@ -37,6 +37,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::arc_deviation, "P70", nullptr},  // 6.4
     {C::arc_displaced, "P70", nullptr},  // 12.5
     {C::length_beside_arc, "P70", nullptr},  // App. 2
+    {C::corner_uneven, "P70", nullptr},      // 13.19 (4)
     {C::arc_center, "P71", nullptr},     // 6.5
     {C::helix_option, "P72", nullptr},   // 6.6
     {C::plane_mismatch, "P113", nullptr},
@@ -45,6 +46,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::space_conversion, "P920", nullptr},   // 13.22
     {C::arc_in_compensation_start, "P151", nullptr},  // 12.4.1
     {C::no_offset_number, "P170", nullptr},
+    {C::tool_unknown, "P170", nullptr},  // does not occur: H and D are words (12.1)
     {C::cycle_in_compensation, "P155", nullptr},
     {C::skip_in_compensation, "P608", nullptr},
     {C::skip_feed_zero, "P603", nullptr},

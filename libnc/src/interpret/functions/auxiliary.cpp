@@ -232,7 +232,7 @@ Execution auxiliary_before(BlockContext& in) {
   if (w.has(Role::tool) && (!whole_number(w.get(Role::tool), &tool) || tool > rules.range.largest_tool)) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));
   const bool held = w.has(Role::tool) && holds_tool_asked_for(in, tool);
   if (w.has(Role::tool) && !held) {
-    in.state.modal.tool = tool;
+    in.state.modal.tool = in.state.selected_tool = tool;
     if (in.settings.life_managed) {
       did = select_managed_tool(in, &tool);
       if (did != Execution::done) return did;
@@ -266,6 +266,7 @@ Execution auxiliary_before(BlockContext& in) {
     if (waiting && i > first) emit_fin(in);  // one M strobe at a time
     in.state.modal.m = m.number;
     emit_misc(in, function, m.number);
+    if (function == MiscFunction::tool_change) in.state.spindle_tool = in.state.selected_tool;
     if (function == MiscFunction::tool_change && in.settings.life_managed) take_managed_tool(in);
     waiting = true;
   }

@@ -41,10 +41,12 @@ Execution take_length_number(BlockContext& in) {
   return did;
 }
 
-/// The offset that goes with the tool.
+/// The offset that goes with the tool in the spindle (LinuxCNC G41, G43), which is not the one that T has selected since.
 Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
-  if (in.state.modal.tool > in.tool_offsets()) return in.raise(Condition::no_offset_number, word, in.state.modal.tool);
-  *number = in.state.modal.tool;
+  const uint32_t tool = in.state.spindle_tool;
+  if (tool == kNoTool) return in.raise(Condition::tool_unknown);
+  if (tool > in.tool_offsets()) return in.raise(Condition::no_offset_number, word, tool);
+  *number = tool;
   return Execution::done;
 }
 

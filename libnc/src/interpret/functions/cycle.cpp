@@ -230,8 +230,12 @@ Execution check_circle(BlockContext& in) {
 }  // namespace
 
 CycleKind cycle_kind(const Dialect& dialect, Function function) {
-  for (const CycleOfFunction& row : kCycles)
-    if (row.function == function) return dialect.rules.cycle.keeps_spindle_direction ? row.by_direction : row.plain;
+  const CycleRules& rules = dialect.rules.cycle;
+  for (const CycleOfFunction& row : kCycles) {
+    if (row.function != function) continue;
+    const CycleKind kind = rules.keeps_spindle_direction ? row.by_direction : row.plain;
+    return kind == CycleKind::bore_by_hand && rules.bore_waits_for_hand ? CycleKind::bore_waits_for_hand : kind;
+  }
   return CycleKind::none;
 }
 
@@ -272,8 +276,9 @@ Execution check_hole(BlockContext& in) {
   const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);
   const bool cuts_upwards = c.kind == CycleKind::back_bore_to_level || c.kind == CycleKind::face_upwards;
   if (rules.bottom_is_below_r && c.has_z && same_kind && !cuts_upwards && depth < 0) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
-  // Series 8 G89, step 6: from below it cuts in the positive direction.
-  if (c.kind == CycleKind::face_upwards && c.has_z && same_kind && !(depth < 0)) return in.raise(Condition::value_range, Role::basic_z, c.z);
+  // Series 8 G89, step 6, HX 12.3.10: from below it cuts in the positive direction.
+  const bool from_below = c.kind == CycleKind::face_upwards || (c.kind == CycleKind::back_bore && rules.back_bore_is_upwards);
+  if (from_below && c.has_z && same_kind && !(depth < 0)) return in.raise(Condition::value_range, Role::basic_z, c.z);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
 }

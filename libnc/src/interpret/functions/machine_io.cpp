@@ -65,7 +65,7 @@ Execution name_tool(BlockContext& in) {
   const double raw = in.words.get(Role::named_tool);
   uint32_t tool = 0;
   if (!whole_number(raw, &tool) || raw != std::floor(raw) || tool > in.dialect->rules.range.largest_tool) return in.raise(Condition::value_range, Role::named_tool, raw);
-  in.state.modal.tool = tool;
+  in.state.modal.tool = in.state.spindle_tool = tool;
   return Execution::done;
 }
 

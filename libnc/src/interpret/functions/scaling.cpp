@@ -25,7 +25,7 @@ bool factor_of(const BlockContext& in, double* factor) {
   return true;
 }
 
-/// Factor of each axis: of I J K, else of P, else of its parameter (HX 15.2.2). False: out of range, and `word` says which one.
+/// Factor of each axis: of I J K, or of P, else of its parameter (HX 15.2.2). False: out of range, and `word` says which one.
 bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
   const Command& w = in.words;
   const auto of_word = in.dialect->rules.scaling.factor_of_word;
@@ -95,6 +95,8 @@ Execution do_scaling(BlockContext& in) {
   const ScalingRules& rules = in.dialect->rules.scaling;
   if (rules.about_zero) return begin_map_about_zero(in, Role::scaling_factor, set_factor_of_plane);
   if (!w.has(Role::scaling_factor) && rules.factor_required) return in.raise(Condition::words_missing, Role::scaling_factor);
+  if (rules.factor_by_axis && w.has(Role::scaling_factor) && w.any({Role::vector_x, Role::vector_y, Role::vector_z}))  // HX 15.2.1, 15.2.2: two formats
+    return in.raise(Condition::two_words, Role::scaling_factor, w.get(Role::scaling_factor));
   AxisVec factors;
   Role word = Role::scaling_factor;
   double factor = 1;
