@@ -283,7 +283,7 @@ class Session {
 };
 
 void sessions(bool optimal, uint64_t first) {
-  const uint64_t count = seeds(160, 6);
+  const uint64_t count = seeds(100, 6);
   unsigned resets = 0, cuts = 0, retracts = 0, made = 0;
   double worst = 0;
   for (uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed) {
