@@ -100,6 +100,21 @@ TEST(HxBlocks, HaveOneWordThatCallsBehindThem) {  // 14.1.5, 14.1.6
   for (const char* block : {"M98 P30 T5", "T5 M98 P30", "X5. M98 P30 L2 T5", "M30 T5", "M02 T5"}) EXPECT_EQ(run(block), "F_82001 The word T5 is not possible in this block.") << block;
   EXPECT_EQ(run("M98 P30 M6"), "F_82001 The word M06 is not possible in this block.");
   EXPECT_EQ(run("M99 T5"), "F_82001 The word T5 is not possible in this block.") << "of a sub program it would return without the call";
+  // Arguments of the M code that begins the block are no way on: the return, or the end, would be lost.
+  for (const char* block : {"M6 M99", "M6 M30", "M6 X1. M2", "M6 M98"}) EXPECT_EQ(run(block), "F_82001 The word M06 is not possible in this block.") << block;
+}
+
+TEST(HxBlocks, ACodeThatCallsIsNotLostInASubProgram) {  // 14.1.5, 14.1.6: PI 105 = 0, PI 106 = 1, PI 95 = 50
+  for (const char* back : {"M99 T5", "T5 M99", "X5. T5 M99", "M06 T5 M99", "M99 M50", "M50 M99", "X5. M50 M99", "M99 P2 T5"})
+    for (const char* call : {"M98 P31", "G65 P31"}) {
+      Bench b(NC_DIALECT_HX);
+      b.param("3106", "1").param("3095", "50").add("O31.nc", std::string("O31\nG04 P31\n") + back);
+      b.add("O9000.nc", "O9000\nM99\n"), b.add("O9020.nc", "O9020\nM99\n");
+      const Outcome run = b.run(std::string(call) + "\nN2\nM30");
+      EXPECT_EQ(run.alarm, "F_82001") << back;
+      EXPECT_EQ(run.alarm_line, 3u) << back;
+      EXPECT_TRUE(run.moves().empty()) << back;
+    }
 }
 
 TEST(HxBlocks, CodesThatKeepTheirMeaningCallNothing) {  // 14.1.3 (2), 14.1.4 (3)

@@ -73,6 +73,14 @@ CodeCallType type_of_call(const Interpreter& in, const Caller& caller) {
   return caller.call->type;
 }
 
+/// Behind an M code that begins its block the other words are arguments (HX 14.1.4), and so a code by which the block would go on elsewhere would be lost.
+Execution check_no_way_on(Interpreter& in, const Caller& caller) {
+  if (!in.dialect->rules.code_call.arguments_behind_m || caller.word != in.word(Role::misc_code)) return Execution::done;
+  bool elsewhere = false;
+  const Execution did = in.executed(goes_on_elsewhere(*in.block, in.front, &elsewhere));
+  return did == Execution::done && elsewhere ? in.raise(Condition::illegal_address, caller.word, caller.value) : did;
+}
+
 /// Types G65, G66, G66.1: every other word is an argument, and so is the code itself but for G.
 Execution call_with_arguments(Interpreter& in, const Caller& caller) {
   MacroCall call;
@@ -137,9 +145,9 @@ Execution dispatch_block(Interpreter& in, bool* taken) {
     return did == Execution::done ? set_variable_of_call(in, caller) : did;
   }
   *taken = true;
-  did = apply_codes_before(in, caller.at);
-  if (did != Execution::done) return did;
-  return call_with_arguments(in, caller);
+  did = check_no_way_on(in, caller);
+  if (did == Execution::done) did = apply_codes_before(in, caller.at);
+  return did == Execution::done ? call_with_arguments(in, caller) : did;
 }
 
 bool block_is_argument(const Interpreter& in) { return modal_call_takes_blocks(in) && !cancels(in); }
