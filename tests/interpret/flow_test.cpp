@@ -48,6 +48,30 @@ TEST(SubProgram, OneWayOnInABlock) {  // only the first of them would act
   EXPECT_EQ(bench.at(0, 0, 0).run("M3 M8 M98 P1\nM30").path(), (Path{"rapid 1 0 0"}));
 }
 
+TEST(SubProgram, CodesBehindTheWayOnActInFrontOfIt) {  // 13.3.1: M98 and M99 come behind all else of their block, wherever they stand in it
+  for (const nc_dialect family : {NC_DIALECT_M700, NC_DIALECT_HX}) {
+    const auto order = [family](const char* main, const char* back) {
+      Bench bench(family);
+      bench.add("O30.nc", std::string("O30\nG0 X1.\n") + back + "\n");
+      const Outcome run = bench.run(std::string(main) + "\nG0 X9.\nM30");
+      EXPECT_EQ(run.alarm, "") << main << " " << back;
+      std::string all;
+      for (const Step& step : run.steps) {
+        if (step.item.kind == NC_ITEM_MOVE) all += "move ";
+        if (step.item.kind == NC_ITEM_GATE && step.item.u.gate.kind == NC_GATE_STOP) all += "stop ";
+        if (step.item.kind == NC_ITEM_GATE && step.item.u.gate.kind == NC_GATE_OPTIONAL_STOP) all += "optional ";
+        if (step.item.kind == NC_ITEM_END) all += "end";
+      }
+      return all;
+    };
+    for (const char* block : {"M98 P30 M00", "M00 M98 P30"}) EXPECT_EQ(order(block, "M99"), "stop move move end") << block;
+    for (const char* block : {"M98 P30 M01", "M01 M98 P30"}) EXPECT_EQ(order(block, "M99"), "optional move move end") << block;
+    for (const char* block : {"M99 M00", "M00 M99"}) EXPECT_EQ(order("M98 P30", block), "move stop move end") << block;
+    EXPECT_EQ(order("M98 P30 L2", "M99 M01"), "move optional move optional move end");
+    for (const char* block : {"M02 M00", "M00 M02"}) EXPECT_EQ(order(block, "M99"), "stop end") << block;
+  }
+}
+
 TEST(SubProgram, FromASequenceNumber) {  // H
   Bench bench;
   bench.add("O1", "G0 X1.\nN20 Y1.\nM99\n");

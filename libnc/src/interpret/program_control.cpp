@@ -19,12 +19,18 @@ bool two_ways_on(const BlockContext& in) {
   return call && ways > 1;
 }
 
-}  // namespace
+/// M98, M198, M99, M02 or M30: behind all other codes of the block, wherever it stands among them (M700 13.3.1, 13.3.2, 9.1).
+bool is_way_on(MiscFunction function) { return calls_program(function) || function == MiscFunction::return_sub || function == MiscFunction::program_end; }
 
-/// A code by which the block goes on in another program, or ends: it comes behind all others of its block, wherever it stands (M700 13.5.2, "Differences between M98 and G65" (3)).
-static bool leads_on(const Auxiliary& m) { return calls_program(m.function) || m.function == MiscFunction::return_sub || m.function == MiscFunction::program_end; }
+/// Codes that act behind the moves of their block and let the program go on where it is.
+Execution stay_here(Interpreter& in, const Auxiliary& m) {
+  if (m.function == MiscFunction::interrupt_on) return enable_interrupt(in);
+  if (m.function == MiscFunction::interrupt_off) return disable_interrupt(in);
+  if (!in.words.stops_given_out || !stops_program(m.function)) auxiliary_behind(in, m);
+  return Execution::done;
+}
 
-static Execution lead_on(Interpreter& in, const Auxiliary& m) {
+Execution go_on_elsewhere(Interpreter& in, const Auxiliary& m) {
   switch (m.function) {
     case MiscFunction::call_sub: return call_sub(in);
     case MiscFunction::call_external: return call_external(in);
@@ -36,21 +42,21 @@ static Execution lead_on(Interpreter& in, const Auxiliary& m) {
   return Execution::done;
 }
 
+}  // namespace
+
 Execution codes_behind(Interpreter& in) {
   if (in.words.auxiliary.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, Role::misc_code, in.words.auxiliary.back().number);
-  const Auxiliary* on = nullptr;
+  const Auxiliary* way_on = nullptr;
   for (const Auxiliary& m : in.words.auxiliary) {
     in.state.stop_reading |= m.stops_reading;  // M700 4.2
-    if (m.function == MiscFunction::interrupt_on || m.function == MiscFunction::interrupt_off) {
-      const Execution did = m.function == MiscFunction::interrupt_on ? enable_interrupt(in) : disable_interrupt(in);
-      if (did != Execution::done) return did;
-    } else if (leads_on(m)) {
-      if (on == nullptr) on = &m;
-    } else if (!in.words.stops_given_out || !stops_program(m.function)) {
-      auxiliary_behind(in, m);
+    if (is_way_on(m.function)) {
+      way_on = way_on == nullptr ? &m : way_on;
+      continue;
     }
+    const Execution did = stay_here(in, m);
+    if (did != Execution::done) return did;
   }
-  return on == nullptr ? Execution::done : lead_on(in, *on);
+  return way_on == nullptr ? Execution::done : go_on_elsewhere(in, *way_on);
 }
 
 }  // namespace nc
