@@ -117,6 +117,13 @@ TEST(HxBlocks, ACodeThatCallsIsNotLostInASubProgram) {  // 14.1.5, 14.1.6: PI 10
     }
 }
 
+TEST(HxBlocks, TheEndOfAModalCallMayStandWhereThereIsNone) {  // 3.2: G67 is in force at power on
+  EXPECT_EQ(hx("G17 G40 G49 G67 G80\nG00 X1.").alarm, "");
+  const Outcome run = hx("G67 G00 X1.\nG66 P1\nX2.\nG67\nG67 X3.\nM30\nO1\nM99");
+  EXPECT_EQ(run.alarm, "");
+  EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0"}));
+}
+
 TEST(HxBlocks, CodesThatKeepTheirMeaningCallNothing) {  // 14.1.3 (2), 14.1.4 (3)
   for (const char* write : {"#3085=65", "#3086=66", "#3094=67", "#3085=256", "#3095=2", "#3096=30", "#3104=98"}) EXPECT_EQ(hx(write).alarm, "F_82002") << write;
   for (const char* write : {"#3085=64", "#3085=68", "#3095=3", "#3095=0"}) EXPECT_EQ(hx(write).alarm, "") << write;

@@ -55,7 +55,8 @@ Reading CommandReader::take_code(double value) {
     case Function::incremental_once: w.distance_once = row; return Reading::done;
     case Function::comp_entry: w.comp_entry = true; return Reading::done;
     case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
-      return front_.questions->has_modal_call(front_.core) ? Reading::done : front_.refuse(Condition::cancel_without_call, Role::code, value);
+      if (front_.dialect->rules.program.modal_end_may_stand_alone || front_.questions->has_modal_call(front_.core)) return Reading::done;
+      return front_.refuse(Condition::cancel_without_call, Role::code, value);
     case Function::stroke_check_on:
       if (w.one_shot != nullptr && w.one_shot->function == Function::holes_on_grid) return Reading::done;  // M700 13.2, G37.1 note 5
       w.one_shot = row;

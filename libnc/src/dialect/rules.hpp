@@ -484,6 +484,9 @@ struct ProgramRules {
   /// L beside the return in a main program is how often it goes back, then it goes on (HX 2.4.4). Else it goes back without end (M700 13.3.1; DGSHAPE
   /// has no sub programs).
   bool main_program_counts;
+  /// The code that ends a modal call may stand where none is in force, as any code may that is in force (HX 3.2: from power on). Otherwise it is a
+  /// fault (M700 13.5.1).
+  bool modal_end_may_stand_alone = false;
   /// Blocks of MDI call no sub program (HX 2.4.3). Else they may (M700 13.3.1; DGSHAPE has none).
   bool no_call_in_mdi;
   /// So many sub programs stand in one another, whatever macros stand between them (HX 2.4.1: four; M700 13.3.1: eight; DGSHAPE has none).
