@@ -126,5 +126,24 @@ TEST(CornerTurn, DgshapeAlarms) {
   }
 }
 
+// HX 13.2.1, DGSHAPE G39: the arc ends where its words lead to. Where the block behind leads elsewhere it would be cut, so the tool stops in front of the arc.
+TEST(CornerTurn, LeadsTheWayOfTheBlockBehind) {
+  for (const nc_dialect family : {NC_DIALECT_HX, NC_DIALECT_DGSHAPE}) {
+    Bench bench(family);
+    bench.tool(1, 3, NC_TOOL_RADIUS);
+    const auto corner = [&](const std::string& behind) { return bench.at(0, 0, 0).run("F100\nG41 D1\nG01 X20.0\n" + behind + "\nM30"); };
+    for (const char* behind : {"G39 X0 Y-10.0\nY-10.0\nG40 X0", "G39 X20.0 Y-10.0\nX22.0 Y-10.0\nG40 X0", "G39 X0 Y-10.0\nZ1.0\nY-10.0\nG40 X0", "G39 X21.0 Y-10.0\nG02 X10.0 Y-10.0 R5.0\nG40 X0"}) {
+      const Outcome run = corner(behind);
+      EXPECT_EQ(run.alarm, "NC-OFFSET-PATH") << behind;
+      EXPECT_EQ(run.alarm_line, 4u) << behind;
+      ASSERT_FALSE(run.moves().empty());
+      EXPECT_NEAR(run.moves().back().machine.v[0], 20, 1e-9) << "it stops in front of the arc";
+    }
+    for (const char* behind : {"G39 X20.0 Y-10.0\nX20.0 Y-10.0\nG40 X0", "G39 X20.0 Y-10.0\nZ1.0\nX20.0 Y-5.0\nG40 X0", "G39 X20.0 Y-10.0\nG02 X10.0 Y-10.0 R10.0\nG40 X0", "G39 X20.0 Y-10.0\nG40 X0",
+                               "G39 X20.0 Y-10.0", "G39 X20.0 Y-10.0\nM08\nM09\nM08\nM09\nM08\nY-10.0\nG40 X0"})
+      EXPECT_EQ(corner(behind).alarm, "") << behind;
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

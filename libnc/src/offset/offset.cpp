@@ -144,6 +144,7 @@ void OffsetStage::let_pass(const Item& sync) {
     held_at(i).passed = true;  // read again from here, it would be asked for once more
   }
   for (unsigned i = 0; i < chain_.size(); ++i) ++chain_[i].index;
+  ++turn_.index;
   Sync& passed = new_slot(released_, sync).item.sync;
   const Section* last = open();
   const Vec2 vector = last == nullptr ? tail_ : last->start || last->vanished ? Vec2{} : perpendicular(last->end, last->offset);
@@ -182,6 +183,7 @@ void OffsetStage::reset() {
   trim_next_ = out_trim_ = bound_ = side_changed_ = false;
   given_ = true;
   unchecked_ = false;
+  turn_ = {};
   doubt_ = {};
   memory_.reset();
   level_ = level_end_ = 0;
@@ -232,6 +234,7 @@ void OffsetStage::count_block_end() {
 // last block ends perpendicular; a start block gets no vector at all, and a command without a block behind it
 // none either.
 void OffsetStage::close() {
+  turn_.waits = false;
   if (mode_ == Mode::pending) mode_ = Mode::on;
   if (Section* last = open()) {
     if (last->vanished)
@@ -427,6 +430,7 @@ void OffsetStage::intake_command(Held* held) {
     start_commanded_ = held->lead_arc = true;
     lead(held, vector);
     if (!look_at_step(*held)) return;
+    turn_ = {true, true, next_index(), vector, nc_source(held->item.source)};
   } else if (comp.corner_arc) {
     if (last) bend_behind(last->index, held->item);
     if (failed_) return;
@@ -447,6 +451,19 @@ void OffsetStage::intake_command(Held* held) {
     side_changed_ = false;
   }
   ++count_;
+}
+
+// Does the block behind an arc that the program has led on begin at the end of this arc? Wherever else it begins, the tool would come nearer to it than the
+// amount (DGSHAPE G39: the words are those of the block behind).
+bool OffsetStage::turn_fits(const Section& behind) {
+  const Turn turn = turn_;
+  turn_ = {};
+  if (!turn.made || behind.cancel || behind.start) return true;
+  const Vec2 vector = perpendicular(behind.begin, behind.offset);
+  const double shared = dot(unit(turn.vector), unit(vector));
+  if ((1 - shared) * std::min(norm(turn.vector), norm(vector)) <= kEnters_mm) return true;
+  fail(turn.waits ? turn.index : behind.index, Condition::comp_interference, turn.source);
+  return false;
 }
 
 void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
@@ -480,6 +497,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
     const double offset_begin = last == nullptr ? section.offset : offset_on_side(last->offset, section.offset);
     section.vanished = vanishes(begin, end, section.offset) || !offset_exists(begin, offset_begin);
   }
+  if (!turn_fits(section)) return;
   if (trim_next_) held->trim = true;
   trim_next_ = false;
   if (section.start) mode_ = Mode::on;
@@ -635,11 +653,12 @@ void OffsetStage::settle(unsigned n) {
 // No room to wait any longer: what has its joint goes. If the block that has none is all that is held, its end cannot be known, and a guess would cut
 // into the corner or leave it standing.
 void OffsetStage::make_room() {
+  turn_.waits = false;
   unsigned n = 0;
   while (n < chain_.size() && chain_[n].jointed && !chain_[n].vanished && !(n + 1 < chain_.size() && chain_[n + 1].vanished)) ++n;
   if (n > 0 && !check_joints(n)) return;
   release(n);
-  if (next_index() - released_ < kLookAheadItems) return;
+  if (next_index() - released_ < kLookAheadItems || chain_.empty()) return;
   fail(chain_[0].index, Condition::pre_read, held_at(chain_[0].index).item.source);
 }
 
@@ -699,6 +718,7 @@ uint32_t OffsetStage::stop_at(uint32_t index, Item* alarm) {
 }
 
 void OffsetStage::stop_by(uint32_t index, const Item& because) {
+  turn_ = {};
   Item alarm = because;
   index = stop_at(index, &alarm);
   release(chain_.size());

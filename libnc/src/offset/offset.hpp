@@ -126,6 +126,15 @@ class OffsetStage {
     ContourJoint joint;  ///< section: at its end
   };
 
+  /// An arc about a corner that ends where its words lead to (DGSHAPE G39). The way of the block behind, which it would cut otherwise, is compared with it.
+  struct Turn {
+    bool made = false;     ///< the next block of the contour is the one behind it
+    bool waits = false;    ///< it is held until this block has been read
+    uint32_t index = 0;    ///< of the arc
+    Vec2 vector;           ///< at its end
+    nc_source source{};
+  };
+
   // Intake: push() and what it decides (offset.cpp).
   void let_pass(const Item& sync);
   void keep_state(Held* mark);
@@ -135,6 +144,7 @@ class OffsetStage {
   void intake_uncompensated(Held* held);
   void bend_behind(uint32_t index, const Item& corner);
   void intake_command(Held* held);
+  bool turn_fits(const Section& behind);
   void lead(Held* held, Vec2 vector);
   bool look_at_step(const Held& held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
@@ -150,8 +160,8 @@ class OffsetStage {
   bool interferes(unsigned* at);
   void close();
   void settle(unsigned n);
-  /// All in front of the chain may go.
-  void wait_for_chain() { released_ = chain_.empty() ? next_index() : chain_[0].index; }
+  /// All in front of the chain may go, but for an arc whose block behind is still to be read.
+  void wait_for_chain() { released_ = turn_.waits ? turn_.index : chain_.empty() ? next_index() : chain_[0].index; }
   void make_room();
   unsigned may_release() const;
   void release(unsigned sections);
@@ -192,6 +202,7 @@ class OffsetStage {
   Vec2 tail_;            ///< vector at the end of everything decided
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
   Vec2 approach_;        ///< of the next section
+  Turn turn_;
   bool unchecked_ = false;     ///< the last section has not been compared with those in front
   bool given_ = true;          ///< restored: the vector goes by no block behind it
   bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side
