@@ -921,6 +921,9 @@ TEST(Hx, AStitchIsAskedOfTheHeadAndWaitedFor) {  // 15.6, PM 7308, 7374 to 7408:
   EXPECT_EQ(silent.run("G63.1\nG01 X3. F100\nM30").alarm, "");
   EXPECT_EQ(bench.run("G63.1\nG01 X100. F100\nM30").alarm, "F_82002") << "the longest stitch";
   EXPECT_EQ(silent.tool(1, 2, NC_TOOL_RADIUS).run("G41 D1 G01 X5. F100\nX9.\nG63.1\nX20.\nM30").alarm, "NC-OFFSET-CODE");
+  const std::string exclude = "A stitch and tool radius compensation exclude each other. End one of them with G63.2 or G40 first.";
+  EXPECT_EQ(silent.run("G63.1\nG41 D1 G01 X4. F100\nM30").alarm_detail, exclude) << "it would begin here";
+  EXPECT_EQ(silent.run("G41 D1 G01 X5. F100\nX9.\nG63.1\nX20.\nM30").alarm_detail, exclude);
 }
 
 TEST(Hx, EveryAlarmOfTheManualIsRaisedByWhatItIsFor) {  // the numbers of the spec, section 13

@@ -80,7 +80,7 @@ constexpr NamedCode kNamedCodes[] = {
     {"high_accuracy", Function::high_accuracy}, {"high_speed", Function::high_speed},
     {"data_input", Function::data_input}, {"local_system", Function::local_system},
     {"extended_system", Function::extended_system}, {"macro_modal_off", Function::macro_modal_off},
-    {"length_off", Function::length_off},
+    {"length_off", Function::length_off}, {"stitch_off", Function::stitch_off},
     {"macro_modal", Function::macro_modal}, {"data_input_end", Function::data_input_end},
 };
 
@@ -195,6 +195,7 @@ constexpr Sentence kSentences[] = {
     {C::spindle_not_turning, "The spindle has to turn, for a tap the way of its thread. Program {spindle_speed} and {spindle_forward} (or the reverse) before it.", nullptr},
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
+    {C::not_in_compensation, "A stitch and tool radius compensation exclude each other. End one of them with {stitch_off} or {comp_off} first.", nullptr, nullptr, of<Function::stitch_on>},
     {C::not_in_compensation,
      "{word} is not possible while tool radius compensation is on. Cancel it with {comp_off} first.",
      "This is not possible while tool radius compensation is on. Cancel it with {comp_off} first."},

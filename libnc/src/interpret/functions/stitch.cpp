@@ -97,7 +97,7 @@ Execution move_stitch(BlockContext& in, const AxisVec& target, uint32_t commande
     call_s = std::fmax(call_s, in.settings.stitch_call_s[i][range]);
   }
   const bool stitches = in.settings.stitch_signals && in_plane > 0;
-  if (stitches && (in.state.compensated() || keeps_vector(in))) return in.raise_mode(Condition::not_in_compensation, Mode::radius);  // the place is known only with the block behind
+  if (stitches && (in.state.compensated() || keeps_vector(in))) return in.raise_function(Condition::not_in_compensation, Function::stitch_on);  // the place is known only with the block behind
   if (in.settings.stitch_longest > 0 && in_plane > in.settings.stitch_longest)
     return in.raise_axis(Condition::value_range, first_of(commanded), in_plane);
   const bool rapid = in.state.modal.is(Function::rapid);
