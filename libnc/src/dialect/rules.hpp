@@ -235,6 +235,9 @@ struct CompensationRules {
   /// As H or D it means the offset that is registered with the tool in the spindle, where the lives of tools are managed; 0 = no number does. The manual
   /// of M700 has the management (10.15) and not the number, which is the practice of the field (docs/decisions.md).
   uint32_t number_of_managed_tool = 0;
+  /// The place of the axes cannot be read while compensation is on (LinuxCNC #5420: "Cannot read current position with cutter radius compensation on").
+  /// Otherwise it includes the radius (M700 13.5.5 (10.11)).
+  bool bars_reading_position = false;
 };
 
 /// Compensation of the tool length.

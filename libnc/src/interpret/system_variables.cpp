@@ -367,6 +367,10 @@ Eval read_machine(Access& a) {
 /// It includes tool compensation (M700 13.5.5 (10.11)), but for a length that shifts what is read (RS-274/NGC 3.5.11, LinuxCNC #5420).
 Eval read_work_position(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
+  if (a.in.dialect->rules.compensation.bars_reading_position && a.in.state.compensated()) {
+    a.in.raise(Condition::not_in_compensation, Sign::variable, a.number);
+    return Eval::fault;
+  }
   if (!world_known(a, NC_SYNC_POSITION)) return Eval::need_sync;
   AxisVec work = axes_of(a.in.world.machine);
   work[a.index] -= a.in.zero()[a.index] + (a.in.dialect->rules.length.shifts_reading ? a.in.state.applied[a.index] : 0);

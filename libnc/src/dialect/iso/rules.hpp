@@ -60,7 +60,8 @@ inline constexpr Rules kRules = {
                      .takes_changed_amounts = false,
                      .code_alone_waits = true,
                      .number_is_that_of_tool = true,
-                     .number_in_any_block = false},
+                     .number_in_any_block = false,
+                     .bars_reading_position = true},  // LinuxCNC #5420
     .length = {.axis_by_words = false,  // RS-274/NGC 3.5.11: Z
                .number_in_any_block = false,
                .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
