@@ -302,6 +302,28 @@ TEST(IsoLength, CountsInTheVariablesOfPositions) {
   EXPECT_NEAR(run.var(102), 0, 1e-9);
 }
 
+TEST(IsoPosition, IsReadAsCalculated) {  // RS-274/NGC 3.3: numbers are not counted in a unit
+  EXPECT_EQ(iso("G0 X0.33334\nY[#5420*3]").path().back(), "rapid 0.33334 1.00002 0");
+  EXPECT_NEAR(iso("G20 G0 X1.23456789\n#100=#5420\nM2").var(100), 1.23456789, 1e-12);
+  Bench bench(NC_DIALECT_ISO);
+  bench.skip_at = [](const nc_item&) { return 0.5; };
+  EXPECT_NEAR(bench.run("G21 F100\nG38.2 X30\nG20\n#100=#5061\nM2").var(100), 15 / 25.4, 1e-12);
+}
+
+TEST(IsoPosition, SaysWhetherTheProbeTouched) {  // LinuxCNC #5070
+  for (const char* code : {"G38.2", "G38.3", "G38.4", "G38.5"}) {
+    Bench bench(NC_DIALECT_ISO);
+    EXPECT_EQ(bench.run("#100=#5070\nM2").var(100), 0) << code;
+    bench.skip_at = [](const nc_item&) { return 0.5; };
+    EXPECT_EQ(bench.run(std::string("F100\n") + code + " X10\n#100=#5070\nM2").var(100), 1) << code;
+    bench.skip_at = {};
+    const bool may_miss = code[4] == '3' || code[4] == '5';
+    if (may_miss) {
+      EXPECT_EQ(bench.run(std::string("F100\n") + code + " X50\n#100=#5070\nM2").var(100), 0) << code;
+    }
+  }
+}
+
 TEST(IsoPosition, IsNotReadInRadiusCompensation) {  // LinuxCNC: "Cannot read current position with cutter radius compensation on"
   Bench bench(NC_DIALECT_ISO);
   bench.tool(1, 2, NC_TOOL_RADIUS);
@@ -310,6 +332,11 @@ TEST(IsoPosition, IsNotReadInRadiusCompensation) {  // LinuxCNC: "Cannot read cu
   EXPECT_EQ(run.alarm_line, 4u);
   EXPECT_EQ(run.alarm_detail, "#5420 is not possible while tool radius compensation is on. Cancel it with G40 first.");
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nX20\nG40 X30\n#100=#5420\nM2").var(100), 30);
+}
+
+TEST(IsoExpression, AnIndexIsAWholeNumber) {  // RS-274/NGC 3.3.2.1: within 0.0001
+  for (const char* text : {"#[1.5]=7", "#[1.0002]=7", "#1=#[34.5]", "#1=#[33.9998]", "#34=2.5\n#1=##34", "#34=2.5 #35=1\n##34=1"}) EXPECT_EQ(alarm_of(text), "NC-PARAMETER") << text;
+  EXPECT_EQ(iso("#[34.00005]=7\n#100=#[33.99995]\nM2").var(100), 7);
 }
 
 TEST(IsoLength, MayBeginBesideAnArc) {  // LinuxCNC, order of execution: the length acts before the motion

@@ -36,6 +36,12 @@ struct NumberRules {
   /// A length that a formula gives is rounded to the least unit (HX 14.2.4). Else it is what has been calculated (M700 13.5.4; DGSHAPE has no
   /// formulas).
   bool rounds_formulas;
+  /// A position that a program reads is what has been calculated (RS-274/NGC 3.3: numbers are not counted in a unit). Otherwise it is rounded to the setting
+  /// unit (M700 2.1).
+  bool positions_as_calculated = false;
+  /// The number of a variable that is calculated may be so far from a whole one, else it is a fault (RS-274/NGC 3.3.2.1: 0.0001). Below 0: it is rounded
+  /// (M700 13.5.4).
+  double variable_numbers_within = -1;
 };
 
 /// What may stand in a block.

@@ -37,6 +37,7 @@ enum class SystemVariable : uint8_t {
   parameter_itself,            ///< the parameter that has the number of the variable
   reference_position,          ///< parts are the reference positions, from 0; a place for each axis
   input_answer,                ///< what the last wait for an input has found
+  skip_answer,                 ///< 1: the signal of the last skip has come, 0: it has not
   speed_code, spindle_speed,   ///< names of the machine's side, which no program reads: the S code, the speed that the spindle is wanted at
   count_
 };

@@ -187,7 +187,7 @@ bool vacant_in(Interpreter& in, uint16_t code, uint32_t* number) {
   Value value;
   Fault fault;
   uint32_t sync = 0;
-  evaluate(*in.block, code, reader, EvalOptions{in.settings.asin_0_360}, &value, &fault, &sync);
+  evaluate(*in.block, code, reader, eval_options(in), &value, &fault, &sync);
   in.fault = kept;
   *number = vacancy.vacant;
   return vacancy.found;

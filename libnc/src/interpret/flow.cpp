@@ -116,7 +116,7 @@ Execution assigned(Interpreter& in, const Statement& statement, uint32_t* variab
     Value number;
     did = evaluate_here(in, statement.target, &number);
     if (did != Execution::done) return did;
-    if (!variable_number(number, &n)) return in.raise(Condition::variable_number, Sign::variable, number.or_zero());
+    if (!variable_number(number, eval_options(in), &n)) return in.raise(Condition::variable_number, Sign::variable, number.or_zero());
   }
   did = evaluate_here(in, statement.value, value);
   if (did != Execution::done) return did;
@@ -163,7 +163,7 @@ Execution assign(Interpreter& in, const Statement& statement) {
 // ---- entering programs ------------------------------------------------------------------------------------------------------
 
 Execution evaluate_here(Interpreter& in, uint16_t code, Value* value) {
-  const Eval eval = evaluate(*in.block, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, value, &in.fault, &in.sync_needed);
+  const Eval eval = evaluate(*in.block, code, variable_reader(in), eval_options(in), value, &in.fault, &in.sync_needed);
   if (eval == Eval::fault) return Execution::fault;
   return eval == Eval::need_sync ? Execution::sync : Execution::done;
 }

@@ -317,5 +317,6 @@ Execution write_system_variable(Interpreter& in, uint32_t number, Value value, c
 bool find_variable_name(void* self, const char* name, size_t length, uint32_t* number);
 /// The reader of all variables, for evaluate().
 VariableReader variable_reader(Interpreter& in);
+EvalOptions eval_options(const Interpreter& in);
 
 }  // namespace nc

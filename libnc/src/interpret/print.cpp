@@ -130,7 +130,7 @@ Execution next_value(Interpreter& in, const char** at, const char* end, double* 
   if (!compile_expression(scratch, *at, static_cast<size_t>(end - *at), &used, false, &code, &in.fault)) return Execution::fault;
   *at += used;
   Value value;
-  const Eval eval = evaluate(scratch, code, variable_reader(in), EvalOptions{in.settings.asin_0_360}, &value, &in.fault, &in.sync_needed);
+  const Eval eval = evaluate(scratch, code, variable_reader(in), eval_options(in), &value, &in.fault, &in.sync_needed);
   if (eval != Eval::ok) return eval == Eval::fault ? Execution::fault : Execution::sync;
   *number = value.or_zero();
   if (*at == end || **at != '[') return in.raise(Condition::format_error, Role::port);

@@ -125,6 +125,7 @@ struct StoredArea {
 /// Where the newest G31 has ended, workpiece coordinates (#5061).
 struct SkipPosition {
   AxisVec work;
+  bool touched = false;         ///< the signal has come
   bool operator==(const SkipPosition&) const = default;
 };
 

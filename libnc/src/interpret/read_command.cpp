@@ -97,7 +97,7 @@ Interpreter& interpreter_of(void* core) { return *static_cast<Interpreter*>(core
 const CoreQuestions kCoreAnswers = {
     .evaluation = [](void* core) {
       Interpreter& in = interpreter_of(core);
-      return Evaluation{variable_reader(in), EvalOptions{in.settings.asin_0_360}};
+      return Evaluation{variable_reader(in), eval_options(in)};
     },
     .check_code = [](void* core, const FunctionRow& row, double written) {
       return check_code(interpreter_of(core), row, written) == Execution::done ? Reading::done : Reading::fault;

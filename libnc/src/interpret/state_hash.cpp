@@ -255,7 +255,7 @@ void add_records(Hash& hash, const ProgramRecords& records) {
   }
   {
     const auto& [midpoints, skip, output, workpieces, answer, shift_kept, area, tools] = static_cast<const MachineRecordsLife&>(records);
-    hash.add(midpoints.axis, skip.work, workpieces.count, answer.value, shift_kept.at, area.box, tools);
+    hash.add(midpoints.axis, skip.work, skip.touched, workpieces.count, answer.value, shift_kept.at, area.box, tools);
     for (const InterfaceOutput& word : output) hash.add(word.bits);
   }
 }

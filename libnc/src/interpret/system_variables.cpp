@@ -19,9 +19,10 @@ bool reads_inch(const Interpreter& in, unsigned axis) {
 }
 
 /// A position as a program reads it: rounded to the setting unit #1003, the finest step in which an axis can be commanded or read (M700 2.1). So the
-/// rounding of sums of offsets, of maps and of the division by 25.4 does not show.
+/// rounding of sums of offsets, of maps and of the division by 25.4 does not show. Where numbers are not counted in a unit it is as calculated.
 double position_read(const Interpreter& in, unsigned axis, double mm) {
   const Settings& s = in.settings;
+  if (in.dialect->rules.number.positions_as_calculated) return reads_inch(in, axis) ? mm / kMillimetresPerInch : mm;
   if (reads_inch(in, axis)) return whole_units(mm / kMillimetresPerInch, s.setting_unit_inch);
   return whole_units(mm, ((in.rotary >> axis) & 1) != 0 ? s.setting_unit_deg : s.setting_unit_mm);
 }
@@ -382,6 +383,7 @@ Eval read_skip(Access& a) {
   skip[a.index] = a.in.records->skip.work[a.index];
   return give(a, shown_position(a.in, a.index, skip, work_shown));
 }
+Eval read_skip_answer(Access& a) { return give(a, a.in.records->skip.touched ? 1 : 0); }
 Eval read_compensation(Access& a) {
   if (!axis_ok(a)) return no_variable(a);
   return give(a, position_read(a.in, a.index, a.in.state.applied[a.index]));
@@ -439,6 +441,7 @@ constexpr VariableHandler kHandlers[kSystemVariables] = {
     {V::parameter_itself, read_parameter_itself, write_parameter_itself, 0},
     {V::reference_position, read_reference, nullptr, 0},
     {V::input_answer, read_input_answer, nullptr, 0},
+    {V::skip_answer, read_skip_answer, nullptr, 0},
     {V::speed_code, nullptr, nullptr, 0},
     {V::spindle_speed, nullptr, nullptr, 0},
 };
@@ -470,6 +473,8 @@ bool find_named(void* self, const char* name, size_t length, bool make, uint32_t
 }
 
 }  // namespace
+
+EvalOptions eval_options(const Interpreter& in) { return {in.settings.asin_0_360, in.dialect->rules.number.variable_numbers_within}; }
 
 VariableReader variable_reader(Interpreter& in) {
   const uint32_t names_need = in.shared_known() ? 0 : uint32_t{NC_SYNC_SHARED};

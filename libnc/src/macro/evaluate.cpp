@@ -307,9 +307,10 @@ struct ValueStack {
 
 }  // namespace
 
-bool variable_number(const Value& value, uint32_t* number) {
-  const double x = value.or_zero();
-  if (!(x > -kNoise && x < UINT32_MAX)) return false;
+bool variable_number(const Value& value, const EvalOptions& options, uint32_t* number) {
+  const double x = value.or_zero(), within = options.variable_numbers_within;
+  if (within >= 0 && !(std::fabs(x - std::round(x)) <= within)) return false;
+  if (!(x > -std::fmax(kNoise, within) && x < UINT32_MAX)) return false;
   *number = static_cast<uint32_t>(std::floor(x + 0.5 + kNoise));
   return true;
 }
@@ -363,7 +364,7 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
       case Op::load: {
         uint32_t number = 0;
         Value& v = stack[top - 1];
-        if (!variable_number(v, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
+        if (!variable_number(v, options, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
         const Eval got = reader.read(reader.self, number, &v, fault, sync);
         if (got != Eval::ok) return got;
         break;
@@ -420,7 +421,7 @@ Eval evaluate(const Block& block, uint16_t code, const VariableReader& reader, c
       case Op::check_number: {
         uint32_t number = 0;
         const Value& v = stack[top - 1];
-        if (!variable_number(v, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
+        if (!variable_number(v, options, &number) || number > kMaxVariable) return fail(fault, Condition::variable_number, v.or_zero());
         break;
       }
       case Op::negate:

@@ -34,6 +34,7 @@ struct VariableReader {
 
 struct EvalOptions {
   bool asin_0_360 = false;  ///< M700 #1273 bit 0: ASIN[-0.5] gives 330 instead of -30
+  double variable_numbers_within = -1;  ///< NumberRules::variable_numbers_within
 };
 
 /// Compiles the expression at text[*at] into block.code, up to the first character that cannot belong to it; *at moves behind it. With `condition` also EQ NE
@@ -52,6 +53,6 @@ bool lone_variable(const Block& block, uint16_t code, uint32_t* number);
 bool constant_number(const Block& block, uint16_t code, uint32_t* number);
 
 /// M700 13.5.4: the number of a variable that an expression gives: a fraction is rounded, 2.5 up. False when it is negative or too large.
-bool variable_number(const Value& value, uint32_t* number);
+bool variable_number(const Value& value, const EvalOptions& options, uint32_t* number);
 
 }  // namespace nc

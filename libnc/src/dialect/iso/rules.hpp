@@ -24,7 +24,9 @@ inline constexpr Rules kRules = {
                .largest_undotted_feed_mm = 1e7,
                .largest_undotted_feed_inch = 1e6,
                .units_per_micrometre = units_per_micrometre,
-               .rounds_formulas = false},
+               .rounds_formulas = false,
+               .positions_as_calculated = true,
+               .variable_numbers_within = 1e-4},
     .block = {.distance_by_word = false,  // RS-274/NGC 3.8: the distance mode is set before anything moves
               .whole_words_refuse_point = false,
               .whole_words_within = 1e-4,

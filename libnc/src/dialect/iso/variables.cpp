@@ -9,6 +9,7 @@ using V = SystemVariable;
 
 constexpr VariableRow kRows[] = {
     {5061, 5069, V::skip_position, 0, 0, "mm or inch, deg", "place where the probe touched, an axis each", "LinuxCNC G38"},
+    {5070, 5070, V::skip_answer, 0, 0, "0/1", "whether the last G38 ended by its signal", "LinuxCNC parameters"},
     {5221, 5386, V::work_offset, 1, 20, "mm or inch, deg", "coordinate systems G54 to G59.3, an axis each", "RS-274/NGC 3.2.1"},
     {5399, 5399, V::input_answer, 0, 0, "0, 1, -1", "what the last M66 has found", "LinuxCNC M66"},
     {5400, 5400, V::word, 0, 0, "", "number of the tool in the spindle, 0 = none", "LinuxCNC parameters"},

@@ -44,7 +44,7 @@ AxisVec work_shown(const BlockContext& in, const AxisVec& work);
 AxisVec machine_shown(const BlockContext& in, const AxisVec& machine);
 Execution do_skip(BlockContext& in);               // skip.cpp
 Execution skip_answered(BlockContext& in);         // skip.cpp
-void store_skip_position(BlockContext& in, const AxisVec& machine);   // skip.cpp
+void store_skip_position(BlockContext& in, const AxisVec& machine, bool touched);   // skip.cpp
 Execution do_measure_length(BlockContext& in);     // measure.cpp: G37
 Execution measured(BlockContext& in);              // measure.cpp: behind its moves
 Execution do_stroke_check(BlockContext& in);       // stroke_check.cpp: G22

@@ -39,11 +39,12 @@ bool wants_signal(const BlockContext& in) {
 }  // namespace
 
 /// The place of all axes where the signal has come, of those that do not move as well (HX 14.2.3 (7), M700 15.2).
-void store_skip_position(BlockContext& in, const AxisVec& machine) {
+void store_skip_position(BlockContext& in, const AxisVec& machine, bool touched) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
   const bool shifted = in.dialect->rules.length.shifts_reading;  // LinuxCNC #5061: in the coordinates in which the move took place
   for (unsigned i = 0; i < in.axis_count; ++i) skip.work[i] = machine[i] - zero[i] - (shifted ? in.state.applied[i] : 0);
+  skip.touched = touched;
   in.change(&ProgramRecords::skip, skip);
 }
 
@@ -85,7 +86,7 @@ Execution do_skip(BlockContext& in) {
   move_linear(in, target_of_words(in), w.target.axes(), style);
   if (in.state.machine == before) {  // there is no way on which a signal could come
     if (wants_signal(in) || in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
-    store_skip_position(in, in.state.machine);
+    store_skip_position(in, in.state.machine, false);
     return Execution::done;
   }
   in.skip_start = before;
@@ -105,7 +106,7 @@ Execution skip_answered(BlockContext& in) {
     }
     if (!moved && in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_contact, *in.words.one_shot);
   }
-  store_skip_position(in, at);
+  store_skip_position(in, at, in.world.skipped);
   return !in.world.skipped && wants_signal(in) ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
 }
 
