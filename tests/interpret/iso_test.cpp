@@ -339,6 +339,21 @@ TEST(IsoExpression, AnIndexIsAWholeNumber) {  // RS-274/NGC 3.3.2.1: within 0.00
   EXPECT_EQ(iso("#[34.00005]=7\n#100=#[33.99995]\nM2").var(100), 7);
 }
 
+// LinuxCNC: "Cannot use axis values with g80", "... without a g code that uses them". G80 is one of the motions.
+TEST(IsoCycle, BehindItsEndAxisWordsNeedAMotion) {
+  for (const char* text : {"G80 X1", "F100 G81 X1 Z-1 R2\nG80\nX5", "G1 F100 X1\nG80\nG91\nX4", "G1 F100 X1\nG80\nG53 X5", "G1 F100 X1\nG80\nG28\nX3", "G38.3 F100 X1\nG80\nX3"}) {
+    const Outcome run = iso(text);
+    EXPECT_EQ(run.alarm, "NC-ADDRESS") << text;
+    EXPECT_NE(run.alarm_detail.find("X"), std::string::npos) << run.alarm_detail;
+  }
+  EXPECT_EQ(iso("F100 G0 X1\nG80 G1 X2\nX3").path(), (Path{"rapid 1 0 0", "line 2 0 0 F100", "line 3 0 0 F100"}));
+  EXPECT_EQ(iso("G1 F100 X1\nG80\nG92 X2\nG10 L2 P2 X1\nG28 X2\nG0 X4\nX5").alarm, "");
+  EXPECT_EQ(iso("G80\nG81 X1 Z-1 R2 F100\nX5").alarm, "");
+  Bench bench(NC_DIALECT_ISO);
+  EXPECT_EQ(bench.run("G80\nM2").alarm, "");
+  EXPECT_EQ(bench.run("X1\nM2").path(), (Path{"rapid 1 0 0"})) << "a program begins with G0";
+}
+
 TEST(IsoLength, MayBeginBesideAnArc) {  // LinuxCNC, order of execution: the length acts before the motion
   Bench bench(NC_DIALECT_ISO);
   bench.tool(1, 10, NC_TOOL_LENGTH);

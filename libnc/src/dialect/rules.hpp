@@ -346,6 +346,9 @@ struct CycleRules {
   bool stops_over_hole = false;
   /// No repetition is a fault (RS-274/NGC 3.5.16: L is a positive integer). Otherwise the words are kept, and there is no hole (M700 13.1.1).
   bool repeats_from_one = false;
+  /// The code that ends a cycle is one of the motions, so axis words behind it have none until a code gives one (RS-274/NGC 3.4, LinuxCNC: "Cannot use axis
+  /// values without a g code that uses them"). Otherwise the motion of before goes on (M700 13.1.1).
+  bool end_is_motion = false;
 };
 
 /// Reference positions.

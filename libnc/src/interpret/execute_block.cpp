@@ -308,10 +308,29 @@ Execution take_probing(BlockContext& in) {
   return Execution::done;
 }
 
+/// Where the end of a cycle is one of the motions (RS-274/NGC 3.4): it is the one in force from its block on, until another motion or a cycle stands in a
+/// block, and axis words that a motion would take have none.
+Execution check_motion_in_force(BlockContext& in) {
+  const Command& w = in.words;
+  State& s = in.state;
+  const bool off = w.motion == nullptr && (w.cycle == nullptr ? s.motion_off : w.cycle->function == Function::cycle_off);
+  if (off != s.motion_off) {
+    s.motion_off = off;
+    s.refresh_special();
+  }
+  const bool by_motion = w.one_shot == nullptr || (w.one_shot->function == Function::machine_move && in.dialect->rules.coordinate.machine_move_by_motion);
+  if (!off || !by_motion || w.target.axes() == 0) return Execution::done;
+  return in.raise_first(Condition::illegal_address, w.present & in.axis_words.all());
+}
+
 }  // namespace
 
 Execution execute_motion_of_words(BlockContext& in) {
   const Command& w = in.words;
+  if (in.dialect->rules.cycle.end_is_motion) {
+    const Execution did = check_motion_in_force(in);
+    if (did != Execution::done) return did;
+  }
   if (w.motion != nullptr && !cycle_counts(in)) {
     if (w.cycle != nullptr && w.cycle->function != Function::cycle_off && in.dialect->rules.cycle.beside == CycleBeside::fault)
       return in.raise_code(Condition::format_error, *w.cycle);

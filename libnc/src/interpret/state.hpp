@@ -178,7 +178,8 @@ enum Special : uint8_t {
   kSpecialWords = 2,       ///< axis words mean something else (G16)
   kSpecialFeed = 4,        ///< F is not a plain feed per minute, or a special cutting mode is in force (interpret/feed.hpp)
   kSpecialSpline = 8,      ///< G01 goes along a spline
-  kSpecialStitch = 16      ///< lines have the feed of their length (HX 15.6)
+  kSpecialStitch = 16,     ///< lines have the feed of their length (HX 15.6)
+  kSpecialNoMotion = 32    ///< axis words have no motion (CycleRules::end_is_motion)
 };
 // ---- the groups ---------------------------------------------------------------------------------------------------------
 
@@ -235,6 +236,7 @@ struct ModalLife {
 struct ModalInProgram {
   Compensation comp;            ///< tool radius compensation in force
   CycleState cycle;
+  bool motion_off = false;      ///< the end of a cycle is the motion in force (CycleRules::end_is_motion)
   uint32_t moves_since_comp_off = 1;  ///< M700 P112: a plane change right after G40 needs a move in between
   int8_t moved_side = 0;        ///< Compensation::side of the last movement; where it differs from the one in force the next movement starts or ends
                                 ///< compensation
@@ -339,7 +341,7 @@ struct State : StateValues, CallStack, ModesInExecution {
     const bool feed = modal.is(Function::inverse_time_feed) || modal.is(Function::feed_per_revolution) || modal.feed_digit != 0 ||
                       modal.is(Function::corner_override) || modal.is(Function::tapping_mode);
     special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.is(Function::polar_command_on) ? kSpecialWords : 0) |
-                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0) | (stitch ? kSpecialStitch : 0));
+                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0) | (stitch ? kSpecialStitch : 0) | (motion_off ? kSpecialNoMotion : 0));
   }
   void refresh_accuracy() {
     const bool on = modal.is(Function::high_accuracy_mode) || accuracy_command || fine_mode != FineMode::none;
