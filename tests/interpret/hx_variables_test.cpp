@@ -112,5 +112,12 @@ TEST(HxVariables, AreThoseOfTheTable) {
   EXPECT_EQ(i, sizeof kCases / sizeof kCases[0]);
 }
 
+TEST(HxVariables, AnAmountOfRadiusHasTheRangeOf13_3) {  // +-999.999 mm, +-99.999 inch
+  for (const char* text : {"G10 L12 P3 R1000.", "G10 L12 P3 R-1234.", "#2113=1000.", "G20\nG10 L12 P3 R100.", "G20\n#2113=-200.", "G10 L12 P3 R600.\nG91 G10 L12 P3 R500."})
+    EXPECT_EQ(Bench(NC_DIALECT_HX).run(std::string(text) + "\nM30").alarm, "F_82002") << text;
+  for (const char* text : {"G10 L12 P3 R999.999", "G10 L12 P3 R-999.999", "#2113=999.999", "G20\nG10 L12 P3 R99.999", "G20\n#2113=-99.999", "G10 L10 P3 R1234.", "#2240=1234."})
+    EXPECT_EQ(Bench(NC_DIALECT_HX).run(std::string(text) + "\nM30").alarm, "") << text;
+}
+
 }  // namespace
 }  // namespace nc::test

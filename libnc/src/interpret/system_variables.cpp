@@ -80,9 +80,12 @@ Execution write_output_word(Access& a) {
 
 // ---- offsets ---------------------------------------------------------------------------------------------------------------
 
-bool tool_key(Access& a, uint32_t* key) {
+unsigned tool_column(const Access& a) {
   constexpr unsigned kColumn[4] = {NC_TOOL_LENGTH, NC_TOOL_LENGTH_WEAR, NC_TOOL_RADIUS, NC_TOOL_RADIUS_WEAR};
-  const unsigned column = kColumn[a.part];
+  return kColumn[a.part];
+}
+bool tool_key(Access& a, uint32_t* key) {
+  const unsigned column = tool_column(a);
   const uint32_t number = a.index + 1;
   if (number > a.in.frames.tool_offsets() || (column != NC_TOOL_LENGTH && !a.in.settings.tool_memory_2)) return false;
   *key = a.in.frames.tool_key(number, column);
@@ -92,9 +95,9 @@ bool tool_key(Access& a, uint32_t* key) {
 double unit_of_offsets(const Access& a, bool length) {
   return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1;
 }
-Execution set_offset(Access& a, uint32_t key, bool length) {
+Execution set_offset(Access& a, uint32_t key, bool length, double end_mm = kOffsetRange) {
   const double value = a.written * unit_of_offsets(a, length);
-  if (std::fabs(value) >= kOffsetRange) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  if (std::fabs(value) >= end_mm) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.set_table(key, value);
   return Execution::done;
 }
@@ -107,7 +110,7 @@ Eval read_tool(Access& a) {
 }
 Execution write_tool(Access& a) {
   uint32_t key = 0;
-  return tool_key(a, &key) ? set_offset(a, key, true) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
+  return tool_key(a, &key) ? set_offset(a, key, true, end_of_offset(a.in, tool_column(a))) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
 }
 
 /// Part 0 is the external offset, the next six are the standard systems, then come the extended ones.

@@ -2,6 +2,7 @@
 // G10: offsets by program (M700 12.7, 14.10 (6); DGSHAPE G10).
 #include <cmath>
 
+#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -70,6 +71,16 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
   return write_axes(in, [system](unsigned axis) { return Frames::work_key(system, axis); });
 }
 
+}  // namespace
+
+double end_of_offset(const BlockContext& in, unsigned column) {
+  if (column != NC_TOOL_RADIUS && column != NC_TOOL_RADIUS_WEAR) return kOffsetRange;
+  const RangeRules& range = in.dialect->rules.range;
+  return in.state.modal.is(Function::inch) ? range.end_of_radius_inch * kMillimetresPerInch : range.end_of_radius_mm;
+}
+
+namespace {
+
 Execution tool_offset(BlockContext& in, unsigned column) {
   const Command& w = in.words;
   uint32_t number = 0;
@@ -81,8 +92,8 @@ Execution tool_offset(BlockContext& in, unsigned column) {
   // M700 2.2 (4): the tenfold unit does not act on the amounts of tool compensation.
   const double input = length_value(in, w.written(Role::input_amount), false, true, false);
   const double amount = (add ? in.frames.get(key) : 0.0) + input;
-  // M700 12.1: the range of an offset.
-  if (std::fabs(amount) >= kOffsetRange) return in.raise(Condition::value_range, Role::input_amount, w.get(Role::input_amount));
+  // M700 12.1, HX 13.3: the range of an offset.
+  if (std::fabs(amount) >= end_of_offset(in, column)) return in.raise(Condition::value_range, Role::input_amount, w.get(Role::input_amount));
   in.set_table(key, amount);
   return Execution::done;
 }

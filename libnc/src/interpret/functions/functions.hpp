@@ -44,6 +44,8 @@ AxisVec work_shown(const BlockContext& in, const AxisVec& work);
 AxisVec machine_shown(const BlockContext& in, const AxisVec& machine);
 Execution do_skip(BlockContext& in);               // skip.cpp
 Execution skip_answered(BlockContext& in);         // skip.cpp
+/// Where the amounts end that a program may give an offset of a tool, in mm. `column`: nc_tool_column.
+double end_of_offset(const BlockContext& in, unsigned column);       // data_input.cpp
 void store_skip_position(BlockContext& in, const AxisVec& machine, bool touched);   // skip.cpp
 Execution do_measure_length(BlockContext& in);     // measure.cpp: G37
 Execution measured(BlockContext& in);              // measure.cpp: behind its moves
