@@ -5,6 +5,7 @@ import random
 
 import numpy
 from shapely.geometry import LineString, Point, Polygon
+from shapely.validation import make_valid
 
 SAGITTA = 0.00025  # mm: how far the fine polygons leave their arcs
 
@@ -159,6 +160,37 @@ def scallops(rng, r):
     return elements + polygon([(x, 20), (x, 0), (0, 0), (0, 20)])[:3]
 
 
+def noses(rng, r):
+    """A round nose that stands tangentially on a plate, or half circles side by side, turned by any angle and with each word rounded to three or four digits: cusps of a line
+    and an arc, or of two arcs, whose two sides overlap or lie apart by what the last digits make."""
+    if rng.random() < 0.3:
+        exact = [(e.start, e.center, e.ccw) for e in scallops(rng, r)]
+    else:
+        radius = r * math.exp(rng.uniform(math.log(0.5), math.log(20)))
+        wedge = 2 * math.sqrt(radius * r)
+        right, left, bottom = wedge * rng.uniform(0.6, 3), r * rng.uniform(3, 8), -r * rng.uniform(2, 8)
+        exact = [((right, 0), None, False), ((0, 0), (0, radius), True), ((0, 2 * radius), None, False), ((-left, 2 * radius), None, False), ((-left, bottom), None, False), ((right, bottom), None, False)]
+        if rng.random() < 0.5:  # the arc first, then the line
+            around = [((-x, y), center, ccw) for (x, y), center, ccw in exact]
+            exact = [(around[(i + 1) % len(around)][0], *around[i][1:]) for i in reversed(range(len(around)))]
+    angle, digits = rng.uniform(0, 2 * math.pi), rng.choice([3, 3, 4])
+
+    def turned(p):
+        return (math.cos(angle) * p[0] - math.sin(angle) * p[1], math.sin(angle) * p[0] + math.cos(angle) * p[1])
+
+    def word(p):
+        return (round(p[0], digits), round(p[1], digits))
+
+    elements = []
+    for i, (start, center, ccw) in enumerate(exact):
+        start, end = turned(start), turned(exact[(i + 1) % len(exact)][0])
+        if center is not None:
+            to_center = word([b - a for a, b in zip(start, turned(center))])
+            center = rounded([a + b for a, b in zip(word(start), to_center)])
+        elements.append(Element(word(start), word(end), center, ccw))
+    return elements
+
+
 def flared(rng, r):
     """A slot end about as large as the tool, between two flares: outer corners beside an arc of which the tool's offset leaves next to nothing. In half of them the slot
     is in the part, in the others it is all that is not."""
@@ -275,14 +307,19 @@ class Contour:
         """Radius of the tool, shape of the part, side; gives the elements of the part."""
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared"])
-            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "flared": lambda: flared(rng, self.radius)}[kind]()
+            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared", "noses"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "noses": lambda: noses(rng, self.radius), "flared": lambda: flared(rng, self.radius)}[kind]()
             if any(e.start == e.end and e.center is None for e in elements):
                 continue
             ring = ring_of(elements)
             if area_of(ring) <= 1e-3:
                 continue
             self.part = Polygon(ring)
+            if kind == "noses" and not self.part.is_valid:  # it overlaps itself at a cusp by what the last digits make
+                pieces = make_valid(self.part)
+                self.part = max(getattr(pieces, "geoms", [pieces]), key=lambda piece: piece.area)
+                if abs(self.part.area - area_of(ring)) > 1e-3:
+                    continue
             if self.part.is_valid:
                 break
         self.kind = kind

@@ -39,8 +39,8 @@ from contours import SAGITTA, Contour, Element  # noqa: E402
 
 TOLERANCE = 0.001 + 3 * SAGITTA
 NO_DIRECTION = 0.0005  # mm: a shorter line goes along with the blocks around it
-MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.6, "round": 0.5, "circle": 0.5, "scallops": 0.5, "flared": 0.45, "cam star": 0.65, "cam slot": 0.8,
-               "cam plate": 0.65, "cam round": 0.65, "cam circle": 0.7, "cam scallops": 0.65, "cam flared": 0.65}  # shares of each kind
+MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.6, "round": 0.5, "circle": 0.5, "scallops": 0.5, "flared": 0.45, "noses": 0.6, "cam star": 0.65, "cam slot": 0.8,
+               "cam plate": 0.65, "cam round": 0.65, "cam circle": 0.7, "cam scallops": 0.65, "cam flared": 0.65, "cam noses": 0.7}  # shares of each kind
 
 # ---- transformed contours
 
