@@ -99,15 +99,20 @@ class FamilyOperator : public testing::TestWithParam<Shop> {
     const unsigned axes = config_.nc.system[0].axis_count;
     if (chance(0.01)) (void)ask(CommandKind::kCycleStart);
     if (chance(0.002)) (void)ask(CommandKind::kFeedHold);
-    if (chance(0.0006)) (void)ask(CommandKind::kReset);
+    if (chance(0.0008)) (void)ask(CommandKind::kReset);
     if (chance(0.002)) (void)mode(chance(0.7) ? Mode::kAuto : chance(0.5) ? Mode::kManual : Mode::kMdi);
-    if (chance(0.003)) (void)ask(CommandKind::kFeedOverride, 0, chance(0.2) ? 0 : uniform(0, 2));
-    if (chance(0.003)) (void)ask(CommandKind::kRapidOverride, 0, chance(0.2) ? 0 : uniform(0, 1));
+    if (chance(0.003)) (void)ask(CommandKind::kFeedOverride, 0, chance(0.05) ? 0 : uniform(0, 2));
+    if (chance(0.003)) (void)ask(CommandKind::kRapidOverride, 0, chance(0.05) ? 0 : uniform(0, 1));
     if (chance(0.002)) (void)ask(CommandKind::kSingleBlock, 0, 0, chance(0.3) ? 1 : 0);
     if (chance(0.002)) (void)ask(CommandKind::kOptionalStop, 0, 0, draw(2));
     if (chance(0.01)) (void)ask(chance(0.5) ? CommandKind::kStep : CommandKind::kJog, draw(axes), uniform(-20, 20));
     if (chance(0.0005)) (void)ask(CommandKind::kReference, draw(axes));
-    if (chance(0.003)) {
+    if (chance(0.001)) {  // behind a reset he wants to type something
+      (void)ask(CommandKind::kReset);
+      for (int i = 0; i < 200; ++i) runtime_->step();
+      (void)mode(Mode::kMdi);
+    }
+    if (chance(0.02)) {
       const auto& blocks = GetParam().mdi;
       mdi += runtime_->load_mdi(blocks[draw(static_cast<unsigned>(blocks.size()))]) == Answer::kDone;
     }
