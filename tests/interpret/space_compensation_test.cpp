@@ -96,6 +96,41 @@ TEST(SpaceCompensation, OnTheParallelAxesThatTheStartNames) {
   EXPECT_EQ(path_of("G0 G17 U0\nG41 I2. J2. K1. D1\nM30", parallel, "XYZUVW"), (Path{"rapid 0 3.333333 1.666667 3.333333 0 0"}));
 }
 
+// The table of "compensation space" row by row: which axes the vector moves. The words of a block move their own axes besides.
+TEST(SpaceCompensation, TheTableOfCompensationSpaces) {
+  const struct {
+    const char *plane, *words, *space;
+  } rows[] = {{"G17", "X1. Y1. Z1.", "XYZ"}, {"G17", "Y1.", "XYZ"}, {"G17 V0", "X1. V1. Z1.", "XZV"}, {"G17 W0", "W1.", "XYW"}, {"G17", "X1. Y1. Z1. W1.", "XYZ"},
+              {"G17 W0", "X1. Y1. Z1. W1.", "XYW"}, {"G17", "", "XYZ"}, {"G17 U0", "", "YZU"},
+              // not printed: as with U
+              {"G17 W0", "", "XYW"}, {"G17 W0", "Y1.", "XYW"}, {"G17 W0", "Z1.", "XYZ"}, {"G17 U0 W0", "", "YUW"}, {"G17 Z0 W0", "", "XYZ"}, {"G18 V0", "Y1. V1.", "XZV"},
+              {"G17 W0\nG17", "X1. Y1. Z1. W1.", "XYZ"}, {"G17 W0\nG17 W0\nM8", "Z1. W1.", "XYW"}};
+  for (const auto& row : rows) {
+    Bench bench(NC_DIALECT_M700, axes("XYZUVW"));
+    bench.tool(1, 5).param("1029", "U").param("1030", "V").param("1031", "W");
+    const std::string text = std::string("G0 ") + row.plane + "\nG41 " + row.words + " I2. J2. K1. D1\nM30";
+    const Outcome run = bench.run(text);
+    EXPECT_EQ(run.alarm, "") << text;
+    ASSERT_FALSE(run.moves().empty()) << text;
+    std::string space;
+    for (unsigned i = 0; i < 6; ++i)
+      if (run.moves().back().machine.v[i] - run.moves().back().work.v[i] > 1) space += "XYZUVW"[i];
+    EXPECT_EQ(space, row.space) << text;
+  }
+}
+
+TEST(SpaceCompensation, ResetForgetsTheThirdAxisOfThePlane) {
+  Bench bench(NC_DIALECT_M700, axes("XYZUVW"));
+  bench.tool(1, 5).param("1029", "U").param("1030", "V").param("1031", "W");
+  EXPECT_EQ(bench.run("G0 G17 W0\nM30").alarm, "");
+  EXPECT_EQ(bench.run("G0 G41 Z1. W1. I0 J0 K1. D1\nM30").path(), (Path{"rapid 0 0 6 0 0 1"}));
+}
+
+TEST(SpaceCompensation, TheSpaceOfThePlaneGoesOnFromEveryMark) {
+  goes_on_from_every_mark("G0 G17 W0\nM8\nX1.\nM9\nG41 X5. Y1. Z2. W3. I1. J2. K2. D1\nX20.\nG40\nX30.\nM30",
+      [](Bench& bench) { bench.tool(1, 5).param("1031", "W"); }, axes("XYZW"));
+}
+
 TEST(SpaceCompensation, ParameterDividesTheWords) {  // #8071
   EXPECT_EQ(path_of("G0 G41 X10. I0 J3. K4. D1\nM30", [](Bench& bench) { bench.param("8071", "10"); }), (Path{"rapid 10 1.5 2"}));
 }

@@ -121,7 +121,7 @@ InitialValues Interpreter::initial_values() const {
   if (settings.start_scaling) modal.set(Function::scaling_on);
   if (settings.start_rotation) modal.set(Function::rotation_on);
   modal.set(settings.start_plane);
-  basic_plane_axes(*this, settings.start_plane, initial.plane_axis);
+  basic_plane_axes(*this, settings.start_plane, initial.plane_axis, &initial.third_axis);
   initial.motion_outlives_end = dialect->rules.program.motion_outlives_end;
   initial.keeps_polar_command = settings.keeps_polar_command;
   initial.keeps_clamp = settings.keeps_clamp;

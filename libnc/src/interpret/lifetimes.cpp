@@ -21,6 +21,7 @@ void note_end(LeftByEnd& left, const StateValues& before, bool motion_outlives_e
 void set_initial_modes(State& state, const StateValues& before, const InitialValues& initial) {
   state.modal = initial.modal;
   for (unsigned i = 0; i < 2; ++i) state.plane_axis[i] = initial.plane_axis[i];
+  state.third_axis = initial.third_axis;
   if (initial.keeps_polar_command && before.modal.is(Function::polar_command_on)) state.modal.set(Function::polar_command_on);
   if (initial.keeps_clamp) state.spindle_clamped = before.spindle_clamped;
   const LeftByEnd& left = state.left_by_end;

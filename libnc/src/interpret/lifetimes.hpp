@@ -19,6 +19,7 @@ void take(StateValues& to, const StateValues& from) {
 struct InitialValues {
   ModalState modal;                     ///< M700 3.7, 5.1 (4), 7.4 note 6, 7.5 (3), 13.15 (4)
   int8_t plane_axis[2] = {0, 1};        ///< axes of the plane in `modal`
+  int8_t third_axis = 2;                ///< the basic axis that is not one of them
   bool motion_outlives_end = false;     ///< M700 9.1: the motion mode (group 01) at the end of a program stays for the next start
   bool keeps_polar_command = false;     ///< M700 6.12 (3): G16 stays in force
   bool keeps_clamp = false;             ///< M700 10.4 (3): the clamp of spindle speeds stays in force

@@ -52,19 +52,23 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
   state.modal.set(row);
   state.plane_axis[0] = h;
   state.plane_axis[1] = v;
+  state.third_axis = axis_of_pair(in, pair.third());
   if (state.map.kind == AxisMap::Kind::cylinder && rules.mill.rotary_in_block) put_cylinder_axis(in);
   return Execution::done;
 }
 
 /// The axes are found by their names in the machine, because the words of a mode that ends here (G12.1, M700 6.10) are not among these.
-void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]) {
+void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2], int8_t* third) {
   const PlanePair pair = pair_of(plane);
-  const WordSlot name[2] = {in.settings.plane_basic[pair.first], in.settings.plane_basic[pair.second]};
-  for (unsigned i = 0; i < 2; ++i) {
-    axis[i] = -1;
+  const auto basic = [&in](unsigned of_pair) {
+    int8_t found = -1;
     for (unsigned k = 0; k < in.axis_count; ++k)
-      if (in.axis_words.word(k) == name[i]) axis[i] = static_cast<int8_t>(k);
-  }
+      if (in.axis_words.word(k) == in.settings.plane_basic[of_pair]) found = static_cast<int8_t>(k);
+    return found;
+  };
+  axis[0] = basic(pair.first);
+  axis[1] = basic(pair.second);
+  *third = basic(pair.third());
 }
 
 }  // namespace nc

@@ -27,13 +27,14 @@ unsigned cylinder_stands_for(const BlockContext& in);
 /// It takes that axis' place in the plane.
 void put_cylinder_axis(BlockContext& in);
 
-/// The basic axes of a plane, which it has at power on and reset.
-void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2]);
+/// The basic axes of a plane, which it has at power on and reset, and the third basic axis.
+void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2], int8_t* third);
 
 /// A plane by its first and second pair I, J, K (0, 1, 2), right-handed. M700 6.3: G17 = IJ, G18 = KI (K is horizontal), G19 = JK.
 struct PlanePair {
   uint8_t first, second;
   Plane plane;
+  unsigned third() const { return 3u - first - second; }  ///< the pair that it leaves out
 };
 PlanePair pair_of(Function plane);
 

@@ -99,7 +99,7 @@ enum class Step : uint8_t { none, cycle, skip_answered, measured, reference_chec
 struct MillReturn {
   double feed = 0;
   Function plane = Function::plane_xy, feed_mode = Function::feed_per_minute;
-  int8_t plane_axis[2] = {0, 1};
+  int8_t plane_axis[2] = {0, 1}, third_axis = 2;
   WordSlot hypothetical_word = kNoWord;  ///< word that commands the rotary axis in the plane; kNoWord = that of its own name
   bool moved = false;            ///< there was a movement in this mode
 };
@@ -209,6 +209,7 @@ struct ModalLife {
   double length_value = 0;      ///< tool length compensation in force ...
   uint8_t length_axis = 2;      ///< ... on this axis
   int8_t plane_axis[2] = {0, 1};  ///< axes of the plane in force, -1 = none
+  int8_t third_axis = 2;        ///< of the pair that lies in no plane with them the axis that the plane's code has named, or the basic one (M700 12.5)
   bool polar_angle_known = false;
   uint16_t work_system = 0;     ///< 0..5 G54..G59, 6.. G54.1 P1..
   SpeedMode high_speed = SpeedMode::off;  ///< high-speed machining that is commanded

@@ -55,8 +55,8 @@ class Hash {
     add(kind, linear, rotary, side, frozen, scale, angle);
   }
   void add_one(const MillReturn& mill) {
-    const auto& [feed, plane, feed_mode, plane_axis, word, moved] = mill;
-    add(feed, plane, feed_mode, plane_axis, word, moved);
+    const auto& [feed, plane, feed_mode, plane_axis, third_axis, word, moved] = mill;
+    add(feed, plane, feed_mode, plane_axis, third_axis, word, moved);
   }
   void add_one(const SpindleControl& spindle) {
     const auto& [surface, axis, held] = spindle;
@@ -176,9 +176,9 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(applied);
   }
   {
-    const auto& [modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
+    const auto& [modal, tool_length, length_value, length_axis, plane_axis, third_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror,
                  rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle] = static_cast<const ModalLife&>(values);
-    hash.add(modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated, stitch,
+    hash.add(modal, tool_length, length_value, length_axis, plane_axis, third_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled, mirror, rotated, stitch,
              spline, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle);
     if (map.frozen != 0) hash.add(in.points[held_point].at);
     hash.add(stroke_box != 0);

@@ -71,6 +71,7 @@ void begin_mode(BlockContext& in, const FunctionRow& row) {
   state.mill.plane = state.modal.of(Mode::plane);
   state.mill.plane_axis[0] = state.plane_axis[0];
   state.mill.plane_axis[1] = state.plane_axis[1];
+  state.mill.third_axis = state.third_axis;
   state.mill.feed_mode = state.modal.of(Mode::feed);
   state.mill.feed = state.modal.feed;
   if (state.mill.feed_mode != Function::feed_per_minute) {
@@ -89,6 +90,7 @@ void end_mode(BlockContext& in) {
   in.state.modal.set(state.mill.plane);
   state.plane_axis[0] = state.mill.plane_axis[0];
   state.plane_axis[1] = state.mill.plane_axis[1];
+  state.third_axis = state.mill.third_axis;
   if (state.mill.feed_mode != Function::feed_per_minute) {
     in.state.modal.set(state.mill.feed_mode);
     state.modal.feed = state.mill.feed;

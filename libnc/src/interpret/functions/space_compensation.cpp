@@ -13,8 +13,8 @@ constexpr Role kVector[3] = {Role::vector_x, Role::vector_y, Role::vector_z};
 
 bool all_three(const BlockContext& in) { return in.words.has(kVector[0]) && in.words.has(kVector[1]) && in.words.has(kVector[2]); }
 
-/// 12.5, "compensation space": of an axis and its parallel the one that the start block names; where it names both or none, the one of the
-/// plane in force, else the basic one.
+/// 12.5, "compensation space": of an axis and its parallel the one that the start block names; where it names both or none, the one that the code of the plane
+/// in force has chosen, also of the third pair, which lies in no plane (the table's G17 W).
 Execution choose_space(BlockContext& in, SpaceVector* space) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const PlaneAxes in_plane = plane_axes(in);
@@ -24,7 +24,7 @@ Execution choose_space(BlockContext& in, SpaceVector* space) {
     const bool names_parallel = axis >= 0 && axis != basic && in.words.target.commands(static_cast<unsigned>(axis));
     const bool names_basic = basic >= 0 && in.words.target.commands(static_cast<unsigned>(basic));
     if (!names_parallel) {
-      const int of_plane = pair == plane.first ? in_plane.h : pair == plane.second ? in_plane.v : basic;
+      const int of_plane = pair == plane.first ? in_plane.h : pair == plane.second ? in_plane.v : in.state.third_axis;
       const bool of_plane_named = of_plane >= 0 && in.words.target.commands(static_cast<unsigned>(of_plane));
       axis = names_basic && !of_plane_named ? basic : of_plane;
     }
