@@ -85,6 +85,22 @@ TEST(PositionOffset, AnArcThatIsSmallerThanTheAmountIsRefused) {
   EXPECT_EQ(bench.at(0, 0, 0).run("G91 G46 G3 X6. Y6. J6. F100 D1\nM30").alarm, "");
 }
 
+// It may well be a quarter from axis to axis: what is wrong is its radius, and the sentence says so.
+TEST(PositionOffset, TheSentenceNamesARadiusThatIsNotLargerThanTheAmount) {
+  Bench bench;
+  bench.tool(1, 5).tool(2, -5);
+  const struct {
+    const char *block, *says;
+  } rows[] = {{"G46 G3 X4. Y4. J4. D1", "J4:"}, {"G46 G3 X4. Y4. R4. D1", "R4:"}, {"G46 G2 X5. Y-5. J-5. D1", "J-5:"}, {"G48 G2 X-8. I-4. D1", "I-4:"}, {"G45 G3 X4. Y4. J4. D2", "J4:"}};
+  for (const auto& row : rows) {
+    const Outcome run = bench.at(0, 0, 0).run("G91 F100\n" + std::string(row.block) + "\nM30");
+    EXPECT_EQ(run.alarm, "P142") << row.block;
+    EXPECT_EQ(run.alarm_detail.rfind(row.says, 0), 0u) << row.block << ": " << run.alarm_detail;
+    EXPECT_NE(run.alarm_detail.find("larger than the amount"), std::string::npos) << run.alarm_detail;
+    EXPECT_EQ(run.alarm_detail.find("1/4"), std::string::npos) << run.alarm_detail;
+  }
+}
+
 TEST(PositionOffset, OtherArcsAreRefused) {  // appendix 1, P142
   Bench bench;
   bench.tool(1, 2);

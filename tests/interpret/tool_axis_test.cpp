@@ -76,6 +76,18 @@ TEST(LengthAlongTool, EveryMarkIsAPlaceToGoOnFrom) {
       axes("XYZbc"));
 }
 
+// A corner is possible with a length along the tool, but not where the tool turns; a code that is not possible at all is another sentence.
+TEST(LengthAlongTool, TheSentenceOfACornerNamesTheTurn) {
+  for (const char* corner : {",R5.", ",C5."}) {
+    const Outcome run = run_of("F500\nG0 A30. C20.\nG43.1 Z0 H1\nG1 X20. " + std::string(corner) + "\nY20. A40.\nG49\nM30", "XYZac");
+    EXPECT_EQ(run.alarm, "P931");
+    EXPECT_NE(run.alarm_detail.find("a rotary axis moves in one of the two blocks"), std::string::npos) << run.alarm_detail;
+    EXPECT_EQ(run.alarm_detail.find("Cancel it first"), std::string::npos) << run.alarm_detail;
+  }
+  const Outcome code = run_of("G0 G43.1 X10. H1\nG28 X0\nM30");
+  EXPECT_EQ(code.alarm_detail, "G28 is not possible while the length is compensated along the tool axis. Cancel it first (G49).");
+}
+
 TEST(LengthAlongTool, Alarms) {
   EXPECT_EQ(alarm_of("G0 X1.\nG43.1 X10. H1\nM30", "XYZ"), "P930 L2");
   EXPECT_EQ(alarm_of("G0 X1.\nG43.1 X10. H1\nM30", "XYZb"), "P930 L2");

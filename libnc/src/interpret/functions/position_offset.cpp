@@ -48,6 +48,13 @@ void lengthen_ways(BlockContext& in, double amount, bool arc) {
   }
 }
 
+/// An arc would keep no radius. An arc from axis to axis has its radius in one word, R or one of I, J and K, which the alarm then names.
+Execution radius_vanishes(BlockContext& in, const ArcWords& words, const PlaneAxes& plane) {
+  if (!words.has_radius && words.center[0] != 0 && words.center[1] != 0) return in.raise_code(Condition::offset_arc, *in.words.one_shot);
+  const Role radius = words.has_radius ? Role::arc_radius : plane.center[words.center[0] != 0 ? 0 : 1];
+  return in.raise(Condition::offset_arc, radius, in.words.get(radius));
+}
+
 /// Makes the arc that the programmed one becomes. It has the same centre where the arc begins beside its programmed start by the same amount.
 Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const FunctionRow& row = *in.words.one_shot;
@@ -60,7 +67,7 @@ Execution move_offset_arc(BlockContext& in, double amount, bool ccw) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const double by = amount / std::fabs(scale_of(in, h));
   const auto vanishes = [by](double word) { return word != 0 && std::fabs(word) + by <= 0; };
-  if (vanishes(words.radius) || vanishes(words.center[0]) || vanishes(words.center[1])) return in.raise_code(Condition::offset_arc, row);
+  if (vanishes(words.radius) || vanishes(words.center[0]) || vanishes(words.center[1])) return radius_vanishes(in, words, plane);
   lengthen_ways(in, amount, true);
   if (words.has_radius) words.radius = longer(words.radius, by);
   for (double& center : words.center)
