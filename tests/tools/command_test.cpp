@@ -566,6 +566,44 @@ TEST_F(CommandTest, APlotSaysToolFeedAndZByItsColour) {
   EXPECT_EQ(z.count("stroke:rgb(5%,30%,75%)"), 0u);
 }
 
+// A drawing by sides shows that of G41 or G42, also on a way in that comes from the other side of the wall, and on the way out. The legend has one line of
+// each colour.
+TEST_F(CommandTest, APlotOfCompensationHasTheSideOfTheCode) {
+  const auto strokes = [this](const std::string& text, const std::string& color) {
+    file("p.nc", "G90 G94\nG10 L10 P1 R3.\nG10 L10 P2 R-3.\nF500\n" + text + "M30\n");
+    EXPECT_EQ(ncsim("plot -o drawing --view xy --compensation p.nc").code, 0) << text;
+    const std::string svg = content(folder_ + "/drawing.svg");
+    size_t count = 0;
+    for (size_t at = svg.find(color); at != std::string::npos; at = svg.find(color, at + 1)) ++count;
+    return count;
+  };
+  const char* const none = "stroke:rgb(5%,30%,75%)";
+  const char* const left = "stroke:rgb(0%,55%,30%)";
+  const char* const right = "stroke:rgb(90%,55%,0%)";
+  const char* const space = "stroke:rgb(50%,20%,65%)";
+  const char* const walls[] = {"G17\nG0 X-10. Y20.\nG41 D1 G1 X0 Y0\nY20.\nX20.\nY0\nG40 X10. Y-10.\n", "G18\nG0 Z-10. X20.\nG41 D1 G1 Z0 X0\nX20.\nZ20.\nX0\nG40 Z10. X-10.\n"};
+  for (const std::string text : walls) {
+    EXPECT_GT(strokes(text, left), 1u) << text;
+    EXPECT_EQ(strokes(text, right), 1u) << text;
+    EXPECT_EQ(strokes(text, none), 1u) << text;
+    for (const char* other : {"G42 D1", "G41 D2"}) {  // a negative amount changes the sides
+      std::string opposite = text;
+      opposite.replace(opposite.find("G41 D1"), 6, other);
+      EXPECT_EQ(strokes(opposite, left), 1u) << opposite;
+      EXPECT_GT(strokes(opposite, right), 1u) << opposite;
+      EXPECT_EQ(strokes(opposite, none), 1u) << opposite;
+    }
+  }
+  // A vector in space leads beside nothing; it lifts the tool here, or lies in the plane.
+  for (const char* vector : {"I0 J0 K1.", "I1. J0 K0", "I1. J1. K1."}) {
+    const std::string text = "G17\nG0 X-10. Y20.\nG41 D1 G1 X0 Y0 " + std::string(vector) + "\nY20.\nX20.\nG40 X10. Y-10.\n";
+    EXPECT_GT(strokes(text, space), 1u) << text;
+    EXPECT_EQ(strokes(text, left), 1u) << text;
+    EXPECT_EQ(strokes(text, right), 1u) << text;
+    EXPECT_EQ(strokes(text, none), 1u) << text;
+  }
+}
+
 // The clamping position of a part and the lengths of the tools change nothing in a drawing in workpiece coordinates, but much in one in machine
 // coordinates.
 TEST_F(CommandTest, APlotShowsThePartWhereverItIsClamped) {

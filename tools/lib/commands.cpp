@@ -122,6 +122,8 @@ class PlotSink final : public RunSink {
   void move(const nc_source&, const nc_move& move) override {
     nc_axes zero = {};
     if (plot_.coordinates() == PlotCoordinates::kWork) items_.move_zero(&zero);
+    PlotSide side;
+    if (items_.move_side(&side.side, side.plane_axis)) plot_.set_side(side);
     if (!move.curved) return plot_.add_move(move, system_, zero);
     // A curve that is neither a line nor a circle is drawn in short pieces.
     constexpr double kPieceMm = 0.2, kMost = 4000;

@@ -26,6 +26,8 @@ class ItemSource {
   virtual bool move_point(double /*share*/, nc_axes* /*machine*/) { return false; }
   /** Workpiece zero of the move pulled last, including the tool length (nc_move_zero); false when the source has none. */
   virtual bool move_zero(nc_axes* /*zero*/) { return false; }
+  /** Side of the move pulled last (nc_move_side); false when the source has none. */
+  virtual bool move_side(nc_side* /*side*/, uint8_t /*plane_axis*/[2]) { return false; }
   /** Changes positions to what the counters show (nc_position_shown). */
   virtual void shown(nc_axes* /*machine*/, nc_axes* /*work*/) {}
   /** Line of the main program to which a block belongs, of the item pulled last (nc_main_line_get); 0 = not known. */
@@ -58,6 +60,7 @@ class ControlSource final : public ItemSource {
     return nc_move_point(control_, kPartSystem, share, machine) == NC_OK;
   }
   bool move_zero(nc_axes* zero) override { return nc_move_zero(control_, kPartSystem, zero) == NC_OK; }
+  bool move_side(nc_side* side, uint8_t plane_axis[2]) override { return nc_move_side(control_, kPartSystem, side, plane_axis) == NC_OK; }
   void shown(nc_axes* machine, nc_axes* work) override {
     nc_position_shown(control_, kPartSystem, machine, work);
   }

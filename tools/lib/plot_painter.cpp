@@ -38,9 +38,9 @@ constexpr unsigned kShades = 16;
 constexpr Color kRamp[] = {{0.27, 0.00, 0.33}, {0.23, 0.32, 0.55}, {0.13, 0.57, 0.55}, {0.37, 0.79, 0.38}, {0.90, 0.80, 0.10}};
 constexpr Color kTools[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65},
                             {0.00, 0.60, 0.70}, {0.45, 0.30, 0.15}, {0.85, 0.35, 0.60}, {0.40, 0.40, 0.40}};
-// By kSideNone, kSideLeft, kSideRight.
-constexpr Color kSides[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}};
-constexpr const char* kSideNames[] = {"no side", "on the left", "on the right"};
+// By nc_side.
+constexpr Color kSides[] = {{0.05, 0.30, 0.75}, {0.00, 0.55, 0.30}, {0.90, 0.55, 0.00}, {0.50, 0.20, 0.65}};
+constexpr const char* kSideNames[] = {"no side", "on the left", "on the right", "in space"};
 constexpr Color kProgrammed{0.45, 0.45, 0.45}, kDisc{0.65, 0.65, 0.65};
 // The part of a sentence that fits beside the legend.
 std::string first_line(const std::string& text) {

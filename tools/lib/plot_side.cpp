@@ -2,8 +2,9 @@
 // What a drawing by sides has beside the path of the tool: the programmed path, on which side of it the tool goes, and how large the tool is.
 //
 // A move tells its programmed end and where the tool goes. The difference is the vector of radius compensation, as long as the program does not rotate, scale or
-// mirror its coordinates. Between two vectors that lie equally far beside a line, or of an arc by the difference of the radii, the tool goes beside its block by
-// its radius. Other moves, the start and the cancel among them, have the side of the larger vector.
+// mirror its coordinates. The side is that of the code in force, in the move that leads to it, too, wherever that comes from; the move that leads back has the
+// side that it leaves. Between two vectors that lie equally far beside a line, or of an arc by the difference of the radii, the tool goes beside its block by
+// its radius: its disc is drawn there. A vector in space leads to no side and has no disc.
 #include <algorithm>
 #include <cmath>
 
@@ -33,41 +34,36 @@ Place minus(const Place& a, const Place& b) {
 
 bool is_something(const Place& vector) { return std::hypot(vector.x[0], vector.x[1], vector.x[2]) > kNothing; }
 
-/// The plane in which these two vectors and this way lie: XY, ZX or YZ.
-void plane_of(const Place& before, const Place& behind, const Place& way, int axis[2]) {
-  const auto flat = [&](int i) { return std::fabs(before.x[i]) < kNothing && std::fabs(behind.x[i]) < kNothing; };
-  axis[0] = 0;
-  axis[1] = 1;
-  if (!flat(2) || (std::fabs(way.x[2]) > kNothing && (flat(0) || flat(1)) && std::fabs(way.x[flat(0) ? 1 : 0]) < kNothing)) {
-    axis[0] = flat(1) ? 2 : 1;
-    axis[1] = flat(1) ? 0 : 2;
-  }
+/// 0, 1 or 2 where the axis of this index is X, Y or Z; -1 for another one, which is not drawn.
+int drawn_axis(const nc_system_config& system, unsigned index) {
+  const char name = index < system.axis_count ? system.axis[index].name : 0;
+  return name >= 'X' && name <= 'Z' ? name - 'X' : -1;
 }
-
-float side_of(double to_the_left) { return to_the_left > 0 ? kSideLeft : kSideRight; }
 
 }  // namespace
 
 void ToolpathPlot::note_side(const nc_move& move, const nc_system_config& system, const nc_axes& zero) {
   const Place origin = place_of(zero, system), end = place_of(move.work, system);
   const Place from = minus(place_of(move.machine_start, system), origin), to = minus(place_of(move.machine, system), origin);
-  const Place start = programmed_.empty() ? from : Place{{programmed_.back().x[0], programmed_.back().x[1], programmed_.back().x[2]}};
+  const Place start = programmed_.empty() ? from : Place{{programmed_end_[0], programmed_end_[1], programmed_end_[2]}};
+  for (int i = 0; i < 3; ++i) programmed_end_[i] = end.x[i];
   const Place before = minus(from, start), behind = minus(to, end), way = minus(end, start);
-  const bool beside = is_something(before) || is_something(behind);
+  const bool leads_back = in_force_.side == NC_SIDE_NONE && is_something(before);
+  if (!leads_back) side_ = static_cast<float>(in_force_.side);
+  if (!is_something(before) && !is_something(behind)) side_ = kSideNone;
+  const bool beside = side_ != kSideNone;
   if (programmed_.size() >= kMostBeside) {
     beside_all_ = false;
     return;
   }
   const auto put = [&](const Place& p) { programmed_.push_back({{p.x[0], p.x[1], p.x[2]}, beside}); };
   if (programmed_.empty()) put(start);
-  int axis[2];
-  plane_of(before, behind, way, axis);
-  double radius = 0;
+  const int first = drawn_axis(system, in_force_.plane_axis[0]), second = drawn_axis(system, in_force_.plane_axis[1]);
+  const bool to_a_side = (in_force_.side == NC_SIDE_LEFT || in_force_.side == NC_SIDE_RIGHT) && first >= 0 && second >= 0;
+  double radius = 0;  // of the tool, where the move goes beside its block
   if (move.center_axes == 2) {
-    const int h = system.axis[move.plane_axis[0]].name - 'X', v = system.axis[move.plane_axis[1]].name - 'X';
-    if (h >= 0 && h < 3 && v >= 0 && v < 3) {
-      axis[0] = h;
-      axis[1] = v;
+    const int h = drawn_axis(system, move.plane_axis[0]), v = drawn_axis(system, move.plane_axis[1]);
+    if (h >= 0 && v >= 0) {
       const double dh = start.x[h] - move.center[0], dv = start.x[v] - move.center[1], eh = end.x[h] - move.center[0], ev = end.x[v] - move.center[1];
       const double own = std::hypot(eh, ev), tool = std::hypot(move.machine.v[move.plane_axis[0]] - move.machine_center[0], move.machine.v[move.plane_axis[1]] - move.machine_center[1]);
       double sweep = std::atan2(dh * ev - dv * eh, dh * eh + dv * ev);
@@ -82,19 +78,14 @@ void ToolpathPlot::note_side(const nc_move& move, const nc_system_config& system
         p.x[v] = move.center[1] + own * std::sin(angle);
         put(p);
       }
-      if (own > kNothing && is_something(way)) radius = (move.ccw ? 1 : -1) * (own - tool);
+      if (own > kNothing && is_something(way)) radius = std::fabs(own - tool);
     }
-  } else if (const double length = std::hypot(way.x[axis[0]], way.x[axis[1]]); length > kNothing) {
-    const auto to_the_left = [&](const Place& vector) { return (way.x[axis[0]] * vector.x[axis[1]] - way.x[axis[1]] * vector.x[axis[0]]) / length; };
-    const double a = to_the_left(before), b = to_the_left(behind);
-    if (std::fabs(a - b) < kNothing) radius = b;
-    else if (beside) side_ = side_of(std::fabs(b) > std::fabs(a) ? b : a);
+  } else if (const double length = to_a_side ? std::hypot(way.x[first], way.x[second]) : 0; length > kNothing) {
+    const auto to_the_left = [&](const Place& vector) { return (way.x[first] * vector.x[second] - way.x[second] * vector.x[first]) / length; };
+    if (std::fabs(to_the_left(before) - to_the_left(behind)) < kNothing) radius = std::fabs(to_the_left(behind));
   }
   put(end);
-  if (!beside) side_ = kSideNone;
-  if (std::fabs(radius) < 1e-3) return;
-  side_ = side_of(radius);
-  discs_.push_back({{to.x[0], to.x[1], to.x[2]}, std::fabs(radius), {axis[0], axis[1]}});
+  if (to_a_side && radius >= 1e-3) discs_.push_back({{to.x[0], to.x[1], to.x[2]}, radius, {first, second}});
 }
 
 }  // namespace nc::tools

@@ -29,7 +29,13 @@ enum class PlotCoordinates { kWork, kMachine };
 enum class PlotColor { kKind, kTool, kFeed, kZ, kSide };
 
 /** Values of kSide. */
-inline constexpr float kSideNone = 0, kSideLeft = 1, kSideRight = 2;
+inline constexpr float kSideNone = NC_SIDE_NONE, kSideLeft = NC_SIDE_LEFT, kSideRight = NC_SIDE_RIGHT, kSideSpace = NC_SIDE_SPACE;
+
+/** On which side of its programmed path a move goes, and in which plane, as nc_move_side() says. */
+struct PlotSide {
+  nc_side side = NC_SIDE_NONE;
+  uint8_t plane_axis[2] = {0, 1};
+};
 
 /** A vertex of the path, mm. */
 struct PlotVertex {
@@ -62,6 +68,9 @@ class ToolpathPlot {
   void set_color(PlotColor color) { color_ = color; }
   /** Sets the tool for the pieces that follow. */
   void set_tool(double number) { tool_ = number; }
+
+  /** Sets the side of the moves that follow. A move without a side that begins beside its programmed start leads back from the side of the one before. */
+  void set_side(const PlotSide& side) { in_force_ = side; }
 
   /** Sets the feed for the pieces that add_point() adds from here on. */
   void set_feed(double mm_min) { feed_mm_min_ = mm_min; }
@@ -111,7 +120,9 @@ class ToolpathPlot {
   PlotView view_ = PlotView::kIsometric;
   PlotColor color_ = PlotColor::kKind;
   double tool_ = 0.0, feed_mm_min_ = 0.0;
-  float side_ = kSideNone;
+  PlotSide in_force_;
+  float side_ = kSideNone;  // of the move added last
+  double programmed_end_[3] = {0, 0, 0};  // of the move added last, mm
   std::vector<ProgrammedVertex> programmed_;
   std::vector<PlotDisc> discs_;
   bool beside_all_ = true;

@@ -54,6 +54,24 @@ NC_API nc_status nc_move_point(const nc_control* control, unsigned system, doubl
  */
 NC_API nc_status nc_move_zero(const nc_control* control, unsigned system, nc_axes* zero);
 
+/** On which side of its programmed path the tool goes. */
+typedef enum nc_side {
+  NC_SIDE_NONE = 0,  /**< no compensation is in force. A move that leads back to the programmed path has no side any more, nor has one without an amount */
+  NC_SIDE_LEFT = 1,  /**< left of the direction of travel: G41, or G42 with a negative amount */
+  NC_SIDE_RIGHT = 2, /**< right of it */
+  NC_SIDE_SPACE = 3  /**< a vector in space is in force, which leads to no side: three-dimensional radius compensation, a length along the tool axis */
+} nc_side;
+
+/**
+ * Offline: on which side of its programmed path the tool goes in the move that nc_pull() gave last, by the codes in force in its block. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param side receives the side
+ * @param plane_axis receives the indices of the first and second axis of the plane in which the tool goes to the left or to the right; as they were otherwise
+ * @return as nc_move_point()
+ */
+NC_API nc_status nc_move_side(const nc_control* control, unsigned system, nc_side* side, uint8_t plane_axis[2]);
+
 /**
  * Offline: answer the open sync of a part system. After NC_SYNC_SKIP the interpreter goes on from world->machine. Feeder thread.
  * @param control the control

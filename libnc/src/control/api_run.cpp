@@ -74,6 +74,11 @@ nc_status nc_move_zero(const nc_control* c, unsigned system, nc_axes* zero) {
   return c->system[system].move_zero(zero);
 }
 
+nc_status nc_move_side(const nc_control* c, unsigned system, nc_side* side, uint8_t plane_axis[2]) {
+  if (!has_system(c, system) || side == nullptr || plane_axis == nullptr) return NC_E_ARGUMENT;
+  return c->system[system].move_side(side, plane_axis);
+}
+
 nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
   if (!has_system(c, system) || given == nullptr) return NC_E_ARGUMENT;
   nc_world world{};

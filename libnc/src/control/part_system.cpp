@@ -435,7 +435,12 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
     } else {
       commit_.to_public(*item, out);
       if (item->kind == ItemKind::move) [[likely]] {
-        move_transform_ = item->move.transform;
+        const Move& move = item->move;
+        move_transform_ = move.transform;
+        move_offset_ = move.comp.side * move.comp.radius;
+        move_plane_axis_[0] = move.comp.axis[0];
+        move_plane_axis_[1] = move.comp.axis[1];
+        move_in_space_ = move.space.on;
       } else {
         note_given(*item);
         note_interrupt_mode(*item);
@@ -480,6 +485,18 @@ nc_status PartSystem::move_point(double share, nc_axes* machine) const {
 nc_status PartSystem::move_zero(nc_axes* zero) const {
   if (online_ || pulled_ != ItemKind::move) return NC_E_STATE;
   std::memcpy(zero->v, (*interpreter.pools().transforms)[move_transform_].offset().v, sizeof zero->v);
+  return NC_OK;
+}
+
+nc_status PartSystem::move_side(nc_side* side, uint8_t plane_axis[2]) const {
+  if (online_ || pulled_ != ItemKind::move) return NC_E_STATE;
+  if (move_offset_ == 0) {
+    *side = move_in_space_ ? NC_SIDE_SPACE : NC_SIDE_NONE;
+    return NC_OK;
+  }
+  *side = move_offset_ > 0 ? NC_SIDE_LEFT : NC_SIDE_RIGHT;
+  plane_axis[0] = move_plane_axis_[0];
+  plane_axis[1] = move_plane_axis_[1];
   return NC_OK;
 }
 

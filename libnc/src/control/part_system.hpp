@@ -42,6 +42,7 @@ class PartSystem {
   nc_status pull(uint32_t budget, nc_item* item);
   nc_status move_point(double share, nc_axes* machine) const;
   nc_status move_zero(nc_axes* zero) const;
+  nc_status move_side(nc_side* side, uint8_t plane_axis[2]) const;
   nc_status answer(const nc_world& world);
   nc_world at_end_of_what_is_read(const nc_world& world) const;
   nc_status rewind(Serial serial);
@@ -226,6 +227,9 @@ class PartSystem {
   ItemKind pulled_ = ItemKind::mark;         ///< kind of the item given out last
   bool pulled_in_hole_ = false;              ///< ... which belongs to a hole (Item::in_hole)
   TransformId move_transform_ = 0;           ///< the map of the move given out last
+  double move_offset_ = 0;                   ///< how far to the left of its programmed path it goes, mm
+  uint8_t move_plane_axis_[2] = {0, 1};      ///< ... in this plane
+  bool move_in_space_ = false;               ///< it has a vector in space
   unsigned drop_ = 0;                        ///< number of items to come that have been executed already, before an interrupt
   bool resumes_ = false;                     ///< online: the item behind these has been executed in part, as cut_ says
   Cut cut_;
