@@ -244,6 +244,114 @@ TEST_P(Restart, ArgumentsThatAreRefused) {
   EXPECT_EQ(nc_restart_cancel(c, 0), NC_E_STATE);
 }
 
+/// Each start in blocks of MDI is one of theirs, in single block as well, and the bar stays until the program goes on.
+TEST_P(Restart, BlocksOfMdiInSingleBlockKeepTheBar) {
+  for (const bool there : {false, true}) {
+    RestartMachine m(GetParam(), "G90 G0 X10. Y5.\nG1 Z-3. F600\nG91 G1 X40.\nG90 X60.\nM30");
+    ASSERT_EQ(m.find(at_line(3)), NC_OK);
+    m.enter();
+    if (there) m.bring_axes();
+    m.drive->in.single_block = true;
+    const std::string blocks = "M8\nG0 X-50. Z20.";
+    ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_EQ(m.drive->out.cause, NC_CAUSE_SINGLE_BLOCK);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_EQ(m.drive->out.cause, NC_CAUSE_MDI_ENDED);
+    EXPECT_NEAR(m.drive->out.command.v[0], -50, 1e-9);
+    EXPECT_EQ(m.drive->out.restart_axes, there ? 5u : 7u);
+    m.press();
+    m.step(100);
+    EXPECT_EQ(m.drive->out.state, NC_STATE_STOPPED);
+    EXPECT_EQ(m.drive->out.cause, NC_CAUSE_RESTART);
+    EXPECT_NEAR(m.drive->out.command.v[0], -50, 1e-9) << "the program does not go on from here";
+    m.bring_axes();
+    m.drive->in.single_block = false;
+    ASSERT_TRUE(m.to_end());
+    EXPECT_NEAR(m.drive->out.command.v[0], 60, 1e-9);
+    EXPECT_NEAR(m.drive->out.command.v[2], -3, 1e-9);
+  }
+}
+
+TEST_P(Restart, AStartThatIsTakenBackKeepsTheBar) {
+  for (unsigned late = 0; late < 6; ++late) {
+    RestartMachine m(GetParam(), "G90 G0 X10. Y5.\nG1 Z-3. F600\nX40.\nM30");
+    ASSERT_EQ(m.find(at_line(3)), NC_OK);
+    m.enter();
+    m.bring_axes();
+    m.drive->in.cycle_start = true;
+    m.drive->step(0);  // the feeder is late
+    m.drive->in.feed_hold = true;
+    for (unsigned n = 0; n < late; ++n) m.drive->step(0);
+    m.step(20);
+    m.drive->in.cycle_start = m.drive->in.feed_hold = false;
+    m.step(5);
+    if (m.drive->out.state != NC_STATE_STOPPED) continue;  // the start was the earlier one
+    m.drive->in.manual[1] = {NC_MANUAL_STEP, 0, 7};
+    m.step(300);
+    m.drive->in.manual[1] = {};
+    m.step(3);
+    EXPECT_EQ(m.drive->out.restart_axes, 2u) << late;
+    m.press();
+    m.step(50);
+    EXPECT_EQ(m.drive->out.state, NC_STATE_STOPPED) << late;
+  }
+}
+
+TEST_P(Restart, TheFirstBlockIsAPlaceToo) {
+  RestartMachine m(GetParam(), "G91 G0 X10. Y5.\nG1 X3. F600\nM30");
+  nc_restart_place place = at_line(1);
+  place.start_given = true;
+  place.start.v[0] = 100;
+  ASSERT_EQ(m.find(place), NC_OK);
+  EXPECT_EQ(m.found.blocks, 0u);
+  EXPECT_DOUBLE_EQ(m.found.machine.v[0], 100);
+  m.enter();
+  EXPECT_EQ(m.drive->out.restart_axes, 1u);
+  EXPECT_EQ(m.drive->out.command.v[0], 0);
+  m.bring_axes();
+  ASSERT_TRUE(m.to_end());
+  EXPECT_NEAR(m.drive->out.command.v[0], 113, 1e-9);
+  EXPECT_NEAR(m.drive->out.command.v[1], 5, 1e-9);
+}
+
+/// nc_outputs::blocks of a run that was stopped names the place in the next one, whatever was executed beside the program.
+TEST_P(Restart, BlocksBesideTheProgramDoNotCount) {
+  RestartMachine m(GetParam(), "G0 X10.\nM0\nX20.\nX30.\nM0\nX40.\nM30");
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  const std::string blocks = "M8\n#1=5\nG0 Z5.";
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_EQ(m.drive->out.cause, NC_CAUSE_MDI_ENDED);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_EQ(m.drive->out.cause, NC_CAUSE_PROGRAM_STOP);
+  EXPECT_NEAR(m.drive->out.command.v[0], 30, 1e-9);
+  const uint64_t blocks_done = m.drive->out.blocks;
+  m.drive->in.reset = true;
+  m.step(5);
+  m.drive->in.reset = false;
+  m.step(5);
+  ASSERT_EQ(m.find(at_block(blocks_done)), NC_OK);
+  EXPECT_EQ(m.found.source.line, 5u) << "the M0 was not finished";
+  m.enter();
+  EXPECT_EQ(m.drive->out.blocks, blocks_done);
+}
+
+TEST_P(Restart, ATextThatWasReplacedIsAnAlarm) {
+  RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nM30");
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  m.bench.add("main", "G0 X10.\n(other)\nX20.\nX99.\nM30");
+  m.press();
+  m.step(50);
+  EXPECT_EQ(m.drive->alarm(), "NC-RESTART");
+  EXPECT_EQ(m.drive->out.command.v[0], 0);
+}
+
 TEST_P(Restart, CancelBeginsAtTheHead) {
   RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nM30");
   ASSERT_EQ(m.find(at_line(3)), NC_OK);

@@ -332,7 +332,8 @@ typedef struct nc_outputs {
   uint8_t override_source;  /**< nc_override_source of feed_override */
   double path_length;       /**< mm travelled since cycle start */
   double run_s;             /**< seconds in state RUNNING since cycle start */
-  uint64_t blocks;          /**< blocks finished since cycle start */
+  uint64_t blocks;          /**< blocks of the program that are finished, since it was begun: in a program that was begun inside (nc/restart.h) with those before
+                                 the place. Blocks of MDI in a block stop and those of interrupt programs do not count */
   nc_axes joint;            /**< commanded joints, in their units; 0 without nc_config::kinematics */
   nc_axes joint_velocity;   /**< change of the joints in this cycle, unit/s */
   uint8_t joint_faults;     /**< nc_joint_fault_bits of this cycle */

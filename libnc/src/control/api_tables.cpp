@@ -75,7 +75,10 @@ nc_status add_entry(nc_control* c, const char* name, const nc::TextEntry& entry,
   const nc_status status = c->store.add(entry, base, &index, own);
   if (status == NC_OK && before >= 0)  // a place in a text is not one in another text
     for (unsigned i = 0; i < c->config.system_count; ++i)
-      if (c->system[i].interpreter.refers_to(static_cast<unsigned>(before))) c->system[i].interpreter.keep_place(false);
+      if (c->system[i].interpreter.refers_to(static_cast<unsigned>(before))) {
+        c->system[i].interpreter.keep_place(false);
+        c->system[i].outdate_restart();
+      }
   if (status == NC_OK && file != nullptr) *file = index;
   return status;
 }

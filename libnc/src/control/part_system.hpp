@@ -54,6 +54,7 @@ class PartSystem {
   nc_status restart_find(uint32_t budget, nc_restart_found* found);
   nc_status restart_cancel();
   void forget_restart() { search_.forget(); }
+  void outdate_restart() { search_.outdate(); }
   /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
   static constexpr int64_t kUnit = 20000, kItem = 2500;
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.

@@ -5,8 +5,8 @@
 //   search    head of the program ... mark of the block before the place | first item of the place
 //   run       states of the scan, that mark, the stop, that mark again   | first item of the place ...
 //
-// The mark in front of the stop tells the scan which blocks have been executed, so that a reset in the stop, and what is read ahead behind it, find the
-// place; the one behind the stop makes it a block stop, in which axes can be moved by hand and blocks of MDI be executed.
+// The mark in front of the stop tells the scan which blocks have been executed, so that a reset in the stop, and what is read again behind it, find the
+// place. The one behind it is executed by the start that goes on: until then nothing more is read, as behind M00. At the head of a program they have the number 0.
 #include <cstring>
 
 #include "control/part_system.hpp"
@@ -90,10 +90,9 @@ nc_status PartSystem::restart_cancel() {
 
 /// The scan has begun a run. True: it begins at the place that was found, and what stands before the place is given to the scan.
 bool PartSystem::begin_found() {
-  const bool found = search_.phase() == RestartSearch::Phase::found && search_.blocks() != 0;
-  const bool same = found && executor.mirror() == search_.place().mirror && interpreter.state_hash() == search_.hash();
+  if (search_.phase() != RestartSearch::Phase::found) return false;
+  const bool same = !search_.outdated() && executor.mirror() == search_.place().mirror && interpreter.state_hash() == search_.hash();
   search_.forget();
-  if (!found) return false;
   publish_all();
   published_ = 0;
   interpreter.set_feeding(true);
@@ -104,22 +103,21 @@ bool PartSystem::begin_found() {
     return true;
   }
   executor.restart_at(commit_.machine(), search_.blocks());
-  const MarkPoint& before = *commit_.newest();
+  const MarkPoint* const before = commit_.newest();
   Record record;
-  record.serial = before.serial;
+  record.serial = before != nullptr ? before->serial : 0;
   record.epoch = run_.epoch();
   for (unsigned i = 0; i < search_.control_count(); ++i) {
     record.kind = ItemKind::action;
     record.action = search_.controls()[i];
     executor.push(record);
   }
-  Mark mark;
-  mark.modal = restart_modal_;
-  mark.seq = before.seq;
-  mark.stop = mark.report = false;
   const auto push_mark = [&] {
     record.kind = ItemKind::mark;
-    record.mark = mark;
+    record.mark = {};
+    record.mark.modal = restart_modal_;
+    record.mark.seq = before != nullptr ? before->seq : 0;
+    record.mark.stop = record.mark.report = false;
     executor.push(record);
   };
   push_mark();

@@ -33,6 +33,9 @@ class RestartSearch {
   /// The place is reached. `hash` is that of the state in which the program goes on.
   void found(uint64_t hash) { phase_ = Phase::found, hash_ = hash; }
   uint64_t hash() const { return hash_; }
+  /// A text that the program is in has been replaced: the place is no longer the one that was found.
+  void outdate() { outdated_ = true; }
+  bool outdated() const { return outdated_; }
   /// What was given to the machine; where the place is and in which state the program is there says the part system.
   void tell(nc_restart_found* out) const;
 
@@ -56,6 +59,7 @@ class RestartSearch {
   uint32_t passings_ = 0;   ///< so often has the program come to it
   uint64_t blocks_ = 0;
   uint64_t hash_ = 0;
+  bool outdated_ = false;
   nc_restart_found given_{};
   Action control_[kControls];
   unsigned control_count_ = 0;

@@ -304,7 +304,8 @@ void Interpolator::states(const nc_inputs& in) {
     if (restart_bars(mdi)) return;
     // Axes were moved by hand, or there are blocks of MDI: the start acts when blocks have been read again.
     if ((displaced_ || mdi) && still && state_ == NC_STATE_STOPPED) {
-      rereading_ = start_read_again_ = true;
+      rereading_ = true;
+      in_mdi_ = in_mdi_ || mdi;
       shared_->reread_mdi.store(mdi ? 1 : 0, std::memory_order_relaxed);
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
@@ -318,7 +319,7 @@ void Interpolator::states(const nc_inputs& in) {
       return;
     }
     if (state_ == NC_STATE_IDLE && shared_->run_taken.load(std::memory_order_acquire) != run_.word()) return;  // the start acts when the feeder has taken it
-    start_ = start_read_again_ = false;
+    start_ = false;
     if (still || state_ == NC_STATE_HOLD) start(in);
   }
 }
@@ -344,6 +345,8 @@ void Interpolator::start(const nc_inputs& in) {
       follower_.give_up();  // path lengths are counted from 0 again, so that they do not grow with the years
       [[fallthrough]];
     case NC_STATE_STOPPED:
+      if (!in_mdi_) begins_again_ = false;
+      [[fallthrough]];
     case NC_STATE_HOLD:
       state_ = NC_STATE_RUNNING;
       hold_ = false;
@@ -368,7 +371,7 @@ void Interpolator::give_up() {
   hold_behind_thread_ = hold_behind_tap_ = block_has_thread_ = elsewhere_ = false;
   tapping_ = 0;
   by_hand_ = 0;
-  begins_again_ = start_read_again_ = false;
+  begins_again_ = in_mdi_ = false;
   fin1_groups_ = own_groups_ = 0;
   strobe_ = 0;               // a FIN that comes after the reset completes nothing
   suppress_ = disable_ = 0;  // M700 13.5.9, 13.5.10: cleared by reset
@@ -386,6 +389,7 @@ void Interpolator::give_up() {
 void Interpolator::end_mdi() {
   serial_ = current().serial;
   cause_ = NC_CAUSE_MDI_ENDED;
+  in_mdi_ = false;
   block_begun_ = true;
   leave(current(), true);
 }

@@ -293,7 +293,7 @@ class Interpolator {
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
   bool begins_again_ = false;  ///< a program that is begun inside stands at its place, and has not gone on yet
   AxisVec restart_at_;         ///< where its axes have to be
-  bool start_read_again_ = false;  ///< the cycle start that waits has had blocks read again
+  bool in_mdi_ = false;        ///< blocks of MDI that interrupt the program have begun, and not come to their end
   uint32_t starts_ = 0;       ///< ScanStatus::starts, and below block_stop and stop_behind
   bool block_stop_ = false;
   BlockSeq stop_behind_ = 0;

@@ -53,14 +53,15 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       tapping_ = 0;
       if (!tap_.held) release_tap();
       suppress_ = disable_ = 0;  // M700 9.1: the end of the program resets
-      block_begun_ = false;
+      block_begun_ = begins_again_ = in_mdi_ = false;
       run_.end();
       run_ended_ = true;
       state_ = NC_STATE_IDLE;
       shared_->world.write({});  // serials begin anew with the next run
       return Done::yes;
   }
-  if (done == Done::yes) block_begun_ = true;
+  // A program that is begun inside stands in front of a block.
+  if (done == Done::yes) block_begun_ = r.kind != ItemKind::gate || !r.gate.begins_again;
   return done;
 }
 
@@ -477,6 +478,7 @@ Interpolator::Done Interpolator::gate(const Gate& g, const nc_inputs& in) {
     case NC_GATE_STOP:
       state_ = NC_STATE_STOPPED;
       cause_ = g.behind_mdi ? NC_CAUSE_MDI_ENDED : g.begins_again ? NC_CAUSE_RESTART : NC_CAUSE_PROGRAM_STOP;
+      if (g.behind_mdi) in_mdi_ = false;
       if (g.begins_again) stand_at_restart();
       return Done::yes;
   }
@@ -506,7 +508,7 @@ Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
 void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
   if (m.report) {
-    ++blocks_;
+    if (!m.aside) ++blocks_;
     interrupt_rest_.block_ended();
   }
   block_begun_ = !m.resume;  // a block that stops at one of its places has begun, even when nothing moved yet

@@ -24,16 +24,13 @@ uint32_t Interpolator::axes_off_restart() const {
   return off;
 }
 
-/// Whether a cycle start has to be refused: the block would begin from another place than the program comes from. Blocks of MDI (`mdi`) begin anywhere.
+/// Whether a cycle start has to be refused: the block would begin from another place than the program comes from. Blocks of MDI begin anywhere, those that wait
+/// (`mdi`) and those that have begun and stand in a block stop. The bar stays until a start is executed: one that waits may be taken back.
 bool Interpolator::restart_bars(bool mdi) {
-  if (!begins_again_ || state_ != NC_STATE_STOPPED || mdi || start_read_again_) return false;
-  if (axes_off_restart() != 0) {
-    start_ = false;
-    cause_ = NC_CAUSE_RESTART;
-    return true;
-  }
-  begins_again_ = false;
-  return false;
+  if (!begins_again_ || state_ != NC_STATE_STOPPED || mdi || in_mdi_ || axes_off_restart() == 0) return false;
+  start_ = false;
+  cause_ = NC_CAUSE_RESTART;
+  return true;
 }
 
 /// Bit i: there is a place to which axis i can go back, in *places.

@@ -127,6 +127,7 @@ void BlockContext::finish_block(bool stop, bool executable) {
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);
   new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again, state.repeat};
+  item.mark.aside = aside;
   begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;

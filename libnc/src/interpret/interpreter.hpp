@@ -220,6 +220,13 @@ struct Interpreter : BlockContext {
     source.depth = state.depth;
     source.file = frame.program.file;
     source.program = frame.program.number;
+    aside = state.depth != 0 && goes_aside();
+  }
+  /// The program that runs, or one that led to it, is an interrupt program or a text of MDI that interrupts.
+  bool goes_aside() const {
+    for (unsigned level = 1; level <= state.depth; ++level)
+      if (state.frame[level].origin == CallOrigin::interrupt || state.frame[level].origin == CallOrigin::mdi) return true;
+    return false;
   }
   void place_at_next_block();
   void finish_call();
