@@ -342,6 +342,93 @@ TEST_P(Restart, BlocksBesideTheProgramDoNotCount) {
   EXPECT_EQ(m.drive->out.blocks, blocks_done);
 }
 
+/// The usual place of a restart is the call of what a tool does.
+TEST_P(Restart, ACallIsAPlace) {
+  const std::string text = "O1\nN1 G91 G0 X1.\nN2 M98 P2 L3\nN3 G65 P3 A1.\nM30\nO2\nN1 Y2.\nM99\nO3\nN1 Z#1\nM99\n%";
+  const struct {
+    uint32_t sequence, line, moves;
+    double x, y, z;
+  } places[] = {{2, 3, 4, 1, 0, 0}, {3, 4, 1, 1, 6, 0}};
+  for (const auto& place : places) {
+    RestartMachine m(GetParam(), text);
+    ASSERT_EQ(m.find(at_sequence(place.sequence)), NC_OK);
+    EXPECT_EQ(m.found.source.line, place.line);
+    EXPECT_DOUBLE_EQ(m.found.machine.v[0], place.x);
+    EXPECT_DOUBLE_EQ(m.found.machine.v[1], place.y);
+    EXPECT_DOUBLE_EQ(m.found.machine.v[2], place.z);
+    m.enter();
+    m.bring_axes();
+    const size_t before = m.drive->ends().size();
+    ASSERT_TRUE(m.to_end());
+    EXPECT_EQ(m.drive->ends().size() - before, place.moves);
+    EXPECT_NEAR(m.drive->out.command.v[1], 6, 1e-9);
+    EXPECT_NEAR(m.drive->out.command.v[2], 1, 1e-9);
+  }
+  RestartMachine torn(GetParam(), "O1\nG10 L10 P1 R2.\nG41 D1 G1 X10. F600\nX20.\nM98 P2\nX40.\nG40 X50. Y9.\nM30\nO2\nX30.\nM99\n%");
+  EXPECT_EQ(torn.find(at_line(5)), NC_E_NOT_FOUND) << "a call amid a contour";
+  EXPECT_EQ(torn.find(at_line(6)), NC_OK);
+}
+
+TEST_P(Restart, AStartDuringTheSearchIsAnAlarm) {
+  RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nX40.\nM30");
+  const nc_restart_place place = at_block(3);
+  ASSERT_EQ(nc_restart_begin(m.bench.control(), 0, &place, nullptr), NC_OK);
+  ASSERT_EQ(nc_restart_find(m.bench.control(), 0, 1, &m.found), NC_BUDGET);
+  m.press();
+  m.step(50);
+  EXPECT_EQ(m.drive->alarm(), "NC-RESTART");
+  EXPECT_EQ(m.drive->out.command.v[0], 0);
+}
+
+/// Coordinate systems are moved along with what is moved by hand, and in the stop of a restart nothing was: the axes are brought there.
+TEST_P(Restart, ManualAbsoluteOffShiftsNothing) {
+  RestartMachine m(GetParam(), "G90 G0 X10. Y5.\nG1 Z-3. F600\nX40.\nM30");
+  m.drive->in.manual_absolute_off = true;
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  m.enter();
+  EXPECT_EQ(m.drive->out.moved_by_hand, 0u);
+  const std::string blocks = "G90 G0 X20.";
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  EXPECT_NEAR(m.drive->out.command.v[0], 20, 1e-9);
+  m.bring_axes();
+  EXPECT_EQ(m.drive->out.moved_by_hand, 0u);
+  ASSERT_TRUE(m.to_end());
+  EXPECT_NEAR(m.drive->out.command.v[0], 40, 1e-9);
+}
+
+TEST_P(Restart, TheClampOfTheSpindleIsThatOfAllItsBlocks) {
+  RestartMachine m(GetParam(), "G0 X50.\nG96 S100 P1\nG92 S150\nG92 Q20\nM3\nG1 X40. F3000\nX5.\nM30");
+  ASSERT_EQ(m.find(at_line(7)), NC_OK);
+  m.enter();
+  m.bring_axes();
+  ASSERT_TRUE(m.to_end());
+  EXPECT_LE(m.drive->out.spindle_rev_min[0], 150.001);
+}
+
+/// Behind a way by hand and back again the program goes on with what was read, in a mode that stops beside the end of a block as well.
+TEST_P(Restart, BackToThePathInAnyBlockStop) {
+  RestartMachine m(GetParam(), "G90 G0 X10. Y5.\nG91 G1 Y30. F900\nG2 X10. R5.\nG1 X60.\nM30");
+  m.drive->in.single_block = true;
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_EQ(m.drive->out.state, NC_STATE_STOPPED);
+  const nc_axes left = m.drive->out.command;
+  m.drive->in.manual[0] = {NC_MANUAL_STEP, 0, 5};
+  m.step(400);
+  m.drive->in.manual[0] = {};
+  m.step(3);
+  EXPECT_EQ(m.drive->out.moved_by_hand, 1u);
+  m.bring_axes();
+  EXPECT_TRUE(m.at(left));
+  EXPECT_EQ(m.drive->out.moved_by_hand, 0u);
+  m.drive->in.single_block = false;
+  ASSERT_TRUE(m.to_end()) << m.drive->alarm();
+}
+
 TEST_P(Restart, ATextThatWasReplacedIsAnAlarm) {
   RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nM30");
   ASSERT_EQ(m.find(at_line(3)), NC_OK);

@@ -13,7 +13,8 @@
  *   MDI and motion by hand bring spindle, coolant, tool and axes there; NC_MANUAL_RETURN leads an axis to where the program goes on
  *   cycle start           goes on with the block. It is refused while an axis of nc_outputs::restart_axes is not there
  *
- * nc_program_select(), nc_mdi_load(), nc_position_set(), nc_pull(), nc_rewind() and a reset forget what was found.
+ * nc_program_select(), nc_mdi_load(), nc_position_set(), nc_pull(), nc_rewind() and a reset forget what was found. A cycle start while the place is still
+ * looked for is an alarm, NC-RESTART.
  */
 #ifndef NC_RESTART_H
 #define NC_RESTART_H
@@ -66,7 +67,7 @@ typedef struct nc_restart_found {
   bool s_given, t_given, b_given; /**< a code of the kind has come */
   double s;             /**< the last S, as nc_action::value: r/min, in G96 m/min */
   uint32_t t, b;        /**< the last T and second auxiliary function */
-  uint32_t m_count;     /**< number of different M codes that have come; those behind the first NC_RESTART_CODES of `m` are not told */
+  uint32_t m_count;     /**< number of M codes that have come, each counted once while it is in `m`; when there are more than NC_RESTART_CODES the oldest are not told */
   uint32_t m[NC_RESTART_CODES]; /**< each of them once, in the order in which they have come last: the newest is the last */
   uint32_t output[NC_WORDS], output_written[NC_WORDS]; /**< macro outputs: words of #1132 to #1135, and bit by bit whether the program has written it */
 } nc_restart_found;
@@ -98,7 +99,8 @@ NC_API nc_status nc_restart_begin(nc_control* control, unsigned system, const nc
  * @param found receives what was found with NC_OK
  * @return NC_OK: the place is found, and the next cycle start begins there; NC_BUDGET: call again; NC_ENDED: the program has ended before it came
  *         there; NC_ALARMED: it has stopped with an alarm, see nc_alarm_get(); NC_E_NOT_FOUND: there is no such sequence number, or the program cannot be
- *         begun at the place, because the blocks before and behind it hang together; NC_E_STATE: nothing is looked for; NC_E_ARGUMENT: no such part
+ *         begun at the place: the blocks before and behind it hang together, it is a call amid a contour, or a radius for constant surface speed was given
+ *         (G92 R of Series 8); NC_E_STATE: nothing is looked for; NC_E_ARGUMENT: no such part
  *         system, `found` is NULL, or its struct_size is not valid
  */
 NC_API nc_status nc_restart_find(nc_control* control, unsigned system, uint32_t budget, nc_restart_found* found);

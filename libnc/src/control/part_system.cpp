@@ -451,10 +451,19 @@ nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   }
 }
 
+/// The interpreter is about to read the block on the line that is looked for. In front of a call that is the only time to stop, because the items behind it are
+/// those of what it calls. Where stages hold items back it is too late: there the block is found by its first item, and a call by its end.
+bool PartSystem::at_place(Passed* passed) {
+  const nc_source& wanted = search_.wanted();
+  if (!search_.of_line() || staged_count_ != 0 || !stages_.idle() || !interpreter.at_line(wanted.file, wanted.line, &passed->source)) return false;
+  return passed->reached = search_.comes_to_line(interpreter.newest_block());
+}
+
 /// It stands here because of the inlined functions of the stream. An item that commit leaves out is passed as a mark without meaning.
 PartSystem::Passed PartSystem::pass_item(uint32_t& budget) {
   const Item* item = nullptr;
   Passed passed;
+  if (at_place(&passed)) return passed;
   passed.status = next(budget, &item);
   if (passed.status != NC_OK) return passed;
   passed.reached = search_.reached(*item);

@@ -150,6 +150,7 @@ class PartSystem {
     nc_source source{};
   };
   Passed pass_item(uint32_t& budget);
+  bool at_place(Passed* passed);
   nc_status find_sequence();
   void answer_search();
   nc_status give_up_search(nc_status status);

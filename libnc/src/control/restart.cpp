@@ -56,6 +56,7 @@ nc_status PartSystem::restart_find(uint32_t budget, nc_restart_found* found) {
     if (passed.kind == ItemKind::alarm) return give_up_search(NC_ALARMED);
     if (passed.kind == ItemKind::end) return give_up_search(NC_ENDED);
   } while (!passed.reached);
+  if (search_.torn() || search_.radius_given()) return give_up_search(NC_E_NOT_FOUND);
   const MarkPoint* const before = commit_.newest();
   if (search_.blocks() != 0 && (before == nullptr || before->serial != commit_.serial())) return give_up_search(NC_E_NOT_FOUND);
   search_.found(interpreter.state_hash());
@@ -90,8 +91,8 @@ nc_status PartSystem::restart_cancel() {
 
 /// The scan has begun a run. True: it begins at the place that was found, and what stands before the place is given to the scan.
 bool PartSystem::begin_found() {
-  if (search_.phase() != RestartSearch::Phase::found) return false;
-  const bool same = !search_.outdated() && executor.mirror() == search_.place().mirror && interpreter.state_hash() == search_.hash();
+  if (search_.phase() == RestartSearch::Phase::none) return false;
+  const bool same = !search_.looks() && !search_.outdated() && executor.mirror() == search_.place().mirror && interpreter.state_hash() == search_.hash();
   search_.forget();
   publish_all();
   published_ = 0;

@@ -19,20 +19,30 @@ void RestartSearch::found_sequence(uint32_t on_line) {
   phase_ = Phase::passing;
 }
 
+bool RestartSearch::comes_to_line(BlockSeq seq) {
+  if (!counted_ || counted_at_ != seq) ++passings_, ++open_;
+  counted_ = true;
+  counted_at_ = seq;
+  in_block_ = true;
+  return passings_ == std::max(place_.passing, 1u);
+}
+
 bool RestartSearch::reached(const Item& item) {
   if (item.kind == ItemKind::alarm || item.kind == ItemKind::end) return false;  // of them the host is told otherwise
-  if (in_block_) return false;
+  const bool call_ends = item.kind == ItemKind::mark && item.mark.of_call;
+  if (in_block_ && !call_ends) return false;
   in_block_ = true;
-  if (wanted_.line == 0) return blocks_ == place_.number;
-  in_wanted_ = item.source.file == wanted_.file && item.source.line == wanted_.line;
-  if (in_wanted_) ++passings_;
-  return in_wanted_ && passings_ == std::max(place_.passing, 1u);
+  if (wanted_.line == 0) return !call_ends && blocks_ == place_.number;
+  if (!on_line(item) || (call_ends && open_ != 0)) return false;
+  torn_ = call_ends;
+  return ++passings_ == std::max(place_.passing, 1u);
 }
 
 void RestartSearch::note(const Item& item) {
   if (item.kind == ItemKind::mark && item.mark.report) {
     ++blocks_;
     in_block_ = false;
+    if (on_line(item) && open_ != 0) --open_;
   }
   if (item.kind == ItemKind::sync) given_.asked |= item.sync.what;
   if (item.kind == ItemKind::action) note_action(item.action);
@@ -72,13 +82,29 @@ void RestartSearch::note_m(uint32_t number) {
   end[-1] = number;
 }
 
+/// What two clamps of the spindle amount to: S and Q stay where the later one does not command them, and one without both ends the clamp.
+static Action both_clamps(const Action& before, const Action& later) {
+  const auto how = static_cast<uint32_t>(later.value), was = static_cast<uint32_t>(before.value);
+  constexpr uint32_t kCommanded = NC_CLAMP_S | NC_CLAMP_Q;
+  Action both = later;
+  if ((how & kCommanded) == 0) return both;
+  if ((how & NC_CLAMP_S) == 0) both.bits = before.bits;
+  if ((how & NC_CLAMP_Q) == 0) both.mask = before.mask;
+  both.value = how | (was & kCommanded);
+  return both;
+}
+
 void RestartSearch::note_control(const Action& action) {
   if (action.kind == NC_ACTION_CONTROL && action.index == NC_CONTROL_TOOL_LIFE) return;
+  if (action.kind == NC_ACTION_CONTROL && action.index == NC_CONTROL_SURFACE_RADIUS) radius_given_ = true;
+  Action newest = action;
   const auto same = [&](const Action& other) { return other.kind == action.kind && other.index == action.index; };
+  const Action* const before = std::find_if(control_, control_ + control_count_, same);
+  if (before != control_ + control_count_ && action.kind == NC_ACTION_CONTROL && action.index == NC_CONTROL_SPINDLE_CLAMP) newest = both_clamps(*before, action);
   Action* const end = std::remove_if(control_, control_ + control_count_, same);
   control_count_ = static_cast<unsigned>(end - control_);
   if (control_count_ == kControls) std::copy(control_ + 1, control_ + control_count_--, control_);  // there are not so many kinds and axes
-  control_[control_count_++] = action;
+  control_[control_count_++] = newest;
 }
 
 void RestartSearch::tell(nc_restart_found* out) const {

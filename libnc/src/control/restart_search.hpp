@@ -25,8 +25,18 @@ class RestartSearch {
   uint64_t offset = 0;
   uint32_t line = 1;
 
+  /// A line is looked for, and no number of blocks.
+  bool of_line() const { return wanted_.line != 0; }
+  const nc_source& wanted() const { return wanted_; }
+  /// The block on that line is read next; `seq`: behind this block. A call is known only here: its items are those of what it calls. To be asked again and again
+  /// until the block is read. True: it is the passing that is looked for.
+  bool comes_to_line(BlockSeq seq);
   /// The item, which has not been executed yet, belongs to the block that is looked for. To be asked of each item before note().
   bool reached(const Item& item);
+  /// The place is a call amid what the stages hold back: it cannot be begun in front of it.
+  bool torn() const { return torn_; }
+  /// A radius of constant surface speed was given at a place where the axes do not stand now: the scan cannot be told.
+  bool radius_given() const { return radius_given_; }
   /// Behind an item that has been executed up to the machine: what it would have done there.
   void note(const Item& item);
   uint64_t blocks() const { return blocks_; }
@@ -45,6 +55,7 @@ class RestartSearch {
   unsigned control_count() const { return control_count_; }
 
  private:
+  bool on_line(const Item& item) const { return item.source.file == wanted_.file && item.source.line == wanted_.line; }
   void note_action(const Action& action);
   void note_m(uint32_t number);
   void note_control(const Action& action);
@@ -55,8 +66,12 @@ class RestartSearch {
   nc_world world_{};
   nc_source wanted_{};      ///< file and line of the block; line 0: blocks are counted
   bool in_block_ = false;   ///< items of the block in hand have come
-  bool in_wanted_ = false;  ///< ... which is one on the line that is looked for
   uint32_t passings_ = 0;   ///< so often has the program come to it
+  bool counted_ = false;    ///< comes_to_line() has been asked behind block counted_at_
+  BlockSeq counted_at_ = 0;
+  unsigned open_ = 0;       ///< blocks that comes_to_line() has counted and that have not come to their ends
+  bool torn_ = false;
+  bool radius_given_ = false;
   uint64_t blocks_ = 0;
   uint64_t hash_ = 0;
   bool outdated_ = false;

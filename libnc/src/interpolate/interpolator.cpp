@@ -311,7 +311,7 @@ void Interpolator::states(const nc_inputs& in) {
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
       tell_where_left();
       for (unsigned i = 0; i < config_.axis_count; ++i) {
-        const bool shifts = in.manual_absolute_off && (by_hand_ >> i & 1) != 0;
+        const bool shifts = in.manual_absolute_off && !begins_again_ && (by_hand_ >> i & 1) != 0;
         shared_->reread_shift[i] = shifts ? wanted_[i] - shared_->reread_from[i] : 0;
       }
       if (in.manual_absolute_off) by_hand_ = 0;
@@ -517,8 +517,9 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
     leave_at(before);
     displaced_ = true;
     by_hand_ |= 1u << i;
-    if (wanted_[i] == left_at_[i]) by_hand_ &= ~(1u << i);  // it has gone back
+    if (wanted_[i] == (begins_again_ ? restart_at_ : left_at_)[i]) by_hand_ &= ~(1u << i);  // it has gone back
   }
+  if (displaced_ && elsewhere_ && wanted_ == left_at_) displaced_ = elsewhere_ = false;  // all have: the program goes on with what was read
 }
 
 /// While the drives are off the commanded position follows the measured one, so that nothing jumps when the drives come on again.

@@ -6,13 +6,12 @@
 
 namespace nc {
 
-/// The axes count as moved by hand from where the program goes on to where they stand, so that blocks of MDI, and motion by hand, find them here.
+/// The axes are elsewhere than where the program goes on, so that blocks of MDI, and motion by hand, find them here. Nobody has moved them by hand.
 void Interpolator::stand_at_restart() {
   begins_again_ = true;
   restart_at_ = shared_->restart_at;
   blocks_ = shared_->restart_blocks;
-  by_hand_ = axes_off_restart();
-  if (by_hand_ == 0) return;
+  if (axes_off_restart() == 0) return;
   leave_at(restart_at_);
   displaced_ = true;
 }

@@ -128,6 +128,8 @@ void BlockContext::finish_block(bool stop, bool executable) {
   Item& item = next_item(ItemKind::mark, executable);
   new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again, state.repeat};
   item.mark.aside = aside;
+  item.mark.of_call = call_ends;
+  call_ends = false;
   begins_again = false;
   modal_unchanged_ = false;
   world_fresh = false;

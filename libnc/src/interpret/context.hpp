@@ -189,6 +189,7 @@ struct BlockContext {
   bool world_fresh = false;        ///< `world` is the answer to a sync and nothing has been emitted since
   bool begins_again = false;       ///< the block holds M99 of the main program, which its mark has to say
   bool aside = false;              ///< Mark::aside of the block in hand
+  bool call_ends = false;          ///< Mark::of_call of the mark that is made next
   bool ended = false, alarmed = false;
 
   /// The word with a meaning, kNoWord = the family has none; and the set of several. A word may have several meanings; the function in hand decides which one

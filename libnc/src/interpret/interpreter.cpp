@@ -327,6 +327,14 @@ nc_status Interpreter::step(uint32_t& budget) {
   return NC_OK;
 }
 
+bool Interpreter::at_line(unsigned file, uint32_t line, nc_source* at) const {
+  const CallFrame& frame = state.frame[state.depth];
+  if (frame.line != line || frame.program.file != file) return false;
+  if (!queue.empty() || next_step != Step::none || waiting_ || ended || state.owes_mark || frame.last_begun) return false;
+  *at = {line, frame.program.number, system_index, static_cast<uint8_t>(state.depth), frame.program.file};
+  return true;
+}
+
 bool Interpreter::skipped(const Block& b) const { return b.skip != 0 && ((optional_skip >> b.skip) & 1) != 0; }
 
 /// Handles what comes before the words of a block: its place in the program, '%', O, N, optional skip. False: there are no words to execute, and *status
@@ -392,6 +400,7 @@ bool Interpreter::enter_block(CallFrame& frame, nc_status* status) {
 void Interpreter::finish_call() {
   state.owes_mark = false;
   source.line = state.frame[state.depth].call_line;
+  call_ends = true;
   finish_block(false, false);  // M700 13.3.1: single block has had its stop before the call
 }
 

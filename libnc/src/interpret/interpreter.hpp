@@ -96,6 +96,7 @@ struct Interpreter : BlockContext {
   /// goes on.
   bool interrupt_inside(const AxisVec& machine, unsigned items);
   /// Whether blocks of MDI may interrupt the program behind block `seq`, which the machine has executed (mdi_interrupt.cpp).
+  bool at_line(unsigned file, uint32_t line, nc_source* at) const;
   bool takes_mdi(BlockSeq seq) const;
   /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
   void enter_mdi(const ProgramRef& blocks);

@@ -108,6 +108,8 @@ class PartInterpreter {
   bool is_selected() const;
   const ProgramRef& selected() const;
   /// BlockReader::find_sequence(), up to the end of the program at *offset, of which that is the head.
+  /// The next block is read from this line of the text `file`. False also while anything of the block before is left.
+  bool at_line(unsigned file, uint32_t line, nc_source* source) const;
   bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again);
   bool is_mdi() const;
   /// Goes to the beginning of the selected program; the modal state becomes that of reset 2 (M700 3.7). With `keep_modal` (MDI after MDI, M700 5.1) modal

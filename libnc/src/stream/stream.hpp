@@ -241,6 +241,7 @@ struct Mark {
   bool again = false;            ///< M99 of the main program: the next block is the first one of the program
   Repeat repeat;                 ///< of the block that follows
   uint32_t place = 0;            ///< number, from 1, under which the stages keep what they need behind this mark (StageRow); 0 = nothing is kept
+  bool of_call = false;          ///< of a block that has called a program: what stands between it and the mark before is that program
   bool aside = false;            ///< of a block of MDI in a block stop, or of an interrupt program: it is none of the program
   bool beside = false;           ///< the axes stand beside the programmed end, because a corner was cut: a macro interrupt waits for a later block end
 };
