@@ -157,7 +157,9 @@ PLANTED = {
     ],
     "numbered": ["const bool waits = settings.shared_100 != 0;", "constexpr uint32_t kLast500 = 999;", "if (last_100_ < other) return;", "raise(Condition::g10_l);",
                  "if (settings.clamp_in_g96_only) return;", "constexpr bool kOnlyInG96 = true;"],
-    "plain": ["s.last = last_shared(parameter, 100, 199, 0);", "constexpr uint32_t kBegin = 100, kEnd = 199;\nconst auto n = up_to(last, kBegin, kEnd);", "for (uint32_t n = 100; n <= 199; ++n) clear(n);", "if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;"],
+    "plain": ["s.last = last_shared(parameter, 100, 199, 0);", "constexpr uint32_t kBegin = 100, kEnd = 199;\nconst auto n = up_to(last, kBegin, kEnd);", "for (uint32_t n = 100; n <= 199; ++n) clear(n);", "if (v >= 540 && v <= 599) return;", "if (v == 20 * 10) return;", "return v != 100 + 100;", "if (is<200>(v)) return;", "if (value == 200) return;", "if (letter == 71) return;", "const bool set = 104 != a.written;", "if (std::fabs(x) == 30.0) return;",
+              "if (value == 0x29a) return;", "if (n / 1000 == 5) return;", "if (n % 1000 == 132) return;", "if (static_cast<int>(what) == 3) return;", "if (std::abs(n - 41) <= 1) return;",
+              "const int these[] = {41, 42};", "static constexpr uint16_t kThese[2] = {28, 30};"],
     "range": [  # as they stood in the core before the families had them
         "return whole_number(value, number) && *number <= 99999999 ? done : raise();",
         "if (!(a.written >= 1) || a.written > 9999) return;",
@@ -254,6 +256,12 @@ class Found(unittest.TestCase):
         for sample in PLANTED["range"]:
             with self.subTest(sample=sample):
                 self.assertNotIn("range", kinds(sample, "libnc/src/motion/x.cpp"))
+
+    def test_plain_numbers_that_are_none_of_a_family(self):
+        for sample in ("if (file != 0xffff) return;", "if ((bits & 0x30) == 0x20) return;", "if (n % 1000 == 0) return;", "if (n % 10 == 5) return;", "if (static_cast<int>(what) == 0) return;",
+                       "if (std::abs(x - y) <= 1) return;", "constexpr uint32_t kPowers[] = {10, 100, 1000};", "const int quarters[] = {90, 180, 360};", "const int few[] = {1, 2, 41};"):
+            with self.subTest(sample=sample):
+                self.assertEqual(kinds(sample), [])
 
     def test_letters_are_for_the_core_alone_to_avoid(self):
         for sample in ("if (c >= 'A' && c <= 'Z') return;", "const char digit = '0';", "const char separator = ',';"):
