@@ -515,8 +515,8 @@ Execution execute_read_words(Interpreter& in) {
   if (did != Execution::done) return did;
   w.meeting = begins_or_ends_meeting(in);
   if (in.state.modal.is(Function::polar_command_on) && !has_line_angle(in)) resolve_polar_words(in);
-  // Neither is the lead of a thread (6.7.1) or the feed of an exponential curve (6.11).
-  // The F of a synchronous tap is its lead.
+  // The F of a thread is its lead (6.7.1), that of an exponential curve acts on this curve alone (6.11), that of a synchronous tap is its lead: none of them
+  // becomes the modal feed.
   const bool own_feed = w.one_shot != nullptr ? keeps_its_feed(in, w.one_shot->function)
                                               : has_own_feed(in, in.state.modal.of(Mode::motion)) || taps_with_spindle(in);
   if (in.state.modal.is(Function::inverse_time_feed)) did = check_inverse_time_block(in);

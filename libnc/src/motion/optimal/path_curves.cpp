@@ -9,12 +9,12 @@
 namespace nc::optimal {
 namespace {
 
-constexpr unsigned kHalvings = 24;     ///< of a part of a curve, at most
-constexpr double kShortest = 2e-8;     ///< mm, and of the length: such a part is not halved any more
-constexpr double kUneven = 2;          ///< of the speeds that the bends allow at the ends and in the middle of such a part
-constexpr double kFarTurn = 0.94;      ///< cosine: and between its ends
+constexpr unsigned kHalvings = 24;     ///< how often a part of a curve is halved, at most
+constexpr double kShortest = 2e-8;     ///< mm, and as a share of the curve's length where that is above 1 mm: a part no longer than this is not halved
+constexpr double kUneven = 2;          ///< ratio of the highest and the lowest speed that the bends allow at the ends and in the middle of a part: above it the part is halved
+constexpr double kFarTurn = 0.94;      ///< cosine of the angle by which the direction turns between the ends of a part: below it the part is halved
 constexpr unsigned kParts = 32;        ///< pieces of a curve that is no arc, at most
-constexpr double kSpread = 1.5;        ///< of the speeds that such a piece allows along it
+constexpr double kSpread = 1.5;        ///< ratio of the highest and the lowest speed that such a piece allows: above it another piece begins
 constexpr double kMostOverride = 2;    ///< that a feed is expected to have
 // Instructions.
 constexpr int64_t kPlaceCost = 1200;   ///< of a place of a curve that is no arc, where its bends are looked at
