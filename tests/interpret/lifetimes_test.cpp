@@ -71,7 +71,7 @@ void each_part(const T& member, const Add& add) {
   }
 NC_PARTS(Repeat, active, items)
 NC_PARTS(AxisMap, kind, linear, rotary, side, frozen, scale, angle)
-NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, letter, moved)
+NC_PARTS(MillReturn, feed, plane, feed_mode, plane_axis, third_axis, letter, moved)
 NC_PARTS(SpindleControl, surface, axis, held)
 NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector, by_hand)
 NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
@@ -112,9 +112,9 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(BlockLife, seq, repeat, owes_mark, stop_reading, modes_ahead)
   NC_FIELDS(MachinePosition, machine)
   NC_FIELDS(AppliedLength, applied)
-  NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
+  NC_FIELDS(ModalLife, modal, tool_length, length_value, length_axis, plane_axis, third_axis, polar_angle_known, work_system, high_speed, fine_mode, accuracy_command, scaled,
             mirror, rotated, stitch, spline, held_point, stroke_box, polar_angle, polar_pole, thread_lead, last_feed, arc_radius, map_begins, map, mill, spindle)
-  NC_FIELDS(ModalInProgram, comp, cycle, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
+  NC_FIELDS(ModalInProgram, comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped)

@@ -130,17 +130,18 @@ TEST(CornerTurn, DgshapeAlarms) {
 TEST(CornerTurn, LeadsTheWayOfTheBlockBehind) {
   for (const nc_dialect family : {NC_DIALECT_HX, NC_DIALECT_DGSHAPE}) {
     Bench bench(family);
-    bench.tool(1, 3, NC_TOOL_RADIUS);
-    const auto corner = [&](const std::string& behind) { return bench.at(0, 0, 0).run("F100\nG41 D1\nG01 X20.0\n" + behind + "\nM30"); };
-    for (const char* behind : {"G39 X0 Y-10.0\nY-10.0\nG40 X0", "G39 X20.0 Y-10.0\nX22.0 Y-10.0\nG40 X0", "G39 X0 Y-10.0\nZ1.0\nY-10.0\nG40 X0", "G39 X21.0 Y-10.0\nG02 X10.0 Y-10.0 R5.0\nG40 X0"}) {
+    bench.tool(1, 3).tool(1, 3, NC_TOOL_RADIUS);
+    const std::string head = family == NC_DIALECT_DGSHAPE ? "%\n" : "(at the head)\n";
+    const auto corner = [&](const std::string& behind) { return bench.at(0, 0, 0).run(head + "F100\nG41 D1\nG01 X20.0\n" + behind + "\nM02"); };
+    for (const char* behind : {"G39 X0 Y-10.0\nY-10.0\nG40 X0", "G39 X20.0 Y-10.0\nX22.0 Y-10.0\nG40 X0", "G39 X0 Y-10.0\nZ1.0\nY-10.0\nG40 X0", "G39 X21.0 Y-10.0\nG02 X10.0 Y-10.0 R10.0\nG01 G40 X0"}) {
       const Outcome run = corner(behind);
       EXPECT_EQ(run.alarm, "NC-OFFSET-PATH") << behind;
-      EXPECT_EQ(run.alarm_line, 4u) << behind;
+      EXPECT_EQ(run.alarm_line, 5u) << behind;
       ASSERT_FALSE(run.moves().empty());
       EXPECT_NEAR(run.moves().back().machine.v[0], 20, 1e-9) << "it stops in front of the arc";
     }
-    for (const char* behind : {"G39 X20.0 Y-10.0\nX20.0 Y-10.0\nG40 X0", "G39 X20.0 Y-10.0\nZ1.0\nX20.0 Y-5.0\nG40 X0", "G39 X20.0 Y-10.0\nG02 X10.0 Y-10.0 R10.0\nG40 X0", "G39 X20.0 Y-10.0\nG40 X0",
-                               "G39 X20.0 Y-10.0", "G39 X20.0 Y-10.0\nM08\nM09\nM08\nM09\nM08\nY-10.0\nG40 X0"})
+    for (const char* behind : {"G39 X20.0 Y-10.0\nX20.0 Y-10.0\nG40 X0", "G39 X20.0 Y-10.0\nZ1.0\nX20.0 Y-5.0\nG40 X0", "G39 X20.0 Y-10.0\nG02 X10.0 Y-10.0 R10.0\nG01 G40 X0", "G39 X20.0 Y-10.0\nG40 X0",
+                               "G39 X20.0 Y-10.0", "G39 X20.0 Y-10.0\nZ1.0\nZ2.0\nZ3.0\nZ4.0\nZ5.0\nY-10.0\nG40 X0"})
       EXPECT_EQ(corner(behind).alarm, "") << behind;
   }
 }

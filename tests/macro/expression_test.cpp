@@ -234,16 +234,16 @@ TEST(Expression, Variables) {
 
 TEST(Expression, VariableNumber) {
   uint32_t n = 0;
-  EXPECT_TRUE(variable_number(Value::of(2.5), &n));
+  EXPECT_TRUE(variable_number(Value::of(2.5), {}, &n));
   EXPECT_EQ(n, 3u);
-  EXPECT_TRUE(variable_number(Value::of(2.4), &n));
+  EXPECT_TRUE(variable_number(Value::of(2.4), {}, &n));
   EXPECT_EQ(n, 2u);
-  EXPECT_TRUE(variable_number(Value{}, &n));
+  EXPECT_TRUE(variable_number(Value{}, {}, &n));
   EXPECT_EQ(n, 0u);
-  EXPECT_FALSE(variable_number(Value::of(-0.4), &n));
-  EXPECT_FALSE(variable_number(Value::of(-1), &n));
-  EXPECT_FALSE(variable_number(Value::of(1e12), &n));
-  EXPECT_FALSE(variable_number(Value::of(std::nan("")), &n));
+  EXPECT_FALSE(variable_number(Value::of(-0.4), {}, &n));
+  EXPECT_FALSE(variable_number(Value::of(-1), {}, &n));
+  EXPECT_FALSE(variable_number(Value::of(1e12), {}, &n));
+  EXPECT_FALSE(variable_number(Value::of(std::nan("")), {}, &n));
 }
 
 TEST(Expression, Vacant) {  // M700 13.5.4

@@ -34,7 +34,9 @@ TEST_F(StitchHead, GoesDownOnceForEachStitchWhileTheAxesStand) {
   double at = 0;
   ASSERT_GE(until([&] {
               if (down() && !before) stitches.push_back(x());
-              if (down() && before) { EXPECT_EQ(x(), at) << "the head is in the work"; }
+              if (down() && before) {
+                EXPECT_EQ(x(), at) << "the head is in the work";
+              }
               before = down(), at = x();
               return runtime->info().system[0].runs > runs;
             }, 60000),

@@ -45,6 +45,7 @@ bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
 bool of_cylinder_or_polar(const Dialect& dialect, const Fault& fault) {
   return of<Function::cylinder>(dialect, fault) || of<Function::polar_on>(dialect, fault) || of<Function::polar_off>(dialect, fault);
 }
+bool of_variable(const Dialect&, const Fault& fault) { return fault.letter == '#'; }
 /// The spindle turns in one direction, and so there is no tap (DGSHAPE).
 bool turns_one_way(const Dialect& dialect, const Fault&) {
   const auto reverses = [](const auto& row) { return row.function == MiscFunction::spindle_reverse; };
@@ -196,6 +197,8 @@ constexpr Sentence kSentences[] = {
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation, "A stitch and tool radius compensation exclude each other. End one of them with {stitch_off} or {comp_off} first.", nullptr, nullptr, of<Function::stitch_on>},
+    {C::not_in_compensation, "#{value} cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.",
+     "The variable cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr, of_variable},
     {C::not_in_compensation,
      "{word} is not possible while tool radius compensation is on. Cancel it with {comp_off} first.",
      "This is not possible while tool radius compensation is on. Cancel it with {comp_off} first."},

@@ -179,7 +179,7 @@ enum Special : uint8_t {
   kSpecialFeed = 4,        ///< F is not a plain feed per minute, or a special cutting mode is in force (interpret/feed.hpp)
   kSpecialSpline = 8,      ///< G01 goes along a spline
   kSpecialStitch = 16,     ///< lines have the feed of their length (HX 15.6)
-  kSpecialNoMotion = 32    ///< axis words have no motion (CycleRules::end_is_motion)
+  kSpecialMotionOff = 32    ///< axis words have no motion (CycleRules::end_is_motion)
 };
 // ---- the groups ---------------------------------------------------------------------------------------------------------
 
@@ -342,7 +342,7 @@ struct State : StateValues, CallStack, ModesInExecution {
     const bool feed = modal.is(Function::inverse_time_feed) || modal.is(Function::feed_per_revolution) || modal.feed_digit != 0 ||
                       modal.is(Function::corner_override) || modal.is(Function::tapping_mode);
     special = static_cast<uint8_t>((map.active() ? kSpecialMap : 0) | (modal.is(Function::polar_command_on) ? kSpecialWords : 0) |
-                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0) | (stitch ? kSpecialStitch : 0) | (motion_off ? kSpecialNoMotion : 0));
+                                   (feed ? kSpecialFeed : 0) | (spline.on ? kSpecialSpline : 0) | (stitch ? kSpecialStitch : 0) | (motion_off ? kSpecialMotionOff : 0));
   }
   void refresh_accuracy() {
     const bool on = modal.is(Function::high_accuracy_mode) || accuracy_command || fine_mode != FineMode::none;

@@ -658,7 +658,7 @@ void OffsetStage::make_room() {
   while (n < chain_.size() && chain_[n].jointed && !chain_[n].vanished && !(n + 1 < chain_.size() && chain_[n + 1].vanished)) ++n;
   if (n > 0 && !check_joints(n)) return;
   release(n);
-  if (next_index() - released_ < kLookAheadItems || chain_.empty()) return;
+  if (next_index() - released_ < kLookAheadItems) return;
   fail(chain_[0].index, Condition::pre_read, held_at(chain_[0].index).item.source);
 }
 
