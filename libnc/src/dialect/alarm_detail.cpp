@@ -389,7 +389,7 @@ constexpr Sentence kSentences[] = {
     {C::tap_pitch, "{word} is no lead that can be tapped.", "The lead of the tap is out of range."},
     {C::tap_speed_word, "{word} is not possible while a tap that goes with the spindle is in force. Cancel it with {cycle_off}, or repeat its code.",
      "The spindle speed cannot be commanded while a tap that goes with the spindle is in force."},
-    {C::restart_void, "The program, offsets, variables, parameters or a mirror switch have changed since the place was looked for, or it has not been found yet. Look for it again.", nullptr},
+    {C::restart_void, "The program, or what it goes by, has changed since the place was looked for, or it is not found yet. Look again.", nullptr},
     {C::tap_apart, "The spindle does not turn as the tap commands it. Behind a reset the tap can be drawn out.", nullptr},
     {C::encoder_jumps, "The angle that the encoder of the spindle shows has jumped. The place of the tap in its thread is no longer known.", nullptr},
     {C::life_full, "No more tools can be registered for the management of their lives.", nullptr},
