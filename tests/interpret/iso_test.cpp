@@ -330,7 +330,7 @@ TEST(IsoPosition, IsNotReadInRadiusCompensation) {  // LinuxCNC: "Cannot read cu
   const Outcome run = bench.run("F100\nG41 D1 G1 X10\nX20\n#100=#5420\nY10\nM2");
   EXPECT_EQ(run.alarm, "NC-OFFSET-CODE");
   EXPECT_EQ(run.alarm_line, 4u);
-  EXPECT_EQ(run.alarm_detail, "#5420 cannot be read while tool radius compensation is on. Cancel it with G40 first.");
+  EXPECT_EQ(run.alarm_detail, "Variable #5420 cannot be read while tool radius compensation is on. Cancel it with G40 first.");
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nX20\nG40 X30\n#100=#5420\nM2").var(100), 30);
 }
 

@@ -197,7 +197,7 @@ constexpr Sentence kSentences[] = {
     {C::cycle_wrong_plane, "Fixed cycles and tool-diameter offset work in the XY plane only. Program {plane_xy}.",
      nullptr},
     {C::not_in_compensation, "A stitch and tool radius compensation exclude each other. End one of them with {stitch_off} or {comp_off} first.", nullptr, nullptr, of<Function::stitch_on>},
-    {C::not_in_compensation, "#{value} cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.",
+    {C::not_in_compensation, "Variable #{value} cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.",
      "The variable cannot be read while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr, of_variable},
     {C::not_in_compensation,
      "{word} is not possible while tool radius compensation is on. Cancel it with {comp_off} first.",
