@@ -232,7 +232,7 @@ constexpr Sentence kSentences[] = {
     {C::geometric_contact, "The two blocks do not meet: check the centre, the radius, the angle and the ends.", nullptr},
     {C::space_compensation, "Three-dimensional radius compensation ({vector_x} {vector_y} {vector_z} together) starts from {rapid} or {linear}, in no other mode.", nullptr},
     {C::tool_axis_pair, "A length along the tool axis needs the rotary axis {turn_z} and one of {turn_x} and {turn_y}.", nullptr},
-    {C::tool_axis_code, "{word}: no corner is cut where a rotary axis moves in one of the two blocks, while the length is compensated along the tool axis. Turn it in another block.",
+    {C::tool_axis_code, "{word}: no corner is cut where a rotary axis moves in one of the two blocks: it turns the tool. Turn it elsewhere.",
      "This is not possible while the length is compensated along the tool axis. Cancel it first ({length_off}).",
      "{word} is not possible while the length is compensated along the tool axis. Cancel it first ({length_off})."},
     {C::space_conversion_block, "{word} cannot stand in one block with a length along the tool axis.", "This cannot stand in one block with a length along the tool axis."},
