@@ -123,6 +123,12 @@ TEST(ToolInTheSpindle, IsTheOneThatWasChangedIn) {  // LinuxCNC G43, G41 without
   EXPECT_EQ(run.var(101), 1);
   EXPECT_EQ(run.path(), (Path{"rapid 0 0 10"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("T2\nM6 T1\nG43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 10"}));
+  // In one block the tool is changed first (LinuxCNC, order of execution).
+  EXPECT_EQ(bench.at(0, 0, 0).run("T1 M6\nM6 T2 G43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 20"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("T1 M6\nT2\nM6 G43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 20"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("T1 M6\nT2 G43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 10"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("T1 M6\nM61 Q2 G43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 20"}));
+  EXPECT_EQ(Bench(NC_DIALECT_ISO).tool(1, 10).run("M6 T1 G43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 10"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("M61 Q2\nT1\nG43\nG0 Z0\nM2").path(), (Path{"rapid 0 0 20"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("T0 M6\nG43\nG0 Z1\nM2").path(), (Path{"rapid 0 0 1"}));  // an empty spindle has no length
   for (const char* block : {"G43", "G41"}) {

@@ -41,9 +41,20 @@ Execution take_length_number(BlockContext& in) {
   return did;
 }
 
+/// The tool in the spindle, which the block may change first (LinuxCNC, order of execution).
+uint32_t tool_in_spindle(const BlockContext& in) {
+  const Command& w = in.words;
+  uint32_t tool = in.state.spindle_tool, named = 0;
+  for (const Auxiliary& m : w.auxiliary) {
+    if (m.function == MiscFunction::tool_change) tool = w.has(Role::tool) && whole_number(w.get(Role::tool), &named) ? named : in.state.selected_tool;
+    if (m.function == MiscFunction::tool_number && whole_number(w.get(Role::named_tool), &named)) tool = named;
+  }
+  return tool;
+}
+
 /// The offset that goes with the tool in the spindle (LinuxCNC G41, G43), which is not the one that T has selected since.
 Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
-  const uint32_t tool = in.state.spindle_tool;
+  const uint32_t tool = tool_in_spindle(in);
   if (tool == kNoTool) return in.raise(Condition::tool_unknown);
   if (tool > in.tool_offsets()) return in.raise(Condition::no_offset_number, word, tool);
   *number = tool;
