@@ -238,6 +238,7 @@ InitialValues initial_values() {
   InitialValues initial;
   initial.modal.d = 77;  // told apart from every pattern
   initial.plane_axis[0] = 5;
+  initial.third_axis = 4;
   return initial;
 }
 
@@ -253,6 +254,7 @@ TEST(StateGroups, TheNextStartKeepsThePositionAndWhatNoProgramEnds) {  // M700 9
   EXPECT_EQ(state.modal.d, 77u);
   EXPECT_EQ(state.modal.tool, 0u);
   EXPECT_EQ(state.plane_axis[0], 5);
+  EXPECT_EQ(state.third_axis, 4);
 }
 
 TEST(StateGroups, TheNextTextOfMdiKeepsTheModes) {  // M700 5.1; exceptions: cycles, macro calls, radius compensation within `modal`
@@ -328,6 +330,7 @@ TEST(StateGroups, PowerOnIsAnInitialState) {
   begin(state);
   power_on.modal = initial_values().modal;
   power_on.plane_axis[0] = 5;
+  power_on.third_axis = 4;
   for (const auto& [group, fields] : groups_of_state())
     for (const Bytes& field : fields) EXPECT_TRUE(same(state, power_on, field)) << field.name;
 }
