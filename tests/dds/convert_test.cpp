@@ -35,7 +35,7 @@ Shown shown(std::uint32_t cause, std::uint32_t refusal) {
 }
 
 // The last cause. That convert.cpp has all of them is checked by the compiler (-Wswitch).
-constexpr std::uint32_t kLastCause = NC_CAUSE_MANUAL_FEED_ZERO;
+constexpr std::uint32_t kLastCause = NC_CAUSE_RESTART;
 
 TEST(DdsConvert, EveryStopCauseHasItsOwn) {
   std::set<int> seen;

@@ -196,8 +196,9 @@ void expect_at_least(const Measure& measured, unsigned right_of_100, unsigned fa
   EXPECT_LE(measured.false_slips * 100, measured.slips * false_of_100) << measured.false_slips << " of " << measured.slips;
 }
 
-// Of the faults one seed is taken for m700, whole and its first lines: it consists of O words, which iso refuses.
-TEST(Recognition, OfTheProgramsInTheTree) { expect_at_least(measure(samples_of_the_tree()), 70, 2, 2); }
+// Of the faults one seed is taken for m700, whole and its first lines: it consists of O words, which iso refuses. The first lines of another, which call what stands
+// behind them, are a program of hx.
+TEST(Recognition, OfTheProgramsInTheTree) { expect_at_least(measure(samples_of_the_tree()), 70, 2, 3); }
 
 TEST(Recognition, OfTheProgramsOfTheManuals) {
   if (!std::filesystem::is_directory(nc::test::kSharedDir + "/conformance")) GTEST_SKIP() << "the shared cases are not here";
