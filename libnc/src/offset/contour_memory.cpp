@@ -13,14 +13,8 @@ static_assert(std::is_trivially_copyable_v<ContourMemory>);
 
 namespace {
 
-/// A contour that comes back to a point this near has closed there.
-constexpr double kCloses_mm = 1e-3;
-/// ... once it has been this far away.
-constexpr double kAway_mm = 0.01;
 /// Ends of walls this near to where the tool comes to the contour belong to that joint.
 constexpr double kSameJoint_mm = 0.01;
-/// Levels that differ by less are one; so are distances from a wall.
-constexpr double kLevel_mm = 1e-3;
 
 uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
 

@@ -10,13 +10,6 @@
 namespace nc {
 namespace {
 
-/// Levels that differ by less are one.
-constexpr double kLevel_mm = 1e-3;
-/// A contour that comes back to a point this near has closed there,
-constexpr double kCloses_mm = 1e-3;
-/// once it has been this far away.
-constexpr double kAway_mm = 0.01;
-
 /// The path of a block and what is inserted at the corner behind it.
 struct Way {
   Piece pieces[ContourJoint::kMax];

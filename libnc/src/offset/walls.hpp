@@ -46,6 +46,13 @@ bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds o
 /// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
 inline double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
 
+/// A contour that comes back to a point this near has closed there,
+inline constexpr double kCloses_mm = 1e-3;
+/// once it has been this far away.
+inline constexpr double kAway_mm = 0.01;
+/// Levels that differ by less are one; so are distances from a wall.
+inline constexpr double kLevel_mm = 1e-3;
+
 /// By how much a path may come nearer than the radius: rounding, and the micrometre that a vector may be off where an arc ends beside its circle.
 inline constexpr double kEnters_mm = 1e-3;
 
