@@ -24,7 +24,7 @@ bool RestartSearch::comes_to_line(BlockSeq seq) {
   counted_ = true;
   counted_at_ = seq;
   in_block_ = true;
-  return passings_ == std::max(place_.passing, 1u);
+  return passings_ == std::max(place_.passing, uint32_t{1});
 }
 
 bool RestartSearch::reached(const Item& item) {
@@ -35,7 +35,7 @@ bool RestartSearch::reached(const Item& item) {
   if (wanted_.line == 0) return !call_ends && blocks_ == place_.number;
   if (!on_line(item) || (call_ends && open_ != 0)) return false;
   torn_ = call_ends;
-  return ++passings_ == std::max(place_.passing, 1u);
+  return ++passings_ == std::max(place_.passing, uint32_t{1});
 }
 
 void RestartSearch::note(const Item& item) {
