@@ -208,6 +208,15 @@ TEST_P(Restart, PassingsAndProgramsThatAreCalled) {
   EXPECT_EQ(m.drive->ends().size(), 5u + 3 + 1) << "where nothing was found, the next start begins at the head";
 }
 
+/// A long program is searched in pieces; the program behind it is none of it, wherever a piece ends.
+TEST_P(Restart, ASequenceNumberOfTheProgramBehindIsNotFound) {
+  constexpr size_t kPiece = 1 << 20;
+  std::string text;
+  while (text.size() < kPiece) text += "G0X1.\n";
+  RestartMachine m(GetParam(), text + "O2\nN77 G0 X1.\nM99\n%");
+  EXPECT_EQ(m.find(at_sequence(77)), NC_E_NOT_FOUND);
+}
+
 TEST_P(Restart, AnAlarmBeforeThePlace) {
   RestartMachine m(GetParam(), "G0 X10.\nG2 X1. Y1. I1. J9.\nX20.\nM30");
   EXPECT_EQ(m.find(at_line(3)), NC_ALARMED);

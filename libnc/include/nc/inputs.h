@@ -29,7 +29,7 @@ typedef enum nc_manual_kind {
                                wheel. Also dropped is the way beyond a soft limit, the way commanded while commands are refused, and the way that
                                a stop or a jog ends. nc_outputs::handle_dropped tells it */
   NC_MANUAL_REFERENCE = 4, /**< the axis goes to its first reference position */
-  NC_MANUAL_RETURN = 5    /**< in a block stop: the axis goes back to where the program has left it, or, where the program is begun inside (nc/restart.h), to where it
+  NC_MANUAL_RETURN = 5    /**< in a block stop: the axis goes back to where the program, or the blocks of MDI behind it, have left it, or, where the program is begun inside (nc/restart.h), to where it
                                goes on. An axis that stands there already does not move. Of a velocity the amount counts, 0 means the top speed of the axis */
 } nc_manual_kind;
 

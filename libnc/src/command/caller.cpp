@@ -88,7 +88,7 @@ Reading goes_on_elsewhere(const Block& block, FrontEnd& front, bool* elsewhere) 
     uint32_t code = 0;
     if (value.vacant || !whole_number(value.number, &code)) continue;
     const MiscFunction function = misc_function(*front.dialect, code);
-    *elsewhere = *elsewhere || calls_program(function) || function == MiscFunction::return_sub || function == MiscFunction::program_end;
+    *elsewhere = *elsewhere || leads_elsewhere(function);
   }
   return Reading::done;
 }

@@ -30,11 +30,12 @@ nc_status PartSystem::restart_begin(const nc_restart_place& place, const nc_worl
 nc_status PartSystem::find_sequence() {
   constexpr uint64_t kBytes = 1 << 20;  // of one call
   const nc_restart_place& place = search_.place();
-  const bool in_main = !place.in_file || place.file == interpreter.selected().file;
-  if (search_.offset == 0 && in_main) search_.offset = interpreter.selected().offset, search_.line = interpreter.selected().line;
+  const ProgramRef& main = interpreter.selected();
+  const unsigned file = place.in_file ? place.file : main.file;
+  const bool begins = search_.offset == 0;
+  if (begins && file == main.file) search_.offset = main.offset, search_.line = main.line;
   bool again = false;
-  const bool found = interpreter.find_sequence(place.in_file ? place.file : interpreter.selected().file, static_cast<uint32_t>(place.number), &search_.offset,
-                                               &search_.line, kBytes, &again);
+  const bool found = interpreter.find_sequence(file, static_cast<uint32_t>(place.number), &search_.offset, &search_.line, kBytes, &again, begins);
   if (again) return NC_BUDGET;
   if (!found) return NC_E_NOT_FOUND;
   search_.found_sequence(search_.line);

@@ -144,5 +144,7 @@ enum class MiscFunction : uint8_t {
 constexpr bool goes_out(MiscFunction f) { return f <= MiscFunction::interrupt_off; }
 /// Execution goes on in another program.
 constexpr bool calls_program(MiscFunction f) { return f == MiscFunction::call_sub || f == MiscFunction::call_external; }
+/// ... or in the program that has called this one, or it ends.
+constexpr bool leads_elsewhere(MiscFunction f) { return calls_program(f) || f == MiscFunction::return_sub || f == MiscFunction::program_end; }
 
 }  // namespace nc

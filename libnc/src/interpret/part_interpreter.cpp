@@ -81,8 +81,8 @@ void PartInterpreter::select(const ProgramRef& program, bool mdi) {
 bool PartInterpreter::is_selected() const { return in_->main_program.valid(); }
 const ProgramRef& PartInterpreter::selected() const { return in_->main_program; }
 bool PartInterpreter::at_line(unsigned file, uint32_t line, nc_source* source) const { return in_->at_line(file, line, source); }
-bool PartInterpreter::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again) {
-  return in_->reader.find_sequence(file, n, offset, line, 0, bytes, again);
+bool PartInterpreter::find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again, bool from_head) {
+  return in_->reader.find_sequence(file, n, offset, line, 0, bytes, again, from_head);
 }
 bool PartInterpreter::is_mdi() const { return in_->mdi; }
 void PartInterpreter::reset(bool keep_modal) { in_->reset(keep_modal); }

@@ -107,10 +107,10 @@ class PartInterpreter {
   void select(const ProgramRef& program, bool mdi);
   bool is_selected() const;
   const ProgramRef& selected() const;
-  /// BlockReader::find_sequence(), up to the end of the program at *offset, of which that is the head.
   /// The next block is read from this line of the text `file`. False also while anything of the block before is left.
   bool at_line(unsigned file, uint32_t line, nc_source* source) const;
-  bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again);
+  /// BlockReader::find_sequence(), up to the end of the program.
+  bool find_sequence(unsigned file, uint32_t n, uint64_t* offset, uint32_t* line, uint64_t bytes, bool* again, bool from_head);
   bool is_mdi() const;
   /// Goes to the beginning of the selected program; the modal state becomes that of reset 2 (M700 3.7). With `keep_modal` (MDI after MDI, M700 5.1) modal
   /// codes and words, work system and tool length stay; cycles and radius compensation do not.

@@ -19,9 +19,6 @@ bool two_ways_on(const BlockContext& in) {
   return call && ways > 1;
 }
 
-/// M98, M198, M99, M02 or M30: behind all other codes of the block, wherever it stands among them (M700 13.3.1, 13.3.2, 9.1).
-bool is_way_on(MiscFunction function) { return calls_program(function) || function == MiscFunction::return_sub || function == MiscFunction::program_end; }
-
 /// Codes that act behind the moves of their block and let the program go on where it is.
 Execution stay_here(Interpreter& in, const Auxiliary& m) {
   if (m.function == MiscFunction::interrupt_on) return enable_interrupt(in);
@@ -46,10 +43,11 @@ Execution go_on_elsewhere(Interpreter& in, const Auxiliary& m) {
 
 Execution codes_behind(Interpreter& in) {
   if (in.words.auxiliary.size() > 1 && two_ways_on(in)) return in.raise(Condition::format_error, Role::misc_code, in.words.auxiliary.back().number);
+  // M98, M198, M99, M02 and M30 act behind all other codes of the block, wherever they stand among them (M700 13.3.1, 13.3.2, 9.1).
   const Auxiliary* way_on = nullptr;
   for (const Auxiliary& m : in.words.auxiliary) {
     in.state.stop_reading |= m.stops_reading;  // M700 4.2
-    if (is_way_on(m.function)) {
+    if (leads_elsewhere(m.function)) {
       way_on = way_on == nullptr ? &m : way_on;
       continue;
     }
