@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forced devices of the ladder: what they prevail over, what is refused, and when they end.
 #include "ladder_machine.hpp"
+#include "stepping.hpp"
 
 namespace {
 
@@ -229,13 +230,9 @@ TEST_F(Force, EndsWithTheProgramOfTheMachineAndWithTheControl) {
 
 TEST(ForceWithoutLadder, IsRefused) {
   const nc::rt::Config config = nc::test::parse_or_fail(nc::test::base_toml());
-  nc::hal::SimMachine machine(config.sim, config.points);
-  nc::rt::VirtualClock clock;
-  std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  nc::test::SteppedMachine stepped(config);
+  const auto& runtime = stepped.runtime;
   ASSERT_NE(runtime, nullptr);
-  std::string error;
-  ASSERT_TRUE(runtime->start_stepping(&error)) << error;
   EXPECT_EQ(runtime->force("in0", 1), Answer::kNoLadder);
   EXPECT_EQ(runtime->release(""), Answer::kNoLadder);
 }

@@ -37,6 +37,7 @@ TEST(RtTrap, NeedsTheOrdinaryAllocator) {
 #include "places/places.hpp"
 #include "program_generator.hpp"
 #include "runtime/runtime.hpp"
+#include "stepping.hpp"
 #include "test_config.hpp"
 
 #ifndef PR_SET_SYSCALL_USER_DISPATCH
@@ -243,13 +244,9 @@ TEST(RtTrap, SoDoAlarmsAndReset) {
 TEST(RtTrap, SoDoHomingAndLimitSwitches) {
   nc::rt::Config config;
   ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/homed_mill.toml", &config).empty());
-  nc::hal::SimMachine machine(config.sim, config.points);
-  nc::rt::VirtualClock clock;
-  std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  nc::test::SteppedMachine stepped(config);
+  const auto& runtime = stepped.runtime;
   ASSERT_NE(runtime, nullptr);
-  std::string error;
-  ASSERT_TRUE(runtime->start_stepping(&error));
   const auto steps = [&](int n) {
     while (n-- > 0) runtime->step();
   };
@@ -275,18 +272,18 @@ TEST(RtTrap, SoDoHomingAndLimitSwitches) {
   (void)runtime->execute(home);
   steps(40000);
   const std::uint32_t homed = runtime->snapshot().system[0].axes.homed;
-  machine.set_input(static_cast<unsigned>(config.points.find("x_max")), 0);  // until the machine sets it again
+  stepped.machine.set_input(static_cast<unsigned>(config.points.find("x_max")), 0);  // until the machine sets it again
   steps(5);
   const bool stopped = runtime->snapshot().stopped_by_alarm();
   (void)runtime->execute(nc::rt::CommandKind::kReset);
   steps(300);
   jog(-20, 10);
-  machine.fail_drive(0, 2, true);
+  stepped.machine.fail_drive(0, 2, true);
   steps(500);
   if (refusing) allow_system_calls();
   EXPECT_EQ(homed, 7u);
   EXPECT_TRUE(stopped);
-  EXPECT_LT(machine.place(0, 0), -5);
+  EXPECT_LT(stepped.machine.place(0, 0), -5);
   expect_nothing_trapped();
 }
 
@@ -294,13 +291,9 @@ TEST(RtTrap, SoDoHomingAndLimitSwitches) {
 TEST(RtTrap, SoDoesTheSwapOfTheLadder) {
   nc::rt::Config config;
   ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
-  nc::hal::SimMachine machine(config.sim, config.points);
-  nc::rt::VirtualClock clock;
-  std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  nc::test::SteppedMachine stepped(config);
+  const auto& runtime = stepped.runtime;
   ASSERT_NE(runtime, nullptr);
-  std::string error;
-  ASSERT_TRUE(runtime->start_stepping(&error));
   const std::string texts[] = {"LDP nc.m_strobe\nINC D0\nLD M0\nOUT C1 K5\nEND\n", "LD SM400\nOUT spindle_forward\nLD M0\nOUT C1 K5\nLDP nc.m_strobe\nINC D0\nEND\n"};
   clear_counts();
   const bool refusing = refuse_system_calls();
@@ -319,13 +312,9 @@ TEST(RtTrap, SoDoesTheSwapOfTheLadder) {
 TEST(RtTrap, SoDoesTheSignalTrace) {
   nc::rt::Config config;
   ASSERT_TRUE(nc::rt::load_config(nc::test::kSourceDir + "/etc/machine.toml", &config).empty());
-  nc::hal::SimMachine machine(config.sim, config.points);
-  nc::rt::VirtualClock clock;
-  std::vector<nc::rt::ConfigError> errors;
-  const auto runtime = nc::rt::Runtime::create(config, {&clock, &machine, nullptr, nullptr}, &errors);
+  nc::test::SteppedMachine stepped(config);
+  const auto& runtime = stepped.runtime;
   ASSERT_NE(runtime, nullptr);
-  std::string error;
-  ASSERT_TRUE(runtime->start_stepping(&error));
   nc::rt::trace::Plan plan;
   std::vector<std::string> names = {"D0", "M0", "TN0", "T0", "C0", "CN0", "D10"};
   for (unsigned p = 0; p < config.points.size() && names.size() < 16; ++p) names.push_back(config.points.at(p).name);

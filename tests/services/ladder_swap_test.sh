@@ -1,25 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The ladder is swapped while a part is made, by ncctl; and ncrtd is killed (SIGKILL) around swaps: the next start takes the file of the configuration, with the retained devices, and nothing is damaged.
-set -u
-ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
-ncctl=${NC_BINARY_DIR:?}/bin/ncctl
-source=${NC_SOURCE_DIR:?}
-[ -x "$ncrtd" ] && [ -x "$ncctl" ] || { echo "ncrtd or ncctl is not built: skipped"; exit 77; }
-work=$(mktemp -d)
-server= swapper=
+. "$(dirname "${BASH_SOURCE[0]}")/ncctl_process.sh"
+swapper=
 trap '[ -n "$swapper" ] && kill "$swapper" 2>/dev/null; [ -n "$server" ] && kill -9 "$server" 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
-failures=0
-fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-expect() {
-  local wanted=$1; shift
-  "$@" >"$work/out" 2>"$work/err" </dev/null
-  local got=$?
-  [ "$got" = "$wanted" ] || { fail "exit $got instead of $wanted: $*"; cat "$work/out" "$work/err"; }
-}
-said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
-says() { local regex=$1; shift; grep -qE "$regex" <<<"$("$@")"; }
-until_true() { until "$@" >/dev/null 2>&1; do kill -0 "$server" 2>/dev/null || { fail "ncrtd has ended"; return; }; sleep 0.05; done; }
 
 mkdir "$work/programs"
 sed -e "s#^programs = .*#programs = \"$work/programs\"#" -e "s#^socket = \"\"#socket = \"$work/mill.sock\"#" -e "s#^changes = \"\"#changes = \"$work/changes\"#" -e "s#^history = \"\"#history = \"$work/history\"#" \

@@ -1,32 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # ncctl against ncrtd serve, as processes: a part from its file to its end, tables, exit statuses, rights of other users, a client that is killed.
-set -u
-ncrtd=${NC_BINARY_DIR:?}/bin/ncrtd
-ncctl=${NC_BINARY_DIR:?}/bin/ncctl
-source=${NC_SOURCE_DIR:?}
-[ -x "$ncrtd" ] && [ -x "$ncctl" ] || { echo "ncrtd or ncctl is not built: skipped"; exit 77; }
-work=$(mktemp -d)
-chmod 755 "$work"
-server=
-trap '[ -n "$server" ] && kill "$server" 2>/dev/null; wait 2>/dev/null; rm -rf "$work"' EXIT
-failures=0
-fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-# expect STATUS COMMAND...: runs the command, whose output is then in $work/out and $work/err.
-expect() {
-  local wanted=$1; shift
-  "$@" >"$work/out" 2>"$work/err" </dev/null
-  local got=$?
-  [ "$got" = "$wanted" ] || { fail "exit $got instead of $wanted: $*"; cat "$work/out" "$work/err"; }
-}
-said() { grep -qF -- "$2" "$work/$1" || { fail "no '$2' on $1"; cat "$work/$1"; }; }
-# until_true COMMAND...: waits for it, as long as it takes; the time limit is that of the test.
-# says REGEX COMMAND...: what the command prints has a line with it.
-says() {
-  local regex=$1; shift
-  grep -qE "$regex" <<<"$("$@")"
-}
-until_true() { until "$@" >/dev/null 2>&1; do kill -0 "$server" 2>/dev/null || { fail "ncrtd has ended"; return; }; sleep 0.05; done; }
+. "$(dirname "${BASH_SOURCE[0]}")/ncctl_process.sh"
 
 mkdir "$work/programs"
 # The machine has no ladder, so that nothing but the services operates it; group 0 stands for one that a peer may have.
