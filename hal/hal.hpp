@@ -28,6 +28,7 @@ struct SystemFeedback {
   nc_axes skip_place{};               // machine position, mm or deg
   std::uint32_t unclamped = 0;        // bit per axis: the index table is unclamped (nc_inputs::unclamped)
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};
+  double spindle_age_s[NC_MAX_SPINDLES] = {};  // as nc_inputs::spindle_age_s
   bool fin = false;                   // completion of M, S, T or B (level, FIN1 style handshake)
 };
 

@@ -15,6 +15,7 @@ using hal::canopen::SpindleMap;
 
 constexpr double kMostRatio = 1e6;
 constexpr std::size_t kMostGears = 8;
+constexpr double kMostLag_ms = 50;
 constexpr double kMostVelocity = 2147483647.0;  // 60FFh is a signed number of 32 bits
 
 // gears = [[motor, spindle], ...]: turns of the motor and of the spindle in each gear step.
@@ -86,6 +87,7 @@ void read_drive_spindle(TableReader* reader, const Config& config, NodeMap* node
   reader->number("gain", &spindle.law.gain, 1, 200);
   if (reader->choice("mode", {"cyclic", "profile"}, &mode) && mode == 1) map.mode = hal::canopen::kModeProfileVelocity;
   else map.mode = hal::canopen::kModeCyclicVelocity;
+  if (double lag_ms = 0; reader->number("tap_axis_lag_ms", &lag_ms, 0, kMostLag_ms)) spindle.tap_axis_lag_s = lag_ms / 1000;
   read_gears(reader, &spindle);
   read_gear_select(reader, config, &spindle);
   read_drive_point(reader, "forward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle.forward);

@@ -402,6 +402,7 @@ void Scan::build_nc_inputs() noexcept {
     in.feed_override = feed_override_[s];  // decide_overrides() may replace it
     in.rapid_override = rapid_override_[s];
     std::copy(std::begin(machine.spindle), std::end(machine.spindle), in.spindle);
+    std::copy(std::begin(machine.spindle_age_s), std::end(machine.spindle_age_s), in.spindle_age_s);
     in.spindle_select = selects_spindles_ ? 0 : 1;
     in.spindle_encoder = 0;
     in.servo_on = 0;

@@ -39,6 +39,7 @@ struct SpindleMap {
   double velocity_scale = 1;      // value of 60FFh at 1 r/min of the motor
   int forward = -1, backward = -1;      // points: the outputs that turn it (M3, M4)
   int orient = -1, oriented = -1;       // points: the output that asks for it, the input that says it is done
+  double tap_axis_lag_s = 0;            // by which the drive of the axis that taps is behind its set-points
   SpindleLaw law;
 };
 

@@ -260,6 +260,7 @@ void CanMachine::read_spindle(unsigned index, const AxisMap& map, const BusShown
   oldest = now.turns;
   const bool faulty = (axis.fault & kFaulty) != 0;
   out.spindle[spindle.number] = {speed, now.turns, true, false, false, !axis.known || shown.lost || faulty};
+  out.spindle_age_s[spindle.number] = std::min(static_cast<double>(serial_ - axis.measured_at) * bus_.cycle_us * 1e-6 + spindle.tap_axis_lag_s, NC_SPINDLE_AGE_MAX);
   if (spindle.oriented >= 0) image->value[spindle.oriented] = now.loop.oriented() ? 1 : 0;
   if (!faulty || shown.serial < reset_serial_) return;
   out.spindle_fault |= 1u << spindle.number;

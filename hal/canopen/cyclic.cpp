@@ -60,6 +60,8 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
     for (unsigned i = 0; i < axes_.size(); ++i) watch_axis(i);
     const bool commanded = take_wanted(now_ns);
     for (unsigned i = 0; i < axes_.size(); ++i) move_axis(i, commanded);
+    given_[1] = given_[0];
+    given_[0] = serial_;
     note_edges();
     work_modules();
   }
@@ -146,12 +148,14 @@ bool Cyclic::take_tpdo(const CanFrame& frame) noexcept {
   return false;
 }
 
-// The position goes on counting when the drive's 32 bits overflow.
+// The position goes on counting when the drive's 32 bits overflow. It was measured with the last SYNC whose answers can have come: in the cycle of a SYNC that
+// is the one before, since the frames are taken right behind it. What had been given before that SYNC was in force then (cyclic.hpp).
 void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   const auto raw = static_cast<std::int32_t>(get_le(frame.data + 2, 4));
   const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(raw) - static_cast<std::uint32_t>(axis->raw));
   axis->position = axis->known ? axis->position + step : raw;
   axis->raw = raw;
+  axis->measured_at = given_[1];
   axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
   axis->known = true;
   axis->set_up_again = false;
@@ -245,6 +249,7 @@ void Cyclic::publish() noexcept {
     const DriveState state = drive_state(axis.status);
     enabled_[i].store(node.operational && (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive), std::memory_order_relaxed);
     out.position = axis.position;
+    out.measured_at = axis.measured_at;
     out.known = axis.known;
     all &= axis.known;
     out.follows = follows(i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A CAN bus in the memory of a test: every drive gets what the control sends, and the control what a drive sends.
+// A CAN bus in the memory of a test: every drive gets what the control sends, and the control what a drive sends, from the next cycle of the bus on: an answer
+// takes some tenths of a millisecond, and the control looks at what has come only once in its cycle.
 #pragma once
 
 #include <deque>
@@ -20,11 +21,13 @@ class LoopbackBus {
   }
   void from_drive(const CanFrame& frame) {
     if (off) return;
-    to_control_.push_back(frame);
+    on_the_way_.push_back(frame);
     ++frames;
   }
   void tick(std::int64_t now_ns) {
     for (SimDrive* drive : drives_) drive->tick(now_ns);
+    to_control_.insert(to_control_.end(), on_the_way_.begin(), on_the_way_.end());
+    on_the_way_.clear();
   }
   // The controller of the control goes off the bus, and comes back.
   void go_off() {
@@ -75,7 +78,7 @@ class LoopbackBus {
 
  private:
   std::vector<SimDrive*> drives_;
-  std::deque<CanFrame> to_control_;
+  std::deque<CanFrame> to_control_, on_the_way_;
 };
 
 }  // namespace nc::test

@@ -22,9 +22,9 @@ TapFollower::Limits limits(double acceleration = 1000, double jerk = 0) {
 class Axis {
  public:
   explicit Axis(const TapFollower::Limits& limits) : limits_(limits) { follower.begin(0, 0); }
-  void step(bool measured, double turns, double commanded) {
+  void step(bool measured, double turns, double commanded, double age_s = 0) {
     limits_.before = added.empty() ? 0 : added.back();
-    added.push_back(follower.step(measured, turns, commanded, kPerMm, 0, limits_));
+    added.push_back(follower.step(measured, turns, age_s, commanded, kPerMm, 0, limits_));
   }
   /// The spindle stands `turns` beside its command until the axis has gone there.
   void stand_beside(double turns) {
@@ -56,6 +56,26 @@ TEST(TapFollower, GoesWithASpindleThatLags) {
   }
   EXPECT_NEAR(axis.added.back(), -0.03 / kPerMm, 1e-9) << "by what the spindle is behind its command of the cycle before";
   EXPECT_EQ(axis.follower.trouble(), TapFollower::Trouble::none);
+}
+
+// An encoder behind a bus: each measurement comes five cycles late, and stays for four cycles. The spindle turns as commanded, so the axis stays on its path.
+TEST(TapFollower, ComparesAnOldMeasurementWithTheCommandOfItsTime) {
+  Axis axis(limits());
+  const auto commanded = [](int n) { return n < 0 ? 0 : 2e-5 * n * n; };  // of the end of cycle n
+  for (int n = 0; n < 1000; ++n) {
+    const int measured_in = (n / 4) * 4 - 5;
+    axis.step(true, commanded(measured_in - 1), commanded(n), (n - measured_in) * kCycle_s);
+    ASSERT_NEAR(axis.added.back(), 0, 1e-9) << n;
+  }
+  EXPECT_EQ(axis.follower.trouble(), TapFollower::Trouble::none) << "40 turns a second, and 0.16 turns from one measurement to the next";
+}
+
+TEST(TapFollower, ASpindleStandsWhereItsNewMeasurementsAreTheSame) {
+  Axis axis(limits());
+  for (int n = 0; n < 400; ++n) {  // 0.05 turns a second, seen in every fourth cycle
+    axis.step(true, 0.0002 * (n / 4), 0.00005 * n, (n % 4) * kCycle_s);
+    ASSERT_FALSE(n > 8 && axis.follower.rests_beside()) << n;
+  }
 }
 
 TEST(TapFollower, ASpindleThatDoesWhatItIsToldChangesNothing) {
@@ -170,7 +190,7 @@ TEST(TapFollower, TheNextTapBeginsAmidTheFadeOfTheOneBefore) {
   const auto step = [&](double path, bool measured) {
     TapFollower::Limits now = all;
     now.before = place;
-    const double added = follower.step(measured, 0.0005, 0, kPerMm, path, now), next = path + added;
+    const double added = follower.step(measured, 0.0005, 0, 0, kPerMm, path, now), next = path + added;
     if (n++ > 1) most = std::max(most, std::fabs(next - 2 * place + before) / (kCycle_s * kCycle_s));
     before = place;
     place = next;

@@ -39,6 +39,8 @@ typedef struct nc_manual {
   double distance; /**< mm or deg, signed, -1e6..1e6 */
 } nc_manual;
 
+#define NC_SPINDLE_AGE_MAX 0.06 /**< greatest nc_inputs::spindle_age_s, s; with a cycle below 0.12 ms it is 500 cycles */
+
 /** What is measured of a spindle. */
 typedef struct nc_spindle_inputs {
   double rev_per_s;  /**< actual speed, rev/s, signed, -10000..10000; below 0.00001 the spindle counts as standing. Used by feed per revolution, threads
@@ -124,6 +126,9 @@ typedef struct nc_inputs {
   uint32_t skip_latched; /**< bit n: what measures has noted where the axes were when skip signal n+1 came, as a touch probe input of a drive does.
                               `skip_place` is then the skip position (M700 15.2). A signal that is not here, or that is on already where the skip move begins, has the
                               measured or commanded position of the cycle in which it is seen */
+  double spindle_age_s[NC_MAX_SPINDLES]; /**< the age of `turns` of each spindle against the commands, seconds, 0..NC_SPINDLE_AGE_MAX: 0 where they were measured while
+                              the axes stood at the commands of the cycle before, one cycle more where they stood at the commands of the one before that, as behind
+                              a bus. The axis of a synchronous tap (M700 13.1.1) is compared with its spindle at that moment; a lag of its drive belongs to it */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.

@@ -16,6 +16,7 @@ constexpr double kSpindleGoesOn_s = 0.02;
 
 /// False for NaN, too.
 bool within(double value, double most) { return std::fabs(value) <= most; }
+bool within_age(double age) { return age >= 0 && age <= NC_SPINDLE_AGE_MAX; }
 
 }  // namespace
 
@@ -74,10 +75,10 @@ void InputBorder::spindle(unsigned n) {
     last = {};
     return;
   }
-  if (within(in.rev_per_s, kMostRevPerS) && (!in.turns_valid || within(in.turns, kMostTurns))) {
+  if (within(in.rev_per_s, kMostRevPerS) && (!in.turns_valid || within(in.turns, kMostTurns)) && within_age(now_.spindle_age_s[n])) {
     if (std::fabs(in.rev_per_s) < kLeastRevPerS) in.rev_per_s = 0;  // the spindle stands: this is noise of its encoder
     // If the turns are not measured, they are calculated from the speed and begin at any angle. A thread can be cut with them, too.
-    last = {in.rev_per_s, in.turns_valid ? in.turns : last.turns + in.rev_per_s * cycle_s_, 0};
+    last = {in.rev_per_s, in.turns_valid ? in.turns : last.turns + in.rev_per_s * cycle_s_, now_.spindle_age_s[n], 0};
     in.turns = last.turns;
     return;
   }
@@ -87,6 +88,7 @@ void InputBorder::spindle(unsigned n) {
   in.unmeasured = last.bad_s > kSpindleGoesOn_s;
   in.rev_per_s = in.unmeasured ? 0 : last.rev_per_s;
   in.turns = last.turns;
+  now_.spindle_age_s[n] = last.age_s;
   if (in.unmeasured) in.turns_valid = false;
 }
 

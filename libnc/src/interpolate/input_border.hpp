@@ -32,7 +32,7 @@ class InputBorder {
   double feed_ = 0, rapid_ = 0, manual_feed_ = 0;
   nc_axes actual_{};
   struct Spindle {
-    double rev_per_s = 0, turns = 0;
+    double rev_per_s = 0, turns = 0, age_s = 0;
     double bad_s = 0;  ///< s for which its inputs have been refused
   };
   Spindle spindle_[NC_MAX_SPINDLES];

@@ -150,6 +150,7 @@ class Interpolator {
   bool lost_move(const Record& record, Done* done) NC_RT;
   bool may_read_again() const NC_RT;
   const nc_spindle_inputs& encoder(const nc_inputs& in) const NC_RT;
+  double encoder_age_s(const nc_inputs& in) const NC_RT { return encoder_ != 0 ? in.spindle_age_s[encoder_ - 1] : 0; }
 
   void count_cutting(const nc_inputs& in) NC_RT;
 

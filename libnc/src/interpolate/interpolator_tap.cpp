@@ -150,7 +150,7 @@ void Interpolator::follow_tap(const nc_inputs& in) {
     limits.low = std::min(config_.soft_min[a], command_[a]);
     limits.high = std::max(config_.soft_max[a], command_[a]);
   }
-  command_[a] += tap_follower_.step(measured, encoder(in).turns, taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
+  command_[a] += tap_follower_.step(measured, encoder(in).turns, encoder_age_s(in), taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
   if (tap_follower_.trouble() == TapFollower::Trouble::none || faulted_ != ScanFault::none) return;
   if (!alarmed_ && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
   faulted_ = tap_follower_.trouble() == TapFollower::Trouble::jumped ? ScanFault::encoder : ScanFault::tap;

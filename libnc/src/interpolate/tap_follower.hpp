@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The axis of a synchronous tap follows the angle that its spindle really has (M700 13.1.1). The path commands both, the place of the axis and the angle
-// of the spindle. The encoder shows by how much the spindle is behind (or before) what it was commanded in the cycle before; the axis is commanded that
-// much of the lead behind its path. So a spindle that lags as it accelerates, or runs on at the bottom, takes the axis along, and the thread is as good as
-// the lag of one cycle is constant. A drive that does what it is told changes nothing.
+// of the spindle. The encoder shows by how much the spindle is behind (or before) what it was commanded; the axis is commanded that much of the lead behind
+// its path. So a spindle that lags as it accelerates, or runs on at the bottom, takes the axis along. A drive that does what it is told changes nothing.
+//
+// What the encoder shows is compared with the command at which the axis stood when it was read: with that of the cycle before, or behind a bus with an
+// older one (nc_inputs::spindle_age_s). For let the axis be led to p(t) + d(t), with the path p and the difference d, and reach it a dead time D later. At the
+// time t of a measurement it stands at p(t - D) + d(t - D), and with turns n(t) and lead h the thread asks for h n(t). With d(t) = h n(t) - p(t - D), which is
+// what this compares, the two are apart by d(t) - d(t - D): what the lag of the spindle changes in the dead time, and nothing while it turns at one speed.
 //
 // A spindle that fails must not take the axis along without end. Where it is more turns away from its command than its acceleration explains, and where
 // its encoder jumps, there is trouble(), which is an alarm. From then on the axis follows a spindle that runs out no farther than it can, and a jump not
@@ -31,10 +35,12 @@ class TapFollower {
   void begin(double turns, double commanded) NC_RT {
     if (!active_) beside_ = 0;
     began_ = turns - commanded;
-    commanded_ = commanded;
     aim_ = beside_;
     fresh_ = !active_;
     active_ = true;
+    count_ = 0;  // older commands than this one are the same: the spindle stands
+    remember(commanded);
+    age_s_ = 0;
     ends_ = stands_ = fades_ = rests_ = false;
     earlier_[0] = earlier_[1] = beside_;
     turns_ = turns;
@@ -64,24 +70,30 @@ class TapFollower {
 
   /**
    * One cycle.
-   * @param turns of the encoder at the beginning of the cycle, if it was `measured`
+   * @param turns of the encoder, if it was `measured`: at the beginning of the cycle with an axis that has no dead time
+   * @param age_s their age as nc_inputs::spindle_age_s has it, 0..NC_SPINDLE_AGE_MAX
    * @param commanded revolutions that the spindle is commanded for the end of the cycle, since begin()
    * @param per_mm revolutions per mm of the axis
    * @param place of the axis that the path commands
    * @return what is added to that place, mm
    */
-  double step(bool measured, double turns, double commanded, double per_mm, double place, const Limits& limits) NC_RT {
+  double step(bool measured, double turns, double age_s, double commanded, double per_mm, double place, const Limits& limits) NC_RT {
     const double time = limits.cycle_s;
     cycle_s_ = time;
     acceleration_ = limits.acceleration;
     jerk_ = limits.jerk;
     if (ends_ && (fades_ || rests_ || (std::fabs(beside_) <= kFaded && settled()))) return fade(place, limits);
     const bool follows = measured && !ends_ && per_mm != 0;
-    const double aim = follows ? aim_at(turns, per_mm, limits) : 0;
-    fastest_ = std::max(fastest_, std::fabs(commanded - commanded_) / time);
-    commanded_ = commanded;
-    stands_ = !measured || std::fabs(turns - turns_) <= kStill;
+    // A bus may bring one measurement in several cycles, which is then older each time. Only a new one says whether the spindle turns.
+    const double since_s = time + age_s_ - age_s;
+    const bool newer = measured && (!seen_ || since_s > kOfCycle * time);
+    const double aim = follows ? aim_at(turns, age_s, newer ? since_s : time, per_mm, limits) : 0;
+    fastest_ = std::max(fastest_, std::fabs(commanded - newest_command()) / time);
+    remember(commanded);
+    if (!measured) stands_ = true;
+    else if (newer) stands_ = std::fabs(turns - turns_) <= kStill;
     if (measured) turns_ = turns;
+    age_s_ = measured ? age_s : 0;
     seen_ = measured;
     if (fresh_) {  // it stands; where what an earlier tap has left still fades, place and speed are known
       last_ = limits.before;
@@ -165,13 +177,26 @@ class TapFollower {
   }
 
   /// How far the axis has to be beside its path, mm: by what the spindle is beside its command.
-  double aim_at(double turns, double per_mm, const Limits& limits) NC_RT {
-    if (!std::isfinite(turns) || (seen_ && std::fabs(turns - turns_) > kJump + kFaster * fastest_ * limits.cycle_s)) trouble_ = Trouble::jumped;
+  double aim_at(double turns, double age_s, double since_s, double per_mm, const Limits& limits) NC_RT {
+    if (!std::isfinite(turns) || (seen_ && std::fabs(turns - turns_) > kJump + kFaster * fastest_ * since_s)) trouble_ = Trouble::jumped;
     if (trouble_ == Trouble::jumped) return aim_;
-    apart_ = turns - began_ - commanded_;
+    apart_ = turns - began_ - command_before(age_s / limits.cycle_s);
     if (std::fabs(apart_) > limits.most_apart) trouble_ = Trouble::apart;
     const double farthest = limits.most_apart + kRunOut_s * fastest_;
     return std::clamp(apart_, -farthest, farthest) / per_mm;
+  }
+  void remember(double commanded) NC_RT {
+    newest_ = (newest_ + 1) % kCommands;
+    command_[newest_] = commanded;
+    count_ = std::min(count_ + 1, kCommands);
+  }
+  double newest_command() const NC_RT { return command_[newest_]; }
+  /// What was commanded so many cycles before the newest command, between two of them as a part of both.
+  double command_before(double cycles) const NC_RT {
+    const double back = std::clamp(cycles, 0.0, count_ - 1.0);
+    const auto whole = static_cast<unsigned>(back);
+    const auto at = [this](unsigned n) { return command_[(newest_ + kCommands - std::min(n, count_ - 1)) % kCommands]; };
+    return at(whole) + (at(whole + 1) - at(whole)) * (back - whole);
   }
   /// The speed with which the axis can still stop in front of the end of its stroke. Where it is on its path it goes as its path does.
   double within_stroke(double speed, double of_path, const Limits& limits) const NC_RT {
@@ -195,12 +220,16 @@ class TapFollower {
   // stroke ends.
   static constexpr double kStands = 0.02, kBeside = 0.25;
   static constexpr double kRunOut_s = 1;  ///< seconds of the highest speed commanded: so far the axis goes along with a spindle that runs out
-  // No spindle turns more than this in one cycle: revolutions, and times the highest speed commanded.
+  // No spindle turns more than this from one measurement to the next: revolutions, and times the highest speed commanded.
   static constexpr double kJump = 0.1, kFaster = 2;
 
+  static constexpr unsigned kCommands = 512;  ///< cycles that are remembered: more than NC_SPINDLE_AGE_MAX of cycles of 0.12 ms
+  static constexpr double kOfCycle = 0.5;     ///< measurements that lie nearer together than this share of a cycle are one
   bool active_ = false, fresh_ = false, ends_ = false, stands_ = false;
   bool seen_ = false;  ///< turns_ is of the cycle before
-  double turns_ = 0, began_ = 0, commanded_ = 0;
+  double turns_ = 0, age_s_ = 0, began_ = 0;
+  double command_[kCommands] = {};  ///< the last commands, revolutions since begin(), around newest_
+  unsigned newest_ = 0, count_ = 0;
   double aim_ = 0, beside_ = 0, last_ = 0, speed_ = 0;
   double earlier_[2] = {};  ///< beside_ of the two cycles before
   double cycle_s_ = 0.001, acceleration_ = 0, jerk_ = 0;  ///< of the last cycle's Limits
