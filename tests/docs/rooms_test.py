@@ -10,7 +10,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ.get("NC_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
 INTERPRETER = "libnc/src/interpret/interpreter.hpp"
-CONTEXT = "libnc/src/interpret/context.hpp"
+LAYERS = ["libnc/src/interpret/" + name for name in ("context.hpp", "block_in_hand.hpp", "in_force.hpp", "jobs_of_block.hpp")]
 
 
 def include(*headers):
@@ -21,7 +21,7 @@ class Rooms(unittest.TestCase):
     def check(self, files, *options):
         """Status and output for a tree of these files; the private headers are there unless `files` says what they are."""
         with tempfile.TemporaryDirectory() as folder:
-            for path, text in {INTERPRETER: "", CONTEXT: "", **files}.items():
+            for path, text in {INTERPRETER: "", **dict.fromkeys(LAYERS, ""), **files}.items():
                 if text is None:
                     continue
                 place = pathlib.Path(folder, path)
@@ -112,6 +112,10 @@ class Rooms(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn('libnc/src/control/part.hpp:1: #include "interpret/tables.hpp"\n  libnc/src/interpret/tables.hpp:2: #include "interpret/interpreter.hpp"\n', output)
         self.assertNotIn("part.cpp", output)  # mended with part.hpp
+        for layer in LAYERS:
+            status, output = self.check({**users, "libnc/src/control/c.cpp": include(layer.removeprefix("libnc/src/"))})
+            self.assertEqual(status, 1)
+            self.assertIn(f"{layer} is private to libnc/src/interpret/", output)
         status, output = self.check({INTERPRETER: None, **users})  # moved: the list has to follow
         self.assertEqual(status, 1)
         self.assertIn(f"{INTERPRETER}: named in PRIVATE, and not there", output)

@@ -34,7 +34,7 @@ Execution apply_codes_before(Interpreter& in, unsigned at) {
 
 /// A word that calls as M98 has no place beside a code by which the block goes on in another program, returns, or ends this one: one of them would be lost
 /// (M700 13.5.2 (1), 13.3.1; HX 14.1.5). Nor, where the family says so, has a second word that would call.
-Execution check_calls_alone(Interpreter& in, const Caller& caller) {
+Execution check_calls_alone(BlockInHand& in, const Caller& caller) {
   const bool one = in.dialect->rules.code_call.one_in_block;
   bool elsewhere = false;
   Execution did = in.executed(goes_on_elsewhere(*in.block, in.front, &elsewhere));
@@ -74,7 +74,7 @@ CodeCallType type_of_call(const Interpreter& in, const Caller& caller) {
 }
 
 /// Behind an M code that begins its block the other words are arguments (HX 14.1.4), and so a code by which the block would go on elsewhere would be lost.
-Execution check_no_way_on(Interpreter& in, const Caller& caller) {
+Execution check_no_way_on(BlockInHand& in, const Caller& caller) {
   if (!in.dialect->rules.code_call.arguments_behind_m || caller.word != in.word(Role::misc_code)) return Execution::done;
   bool elsewhere = false;
   const Execution did = in.executed(goes_on_elsewhere(*in.block, in.front, &elsewhere));

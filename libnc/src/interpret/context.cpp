@@ -16,7 +16,7 @@ void AlarmSubject::name_in(Fault& fault, const AddressTable& addresses) const {
   if (kind_ == Kind::sign) name_sign(fault, static_cast<Sign>(number_));
 }
 
-Execution BlockContext::raise(Condition condition, AlarmSubject about, std::optional<double> value) {
+Execution BlockInHand::raise(Condition condition, AlarmSubject about, std::optional<double> value) {
   fault = Fault{};
   fault.condition = reader.failure() != Condition::none ? reader.failure() : condition;
   about.name_in(fault, dialect->addresses);
@@ -25,30 +25,30 @@ Execution BlockContext::raise(Condition condition, AlarmSubject about, std::opti
   return Execution::fault;
 }
 
-void BlockContext::refresh_axis_words() {
+void InForce::refresh_axis_words() {
   axis_words.name(system->axis, axis_count);
   if (state.mill.hypothetical_word != kNoWord) axis_words.add(state.mill.hypothetical_word, state.map.rotary);
 }
 
-AxisVec BlockContext::polar_position() const {
+AxisVec InForce::polar_position() const {
   const AxisVec& z = zero();
   AxisVec offset;
   for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + state.applied[i];
   return to_programmed(state.map, Affine::translation(offset), state.machine);
 }
 
-void BlockContext::set_table(unsigned key, double value) {
+void InForce::set_table(unsigned key, double value) {
   variables.note(state.seq + 1, kFrameKey + key, JournalValue::of(frames.get(key)));
   frames.set(key, value);
   if (frames.is_tool_key(key)) take_changed_amounts(*this);
 }
 
-void BlockContext::note_parameter(unsigned index, ParameterValue old) {
+void BlockInHand::note_parameter(unsigned index, ParameterValue old) {
   variables.note(state.seq + 1, kParameterKey + index, old.journalled());
   refresh_settings();
 }
 
-bool BlockContext::set_parameter(ParameterOf parameter, double number, int axis) {
+bool BlockInHand::set_parameter(ParameterOf parameter, double number, int axis) {
   unsigned index = 0;
   ParameterValue old;
   if (parameters.set(*dialect, parameter, axis, number, &index, &old) != NC_OK) return false;
@@ -56,7 +56,7 @@ bool BlockContext::set_parameter(ParameterOf parameter, double number, int axis)
   return true;
 }
 
-void BlockContext::refresh_settings() {
+void BlockInHand::refresh_settings() {
   settings_stale_ = false;
   settings_of_moves_stale_ = true;
   settings = parameters.settings(*dialect);

@@ -18,14 +18,14 @@
 namespace nc {
 namespace {
 
-bool has_own_feed(const BlockContext& in, Function motion) {
+bool has_own_feed(const InForce& in, Function motion) {
   const AddressTable& addresses = in.dialect->addresses;
   const bool lead = motion == Function::thread && addresses.same(Role::thread_lead, Role::feed);
   return lead || is_exponential(motion);
 }
 
 /// The F of a skip block or of a measurement belongs to that block only and does not become modal (M700 15.2).
-bool keeps_its_feed(const BlockContext& in, Function one_shot) {
+bool keeps_its_feed(const InForce& in, Function one_shot) {
   const AddressTable& addresses = in.dialect->addresses;
   if (one_shot == Function::dwell && addresses.same(Role::dwell_time, Role::feed)) return true;  // Series 8 G04 F
   return (is_skip(one_shot) && !in.dialect->rules.skip.feed_is_modal) || one_shot == Function::measure_length;
@@ -77,7 +77,7 @@ Execution drop_beside_cancel(Interpreter& in) {
 }
 
 /// LinuxCNC G20, G21: the feed in force is as fast in the new unit as it was. A feed in inverse time has none.
-void keep_speed(BlockContext& in, Function unit) {
+void keep_speed(InForce& in, Function unit) {
   if (!in.dialect->rules.block.unit_keeps_speed || in.state.modal.is(unit) || in.state.modal.is(Function::inverse_time_feed)) return;
   double& feed = in.state.modal.feed;
   feed = unit == Function::inch ? feed / kMillimetresPerInch : feed * kMillimetresPerInch;
@@ -254,7 +254,7 @@ Execution execute_motion(Interpreter& in) {
 namespace {
 
 /// The cycle of the block is made although a motion stands in it, too (CycleBeside).
-bool cycle_counts(const BlockContext& in) {
+bool cycle_counts(const BlockInHand& in) {
   const Command& w = in.words;
   if (w.cycle == nullptr || w.cycle->function == Function::cycle_off) return false;
   switch (in.dialect->rules.cycle.beside) {
@@ -276,7 +276,7 @@ bool has_places_of_its_own(Function f) { return f == Function::holes_on_frame_cc
 
 /// The hole of the block is made with this function in it: single-direction positioning (M700 6.8, HX 4.2), and position offset, which does not count
 /// for a cycle (M700 12.6).
-bool makes_holes_beside(const BlockContext& in, Function f) {
+bool makes_holes_beside(const BlockInHand& in, Function f) {
   const bool ends = in.words.cycle->function == Function::cycle_off;
   return !ends && (f == Function::unidirectional || (offsets_position(f) && !in.dialect->rules.compensation.bars_position_offset));
 }
@@ -296,7 +296,7 @@ Execution take_cycle_beside(BlockContext& in, const FunctionRow& one_shot) {
 }
 
 /// LinuxCNC, modal groups: G38.2 to G38.5 stay in force, so axis words without a code of a motion probe once more. They are executed as one-shot functions.
-Execution take_probing(BlockContext& in) {
+Execution take_probing(BlockInHand& in) {
   Command& w = in.words;
   if (!is_probing(in.state.modal.of(Mode::motion))) return Execution::done;
   if (w.motion != nullptr) {
@@ -310,7 +310,7 @@ Execution take_probing(BlockContext& in) {
 
 /// Where the end of a cycle is one of the motions (RS-274/NGC 3.4): it is the one in force from its block on, until another motion or a cycle stands in a
 /// block, and axis words that a motion would take have none.
-Execution check_motion_in_force(BlockContext& in) {
+Execution check_motion_in_force(BlockInHand& in) {
   const Command& w = in.words;
   State& s = in.state;
   const bool off = w.motion == nullptr && (w.cycle == nullptr ? s.motion_off : w.cycle->function == Function::cycle_off);
@@ -387,7 +387,7 @@ bool adds_to_shared(const Interpreter& in) {
 
 /// The block has only axis words, F and a code of a motion, as most blocks of a long program. For such a block everything that concerns other words is left
 /// out; the order is the same as for every block.
-bool only_moves(const Interpreter& in) {
+bool only_moves(const BlockInHand& in) {
   const Command& w = in.words;
   // Motions with words of their own, and modes that change what words mean, take the long way.
   // A block that leaves a curve over several blocks (G02.4, G06.2) is one of its own, too; a rotation by parameter has rules (13.21).
@@ -416,7 +416,7 @@ Execution execute_move(Interpreter& in) {
 
 /// The block has only axis words, and a cycle is in force that takes nothing from the spindle, as most blocks of a drilling program. As in only_moves(),
 /// everything that concerns other words is left out.
-bool only_drills(const Interpreter& in) {
+bool only_drills(const BlockInHand& in) {
   const Command& w = in.words;
   const State& s = in.state;
   return s.cycle.kind != CycleKind::none && !is_tap(s.cycle.kind) && w.functions.empty() && w.auxiliary.empty() && !w.has_angle &&
@@ -433,7 +433,7 @@ Execution execute_holes(Interpreter& in) {
 }
 
 /// T and M06 under tool life management go by what the machine has counted when it comes to them.
-bool names_managed_tool(const BlockContext& in) {
+bool names_managed_tool(const BlockInHand& in) {
   if (in.words.has(Role::tool)) return true;
   for (const Auxiliary& m : in.words.auxiliary)
     if (m.function == MiscFunction::tool_change) return true;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double kUnitNoise = 1e-9;
 
-bool inch(const BlockContext& in) { return in.state.modal.is(Function::inch); }
+bool inch(const InForce& in) { return in.state.modal.is(Function::inch); }
 
 /// M700 7.4 (1): F without a point counts in the setting unit; its range has one more decimal for each finer unit.
-Execution take_feed_per_revolution(BlockContext& in) {
+Execution take_feed_per_revolution(BlockInHand& in) {
   const double unit = inch(in) ? in.settings.setting_unit_inch : in.settings.setting_unit_mm;
   const double raw = in.words.get(Role::feed);
   const double value = in.words.pointed(Role::feed) || in.settings.decimal_type_2 ? raw : raw / std::nearbyint(1 / unit);
@@ -24,7 +24,7 @@ Execution take_feed_per_revolution(BlockContext& in) {
 }
 
 /// M700 7.5 (2), precaution (3): the range of F in 1/min begins with the setting unit; F0 is an alarm.
-Execution take_inverse_time(BlockContext& in) {
+Execution take_inverse_time(BlockInHand& in) {
   const double unit = in.settings.setting_unit_mm, value = in.words.get(Role::feed);
   if (value == 0) return in.raise(Condition::no_feed, Role::feed, value);
   if (!(value >= unit - kUnitNoise * unit) || value > in.dialect->rules.range.end_of_inverse_time - unit + kUnitNoise) return in.raise(Condition::value_range, Role::feed, value);
@@ -32,14 +32,14 @@ Execution take_inverse_time(BlockContext& in) {
   return Execution::done;
 }
 
-double straight_length(const BlockContext& in, const Move& move) {
+double straight_length(const InForce& in, const Move& move) {
   double squares = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) squares += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
   return std::sqrt(squares);
 }
 
 /// Length of an arc, with the axes that make it a helix.
-double arc_length(const BlockContext& in, const Move& move) {
+double arc_length(const InForce& in, const Move& move) {
   const double round = (move.circle.radius_start + move.circle.radius_end) / 2 * move.circle.sweep;
   double squares = round * round;
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -65,7 +65,7 @@ void apply_inverse_time(BlockContext& in, Move& move) {
 }
 
 /// M700 7.3: F0 is the rapid rate in the motion of group 1; the speeds of F1 to F5 are given by parameters, in inch by a tenth of them.
-void apply_digit(BlockContext& in, Move& move) {
+void apply_digit(InForce& in, Move& move) {
   const unsigned digit = in.state.modal.feed_digit - 1u;
   move.rule.digit = static_cast<uint8_t>(digit + 1);
   if (digit == 0) {
@@ -82,11 +82,11 @@ void apply_digit(BlockContext& in, Move& move) {
 
 }  // namespace
 
-bool is_feed_digit(const BlockContext& in, double raw) {
+bool is_feed_digit(const BlockInHand& in, double raw) {
   return in.settings.feed_by_digit && !in.words.pointed(Role::feed) && raw >= 0 && raw <= 5 && raw == std::floor(raw);
 }
 
-Execution take_feed_word(BlockContext& in) {
+Execution take_feed_word(BlockInHand& in) {
   ModalState& modal = in.state.modal;
   in.state.vacant_feed = 0;
   if (modal.is(Function::feed_per_revolution)) return take_feed_per_revolution(in);
@@ -105,7 +105,7 @@ Execution take_feed_word(BlockContext& in) {
   return Execution::done;
 }
 
-Execution change_feed_mode(BlockContext& in, Function before) {
+Execution change_feed_mode(BlockInHand& in, Function before) {
   State& state = in.state;
   const Function now = state.modal.of(Mode::feed);
   if (in.dialect->rules.feed.end_of_inverse_time_needs_feed && before == Function::inverse_time_feed && !in.words.has(Role::feed)) return in.raise(Condition::no_feed, Role::feed);
@@ -165,14 +165,14 @@ bool refused_in_inverse_time(Function function) {
   }
 }
 
-bool inverse_time_so_far(const BlockContext& in) {
+bool inverse_time_so_far(const BlockInHand& in) {
   Function mode = in.state.modal.of(Mode::feed);
   for (const FunctionRow* row : in.words.functions)
     if (mode_of(row->function) == Mode::feed) mode = row->function;
   return mode == Function::inverse_time_feed;
 }
 
-Execution check_inverse_time_block(BlockContext& in) {
+Execution check_inverse_time_block(BlockInHand& in) {
   const Command& w = in.words;
   for (const FunctionRow* row : w.functions)
     if (refused_in_inverse_time(row->function)) return in.raise_code(Condition::inverse_time_code, *row);
@@ -186,7 +186,7 @@ Execution check_inverse_time_block(BlockContext& in) {
   return Execution::done;
 }
 
-Execution check_special_feed(BlockContext& in, Function motion) {
+Execution check_special_feed(BlockInHand& in, Function motion) {
   const ModalState& modal = in.state.modal;
   if (modal.is(Function::inverse_time_feed)) {  // M700 7.5, precaution (2)
     const bool known = in.words.has(Role::feed) || (in.dialect->rules.feed.inverse_time_is_modal && modal.feed > 0);
@@ -200,7 +200,7 @@ Execution check_special_feed(BlockContext& in, Function motion) {
 namespace {
 
 /// HX 5.3.5 (2): by parameter in the cutting mode as well; exact stops and tapping have no override.
-bool overrides_corners(const BlockContext& in) {
+bool overrides_corners(const InForce& in) {
   const ModalState& modal = in.state.modal;
   return modal.is(Function::corner_override) || (in.settings.corners_always && modal.is(Function::cutting_mode));
 }

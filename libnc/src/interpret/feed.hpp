@@ -8,13 +8,13 @@
 namespace nc {
 
 /// M700 7.3: the F is F0 to F5 without a point, and #1079 makes that a one-digit feed.
-bool is_feed_digit(const BlockContext& in, double raw);
+bool is_feed_digit(const BlockInHand& in, double raw);
 
 /// Takes the F of the block by the feed mode in force (7.2 to 7.5).
-Execution take_feed_word(BlockContext& in);
+Execution take_feed_word(BlockInHand& in);
 
 /// The block has changed the feed mode; `before` was in force (7.4, 7.5). To be called when all codes of the block are in force.
-Execution change_feed_mode(BlockContext& in, Function before);
+Execution change_feed_mode(BlockInHand& in, Function before);
 
 /// The block has changed the cutting mode; `before` was in force (7.8 to 7.12).
 void change_cutting_mode(BlockContext& in, Function before);
@@ -23,17 +23,17 @@ void announce_tapping(BlockContext& in, bool strokes);
 
 /// The function or mode may not be used with inverse time feed (7.5, relation with other functions (4), (5)): P125.
 bool refused_in_inverse_time(Function function);
-Execution check_inverse_time_block(BlockContext& in);
+Execution check_inverse_time_block(BlockInHand& in);
 /// The feed mode is G93: by the last code for it that has been found in the block in hand so far, or else the one in force.
-bool inverse_time_so_far(const BlockContext& in);
+bool inverse_time_so_far(const BlockInHand& in);
 
-Execution check_special_feed(BlockContext& in, Function motion);
+Execution check_special_feed(BlockInHand& in, Function motion);
 void apply_special_feed(BlockContext& in, Move& move);
 
-inline bool special_feed(const BlockContext& in) { return (in.state.special & kSpecialFeed) != 0 || in.settings.corners_always; }
+inline bool special_feed(const InForce& in) { return (in.state.special & kSpecialFeed) != 0 || in.settings.corners_always; }
 
 /// A cutting move of the function `motion` is about to be made: checks that there is a feed.
-inline Execution check_feed(BlockContext& in, Function motion) {
+inline Execution check_feed(BlockInHand& in, Function motion) {
   if (special_feed(in)) return check_special_feed(in, motion);
   return in.state.modal.feed <= 0 ? in.raise(Condition::no_feed, Role::feed) : Execution::done;
 }
@@ -46,7 +46,7 @@ inline void set_modal_feed(BlockContext& in, Move& move, double mm_min) {
 
 /// The cut in hand ends with an exact stop, by G09 or G61 (7.7, 7.8). G09 does not count in the tapping mode (7.11 (2)), which has replaced G61, nor
 /// while bit 2 of #3004 is set (13.5.10).
-inline bool asks_exact_stop(const BlockContext& in) {
+inline bool asks_exact_stop(const BlockInHand& in) {
   if (in.dialect->rules.motion.second_code_rests && in.state.modal.number[static_cast<unsigned>(Mode::motion)] != 0) return true;
   const Function mode = in.state.modal.of(Mode::cutting);
   return mode == Function::exact_stop_mode || (in.words.exact_stop && mode != Function::tapping_mode && (in.state.disabled & NC_DISABLE_EXACT_STOP) == 0);

@@ -135,7 +135,10 @@ struct Interpreter : BlockContext {
   /// The host writes to the table of frames: no rewind brings the old value back.
   void set_table_from_outside(unsigned key, double value);
 
-  // ---- for the functions (interpret/ only) --------------------------------------------------------------------------
+  // ---- for the files of this room that get the whole interpreter -----------------------------------------------------
+  using BlockContext::begins_again, BlockContext::ended, BlockContext::modals, BlockContext::motion_settings, BlockContext::queue, BlockContext::texts;
+  using BlockInHand::code_calls, BlockInHand::codes_call, BlockInHand::sync_needed, BlockInHand::vendor;
+  using InForce::shared;
 
   struct {
     nc_device_read read = nullptr;
@@ -170,6 +173,10 @@ struct Interpreter : BlockContext {
 
   // the block in hand
   unsigned statement = 0;          ///< next macro statement of the block
+  bool alarmed = false;            ///< the program has ended with an alarm
+  bool modal_kept = false;         ///< the block in hand has not changed the modal state
+  bool block_starts_incremental = false; ///< G91 was modal before this block
+  bool distance_by_word = false;         ///< for an axis word the G90/G91 before it in the block counts (M700 5.1)
   bool jumped = false;             ///< a statement has jumped, so the statements behind it in the block are not executed
   Block* rewritten = nullptr;      ///< copy of the block in hand without the code that calls a program
   const CodeCall* after_block = nullptr; ///< the call to be made when the block in hand has been executed
@@ -267,7 +274,7 @@ Execution execute_begun_inside(Interpreter& in);
 Execution execute_words(Interpreter& in);
 Execution execute_read_words(Interpreter& in);
 /// interpret/plain_line.cpp: executes a straight line in absolute millimetres. False: nothing has been done, and the block needs execute_words().
-bool execute_plain_line(BlockContext& in);
+bool execute_plain_line(Interpreter& in);
 /// Applies the G codes of in.words that decide how other words are read.
 Execution apply_reading_modes(Interpreter& in);
 /// Goes on with a block that has returned Execution::later.

@@ -39,7 +39,7 @@ void pass_over_block(Interpreter& in, CallFrame& frame) {
 
 }  // namespace
 
-bool has_words_of_call(const BlockContext& in) {
+bool has_words_of_call(const BlockInHand& in) {
   for (const Auxiliary& m : in.words.auxiliary)
     if (m.function == MiscFunction::interrupt_on || calls_program(m.function)) return true;
   return false;

@@ -109,7 +109,7 @@ Execution call_with_block(Interpreter& in) {
   return did == Execution::done ? enter_modal(in, top(in).modal_call, call.argument) : did;
 }
 
-bool has_modal_call(const BlockContext& in) {
+bool has_modal_call(const InForce& in) {
   const CallFrame& frame = in.state.frame[in.state.depth];
   return frame.modal_call != 0 || frame.modal_slot != 0;  // a macro that has cancelled its own call may do so again in its next pass
 }

@@ -33,7 +33,7 @@ inline void apply_length_to(State& state, unsigned axis) {
 }
 
 /// Applies the tool length to an axis when the axis is commanded (M700 12.2).
-void apply_length(BlockContext& in, uint32_t commanded) {
+void apply_length(InForce& in, uint32_t commanded) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (((commanded >> i) & 1) == 0) continue;
     apply_length_to(in.state, i);
@@ -56,18 +56,18 @@ inline AxisVec choose(uint32_t axes, const AxisVec& named, const AxisVec& others
 }
 
 /// The shift from the compensation frame to machine coordinates: the zero point and the tool length that is applied.
-AxisVec offset_in_force(const BlockContext& in) {
+AxisVec offset_in_force(const InForce& in) {
   AxisVec offset;
   const AxisVec& z = in.zero();
   for (unsigned i = 0; i < kMaxAxes; ++i) offset[i] = z[i] + in.state.applied[i];
   return offset;
 }
 
-Affine map_in_force(const BlockContext& in) { return Affine::translation(offset_in_force(in)); }
+Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_force(in)); }
 
 /// M700 12.4.4 (2): under radius compensation an absolute word leads back to the programmed path from where the axis has been moved by hand. By an incremental
 /// word, or without a word, the axis stays as far beside the path as it is.
-[[gnu::cold]] void lead_back_to_path(BlockContext& in, Move& move) {
+[[gnu::cold]] void lead_back_to_path(BlockInHand& in, Move& move) {
   const uint32_t absolute = in.words.target.axes() & ~in.words.target.incremental();
   for (unsigned i = 0; i < 2; ++i) {
     double& still = (absolute >> move.comp.axis[i] & 1) != 0 ? in.state.comp.by_hand[i] : move.comp.by_hand[i];
@@ -135,7 +135,7 @@ void finish_mapped(BlockContext& in, const MoveFrame& frame, const AxisVec& befo
 }
 
 /// M700 2.3: the position of a rotary axis is not a multiple of #2106, as it should be; in the plane of G12.1 the word is a length (6.10).
-bool off_increment(const BlockContext& in, unsigned axis, double value) {
+bool off_increment(const InForce& in, unsigned axis, double value) {
   const double unit = in.settings.index_increment[axis];
   if (unit <= 0 || ((in.rotary >> axis) & 1) == 0) return false;
   if (in.state.map.kind == AxisMap::Kind::polar && axis == in.state.map.rotary) return false;
@@ -144,7 +144,7 @@ bool off_increment(const BlockContext& in, unsigned axis, double value) {
 
 }  // namespace
 
-double feed_mm_min(const BlockContext& in) {
+double feed_mm_min(const InForce& in) {
   const bool inch = in.state.modal.is(Function::inch);
   return in.state.modal.feed * (inch ? kMillimetresPerInch : 1.0);
 }
@@ -152,7 +152,7 @@ double feed_mm_min(const BlockContext& in) {
 namespace {
 
 /// How far the tool is from a turning axis, whose zero is that of the coordinates.
-double distance_from(const BlockContext& in, unsigned turning, const AxisVec& at) {
+double distance_from(const InForce& in, unsigned turning, const AxisVec& at) {
   double squares = 0;
   constexpr Role kTurns[3] = {Role::turn_x, Role::turn_y, Role::turn_z};
   for (unsigned i = 0; i < 3; ++i) {
@@ -164,7 +164,7 @@ double distance_from(const BlockContext& in, unsigned turning, const AxisVec& at
 
 /// DGSHAPE 2-5: F is the speed of the tool on the workpiece where the block begins; what it makes of the turning axis stays through the block. Infinite: as
 /// fast as the axis can, at the highest position of Z. Where the tool stands on the axis F is in deg/min.
-double surface_feed(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
+double surface_feed(const InForce& in, const AxisVec& start, const AxisVec& end) {
   const double feed = feed_mm_min(in);
   double straight = 0, round = 0, turned = 0;
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -190,7 +190,7 @@ double surface_feed(const BlockContext& in, const AxisVec& start, const AxisVec&
 
 /// When only rotary axes move F is in deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is in mm/min or
 /// inch/min along the programmed curve, whichever axes move (6.9 (6), 6.10 (5)).
-double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end) {
+double feed_for(const InForce& in, const AxisVec& start, const AxisVec& end) {
   const bool inch = in.state.modal.is(Function::inch);
   if (in.rotary != 0 && in.dialect->rules.feed.rotary_by_radius) return surface_feed(in, start, end);
   if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
@@ -201,12 +201,12 @@ double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end
   return in.state.modal.feed * 10;
 }
 
-AxisVec target_of_words(const BlockContext& in) { return target_of_words(in, in.position()); }
+AxisVec target_of_words(const BlockInHand& in) { return target_of_words(in, in.position()); }
 
 namespace {
 
 /// M700 14.13: absolute commands to rotating axes: turns the angles in `target` into positions of the axes, which count on over several turns.
-void turn_within_range(const BlockContext& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
+void turn_within_range(const InForce& in, const AxisVec& position, uint32_t axes, AxisVec& target) {
   // In the plane of polar coordinate interpolation the word of the rotary axis is in millimetres (6.10).
   if (in.state.map.kind == AxisMap::Kind::polar) axes &= ~(1u << in.state.map.rotary);
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -215,7 +215,7 @@ void turn_within_range(const BlockContext& in, const AxisVec& position, uint32_t
   }
 }
 
-inline AxisVec plain_target(const BlockContext& in, const AxisVec& position, const Targets& targets) {
+inline AxisVec plain_target(const InForce& in, const AxisVec& position, const Targets& targets) {
   AxisVec target = position;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!targets.commands(i)) continue;
@@ -228,14 +228,14 @@ inline AxisVec plain_target(const BlockContext& in, const AxisVec& position, con
 
 }  // namespace
 
-AxisVec target_of_words(const BlockContext& in, const AxisVec& position) { return target_of(in, position, in.words.target); }
+AxisVec target_of_words(const BlockInHand& in, const AxisVec& position) { return target_of(in, position, in.words.target); }
 
-AxisVec target_of(const BlockContext& in, const AxisVec& position, const Targets& targets) {
+AxisVec target_of(const BlockInHand& in, const AxisVec& position, const Targets& targets) {
   if (!program_mapped(in)) return plain_target(in, position, targets);
   return from_program(in, plain_target(in, to_program(in, position), targets));
 }
 
-MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t commanded) {
+MoveFrame frame_of_move(InForce& in, const AxisVec& target, uint32_t commanded) {
   if (program_mapped(in) && commanded != 0) commanded = begin_mapped_move(in, commanded);
   apply_length(in, commanded);
   MoveFrame frame{map_in_force(in), {}, target};
@@ -265,7 +265,7 @@ inline void check_deceleration(BlockContext& in, nc_move_kind kind, double width
 }
 
 /// Gives a move the corner at its end; the next block decides where the move really ends (contour/contour.hpp). A rounding lies in the plane in force.
-[[gnu::noinline]] void set_corner(const BlockContext& in, Move& move, const LinearStyle& style) {
+[[gnu::noinline]] void set_corner(const InForce& in, Move& move, const LinearStyle& style) {
   const PlaneAxes plane = plane_axes(in);
   move.corner = style.corner;
   move.corner_mm = style.corner_mm;
@@ -445,7 +445,7 @@ class InchDegrees {
 namespace {
 
 /// LinuxCNC G90.1: the centre words are the position of the centre, and both must be there.
-Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double center[2]) {
+Execution take_absolute_centre(BlockInHand& in, const PlaneAxes& plane, double center[2]) {
   const AxisVec position = in.position();
   for (unsigned i = 0; i < 2; ++i) {
     if (!in.words.has(plane.center[i])) return in.raise(Condition::center_missing, plane.center[i]);
@@ -456,7 +456,7 @@ Execution take_absolute_centre(BlockContext& in, const PlaneAxes& plane, double 
 
 }  // namespace
 
-Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
+Execution read_arc_words(BlockInHand& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* of_block) {
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const Command& w = in.words;
   const ArcRules& rules = in.dialect->rules.arc;
@@ -494,7 +494,7 @@ Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t comm
 }
 
 /// By how much the radius at the end may differ, mm. LinuxCNC G2: also by a share of the radius.
-static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
+static double arc_tolerance(const InForce& in, const ArcWords& words) {
   const FamilyParameters& family = *in.dialect->parameters;
   const double tolerance = in.settings.arc_tolerance;
   if (family.arc_tolerance_most_mm == 0) return tolerance;
@@ -503,9 +503,9 @@ static double arc_tolerance(const BlockContext& in, const ArcWords& words) {
 }
 
 /// M700 12.4.1: compensation starts and is cancelled with a straight movement, also when it was commanded in a block before.
-bool starts_or_ends_compensation(const BlockContext& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
+bool starts_or_ends_compensation(const InForce& in) { return (in.state.comp.side != 0) != (in.state.moved_side != 0); }
 
-bool keeps_vector(const BlockContext& in) {
+bool keeps_vector(const BlockInHand& in) {
   const Compensation& comp = in.state.comp;
   if (comp.side != 0 || in.state.moved_side == 0) return false;
   const AxisVec position = in.position(), target = target_of_words(in, position);
@@ -513,7 +513,7 @@ bool keeps_vector(const BlockContext& in) {
 }
 
 /// Where the centre of an arc of the block lies, by programmed coordinates, whose quadrants count.
-static bool find_centre(const BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, bool ccw, double center[2]) {
+static bool find_centre(const BlockInHand& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, bool ccw, double center[2]) {
   const AxisVec position = in.position();
   AxisVec end = position;
   const uint32_t moved = program_mapped(in) ? moved_axes(in, commanded) : commanded;
@@ -527,7 +527,7 @@ static bool find_centre(const BlockContext& in, const PlaneAxes& plane, const Ax
 }
 
 /// Series 8 G55, G57: what has been programmed before stays programmed, so that the axes do not stand where the first arc is meant to begin.
-static bool stands_beside_start(const BlockContext& in, const PlaneAxes& plane) {
+static bool stands_beside_start(const BlockInHand& in, const PlaneAxes& plane) {
   if (!in.state.map_begins || !in.dialect->rules.rotation.about_zero) return false;
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   const AxisVec position = in.position();
@@ -549,7 +549,7 @@ Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, 
 
 /// M700 12.5: the ends of an arc are displaced, its centre is not; their distances from it have to agree all the same. By how much they differ; without end
 /// where one of them lies in the centre.
-static double displaced_apart(const BlockContext& in, const MoveFrame& frame, unsigned h, unsigned v, const Circle& circle) {
+static double displaced_apart(const InForce& in, const MoveFrame& frame, unsigned h, unsigned v, const Circle& circle) {
   const SpaceVector end = space_vector(in, frame.to_machine.apply(frame.end));
   const auto radius = [&circle, h, v](const AxisVec& at, const SpaceVector& vector) {
     double d[2] = {at[h] - circle.center[0], at[v] - circle.center[1]};
@@ -638,7 +638,7 @@ void move_rapid(BlockContext& in, const AxisVec& target, uint32_t axes) {
   move_linear(in, target, axes, style);
 }
 
-Execution check_index_positions(BlockContext& in) {
+Execution check_index_positions(BlockInHand& in) {
   const Command& w = in.words;
   for (unsigned i = 0; (w.target.axes() & in.rotary) != 0 && i < in.axis_count; ++i) {
     if (!w.target.commands(i)) continue;
@@ -651,7 +651,7 @@ Execution check_index_positions(BlockContext& in) {
 }
 
 /// Takes ,C or ,R of the block (M700 13.7).
-static Execution take_corner(BlockContext& in, Function motion, LinearStyle* style) {
+static Execution take_corner(BlockInHand& in, Function motion, LinearStyle* style) {
   const Command& w = in.words;
   const Role word = corner_word(w);
   if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_size.value);
@@ -676,11 +676,11 @@ static Execution take_corner(BlockContext& in, Function motion, LinearStyle* sty
 /// An arc with ,C or ,R, on a machine that cuts corners beside arcs.
 static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, bool ccw, const LinearStyle& style) {
   const Command& w = in.words;
-  const unsigned before = in.queue.size();
+  const unsigned before = in.items_made();
   const Execution did = move_arc(in, target, w.target.axes(), ccw);
   if (did != Execution::done) return did;
-  for (unsigned i = in.queue.size(); i > before; --i) {
-    Item& item = in.queue[i - 1];
+  for (unsigned i = in.items_made(); i > before; --i) {
+    Item& item = in.item_made(i - 1);
     if (item.kind != ItemKind::move || !item.move.circular) continue;
     set_corner(in, item.move, style);
     return did;
@@ -747,9 +747,9 @@ Execution move_by_words(BlockContext& in) {
   style.in_position = style.exact_stop ? w.in_position : 0;  // it acts only where there is a deceleration check
   // The line on which the axes reach another rotation (13.21) does not belong to a spline.
   if ((in.state.special & kSpecialSpline) != 0 && !in.state.work_turn_pending) return move_spline(in, target, w.target.axes(), style);
-  const unsigned before = in.queue.size();
+  const unsigned before = in.items_made();
   move_linear(in, target, w.target.axes(), style);
-  const bool nowhere = style.corner != Corner::none && in.queue.size() == before;  // a line of no length has no corner
+  const bool nowhere = style.corner != Corner::none && in.items_made() == before;  // a line of no length has no corner
   return nowhere ? in.raise(Condition::corner_short, corner_word(w), w.corner_size.value) : Execution::done;
 }
 

@@ -35,17 +35,17 @@ void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, 
 /// Moves end beside their programmed ends, by a vector in space (M700 12.3, 12.5).
 inline bool leads_beside(const State& state) { return state.space.on || state.moved_space.on || state.tool_length != 0; }
 /// The vector of a move that ends at these machine coordinates (functions/tool_axis.cpp).
-SpaceVector space_vector(const BlockContext& in, const AxisVec& machine);
+SpaceVector space_vector(const InForce& in, const AxisVec& machine);
 /// The next movement is the one that radius compensation starts or ends with: it must not be an arc.
-bool starts_or_ends_compensation(const BlockContext& in);
+bool starts_or_ends_compensation(const InForce& in);
 /// Radius compensation has been cancelled by a block without a movement in its plane, and this one has none either: the tool stays beside the path.
-bool keeps_vector(const BlockContext& in);
+bool keeps_vector(const BlockInHand& in);
 /// Makes an arc in the plane in force, by the words of the block.
 Execution move_arc(BlockContext& in, const AxisVec& target, uint32_t commanded, bool ccw);
 struct ArcWords;
 struct PlaneAxes;
 /// Reads the words of the block that determine an arc in this plane.
-Execution read_arc_words(BlockContext& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* words);
+Execution read_arc_words(BlockInHand& in, const PlaneAxes& plane, uint32_t commanded, ArcWords* words);
 /// Makes an arc by words that the caller gives.
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw);
 /// The start and end of a move in the compensation frame, and the map from there to the machine.
@@ -54,7 +54,7 @@ struct MoveFrame {
   AxisVec start, end;
 };
 /// The frame of a move to `target`. Tool length is applied to the commanded axes; the other axes stay where they are.
-MoveFrame frame_of_move(BlockContext& in, const AxisVec& target, uint32_t commanded);
+MoveFrame frame_of_move(InForce& in, const AxisVec& target, uint32_t commanded);
 /// Emits a circular move (arc, helix, spiral) at the feed in force.
 void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind);
 /// Emits a move of any other shape; the caller sets its feed.
@@ -64,18 +64,18 @@ inline bool bars_codes(Function motion) { return is_space_arc(motion) || is_expo
 /// Emits a move without length, which carries a compensation command in a block that does not move to the offset stage (offset/offset.hpp).
 void move_nowhere(BlockContext& in);
 /// P20: a rotary axis is commanded to a position that is not a multiple of #2106 (M700 2.3).
-Execution check_index_positions(BlockContext& in);
+Execution check_index_positions(BlockInHand& in);
 /// Makes the motion that the words of the block command in the motion mode in force.
 Execution move_by_words(BlockContext& in);
 /// F in force in mm/min, 0 = none.
-double feed_mm_min(const BlockContext& in);
+double feed_mm_min(const InForce& in);
 /// F in force for a line between these points: in mm/min, or in deg/min where it moves only rotary axes.
-double feed_for(const BlockContext& in, const AxisVec& start, const AxisVec& end);
+double feed_for(const InForce& in, const AxisVec& start, const AxisVec& end);
 /// The end point that the words command.
-AxisVec target_of_words(const BlockContext& in);
+AxisVec target_of_words(const BlockInHand& in);
 /// The end point that these targets command.
-AxisVec target_of(const BlockContext& in, const AxisVec& position, const Targets& targets);
-AxisVec target_of_words(const BlockContext& in, const AxisVec& position);  ///< for a caller that has position() already
+AxisVec target_of(const BlockInHand& in, const AxisVec& position, const Targets& targets);
+AxisVec target_of_words(const BlockInHand& in, const AxisVec& position);  ///< for a caller that has position() already
 
 /// interpret/arc.cpp
 struct ArcWords {

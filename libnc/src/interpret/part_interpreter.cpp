@@ -40,10 +40,10 @@ bool PartInterpreter::in_cycle() const { return in_->next_step == Step::cycle; }
 bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move), void* user) {
   Interpreter& in = *in_;
   const State state = in.state;
-  const HolesOfBlock holes = in.holes;
+  const HolesOfBlock holes = in.jobs.holes;
   const unsigned queued = in.queue.size();
-  in.holes.whole = true;
-  in.holes.hole.q = 0;
+  in.jobs.holes.whole = true;
+  in.jobs.holes.hole.q = 0;
   bool fit = true;
   Execution did = Execution::later;
   while (fit && did == Execution::later) {
@@ -53,7 +53,7 @@ bool PartInterpreter::rehearse_cycle(bool (*fits)(void* user, const Item& move),
     in.queue.cut(queued);
   }
   in.state = state;
-  in.holes = holes;
+  in.jobs.holes = holes;
   return fit;
 }
 

@@ -4,12 +4,13 @@
 // what these words mean. tests/interpret/plain_line_test.cpp runs random programs both ways.
 #include "command/plain_line.hpp"
 #include "interpret/functions/functions.hpp"
+#include "interpret/interpreter.hpp"
 
 namespace nc {
 namespace {
 
 /// The modes are such that the axis words of a line are its end point in work coordinates, and nothing else acts in the block.
-bool plain_modes(const BlockContext& in) {
+bool plain_modes(const Interpreter& in) {
   const State& s = in.state;
   const ModalState& m = s.modal;
   return s.special == 0 && s.modal_call == 0 && !s.mapped && !s.parameter_input && s.life_input.kind == LifeInput::Kind::none && s.meeting.kind == MeetingFirst::Kind::none &&
@@ -21,7 +22,7 @@ bool plain_modes(const BlockContext& in) {
 
 }  // namespace
 
-bool execute_plain_line(BlockContext& in) {
+bool execute_plain_line(Interpreter& in) {
   State& s = in.state;
   if (s.cycle.kind != CycleKind::none) return false;  // its words mean holes
   const Function before = s.modal.of(Mode::motion);

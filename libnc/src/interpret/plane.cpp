@@ -4,7 +4,7 @@
 namespace nc {
 namespace {
 
-int8_t index_of(const BlockContext& in, WordSlot name) { return static_cast<int8_t>(in.axis_words.axis(name)); }
+int8_t index_of(const InForce& in, WordSlot name) { return static_cast<int8_t>(in.axis_words.axis(name)); }
 
 }  // namespace
 
@@ -14,29 +14,29 @@ PlanePair pair_of(Function plane) {
   return {0, 1, Plane::xy};
 }
 
-int8_t axis_of_pair(const BlockContext& in, unsigned pair) {
+int8_t axis_of_pair(const BlockInHand& in, unsigned pair) {
   const WordSlot basic = in.settings.plane_basic[pair], parallel = in.settings.plane_parallel[pair];
   const bool second = in.words.has(parallel) && !in.words.has(basic);
   return index_of(in, second ? parallel : basic);
 }
 
-unsigned cylinder_stands_for(const BlockContext& in) {
+unsigned cylinder_stands_for(const InForce& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   const unsigned first = pair.first == 0 || pair.second == 0 ? 0u : 1u;  // X, or Y in the plane without X
   return !in.settings.cylinder_second_axis ? first : pair.first == first ? pair.second : pair.first;
 }
 
-void put_cylinder_axis(BlockContext& in) {
+void put_cylinder_axis(InForce& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   in.state.plane_axis[pair.first == cylinder_stands_for(in) ? 0 : 1] = static_cast<int8_t>(in.state.map.rotary);
 }
 
-PlaneAxes plane_axes(const BlockContext& in) {
+PlaneAxes plane_axes(const InForce& in) {
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   return {in.state.plane_axis[0], in.state.plane_axis[1], pair.plane, {vector_along(pair.first), vector_along(pair.second)}};
 }
 
-Execution select_plane(BlockContext& in, const FunctionRow& row) {
+Execution select_plane(BlockInHand& in, const FunctionRow& row) {
   State& state = in.state;
   const PlanePair pair = pair_of(row.function);
   const int8_t h = axis_of_pair(in, pair.first), v = axis_of_pair(in, pair.second);
@@ -58,7 +58,7 @@ Execution select_plane(BlockContext& in, const FunctionRow& row) {
 }
 
 /// The axes are found by their names in the machine, because the words of a mode that ends here (G12.1, M700 6.10) are not among these.
-void basic_plane_axes(const BlockContext& in, Function plane, int8_t axis[2], int8_t* third) {
+void basic_plane_axes(const InForce& in, Function plane, int8_t axis[2], int8_t* third) {
   const PlanePair pair = pair_of(plane);
   const auto basic = [&in](unsigned of_pair) {
     int8_t found = -1;

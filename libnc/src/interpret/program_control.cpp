@@ -8,7 +8,7 @@ namespace nc {
 namespace {
 
 /// M98, M198 or M99 beside another of these, M02 or M30: only the first would ever act.
-bool two_ways_on(const BlockContext& in) {
+bool two_ways_on(const BlockInHand& in) {
   unsigned ways = 0;
   bool call = false;
   for (const Auxiliary& m : in.words.auxiliary) {

@@ -18,15 +18,15 @@
 namespace nc {
 namespace {
 
-PlaneAxes plane(const BlockContext& in) { return plane_axes(in); }
+PlaneAxes plane(const InForce& in) { return plane_axes(in); }
 
 bool has(unsigned axes, unsigned axis) { return ((axes >> axis) & 1) != 0; }
 
 /// Axes that are scaled and mirrored by program before the rotation of a figure; and those that are so after it.
-unsigned scaled_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
-unsigned mirror_in_figure(const BlockContext& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
-unsigned scaled_behind(const BlockContext& in) { return in.state.scaled ^ scaled_in_figure(in); }
-unsigned mirror_behind(const BlockContext& in) { return in.state.mirror ^ mirror_in_figure(in); }
+unsigned scaled_in_figure(const InForce& in) { return in_figure(in) ? in.state.scaled & in.state.figure_scaled : 0u; }
+unsigned mirror_in_figure(const InForce& in) { return in_figure(in) ? in.state.mirror & in.state.figure_mirror : 0u; }
+unsigned scaled_behind(const InForce& in) { return in.state.scaled ^ scaled_in_figure(in); }
+unsigned mirror_behind(const InForce& in) { return in.state.mirror ^ mirror_in_figure(in); }
 
 // ---- each map by itself
 
@@ -37,11 +37,11 @@ void add(Affine& map, const Affine& next) {
   [[maybe_unused]] const bool fits = map.then(next);
 }
 
-Affine scaling_of_axis(const BlockContext& in, unsigned axis) {
+Affine scaling_of_axis(const InForce& in, unsigned axis) {
   return Affine::stretch(axis, scale_of(in, axis), in.records->maps.scaling_center[axis]);
 }
 
-Affine scaling(const BlockContext& in, unsigned axes) {
+Affine scaling(const InForce& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(axes, i)) add(map, scaling_of_axis(in, i));
@@ -49,14 +49,14 @@ Affine scaling(const BlockContext& in, unsigned axes) {
 }
 
 /// What of the scaling is a mirror: a factor below 0 turns the axis round.
-Affine mirror_by_scaling(const BlockContext& in, unsigned axes) {
+Affine mirror_by_scaling(const InForce& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(axes, i) && scale_of(in, i) < 0) add(map, Affine::stretch(i, -1, in.records->maps.scaling_center[i]));
   return map;
 }
 
-Affine mirror_by_program(const BlockContext& in, unsigned axes) {
+Affine mirror_by_program(const InForce& in, unsigned axes) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(axes, i)) add(map, Affine::stretch(i, -1, in.records->maps.mirror_center[i]));
@@ -64,26 +64,26 @@ Affine mirror_by_program(const BlockContext& in, unsigned axes) {
 }
 
 /// Mirror image by switch: about the machine position at which each axis stood when the program began.
-Affine mirror_by_switch(const BlockContext& in) {
+Affine mirror_by_switch(const InForce& in) {
   Affine map;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (has(in.state.switch_mirror, i)) add(map, Affine::stretch(i, -1, in.records->switch_mirror.center[i] - in.zero()[i]));
   return map;
 }
 
-Affine in_plane(const BlockContext& in, const Affine::Angle& angle, const double center[2]) {
+Affine in_plane(const BlockInHand& in, const Affine::Angle& angle, const double center[2]) {
   const PlaneAxes axes = plane(in);
   if (axes.h < 0 || axes.v < 0) return Affine{};
   return Affine::rotation(static_cast<unsigned>(axes.h), static_cast<unsigned>(axes.v), angle, center[0], center[1]);
 }
 
-Affine rotation_by_program(const BlockContext& in) {
+Affine rotation_by_program(const BlockInHand& in) {
   if (!in.state.rotated) return Affine{};
   const ProgramMaps& maps = in.records->maps;
   return in_plane(in, Affine::Angle::degrees(maps.rotation_deg), maps.rotation_center);
 }
 
-Affine turn_of_figure(const BlockContext& in) {
+Affine turn_of_figure(const BlockInHand& in) {
   if (!in_figure(in)) return Affine{};
   const Figure& figure = in.records->figure;
   return in_plane(in, Affine::Angle::radians(figure.angle), figure.center);
@@ -92,7 +92,7 @@ Affine turn_of_figure(const BlockContext& in) {
 // ---- all of them
 
 /// The composition of all maps. `turn`: the rotation by parameter, as commanded or as the axes have reached it; `stretched`: with scaling.
-Affine whole_map(const BlockContext& in, const WorkTurn& turn, bool stretched) {
+Affine whole_map(const BlockInHand& in, const WorkTurn& turn, bool stretched) {
   const auto scaled = stretched ? scaling : mirror_by_scaling;
   Affine map = scaled(in, scaled_in_figure(in));
   add(map, mirror_by_program(in, mirror_in_figure(in)));
@@ -105,7 +105,7 @@ Affine whole_map(const BlockContext& in, const WorkTurn& turn, bool stretched) {
   return map;
 }
 
-ProgramMatricesKey key_of(const BlockContext& in) {
+ProgramMatricesKey key_of(const InForce& in) {
   const State& state = in.state;
   const PlaneAxes axes = plane(in);
   ProgramMatricesKey key;
@@ -124,7 +124,7 @@ ProgramMatricesKey key_of(const BlockContext& in) {
   return key;
 }
 
-void make_matrices(const BlockContext& in, ProgramMatrices* m) {
+void make_matrices(const BlockInHand& in, ProgramMatrices* m) {
   const WorkTurns& turns = in.records->work_turn;
   m->forward = whole_map(in, turns.commanded, true);
   m->directions = whole_map(in, turns.commanded, false);
@@ -142,7 +142,7 @@ void make_matrices(const BlockContext& in, ProgramMatrices* m) {
   m->shape_to_program = shape.inverse();
 }
 
-const ProgramMatrices& matrices(const BlockContext& in) {
+const ProgramMatrices& matrices(const BlockInHand& in) {
   const ProgramMatricesKey key = key_of(in);
   if (!(in.program_matrices.made_of == key)) {
     make_matrices(in, &in.program_matrices);
@@ -160,9 +160,9 @@ void map_direction(const Affine& map, unsigned h, unsigned v, double direction[2
 
 }  // namespace
 
-AxisVec as_programmed_end(const BlockContext& in, const AxisVec& work) { return matrices(in).backward.apply(work); }
+AxisVec as_programmed_end(const BlockInHand& in, const AxisVec& work) { return matrices(in).backward.apply(work); }
 
-AxisVec to_program(const BlockContext& in, const AxisVec& work) {
+AxisVec to_program(const BlockInHand& in, const AxisVec& work) {
   const ProgramMatrices& m = matrices(in);
   if (in.state.map_begins) {  // Series 8 G55, G57: the programmed position is the one from before the map
     AxisVec p = m.backward.apply(work);
@@ -180,30 +180,30 @@ AxisVec to_program(const BlockContext& in, const AxisVec& work) {
   return m.shape_to_program.apply(p);
 }
 
-AxisVec from_program(const BlockContext& in, const AxisVec& programmed) { return matrices(in).forward.apply(programmed); }
+AxisVec from_program(const BlockInHand& in, const AxisVec& programmed) { return matrices(in).forward.apply(programmed); }
 
-AxisVec in_front_of_mirror(const BlockContext& in, const AxisVec& work) {
+AxisVec in_front_of_mirror(const BlockInHand& in, const AxisVec& work) {
   return program_mapped(in) ? matrices(in).before_mirror.apply(work) : work;
 }
 
-double scale_of(const BlockContext& in, unsigned axis) {
+double scale_of(const InForce& in, unsigned axis) {
   return ((in.state.scaled >> axis) & 1) != 0 ? in.records->maps.scaling_factor[axis] : 1.0;
 }
 
-bool scaled_unevenly(const BlockContext& in, unsigned h, unsigned v) {
+bool scaled_unevenly(const InForce& in, unsigned h, unsigned v) {
   const unsigned shape = scaled_in_figure(in), behind = scaled_behind(in);
   return has(shape, h) != has(shape, v) || has(behind, h) != has(behind, v) ||
          (has(in.state.scaled, h) && std::fabs(scale_of(in, h)) != std::fabs(scale_of(in, v)));
 }
 
-double mapped_on(const BlockContext& in, unsigned axis, double programmed) {
+double mapped_on(const BlockInHand& in, unsigned axis, double programmed) {
   return program_mapped(in) ? matrices(in).forward.on_axis(axis, programmed) : programmed;
 }
-double programmed_on(const BlockContext& in, unsigned axis, double work) {
+double programmed_on(const BlockInHand& in, unsigned axis, double work) {
   return program_mapped(in) ? matrices(in).backward.on_axis(axis, work) : work;
 }
 
-uint32_t moved_axes(const BlockContext& in, uint32_t axes) {
+uint32_t moved_axes(const InForce& in, uint32_t axes) {
   const PlaneAxes p = plane(in);
   if ((in_figure(in) || in.state.rotated || in.state.map_begins) && p.h >= 0 && p.v >= 0) {
     const uint32_t both = (1u << p.h) | (1u << p.v);
@@ -212,7 +212,7 @@ uint32_t moved_axes(const BlockContext& in, uint32_t axes) {
   return in.state.work_turned ? moved_by_work_rotation(in, axes) : axes;
 }
 
-uint32_t begin_mapped_move(BlockContext& in, uint32_t commanded) {
+uint32_t begin_mapped_move(InForce& in, uint32_t commanded) {
   commanded = moved_axes(in, commanded);
   figure_has_moved(in);
   const PlaneAxes axes = plane(in);
@@ -221,19 +221,19 @@ uint32_t begin_mapped_move(BlockContext& in, uint32_t commanded) {
   return commanded;
 }
 
-void map_arc(const BlockContext& in, unsigned h, unsigned v, double center[2], bool* ccw) {
+void map_arc(const BlockInHand& in, unsigned h, unsigned v, double center[2], bool* ccw) {
   const Affine& map = matrices(in).forward;
   map_direction(map, h, v, center);
   if (map.reflects(h, v)) *ccw = !*ccw;
 }
 
-void map_compensation(const BlockContext& in, Compensation& comp) {
+void map_compensation(const BlockInHand& in, Compensation& comp) {
   const Affine& map = matrices(in).directions;
   map_direction(map, comp.axis[0], comp.axis[1], comp.vector);
   if (map.reflects(comp.axis[0], comp.axis[1])) comp.side = static_cast<int8_t>(-comp.side);
 }
 
-void begin_figure(BlockContext& in, const double center[2]) {
+void begin_figure(BlockInHand& in, const double center[2]) {
   const PlaneAxes axes = plane(in);
   const AxisVec at = to_program(in, in.position());
   Figure figure;
@@ -246,11 +246,11 @@ void begin_figure(BlockContext& in, const double center[2]) {
   in.change(&ProgramRecords::figure, figure);
 }
 
-double shape_scaled(const BlockContext& in, unsigned axis, double value) {
+double shape_scaled(const InForce& in, unsigned axis, double value) {
   return has(scaled_in_figure(in), axis) ? scaling_of_axis(in, axis).on_axis(axis, value) : value;
 }
 
-void turn_figure(BlockContext& in) {
+void turn_figure(BlockInHand& in) {
   const PlaneAxes axes = plane(in);
   uint8_t& state = in.state.frame[in.state.depth].figure;
   if (axes.h < 0 || axes.v < 0) return;

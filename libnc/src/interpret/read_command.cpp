@@ -119,7 +119,7 @@ Execution read_block_command(Interpreter& in) {
   return check_command(in);
 }
 
-bool is_incremental(const BlockContext& in) {
+bool is_incremental(const BlockInHand& in) {
   const FunctionRow* const once = in.words.distance_once;
   return once != nullptr ? once->function == Function::incremental_once : in.state.modal.is(Function::incremental);
 }
@@ -134,11 +134,11 @@ double scaled(double raw, double unit) {
   return raw / std::nearbyint(1 / unit);
 }
 
-bool in_inches(const BlockContext& in) { return in.state.modal.is(Function::inch); }
+bool in_inches(const InForce& in) { return in.state.modal.is(Function::inch); }
 
 }  // namespace
 
-double length_value(const BlockContext& in, Written number, bool rotary, bool setting_unit, bool tenfold) {
+double length_value(const InForce& in, Written number, bool rotary, bool setting_unit, bool tenfold) {
   const bool in_inch = in_inches(in) && !rotary;
   const Settings& s = in.settings;
   const double raw = number.value;
@@ -156,7 +156,7 @@ double length_value(const BlockContext& in, Written number, bool rotary, bool se
   return in_inch ? value * kMillimetresPerInch : value;
 }
 
-double axis_value(const BlockContext& in, unsigned axis, Written number, bool rotary) {
+double axis_value(const InForce& in, unsigned axis, Written number, bool rotary) {
   const Settings& s = in.settings;
   if (((s.own_unit_axes >> axis) & 1) == 0 || number.pointed() || s.whole_positions()) return length_value(in, number, rotary, false);
   const bool in_inch = in_inches(in) && !rotary;
@@ -164,14 +164,14 @@ double axis_value(const BlockContext& in, unsigned axis, Written number, bool ro
   return in_inch ? value * kMillimetresPerInch : value;
 }
 
-double length_of(const BlockContext& in, WordSlot word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
+double length_of(const BlockInHand& in, WordSlot word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
 
-double length_of(const BlockContext& in, Role word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
+double length_of(const BlockInHand& in, Role word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
 
 namespace {
 
 /// The largest feed, mm/min or inch/min.
-double largest_feed(const BlockContext& in) {
+double largest_feed(const BlockInHand& in) {
   const NumberRules& rules = in.dialect->rules.number;
   if (in.words.pointed(Role::feed)) return in_inches(in) ? rules.largest_feed_inch : rules.largest_feed_mm;
   return in_inches(in) ? rules.largest_undotted_feed_inch : rules.largest_undotted_feed_mm;
@@ -179,7 +179,7 @@ double largest_feed(const BlockContext& in) {
 
 }  // namespace
 
-Execution feed_of(BlockContext& in, double* feed) {
+Execution feed_of(BlockInHand& in, double* feed) {
   const double raw = in.words.get(Role::feed);
   const bool whole = !in.dialect->rules.number.undotted_feed_in_least_unit || in.words.pointed(Role::feed) || in.settings.calculator_reads_feed();
   const double value = whole ? raw : scaled(raw, in_inches(in) ? 0.0001 : 0.001);
@@ -192,7 +192,7 @@ namespace {
 
 /// M700 2.1, 5.3: the value is in the range of coordinates. DGSHAPE 2-1 "range 1": the same limits for numbers with a point (the manual has the two labels
 /// exchanged).
-bool in_range(const BlockContext& in, double value, Written number, bool rotary) {
+bool in_range(const InForce& in, double value, Written number, bool rotary) {
   const Settings& s = in.settings;
   const double last = rotary ? s.last_deg : in_inches(in) ? s.last_inch : s.last_mm;
   return std::fabs(value) <= last || (in.dialect->rules.number.undotted_range_is_digits && !number.has_point());

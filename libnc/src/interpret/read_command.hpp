@@ -6,6 +6,8 @@
 
 namespace nc {
 
+struct InForce;
+struct BlockInHand;
 struct BlockContext;
 struct Interpreter;
 enum class Execution : uint8_t;
@@ -18,20 +20,20 @@ extern const CoreQuestions kCoreAnswers;
 Execution read_block_command(Interpreter& in);
 
 /// Words of the block in hand that belong to no axis in particular are increments.
-bool is_incremental(const BlockContext& in);
+bool is_incremental(const BlockInHand& in);
 
 /// Applies the unit and distance modes to the axis words. To be called when the modal codes of the block are in force.
 Execution resolve_axes(Interpreter& in);
 
 /// Value of a length word (I J K R Q and the like) in mm, or of an angle word in deg (`rotary`). `setting_unit`: a word without a point counts in the
 /// setting unit, otherwise in the command unit. `tenfold`: "UNIT*10" acts on it (M700 2.2).
-double length_value(const BlockContext& in, Written number, bool rotary, bool setting_unit, bool tenfold = true);
-double length_of(const BlockContext& in, Role word, bool setting_unit = true);
+double length_value(const InForce& in, Written number, bool rotary, bool setting_unit, bool tenfold = true);
+double length_of(const BlockInHand& in, Role word, bool setting_unit = true);
 /// The same of a word that has the name of an axis.
-double length_of(const BlockContext& in, WordSlot word, bool setting_unit = true);
+double length_of(const BlockInHand& in, WordSlot word, bool setting_unit = true);
 /// Value of a position word of an axis, by the command unit of this axis (M700 2.1, #1015).
-double axis_value(const BlockContext& in, unsigned axis, Written number, bool rotary);
+double axis_value(const InForce& in, unsigned axis, Written number, bool rotary);
 /// Turns the F of the block into the number that becomes modal.
-Execution feed_of(BlockContext& in, double* feed);
+Execution feed_of(BlockInHand& in, double* feed);
 
 }  // namespace nc

@@ -268,7 +268,7 @@ uint64_t state_hash(const Interpreter& in) {
   add_calls(hash, in.state);
   add_values(hash, in, in.interrupted_state());
   hash.add(in.state.executed);
-  hash.add(in.input_wait.left);  // a wait comes to its end, though nothing else changes
+  hash.add(in.jobs.input_wait.left);  // a wait comes to its end, though nothing else changes
   add_variables(hash, in);
   for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));
   hash.add(in.lives->tool);

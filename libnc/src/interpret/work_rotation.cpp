@@ -16,21 +16,21 @@ uint32_t plane_bits(const WorkTurn& turn) {
   return turn.turns() && turn.has_plane() ? 1u << turn.axis[0] | 1u << turn.axis[1] : 0u;
 }
 
-uint32_t plane_bits(const BlockContext& in) {
+uint32_t plane_bits(const InForce& in) {
   const WorkTurns& turns = in.records->work_turn;
   return plane_bits(turns.commanded) | plane_bits(turns.reached);
 }
 
 }  // namespace
 
-void refresh_work_rotation(BlockContext& in) {
+void refresh_work_rotation(InForce& in) {
   const WorkTurns& turns = in.records->work_turn;
   in.state.work_turned = turns.commanded.turns() || turns.reached.turns();
   in.state.work_turn_pending = in.state.work_turned && !(turns.commanded == turns.reached);
   in.program_changed();
 }
 
-void take_work_rotation(BlockContext& in, bool at_head) {
+void take_work_rotation(InForce& in, bool at_head) {
   const Settings& s = in.settings;
   const auto axis = [&in](WordSlot name, unsigned standard) {
     if (name != kNoWord) return in.axis_words.axis(name);
@@ -50,33 +50,33 @@ void take_work_rotation(BlockContext& in, bool at_head) {
   refresh_work_rotation(in);
 }
 
-Affine work_rotation(const BlockContext& in, const WorkTurn& turn) {
+Affine work_rotation(const InForce& in, const WorkTurn& turn) {
   if (!turn.turns() || !turn.has_plane()) return Affine{};
   const auto h = static_cast<unsigned>(turn.axis[0]), v = static_cast<unsigned>(turn.axis[1]);
   const AxisVec& zero = in.zero();
   return Affine::rotation(h, v, Affine::Angle::degrees(turn.deg), turn.center[0] - zero[h], turn.center[1] - zero[v]);
 }
 
-uint32_t moved_by_work_rotation(const BlockContext& in, uint32_t axes) {
+uint32_t moved_by_work_rotation(const InForce& in, uint32_t axes) {
   const uint32_t both = plane_bits(in);
   return (axes & both) != 0 ? axes | both : axes;
 }
 
-void work_rotation_reached(BlockContext& in, uint32_t commanded) {
+void work_rotation_reached(InForce& in, uint32_t commanded) {
   if (!in.state.work_turn_pending || (commanded & plane_bits(in)) == 0) return;
   in.change(&ProgramRecords::work_turn, &WorkTurns::reached, in.records->work_turn.commanded);
   refresh_work_rotation(in);
 }
 
-bool turns_axis(const BlockContext& in, unsigned axis) {
+bool turns_axis(const InForce& in, unsigned axis) {
   return in.state.work_turned && ((plane_bits(in) >> axis) & 1) != 0;
 }
 
-bool tilts_plane(const BlockContext& in, unsigned h, unsigned v) {
+bool tilts_plane(const InForce& in, unsigned h, unsigned v) {
   return turns_axis(in, h) != turns_axis(in, v);
 }
 
-Execution check_work_rotation(BlockContext& in) {
+Execution check_work_rotation(BlockInHand& in) {
   const WorkTurns& turns = in.records->work_turn;
   for (const WorkTurn* turn : {&turns.commanded, &turns.reached}) {
     if (!turn->turns() || turn->has_plane()) continue;

@@ -16,24 +16,24 @@ namespace nc {
 
 /// Takes the rotation over from the parameters. `at_head`: at the beginning of a program the axes count as having reached it: increments count from where
 /// they stand.
-void take_work_rotation(BlockContext& in, bool at_head);
+void take_work_rotation(InForce& in, bool at_head);
 
 /// Sets the members of the state that follow from the records, after a state has been put back.
-void refresh_work_rotation(BlockContext& in);
+void refresh_work_rotation(InForce& in);
 
 /// The map of a rotation, in workpiece coordinates.
-Affine work_rotation(const BlockContext& in, const WorkTurn& turn);
+Affine work_rotation(const InForce& in, const WorkTurn& turn);
 
 /// The axes that move when `axes` are programmed.
-uint32_t moved_by_work_rotation(const BlockContext& in, uint32_t axes);
+uint32_t moved_by_work_rotation(const InForce& in, uint32_t axes);
 /// These axes are commanded, so that they reach the rotation.
-void work_rotation_reached(BlockContext& in, uint32_t commanded);
+void work_rotation_reached(InForce& in, uint32_t commanded);
 
 /// The rotation tilts the plane (h, v): it rotates one of the two axes out of it.
-bool tilts_plane(const BlockContext& in, unsigned h, unsigned v);
+bool tilts_plane(const InForce& in, unsigned h, unsigned v);
 /// The axis is one of the two that the rotation concerns.
-bool turns_axis(const BlockContext& in, unsigned axis);
+bool turns_axis(const InForce& in, unsigned axis);
 /// Checks the rules for a block that moves; a curve may not be the first move after a change of the rotation (precaution (2)).
-Execution check_work_rotation(BlockContext& in);
+Execution check_work_rotation(BlockInHand& in);
 
 }  // namespace nc

@@ -49,7 +49,7 @@ void note_spindle(BlockContext& in, MiscFunction function) {
 }  // namespace
 
 /// The second auxiliary function: B, unless an axis has that name; then A, then C (M700 9.2). kNoWord = the family has none.
-WordSlot second_function(const BlockContext& in) {
+WordSlot second_function(const InForce& in) {
   for (const Role word : {Role::second_function, Role::second_function_2, Role::second_function_3})
     if (in.dialect->addresses.has(word) && in.axis_called(word) < 0) return in.word(word);
   return kNoWord;
@@ -79,7 +79,7 @@ Execution spindle_word(BlockContext& in) {
 }
 
 /// Raises an alarm for a word that could be one of an axis, if it is none and has no other meaning.
-Execution check_axis_words(BlockContext& in, WordSlot second) {
+Execution check_axis_words(BlockInHand& in, WordSlot second) {
   const AddressTable& addresses = in.dialect->addresses;
   const WordSet auxiliary = addresses.set({Role::second_function, Role::second_function_2, Role::second_function_3});
   WordSet known = in.axis_words.all() | set_of(second);
@@ -92,7 +92,7 @@ Execution check_axis_words(BlockContext& in, WordSlot second) {
 }
 
 /// DGSHAPE M06: M06 and T come as a pair, with at most one of each in a block.
-Execution check_tool_pair(BlockContext& in) {
+Execution check_tool_pair(BlockInHand& in) {
   const unsigned tools = count_of(*in.block, in.word(Role::tool));
   unsigned changes = 0;
   for (const Auxiliary& m : in.words.auxiliary) changes += m.function == MiscFunction::tool_change ? 1u : 0u;
@@ -101,13 +101,13 @@ Execution check_tool_pair(BlockContext& in) {
 }
 
 /// DGSHAPE M06: the block asks for the tool that is there already. No tool (0) is asked for each time: whether there is one is not known.
-bool holds_tool_asked_for(const BlockContext& in, uint32_t tool) {
+bool holds_tool_asked_for(const InForce& in, uint32_t tool) {
   return in.dialect->rules.auxiliary.skips_tool_held && tool != 0 && tool == in.state.modal.tool;
 }
 
 /// DGSHAPE 2: checks numbers "with no decimal point": codes, speeds and numbers of things; also P (except the factor of G51) and K where they are
 /// milliseconds, a number or a count.
-Execution check_whole_numbers(BlockContext& in) {
+Execution check_whole_numbers(BlockInHand& in) {
   const Command& w = in.words;
   const bool cycle = w.cycle != nullptr || in.state.cycle.kind != CycleKind::none;
   const bool arc = w.motion != nullptr && !is_line(w.motion->function);
@@ -120,7 +120,7 @@ Execution check_whole_numbers(BlockContext& in) {
 }
 
 /// Words of the block whose values are whole numbers (HX 2.2.2, RS-274/NGC 3.3.2.1); of a call its program, of a cycle the number of holes.
-WordSet whole_words(const BlockContext& in) {
+WordSet whole_words(const BlockInHand& in) {
   const Command& w = in.words;
   WordSet whole = in.set_of({Role::tool, Role::offset_number, Role::length_number});
   if (!in.dialect->rules.spindle.speed_is_real) whole |= in.set_of({Role::spindle_speed});
@@ -141,7 +141,7 @@ WordSet whole_words(const BlockContext& in) {
 }
 
 /// Checks the values of these words; one near enough to a whole number becomes that number.
-Execution check_fractions(BlockContext& in) {
+Execution check_fractions(BlockInHand& in) {
   Command& w = in.words;
   const double within = in.dialect->rules.block.whole_words_within;
   for (WordSet left = whole_words(in) & w.present; left != 0; left &= left - 1) {
@@ -155,7 +155,7 @@ Execution check_fractions(BlockContext& in) {
 
 /// HX 13.3: a code of position offset takes the words of the block, and so no other code that is no mode stands beside it. It makes the ways of axes longer,
 /// which a radius and an angle are not.
-Execution check_position_offset_alone(BlockContext& in) {
+Execution check_position_offset_alone(BlockInHand& in) {
   const auto takes_words = [](const FunctionRow& row) { return mode_of(row.function) == Mode::none && row.function != Function::exact_stop_once; };
   for (const FunctionRow* row : in.words.functions) {
     if (!offsets_position(row->function)) continue;
@@ -180,7 +180,7 @@ void give_out_spindle(BlockContext& in, MiscFunction function, uint32_t code) {
   emit_fin(in);
 }
 
-Execution check_precedence(BlockContext& in) {
+Execution check_precedence(BlockInHand& in) {
   const Command& w = in.words;
   const BlockRules& rules = in.dialect->rules.block;
   if (rules.whole_words_refuse_point) {
@@ -211,7 +211,7 @@ Execution check_precedence(BlockContext& in) {
   return tool != 0 ? check_tool_pair(in) : Execution::done;
 }
 
-bool codes_behind_motion(const BlockContext& in) { return in.settings.codes_after_motion && in.words.target.axes() != 0; }
+bool codes_behind_motion(const BlockInHand& in) { return in.settings.codes_after_motion && in.words.target.axes() != 0; }
 
 Execution auxiliary_before(BlockContext& in) {
   Command& w = in.words;
@@ -223,10 +223,10 @@ Execution auxiliary_before(BlockContext& in) {
   if (did != Execution::done) return did;
   bool waiting = false;
   if (w.has(Role::spindle_speed) && !is_clamp_command(in)) {
-    const unsigned before = in.queue.size();
+    const unsigned before = in.items_made();
     did = spindle_word(in);
     if (did != Execution::done) return did;
-    waiting = in.queue.size() != before;
+    waiting = in.items_made() != before;
   }
   uint32_t tool = 0;
   if (w.has(Role::tool) && (!whole_number(w.get(Role::tool), &tool) || tool > rules.range.largest_tool)) return in.raise(Condition::value_range, Role::tool, w.get(Role::tool));

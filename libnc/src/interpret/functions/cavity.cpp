@@ -12,17 +12,17 @@ namespace nc {
 namespace {
 
 /// A length that has to be above 0.
-Execution positive(BlockContext& in, Role word, double* value) {
+Execution positive(BlockInHand& in, Role word, double* value) {
   if (!in.words.has(word)) return in.raise(Condition::words_missing, word);
   *value = length_of(in, word);
   return *value > 0 ? Execution::done : in.raise(Condition::value_range, word, in.words.get(word));
 }
 
 /// Z, and R above it: of this block, else those that an earlier cycle or cavity had.
-Execution take_levels(BlockContext& in) {
+Execution take_levels(BlockInHand& in) {
   const Command& w = in.words;
   CycleState& kept = in.state.cycle;
-  CavityOfBlock& c = in.cavity;
+  CavityOfBlock& c = in.jobs.cavity;
   const AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
   const bool z = w.target.commands(c.axis), incremental = is_incremental(in);
   if (w.has(Role::cycle_level)) {
@@ -48,9 +48,9 @@ Execution take_levels(BlockContext& in) {
 }
 
 /// The path of the centre of the cutter: the cavity without the radius of the cutter on each side.
-Execution take_shape(BlockContext& in, Function function, double scale) {
+Execution take_shape(BlockInHand& in, Function function, double scale) {
   const Command& w = in.words;
-  Cavity& shape = in.cavity.shape;
+  Cavity& shape = in.jobs.cavity.shape;
   shape.circle = function == Function::cavity_circle;
   shape.ccw = function != Function::cavity_cw;
   if (w.has(Role::offset_number)) {
@@ -81,14 +81,14 @@ Execution take_shape(BlockContext& in, Function function, double scale) {
   const bool walls = cutter > 0 && shape.rings > 0 && least / shape.rings > 2 * cutter + kNoRadius_mm;  // something would be left between two rings
   if (walls) return in.raise(Condition::cavity_step, Role::cavity_step, w.get(Role::cavity_step));
   if (!shape.circle && cutter > 0) shape.rings = std::max(shape.rings, rings_of_cavity(shape, widest_step_round_corners(cutter)));
-  in.cavity.cut = in.cavity.r - in.cavity.bottom;
-  return w.has(Role::cavity_cut) ? positive(in, Role::cavity_cut, &in.cavity.cut) : Execution::done;
+  in.jobs.cavity.cut = in.jobs.cavity.r - in.jobs.cavity.bottom;
+  return w.has(Role::cavity_cut) ? positive(in, Role::cavity_cut, &in.jobs.cavity.cut) : Execution::done;
 }
 
 /// A place of the plane, by what it is beside the centre, at the level where the cutter is.
-AxisVec place(const BlockContext& in, const double beside[2]) {
+AxisVec place(const BlockInHand& in, const double beside[2]) {
   AxisVec at = program_mapped(in) ? as_programmed_end(in, in.position()) : in.position();
-  for (unsigned i = 0; i < 2; ++i) at[static_cast<unsigned>(in.state.plane_axis[i])] = in.cavity.center[i] + beside[i];
+  for (unsigned i = 0; i < 2; ++i) at[static_cast<unsigned>(in.state.plane_axis[i])] = in.jobs.cavity.center[i] + beside[i];
   return program_mapped(in) ? from_program(in, at) : at;
 }
 
@@ -97,24 +97,24 @@ void go(BlockContext& in, const AxisVec& target, uint32_t axes, bool rapid) {
   style.kind = rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
   style.feed_mm_min = feed_mm_min(in);
   style.special_feed = !rapid && special_feed(in);
-  style.exact_stop = axes == 1u << in.cavity.axis;
+  style.exact_stop = axes == 1u << in.jobs.cavity.axis;
   move_linear(in, target, axes, style);
 }
 
 void go_to_level(BlockContext& in, double level, bool rapid) {
   AxisVec target = in.position();
-  target[in.cavity.axis] = mapped_on(in, in.cavity.axis, level);
-  go(in, target, 1u << in.cavity.axis, rapid);
+  target[in.jobs.cavity.axis] = mapped_on(in, in.jobs.cavity.axis, level);
+  go(in, target, 1u << in.jobs.cavity.axis, rapid);
 }
 
-uint32_t plane_bits(const BlockContext& in) { return 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1]; }
+uint32_t plane_bits(const InForce& in) { return 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1]; }
 
 void make_piece(BlockContext& in, const CavityPiece& piece) {
   const AxisVec target = place(in, piece.to);
   if (!piece.arc) return go(in, target, plane_bits(in), false);
   const AxisVec at = program_mapped(in) ? as_programmed_end(in, in.position()) : in.position();
   ArcWords words;
-  for (unsigned i = 0; i < 2; ++i) words.center[i] = in.cavity.center[i] + piece.center[i] - at[static_cast<unsigned>(in.state.plane_axis[i])];
+  for (unsigned i = 0; i < 2; ++i) words.center[i] = in.jobs.cavity.center[i] + piece.center[i] - at[static_cast<unsigned>(in.state.plane_axis[i])];
   move_arc_by(in, plane_axes(in), target, plane_bits(in), words, piece.ccw);
 }
 
@@ -126,8 +126,8 @@ Execution do_cavity(BlockContext& in) {
   const int z = in.axis_called(Role::basic_z);
   if (plane.h < 0 || plane.v < 0 || z < 0 || !in.state.modal.is(Function::plane_xy)) return in.raise_code(Condition::plane_mismatch, row);
   if (in.state.compensated()) return in.raise_code(Condition::not_in_compensation, row);
-  in.cavity = CavityOfBlock{};
-  in.cavity.axis = static_cast<uint8_t>(z);
+  in.jobs.cavity = CavityOfBlock{};
+  in.jobs.cavity.axis = static_cast<uint8_t>(z);
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   Execution did = take_levels(in);
   if (did == Execution::done) did = take_shape(in, row.function, std::fabs(scale_of(in, h)));
@@ -137,19 +137,19 @@ Execution do_cavity(BlockContext& in) {
   const AxisVec over = target_of(in, in.position(), in.words.target.without(1u << z));
   go(in, over, axes, true);
   const AxisVec centre = program_mapped(in) ? as_programmed_end(in, in.position()) : in.position();
-  in.cavity.center[0] = centre[h];
-  in.cavity.center[1] = centre[v];
+  in.jobs.cavity.center[0] = centre[h];
+  in.jobs.cavity.center[1] = centre[v];
   in.emit_stop_point();
-  go_to_level(in, in.cavity.r, true);
+  go_to_level(in, in.jobs.cavity.r, true);
   in.emit_stop_point();
-  in.cavity.depth = in.cavity.r;
-  in.cavity.ring = in.cavity.shape.rings + 1;  // a depth is to be begun
+  in.jobs.cavity.depth = in.jobs.cavity.r;
+  in.jobs.cavity.ring = in.jobs.cavity.shape.rings + 1;  // a depth is to be begun
   in.next_step = Step::cavity;
   return Execution::later;
 }
 
 Execution continue_cavity(BlockContext& in) {
-  CavityOfBlock& c = in.cavity;
+  CavityOfBlock& c = in.jobs.cavity;
   while (in.queue_has_room()) {
     CavityPiece piece;
     if (c.ring > c.shape.rings) {

@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// M700 13.10 (4): the block may hold only the code, the radius, the offset number and the feed.
-Execution check_format(BlockContext& in) {
+Execution check_format(BlockInHand& in) {
   const Command& w = in.words;
   const uint32_t others = w.present & ~in.set_of({Role::circle_radius, Role::offset_number, Role::feed, Role::sequence_number, Role::program_number});
   if (others != 0) {
@@ -23,7 +23,7 @@ Execution check_format(BlockContext& in) {
 
 /// Radius of the path in programmed coordinates: the sign of the radius word does not count; a positive offset makes the circle smaller (13.10 (1)). Scaling
 /// enlarges the circle but not the tool (13.19).
-Execution path_radius(BlockContext& in, double scale, double* radius) {
+Execution path_radius(BlockInHand& in, double scale, double* radius) {
   const Command& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);

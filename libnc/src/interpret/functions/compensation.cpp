@@ -14,7 +14,7 @@ namespace nc {
 namespace {
 
 /// Amount of compensation number n for length (H) or radius (D). M700 12.1: type I has one amount for both.
-double amount(const BlockContext& in, uint32_t n, bool radius) {
+double amount(const InForce& in, uint32_t n, bool radius) {
   if (n == 0) return 0;
   const Frames& f = in.frames;
   if (!in.settings.tool_memory_2) {
@@ -29,20 +29,20 @@ double amount(const BlockContext& in, uint32_t n, bool radius) {
 bool length_in_force(const ModalState& modal) { return modal.is(Function::length_plus) || modal.is(Function::length_minus); }
 
 /// Tool length compensation of the H in force, with the sign of G43 or G44.
-double length_amount(const BlockContext& in) {
+double length_amount(const InForce& in) {
   const double value = amount(in, in.state.modal.h, false);
   return in.state.modal.is(Function::length_minus) ? -value : value;
 }
 
 /// M700 12.1 (2), (3): an H holds until the next one, whatever block it stands in.
-Execution take_length_number(BlockContext& in) {
+Execution take_length_number(BlockInHand& in) {
   const Execution did = offset_number(in, Role::length_number, &in.state.modal.h);
   if (did == Execution::done) in.state.modal.h_given = 1;
   return did;
 }
 
 /// The tool in the spindle, which the block may change first (LinuxCNC, order of execution).
-uint32_t tool_in_spindle(const BlockContext& in) {
+uint32_t tool_in_spindle(const BlockInHand& in) {
   const Command& w = in.words;
   uint32_t tool = in.state.spindle_tool, named = 0;
   for (const Auxiliary& m : w.auxiliary) {
@@ -53,7 +53,7 @@ uint32_t tool_in_spindle(const BlockContext& in) {
 }
 
 /// The offset that goes with the tool in the spindle (LinuxCNC G41, G43), which is not the one that T has selected since.
-Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
+Execution number_of_tool(BlockInHand& in, Role word, uint32_t* number) {
   const uint32_t tool = tool_in_spindle(in);
   if (tool == kNoTool) return in.raise(Condition::tool_unknown);
   if (tool > in.tool_offsets()) return in.raise(Condition::no_offset_number, word, tool);
@@ -63,7 +63,7 @@ Execution number_of_tool(BlockContext& in, Role word, uint32_t* number) {
 
 /// M700 12.2 (3): the axis that G43 or G44 compensates, by the words of its block: Zp before Yp before Xp, each the basic axis or the
 /// parallel axis of #1029 to #1031; Z with #1080 and when none of them is named.
-int length_axis_of_block(const BlockContext& in) {
+int length_axis_of_block(const BlockInHand& in) {
   if (in.dialect->rules.length.axis_on_plane) {
     const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
     return axis_of_pair(in, 3u - plane.first - plane.second);
@@ -78,14 +78,14 @@ int length_axis_of_block(const BlockContext& in) {
 }
 
 /// The words of the compensation vector on the plane (h, v).
-void plane_of(const BlockContext& in, Compensation& comp, Role words[2]) {
+void plane_of(const InForce& in, Compensation& comp, Role words[2]) {
   const PlaneAxes plane = plane_axes(in);
   for (unsigned i = 0; i < 2; ++i) words[i] = plane.center[i];
   comp.axis[0] = static_cast<uint8_t>(plane.h < 0 ? 0 : plane.h);
   comp.axis[1] = static_cast<uint8_t>(plane.v < 0 ? 0 : plane.v);
 }
 
-bool take_vector(const BlockContext& in, const Role words[2], double vector[2]) {
+bool take_vector(const BlockInHand& in, const Role words[2], double vector[2]) {
   bool any = false;
   for (unsigned i = 0; i < 2; ++i) {
     vector[i] = in.words.has(words[i]) ? length_of(in, words[i]) : 0;
@@ -95,14 +95,14 @@ bool take_vector(const BlockContext& in, const Role words[2], double vector[2]) 
 }
 
 /// The word has the number that stands for the offset of the tool in the spindle.
-bool means_managed_tool(const BlockContext& in, Role word) {
+bool means_managed_tool(const BlockInHand& in, Role word) {
   const uint32_t number = in.dialect->rules.compensation.number_of_managed_tool;
   return in.settings.life_managed && number != 0 && in.words.get(word) == number;
 }
 
 }  // namespace
 
-Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
+Execution offset_number(BlockInHand& in, Role word, uint32_t* number) {
   const unsigned in_spindle = in.managed_tool();
   if (means_managed_tool(in, word) && in_spindle != ToolLives::kNone) {
     const ToolLife& tool = in.lives->tool[in_spindle];
@@ -114,15 +114,15 @@ Execution offset_number(BlockContext& in, Role word, uint32_t* number) {
   return Execution::done;
 }
 
-Execution take_radius_number(BlockContext& in) {
+Execution take_radius_number(BlockInHand& in) {
   const Execution did = offset_number(in, Role::offset_number, &in.state.modal.d);
   if (did == Execution::done) in.state.modal.d_given = 1;
   return did;
 }
 
-double radius_amount(const BlockContext& in, uint32_t number) { return amount(in, number, true); }
+double radius_amount(const InForce& in, uint32_t number) { return amount(in, number, true); }
 
-void take_changed_amounts(BlockContext& in) {
+void take_changed_amounts(InForce& in) {
   State& state = in.state;
   if (!in.dialect->rules.compensation.takes_changed_amounts) return;
   if (length_in_force(state.modal)) state.length_value = length_amount(in);
@@ -130,7 +130,7 @@ void take_changed_amounts(BlockContext& in) {
   if (state.comp.side != 0) state.comp.radius = radius_amount(in, state.modal.d);
 }
 
-Execution set_compensation(BlockContext& in, Function function) {
+Execution set_compensation(BlockInHand& in, Function function) {
   State& state = in.state;
   Compensation& comp = state.comp;
   const CompensationRules& rules = in.dialect->rules.compensation;
@@ -197,13 +197,13 @@ Execution go_beside_start(BlockContext& in) {
   return Execution::done;
 }
 
-bool gives_length_in_cycle(const BlockContext& in) {
+bool gives_length_in_cycle(const BlockInHand& in) {
   const Command& w = in.words;
   if (!in.dialect->rules.cycle.takes_length_number || w.motion != nullptr || w.one_shot != nullptr) return false;
   return w.cycle != nullptr ? w.cycle->function != Function::cycle_off : in.state.cycle.kind != CycleKind::none;
 }
 
-Execution take_length_in_cycle(BlockContext& in) {
+Execution take_length_in_cycle(BlockInHand& in) {
   const Execution did = offset_number(in, Role::offset_number, &in.state.modal.h);
   if (did != Execution::done) return did;
   const int axis = in.axis_called(Role::basic_z);
@@ -215,7 +215,7 @@ Execution take_length_in_cycle(BlockContext& in) {
   return Execution::done;
 }
 
-Execution change_radius(BlockContext& in) {
+Execution change_radius(BlockInHand& in) {
   if (in.state.space.on) return change_space_number(in);
   const Execution did = take_radius_number(in);
   if (did != Execution::done) return did;
@@ -227,7 +227,7 @@ Execution change_radius(BlockContext& in) {
   return Execution::done;
 }
 
-Execution change_length(BlockContext& in) {
+Execution change_length(BlockInHand& in) {
   if (has_words_of_call(in)) return Execution::done;  // H is a sequence number (M700 13.3.1, 13.12)
   const Execution did = take_length_number(in);
   // Like a changed amount it acts from the next command of the axis on (12.1).
@@ -237,7 +237,7 @@ Execution change_length(BlockContext& in) {
 }
 
 /// LinuxCNC G43.1: the axis words are the amounts and move nothing.
-static Execution set_length_of_block(BlockContext& in) {
+static Execution set_length_of_block(BlockInHand& in) {
   const int z = in.axis_called(Role::basic_z);
   if (z < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
   const uint32_t others = in.words.target.axes() & ~(1u << z);

@@ -6,11 +6,11 @@
 namespace nc {
 
 /// A one-shot function, and a call, have words of their own: which code they belong to is not for this one to say.
-void take_word_of_code(BlockContext& in, Role word) {
+void take_word_of_code(BlockInHand& in, Role word) {
   if (in.words.one_shot == nullptr && !has_words_of_call(in)) in.words.present &= ~in.set_of({word});
 }
 
-Execution select_work_system(BlockContext& in, const FunctionRow& row) {
+Execution select_work_system(BlockInHand& in, const FunctionRow& row) {
   State& state = in.state;
   if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
@@ -48,7 +48,7 @@ Execution do_local_system(BlockContext& in) {
 
 /// Series 8 G92 while the plane is rotated or scaled about the zero point: the programmed position becomes that of the words, and the zero point goes
 /// where the map then leads from it to the machine.
-static void set_zero_under_map(BlockContext& in) {
+static void set_zero_under_map(BlockInHand& in) {
   const Command& w = in.words;
   const AxisVec work = in.position();
   AxisVec programmed = to_program(in, work);
@@ -92,7 +92,7 @@ Execution do_coordinate_set(BlockContext& in) {
 
 namespace {
 
-Execution shift_to(BlockContext& in, const AxisVec& shift) {
+Execution shift_to(BlockInHand& in, const AxisVec& shift) {
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *in.words.one_shot);
   if (in.words.target.axes() != 0) return in.raise_code(Condition::must_stand_alone, *in.words.one_shot);  // they would be lost
   const AxisVec zero_before = in.zero();

@@ -43,20 +43,20 @@ constexpr CycleOfFunction kCycles[] = {
 };
 
 /// The pair of axes, I J or K (0, 1, 2), that is normal to the plane in force.
-unsigned normal_pair(const BlockContext& in) {
+unsigned normal_pair(const InForce& in) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   return 3u - plane.first - plane.second;
 }
 
 /// Drilling axis: the axis normal to the plane, the parallel one where the block of the cycle names it; Z with #1080 (M700 13.1.1
 /// "Positioning plane and hole drilling axis").
-int drilling_axis(const BlockContext& in) {
+int drilling_axis(const BlockInHand& in) {
   if (in.settings.drilling_axis_z) return in.axis_called(Role::basic_z);
   return axis_of_pair(in, normal_pair(in));
 }
 
 /// M700 13.1.1 note 2: the axis is changed in the cancelled state. A code in the mode may name the axis in force or none of its pair.
-Execution check_axis_stays(BlockContext& in) {
+Execution check_axis_stays(BlockInHand& in) {
   const WordSlot drills = in.axis_words.word(in.state.cycle.drill_axis);
   if (in.settings.drilling_axis_z || in.words.has(drills)) return Execution::done;
   const unsigned pair = normal_pair(in);
@@ -119,7 +119,7 @@ Execution follow_plane(BlockContext& in) {
 }
 
 /// The word of a shift along a basic axis is a count as well in some families: which it is, the cycle and its plane say.
-bool is_shift_word(const BlockContext& in, Role word) {
+bool is_shift_word(const InForce& in, Role word) {
   if (!strokes_of(in.state.cycle.kind).shifts) return false;
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const AddressTable& addresses = in.dialect->addresses;
@@ -128,7 +128,7 @@ bool is_shift_word(const BlockContext& in, Role word) {
 }
 
 /// Q without I J says where the place beside the hole is, so those of an earlier block count no more (HX 12.3.10; M700 13.1.1 with #1080).
-bool q_replaces_shift(const BlockContext& in) {
+bool q_replaces_shift(const BlockInHand& in) {
   if (!strokes_of(in.state.cycle.kind).shifts || is_shift_word(in, Role::cycle_depth_step)) return false;
   for (unsigned i = 0; i < 3; ++i)
     if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) return false;
@@ -136,7 +136,7 @@ bool q_replaces_shift(const BlockContext& in) {
 }
 
 /// I J K: the way to the place beside the hole, and of RS-274/NGC 3.5.16.7 the third level.
-void take_shift_words(BlockContext& in) {
+void take_shift_words(BlockInHand& in) {
   CycleState& c = in.state.cycle;
   for (unsigned i = 0; i < 3; ++i)
     if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) c.shift[i] = length_of(in, vector_along(i));
@@ -147,7 +147,7 @@ void take_shift_words(BlockContext& in) {
 }
 
 /// P: milliseconds, or the number of an offset.
-Execution take_p(BlockContext& in) {
+Execution take_p(BlockInHand& in) {
   CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
   if (!in.words.has(Role::cycle_dwell)) return Execution::done;
@@ -160,7 +160,7 @@ Execution take_p(BlockContext& in) {
 }
 
 /// Hole data of the block (modal). M700 13.1.1: without an axis word or R they are ignored.
-Execution take_hole_data(BlockContext& in) {
+Execution take_hole_data(BlockInHand& in) {
   const Command& w = in.words;
   CycleState& c = in.state.cycle;
   const uint32_t drill_bit = 1u << c.drill_axis;
@@ -190,7 +190,7 @@ Execution take_hole_data(BlockContext& in) {
 }
 
 /// Number of holes of this block: M700 L (13.1.1; default 1, 0 = data only), or K, which the table of 5.3 has for it; DGSHAPE K.
-Execution hole_count(BlockContext& in, uint32_t* count) {
+Execution hole_count(BlockInHand& in, uint32_t* count) {
   const Role second = Role::cycle_count_2, first = Role::cycle_count;
   const Role word = in.words.has(second) ? second : first;
   *count = 1;
@@ -200,7 +200,7 @@ Execution hole_count(BlockContext& in, uint32_t* count) {
 }
 
 /// RS-274/NGC 3.5.16: it is an error if the spindle is not turning, a tap wants it the right way round.
-Execution check_spindle(BlockContext& in) {
+Execution check_spindle(BlockInHand& in) {
   const CycleKind kind = in.state.cycle.kind;
   const CycleRules& rules = in.dialect->rules.cycle;
   bool by_codes = false;
@@ -216,7 +216,7 @@ Execution check_spindle(BlockContext& in) {
 }
 
 /// What a circle around the hole needs.
-Execution check_circle(BlockContext& in) {
+Execution check_circle(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
   uint32_t number = 0;
   if (c.q == 0) return in.raise(Condition::words_missing, Role::cycle_depth_step);
@@ -239,7 +239,7 @@ CycleKind cycle_kind(const Dialect& dialect, Function function) {
   return CycleKind::none;
 }
 
-uint32_t positioning_axes(const BlockContext& in) {
+uint32_t positioning_axes(const InForce& in) {
   const WordSlot drills = in.axis_words.word(in.state.cycle.drill_axis);
   uint32_t axes = 0;
   for (const int axis : in.state.plane_axis)
@@ -252,7 +252,7 @@ uint32_t positioning_axes(const BlockContext& in) {
   return axes;
 }
 
-Execution check_hole(BlockContext& in) {
+Execution check_hole(BlockInHand& in) {
   const Command& w = in.words;
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
@@ -319,9 +319,9 @@ Execution do_cycle(BlockContext& in) {
   CycleState& c = in.state.cycle;
   if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
   if (count == 0) return Execution::done;  // data only
-  in.holes.begin();
-  in.holes.target = w.target;
-  if (in.state.modal.is(Function::polar_command_on)) in.holes.polar = in.polar_holes;
+  in.jobs.holes.begin();
+  in.jobs.holes.target = w.target;
+  if (in.state.modal.is(Function::polar_command_on)) in.jobs.holes.polar = in.jobs.polar_holes;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if (!c.has_z && rules.without_bottom_positions) {
     position_over_hole(in);
@@ -329,7 +329,7 @@ Execution do_cycle(BlockContext& in) {
   }
   did = check_hole(in);
   if (did != Execution::done) return did;
-  in.holes.left = count;
+  in.jobs.holes.left = count;
   return begin_hole(in);
 }
 

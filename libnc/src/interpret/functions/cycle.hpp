@@ -11,28 +11,28 @@ namespace nc {
 CycleKind cycle_kind(const Dialect& dialect, Function function);
 
 /// Everything that a hole needs is there: feed, spindle, cuts.
-Execution check_hole(BlockContext& in);
+Execution check_hole(BlockInHand& in);
 
 /// cycle_strokes.cpp: to the next hole of the block; its strokes follow in continue_cycle().
 Execution begin_hole(BlockContext& in);
 /// The move over the hole alone.
 void position_over_hole(BlockContext& in);
 /// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the drilling axis.
-uint32_t positioning_axes(const BlockContext& in);
+uint32_t positioning_axes(const InForce& in);
 
 /// retract_overlap.cpp, an option of the machine (nc_config::retract_overlap): strokes along the drilling axis go on at speed where they can.
-bool strokes_flow(const BlockContext& in);
+bool strokes_flow(const BlockInHand& in);
 /// The direction in which the hole in hand has been left along the drilling axis, 1 or -1; 0 where that was not in rapid traverse out of the hole.
-int8_t way_back(const BlockContext& in);
+int8_t way_back(const BlockInHand& in);
 /// Over to the next hole beyond the level on which the tool is, without a rest. False: it has to go there as it is programmed.
 bool traverse_beyond_level(BlockContext& in, const AxisVec& target, uint32_t axes);
 
 /// tap.cpp: what the block says of tapping, kept in State::cycle; and whether a tap can be made.
-Execution take_tap_words(BlockContext& in);
-Execution check_tap(BlockContext& in);
+Execution take_tap_words(BlockInHand& in);
+Execution check_tap(BlockInHand& in);
 /// Highest acceleration of the spindle for a stroke of a synchronous tap with this speed, rev/s^2; 0 = the parameters say nothing.
-double tap_slope(const BlockContext& in, double rev_min);
+double tap_slope(const InForce& in, double rev_min);
 /// The tap of the cycle in force, made in cuts where it has a depth for them.
-CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind);
+CycleKind tap_in_cuts(const InForce& in, CycleKind kind);
 
 }  // namespace nc

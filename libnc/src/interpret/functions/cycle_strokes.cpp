@@ -19,10 +19,10 @@ AxisVec plain_end(const AxisVec& start, const AxisVec& target, uint32_t axes) {
   return end;
 }
 
-AxisVec as_programmed(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? to_program(in, place) : place; }
-AxisVec as_moved(const BlockContext& in, const AxisVec& place) { return program_mapped(in) ? from_program(in, place) : place; }
+AxisVec as_programmed(const BlockInHand& in, const AxisVec& place) { return program_mapped(in) ? to_program(in, place) : place; }
+AxisVec as_moved(const BlockInHand& in, const AxisVec& place) { return program_mapped(in) ? from_program(in, place) : place; }
 
-uint32_t stroke_plane(const BlockContext& in) {
+uint32_t stroke_plane(const InForce& in) {
   uint32_t axes = 0;
   for (const int axis : in.state.plane_axis)
     if (axis >= 0) axes |= 1u << axis;
@@ -30,13 +30,13 @@ uint32_t stroke_plane(const BlockContext& in) {
 }
 
 /// M700 13.1.1, "absolute/incremental": where R is incremental it has the sign of Z, of back boring the other one.
-double incremental_r(const BlockContext& in) {
+double incremental_r(const InForce& in) {
   const CycleState& c = in.state.cycle;
   if (!in.dialect->rules.cycle.r_takes_sign_of_z || !c.z_incremental || !c.has_z) return c.r;
   return std::copysign(c.r, c.kind == CycleKind::back_bore ? -c.z : c.z);
 }
 
-double clearance(const BlockContext& in, CycleKind kind) {
+double clearance(const InForce& in, CycleKind kind) {
   const double fixed = in.dialect->rules.cycle.fixed_clearance_mm;
   if (fixed > 0) return fixed;
   if (is_tap(kind)) return in.settings.tap_clearance;
@@ -44,7 +44,7 @@ double clearance(const BlockContext& in, CycleKind kind) {
 }
 
 /// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.
-double dwell_s(const BlockContext& in) {
+double dwell_s(const InForce& in) {
   const CycleState& c = in.state.cycle;
   const bool takes_p = c.kind != CycleKind::circle && (c.kind != CycleKind::bore_stop || in.dialect->rules.cycle.bore_stop_dwells);
   const double p = c.has_p && takes_p ? c.p / 1000 : 0;
@@ -52,10 +52,10 @@ double dwell_s(const BlockContext& in) {
 }
 
 /// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
-void resolve_levels(BlockContext& in) {
+void resolve_levels(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
-  Hole& h = in.holes.hole;
+  Hole& h = in.jobs.holes.hole;
   h.kind = tap_in_cuts(in, c.kind);
   h.has_first = c.has_first;
   h.first = c.first;
@@ -78,7 +78,7 @@ void resolve_levels(BlockContext& in) {
 }
 
 /// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87).
-AxisVec place_beside(BlockContext& in) {
+AxisVec place_beside(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
   double shift[2] = {c.shift[pair.first], c.shift[pair.second]};
@@ -88,7 +88,7 @@ AxisVec place_beside(BlockContext& in) {
     shift[second ? 1 : 0] = in.settings.shift_direction * std::fabs(c.q);
   }
   const bool of_spindle = in.dialect->rules.cycle.shift_is_of_spindle;
-  AxisVec place = of_spindle ? in.holes.over : as_programmed(in, in.holes.over);
+  AxisVec place = of_spindle ? in.jobs.holes.over : as_programmed(in, in.jobs.holes.over);
   for (unsigned i = 0; i < 2; ++i) {
     const int axis = in.state.plane_axis[i];
     if (axis < 0) continue;
@@ -99,22 +99,22 @@ AxisVec place_beside(BlockContext& in) {
   return of_spindle ? place : as_moved(in, place);
 }
 
-void resolve_hole(BlockContext& in) {
+void resolve_hole(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
-  Hole& h = in.holes.hole;
+  Hole& h = in.jobs.holes.hole;
   resolve_levels(in);
-  h.q = in.holes.whole ? 0 : is_tap(c.kind) ? c.tap_q : std::fabs(c.q);
+  h.q = in.jobs.holes.whole ? 0 : is_tap(c.kind) ? c.tap_q : std::fabs(c.q);
   h.dwell_s = dwell_s(in);
   h.clearance = clearance(in, c.kind);
-  in.holes.over = in.position();
-  if (strokes_of(c.kind).shifts) in.holes.beside = place_beside(in);
+  in.jobs.holes.over = in.position();
+  if (strokes_of(c.kind).shifts) in.jobs.holes.beside = place_beside(in);
 }
 
 /// RS-274/NGC 3.5.16: the tool leaves the material before it goes to the next hole, and R is the level from then on.
 void rise_to_level(BlockContext& in) {
   resolve_levels(in);
   const unsigned axis = in.state.cycle.drill_axis;
-  const Hole& h = in.holes.hole;
+  const Hole& h = in.jobs.holes.hole;
   AxisVec target = in.position();
   const double up = h.bottom < h.r ? 1.0 : -1.0;
   if ((h.r - target[axis]) * up <= 0) return;
@@ -125,7 +125,7 @@ void rise_to_level(BlockContext& in) {
 }
 
 /// A line as the words of a block would make it, in the motion in force.
-LinearStyle by_motion_in_force(BlockContext& in, const AxisVec& start, const AxisVec& end) {
+LinearStyle by_motion_in_force(InForce& in, const AxisVec& start, const AxisVec& end) {
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
   if (in.state.modal.is(Function::rapid)) return style;
@@ -137,11 +137,11 @@ LinearStyle by_motion_in_force(BlockContext& in, const AxisVec& start, const Axi
 }
 
 /// Where the hole in hand of a pattern lies.
-AxisVec place_in_pattern(const BlockContext& in) {
-  const HolePattern& pattern = in.holes.pattern;
+AxisVec place_in_pattern(const BlockInHand& in) {
+  const HolePattern& pattern = in.jobs.holes.pattern;
   double place[2];
-  place_of_hole(pattern, pattern.count() - in.holes.left, place);
-  AxisVec target = in.holes.pattern_at;
+  place_of_hole(pattern, pattern.count() - in.jobs.holes.left, place);
+  AxisVec target = in.jobs.holes.pattern_at;
   for (unsigned i = 0; i < 2; ++i) target[static_cast<unsigned>(in.state.plane_axis[i])] += place[i];
   return as_moved(in, target);
 }
@@ -169,7 +169,7 @@ void move_on_circle(BlockContext& in, StrokeKind kind) {
   const auto h = static_cast<unsigned>(plane.h);
   const double radius = std::fabs(c.q) - radius_amount(in, number) / scale_of(in, h);
   const bool in_centre = kind == StrokeKind::circle_out;
-  AxisVec end = as_programmed(in, in.holes.over);
+  AxisVec end = as_programmed(in, in.jobs.holes.over);
   if (!in_centre) end[h] -= radius;
   AxisVec target = in.position();
   const AxisVec mapped = as_moved(in, end);
@@ -180,7 +180,7 @@ void move_on_circle(BlockContext& in, StrokeKind kind) {
 }
 
 void move_in_plane(BlockContext& in, const CycleStep& step) {
-  const AxisVec& place = step.level == Level::beside ? in.holes.beside : in.holes.over;
+  const AxisVec& place = step.level == Level::beside ? in.jobs.holes.beside : in.jobs.holes.over;
   LinearStyle style;
   style.kind = step.kind == StrokeKind::shift_rapid ? NC_MOVE_RAPID : NC_MOVE_LINE;
   if (style.kind == NC_MOVE_LINE) {
@@ -193,7 +193,7 @@ void move_in_plane(BlockContext& in, const CycleStep& step) {
 
 /// A stroke of a tap that goes with the spindle: the lead, and the speed that the spindle is to have (M700 13.1.1 (6) (c): on the way back not
 /// below that of the way in).
-void set_tap(const BlockContext& in, const CycleStep& step, LinearStyle* style) {
+void set_tap(const InForce& in, const CycleStep& step, LinearStyle* style) {
   const CycleState& c = in.state.cycle;
   const bool back = step.level != Level::bottom && step.level != Level::peck;
   // #1172 is the return override of the family; precaution (15): ,S switches it off.
@@ -247,11 +247,11 @@ void check_tap_position(BlockContext& in, const CycleStep& step) {
 }
 
 void emit_dwell(BlockContext& in) {
-  if (!(in.holes.hole.dwell_s > 0)) return;
+  if (!(in.jobs.holes.hole.dwell_s > 0)) return;
   Gate& gate = in.emit(ItemKind::gate).gate;
   gate.kind = NC_GATE_DWELL_SECONDS;
   gate.announce = true;
-  gate.value = in.holes.hole.dwell_s;
+  gate.value = in.jobs.holes.hole.dwell_s;
 }
 
 void make_stroke(BlockContext& in, const CycleStep& step) {
@@ -273,8 +273,8 @@ void make_stroke(BlockContext& in, const CycleStep& step) {
 
 /// M700 13.1.1, G84: a hold that comes between R and R again acts behind the way back.
 void note_tapping(BlockContext& in, bool strokes) {
-  if (in.holes.tapping == strokes) return;
-  in.holes.tapping = strokes;
+  if (in.jobs.holes.tapping == strokes) return;
+  in.jobs.holes.tapping = strokes;
   announce_tapping(in, strokes);
 }
 bool ends_tapping(const CycleStep& step) { return (step.flags & (kStrokeTaps | kWhilePecking)) == kStrokeTaps && (step.level == Level::r || step.level == Level::exit); }
@@ -285,8 +285,8 @@ bool ends_tapping(const CycleStep& step) { return (step.flags & (kStrokeTaps | k
 /// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
 /// Then the plane in rapid traverse, which ,I of the block belongs to.
 void position_over_hole(BlockContext& in) {
-  if (in.holes.pattern.kind != PatternKind::none) return position_in_pattern(in);
-  const Targets over = in.holes.target.without(1u << in.state.cycle.drill_axis);
+  if (in.jobs.holes.pattern.kind != PatternKind::none) return position_in_pattern(in);
+  const Targets over = in.jobs.holes.target.without(1u << in.state.cycle.drill_axis);
   const uint32_t axes = over.axes();
   const uint32_t over_hole = positioning_axes(in);
   const AxisVec start = in.position(), target = target_of(in, start, over);
@@ -305,11 +305,11 @@ void position_over_hole(BlockContext& in) {
 }
 
 /// The block goes on at the place where the tool stands, but for the axis that drills.
-bool stays_over_hole(const BlockContext& in) {
+bool stays_over_hole(const BlockInHand& in) {
   const AxisVec start = in.position();
   const unsigned drills = in.state.cycle.drill_axis;
-  const bool pattern = in.holes.pattern.kind != PatternKind::none;
-  const AxisVec target = pattern ? place_in_pattern(in) : target_of(in, start, in.holes.target.without(1u << drills));
+  const bool pattern = in.jobs.holes.pattern.kind != PatternKind::none;
+  const AxisVec target = pattern ? place_in_pattern(in) : target_of(in, start, in.jobs.holes.target.without(1u << drills));
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (i != drills && std::fabs(target[i] - start[i]) > kAddingUp) return false;
   return true;
@@ -321,7 +321,7 @@ Execution leave_hole(BlockContext& in) {
   CycleState& c = in.state.cycle;
   if (!c.in_hole || stays_over_hole(in)) return Execution::done;
   resolve_levels(in);
-  const Hole& h = in.holes.hole;
+  const Hole& h = in.jobs.holes.hole;
   const double up = h.bottom < h.r ? 1.0 : -1.0, out = c.way_out - in.zero()[c.drill_axis];
   const bool r_of_layer = (out - h.r) * up > kAddingUp;
   if (r_of_layer && !in.words.has(Role::cycle_level)) return in.raise(Condition::words_missing, Role::cycle_level);
@@ -338,10 +338,10 @@ Execution leave_hole(BlockContext& in) {
 }
 
 /// Notes the way out of the hole where the tool stays in it.
-void note_hole(BlockContext& in) {
+void note_hole(BlockInHand& in) {
   CycleState& c = in.state.cycle;
   const bool stays = c.kind == CycleKind::case_bore;
-  if (stays && !c.in_hole) c.way_out = in.holes.hole.r + in.zero()[c.drill_axis];
+  if (stays && !c.in_hole) c.way_out = in.jobs.holes.hole.r + in.zero()[c.drill_axis];
   c.in_hole = stays;
 }
 
@@ -368,13 +368,13 @@ Execution begin_hole(BlockContext& in) {
   if (in.state.cycle.kind != CycleKind::none && !stops) in.emit_stop_point();  // positions of a pattern alone have one stop each
   resolve_hole(in);
   note_hole(in);
-  in.holes.progress = begin_strokes(in.holes.hole);
+  in.jobs.holes.progress = begin_strokes(in.jobs.holes.hole);
   in.next_step = Step::cycle;
   return Execution::later;
 }
 
 Execution continue_cycle(BlockContext& in) {
-  HolesOfBlock& holes = in.holes;
+  HolesOfBlock& holes = in.jobs.holes;
   while (in.queue_has_room()) {
     CycleStep step;
     if (next_stroke(holes.hole, holes.progress, &step)) {

@@ -10,7 +10,7 @@ namespace {
 
 /// Writes the work offsets of one coordinate system; key(axis) gives the key of each.
 template <class Key>
-Execution write_axes(BlockContext& in, Key key) {
+Execution write_axes(BlockInHand& in, Key key) {
   const bool accumulate = in.dialect->rules.data_input.incremental_adds;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!in.words.target.commands(i)) continue;
@@ -30,7 +30,7 @@ uint32_t work_systems(const Dialect& dialect) {
 }
 
 /// LinuxCNC G10 L20: sets the offset with which the axis, where it stands, reads the commanded value.
-Execution work_offset_here(BlockContext& in) {
+Execution work_offset_here(BlockInHand& in) {
   const Command& w = in.words;
   uint32_t p = 0;
   const bool given = w.has(Role::input_number);
@@ -49,7 +49,7 @@ Execution work_offset_here(BlockContext& in) {
 }
 
 /// Writes a work offset. `l`: the number of L, for alarms.
-Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
+Execution work_offset(BlockInHand& in, bool extended, uint32_t l) {
   const Command& w = in.words;
   const DataInputRules& rules = in.dialect->rules.data_input;
   if (w.target.axes() == 0 && rules.axes_required)
@@ -73,7 +73,7 @@ Execution work_offset(BlockContext& in, bool extended, uint32_t l) {
 
 }  // namespace
 
-double end_of_offset(const BlockContext& in, unsigned column) {
+double end_of_offset(const InForce& in, unsigned column) {
   if (column != NC_TOOL_RADIUS && column != NC_TOOL_RADIUS_WEAR) return kOffsetRange;
   const RangeRules& range = in.dialect->rules.range;
   return in.state.modal.is(Function::inch) ? range.end_of_radius_inch * kMillimetresPerInch : range.end_of_radius_mm;
@@ -81,7 +81,7 @@ double end_of_offset(const BlockContext& in, unsigned column) {
 
 namespace {
 
-Execution tool_offset(BlockContext& in, unsigned column) {
+Execution tool_offset(BlockInHand& in, unsigned column) {
   const Command& w = in.words;
   uint32_t number = 0;
   if (!w.has(Role::input_number) || !w.has(Role::input_amount)) return in.raise(Condition::words_missing, w.has(Role::input_number) ? Role::input_amount : Role::input_number);
@@ -115,7 +115,7 @@ unsigned column_of(DataInput input) {
 }
 
 /// M700 12.7 (5): L2 or L20 "should not [be] issued in the same block as" L10, because one of them would be ignored.
-bool two_kinds(const BlockContext& in) {
+bool two_kinds(const BlockInHand& in) {
   return count_of(*in.block, in.word(Role::input_kind)) > 1;
 }
 

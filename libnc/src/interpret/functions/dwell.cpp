@@ -8,14 +8,14 @@ namespace nc {
 namespace {
 
 /// M700 8.1 note 3: an X before G04 is read as a length. In inch, which has one decimal more, the time becomes ten times as long.
-bool read_as_inch(const BlockContext& in) {
+bool read_as_inch(const BlockInHand& in) {
   if (!in.state.modal.is(Function::inch) || !in.words.pointed(Role::dwell_seconds)) return false;
   return stands_before(*in.block, in.front, in.word(Role::dwell_seconds), Function::dwell);
 }
 
 /// Seconds of the word X or P. M700 8.1: by the table with #1078 and #8112. DGSHAPE G04: P is always in ms; X is in seconds with a point, otherwise in ms, or
 /// in seconds where X is read by the calculator type.
-double seconds_of(const BlockContext& in, Role word) {
+double seconds_of(const BlockInHand& in, Role word) {
   const Command& w = in.words;
   const double raw = w.get(word);
   if (word == Role::dwell_seconds && in.dialect->rules.dwell.early_x_is_length && read_as_inch(in)) return raw * 10;

@@ -18,13 +18,13 @@ struct ExponentialWords {
   double taper = 0, torsion = 0, radius = 0, feed = 0, feed_end = 0;
 };
 
-Execution angle_word(BlockContext& in, Role word, double* angle) {
+Execution angle_word(BlockInHand& in, Role word, double* angle) {
   *angle = length_value(in, in.words.written(word), true, true);
   if (*angle == 0 || std::fabs(*angle) > in.dialect->rules.range.steepest_exponential_deg) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
 
-Execution take_words(BlockContext& in, ExponentialWords* words) {
+Execution take_words(BlockInHand& in, ExponentialWords* words) {
   const Command& w = in.words;
   for (const Role word : {Role::taper_angle, Role::torsion_angle, Role::exponential_radius, Role::feed})
     if (!w.has(word)) return in.raise(Condition::format_error, word);

@@ -53,7 +53,7 @@ constexpr Allowed kAllowed[] = {
 uint8_t bit_of(FineMode mode) { return mode == FineMode::accuracy1 ? kMode1 : mode == FineMode::accuracy2 ? kMode2 : kSmooth; }
 
 /// The G10 is L10, or the input of parameters, which is L70 in 13.11 and L50 in 13.17.
-bool data_input_allowed(const BlockContext& in) {
+bool data_input_allowed(const BlockInHand& in) {
   const Command& w = in.words;
   uint32_t kind = 0;
   if (!w.has(Role::input_kind) || !whole_number(w.get(Role::input_kind), &kind)) return false;
@@ -63,7 +63,7 @@ bool data_input_allowed(const BlockContext& in) {
 }
 
 /// Words that have a meaning in the block.
-WordSet known_words(const BlockContext& in) {
+WordSet known_words(const BlockInHand& in) {
   const Command& w = in.words;
   // Axis words, F, M S T, B and the words in its place, I J K R of arcs, D of radius compensation. O, and N behind other words, have alarms of their own.
   WordSet known = in.axis_words.all() | in.set_of({Role::second_function, Role::second_function_2, Role::second_function_3, Role::offset_number, Role::feed, Role::vector_x,
@@ -82,7 +82,7 @@ WordSet known_words(const BlockContext& in) {
 }
 
 /// 13.18 (1) (c): any block other than one of G01 ends the spline.
-bool goes_on_with_spline(const BlockContext& in) {
+bool goes_on_with_spline(const BlockInHand& in) {
   const Command& w = in.words;
   const Function motion = w.motion != nullptr ? w.motion->function : in.state.modal.of(Mode::motion);
   return motion == Function::linear && w.one_shot == nullptr && w.any(in.axis_words.all());
@@ -96,7 +96,7 @@ bool allowed_in_fine_mode(FineMode mode, Function function) {
   return false;
 }
 
-Execution check_fine_block(BlockContext& in) {
+Execution check_fine_block(BlockInHand& in) {
   State& state = in.state;
   const Command& w = in.words;
   const FineMode mode = state.fine_mode;

@@ -9,7 +9,7 @@ namespace {
 
 /// 13.15 "relation with other functions" (1): the state is not one in which G08 P1 is possible. The manual names no alarm for it; it is P34, as for the modes
 /// of 13.17.
-bool refuses_command(const BlockContext& in) {
+bool refuses_command(const InForce& in) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   return state.high_speed != SpeedMode::off || state.fine_mode != FineMode::none || state.accuracy_command || !modal.is(Function::polar_command_off) ||
@@ -18,7 +18,7 @@ bool refuses_command(const BlockContext& in) {
 }
 
 /// (2), and 13.20: raises an alarm in modes in which high-accuracy control cannot be commanded.
-Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
+Execution check_modes_before(BlockInHand& in, const FunctionRow& row) {
   if (in.state.map.kind != AxisMap::Kind::none) return in.raise_code(Condition::mill_code, row);
   if (!in.state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, row);
   if (!in.state.modal.is(Function::rotation_off)) return in.raise_code(Condition::illegal_g, row);
@@ -27,7 +27,7 @@ Execution check_modes_before(BlockContext& in, const FunctionRow& row) {
 
 }  // namespace
 
-Execution check_cutting_code(BlockContext& in, const FunctionRow& row) {
+Execution check_cutting_code(BlockInHand& in, const FunctionRow& row) {
   // After G08 P1 the cutting mode is G64; any other code of the cutting mode is an error.
   if (in.state.accuracy_command && row.function != Function::cutting_mode) return in.raise_code(Condition::in_high_accuracy, row);
   if (row.function != Function::high_accuracy_mode) return Execution::done;

@@ -21,7 +21,7 @@ const Row* row_of(const Table<Row>& rows, double raw) {
   return nullptr;
 }
 
-Execution refuse(BlockContext& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
+Execution refuse(BlockInHand& in) { return in.raise_code(Condition::illegal_g, *in.words.one_shot); }
 
 /// 6.11, 6.12: a mode is in force that excludes the modes of 13.17 and the spline.
 bool excluded(const State& state) {
@@ -30,7 +30,7 @@ bool excluded(const State& state) {
 
 /// 13.17.1 "relation with other functions" (1), 13.17.2: the modal state is not one in which this mode can start. Mode I can start in the cutting modes except
 /// G61.1, with feed per revolution and with constant surface speed (the manual promises no effect then); only mode I needs G49.
-bool wrong_state(const BlockContext& in, FineMode mode) {
+bool wrong_state(const InForce& in, FineMode mode) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   if (state.comp.side != 0 || !modal.is(Function::comp_off) || state.any_mirror() != 0 || has_modal_call(in) ||
@@ -43,7 +43,7 @@ bool wrong_state(const BlockContext& in, FineMode mode) {
   return !modal.is(Function::length_off) || !cutting_known || !(per_minute || modal.is(Function::feed_per_revolution));
 }
 
-Execution start(BlockContext& in, FineMode mode) {
+Execution start(BlockInHand& in, FineMode mode) {
   State& state = in.state;
   if (!in.settings.high_speed_codes || excluded(state)) return refuse(in);
   if (!state.modal.is(Function::normal_line_off)) return in.raise_code(Condition::not_accepted, *in.words.one_shot);  // 13.14
@@ -54,7 +54,7 @@ Execution start(BlockContext& in, FineMode mode) {
 }
 
 /// Ends the mode. Precaution (5): radius compensation must have been cancelled inside the mode.
-Execution leave(BlockContext& in) {
+Execution leave(BlockInHand& in) {
   State& state = in.state;
   if (state.comp.side != 0 || !state.modal.is(Function::comp_off)) return refuse(in);
   state.fine_mode = FineMode::none;
@@ -80,7 +80,7 @@ Execution high_speed_machining(BlockContext& in, SpeedMode mode) {
 }
 
 /// The basic axes named with G05.1 Q2; false when the block has other words.
-bool spline_axes(const BlockContext& in, uint8_t* axes) {
+bool spline_axes(const BlockInHand& in, uint8_t* axes) {
   uint32_t named = 0;
   *axes = 0;
   for (const WordSlot name : in.settings.plane_basic) {

@@ -23,7 +23,7 @@ PatternKind kind_of(Function function) {
 }
 
 /// Note 1: axes of the plane, G N I J K H O P F M S and the second auxiliary function; any other word is an alarm.
-Execution check_words(BlockContext& in, const PlaneAxes& plane) {
+Execution check_words(BlockInHand& in, const PlaneAxes& plane) {
   const Command& w = in.words;
   WordSet allowed = in.front.code_words | in.set_of({Role::vector_x, Role::vector_y, Role::vector_z, Role::length_number, Role::hole_angle_step, Role::hole_count, Role::feed,
                                                        Role::spindle_speed, Role::second_function, Role::second_function_2, Role::second_function_3,
@@ -37,10 +37,10 @@ Execution check_words(BlockContext& in, const PlaneAxes& plane) {
   return axes == 0 ? Execution::done : in.raise_axis(Condition::illegal_address, first_of(axes), w.get(in.axis_words.word(first_of(axes))));
 }
 
-double angle_of(const BlockContext& in, Role word) { return length_value(in, in.words.written(word), true, true); }
+double angle_of(const BlockInHand& in, Role word) { return length_value(in, in.words.written(word), true, true); }
 
 /// Number of holes: whole, from 1 (P221). `last_four`: of more digits the last four count (G35, G37.1, note 2).
-Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* count) {
+Execution take_count(BlockInHand& in, Role word, bool last_four, uint32_t* count) {
   const Command& w = in.words;
   if (!w.has(word)) return in.raise(Condition::no_holes, word);
   const double raw = w.get(word);
@@ -50,7 +50,7 @@ Execution take_count(BlockContext& in, Role word, bool last_four, uint32_t* coun
 }
 
 /// G34: the sign of K is the way round.
-Execution read_circle(BlockContext& in, HolePattern* p) {
+Execution read_circle(BlockInHand& in, HolePattern* p) {
   Command& w = in.words;
   p->step = 1;
   if (w.has(Role::hole_count) && w.get(Role::hole_count) < 0) {
@@ -64,13 +64,13 @@ Execution read_circle(BlockContext& in, HolePattern* p) {
   return take_count(in, Role::hole_count, false, &p->columns);
 }
 
-Execution read_arc(BlockContext& in, HolePattern* p) {
+Execution read_arc(BlockInHand& in, HolePattern* p) {
   p->step = in.words.has(Role::hole_angle_step) ? angle_of(in, Role::hole_angle_step) : 0;
   if (p->step == 0) return in.raise(Condition::hole_angle_zero, Role::hole_angle_step);
   return take_count(in, Role::hole_count, false, &p->columns);
 }
 
-Execution read_grid(BlockContext& in, HolePattern* p) {
+Execution read_grid(BlockInHand& in, HolePattern* p) {
   Execution did = take_count(in, Role::hole_columns, true, &p->columns);
   if (did == Execution::done) did = take_count(in, Role::hole_count, true, &p->rows);
   if (did != Execution::done) return did;
@@ -82,7 +82,7 @@ Execution read_grid(BlockContext& in, HolePattern* p) {
 }
 
 /// Series 8 G49, G50 (docs/series8.md): the sides, and how many places lie on each; two where it is not said.
-Execution read_frame(BlockContext& in, HolePattern* p) {
+Execution read_frame(BlockInHand& in, HolePattern* p) {
   const Command& w = in.words;
   p->columns = p->rows = 2;
   for (const Role word : {Role::hole_interval, Role::hole_interval_2}) {
@@ -102,7 +102,7 @@ Execution read_frame(BlockContext& in, HolePattern* p) {
   return Execution::done;
 }
 
-Execution read_pattern(BlockContext& in, HolePattern* p) {
+Execution read_pattern(BlockInHand& in, HolePattern* p) {
   const Command& w = in.words;
   if (p->is_frame()) return read_frame(in, p);
   if (p->kind != PatternKind::grid && !w.has(Role::hole_interval)) return in.raise(Condition::words_missing, Role::hole_interval);
@@ -120,7 +120,7 @@ Execution read_pattern(BlockContext& in, HolePattern* p) {
 }
 
 /// The reference point as programmed: the words of the plane's axes, else where the program stands.
-AxisVec reference_point(const BlockContext& in) {
+AxisVec reference_point(const BlockInHand& in) {
   const Command& w = in.words;
   AxisVec at = program_mapped(in) ? to_program(in, in.position()) : in.position();
   for (unsigned i = 0; i < in.axis_count; ++i)
@@ -148,10 +148,10 @@ Execution do_hole_pattern(BlockContext& in) {
     did = check_feed(in, Function::linear);
   }
   if (did != Execution::done) return did;
-  in.holes.begin();
-  in.holes.pattern = pattern;
-  in.holes.pattern_at = reference_point(in);
-  in.holes.left = pattern.count();
+  in.jobs.holes.begin();
+  in.jobs.holes.pattern = pattern;
+  in.jobs.holes.pattern_at = reference_point(in);
+  in.jobs.holes.left = pattern.count();
   return begin_hole(in);
 }
 

@@ -13,7 +13,7 @@ constexpr double kPeriod_s = 0.01;       ///< from one question for an input to 
 constexpr unsigned kBits = 32;
 
 /// A number that has to stand in the block, below `count`.
-Execution number_below(BlockContext& in, Role word, unsigned count, uint32_t* number) {
+Execution number_below(BlockInHand& in, Role word, unsigned count, uint32_t* number) {
   if (!in.words.has(word)) return in.raise(Condition::words_missing, word);
   const double raw = in.words.get(word);
   const bool good = whole_number(raw, number) && *number < count && raw == std::floor(raw);
@@ -60,7 +60,7 @@ Execution switch_override(BlockContext& in, const Auxiliary& code) {
 }
 
 /// M61 Q: the tool that is in the spindle, without a change of tools.
-Execution name_tool(BlockContext& in) {
+Execution name_tool(BlockInHand& in) {
   if (!in.words.has(Role::named_tool)) return in.raise(Condition::words_missing, Role::named_tool);
   const double raw = in.words.get(Role::named_tool);
   uint32_t tool = 0;
@@ -74,13 +74,13 @@ Execution name_tool(BlockContext& in) {
 enum class Wait : uint8_t { none, rise, fall, high, low };
 
 /// The function of the block that waits, nullptr = there is none.
-const Auxiliary* waiting(const BlockContext& in) {
+const Auxiliary* waiting(const BlockInHand& in) {
   for (const Auxiliary& m : in.words.auxiliary)
     if (m.function == MiscFunction::machine_input) return &m;
   return nullptr;
 }
 
-void answer(BlockContext& in, double value) { in.change(&ProgramRecords::answer, InputAnswer{value}); }
+void answer(InForce& in, double value) { in.change(&ProgramRecords::answer, InputAnswer{value}); }
 
 /// True: the input has done what the block waits for.
 bool has_come(InputWait* wait, bool on) {
@@ -114,15 +114,15 @@ Execution act_on_machine(BlockContext& in, const Auxiliary& code) {
   }
 }
 
-bool takes_word_number(const BlockContext& in) {
+bool takes_word_number(const BlockInHand& in) {
   for (const Auxiliary& m : in.words.auxiliary)
     if (m.function == MiscFunction::machine_value || m.function == MiscFunction::machine_input) return true;
   return false;
 }
 
-bool waits_for_input(const BlockContext& in) { return waiting(in) != nullptr; }
+bool waits_for_input(const BlockInHand& in) { return waiting(in) != nullptr; }
 
-Execution wait_for_input(BlockContext& in) {
+Execution wait_for_input(BlockInHand& in) {
   const Command& w = in.words;
   if (w.auxiliary.size() > 1 || !w.functions.empty() || w.any(in.axis_words.all())) return in.raise(Condition::must_stand_alone, Role::misc_code, waiting(in)->number);
   const WordSet own = in.set_of({Role::sequence_number, Role::program_number, Role::misc_code, Role::output_number, Role::word_number, Role::input_wait, Role::input_limit});
@@ -139,14 +139,14 @@ Execution wait_for_input(BlockContext& in) {
   wait.analog = analog;
   wait.kind = static_cast<uint8_t>(kind);
   wait.left = static_cast<uint32_t>(std::ceil(limit / kPeriod_s));
-  in.input_wait = wait;
+  in.jobs.input_wait = wait;
   in.next_step = Step::input;
   return Execution::later;
 }
 
 Execution continue_input_wait(BlockContext& in) {
   if (!in.world_fresh) return in.need(NC_SYNC_INPUT);
-  InputWait& wait = in.input_wait;
+  InputWait& wait = in.jobs.input_wait;
   if (wait.analog) {
     answer(in, static_cast<double>(static_cast<int32_t>(in.world.input[wait.number + 1])));
     return Execution::done;

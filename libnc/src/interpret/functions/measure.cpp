@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// A distance, given by a word of the block, or else by the parameter.
-double distance(const BlockContext& in, Role word, double parameter) {
+double distance(const BlockInHand& in, Role word, double parameter) {
   return in.words.has(word) ? std::fabs(length_of(in, word)) : parameter;
 }
 
@@ -24,7 +24,7 @@ struct Measurement {
   double feed_mm_min = 0;
 };
 
-Execution read_measurement(BlockContext& in, Measurement* m) {
+Execution read_measurement(BlockInHand& in, Measurement* m) {
   const Command& w = in.words;
   for (const Role word : {Role::length_number, Role::tool})  // (3); T: appendix 1
     if (w.has(word)) return in.raise(Condition::measure_h, word, w.get(word));
@@ -50,7 +50,7 @@ Execution read_measurement(BlockContext& in, Measurement* m) {
   return Execution::done;
 }
 
-double finest(const BlockContext& in) { return in.settings.setting_unit_mm / 2; }
+double finest(const InForce& in) { return in.settings.setting_unit_mm / 2; }
 
 }  // namespace
 
@@ -73,9 +73,9 @@ Execution do_measure_length(BlockContext& in) {
   style.kind = NC_MOVE_RAPID;
   move_linear(in, before, axis, style);
   in.next_step = Step::measured;
-  in.measured_position = m.position;
-  in.measured_range = m.range;
-  in.measured_nothing = none;
+  in.jobs.measure.position = m.position;
+  in.jobs.measure.range = m.range;
+  in.jobs.measure.nothing = none;
   if (none) return Execution::later;  // (9): P607, whether the sensor signals or not
   AxisVec behind = target;
   behind[m.axis] = m.position + direction * m.range;
@@ -88,21 +88,21 @@ Execution do_measure_length(BlockContext& in) {
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Execution measured(BlockContext& in) {
+Execution measured(BlockInHand& in) {
   State& state = in.state;
   const unsigned axis = state.length_axis;
   const WordSlot name = in.axis_words.word(axis);
-  if (in.measured_nothing) return in.raise(Condition::measure_signal, name, in.measured_position);
+  if (in.jobs.measure.nothing) return in.raise(Condition::measure_signal, name, in.jobs.measure.position);
   for (unsigned i = 0; i < in.axis_count; ++i) state.machine[i] = in.world.machine.v[i];
-  if (!in.world.skipped) return in.raise(Condition::measure_signal, name, in.measured_position);
+  if (!in.world.skipped) return in.raise(Condition::measure_signal, name, in.jobs.measure.position);
   if (in.dialect->rules.skip.measurement_stores) {
     AxisVec place = state.machine;
     for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.world.skip_machine.v[i];
     store_skip_position(in, place, true);
   }
   const double at = in.world.skip_machine.v[axis] - in.zero()[axis] - state.applied[axis];
-  const double difference = at - in.measured_position;
-  if (std::fabs(difference) > in.measured_range + finest(in)) return in.raise(Condition::measure_signal, name, in.measured_position);
+  const double difference = at - in.jobs.measure.position;
+  if (std::fabs(difference) > in.jobs.measure.range + finest(in)) return in.raise(Condition::measure_signal, name, in.jobs.measure.position);
   // The tool is longer by the difference than the offset that is applied says; G44 counts the offset with the opposite sign.
   const double longer = state.modal.is(Function::length_minus) ? -difference : difference;
   const Frames& f = in.frames;

@@ -26,9 +26,9 @@ struct InPlane {
   uint32_t bits() const { return exists() ? 1u << h | 1u << v : 0; }
 };
 
-AxisVec programmed_position(const BlockContext& in) { return program_mapped(in) ? to_program(in, in.position()) : in.position(); }
+AxisVec programmed_position(const BlockInHand& in) { return program_mapped(in) ? to_program(in, in.position()) : in.position(); }
 
-InPlane in_plane(const BlockContext& in) {
+InPlane in_plane(const BlockInHand& in) {
   InPlane plane{plane_axes(in), 0, 0, {}};
   if (!plane.exists()) return plane;
   plane.h = static_cast<unsigned>(plane.axes.h);
@@ -38,22 +38,22 @@ InPlane in_plane(const BlockContext& in) {
   return plane;
 }
 
-double angle_of_block(const BlockContext& in) {
+double angle_of_block(const BlockInHand& in) {
   const Command& w = in.words;
   const double angle = length_value(in, w.has_angle ? w.angle : w.written(Role::line_angle), true, true, false);
   return std::fmod(angle, 360);  // 13.8 (7)
 }
 
 /// The second auxiliary function keeps its word to itself but for lines with an end coordinate by ,A (9.2, note).
-bool word_is_taken(const BlockContext& in) {
+bool word_is_taken(const InForce& in) {
   const WordSlot word = in.word(Role::line_angle);
   return word == kNoWord || in.axis_words.axis(word) >= 0 || second_function(in) == word;
 }
 
-bool free_for_lines(const BlockContext& in) { return in.words.one_shot == nullptr && (in.state.cycle.kind == CycleKind::none || in.words.motion != nullptr) && in.words.cycle == nullptr; }
+bool free_for_lines(const BlockInHand& in) { return in.words.one_shot == nullptr && (in.state.cycle.kind == CycleKind::none || in.words.motion != nullptr) && in.words.cycle == nullptr; }
 
 /// The circle that the words of the block say, about `from` or by its radius; false: they say none.
-bool circle_of_block(const BlockContext& in, const InPlane& plane, PlanePoint from, KnownCircle* circle) {
+bool circle_of_block(const BlockInHand& in, const InPlane& plane, PlanePoint from, KnownCircle* circle) {
   const Command& w = in.words;
   circle->on = from;
   circle->ccw = in.state.modal.is(Function::arc_ccw);
@@ -74,7 +74,7 @@ bool circle_of_block(const BlockContext& in, const InPlane& plane, PlanePoint fr
 }
 
 /// H0 or H1; other values are no choice (P395).
-bool choice_of_block(const BlockContext& in, int8_t* choice) {
+bool choice_of_block(const BlockInHand& in, int8_t* choice) {
   *choice = -1;
   if (!in.words.has(Role::meeting_choice)) return true;
   const double value = in.words.get(Role::meeting_choice);
@@ -84,12 +84,12 @@ bool choice_of_block(const BlockContext& in, int8_t* choice) {
 }
 
 Move* newest_move(BlockContext& in, unsigned from) {
-  for (unsigned i = in.queue.size(); i > from; --i)
-    if (in.queue[i - 1].kind == ItemKind::move) return &in.queue[i - 1].move;
+  for (unsigned i = in.items_made(); i > from; --i)
+    if (in.item_made(i - 1).kind == ItemKind::move) return &in.item_made(i - 1).move;
   return nullptr;
 }
 
-LinearStyle cutting_style(const BlockContext& in) {
+LinearStyle cutting_style(const BlockInHand& in) {
   LinearStyle style;
   style.feed_mm_min = feed_mm_min(in);
   style.special_feed = special_feed(in);
@@ -98,7 +98,7 @@ LinearStyle cutting_style(const BlockContext& in) {
 }
 
 /// Modes in which programmed coordinates are not those of the axes, or a length is not that of the block.
-Execution check_modes_of_pair(BlockContext& in, Condition option) {
+Execution check_modes_of_pair(BlockInHand& in, Condition option) {
   if ((in.state.special & (kSpecialMap | kSpecialSpline)) != 0) return in.raise(option);
   if (in.state.modal.is(Function::inverse_time_feed)) return in.raise_mode(Condition::geometric_address, Mode::feed);
   if (in.words.corner != Corner::none) return in.raise(Condition::corner_option, corner_word(in.words), in.words.corner_size.value);
@@ -162,7 +162,7 @@ Execution begin_with_arc(BlockContext& in) {
   const bool possible = (in.state.special & (kSpecialMap | kSpecialSpline | kSpecialWords)) == 0 && in.state.modal_call == 0 && !in.state.modal.is(Function::inverse_time_feed) &&
                         !(program_mapped(in) && (scaled_unevenly(in, plane.h, plane.v) || tilts_plane(in, plane.h, plane.v)));
   if (!possible) return first.choice >= 0 ? in.raise(option, Role::meeting_choice, first.choice) : move_by_words(in);
-  const unsigned before = in.queue.size();
+  const unsigned before = in.items_made();
   if (circle.by_radius) {
     if (starts_or_ends_compensation(in)) return move_by_words(in);
     const Execution did = check_feed(in, in.state.modal.of(Mode::motion));
@@ -198,7 +198,7 @@ struct Second {
   int8_t choice = -1;
 };
 
-Second second_block(const BlockContext& in, const InPlane& plane) {
+Second second_block(const BlockInHand& in, const InPlane& plane) {
   Second second;
   const Command& w = in.words;
   const Function motion = in.state.modal.of(Mode::motion);
@@ -216,7 +216,7 @@ Second second_block(const BlockContext& in, const InPlane& plane) {
 /// Whether the second block is an arc by itself, from where the first one began: by 6.4 and 6.5 an arc without an end and the arc behind it mean
 /// something without 13.9. Where both readings are possible the older one counts, but for a pair as 13.9 prints it, with a radius and the other
 /// sense, that does not begin along the circle before. `meet` false: the two blocks do not meet, so there is no other reading.
-bool stands_by_itself(const BlockContext& in, const MeetingFirst& first, const Second& second, bool meet) {
+bool stands_by_itself(const InForce& in, const MeetingFirst& first, const Second& second, bool meet) {
   const PlanePoint start{first.start[0], first.start[1]};
   const double tolerance = in.settings.arc_tolerance;
   if (!second.circle.by_radius) {  // its centre counts from the start there
@@ -231,7 +231,7 @@ bool stands_by_itself(const BlockContext& in, const MeetingFirst& first, const S
   return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
 }
 
-Meeting solve(const BlockContext& in, const MeetingFirst& first, const Second& second) {
+Meeting solve(const InForce& in, const MeetingFirst& first, const Second& second) {
   const PlanePoint start{first.start[0], first.start[1]};
   if (first.kind == Kind::line) {
     const SlopedLine line{start, first.angle_deg};
@@ -244,7 +244,7 @@ Meeting solve(const BlockContext& in, const MeetingFirst& first, const Second& s
 }
 
 /// The axes of the plane stand where the blocks meet.
-void go_to_meeting(BlockContext& in, const InPlane& plane, PlanePoint at) {
+void go_to_meeting(BlockInHand& in, const InPlane& plane, PlanePoint at) {
   AxisVec point = programmed_position(in);
   point[plane.h] = at.h;
   point[plane.v] = at.v;
@@ -256,7 +256,7 @@ void go_to_meeting(BlockContext& in, const InPlane& plane, PlanePoint at) {
 Execution make_second(BlockContext& in, const InPlane& plane, const Second& second, const Meeting& meeting) {
   const AxisVec before_machine = in.state.machine;
   go_to_meeting(in, plane, meeting.at);
-  const unsigned before = in.queue.size();
+  const unsigned before = in.items_made();
   const AxisVec target = target_of_words(in);
   Execution did = Execution::done;
   if (second.line) {
@@ -288,7 +288,7 @@ Condition option_of(const MeetingFirst& first, const Second& second) {
   return by_radius ? Condition::geometric_arc_option : Condition::geometric_circle_option;
 }
 
-Execution check_second_words(BlockContext& in) {
+Execution check_second_words(BlockInHand& in) {
   for (const FunctionRow* row : in.words.functions) {
     if (is_plane(row->function)) return in.raise_code(Condition::geometric_plane, *row);
     const bool fits = plain_motion(row->function) || row->function == Function::absolute || row->function == Function::incremental;
@@ -328,7 +328,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   return make_second(in, plane, second, meeting);
 }
 
-bool begins_meeting(const BlockContext& in) {
+bool begins_meeting(const BlockInHand& in) {
   const Command& w = in.words;
   if (!in.dialect->addresses.has(Role::line_angle) || !free_for_lines(in)) return false;
   const PlaneAxes plane = plane_axes(in);
@@ -340,16 +340,16 @@ bool begins_meeting(const BlockContext& in) {
 
 }  // namespace
 
-bool has_line_angle(const BlockContext& in) {
+bool has_line_angle(const BlockInHand& in) {
   const Command& w = in.words;
   if (!w.has_angle && !w.has(Role::line_angle)) return false;
   if (!in.state.modal.is(Function::linear) || !free_for_lines(in)) return false;
   return w.has_angle || !word_is_taken(in);
 }
 
-bool says_line_angle(const BlockContext& in) { return has_line_angle(in) || needs_second(in.state.meeting); }
+bool says_line_angle(const BlockInHand& in) { return has_line_angle(in) || needs_second(in.state.meeting); }
 
-bool begins_or_ends_meeting(const BlockContext& in) {
+bool begins_or_ends_meeting(const BlockInHand& in) {
   const Command& w = in.words;
   const bool words = w.present != 0 || !w.functions.empty() || !w.auxiliary.empty() || w.has_angle;
   if (in.state.meeting.kind != Kind::none && words) return true;
@@ -368,7 +368,7 @@ Execution move_to_meet(BlockContext& in) {
 }
 
 /// 13.8: the end coordinate that is missing, from the one that is there.
-Execution take_line_angle(BlockContext& in) {
+Execution take_line_angle(BlockInHand& in) {
   Command& w = in.words;
   if (!has_line_angle(in)) return w.has_angle ? in.raise(Condition::geometric_option, Role::option_angle, w.angle.value) : Execution::done;
   const InPlane plane = in_plane(in);

@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// Raises an alarm (P485, P486) in modes in which neither of the two can be commanded.
-Execution check_modes_before_milling(BlockContext& in, const FunctionRow& row) {
+Execution check_modes_before_milling(BlockInHand& in, const FunctionRow& row) {
   const State& state = in.state;
   const bool polar = row.function == Function::polar_on;
   const Condition modal = polar ? Condition::polar_modal : Condition::mill_modal, mode = polar ? Condition::polar_state : Condition::mill_state;
@@ -28,7 +28,7 @@ Execution check_modes_before_milling(BlockContext& in, const FunctionRow& row) {
 }
 
 /// HX 4.7: the axis that the block of the cylinder names; 4.6: the one of the parameter, or the first that turns.
-int rotary_axis_of_block(const BlockContext& in) {
+int rotary_axis_of_block(const BlockInHand& in) {
   const uint32_t named = in.words.target.axes() & in.rotary;
   if (named != 0) return static_cast<int>(first_of(named));
   const unsigned number = in.settings.polar_axis[1];
@@ -37,7 +37,7 @@ int rotary_axis_of_block(const BlockContext& in) {
 }
 
 /// Index of the rotary axis of both modes (#1516), -1 = none is named or it does not turn.
-int rotary_axis(const BlockContext& in) {
+int rotary_axis(const BlockInHand& in) {
   if (in.dialect->rules.mill.rotary_in_block) return rotary_axis_of_block(in);
   const WordSlot name = in.settings.mill_axis;
   const int axis = in.axis_words.axis(name);
@@ -45,7 +45,7 @@ int rotary_axis(const BlockContext& in) {
 }
 
 /// The basic axis that is the linear axis of polar coordinate interpolation: the first, unless #1533 names another (6.10).
-unsigned polar_linear(const BlockContext& in) {
+unsigned polar_linear(const InForce& in) {
   if (const unsigned number = in.settings.polar_axis[0]; number != 0 && number <= in.axis_count) {
     for (unsigned i = 1; i < 3; ++i)
       if (in.axis_words.word(number - 1) == in.word(basic_along(i))) return i;
@@ -57,7 +57,7 @@ unsigned polar_linear(const BlockContext& in) {
 
 /// M700 6.9 (1), 6.10 (1): the code has to stand alone in its block. An axis word in it would be ignored, so it is an alarm; `own` is the axis that the code
 /// itself names.
-Execution stands_alone(BlockContext& in, uint32_t own) {
+Execution stands_alone(BlockInHand& in, uint32_t own) {
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((in.words.target.axes() & ~own) >> i & 1) != 0) return in.raise(Condition::format_error, in.axis_words.word(i), in.words.target[i]);
   return Execution::done;
@@ -144,7 +144,7 @@ bool allowed_inside(Function function) {
 /// HX 4.6: G112 bears less than the cylinder does.
 bool allowed_in_polar(Function function) { return allowed_inside(function) && function != Function::rapid && mode_of(function) != Mode::cycle && mode_of(function) != Mode::return_level; }
 
-bool allowed_here(const BlockContext& in, Function function) {
+bool allowed_here(const InForce& in, Function function) {
   return in.state.map.kind == AxisMap::Kind::polar && in.dialect->rules.mill.polar_cuts_only ? allowed_in_polar(function) : allowed_inside(function);
 }
 
@@ -234,7 +234,7 @@ Execution do_polar_off(BlockContext& in) {
   return Execution::done;
 }
 
-Execution check_mill_block(BlockContext& in) {
+Execution check_mill_block(BlockInHand& in) {
   const Command& w = in.words;
   const bool polar = in.state.map.kind == AxisMap::Kind::polar;
   const Condition code = polar ? Condition::polar_code : Condition::mill_code, modal = polar ? Condition::polar_modal : Condition::mill_modal;
@@ -259,7 +259,7 @@ Execution check_mill_block(BlockContext& in) {
   return Execution::done;
 }
 
-Execution check_mill_move(BlockContext& in, uint32_t commanded) {
+Execution check_mill_move(BlockInHand& in, uint32_t commanded) {
   State& state = in.state;
   state.mill.moved = true;
   const Function motion = state.modal.of(Mode::motion);

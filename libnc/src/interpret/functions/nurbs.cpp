@@ -12,7 +12,7 @@ namespace nc {
 namespace {
 
 /// The indexes of the basic axes, 0xff where the machine has no such axis.
-void curve_axes(const BlockContext& in, uint8_t (&axis)[3]) {
+void curve_axes(const InForce& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const WordSlot name = in.settings.plane_basic[i];
     const int index = in.axis_words.axis(name);
@@ -23,14 +23,14 @@ void curve_axes(const BlockContext& in, uint8_t (&axis)[3]) {
 /// M700 6.15: at most four decimals.
 bool too_fine(double value) { return std::fabs(value * 1e4 - std::nearbyint(value * 1e4)) > 1e-6; }
 
-Execution take_knot(BlockContext& in, double* knot) {
+Execution take_knot(BlockInHand& in, double* knot) {
   if (!in.words.has(Role::curve_knot)) return in.raise(Condition::format_error, Role::curve_knot);
   *knot = in.words.get(Role::curve_knot);  // K1 means 1.0, with or without a point
   if (too_fine(*knot)) return in.raise(Condition::format_error, Role::curve_knot, *knot);
   return Execution::done;
 }
 
-Execution take_weight(BlockContext& in, double* weight) {
+Execution take_weight(BlockInHand& in, double* weight) {
   *weight = 1;
   if (!in.words.has(Role::curve_weight)) return Execution::done;
   *weight = in.words.get(Role::curve_weight);
@@ -41,7 +41,7 @@ Execution take_weight(BlockContext& in, double* weight) {
 }
 
 /// Takes the order and the axes from the first block of a curve.
-Execution begin_curve(BlockContext& in, const AxisVec& target) {
+Execution begin_curve(BlockInHand& in, const AxisVec& target) {
   NurbsState& n = in.state.nurbs;
   const Command& w = in.words;
   n = NurbsState{};
@@ -62,10 +62,10 @@ Execution begin_curve(BlockContext& in, const AxisVec& target) {
   return Execution::done;
 }
 
-const PathPoint& point(const BlockContext& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
+const PathPoint& point(const InForce& in, uint32_t index) { return in.points[in.state.nurbs.first + index]; }
 
 /// The Bezier points of the span between knots j and j + 1: they are values of the polar form (de Boor's scheme, with one argument for each level).
-RationalSpan span_of(const BlockContext& in, uint32_t j, const uint8_t (&axis)[3]) {
+RationalSpan span_of(const InForce& in, uint32_t j, const uint8_t (&axis)[3]) {
   const unsigned degree = in.state.nurbs.order - 1u;
   RationalSpan span{};
   span.degree = static_cast<uint8_t>(degree);
@@ -94,7 +94,7 @@ RationalSpan span_of(const BlockContext& in, uint32_t j, const uint8_t (&axis)[3
 
 /// Adds the next point of the curve. The points of a curve have consecutive ids. When the program is read again from the middle of a curve, the next free id
 /// is another one; then the older points that further spans need are entered again, too.
-void append(BlockContext& in, const PathPoint& p) {
+void append(InForce& in, const PathPoint& p) {
   constexpr uint32_t kNeeded = 2 * 3;  // a span needs as many points back as twice the degree
   NurbsState& n = in.state.nurbs;
   uint32_t id = in.points.intern(p);
@@ -132,7 +132,7 @@ void emit_span(BlockContext& in) {
 
 }  // namespace
 
-Execution check_nurbs_block(BlockContext& in) {
+Execution check_nurbs_block(BlockInHand& in) {
   const Command& w = in.words;
   const NurbsState& n = in.state.nurbs;
   if (!n.active()) return Execution::done;

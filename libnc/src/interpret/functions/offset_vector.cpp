@@ -22,7 +22,7 @@ class OfThisBlock {
   Compensation& comp_;
 };
 
-Execution check_mode(BlockContext& in) {
+Execution check_mode(BlockInHand& in) {
   const FunctionRow& row = *in.words.one_shot;
   if (in.state.comp.side == 0) return in.raise_code(Condition::outside_compensation, row);
   if (in.state.cycle.kind != CycleKind::none && in.words.motion == nullptr) return in.raise_code(Condition::cycle_in_compensation, row);
@@ -30,7 +30,7 @@ Execution check_mode(BlockContext& in) {
 }
 
 /// A corner arc is a cut: it has no feed where rapids are in force. M700 13.7 (P385) has this for ,R; 12.4.2 does not say it of G39.
-Execution check_corner_motion(BlockContext& in) {
+Execution check_corner_motion(BlockInHand& in) {
   return in.state.modal.is(Function::rapid) ? in.raise_code(Condition::corner_motion, *in.words.one_shot) : Execution::done;
 }
 

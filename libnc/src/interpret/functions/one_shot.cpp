@@ -80,7 +80,7 @@ constexpr Handler kHandlers[] = {
 namespace {
 
 /// M700 13.3.3 (9): the block commands machine coordinates on axes of the plane inside a rotated figure, which is not allowed.
-bool machine_in_figure(const BlockContext& in) {
+bool machine_in_figure(const BlockInHand& in) {
   if (!in.state.mapped || in.state.frame[in.state.depth].figure == 0) return false;
   switch (in.words.one_shot->function) {
     case Function::reference_check:

@@ -11,7 +11,7 @@
 namespace nc {
 namespace {
 
-Execution refuse(BlockContext& in, Role word) {
+Execution refuse(BlockInHand& in, Role word) {
   return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
 
@@ -22,19 +22,19 @@ double data_of(double value, double unit) {
 }
 
 /// The parameter belongs to the rotation of the workpiece coordinate systems (13.21).
-bool turns_work(const BlockContext& in, uint32_t number) {
+bool turns_work(const InForce& in, uint32_t number) {
   const ParameterRow* row = find_parameter(*in.dialect, ParameterKey{number, 0, -1});
   if (row == nullptr) return false;
   return row->what == Parameter::work_turn_axis || row->what == Parameter::work_turn_center || row->what == Parameter::work_turn_vector ||
          row->what == Parameter::work_turn_angle;
 }
 
-bool ends_input(const BlockContext& in) {
+bool ends_input(const BlockInHand& in) {
   return in.words.functions.size() == 1 && ends_data_input(in.words.functions[0]->function) && word_count(*in.block) == 1;
 }
 
 /// Note 1: number, part system, axis and data stand in the order of the format; when a word comes twice the last one counts.
-bool in_sequence(const BlockContext& in) {
+bool in_sequence(const BlockInHand& in) {
   unsigned before = 0;
   for (const Role word : {Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data}) {
     const unsigned at = place_of(*in.block, in.word(word));
@@ -53,7 +53,7 @@ struct ParameterData {
   char text[64] = {};
 };
 
-Execution read_data(BlockContext& in, ParameterData* data) {
+Execution read_data(BlockInHand& in, ParameterData* data) {
   const Command& w = in.words;
   const unsigned kinds = (w.has(Role::parameter_bit) ? 1u : 0u) + (w.has(Role::parameter_data) ? 1u : 0u) + (in.block->name_length > 0 ? 1u : 0u);
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
@@ -76,7 +76,7 @@ Execution read_data(BlockContext& in, ParameterData* data) {
 
 }  // namespace
 
-Execution begin_parameter_input(BlockContext& in) {
+Execution begin_parameter_input(BlockInHand& in) {
   // The block has no other words ("in independent blocks"). Appendix 1, P421: it is not allowed in a fixed cycle or under radius compensation.
   const bool alone = word_count(*in.block) == 2;
   if (!alone || in.state.cycle.kind != CycleKind::none || in.state.compensated()) return refuse(in, Role::input_kind);
@@ -84,7 +84,7 @@ Execution begin_parameter_input(BlockContext& in) {
   return Execution::done;
 }
 
-Execution parameter_block(BlockContext& in) {
+Execution parameter_block(BlockInHand& in) {
   const Command& w = in.words;
   if (!w.functions.empty() || !w.auxiliary.empty()) {
     if (!ends_input(in)) return refuse(in, w.functions.empty() ? Role::misc_code : Role::code);

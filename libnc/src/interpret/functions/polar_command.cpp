@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 /// M700 6.12: the words of this block are not radius and angle: those of data, machine positions, returns, measurements, and codes that set up other modes.
-bool reads_plain_words(const BlockContext& in) {
+bool reads_plain_words(const BlockInHand& in) {
   const Command& w = in.words;
   if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
   if (in.dialect->rules.coordinate.pole_stays && is_arc(in.state.modal.of(Mode::motion)) && w.cycle == nullptr && in.state.cycle.kind == CycleKind::none) return true;
@@ -23,7 +23,7 @@ bool reads_plain_words(const BlockContext& in) {
 }
 
 /// The targets of the plane's axes are meant as radius and angle.
-void name_polar_targets(BlockContext& in, unsigned h, unsigned v) {
+void name_polar_targets(BlockInHand& in, unsigned h, unsigned v) {
   Targets& target = in.words.target;
   if (target.commands(h)) target.set(h, target.counts_on(h) ? TargetKind::radius_increment : TargetKind::radius, target[h]);
   if (!target.commands(v)) return;
@@ -33,7 +33,7 @@ void name_polar_targets(BlockContext& in, unsigned h, unsigned v) {
 
 }  // namespace
 
-Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
+Execution select_polar_command(BlockInHand& in, const FunctionRow& row) {
   State& state = in.state;
   if (row.function == Function::polar_command_on) {
     if (state.high_speed == SpeedMode::accuracy_2) return in.raise_code(Condition::illegal_g, row);
@@ -45,10 +45,10 @@ Execution select_polar_command(BlockContext& in, const FunctionRow& row) {
   return Execution::done;
 }
 
-void resolve_polar_words(BlockContext& in) {
+void resolve_polar_words(BlockInHand& in) {
   Command& w = in.words;
   State& state = in.state;
-  in.polar_holes.on = false;
+  in.jobs.polar_holes.on = false;
   if (reads_plain_words(in)) {
     if (w.target.axes() != 0) state.polar_angle_known = false;
     return;
@@ -72,7 +72,7 @@ void resolve_polar_words(BlockContext& in) {
   const double radius = has_radius ? w.target[h] : std::hypot(out[0], out[1]);
   const double seen = stays && moves ? 0 : std::atan2(out[1], out[0]) * 180 / kPi;
   double angle = seen;
-  PolarHoles& holes = in.polar_holes;
+  PolarHoles& holes = in.jobs.polar_holes;
   holes = PolarHoles{};
   if (has_angle) {
     angle = w.target[v];
@@ -95,13 +95,13 @@ void resolve_polar_words(BlockContext& in) {
 
 /// Words that count on do so from hole to hole of their block, too (M700 13.1.1, L; HX 12.1.2, K): a step of the angle leads round the pole, one of the
 /// radius alone outwards.
-void step_polar_hole(BlockContext& in) {
-  PolarHoles& polar = in.holes.polar;
+void step_polar_hole(BlockInHand& in) {
+  PolarHoles& polar = in.jobs.holes.polar;
   polar.radius += polar.radius_step;
   polar.angle += polar.angle_step;
   in.state.polar_angle = polar.angle;
-  in.holes.target.set(polar.axis[0], TargetKind::absolute, polar.pole[0] + polar.radius * std::cos(polar.angle * kPi / 180));
-  in.holes.target.set(polar.axis[1], TargetKind::absolute, polar.pole[1] + polar.radius * std::sin(polar.angle * kPi / 180));
+  in.jobs.holes.target.set(polar.axis[0], TargetKind::absolute, polar.pole[0] + polar.radius * std::cos(polar.angle * kPi / 180));
+  in.jobs.holes.target.set(polar.axis[1], TargetKind::absolute, polar.pole[1] + polar.radius * std::sin(polar.angle * kPi / 180));
 }
 
 }  // namespace nc

@@ -17,7 +17,7 @@ constexpr double kOnAxis_mm = 0.001;
 bool is_twice(Function function) { return function == Function::offset_twice_longer || function == Function::offset_twice_shorter; }
 
 /// The amount by which G45 makes a way longer and G46 shorter (12.6): the offset of D in the block, or else of the last D, which may be D0.
-Execution amount_of(BlockContext& in, double* amount) {
+Execution amount_of(BlockInHand& in, double* amount) {
   const ModalState& modal = in.state.modal;
   if (modal.d_given == 0 && !in.words.has(Role::offset_number)) return in.raise(Condition::no_offset_number, Role::offset_number);
   *amount = radius_amount(in, modal.d);
@@ -30,7 +30,7 @@ Execution amount_of(BlockContext& in, double* amount) {
 double longer(double length, double by) { return length + (std::signbit(length) ? -by : by); }
 
 /// Makes the way of each axis of the block longer, and puts it into the block as an incremental word.
-void lengthen_ways(BlockContext& in, double amount, bool arc) {
+void lengthen_ways(BlockInHand& in, double amount, bool arc) {
   Command& w = in.words;
   const bool mapped = program_mapped(in);
   const AxisVec position = mapped ? to_program(in, in.position()) : in.position();
@@ -49,7 +49,7 @@ void lengthen_ways(BlockContext& in, double amount, bool arc) {
 }
 
 /// An arc would keep no radius. An arc from axis to axis has its radius in one word, R or one of I, J and K, which the alarm then names.
-Execution radius_vanishes(BlockContext& in, const ArcWords& words, const PlaneAxes& plane) {
+Execution radius_vanishes(BlockInHand& in, const ArcWords& words, const PlaneAxes& plane) {
   if (!words.has_radius && words.center[0] != 0 && words.center[1] != 0) return in.raise_code(Condition::offset_arc, *in.words.one_shot);
   const Role radius = words.has_radius ? Role::arc_radius : plane.center[words.center[0] != 0 ? 0 : 1];
   return in.raise(Condition::offset_arc, radius, in.words.get(radius));

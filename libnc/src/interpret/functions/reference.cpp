@@ -11,7 +11,7 @@ namespace nc {
 namespace {
 
 /// DGSHAPE G28: an axis that is not named moves, too, by the intermediate point that an earlier G28 of the program gave it.
-void take_remembered_midpoints(BlockContext& in, AxisVec& mid, uint32_t& axes) {
+void take_remembered_midpoints(InForce& in, AxisVec& mid, uint32_t& axes) {
   for (unsigned i = 0; i < in.axis_count; ++i) {
     const OptionalDouble given = in.records->midpoints.axis[i];
     if (((axes >> i) & 1) != 0 || !given.has_value()) continue;
@@ -58,7 +58,7 @@ Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_
 }
 
 /// M700 14.13: turns an angle in machine coordinates into a position of the axis, which counts on over several turns.
-double machine_target(const BlockContext& in, unsigned axis, double angle) {
+double machine_target(const InForce& in, unsigned axis, double angle) {
   const double at = in.state.machine[axis];
   if (((in.settings.turning >> axis) & 1) != 0)
     return at + turn_to(angle, within_one_turn(at), ((in.settings.short_cut >> axis) & 1) != 0);
@@ -67,10 +67,10 @@ double machine_target(const BlockContext& in, unsigned axis, double angle) {
 }
 
 /// Half of the finest unit of a command: an axis that is nearer than this is where it should be.
-double same_place(const BlockContext& in) { return in.settings.setting_unit_mm / 2; }
+double same_place(const InForce& in) { return in.settings.setting_unit_mm / 2; }
 
 /// Which reference position P names; `fallback` where there is no P.
-bool place_of_p(const BlockContext& in, uint32_t fallback, uint32_t* place) {
+bool place_of_p(const BlockInHand& in, uint32_t fallback, uint32_t* place) {
   *place = fallback;
   return !in.words.has(Role::return_place) || whole_number(in.words.get(Role::return_place), place);
 }
@@ -92,7 +92,7 @@ void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes) {
 }
 
 /// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled when the axis reaches a reference position.
-void cancel_length_of(BlockContext& in, uint32_t axes) {
+void cancel_length_of(InForce& in, uint32_t axes) {
   if (((axes >> in.state.length_axis) & 1) == 0 || in.state.modal.is(Function::length_off)) return;
   in.state.length_value = 0;
   in.state.modal.set(Function::length_off);
@@ -169,7 +169,7 @@ Execution do_reference_check(BlockContext& in) {
   return in.state.compensated() ? in.need(NC_SYNC_POSITION) : Execution::later;
 }
 
-Execution compare_reference(BlockContext& in) {
+Execution compare_reference(BlockInHand& in) {
   const Command& w = in.words;
   uint32_t place = 1;
   place_of_p(in, 1, &place);
@@ -188,7 +188,7 @@ Execution compare_reference(BlockContext& in) {
 }
 
 /// M700 14.5 note: `G92 G53 X0 Y0 Z0` takes the G92 shift of the named axes away without a motion.
-Execution clear_shift(BlockContext& in) {
+Execution clear_shift(BlockInHand& in) {
   const Command& w = in.words;
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!w.target.commands(i)) continue;

@@ -30,14 +30,14 @@ struct Traverse {
 };
 
 /// How far the tool may go beyond its level with an axis that has a limit of its stroke.
-double room_beyond(const BlockContext& in, unsigned axis, double away) {
+double room_beyond(const InForce& in, unsigned axis, double away) {
   const nc_axis_config& limits = in.system->axis[axis];
   if (!limits.soft_limited) return HUGE_VAL;
   return away > 0 ? limits.soft_max - in.state.machine[axis] : in.state.machine[axis] - limits.soft_min;
 }
 
 /// The length offset that is in force for the axis is the one that it has: a move of the axis would not shift it.
-bool length_is_applied(const BlockContext& in, unsigned axis) {
+bool length_is_applied(const InForce& in, unsigned axis) {
   return in.state.applied[axis] == (axis == in.state.length_axis ? in.state.length_value : 0.0);
 }
 
@@ -60,7 +60,7 @@ void emit_curve(BlockContext& in, const Traverse& t, const double (&from)[3], co
   move.feed_mm_min = 0;
 }
 
-bool traverse_to(const BlockContext& in, const AxisVec& target, Traverse* t) {
+bool traverse_to(const InForce& in, const AxisVec& target, Traverse* t) {
   const CycleState& c = in.state.cycle;
   const AxisVec at = in.position();
   const int h = in.state.plane_axis[0], v = in.state.plane_axis[1];
@@ -79,7 +79,7 @@ bool traverse_to(const BlockContext& in, const AxisVec& target, Traverse* t) {
 }
 
 /// The straight part between the curves is left out, or long enough to be a line of its own.
-double reach_of(const BlockContext& in, const Traverse& t) {
+double reach_of(const InForce& in, const Traverse& t) {
   const double reach = std::min({in.retract_overlap, 0.5 * t.length, room_beyond(in, t.axis[2], t.away)});
   const double straight = t.length - 2 * reach;
   return straight > 0 && straight < kLeastTraverse ? reach - kLeastTraverse : reach;
@@ -87,10 +87,10 @@ double reach_of(const BlockContext& in, const Traverse& t) {
 
 }  // namespace
 
-bool strokes_flow(const BlockContext& in) { return in.retract_overlap > 0 && !in.settings.check_rapid && !asks_exact_stop(in); }
+bool strokes_flow(const BlockInHand& in) { return in.retract_overlap > 0 && !in.settings.check_rapid && !asks_exact_stop(in); }
 
-int8_t way_back(const BlockContext& in) {
-  const Hole& hole = in.holes.hole;
+int8_t way_back(const BlockInHand& in) {
+  const Hole& hole = in.jobs.holes.hole;
   const CycleTable& table = strokes_of(in.state.cycle.kind);
   if (table.shifts || hole.bottom == hole.r) return 0;
   for (unsigned i = 0; i < table.count; ++i)

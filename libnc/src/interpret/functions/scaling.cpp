@@ -11,13 +11,13 @@ namespace nc {
 namespace {
 
 /// A parameter has a factor that is in its range.
-bool in_range_of_scale(const BlockContext& in, double factor) {
+bool in_range_of_scale(const InForce& in, double factor) {
   const RangeRules& range = in.dialect->rules.range;
   return factor >= range.least_scale && factor <= range.most_scale;
 }
 
 /// The factor: P of G51, or else #8072; a parameter that is out of range counts as 1.
-bool factor_of(const BlockContext& in, double* factor) {
+bool factor_of(const BlockInHand& in, double* factor) {
   const Command& w = in.words;
   if (w.has(Role::scaling_factor)) return in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), in.dialect->rules.range, factor);
   *factor = in.settings.scaling_factor;
@@ -26,7 +26,7 @@ bool factor_of(const BlockContext& in, double* factor) {
 }
 
 /// Factor of each axis: of I J K, or of P, else of its parameter (HX 15.2.2). False: out of range, and `word` says which one.
-bool factors_of_axes(const BlockContext& in, AxisVec& factors, Role* word) {
+bool factors_of_axes(const BlockInHand& in, AxisVec& factors, Role* word) {
   const Command& w = in.words;
   const auto of_word = in.dialect->rules.scaling.factor_of_word;
   for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -121,7 +121,7 @@ Execution do_scaling(BlockContext& in) {
   return Execution::done;
 }
 
-void end_scaling(BlockContext& in) {
+void end_scaling(InForce& in) {
   in.state.scaled = 0;
   in.state.map_begins = false;
   in.program_changed();
@@ -164,14 +164,14 @@ Execution do_rotation(BlockContext& in) {
   return Execution::done;
 }
 
-void end_rotation(BlockContext& in) {
+void end_rotation(InForce& in) {
   in.state.rotated = false;
   in.state.map_begins = false;
   in.program_changed();
   in.state.modal.set(Function::rotation_off);
 }
 
-void keep_rotation_center(BlockContext& in, const AxisVec& zero_before) {
+void keep_rotation_center(InForce& in, const AxisVec& zero_before) {
   if (!in.state.rotated || in.dialect->rules.rotation.about_zero) return;
   ProgramMaps maps = in.records->maps;
   const PlaneAxes plane = plane_axes(in);

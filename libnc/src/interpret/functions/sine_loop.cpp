@@ -12,14 +12,14 @@ namespace nc {
 namespace {
 
 /// The input that keeps the loop going is the first one that the family has a name for (Series 8: @RUNG6).
-bool goes_on(const BlockContext& in) {
+bool goes_on(const BlockInHand& in) {
   for (const VariableRow& row : in.dialect->variables->rows)
     if (row.what == SystemVariable::input_bit) return (in.world.input[row.part] & 1) != 0;
   return false;
 }
 
 /// The axes that the way moves. A rotation makes more of them than the block has words for.
-uint32_t axes_of_way(const BlockContext& in) {
+uint32_t axes_of_way(const BlockInHand& in) {
   const AxisVec from = in.position(), to = target_of_words(in);
   uint32_t axes = 0;
   for (unsigned i = 0; i < in.axis_count; ++i)

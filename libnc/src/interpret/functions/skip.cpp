@@ -10,11 +10,11 @@ namespace nc {
 namespace {
 
 /// M700 15.5: takes F1= to F8=, the feed after each signal; 0 ends the move. Signals that are not named do nothing.
-Execution take_speeds(BlockContext& in, uint32_t* stops) {
+Execution take_speeds(BlockInHand& in, uint32_t* stops) {
   const Command& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // F1= to F8= say already which signals count
   const double unit = in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1.0;
-  in.skip_speeds = SkipSpeeds{};
+  in.jobs.skip.speeds = SkipSpeeds{};
   *stops = 0;
   for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
     if (((w.counted_feeds >> i) & 1) == 0) continue;
@@ -24,14 +24,14 @@ Execution take_speeds(BlockContext& in, uint32_t* stops) {
       *stops |= 1u << i;
       continue;
     }
-    in.skip_speeds.mask = static_cast<uint8_t>(in.skip_speeds.mask | 1u << i);
-    in.skip_speeds.feed_mm_min[i] = feed;
+    in.jobs.skip.speeds.mask = static_cast<uint8_t>(in.jobs.skip.speeds.mask | 1u << i);
+    in.jobs.skip.speeds.feed_mm_min[i] = feed;
   }
   return Execution::done;
 }
 
 /// The move has to end by its signal.
-bool wants_signal(const BlockContext& in) {
+bool wants_signal(const BlockInHand& in) {
   const Function function = in.words.one_shot->function;
   return function == Function::probe_once || function == Function::probe || function == Function::probe_away;
 }
@@ -39,7 +39,7 @@ bool wants_signal(const BlockContext& in) {
 }  // namespace
 
 /// The place of all axes where the signal has come, of those that do not move as well (HX 14.2.3 (7), M700 15.2).
-void store_skip_position(BlockContext& in, const AxisVec& machine, bool touched) {
+void store_skip_position(InForce& in, const AxisVec& machine, bool touched) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
   const bool shifted = in.dialect->rules.length.shifts_reading;  // LinuxCNC #5061: in the coordinates in which the move took place
@@ -78,7 +78,7 @@ Execution do_skip(BlockContext& in) {
   if (w.counted_feeds != 0) {
     const Execution did = take_speeds(in, &mask);
     if (did != Execution::done) return did;
-    style.skip_speeds = &in.skip_speeds;
+    style.skip_speeds = &in.jobs.skip.speeds;
   }
   style.skip_mask = static_cast<uint8_t>(mask);
   style.skip_away = w.one_shot->function == Function::probe_away || w.one_shot->function == Function::probe_away_try;
@@ -89,12 +89,12 @@ Execution do_skip(BlockContext& in) {
     store_skip_position(in, in.state.machine, false);
     return Execution::done;
   }
-  in.skip_start = before;
+  in.jobs.skip.start = before;
   in.next_step = Step::skip_answered;
   return in.need(NC_SYNC_SKIP | NC_SYNC_POSITION);
 }
 
-Execution skip_answered(BlockContext& in) {
+Execution skip_answered(BlockInHand& in) {
   AxisVec at = in.state.machine;  // when no signal has come it is the end point of the block
   if (in.world.skipped) {
     bool moved = false;
@@ -102,7 +102,7 @@ Execution skip_answered(BlockContext& in) {
       if (((in.state.map.frozen >> i) & 1) != 0) continue;  // a held axis has not moved (M700 6.16)
       at[i] = in.world.skip_machine.v[i];
       in.state.machine[i] = in.world.machine.v[i];
-      moved = moved || in.state.machine[i] != in.skip_start[i];
+      moved = moved || in.state.machine[i] != in.jobs.skip.start[i];
     }
     if (!moved && in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_contact, *in.words.one_shot);
   }

@@ -72,7 +72,7 @@ bool circle_through(const Vec3& a, const Vec3& b, const Vec3& c, ThreePoints* ou
 }
 
 /// The three basic axes, #1026 to #1028.
-bool axes_in_space(const BlockContext& in, uint8_t (&axis)[3]) {
+bool axes_in_space(const InForce& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const WordSlot name = in.settings.plane_basic[i];
     const int index = in.axis_words.axis(name);
@@ -127,17 +127,17 @@ void emit_first_half(BlockContext& in, const AxisVec& middle, const SpaceArc* ar
   in.source = second;
 }
 
-bool names_centre(const BlockContext& in) { return has_any(*in.block, in.set_of({Role::vector_x, Role::vector_y, Role::vector_z})); }
+bool names_centre(const BlockInHand& in) { return has_any(*in.block, in.set_of({Role::vector_x, Role::vector_y, Role::vector_z})); }
 
 }  // namespace
 
-Execution check_in_space_arc(BlockContext& in, const FunctionRow& row) {
+Execution check_in_space_arc(BlockInHand& in, const FunctionRow& row) {
   Condition bad = barred(*in.dialect, kInSpaceArc, row.function);  // 6.14 (a)
   if (row.function == Function::rotation_on && names_centre(in)) bad = Condition::space_conversion_code;  // with I J K it is a conversion in space
   return bad == Condition::none ? Execution::done : in.raise_code(bad, row);
 }
 
-Execution check_space_arc_block(BlockContext& in) {
+Execution check_space_arc_block(BlockInHand& in) {
   State& state = in.state;
   const Command& w = in.words;
   const bool goes_on = w.one_shot == nullptr && w.cycle == nullptr && w.target.axes() != 0 && is_space_arc(state.modal.of(Mode::motion));

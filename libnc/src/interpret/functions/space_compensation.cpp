@@ -11,11 +11,11 @@ namespace {
 
 constexpr Role kVector[3] = {Role::vector_x, Role::vector_y, Role::vector_z};
 
-bool all_three(const BlockContext& in) { return in.words.has(kVector[0]) && in.words.has(kVector[1]) && in.words.has(kVector[2]); }
+bool all_three(const BlockInHand& in) { return in.words.has(kVector[0]) && in.words.has(kVector[1]) && in.words.has(kVector[2]); }
 
 /// 12.5, "compensation space": of an axis and its parallel the one that the start block names; where it names both or none, the one that the code of the plane
 /// in force has chosen, also of the third pair, which lies in no plane (the table's G17 W).
-Execution choose_space(BlockContext& in, SpaceVector* space) {
+Execution choose_space(BlockInHand& in, SpaceVector* space) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   const PlaneAxes in_plane = plane_axes(in);
   for (unsigned pair = 0; pair < 3; ++pair) {
@@ -36,7 +36,7 @@ Execution choose_space(BlockContext& in, SpaceVector* space) {
 
 /// 12.5, "vector": along I J K, as long as the amount; against it with G42, and with a negative amount. Words that the block does not have
 /// are 0. Mirror image lies behind the compensation and mirrors the vector, too; scaling and rotation by program do not touch it.
-Execution make_vector(BlockContext& in, Function side) {
+Execution make_vector(BlockInHand& in, Function side) {
   State& state = in.state;
   double squares = 0;
   for (unsigned i = 0; i < 3; ++i) {
@@ -56,16 +56,16 @@ Execution make_vector(BlockContext& in, Function side) {
   return Execution::done;
 }
 
-bool straight(const BlockContext& in) { return is_line(in.state.modal.of(Mode::motion)); }
+bool straight(const InForce& in) { return is_line(in.state.modal.of(Mode::motion)); }
 
 }  // namespace
 
-bool means_space(const BlockContext& in) {
+bool means_space(const BlockInHand& in) {
   if (!in.dialect->rules.compensation.vector_by_words) return false;
   return in.state.space.on || (in.state.comp.side == 0 && all_three(in));  // in the mode of the plane they mean nothing more
 }
 
-Execution set_space_compensation(BlockContext& in, Function function) {
+Execution set_space_compensation(BlockInHand& in, Function function) {
   State& state = in.state;
   if (in.words.has(Role::offset_number)) {
     const Execution did = take_radius_number(in);
@@ -90,7 +90,7 @@ Execution set_space_compensation(BlockContext& in, Function function) {
   return make_vector(in, function);
 }
 
-Execution change_space_number(BlockContext& in) {
+Execution change_space_number(BlockInHand& in) {
   uint32_t number = 0;
   const Execution did = offset_number(in, Role::offset_number, &number);
   if (did != Execution::done || number != 0) return did;  // (7): it counts beside a code of the mode
@@ -99,8 +99,8 @@ Execution change_space_number(BlockContext& in) {
   return Execution::done;
 }
 
-bool gives_space_vector(const BlockContext& in) { return straight(in) && in.words.one_shot == nullptr && in.words.any({kVector[0], kVector[1], kVector[2]}); }
+bool gives_space_vector(const BlockInHand& in) { return straight(in) && in.words.one_shot == nullptr && in.words.any({kVector[0], kVector[1], kVector[2]}); }
 
-Execution change_space_vector(BlockContext& in) { return make_vector(in, in.state.modal.of(Mode::radius)); }
+Execution change_space_vector(BlockInHand& in) { return make_vector(in, in.state.modal.of(Mode::radius)); }
 
 }  // namespace nc

@@ -15,7 +15,7 @@ void emit_control(BlockContext& in, uint32_t index, double value, uint32_t mask,
   action.bits = bits;
 }
 
-Execution speed_word(BlockContext& in, Role word, uint32_t* speed) {
+Execution speed_word(BlockInHand& in, Role word, uint32_t* speed) {
   const double raw = in.words.get(word);
   if (whole_number(raw, speed) && *speed <= in.dialect->rules.range.largest_spindle_value) return Execution::done;
   return in.raise(Condition::value_range, word, raw);
@@ -29,7 +29,7 @@ void announce_surface(BlockContext& in) {
   emit_control(in, NC_CONTROL_SURFACE_SPEED, spindle.axis != 0 ? spindle.surface : 0, 0, spindle.axis != 0 ? 1u << (spindle.axis - 1) : 0);
 }
 
-bool is_clamp_command(const BlockContext& in) {
+bool is_clamp_command(const BlockInHand& in) {
   const Command& w = in.words;
   if (w.one_shot == nullptr || w.one_shot->function != Function::coordinate_set || !in.dialect->rules.spindle.limits_by_coordinate_setting) return false;
   // 10.4 (Note 1): without Sclamp an S of G92 in G97 is a spindle speed.
@@ -37,7 +37,7 @@ bool is_clamp_command(const BlockContext& in) {
 }
 
 /// LinuxCNC G96: D of the block is the highest speed, and it holds until the next G96.
-bool limits_surface_speed(const BlockContext& in) {
+bool limits_surface_speed(const BlockInHand& in) {
   if (!in.dialect->rules.spindle.limit_beside_surface) return false;
   for (const FunctionRow* row : in.words.functions)
     if (row->function == Function::surface_on) return true;

@@ -41,7 +41,7 @@ Spiral spiral_about(const double start[2], const double end[2], const double cen
 
 /// Full turns in addition to `delta`, from the number of turns that follows from the step (Q or K). M700 6.13, type 2: P70 when the end point to which the step
 /// leads differs from the commanded one by more than #8075.
-Execution turns_by_step(BlockContext& in, const Spiral& s, double turns, Role word, double* whole) {
+Execution turns_by_step(BlockInHand& in, const Spiral& s, double turns, Role word, double* whole) {
   const double angle = turns * kTurn;
   *whole = std::fmax(0.0, std::nearbyint((angle - s.delta) / kTurn));
   const double off = 2 * s.circle.radius_end * std::fabs(std::sin((angle - s.delta) / 2));
@@ -51,7 +51,7 @@ Execution turns_by_step(BlockContext& in, const Spiral& s, double turns, Role wo
 }
 
 /// A word with the number of pitches.
-Execution pitches(BlockContext& in, Role word, uint32_t* number) {
+Execution pitches(BlockInHand& in, Role word, uint32_t* number) {
   if (!whole_number(in.words.get(word), number) || *number > in.dialect->rules.range.most_pitches) return in.raise(Condition::value_range, word, in.words.get(word));
   return Execution::done;
 }
@@ -60,7 +60,7 @@ Execution pitches(BlockContext& in, Role word, uint32_t* number) {
 unsigned height_axis(const PlaneAxes& plane) { return plane.plane == Plane::zx ? 1 : plane.plane == Plane::yz ? 0 : 2; }
 
 /// Type 2: Q counts before K, and K before L.
-Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role height_word, double* whole) {
+Execution turns_of_type_2(BlockInHand& in, const Spiral& s, double height, Role height_word, double* whole) {
   const Command& w = in.words;
   if (w.has(Role::spiral_step)) {
     const double step = length_of(in, Role::spiral_step), change = s.circle.radius_end - s.circle.radius_start;
@@ -82,7 +82,7 @@ Execution turns_of_type_2(BlockContext& in, const Spiral& s, double height, Role
 }
 
 /// Type 1: Pn means at least n turns, and fewer than n + 1.
-Execution turns_of_type_1(BlockContext& in, double* whole) {
+Execution turns_of_type_1(BlockInHand& in, double* whole) {
   uint32_t number = 0;
   if (in.words.has(Role::helix_pitches)) {
     const Execution did = pitches(in, Role::helix_pitches, &number);
@@ -94,7 +94,7 @@ Execution turns_of_type_1(BlockContext& in, double* whole) {
 
 }  // namespace
 
-bool means_spiral(const BlockContext& in) {
+bool means_spiral(const BlockInHand& in) {
   const Command& w = in.words;
   return in.settings.spiral_type_2 && !w.has(Role::arc_radius) && w.any({Role::spiral_step, Role::spiral_pitches, vector_along(height_axis(plane_axes(in)))});
 }

@@ -46,7 +46,7 @@ struct Hermite {
   Vec3 way, v0, v1, w0, w1;
 };
 
-void basic_axes(const BlockContext& in, uint8_t (&axis)[3]) {
+void basic_axes(const InForce& in, uint8_t (&axis)[3]) {
   for (unsigned i = 0; i < 3; ++i) {
     const WordSlot name = in.settings.plane_basic[i];
     const int index = in.axis_words.axis(name);
@@ -75,7 +75,7 @@ struct Place {
 };
 
 /// The next block of the text that is not empty, if it only moves spline axes. *at: before the call where the block begins, after it where the block ends.
-bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
+bool look_ahead(BlockInHand& in, const uint8_t (&axis)[3], Place* place, bool* relative, AxisVec* at, Chord* chord) {
   const unsigned file = in.state.frame[in.state.depth].program.file;
   for (unsigned i = 0; i < kEmptyBlocks; ++i) {
     const Block* block = in.reader.peek(file, place->offset, place->line);
@@ -104,7 +104,7 @@ bool look_ahead(BlockContext& in, const uint8_t (&axis)[3], Place* place, bool* 
 // ---- conditions ------------------------------------------------------------------------------------------------------
 
 /// (1): the modes are such that a spline is formed.
-bool modes_fit(const BlockContext& in, bool exact_stop) {
+bool modes_fit(const InForce& in, bool exact_stop) {
   const State& state = in.state;
   const ModalState& modal = state.modal;
   return !exact_stop && state.comp.side == 0 && modal.is(Function::comp_off) && modal.is(Function::cutting_mode) &&
@@ -112,7 +112,7 @@ bool modes_fit(const BlockContext& in, bool exact_stop) {
 }
 
 /// (1) (b), (d): the block is not longer than #8030, and not longer than eight times a neighbour. A neighbour without length does not count.
-bool length_fits(const BlockContext& in, double length, double before, double behind) {
+bool length_fits(const InForce& in, double length, double before, double behind) {
   const double minute = in.settings.spline_minute_length;
   if (minute < 0) return true;
   if (length > minute) return false;
@@ -204,7 +204,7 @@ bool inflected(const Hermite& s) {
 }
 
 /// (2): revises a block whose chord error is above the tolerance; false when the error is so large that it cancels the spline.
-bool revise(const BlockContext& in, Hermite* s, double error) {
+bool revise(const InForce& in, Hermite* s, double error) {
   constexpr unsigned kHalvings = 50;
   const double tolerance = inflected(*s) ? in.settings.spline_tolerance_inflected : in.settings.spline_tolerance_arched;
   if (!(tolerance > 0) || error <= tolerance) return true;

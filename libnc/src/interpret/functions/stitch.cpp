@@ -33,10 +33,10 @@ void pause(BlockContext& in, double seconds) {
 
 void call_head(BlockContext& in, bool on) { give_out_bits(in, 0, in.dialect->rules.stitch.call, on ? in.dialect->rules.stitch.call : 0, on ? 1 : 0); }
 
-void begin_wait(BlockContext& in, Waits what) {
-  in.input_wait = InputWait{};
-  in.input_wait.kind = what;
-  in.input_wait.left = kQuestions;
+void begin_wait(BlockInHand& in, Waits what) {
+  in.jobs.input_wait = InputWait{};
+  in.jobs.input_wait.kind = what;
+  in.jobs.input_wait.left = kQuestions;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ Execution do_stitch(BlockContext& in) {
 
 Execution continue_stitch(BlockContext& in) {
   if (!in.world_fresh) return in.need(NC_SYNC_INPUT);
-  InputWait& wait = in.input_wait;
+  InputWait& wait = in.jobs.input_wait;
   const bool of_stitch = wait.kind == kForStitch;
   if ((in.world.input[0] & (of_stitch ? in.dialect->rules.stitch.done : in.dialect->rules.stitch.next_may)) == 0) {
     if (wait.left == 0) {

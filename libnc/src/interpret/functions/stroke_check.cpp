@@ -9,7 +9,7 @@ namespace nc {
 namespace {
 
 /// HX 15.5.3: an axis has both of its points, which differ. While the area in force limits the axis, another area that leaves it out would drop it unsaid.
-Execution check_points(BlockContext& in, WordSlot upper, Role lower, double upper_point, double lower_point, bool limited) {
+Execution check_points(BlockInHand& in, WordSlot upper, Role lower, double upper_point, double lower_point, bool limited) {
   const Command& w = in.words;
   const bool above = w.has(upper), below = w.has(lower);
   if (above != below || (!above && limited)) return in.raise(Condition::words_missing, above ? in.word(lower) : upper);
@@ -17,7 +17,7 @@ Execution check_points(BlockContext& in, WordSlot upper, Role lower, double uppe
 }
 
 /// The area of the words, and the words that are taken.
-Execution area_of_words(BlockContext& in, StrokeBox* box, WordSet* taken) {
+Execution area_of_words(BlockInHand& in, StrokeBox* box, WordSet* taken) {
   const Command& w = in.words;
   const bool needs_area = in.dialect->rules.coordinate.stroke_check_needs_area;
   const StrokeBox before = in.state.stroke_box != 0 ? in.stroke_boxes[in.state.stroke_box - 1] : StrokeBox{};
@@ -49,7 +49,7 @@ Execution area_of_words(BlockContext& in, StrokeBox* box, WordSet* taken) {
 }
 
 /// The block has a word of an area.
-bool gives_area(const BlockContext& in) {
+bool gives_area(const BlockInHand& in) {
   WordSet words = in.set_of({Role::vector_x, Role::vector_y, Role::vector_z});
   for (const WordSlot name : in.settings.plane_basic) words |= set_of(name);
   return in.words.any(words);

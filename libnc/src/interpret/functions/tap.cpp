@@ -10,17 +10,17 @@ namespace nc {
 namespace {
 
 /// Series 8 G84: each tap goes with the spindle, and its lead has a word of its own.
-bool lead_has_word(const BlockContext& in) { return in.dialect->addresses.has(Role::tap_lead); }
+bool lead_has_word(const InForce& in) { return in.dialect->addresses.has(Role::tap_lead); }
 
 /// HX 12.3.5: synchronous taps have codes of their own. Their F is a feed like any other, and with the speed in force it makes the lead.
-bool rigid_by_code(const BlockContext& in) {
+bool rigid_by_code(const BlockInHand& in) {
   if (lead_has_word(in)) return true;
   const Function function = in.words.cycle != nullptr ? in.words.cycle->function : in.state.modal.of(Mode::cycle);
   return function == Function::cycle_rigid_tap || function == Function::cycle_rigid_reverse_tap;
 }
 
 /// Precaution (20): ,R decides; without it the parameter, or an M code.
-bool synchronous(const BlockContext& in) {
+bool synchronous(const BlockInHand& in) {
   if (rigid_by_code(in)) return true;
   const Command& w = in.words;
   const TapControl modal = w.cycle != nullptr && in.state.cycle.kind == CycleKind::none ? TapControl::by_parameter : in.state.cycle.tap;
@@ -32,7 +32,7 @@ bool synchronous(const BlockContext& in) {
 }
 
 /// The lead, mm/rev: F, or E as ridges per inch (appendix 1, P183 and P184). Ranges as of threads (6.7.1).
-Execution take_pitch(BlockContext& in) {
+Execution take_pitch(BlockInHand& in) {
   const Command& w = in.words;
   const bool inch = in.state.modal.is(Function::inch), ridges = w.has(Role::tap_ridges);
   if (!ridges && !w.has(Role::feed)) return Execution::done;
@@ -45,7 +45,7 @@ Execution take_pitch(BlockContext& in) {
   return Execution::done;
 }
 
-Execution take_lead_word(BlockContext& in) {
+Execution take_lead_word(BlockInHand& in) {
   if (!in.words.has(Role::tap_lead)) return Execution::done;
   const double pitch = length_of(in, Role::tap_lead);
   if (!(pitch > 0 && pitch < in.dialect->rules.range.end_of_lead_mm)) return in.raise(Condition::tap_pitch, Role::tap_lead, in.words.get(Role::tap_lead));
@@ -54,7 +54,7 @@ Execution take_lead_word(BlockContext& in) {
 }
 
 /// HX 12.3.5: F = n x f.
-Execution take_pitch_of_feed(BlockContext& in) {
+Execution take_pitch_of_feed(BlockInHand& in) {
   const ModalState& modal = in.state.modal;
   const Execution did = check_feed(in, Function::linear);
   if (did != Execution::done || !(modal.spindle > 0)) return did;  // without a speed check_tap() raises its alarm
@@ -67,21 +67,21 @@ Execution take_pitch_of_feed(BlockContext& in) {
 
 }  // namespace
 
-bool taps(const BlockContext& in) {
+bool taps(const BlockInHand& in) {
   const Command& w = in.words;
   if (w.motion != nullptr || w.one_shot != nullptr) return false;
   return is_tap(w.cycle != nullptr ? cycle_kind(*in.dialect, w.cycle->function) : in.state.cycle.kind);
 }
 
-bool taps_with_spindle(const BlockContext& in) { return taps(in) && synchronous(in) && !rigid_by_code(in); }
+bool taps_with_spindle(const BlockInHand& in) { return taps(in) && synchronous(in) && !rigid_by_code(in); }
 
 /// P186: in the mode of synchronous tapping the spindle is the tap's. The block that selects it brings its S.
-Execution check_tap_speed(BlockContext& in) {
+Execution check_tap_speed(BlockInHand& in) {
   const double s = in.words.get(Role::spindle_speed);
   return in.words.cycle != nullptr ? Execution::done : in.raise(Condition::tap_speed_word, Role::spindle_speed, s);
 }
 
-Execution take_tap_words(BlockContext& in) {
+Execution take_tap_words(BlockInHand& in) {
   const Command& w = in.words;
   CycleState& c = in.state.cycle;
   if (w.has_tap_control) {
@@ -99,7 +99,7 @@ Execution take_tap_words(BlockContext& in) {
   return c.synchronous ? take_pitch(in) : Execution::done;
 }
 
-Execution check_tap(BlockContext& in) {
+Execution check_tap(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
   // P181: a speed has been commanded; that of a synchronous tap stands in the block of its code.
   const bool missing = c.synchronous && !rigid_by_code(in) && in.words.cycle != nullptr ? !in.words.has(Role::spindle_speed) : false;
@@ -112,7 +112,7 @@ Execution check_tap(BlockContext& in) {
 
 /// M700 13.1.1, "acceleration/deceleration pattern": up to three stages, none of them steeper than the one before (precaution (13)), no speed
 /// above the highest (14). The whole stroke has the slope of the last stage that its speed reaches: that keeps each of them.
-double tap_slope(const BlockContext& in, double rev_min) {
+double tap_slope(const InForce& in, double rev_min) {
   const TapStage* const stage = in.settings.tap_stage;
   const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL;
   double from = 0, slope = 0;
@@ -127,7 +127,7 @@ double tap_slope(const BlockContext& in, double rev_min) {
   return slope;
 }
 
-CycleKind tap_in_cuts(const BlockContext& in, CycleKind kind) {
+CycleKind tap_in_cuts(const InForce& in, CycleKind kind) {
   if (!(in.state.cycle.tap_q >= 1e-6)) return kind;
   const bool to_r = in.settings.tap_to_r;
   if (kind == CycleKind::tap) return to_r ? CycleKind::deep_tap : CycleKind::peck_tap;

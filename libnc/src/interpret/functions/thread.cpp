@@ -12,7 +12,7 @@ namespace {
 bool lead_in_range(double lead, double limit) { return lead > 0 && lead < limit; }
 
 /// The lead along the long axis that the words give; it stays in force for the thread blocks behind.
-Execution take_lead(BlockContext& in) {
+Execution take_lead(BlockInHand& in) {
   const Command& w = in.words;
   const bool inch = in.state.modal.is(Function::inch);
   const double unit = inch ? kMillimetresPerInch : 1.0;

@@ -15,13 +15,13 @@ struct TurningPair {
   bool complete() const { return tilt >= 0 && turn >= 0; }
 };
 
-int turning_axis(const BlockContext& in, Role name) {
+int turning_axis(const InForce& in, Role name) {
   const int axis = in.axis_called(name);
   return axis >= 0 && (in.rotary >> axis & 1) != 0 ? axis : -1;
 }
 
 /// The manual's parameter for the pair has no number. A machine that has both A and B gets A, the first that 12.3 names.
-TurningPair turning_pair(const BlockContext& in) {
+TurningPair turning_pair(const InForce& in) {
   const int a = turning_axis(in, Role::turn_x);
   return {a >= 0 ? a : turning_axis(in, Role::turn_y), turning_axis(in, Role::turn_z), a >= 0};
 }
@@ -29,7 +29,7 @@ TurningPair turning_pair(const BlockContext& in) {
 double radians(const AxisVec& machine, int axis) { return machine[static_cast<unsigned>(axis)] * (std::numbers::pi / 180); }
 
 /// 12.3, "vectors": (1) A and C, (2) B and C, at machine positions. Whole quarters of a turn are exact.
-void add_along_tool(const BlockContext& in, const AxisVec& machine, SpaceVector& vector) {
+void add_along_tool(const InForce& in, const AxisVec& machine, SpaceVector& vector) {
   const TurningPair pair = turning_pair(in);
   const double tilt = radians(machine, pair.tilt), turn = radians(machine, pair.turn), length = in.state.tool_length;
   const auto exact = [](double value) { return std::fabs(value) < 1e-15 ? 0 : value; };
@@ -42,7 +42,7 @@ void add_along_tool(const BlockContext& in, const AxisVec& machine, SpaceVector&
 
 }  // namespace
 
-SpaceVector space_vector(const BlockContext& in, const AxisVec& machine) {
+SpaceVector space_vector(const InForce& in, const AxisVec& machine) {
   SpaceVector vector = in.state.space;
   if (in.state.tool_length == 0) return vector;
   if (!vector.on) {
@@ -54,7 +54,7 @@ SpaceVector space_vector(const BlockContext& in, const AxisVec& machine) {
   return vector;
 }
 
-Execution set_length_along_tool(BlockContext& in, double length) {
+Execution set_length_along_tool(BlockInHand& in, double length) {
   State& state = in.state;
   const TurningPair pair = turning_pair(in);
   if (!pair.complete()) return in.raise_function(Condition::tool_axis_pair, Function::length_along_tool);

@@ -19,7 +19,7 @@ constexpr uint8_t kOrder[6][3] = {
 };
 
 /// The axes of a set of basic axes that the machine has.
-uint32_t axes_of(const BlockContext& in, uint8_t basic) {
+uint32_t axes_of(const InForce& in, uint8_t basic) {
   uint32_t axes = 0;
   for (unsigned i = 0; i < 3; ++i) {
     const int axis = in.axis_called(basic_along(i));

@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned kRemovedAhead = 40;
 static_assert(kRemovedAhead * kLifeColumns + 100 < Variables::kMostWrites);
 
-Execution wait_for_removal(BlockContext& in, unsigned tools) {
+Execution wait_for_removal(BlockInHand& in, unsigned tools) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);
   return tools > kRemovedAhead && !in.world_fresh ? in.need(NC_SYNC_STOPPED) : Execution::done;
 }
@@ -29,7 +29,7 @@ void tell_machine(BlockContext& in, unsigned slot) {
   action.bits = in.lives->registered_in(slot).number;
 }
 
-void register_tool(BlockContext& in, unsigned slot, const ToolLife& tool) { in.lives.change(in.state.seq + 1, &ToolLives::tool, slot, tool); }
+void register_tool(InForce& in, unsigned slot, const ToolLife& tool) { in.lives.change(in.state.seq + 1, &ToolLives::tool, slot, tool); }
 
 void clear_slot(BlockContext& in, unsigned slot) {
   register_tool(in, slot, ToolLife{});
@@ -107,7 +107,7 @@ Execution take_tool(BlockContext& in) {
 }
 
 /// One more of what is counted in times.
-void count(BlockContext& in, unsigned slot) {
+void count(InForce& in, unsigned slot) {
   const ToolLife& tool = in.lives->tool[slot];
   in.change_life(slot, &ToolLife::used, std::fmin(tool.used + 1, in.dialect->rules.range.most_life(tool.flags.method == LifeMethod::time)));
   if (tool.life != 0 && tool.used >= static_cast<double>(tool.life) && tool.lives()) in.change_life(slot, &ToolLife::status, LifeStatus::ended);
@@ -153,7 +153,7 @@ Execution tool_life_block(BlockContext& in) {
   return in.raise_first(Condition::illegal_address, others);
 }
 
-Execution select_managed_tool(BlockContext& in, uint32_t* tool) {
+Execution select_managed_tool(BlockInHand& in, uint32_t* tool) {
   const ToolLives& lives = *in.lives;
   const bool of_group = !in.settings.life_by_tool && *tool != 0;
   const unsigned slot = of_group ? lives.next_of(*tool) : lives.with_tool(*tool);
@@ -176,7 +176,7 @@ void take_managed_tool(BlockContext& in) {
 }
 
 /// A use is a cut behind rapid traverse.
-void count_tool_use(BlockContext& in, bool cuts) {
+void count_tool_use(InForce& in, bool cuts) {
   const ToolsInUse& tools = in.records->tools;
   if (tools.cutting == cuts) return;
   in.change(&ProgramRecords::tools, &ToolsInUse::cutting, cuts);

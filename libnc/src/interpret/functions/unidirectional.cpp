@@ -4,7 +4,7 @@
 
 namespace nc {
 
-AxisVec before_creep(const BlockContext& in, const AxisVec& target, uint32_t axes) {
+AxisVec before_creep(const InForce& in, const AxisVec& target, uint32_t axes) {
   AxisVec before = target;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((axes >> i) & 1) != 0) before[i] -= in.settings.creep[i];  // the sign of the parameter is the final direction

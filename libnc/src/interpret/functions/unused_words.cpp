@@ -9,13 +9,13 @@ namespace nc {
 namespace {
 
 /// I J K of the plane in force.
-WordSet vectors_of_plane(const BlockContext& in) {
+WordSet vectors_of_plane(const InForce& in) {
   const PlanePair plane = pair_of(in.state.modal.of(Mode::plane));
   return in.set_of({vector_along(plane.first), vector_along(plane.second)});
 }
 
 /// What the fixed cycle of the block takes (RS-274/NGC 3.5.16, LinuxCNC G73, G74; DGSHAPE G81 to G89; Series 8 G81 to G89).
-WordSet words_of_cycle(const BlockContext& in, Function cycle) {
+WordSet words_of_cycle(const BlockInHand& in, Function cycle) {
   if (!in.words.any(in.axis_words.all() | in.set_of({Role::cycle_level}))) return 0;  // a block without a hole keeps nothing (M700 13.1.1 (2))
   const WordSet vectors = in.set_of({Role::vector_x, Role::vector_y, Role::vector_z});
   WordSet words = in.set_of({Role::cycle_level, Role::cycle_count, Role::cycle_count_2});
@@ -42,7 +42,7 @@ WordSet words_of_cycle(const BlockContext& in, Function cycle) {
 }
 
 /// What a one-shot function takes beside axes.
-WordSet words_of_one_shot(const BlockContext& in, Function function) {
+WordSet words_of_one_shot(const InForce& in, Function function) {
   const WordSet vectors = in.set_of({Role::vector_x, Role::vector_y, Role::vector_z});
   switch (function) {
     case Function::dwell: return in.set_of({Role::dwell_time});
@@ -76,7 +76,7 @@ WordSet words_of_one_shot(const BlockContext& in, Function function) {
 }
 
 /// Axis words that the one-shot function of the block has no use for. Many functions check theirs themselves; here are those that would pass over them.
-WordSet axes_lost(const BlockContext& in, Function function) {
+WordSet axes_lost(const InForce& in, Function function) {
   switch (function) {
     case Function::dwell:  // some families have an alarm of their own for it
       return in.dialect->rules.dwell.refuses_axes ? 0 : in.axis_words.all() & ~in.set_of({Role::dwell_seconds});
@@ -95,7 +95,7 @@ WordSet axes_lost(const BlockContext& in, Function function) {
 }
 
 /// What the motion, the cycle or the one-shot function of the block takes beside the axes.
-WordSet words_of_motion(const BlockContext& in) {
+WordSet words_of_motion(const BlockInHand& in) {
   const Command& w = in.words;
   const bool of_hole = in.state.cycle.kind != CycleKind::none && w.one_shot != nullptr && w.one_shot->function == Function::unidirectional;  // HX 4.2
   WordSet words = 0;
@@ -111,7 +111,7 @@ WordSet words_of_motion(const BlockContext& in) {
   return is_arc(motion) ? words | vectors_of_plane(in) | in.set_of({Role::arc_radius, Role::arc_turns}) : words;
 }
 
-WordSet words_of_mode(const BlockContext& in, Function function) {
+WordSet words_of_mode(const InForce& in, Function function) {
   const CompensationRules& rules = in.dialect->rules.compensation;
   const WordSet direction = rules.vector_by_words ? vectors_of_plane(in) : 0;
   switch (function) {
@@ -126,7 +126,7 @@ WordSet words_of_mode(const BlockContext& in, Function function) {
   }
 }
 
-WordSet words_of_misc(const BlockContext& in, MiscFunction function) {
+WordSet words_of_misc(const InForce& in, MiscFunction function) {
   switch (function) {
     case MiscFunction::override_of_one: return in.set_of({Role::override_switch});
     case MiscFunction::machine_output: return in.set_of({Role::output_number});
@@ -143,7 +143,7 @@ WordSet words_of_misc(const BlockContext& in, MiscFunction function) {
 
 }  // namespace
 
-Execution check_unused_words(BlockContext& in) {
+Execution check_unused_words(BlockInHand& in) {
   const Command& w = in.words;
   const Rules& rules = in.dialect->rules;
   // Names of axes that the machine does not have are an alarm of their own.
