@@ -14,7 +14,7 @@ import random
 from shapely.geometry import Point
 
 import contours
-from contours import SAGITTA, Element, rounded
+from contours import SAGITTA, Element, rounded, tangent_at
 
 READS = ["#100=#5041", "#100=#5021+#5022", "#100=#1000", "#100=#3001", "IF[#1001 EQ 5]GOTO9"]
 KINDS = ["normal", "aslant", "along", "radial", "tangent", "turned"]
@@ -99,10 +99,10 @@ class Profile(contours.Contour):
         if self.beyond:
             point, u = self.programmed[0].at(self.beyond)
             return rounded(point), u
-        return self.programmed[-1].end, self.programmed[-1].at(1)[1]
+        return self.programmed[-1].end, tangent_at(self.programmed, True)
 
     def lead_points(self, lead, end):
-        point, u = self.end_point() if end else self.programmed[0].at(0)
+        point, u = self.end_point() if end else (self.programmed[0].start, tangent_at(self.programmed, False))
         side = 1 if self.left_at(len(self.programmed) - 1 if end else 0) else -1
         return lead.world(point, u, side, 1 if end else -1)
 
@@ -150,7 +150,7 @@ class Profile(contours.Contour):
         centers = [center for _, center in reversed(out)]
         down = f" Z{-self.level:.3f}" if self.level else ""
         ramp = down if lead.descent == "line" else ""
-        u = self.programmed[0].at(0)[1] if len(out) == 1 else (path[2][0] - path[1][0], path[2][1] - path[1][1])
+        u = tangent_at(self.programmed, False) if len(out) == 1 else (path[2][0] - path[1][0], path[2][1] - path[1][1])
         vector = f" I{u[0]:.6f} J{u[1]:.6f}" if lead.vector and (len(out) == 1 or centers[1] is None) and math.hypot(*u) > 0.01 else ""
         lines.append(f"G{0 if lead.rapid else 1} {self.code(0)} D{number} X{path[1][0]:.6f} Y{path[1][1]:.6f}{ramp}{vector} F1000")
         lines.extend(lead.idle)
@@ -202,10 +202,8 @@ class Profile(contours.Contour):
                 lines.append(f"G{0 if lead.rapid else 1} G40 X{end[0]:.6f} Y{end[1]:.6f}{up}")
             begin = end
 
-    def changes_in_a_tiny_line(self):
-        """Half a micrometre does not scale: from there on a line beside the change of side is a block."""
-        k = self.cross
-        return k is not None and min(self.programmed[k - 1].length(), self.programmed[k].length()) < 0.0005
+    def changes_at(self):
+        return None if self.cross is None else [self.cross - 1, self.cross]
 
     def reversible(self):
         return not (self.corners or self.beyond or len(self.cuts) > 1 or self.approach.vector or self.depart.vector)

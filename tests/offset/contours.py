@@ -8,6 +8,7 @@ from shapely.geometry import LineString, Point, Polygon
 from shapely.validation import make_valid
 
 SAGITTA = 0.00025  # mm: how far the fine polygons leave their arcs
+NO_DIRECTION = 0.0005  # mm: a shorter line goes along with the blocks around it
 
 
 class Element:
@@ -66,6 +67,14 @@ class Element:
         if self.center is None:
             return Element(self.start, point), Element(point, self.end)
         return Element(self.start, point, self.center, self.ccw), Element(point, self.end, self.center, self.ccw)
+
+
+def tangent_at(elements, end):
+    """Unit tangent of the contour where it begins, or ends (`end`): of a line of a nanometre there the last digit decides where it leads, so it is that of the first element
+    behind it, or the last in front of it, that has a direction."""
+    order = elements[::-1] if end else elements
+    element = next((e for e in order if e.center or e.length() >= NO_DIRECTION), order[0])
+    return element.at(1 if end else 0)[1]
 
 
 def rounded(point):
@@ -359,14 +368,14 @@ class Contour:
         if elements[i].length() < 0.01 or self.kind == "circle" or (0.4 < kind < 0.6 and rng.random() < 0.6):  # from a corner
             part = 0
         self.start_at(elements, i, part)
-        point, u = self.elements[0].at(0)
+        point, u = self.elements[0].start, tangent_at(self.elements, False)
         for far in (1.5, 1.2, 1.05, 1.0):  # where the tool stands before and behind has room, too
             self.lead = rounded((point[0] - side * u[1] * far * self.radius, point[1] + side * u[0] * far * self.radius))
             if self.part.exterior.distance(Point(self.lead)) >= self.radius - 2 * SAGITTA:
                 break
         if 0.4 < kind < 0.6:
             self.along = round(rng.uniform(1.05, 3) * self.radius, 3)
-            last, v = self.elements[-1].at(1)
+            last, v = self.elements[-1].end, tangent_at(self.elements, True)
             begin = (point[0] - self.along * u[0], point[1] - self.along * u[1])
             end = (last[0] + self.along * v[0], last[1] + self.along * v[1])
             self.between = (rounded(begin), rounded(end))
@@ -493,7 +502,7 @@ class Contour:
 
     def quarter(self, end):
         """The quarter circle by which the tool comes to the contour, or leaves it (`end`): its other end and its centre."""
-        point, u = self.programmed[-1].at(1) if end else self.programmed[0].at(0)
+        point, u = self.programmed[-1].end if end else self.programmed[0].start, tangent_at(self.programmed, end)
         side = 1 if self.side() == "G41" else -1
         center = rounded((point[0] - side * u[1] * self.way, point[1] + side * u[0] * self.way))
         along = 1 if end else -1
@@ -540,6 +549,14 @@ class Contour:
             lines.append(f"G1 X{self.between[1][0]:.6f} Y{self.between[1][1]:.6f}")
         lines.append(f"G1 G40 X{lead[0]:.6f} Y{lead[1]:.6f}{' Z0' if self.depth else ''}")
         return [block for line in lines for block in line.split("\n")]
+
+    def changes_at(self):
+        """The blocks beside a change of side, or the block in which the amount changes; None: nothing changes."""
+        return [self.other[0]] if self.other else None
+
+    def changes_in_a_tiny_line(self):
+        """Half a micrometre does not scale: twice as long it may be a block, which has a side, or a corner with the new amount, of its own."""
+        return self.changes_at() is not None and min(self.programmed[k].length() for k in self.changes_at()) < NO_DIRECTION
 
     def reversible(self):
         """Words of corners would stand at other blocks, and along its sides the tool comes from the other end."""

@@ -26,7 +26,8 @@ import subprocess
 import sys
 
 try:
-    from shapely.geometry import LineString, MultiLineString, Point
+    from shapely.geometry import LineString, MultiLineString, Point, Polygon
+    from shapely.ops import unary_union
 except ImportError:
     # A python3 in front of Debian's in PATH does not see Debian's packages.
     debian = "/usr/bin/python3"
@@ -35,10 +36,9 @@ except ImportError:
     print("skipped: no python3-shapely")
     sys.exit(77)
 from cam_profiles import Profile  # noqa: E402
-from contours import SAGITTA, Contour, Element  # noqa: E402
+from contours import NO_DIRECTION, SAGITTA, Contour, Element, cut_at, tangent_at  # noqa: E402
 
 TOLERANCE = 0.001 + 3 * SAGITTA
-NO_DIRECTION = 0.0005  # mm: a shorter line goes along with the blocks around it
 MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.6, "round": 0.5, "circle": 0.5, "scallops": 0.5, "flared": 0.45, "noses": 0.6, "cam star": 0.65, "cam slot": 0.8,
                "cam plate": 0.65, "cam round": 0.65, "cam circle": 0.7, "cam scallops": 0.65, "cam flared": 0.65, "cam noses": 0.7}  # shares of each kind
 
@@ -166,7 +166,9 @@ def judge(contour, result):
         return "open: the path does not come back"
     if profile:
         return judge_profile(contour, result)
-    paths = [(block, LineString(move.points())) for block, move, *_ in result.moves if move.length() > 1e-9]
+    bottom = min((low for _, _, low, _ in result.moves), default=0)
+    at_level = [(block, move) for block, move, low, _ in result.moves if not contour.ramp or low <= bottom + 1e-6]  # the tool comes and goes above the walls: it cuts none of them there
+    paths = [(block, LineString(move.points())) for block, move in at_level if move.length() > 1e-9]
     if contour.depth:  # the way in lies above the walls
         paths = [each for each in paths if each[0] > (1 if contour.way or contour.along else 0)]
     if not paths:  # the radius of the tool is that of the hole: it stands in the middle
@@ -259,29 +261,69 @@ def judge_uncut(contour, path, r, inside, elements, near):
     tool goes, where it could also go elsewhere."""
     if not elements:
         return None
-    if inside:
-        reach = contour.part.buffer(-r, resolution=64, join_style=2, mitre_limit=10)
-        if reach.is_empty:  # as wide as the tool
-            reach = contour.part.buffer(-r + TOLERANCE, resolution=64)
-        if reach.is_empty:
-            return "inside of a contour that the tool does not fit into, without an alarm"
-        pieces = list(reach.geoms) if reach.geom_type == "MultiPolygon" else [reach]
-        start = contour.elements[near].at(0 if near == 0 else 1)
-        side = 1 if inside != contour.backwards else -1
-        center = Point(start[0][0] - side * start[1][1] * r, start[0][1] + side * start[1][0] * r)
-        curve = min(pieces, key=lambda piece: piece.distance(center)).exterior
-    else:
-        curve = contour.part.buffer(r, resolution=64, join_style=2, mitre_limit=10).exterior
-    worst, allowed = 0.0, TOLERANCE + r * (1 - math.cos(math.pi / 256)) + 2 * SAGITTA  # ... of the circle that GEOS divides
+    curve = reached(contour, r, inside, near, [])
+    if isinstance(curve, str):
+        return curve
+    allowed = TOLERANCE + r * (1 - math.cos(math.pi / 256)) + 2 * SAGITTA  # ... of the circle that GEOS divides
+    left_over = []
     for element in elements:
         for part in (0.1, 0.5, 0.9):
             point = Point(element.at(part)[0]) if element.length() > 0 else Point(element.start)
             left = path.distance(point) - r
             if left > allowed and curve.distance(point) <= r + 2 * SAGITTA:
-                worst = max(worst, left)
+                left_over.append((left, point))
+    corners = lengthened_arcs(contour, r, inside) if left_over else []
+    if corners:
+        curve = reached(contour, r, inside, near, corners)
+    worst = max((left for left, point in left_over if curve.distance(point) <= r + 2 * SAGITTA), default=0)
     if worst > allowed:
         return f"uncut by {worst:.4f} mm"
     return None
+
+
+def reached(contour, r, inside, near, corners):
+    """The curve that the tool's centre goes along by GEOS; into `corners` it does not go. A text: there is none."""
+    if not inside:
+        return unary_union([contour.part.buffer(r, resolution=64, join_style=2, mitre_limit=10), *corners]).exterior
+    reach = contour.part.buffer(-r, resolution=64, join_style=2, mitre_limit=10)
+    if reach.is_empty:  # as wide as the tool
+        reach = contour.part.buffer(-r + TOLERANCE, resolution=64)
+    if reach.is_empty:
+        return "inside of a contour that the tool does not fit into, without an alarm"
+    for corner in corners:
+        reach = reach.difference(corner)
+    pieces = list(reach.geoms) if reach.geom_type == "MultiPolygon" else [reach]
+    start, u = contour.elements[near].start if near == 0 else contour.elements[near].end, tangent_at(contour.elements, near != 0)
+    side = 1 if inside != contour.backwards else -1
+    center = Point(start[0] - side * u[1] * r, start[1] + side * u[0] * r)
+    return min(pieces, key=lambda piece: piece.distance(center)).exterior
+
+
+def lengthened_arcs(contour, r, inside):
+    """What lies between an outer corner of up to 90 degrees beside an arc and the point where the two offset curves meet (12.4.1). GEOS knows nothing of arcs: it lengthens the chords of
+    the fine polygon, which meet elsewhere, so what an arc that is bent to the tool takes away from the wall behind the corner has to be told it."""
+    left = r if inside != contour.backwards else -r
+    elements = [e for e in contour.elements if e.center or e.length() >= NO_DIRECTION]
+    corners = []
+    for before, behind in zip(elements, elements[1:] + elements[:1]):
+        (corner, u), (_, w) = before.at(1), behind.at(0)
+        sine, cosine = u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1]
+        if not (before.center or behind.center) or abs(sine) < 1e-3 or cosine < 0 or (sine > 0) == (left > 0):
+            continue
+        meeting = cut_at((before, left), (behind, left))
+        if meeting:
+            sides = [along_offset(e, (corner[0] - left * t[1], corner[1] + left * t[0]), meeting[0]) for e, t in ((before, u), (behind, w))]
+            corners.append(Polygon([corner, *sides[0], *reversed(sides[1])]).buffer(0))
+    return corners
+
+
+def along_offset(element, start, end):
+    """Points from one to another of a curve beside the element."""
+    if element.center is None:
+        return [start, end]
+    angles = [math.atan2(p[1] - element.center[1], p[0] - element.center[0]) for p in (start, end)]
+    turn, radius = (angles[1] - angles[0] + math.pi) % (2 * math.pi) - math.pi, math.dist(start, element.center)
+    return [(element.center[0] + radius * math.cos(angles[0] + turn * i / 32), element.center[1] + radius * math.sin(angles[0] + turn * i / 32)) for i in range(33)]
 
 
 def contour_of(seed):
@@ -316,7 +358,7 @@ def main():
         for contour, result, other in zip(tried, results, run_all(programs)):
             if way == "back" and not contour.reversible():
                 continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
-            if way == "scale" and isinstance(contour, Profile) and contour.changes_in_a_tiny_line():
+            if way == "scale" and contour.changes_in_a_tiny_line():
                 continue  # twice as long it may be a block, which has a side of its own
             bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way, as_large_as_the_tool(contour))
             if bad:
