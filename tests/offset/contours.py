@@ -292,6 +292,8 @@ def divide(rng, elements):
 
 
 class Contour:
+    only = None  # the kind of all contours of a class
+
     def __init__(self, seed):
         rng = random.Random(seed)
         self.seed = seed
@@ -316,7 +318,7 @@ class Contour:
         """Radius of the tool, shape of the part, side; gives the elements of the part."""
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared", "noses"])
+            kind = self.only or rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared", "noses"])
             elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "noses": lambda: noses(rng, self.radius), "flared": lambda: flared(rng, self.radius)}[kind]()
             if any(e.start == e.end and e.center is None for e in elements):
                 continue
@@ -540,6 +542,8 @@ class Contour:
             lines.append(f"{code} G1 X{first[0]:.6f} Y{first[1]:.6f} F1000")
         if self.depth:
             self.round(lines, self.depth)
+        start = next(number for number, line in enumerate(lines) if line.startswith(code))
+        self.lines_of = [number - start for number in range(len(lines), len(lines) + len(self.programmed))]  # of the elements, in the last round, from the start of compensation on
         self.round(lines, 0)
         if self.way:
             last = self.programmed[-1].end

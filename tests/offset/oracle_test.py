@@ -12,7 +12,8 @@ write them (cam_profiles.py). The programs run in contour_paths.cpp. Of each tha
   uncut    every point of the contour that GEOS' offset curve reaches is reached by the path
   open     the path has no gap and ends where the program says
 
-to a micrometre and the error of the fine polygons. Then the contour is mirrored, turned, scaled and run backwards, and the path has to follow. How
+to a micrometre and the error of the fine polygons. Contours of which the tool reaches every block are asked the same without CONTOUR_CHECK: what is wrong at a corner must
+not be left to it. Then the contour is mirrored, turned, scaled and run backwards, and the path has to follow. How
 many may end in an alarm is bounded for each kind of contour.
 
 NC_CONTOURS=n   how many (default 10000, 200 under a sanitizer; a long run takes 1000000); NC_FIRST_SEED=n   the first of them; NC_EVERY=n   which
@@ -125,7 +126,7 @@ class Result:
 
 def run_all(programs):
     """Results of programs (lists of blocks). Each begins at zero: where the one before it ended, and at which height, is no part of it."""
-    text = "".join("\n".join(["!1229/bit2 0", "G17 G90 G21 G94 G0 X0 Y0 Z0", *blocks, "M30", "%", ""]) for blocks in programs)
+    text = "".join("\n".join(["!1229/bit2 0", "!CONTOUR_CHECK 1", "G17 G90 G21 G94 G0 X0 Y0 Z0", *blocks, "M30", "%", ""]) for blocks in programs)
     tool = os.path.join(os.environ.get("NC_BINARY_DIR", "build/release"), "bin", "contour_paths")
     answers = subprocess.run([tool], input=text, stdout=subprocess.PIPE, check=True, text=True).stdout.split("\n.\n")
     assert len(answers) == len(programs) + 1, "an answer for each program"
@@ -284,7 +285,8 @@ def judge_uncut(contour, path, r, inside, elements, near):
 def reached(contour, r, inside, near, corners):
     """The curve that the tool's centre goes along by GEOS; into `corners` it does not go. A text: there is none."""
     if not inside:
-        return unary_union([contour.part.buffer(r, resolution=64, join_style=2, mitre_limit=10), *corners]).exterior
+        whole = unary_union([contour.part.buffer(r, resolution=64, join_style=2, mitre_limit=10), *corners])
+        return max(getattr(whole, "geoms", [whole]), key=lambda piece: piece.area).exterior
     reach = contour.part.buffer(-r, resolution=64, join_style=2, mitre_limit=10)
     if reach.is_empty:  # as wide as the tool
         reach = contour.part.buffer(-r + TOLERANCE, resolution=64)
@@ -326,6 +328,40 @@ def along_offset(element, start, end):
     return [(element.center[0] + radius * math.cos(angles[0] + turn * i / 32), element.center[1] + radius * math.sin(angles[0] + turn * i / 32)) for i in range(33)]
 
 
+def reaches_every_block(contour):
+    """Does the tool touch each block of the contour, as it goes round it in one piece? Then no block is in the way of another one, and all that the control has to get right is the corners."""
+    if isinstance(contour, Profile) and (contour.cross is not None or len(contour.cuts) > 1):
+        return False
+    curve = None if contour.other else reached(contour, contour.radius, contour.inside, 0, lengthened_arcs(contour, contour.radius, contour.inside))
+    if curve is None or isinstance(curve, str) or curve.is_empty:
+        return False
+    touches = lambda point: curve.distance(Point(point)) <= contour.radius + 2 * SAGITTA
+    return touches(contour.elements[0].start) and all(e.length() < NO_DIRECTION or any(touches(e.at(part / 40)[0]) for part in range(41)) for e in contour.elements)
+
+
+def judge_blocks(contour, result):
+    """The contour without its ways in and out and the two blocks that these lead to: what they pass there is for CONTOUR_CHECK."""
+    lines = contour.lines_of[1:-1]
+    paths = [(block, LineString(move.points())) for block, move, *_ in result.moves if lines and lines[0] <= block <= lines[-1] and move.length() > 1e-9]
+    return judge_gouge(paths, contour.wall(), contour.radius) if paths else None
+
+
+class Noses(Contour):
+    """The digits of a cusp decide wrongly in one of some hundred, so there have to be many of them."""
+    only = "noses"
+
+
+def judge_without_check(contours, without, wrong):
+    contours = [c for c in contours if reaches_every_block(c)]
+    for contour, result in zip(contours, run_all([["!CONTOUR_CHECK 0", *c.blocks()] for c in contours])):
+        without[0] += 1
+        without[1] += 1 if result.alarm else 0
+        bad = None if result.alarm else judge_blocks(contour, result)
+        if bad:
+            wrong["without the check"] = wrong.get("without the check", 0) + 1
+            print(f"seed {contour.seed} ({type(contour).__name__}, {contour.kind}, r {contour.radius}), without the check: {bad}")
+
+
 def contour_of(seed):
     """Each third one is a profile of a CAM system."""
     return Profile(seed) if seed % 3 == 0 else Contour(seed)
@@ -335,6 +371,7 @@ def main():
     count, first = int(os.environ.get("NC_CONTOURS", "200" if os.environ.get("NC_SANITIZE") else "10000")), int(os.environ.get("NC_FIRST_SEED", "1"))
     show = os.environ.get("NC_SHOW")
     alarms, alarmed, wrong, kinds = {}, {}, {}, {}
+    without = [0, 0]  # contours without CONTOUR_CHECK, and how many of them end in an alarm
     for from_seed in range(first, first + count, 500):
         contours = [contour_of(seed) for seed in range(from_seed, min(from_seed + 500, first + count))]
         for contour, result in zip(contours, run_all([c.blocks() for c in contours])):
@@ -351,6 +388,7 @@ def main():
                     print(f"seed {contour.seed} ({contour.kind}, {'inside' if contour.inside else 'outside'}, r {contour.radius}): {bad}")
                 if show:
                     print("\n".join(contour.blocks()))
+        judge_without_check(contours + [Noses(seed) for seed in range(from_seed, min(from_seed + 500, first + count), 5)], without, wrong)
     tried = [contour_of(seed) for seed in range(first, first + count, int(os.environ.get("NC_EVERY", "5")))]
     results = run_all([c.blocks() for c in tried])
     for way in [*TRANSFORMS, "back"]:
@@ -366,7 +404,7 @@ def main():
                 if sum(wrong.values()) <= 10 or show:
                     print(f"seed {contour.seed} ({contour.kind}, r {contour.radius}), {way}: {bad}")
     shares = {kind: alarmed.get(kind, 0) / of for kind, of in kinds.items()}
-    print(f"{count} contours {kinds}: {sum(alarms.values())} end in an alarm {alarms}, of each kind {', '.join(f'{k} {share:.0%}' for k, share in shares.items())}; wrong {wrong}")
+    print(f"{count} contours {kinds}: {sum(alarms.values())} end in an alarm {alarms}, of each kind {', '.join(f'{k} {share:.0%}' for k, share in shares.items())}; {without[0]} without the check, {without[1]} alarms; wrong {wrong}")
     for kind, share in shares.items():
         if kinds[kind] >= 100 and share > MOST_ALARMS[kind]:
             wrong["alarms"] = 1
