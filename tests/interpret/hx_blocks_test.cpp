@@ -124,6 +124,29 @@ TEST(HxBlocks, TheEndOfAModalCallMayStandWhereThereIsNone) {  // 3.2: G67 is in 
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0"}));
 }
 
+TEST(HxBlocks, AToolThatCallsIsWithinItsRange) {  // 10.1.1
+  for (const char* block : {"T-5", "X5. T-5", "T100000000"}) {
+    Bench b(NC_DIALECT_HX);
+    b.param("3106", "1").add("O9000.nc", "O9000\n#500=1\nM99\n");
+    const Outcome run = b.run(std::string("#500=0\n") + block + "\n#101=#500\nM30");
+    EXPECT_EQ(run.alarm, "F_82002") << block;
+    EXPECT_EQ(run.alarm_line, 2u) << block;
+  }
+}
+
+TEST(HxBlocks, PassesOfTheMainProgramAreNoWordOfASubProgram) {  // 2.4.4 has L beside M99 of a main program alone
+  for (const char* call : {"M98 P31", "G65 P31", "M98 P31 L2"})
+    for (const char* back : {"M99 L1", "M99 L0", "M99 P2 L3", "X7. M99 L2"}) {
+      Bench b(NC_DIALECT_HX);
+      b.add("O31.nc", std::string("O31\nX1.\n") + back + "\n");
+      const Outcome run = b.run(std::string(call) + "\nN2\nM30");
+      EXPECT_EQ(run.alarm, "F_82001") << back;
+      EXPECT_EQ(run.alarm_line, 3u) << back;
+      EXPECT_EQ(run.path().front(), "rapid 1 0 0") << back;
+      EXPECT_LE(run.path().size(), 2u) << back;
+    }
+}
+
 TEST(HxBlocks, CodesThatKeepTheirMeaningCallNothing) {  // 14.1.3 (2), 14.1.4 (3)
   for (const char* write : {"#3085=65", "#3086=66", "#3094=67", "#3085=256", "#3095=2", "#3096=30", "#3104=98"}) EXPECT_EQ(hx(write).alarm, "F_82002") << write;
   for (const char* write : {"#3085=64", "#3085=68", "#3095=3", "#3095=0"}) EXPECT_EQ(hx(write).alarm, "") << write;

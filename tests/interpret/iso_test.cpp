@@ -376,6 +376,35 @@ TEST(IsoRadius, WithoutDThatOfTheTool) {  // RS-274/NGC 3.5.10
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3 G1 X10\nX30\nG40\nG1 X40 Y5\nM2").path(), (Path{"line 10 2 0 F100", "line 30 2 0 F100", "line 40 5 0 F100"}));
 }
 
+// G40 is at once, whatever the vector waits for: LinuxCNC's comp.ngc has G18 right behind it. The vector goes with the next move in the plane of before.
+TEST(IsoRadius, BehindItsEndThePlaneIsFree) {
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 2, NC_TOOL_RADIUS);
+  EXPECT_EQ(bench.run("F100\nG41 D1 G1 X10\nX30\nG40\nG18\nG0 Z5\nX40 Y1\nM2").path(), (Path{"line 10 2 0 F100", "line 30 2 0 F100", "rapid 30 2 5", "rapid 40 1 5"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1\nG40\nG18\nG2 X4 I2\nM2").alarm, "");
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nX30\nG40\nG18 G41 D1\nG1 X40\nX50\nM2").path().back(), "line 50 0 -2 F100");
+  const Outcome on = bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nG18\nM2");
+  EXPECT_EQ(on.alarm, "NC-OFFSET-CODE");
+  EXPECT_EQ(on.alarm_detail, "The plane cannot be changed while tool radius compensation is on. Cancel it with G40 first.");
+}
+
+TEST(IsoRadius, AMoveAcrossThePlaneIsNoStart) {  // docs/families.md: the code waits, and the line leads beside its end
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 2, NC_TOOL_RADIUS);
+  EXPECT_EQ(bench.run("F100\nG41 D1\nG0 Z-1\nG1 X10\nX30\nM2").path(), (Path{"rapid 0 0 -1", "line 10 2 -1 F100", "line 30 2 -1 F100"}));
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G0 Z-1\nG1 X10\nX30\nM2").path(), (Path{"rapid 0 0 -1", "line 10 2 -1 F100", "line 30 2 -1 F100"}));
+}
+
+TEST(IsoRadius, TheToolDoesNotChange) {  // LinuxCNC: "Cannot change tools with cutter radius compensation on"
+  Bench bench(NC_DIALECT_ISO);
+  bench.tool(1, 2, NC_TOOL_RADIUS).tool(2, 3, NC_TOOL_RADIUS);
+  const Outcome run = bench.run("F100\nG41 D1 G1 X10\nX30\nT2 M6\nX40\nM2");
+  EXPECT_EQ(run.alarm, "NC-OFFSET-CODE");
+  EXPECT_EQ(run.alarm_line, 4u);
+  EXPECT_EQ(run.alarm_detail, "M06 is not possible while tool radius compensation is on. Cancel it with G40 first.");
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nT2 M6 G41\nG1 X10\nX30\nT1\nX40\nG40\nM6\nX50 Y0\nM2").alarm, "");
+}
+
 // ---- coordinate systems -------------------------------------------------------------------------------------------------------------
 
 TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
@@ -387,6 +416,11 @@ TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
   EXPECT_EQ(alarm_of("G10 L2 X1"), "NC-WORDS");
   EXPECT_EQ(alarm_of("G10 L2 P1 X1 R10"), "NC-NOT-BUILT");
   EXPECT_EQ(alarm_of("G10 L1 P1 Z1"), "NC-NOT-BUILT");
+}
+
+TEST(Iso, APeckIsLargerThanZero) {  // RS-274/NGC 3.5.16.4: a Q that is negative or zero is an error
+  for (const char* code : {"G83", "G73"})
+    for (const char* q : {"Q-1", "Q[1-3]"}) EXPECT_EQ(alarm_of(std::string("F100\n") + code + " X1 Z-3 R1 " + q), "NC-RANGE") << code << q;
 }
 
 TEST(Iso, AHoleGoesDown) {  // LinuxCNC G81: R below Z is an error

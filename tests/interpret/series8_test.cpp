@@ -139,6 +139,11 @@ TEST(Series8Compensation, BeginsBesideTheStart) {  // G41
   Bench straight(NC_DIALECT_SERIES8);
   straight.tool(1, 2, NC_TOOL_RADIUS);
   EXPECT_EQ(straight.run("F10\nT01D01\nG41G43G01X10\nX20\nG40\nX30").path()[0], "line 10 2 0 F10");  // G43: docs/series8.md
+  for (const char* across : {"G41\nG00Z-1\nG43G01X10", "G41G00Z-1\nG43G01X10"}) {  // Z is no first move
+    Bench lowered(NC_DIALECT_SERIES8);
+    lowered.tool(1, 2, NC_TOOL_RADIUS);
+    EXPECT_EQ(lowered.run(std::string("F10\nT01D01\n") + across + "\nX20\nG40\nX30").path()[1], "line 10 2 -1 F10") << across;
+  }
   for (const char* late : {"F10\nG43G01X10", "F10\nT01D01\nG41G01X10Y0\nG43X20"}) {
     const Outcome run = straight.run(late);
     EXPECT_EQ(run.alarm, "NC-MODE") << late;

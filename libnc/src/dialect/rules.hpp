@@ -200,6 +200,9 @@ struct CompensationRules {
   /// The plane cannot be changed while compensation is on, nor directly behind its end (M700 App. 1 P112). Otherwise it is no fault to select
   /// the plane again (DGSHAPE G40-G42).
   bool plane_is_fixed;
+  /// Behind the code of its end compensation is off, and the plane free, also where the tool has not moved since (RS-274/NGC 3.5.10; LinuxCNC G40). Otherwise
+  /// plane_is_fixed acts until a movement (M700 App. 1 P112).
+  bool end_frees_plane = false;
   /// The codes of workpiece coordinate systems, of coordinate system setting and of data setting are faults while compensation is on (DGSHAPE
   /// G40-G42). M700 12.4.4 allows them.
   bool bars_systems_and_data;
@@ -244,6 +247,9 @@ struct CompensationRules {
   /// The place of the axes cannot be read while compensation is on (LinuxCNC #5420: "Cannot read current position with cutter radius compensation on").
   /// Otherwise it includes the radius (M700 13.5.5 (10.11)).
   bool bars_reading_position = false;
+  /// The tool is not changed while compensation is on (LinuxCNC: "Cannot change tools with cutter radius compensation on"). Otherwise the code of the change
+  /// goes out as any other.
+  bool bars_tool_change = false;
 };
 
 /// Compensation of the tool length.
@@ -336,6 +342,8 @@ struct CycleRules {
   bool code_begins_data = false;
   /// A bottom above R is a fault (LinuxCNC G81; Series 8 G80: R is the clearance, Z the final depth, and both stay known from one cycle to the next). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
+  /// A peck is larger than zero (RS-274/NGC 3.5.16.4: "Q number is negative or zero" is an error). Otherwise its sign says nothing (M700 13.1.1).
+  bool peck_is_positive = false;
   /// The bore that is drawn back by hand stops the program at its bottom (HX 12.3.11 "Manual Boring Cycle"). Otherwise single block has a place to stop there, and
   /// without it the way back begins by itself (M700 13.1.1 (h)).
   bool bore_waits_for_hand = false;

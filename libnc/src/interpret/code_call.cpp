@@ -62,6 +62,8 @@ Execution set_variable_of_call(Interpreter& in, const Caller& caller) {
   double value = caller.value;
   const double within = in.dialect->rules.block.whole_words_within;
   if (!caller.ascii && within >= 0 && !make_whole(within, &value)) return in.raise(Condition::format_error, caller.word, value);
+  const bool is_tool = !caller.ascii && caller.word == in.word(Role::tool);
+  if (is_tool && !(value >= 0 && value <= in.dialect->rules.range.largest_tool)) return in.raise(Condition::value_range, caller.word, value);
   if (in.variables.set(caller.call->variable, in.macro_level(), Value::of(value), in.state.seq + 1)) return Execution::done;
   return in.raise(Condition::variable_number, Sign::variable, caller.call->variable);
 }

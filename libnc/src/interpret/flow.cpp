@@ -483,6 +483,8 @@ Execution return_sub(Interpreter& in) {
     in.begins_again = true;
     return Execution::done;
   }
+  // HX 2.4.4 prints L beside M99 of a main program. Setting the number of passes anew in each one, as below, a sub program would not end.
+  if (w.has(Role::return_passes) && in.dialect->rules.program.main_program_counts) return in.raise(Condition::illegal_address, Role::return_passes, w.get(Role::return_passes));
   CallFrame& frame = top(in);
   const bool interrupted = frame.origin == CallOrigin::interrupt;
   s.loop_count = frame.loop_base;

@@ -75,11 +75,16 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
   }
 }
 
-/// Radius compensation starts and ends with a movement in its plane, not with one across it: until then the vector is not made, or still there.
-[[gnu::cold]] void note_side(State& state, const AxisVec& start, const AxisVec& target) {
+/// Radius compensation starts and ends with a movement in its plane, not with one across it: until then the vector is not made, or still there. Where the
+/// code alone waits, so does a start behind a movement across the plane.
+[[gnu::cold]] void note_side(BlockContext& in, const AxisVec& start, const AxisVec& target, Move& move) {
+  State& state = in.state;
   const unsigned h = state.comp.axis[0], v = state.comp.axis[1];
   const bool changes = state.comp.side != 0 && state.moved_side != 0;
-  if (changes || start[h] != target[h] || start[v] != target[v]) state.moved_side = state.comp.side;
+  if (changes || start[h] != target[h] || start[v] != target[v])
+    state.moved_side = state.comp.side;
+  else if (state.moved_side == 0 && in.dialect->rules.compensation.code_alone_waits && start != target)
+    move.comp.side = 0;
 }
 
 /// Begins a move, with everything that is the same for all moves. Inlined with begin_moved() where lines are made, because there are a handful in every hole.
@@ -91,7 +96,7 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
   move.transform = transform;
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
-  if (in.state.moved_side != in.state.comp.side) [[unlikely]] note_side(in.state, start, target);
+  if (in.state.moved_side != in.state.comp.side) [[unlikely]] note_side(in, start, target, move);
   if (leads_beside(in.state)) [[unlikely]] in.state.moved_space = move.space = space_vector(in, machine);
   return move;
 }

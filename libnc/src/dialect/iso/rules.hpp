@@ -55,6 +55,7 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false, .refuses_axes = true},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
                      .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
+                     .end_frees_plane = true,
                      .bars_systems_and_data = true,  // RS-274/NGC 3.5.13, 3.5.18
                      .bars_reference_return = true,  // RS-274/NGC 3.5.8
                      .may_change_side = false,       // RS-274/NGC 3.5.10: an error while compensation is on
@@ -63,7 +64,8 @@ inline constexpr Rules kRules = {
                      .code_alone_waits = true,
                      .number_is_that_of_tool = true,
                      .number_in_any_block = false,
-                     .bars_reading_position = true},  // LinuxCNC #5420
+                     .bars_reading_position = true,  // LinuxCNC #5420
+                     .bars_tool_change = true},      // LinuxCNC M6
     .length = {.axis_by_words = false,  // RS-274/NGC 3.5.11: Z
                .number_in_any_block = false,
                .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
@@ -87,6 +89,7 @@ inline constexpr Rules kRules = {
               .keeps_spindle_direction = true,
               .axis_follows_plane = true,
               .bottom_is_below_r = true,
+              .peck_is_positive = true,
               .repeats_from_one = true,
               .end_is_motion = true},
     .reference = {.remembered_axes_go = false,

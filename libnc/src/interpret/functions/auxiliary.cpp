@@ -255,6 +255,8 @@ Execution auxiliary_before(BlockContext& in) {
     }
     if (m.number > rules.range.largest_misc) return in.raise(Condition::value_range, Role::misc_code, m.number);
     const MiscFunction function = m.function;
+    if (function == MiscFunction::tool_change && rules.compensation.bars_tool_change && in.state.comp.side != 0 && !w.comp_command)
+      return in.raise_misc(Condition::not_in_compensation, function);
     const bool forward = function == MiscFunction::spindle_forward, stops = function == MiscFunction::spindle_stop;
     if (rules.spindle.skips_repeated_codes && ((forward && in.state.spindle_on) || (stops && !in.state.spindle_on))) continue;
     if (held && function == MiscFunction::tool_change) continue;

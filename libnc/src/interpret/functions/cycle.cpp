@@ -265,6 +265,7 @@ Execution check_hole(BlockInHand& in) {
   if (did != Execution::done) return did;
   // A peck below the finest unit of the control (M700 2.1 E) is none: the hole would never be done.
   if (strokes_of(c.kind).pecks && !(std::fabs(c.q) >= 1e-6)) return in.raise(Condition::words_missing, Role::cycle_depth_step);
+  if (strokes_of(c.kind).pecks && c.q < 0 && rules.peck_is_positive) return in.raise(Condition::value_range, Role::cycle_depth_step, c.q);
   if (c.has_first && strokes_of(c.kind).pecks && c.has_r && !c.r_incremental && c.has_z && !c.z_incremental && !((c.first - c.r) * (c.z - c.r) > 0))
     return in.raise(Condition::value_range, Role::cycle_first_depth, c.first);
   const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0 && c.q != 0;
