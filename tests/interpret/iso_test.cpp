@@ -418,7 +418,7 @@ TEST(IsoSystems, NineOfThem) {  // RS-274/NGC 3.5.13, LinuxCNC G10 L2
   EXPECT_EQ(alarm_of("G10 L1 P1 Z1"), "NC-NOT-BUILT");
 }
 
-TEST(Iso, APeckIsLargerThanZero) {  // RS-274/NGC 3.5.16.4: a Q that is negative or zero is an error
+TEST(Iso, APeckIsLargerThanZero) {  // RS-274/NGC 3.5.16.3: a Q that is negative or zero is an error
   for (const char* code : {"G83", "G73"})
     for (const char* q : {"Q-1", "Q[1-3]"}) EXPECT_EQ(alarm_of(std::string("F100\n") + code + " X1 Z-3 R1 " + q), "NC-RANGE") << code << q;
 }

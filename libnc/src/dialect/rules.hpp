@@ -342,7 +342,7 @@ struct CycleRules {
   bool code_begins_data = false;
   /// A bottom above R is a fault (LinuxCNC G81; Series 8 G80: R is the clearance, Z the final depth, and both stay known from one cycle to the next). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
-  /// A peck is larger than zero (RS-274/NGC 3.5.16.4: "Q number is negative or zero" is an error). Otherwise its sign says nothing (M700 13.1.1).
+  /// A peck is larger than zero (RS-274/NGC 3.5.16.3: "Q number is negative or zero" is an error). Otherwise its sign says nothing (M700 13.1.1).
   bool peck_is_positive = false;
   /// The bore that is drawn back by hand stops the program at its bottom (HX 12.3.11 "Manual Boring Cycle"). Otherwise single block has a place to stop there, and
   /// without it the way back begins by itself (M700 13.1.1 (h)).
