@@ -12,7 +12,7 @@ enum class Parameter : uint8_t {
   none,
   setting_unit,                ///< letter of the unit that positions are set and shown in
   command_unit,                ///< unit of a word without a point
-  start_plane,
+  start_plane,                 ///< 1 xy, 2 zx, 3 yz
   plane_axis,                  ///< [3] axes that I, J and K belong to
   parallel_axis,               ///< [3] axes parallel to those of plane_axis
   tool_memory_type,
