@@ -277,7 +277,9 @@ TEST(IsoLength, ShiftsTheReadingAndMovesNothing) {  // RS-274/NGC 3.5.11
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H2\nG91 G0 Z1").path(), (Path{"rapid 0 0 1"}));
   // Without H the number of the tool counts.
   EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nG43\nG0 Z1\nG43 H1\nG0 Z1\nG43 H0\nG0 Z1").path(),
-            (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 1"}));
+            (Path{"rapid 0 0 21", "rapid 0 0 11", "rapid 0 0 21"})) << "LinuxCNC: H0 is the tool in the spindle, too";
+  EXPECT_EQ(bench.at(0, 0, 0).run("T2 M6\nT1\nG43 H0\nG0 Z1\nG43 H[1-1]\nZ2\nT0 M6\nG43 H0\nZ3").path(), (Path{"rapid 0 0 21", "rapid 0 0 22", "rapid 0 0 3"}));
+  EXPECT_EQ(Bench(NC_DIALECT_ISO).run("G43 H0").alarm_detail, "Which tool is in the spindle is not known. Program M06 or M61, or the number of the offset.");
   // G53 moves without the length, which stays in force.
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H1\nG53 G0 Z3\nG91 G0 Z1\nG90 Z0").path(), (Path{"rapid 0 0 3", "rapid 0 0 4", "rapid 0 0 10"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("G43 H999").alarm, "NC-OFFSET-DATA");
@@ -371,6 +373,7 @@ TEST(IsoRadius, WithoutDThatOfTheTool) {  // RS-274/NGC 3.5.10
   const Path offset = {"line 10 2 0 F100", "line 30 2 0 F100"};
   EXPECT_EQ(bench.run("F100\nT3 M6\nG41\nG1 X10\nX30\nM2").path(), offset);
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3\nG1 X10\nX30\nM2").path(), offset);
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nT3 M6\nT1\nG41 D0\nG1 X10\nX30\nM2").path(), offset) << "LinuxCNC: D0 is the tool in the spindle, too";
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3\nG1 X10\nG42 X20").alarm, "NC-OFFSET-CODE");
   // G40 alone waits for a move, too.
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D3 G1 X10\nX30\nG40\nG1 X40 Y5\nM2").path(), (Path{"line 10 2 0 F100", "line 30 2 0 F100", "line 40 5 0 F100"}));

@@ -220,7 +220,7 @@ struct CompensationRules {
   /// The code of compensation in a block without a move does nothing yet; the next move leads to the contour, or away from it (LinuxCNC G40
   /// to G42). Otherwise the tool goes at once to the point beside the contour, or back from there (M700 12.4.2; DGSHAPE G41).
   bool code_alone_waits;
-  /// The code without D takes the number of the tool in the spindle as the offset number (RS-274/NGC 3.5.10). Otherwise the last offset number stays (M700
+  /// The code without D, or with D0, takes the number of the tool in the spindle as the offset number (RS-274/NGC 3.5.10, LinuxCNC G41). Otherwise the last offset number stays (M700
   /// 12.4.1; DGSHAPE G41).
   bool number_is_that_of_tool;
   /// The first move begins with a line to the place beside its start, unless its block has the code of an entry (Series 8 G41, G43). Otherwise it leads
@@ -270,7 +270,7 @@ struct LengthRules {
   bool shifts_reading;
   /// A code of length compensation may stand beside an arc: it acts before the motion (LinuxCNC, order of execution). Otherwise it is a fault (M700 App. 2).
   bool stands_beside_arc = false;
-  /// The code without H takes the number of the tool in the spindle as the offset number (LinuxCNC G43). Otherwise the last offset number stays (M700 12.2
+  /// The code without H, or with H0, takes the number of the tool in the spindle as the offset number (LinuxCNC G43). Otherwise the last offset number stays (M700 12.2
   /// (2) (d)), or H is required (DGSHAPE G43).
   bool number_is_that_of_tool;
   /// The axis is the one that stands on the plane in force (HX 13.1.1). Else axis_by_words says (M700 12.2 (3); DGSHAPE G43).

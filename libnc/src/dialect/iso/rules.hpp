@@ -68,7 +68,7 @@ inline constexpr Rules kRules = {
                      .bars_tool_change = true},      // LinuxCNC M6
     .length = {.axis_by_words = false,  // RS-274/NGC 3.5.11: Z
                .number_in_any_block = false,
-               .zero_is_number = true,  // RS-274/NGC 3.5.11: H0 is an offset of zero
+               .zero_is_number = true,  // the tool in the spindle may be 0, none
                .moves_at_once = false,
                .shifts_reading = true,
                .stands_beside_arc = true,

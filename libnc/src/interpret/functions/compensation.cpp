@@ -52,6 +52,11 @@ uint32_t tool_in_spindle(const BlockInHand& in) {
   return tool;
 }
 
+/// The word names an offset. Where the code without it means the tool in the spindle, so does 0 (LinuxCNC G41 D0, G43 H0).
+bool names_offset(const BlockContext& in, Role word, bool number_is_that_of_tool) {
+  return in.words.has(word) && !(number_is_that_of_tool && in.words.get(word) == 0);
+}
+
 /// The offset that goes with the tool in the spindle (LinuxCNC G41, G43), which is not the one that T has selected since.
 Execution number_of_tool(BlockInHand& in, Role word, uint32_t* number) {
   const uint32_t tool = tool_in_spindle(in);
@@ -158,7 +163,7 @@ Execution set_compensation(BlockInHand& in, Function function) {
   const int8_t side = function == Function::comp_left ? int8_t{1} : int8_t{-1};
   if (comp.side == -side && !rules.may_change_side) return in.raise_function(Condition::not_in_compensation, function);
   if (!state.modal.is(Function::plane_xy) && rules.xy_plane_only) return in.raise_function(Condition::plane_mismatch, function);
-  if (in.words.has(Role::offset_number)) {
+  if (names_offset(in, Role::offset_number, rules.number_is_that_of_tool)) {
     const Execution did = take_radius_number(in);
     if (did != Execution::done) return did;
   } else if (rules.number_is_that_of_tool) {
@@ -254,7 +259,7 @@ Execution set_length(BlockContext& in, Function function) {
   if (function == Function::length_of_block) return set_length_of_block(in);
   State& state = in.state;
   const LengthRules& rules = in.dialect->rules.length;
-  if (in.words.has(Role::length_number) && (rules.number_in_any_block || function != Function::length_off)) {
+  if (names_offset(in, Role::length_number, rules.number_is_that_of_tool) && (rules.number_in_any_block || function != Function::length_off)) {
     const Execution did = take_length_number(in);
     if (did != Execution::done) return did;
   } else if (rules.number_is_that_of_tool && function != Function::length_off) {
