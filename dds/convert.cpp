@@ -82,7 +82,7 @@ static_assert(static_cast<int>(nc_REFUSED_OTHER) == static_cast<int>(rt::Refusal
               static_cast<int>(nc_REFUSED_NOT_LOADED) == static_cast<int>(rt::RefusalCause::kNotLoaded) &&
               static_cast<int>(nc_REFUSED_NO_ANSWER) == static_cast<int>(rt::RefusalCause::kNoAnswer) &&
               static_cast<int>(nc_REFUSED_DRIVES) == static_cast<int>(rt::RefusalCause::kDrives) &&
-              static_cast<int>(nc_REFUSED_MACHINE_LOCK) == static_cast<int>(rt::RefusalCause::kLast) &&
+              static_cast<int>(nc_REFUSED_RESTART) == static_cast<int>(rt::RefusalCause::kLast) &&
               static_cast<int>(nc_REFUSED_SOFT_LIMIT) == static_cast<int>(rt::RefusalCause::kSoftLimit));
 // The enumerators are greater by one than those of the runtime: a subscriber reads 0 from an older control that does not tell the source.
 static_assert(static_cast<int>(nc_OVERRIDE_OPERATOR) == static_cast<int>(rt::OverrideSource::kOperator) + 1 &&
@@ -202,7 +202,7 @@ void StatusSample::fill(const share::MachineBlock& machine, const share::StatusB
   }
   to.forced = {share::kForced, block.forced_count, forced, false};
   to.refusals = from.refusals;
-  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_MACHINE_LOCK, nc_REFUSED_OTHER);
+  to.refusal_cause = as_enum(from.refusal_cause, nc_REFUSED_RESTART, nc_REFUSED_OTHER);
   set(to.refusal_text, from.refusal_text);
   to.feed_override_source = source_of(from.feed_override_source);
   to.rapid_override_source = source_of(from.rapid_override_source);
@@ -360,7 +360,7 @@ nc_CommandAck ack(const share::Ack& ack) {
   to.repeated = ack.repeated != 0;
   to.time_ns = ack.time_ns;
   set(to.text, ack.text);
-  to.refusal = as_enum(ack.refusal, nc_REFUSED_MACHINE_LOCK, nc_REFUSED_OTHER);
+  to.refusal = as_enum(ack.refusal, nc_REFUSED_RESTART, nc_REFUSED_OTHER);
   return to;
 }
 

@@ -98,6 +98,7 @@ const char* refusal_name(nc_RefusalCause cause) {
     case nc_REFUSED_LIMIT_SWITCH: return "limit switch";
     case nc_REFUSED_TAP_IN_HOLE: return "tap in its hole";
     case nc_REFUSED_MACHINE_LOCK: return "machine lock";
+    case nc_REFUSED_RESTART: return "restart";
     default: return "other";
   }
 }

@@ -112,6 +112,7 @@ class RefusalCause(IdlEnum, typename="nc.RefusalCause", default="REFUSED_NOT"):
     REFUSED_LIMIT_SWITCH = 31
     REFUSED_TAP_IN_HOLE = 32
     REFUSED_MACHINE_LOCK = 33
+    REFUSED_RESTART = 34
 
 
 @annotate.appendable

@@ -24,6 +24,7 @@ enum class CommandKind : std::uint8_t {
   kReference,      // axis: go to the first reference position
   kHome,           // axis: find its reference mark; kAllSystems: every axis that can be homed, in order
   kTapRetract,     // a synchronous tap that stands in its hole is drawn out, in mode MANUAL; number: 0 or 1, at 0 it stands where it is
+  kApproach,       // axis: it goes back to where its program goes on, in mode MANUAL; value: velocity in mm/s, 0 = the jog feed. To be repeated as a jog is
   kForce,          // number: of LadderTask::force_number(), value: what the device is held at
   kRelease,        // number: the same, kAllForces
   kWriteDevice,    // number: the same, value: what the device gets once
@@ -32,6 +33,9 @@ enum class CommandKind : std::uint8_t {
   kSelectProgram,  // number: index of the file in the program store; in mode AUTO
   kLoadMdi,        // loads the text given to Runtime::load_mdi(); in mode MDI
   kSwitches,       // number: optional skip switches (bit n = switch n)
+  kFindRestart,    // looks for the place given to Runtime::find_restart(); in mode AUTO
+  kConfirmRestart, // number: entry of the recovery list, kEveryEntry = all of them
+  kCancelRestart,
   kLook,           // calls the function given to Runtime::look()
   kChange,         // calls the function given to Runtime::change(), while no program is in execution
 };
@@ -103,6 +107,10 @@ enum class Answer : std::uint8_t {
   kTapInHole,         // a tap that was given up stands in its hole
   kLocked,            // the axis is locked (plc.machine_lock, plc.axis_lock)
   kLockLeft,          // an axis was moved in a machine lock that has been taken off
+  kRestartSearch,     // a place in the program is being looked for
+  kRestartOpen,       // entries of the recovery list are open
+  kRestartAxes,       // an axis is not where a program that begins inside goes on
+  kNoPlace,           // there is nothing to which the axis could go back
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -187,6 +195,14 @@ constexpr const char* answer_text(Answer answer) {
       return "the axis is locked by the machine lock";
     case Answer::kLockLeft:
       return "an axis was moved in the machine lock and is not where it is shown: reset first";
+    case Answer::kRestartSearch:
+      return "a place in the program is being looked for: wait, or cancel it";
+    case Answer::kRestartOpen:
+      return "what the program has given to the machine before the place is not there: give it out by MDI, or confirm it";
+    case Answer::kRestartAxes:
+      return "an axis is not where the program goes on: bring it there by hand first";
+    case Answer::kNoPlace:
+      return "no program in a block stop has left the axis anywhere";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }
@@ -201,6 +217,7 @@ struct CommandAnswer {
 // A jog command that is not repeated within this number of scans ends: a lost connection must not leave an axis moving.
 inline constexpr unsigned kJogDeadManScans = 200;
 
+inline constexpr std::uint32_t kEveryEntry = ~0u;  // of a recovery list
 inline constexpr std::uint32_t kAllForces = ~0u;
 inline constexpr unsigned kMaxForces = 32;  // devices that can be held at the same time
 

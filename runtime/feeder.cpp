@@ -63,8 +63,10 @@ void Feeder::step() {
   take_events();
   feed();
   complete_reset();
+  follow_stops();
   rewind_ended();
   restore_parts();
+  follow_restart();
   follow_mdi();
   follow_ladder();
   follow_outputs();
@@ -110,6 +112,7 @@ void Feeder::restore_parts() {
     }
     const nc_status status = nc_->select(s, system.part_file);
     if (status == NC_E_STATE) continue;  // not yet: the next step tries again
+    restart_[s].end("the program was selected again");
     if (status < 0) system = {};
     else system.take_part(system.part_file);
   }
@@ -160,6 +163,7 @@ nc_status Feeder::read_again() {
     scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded() at the end of this step
     const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
     if (status == NC_E_STATE) return status;
+    restart_[s].end("tables or outputs were changed, and the program is read again from its head");
     if (status < 0) system = {};
   }
   return NC_OK;
@@ -170,7 +174,7 @@ nc_status Feeder::read_again() {
 void Feeder::leave_kept() {
   for (KeptCopy& copy : kept_) {
     if (!copy.wanted.load(std::memory_order_acquire)) continue;
-    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : &copy == &kept_[kTables] ? nc_->tables() : place_bytes();
+    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : &copy == &kept_[kTables] ? nc_->tables() : &copy == &kept_[kStops] ? stop_bytes() : place_bytes();
     copy.wanted.store(false, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     copy.bytes = std::move(bytes);
@@ -184,19 +188,31 @@ std::string Feeder::place_bytes() {
   std::vector<ProgramPlace> places;
   for (unsigned s = 0; s < systems_; ++s) {
     if ((failed >> s & 1u) == 0) continue;
-    const nc_outputs& out = now.system[s].nc;
-    ProgramPlace& place = places.emplace_back();
-    place.system = s;
-    place.program = system_[s].mdi ? "MDI" : nc_->program_name(system_[s].file);
-    place.main_line = info_.system[s].main_line;  // only this thread writes it
-    place.line = out.source.line;
-    place.number = out.source.program;
-    place.depth = out.source.depth;
-    const std::string letters = nc_->axis_letters(s);
-    // Where the machine stands: what is counted in a machine lock is gone with the power.
-    for (unsigned a = 0; a < letters.size(); ++a) place.at.emplace_back(letters[a], out.command.v[a] - now.system[s].axes.counted[a]);
+    places.push_back(place_of(s, now));
   }
   return encode_places(places);
+}
+
+ProgramPlace Feeder::place_of(unsigned s, const Snapshot& now) const {
+  const nc_outputs& out = now.system[s].nc;
+  ProgramPlace place;
+  place.system = s;
+  place.program = system_[s].mdi ? "MDI" : nc_->program_name(system_[s].file);
+  place.main_line = info_.system[s].main_line;  // only this thread writes it
+  place.line = out.source.line;
+  place.number = out.source.program;
+  place.depth = out.source.depth;
+  const std::string letters = nc_->axis_letters(s);
+  // Where the machine stands: what is counted in a machine lock is gone with the power.
+  for (unsigned a = 0; a < letters.size(); ++a) place.at.emplace_back(letters[a], out.command.v[a] - now.system[s].axes.counted[a]);
+  if (system_[s].mdi || !system_[s].selected) return place;
+  place.restartable = true;
+  place.blocks = out.blocks;
+  place.size = nc_->program_size(system_[s].file);
+  place.hash = stops_[s].hash;
+  for (unsigned a = 0; a < letters.size(); ++a) place.begun.emplace_back(letters[a], stops_[s].begun.v[a]);
+  place.cause = "power";
+  return place;
 }
 
 bool Feeder::take(Kept what, std::string* bytes) {
@@ -230,13 +246,16 @@ Answer Feeder::apply(const Command& command) {
     return Answer::kDone;
   }
   if (command.kind == CommandKind::kLook) return look(command);
+  if (command.kind == CommandKind::kConfirmRestart) return confirm_restart(command);
   if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
   if (seen_.program_active()) return command.kind == CommandKind::kLoadMdi ? interrupt_by_mdi(command) : Answer::kNotWhileRunning;
   if (command.kind == CommandKind::kChange) return change(command);
+  if (command.kind == CommandKind::kCancelRestart) return cancel_restart(command);
   if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
   if (seen_.alarms.waits_for_reset()) return Answer::kWarningActive;
   if (command.kind == CommandKind::kSelectProgram) return select(command);
   if (command.kind == CommandKind::kLoadMdi) return load_mdi(command);
+  if (command.kind == CommandKind::kFindRestart) return find_restart(command);
   return Answer::kOutOfRange;
 }
 
@@ -268,7 +287,9 @@ Answer Feeder::select(const Command& command) {
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step, because the program in the control changes now
   if (const nc_status status = nc_->select(system, file); status < 0)
     return refuse(Answer::kRefusedByControl, status_text(status));
+  restart_[system].end("a program was selected");
   system_[system].take_part(file);
+  stops_[system].hash = hash_ ? hash_(file) : std::string();
   nothing_has_run(system);
   return Answer::kDone;
 }
@@ -287,6 +308,7 @@ Answer Feeder::load_mdi(const Command& command) {
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
                   status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
+  restart_[system].end("blocks of MDI were loaded");
   if (refresh_) refresh_();  // only after load_mdi(): now the programs called by the one that was selected here are free
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);
@@ -372,6 +394,7 @@ void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
     if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
+    restart_[s].end("a reset has ended it");
     if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "runtime/command.hpp"
+#include "runtime/restart/desk.hpp"
+#include "runtime/retain/program_place.hpp"
 #include "runtime/scan.hpp"
 
 namespace nc::rt {
@@ -57,6 +59,7 @@ struct FeederInfo {
     nc_modal modal{};  // modal state after the last finished block
     // Bit a is set when axis a is shown within one turn, in machine and in workpiece coordinates (axis_shown.hpp).
     std::uint32_t machine_turn = 0, work_turn = 0;
+    RestartStatus restart;  // a program that is begun inside
   };
   System system[NC_MAX_SYSTEMS];
   std::uint64_t events = 0;     // number of items executed
@@ -84,6 +87,8 @@ using ProgramRefresh = std::function<void()>;
 // The programs whose files have changed since they were selected or called, and which run as they were then: "part.nc, O77"; "" = none. Called
 // in the feeder thread when a part program starts.
 using ChangedPrograms = std::function<std::string()>;
+// Gives the SHA-256 of a program in the store, "" = not known. Called in the feeder thread, while no program runs.
+using ProgramHash = std::function<std::string(unsigned file)>;
 // Takes what programs print (POPEN, DPRNT, PCLOS) when the machine reaches that block; called in the feeder thread. Returns the reason why a line
 // could not be written, "" when it was written.
 using Printer = std::function<std::string(const nc_text& text)>;
@@ -106,6 +111,7 @@ class Feeder {
   // Gives up a command that takes too long; it has no effect then. False when the feeder is already executing it: then its answer comes soon.
   bool take_back(std::uint64_t ticket) { return claim(ticket); }
   void set_mdi_text(const std::string& text);  // the text for the next kLoadMdi
+  void set_restart_wish(const RestartWish& wish);  // the place for the next kFindRestart
   void set_program_name(const std::string& name);  // the name for the next kSelectProgram with kProgramByName
   void set_job(ControlJob job);                    // the function for the next kLook or kChange
 
@@ -119,17 +125,22 @@ class Feeder {
 
   // ---- the thread that keeps retained data ----
   // want() asks for a copy of the data as the executed blocks have left them; take() fetches it and is false until it is there.
-  enum Kept { kVariables, kTables, kPlace, kKeptCount };
+  enum Kept { kVariables, kTables, kPlace, kStops, kKeptCount };
   void want(Kept what) { kept_[what].wanted.store(true, std::memory_order_release); }
   bool take(Kept what, std::string* bytes);
   // The places in the programs while a failure of the power is not acknowledged, else "" (runtime/retain/place.hpp). Feeder thread, or when it has ended.
   std::string place_bytes();
+  // Where programs have stopped that did not come to their end. Feeder thread, or when it has ended.
+  std::string stop_bytes() const;
+  // Those of the start before. Before the threads start.
+  void set_stops(const std::vector<ProgramPlace>& places);
 
   // Before the threads start.
   void set_sink(EventSink* sink) { sink_ = sink; }
   void set_program_loader(ProgramLoader loader) { loader_ = std::move(loader); }
   void set_program_refresh(ProgramRefresh refresh) { refresh_ = std::move(refresh); }
   void set_changed_programs(ChangedPrograms changed) { changed_ = std::move(changed); }
+  void set_program_hash(ProgramHash hash) { hash_ = std::move(hash); }
   void set_printer(Printer printer) { printer_ = std::move(printer); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
@@ -142,6 +153,14 @@ class Feeder {
   Answer load_mdi(const Command& command);
   Answer interrupt_by_mdi(const Command& command);
   void follow_mdi();
+  Answer find_restart(const Command& command);
+  Answer confirm_restart(const Command& command);
+  Answer cancel_restart(const Command& command);
+  bool restart_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
+  bool stopped_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
+  void follow_restart();
+  void follow_stops();
+  ProgramPlace place_of(unsigned system, const Snapshot& now) const;
   Answer look(const Command& command);
   Answer change(const Command& command);
   nc_status read_again();
@@ -190,6 +209,15 @@ class Feeder {
   void restore_parts();
   void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
+  RestartDesk restart_[NC_MAX_SYSTEMS];
+  // Where the program of a part system was stopped last, and where it was when the power failed.
+  struct Stops {
+    bool runs = false, any = false, any_power = false;
+    nc_axes begun{};        // where the axes stood when the program in execution was begun
+    std::string hash;       // of the part program that is selected
+    ProgramPlace now, last, power;
+  };
+  Stops stops_[NC_MAX_SYSTEMS];
   std::uint32_t mdi_texts_ = 0;  // number of texts of MDI that have come in block stops so far
   Snapshot seen_;  // snapshot of the scan that this step goes by
 
@@ -200,10 +228,12 @@ class Feeder {
   mutable std::mutex mutex_;  // guards info_, mdi_text_, program_name_, job_, refusal_ and the copies in kept_; never taken by the scan
   FeederInfo info_;
   std::string mdi_text_, program_name_;  // for the next kLoadMdi or kSelectProgram
+  RestartWish wish_;                     // for the next kFindRestart
   ControlJob job_;                       // for the next kLook or kChange
   ProgramLoader loader_;
   ProgramRefresh refresh_;
   ChangedPrograms changed_;
+  ProgramHash hash_;
   bool was_active_[NC_MAX_SYSTEMS] = {};
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
   std::string refusal_;  // guarded by mutex_

@@ -23,6 +23,7 @@ struct LadderStatus {
   bool all_homed = true;
   bool power_failed = false, power_done = false;  // runtime/power/power_watch.hpp
   std::int64_t time_ns = 0;  // clock of the scan, at its start
+  std::uint32_t restart_stands = 0, restart_bars = 0;  // one bit per part system: Scan::set_restart()
 };
 
 inline constexpr unsigned kLadderAlarms = 8;
@@ -53,6 +54,7 @@ struct LadderRequests {
     bool machine_lock = false;          // every axis is to be locked
     std::uint32_t axis_lock = 0;        // bit n: axis n is to be locked
     std::uint8_t feed_code = 0;         // feed override as a code of five bits, inverted
+    std::uint32_t approach = 0;         // bit n: axis n goes back to where its program goes on
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan
   };
   System system[NC_MAX_SYSTEMS];

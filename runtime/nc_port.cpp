@@ -63,6 +63,28 @@ std::string LibNc::axis_letters(unsigned system) {
   return letters;
 }
 
+int LibNc::program_of(const std::string& name) {
+  for (unsigned file = 0; file < config_.programs; ++file)
+    if (program_name(file) == name) return static_cast<int>(file);
+  return -1;
+}
+
+std::uint64_t LibNc::program_size(unsigned file) {
+  nc_program_info info;
+  nc_program_info_init(&info);
+  return nc_program_get(control_, file, &info) == NC_OK ? info.size : 0;
+}
+
+nc_status LibNc::restart_begin(unsigned system, const nc_restart_place& place, const nc_world& world) {
+  return nc_restart_begin(control_, api_system(system), &place, &world);
+}
+nc_status LibNc::restart_find(unsigned system, std::uint32_t budget, nc_restart_found* found) {
+  return nc_restart_find(control_, api_system(system), budget, found);
+}
+nc_status LibNc::restart_cancel(unsigned system) {
+  return nc_restart_cancel(control_, api_system(system));
+}
+
 std::string LibNc::program_name(unsigned file) {
   nc_program_info info;
   nc_program_info_init(&info);

@@ -46,6 +46,13 @@ class NcPort {
   // Letters of the axes, and the name of a program in the store; "" when they are not known.
   virtual std::string axis_letters(unsigned /*system*/) { return {}; }
   virtual std::string program_name(unsigned /*file*/) { return {}; }
+  // The program in the store that has this name; -1 = there is none. Below, the bytes of a program.
+  virtual int program_of(const std::string& /*name*/) { return -1; }
+  virtual std::uint64_t program_size(unsigned /*file*/) { return 0; }
+  // nc/restart.h
+  virtual nc_status restart_begin(unsigned /*system*/, const nc_restart_place& /*place*/, const nc_world& /*world*/) { return NC_E_NOT_FOUND; }
+  virtual nc_status restart_find(unsigned /*system*/, std::uint32_t /*budget*/, nc_restart_found* /*found*/) { return NC_E_STATE; }
+  virtual nc_status restart_cancel(unsigned /*system*/) { return NC_OK; }
   // Calls `job` with the control, to read its tables or to write into them. False when there is no control behind this port.
   virtual bool with_control(const std::function<void(nc_control*)>& job) {
     (void)job;
@@ -75,6 +82,11 @@ class LibNc final : public NcPort {
   std::string tables() override;
   std::string axis_letters(unsigned system) override;
   std::string program_name(unsigned file) override;
+  int program_of(const std::string& name) override;
+  std::uint64_t program_size(unsigned file) override;
+  nc_status restart_begin(unsigned system, const nc_restart_place& place, const nc_world& world) override;
+  nc_status restart_find(unsigned system, std::uint32_t budget, nc_restart_found* found) override;
+  nc_status restart_cancel(unsigned system) override;
   bool with_control(const std::function<void(nc_control*)>& job) override {
     job(control_);
     return true;

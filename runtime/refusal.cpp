@@ -19,6 +19,7 @@ const char* asked_text(Asked asked) {
     case Asked::kReference: return "reference return";
     case Asked::kStep: return "step";
     case Asked::kHandle: return "handle";
+    case Asked::kApproach: return "return to the path";
   }
   return "";
 }
@@ -67,6 +68,10 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kTapInHole: return RefusalCause::kTapInHole;
     case Answer::kLocked:
     case Answer::kLockLeft: return RefusalCause::kMachineLock;
+    case Answer::kRestartSearch:
+    case Answer::kRestartOpen:
+    case Answer::kRestartAxes:
+    case Answer::kNoPlace: return RefusalCause::kRestart;
     case Answer::kNoAnswer: return RefusalCause::kNoAnswer;
   }
   return RefusalCause::kOther;

@@ -12,7 +12,7 @@ namespace nc::rt {
 
 struct Config;
 
-enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference, kStep, kHandle };
+enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference, kStep, kHandle, kApproach };
 
 // The last refusal of a part system.
 struct Refusal {
@@ -29,7 +29,8 @@ enum class RefusalCause : std::uint8_t {
   kNone, kMode, kRunning, kMiddleOfBlock, kNoProgram, kAlarm, kResetting, kEnding, kSpindle, kSoftLimit, kNotRepeated, kNoFeed, kOther,
   kFeedHold, kInterlock, kResetHeld, kWarning, kMachineSwitch, kRange, kAxis, kControl, kNotLoaded, kNoDevice, kTooMany, kNoLadder, kNoAnswer,
   kLetGo, kTooFar, kDrives, kNotHomed, kHoming, kLimitSwitch, kTapInHole, kMachineLock,
-  kLast = kMachineLock
+  kRestart,
+  kLast = kRestart
 };
 // kNone for Answer::kDone. Every other answer has a cause, which is never kOther: that one stands for a cause that only a later version knows.
 RefusalCause refusal_cause(Answer why);

@@ -212,10 +212,12 @@ bool Runtime::start(std::string* error) {
     places = data.get();
     keeper_->add(3, std::move(data), config_.place_path());
   }
+  if (control_ != nullptr && !config_.place_path().empty()) keeper_->add(4, std::make_unique<StopData>(feeder_.get()), config_.place_path() + ".stops");
   keeper_->restore(&warnings_);
   if (places != nullptr && !places->found().empty()) {
     found_place_ = place_text(places->found(), config_.nc.system_count > 1);
     scan_->post_found_place();
+    feeder_->set_stops(places->found());
   }
   feeder_->step();  // reads the first blocks before the first scan
   if (!feeder_thread_.start([this] { feeder_thread(); }, error)) {
@@ -362,6 +364,15 @@ Answer Runtime::select_program(unsigned system, const std::string& name) {
   return execute_alone(command);
 }
 
+Answer Runtime::find_restart(unsigned system, const RestartWish& wish) {
+  const std::lock_guard lock(operator_);
+  feeder_->set_restart_wish(wish);
+  Command command;
+  command.kind = CommandKind::kFindRestart;
+  command.system = static_cast<std::uint8_t>(system);
+  return execute_alone(command);
+}
+
 Answer Runtime::with_job(CommandKind kind, ControlJob job) {
   const std::lock_guard lock(operator_);
   feeder_->set_job(std::move(job));
@@ -410,7 +421,7 @@ std::string Runtime::forced_name(std::uint32_t number) const {
 
 std::string Runtime::explain(Answer answer) const {
   std::string text;
-  if (answer == Answer::kNotLoaded || answer == Answer::kRefusedByControl) text = feeder_->refusal();
+  if (answer == Answer::kNotLoaded || answer == Answer::kRefusedByControl || answer == Answer::kNoPlace) text = feeder_->refusal();
   if (answer == Answer::kNoDevice) {
     const std::lock_guard lock(operator_);
     text = refused_;

@@ -79,6 +79,8 @@ class Runtime {
   void set_program_loader(ProgramLoader loader) { feeder_->set_program_loader(std::move(loader)); }
   // Called after new MDI blocks have been loaded, to enter the present texts of the programs that they may call. To be set before the start.
   void set_program_refresh(ProgramRefresh refresh) { feeder_->set_program_refresh(std::move(refresh)); }
+  // Gives the SHA-256 of a program in the store. To be set before the start.
+  void set_program_hash(ProgramHash hash) { feeder_->set_program_hash(std::move(hash)); }
   // Says which files of programs have changed since they were read. To be set before the start.
   void set_changed_programs(ChangedPrograms changed) { feeder_->set_changed_programs(std::move(changed)); }
   // True for a part program that is selected, or that will be selected again after MDI: its entry in the store must stay. Feeder thread.
@@ -92,6 +94,8 @@ class Runtime {
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
   Answer load_mdi(const std::string& text, unsigned system = 0);
   Answer select_program(unsigned system, const std::string& name);  // the program loader finds the program
+  // Begins to look for a place in the selected program. What comes of it is in FeederInfo::System::restart.
+  Answer find_restart(unsigned system, const RestartWish& wish);
   // Calls `job` in the feeder thread, to read the tables of the control. It may be called even when the answer is kNoAnswer, so it owns what it needs.
   Answer look(ControlJob job);
   // The same for a job that changes tables: offsets, variables, parameters. Refused while a program is in execution or interrupted, and during a reset, because

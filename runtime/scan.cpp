@@ -125,6 +125,7 @@ void Scan::run_once() noexcept {
   for (unsigned s = 0; s < systems_; ++s) last_command_[s] = out_[s].command;
   nc_->cycle(in_, out_);
   take_positions();
+  note_given();
   write_outputs();
   follow_requests();
   publish();
@@ -224,6 +225,8 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kStep:
     case CommandKind::kReference:
       return manual(command);
+    case CommandKind::kApproach:
+      return approach(command);
     case CommandKind::kHome:
       return home_command(command);
     case CommandKind::kTapRetract:
@@ -237,6 +240,9 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kSelectProgram:
     case CommandKind::kLoadMdi:
     case CommandKind::kSwitches:
+    case CommandKind::kFindRestart:
+    case CommandKind::kConfirmRestart:
+    case CommandKind::kCancelRestart:
     case CommandKind::kLook:
     case CommandKind::kChange:
       break;  // these are commands for the feeder
@@ -343,10 +349,13 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (at_limit_switch(ready)) return Answer::kLimitSwitch;
   for (unsigned s = 0; s < systems_; ++s)
     if ((ready >> s & 1u) != 0 && axis_not_homed(s) >= 0) return Answer::kNotHomed;
+  if (const Answer why = restart_hindrance(ready); why != Answer::kDone) return why;
   // Who commands a start behind his hold wants it. Whoever presses a button in that scan does not know of the hold.
   const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;
   if (starts == 0) return Answer::kTakenBack;
   if (active == 0) program_mode_ = mode_;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((starts & ~active) >> s & 1u) begun_[s] = out_[s].command;
   for (unsigned s = 0; s < systems_ && mode_ == Mode::kMdi && program_mode_ == Mode::kAuto; ++s) {
     if ((starts & mdi_waiting() & ~mdi_runs_ & 1u << s) == 0) continue;
     mdi_started_[s] = mdi_waits_[s].load(std::memory_order_relaxed);
@@ -509,11 +518,14 @@ void Scan::publish() noexcept {
   Snapshot& out = building_;
   out.scan = scan_;
   out.time_ns = scan_time_ns_;
+  out.clock_ms = in_[0].clock_ms;
   out.mode = mode_;
   out.system_count = systems_;
   for (unsigned s = 0; s < systems_; ++s) {
     out.system[s].nc = out_[s];
     out.system[s].actual = feedback_.system[s].actual;
+    out.system[s].begun = begun_[s];
+    out.system[s].mirror = in_[s].mirror;
     out.system[s].refusal = refusal_[s];
     publish_overrides(s, &out.system[s]);
     out.system[s].axes = flags_[s];

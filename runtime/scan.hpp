@@ -30,6 +30,7 @@
 #include "runtime/macro_interface.hpp"
 #include "runtime/nc_port.hpp"
 #include "runtime/power/power_watch.hpp"
+#include "runtime/restart/recovery_list.hpp"
 #include "runtime/seqlock.hpp"
 #include "runtime/snapshot.hpp"
 #include "runtime/spsc.hpp"
@@ -115,6 +116,16 @@ class Scan {
     return recalculations_[system].load(std::memory_order_acquire);
   }
 
+  // A program that is begun inside (runtime/restart/), one bit per part system each: nothing starts while its place is looked for, and it does not go on from
+  // the place while what it has given to the machine is not there.
+  void set_restart(std::uint32_t searches, std::uint32_t bars, std::uint32_t stands) noexcept {
+    restart_searches_.store(searches, std::memory_order_release);
+    restart_bars_.store(bars, std::memory_order_release);
+    restart_stands_.store(stands, std::memory_order_release);
+  }
+  // The codes that the machine has got, in their order.
+  bool poll_given(GivenCode* code) noexcept { return given_.pop(code); }
+
   // The bits of a word #1132 to #1135 whose values come from the machine and not from a block, since the last call: the initial values of the points, and
   // values that a bus finds in its device (on_stop = "hold"). Returns their mask; *bits gets the whole word.
   std::uint32_t take_found_outputs(unsigned word, std::uint32_t* bits) noexcept {
@@ -188,6 +199,14 @@ class Scan {
   Answer manual(const Command& command) noexcept;
   Answer jog(const Command& command) noexcept;
   Answer step_or_return(const Command& command) noexcept;
+  Answer approach(const Command& command) noexcept;
+  Answer approach_hindrance(unsigned system, unsigned axis) const noexcept;
+  void follow_approach_button(unsigned system, unsigned axis, bool on, bool free) noexcept;
+  double approach_feed(unsigned system, unsigned axis, const LadderRequests& requests) const noexcept;
+  void watch_approach(unsigned system, unsigned axis) noexcept;
+  bool others_move(unsigned system, unsigned axis) const noexcept;
+  Answer restart_hindrance(std::uint32_t ready) const noexcept;
+  void note_given() noexcept;
   void give_commands_by_hand(unsigned system) noexcept;
   void build_nc_inputs() noexcept;
   void run_ladder() noexcept;
@@ -332,6 +351,12 @@ class Scan {
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // strobes of the previous scan
   std::uint8_t fin_own_taken_[NC_MAX_SYSTEMS] = {};  // groups that have been completed by their own FIN, which is on now
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that have been completed by the FIN that is on now
+  std::atomic<std::uint32_t> restart_searches_{0}, restart_bars_{0}, restart_stands_{0};  // set_restart()
+  std::uint8_t given_strobe_[NC_MAX_SYSTEMS] = {};  // strobes whose codes have been noted
+  std::uint32_t approach_asked_[NC_MAX_SYSTEMS] = {};    // bit per axis: it is asked for in this scan to go back, with or without effect
+  std::uint32_t approach_buttons_refused_[NC_MAX_SYSTEMS] = {};  // bit per axis: its button was refused or stopped and has been on since
+  nc_axes begun_[NC_MAX_SYSTEMS] = {};              // SystemSnapshot::begun
+  SpscQueue<GivenCode, 256> given_;
   std::atomic<std::uint32_t> mdi_waits_[NC_MAX_SYSTEMS] = {};  // set_mdi_waits()
   std::uint32_t mdi_started_[NC_MAX_SYSTEMS] = {};  // number of the text that was started last
   std::uint32_t mdi_runs_ = 0;                      // bit s: blocks of MDI that interrupt the program of part system s have been started and have not ended

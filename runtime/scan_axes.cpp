@@ -140,7 +140,7 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
   if (manual.kind == NC_MANUAL_STEP || manual.kind == NC_MANUAL_HANDLE) direction = direction_of(manual.distance);
   if (manual.kind == NC_MANUAL_REFERENCE && direction == 0) direction = direction_of(config_.nc.system[s].axis[a].reference[0] - out_[s].command.v[a]);
   Answer why = way_hindrance(s, a, direction);
-  if (why == Answer::kDone && unknown && manual.kind == NC_MANUAL_HANDLE) why = Answer::kNotHomed;
+  if (why == Answer::kDone && unknown && (manual.kind == NC_MANUAL_HANDLE || manual.kind == NC_MANUAL_RETURN)) why = Answer::kNotHomed;
   if (why == Answer::kDone && manual.kind != NC_MANUAL_NONE && lock_left(s, a)) why = Answer::kLockLeft;
   if (why == Answer::kDone) return;
   hindered_[s][a] = why;

@@ -23,7 +23,8 @@ void Scan::run_ladder() noexcept {
   const bool stopped = alarms_.stops();
   const LadderStatus status{mode_,       stopped, !stopped && alarms_.count != 0, reset_phase_ != ResetPhase::kNone,
                             !drives_off_, scan_,   macro_.output(),                           flags_,
-                            all_homed(),  power_.failed(),  power_.phase() == PowerWatch::Phase::kDone, scan_time_ns_};
+                            all_homed(),  power_.failed(),  power_.phase() == PowerWatch::Phase::kDone, scan_time_ns_,
+                            restart_stands_.load(std::memory_order_acquire), restart_bars_.load(std::memory_order_acquire)};
   LadderRequests requests;
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;

@@ -110,19 +110,22 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
     Jog& jog = jog_[s][a];
     nc_manual& manual = in_[s].manual[a];
     const bool acts = !ending_ && mode_ == Mode::kManual && reset_phase_ == ResetPhase::kNone && !alarms_.stops() && !is_spindle_now(s, a);
-    if (!acts && jog.kind != NC_MANUAL_JOG) jog = {};
+    if (!acts && jog.kind == NC_MANUAL_RETURN) jog.refused = true;
+    else if (!acts && jog.kind != NC_MANUAL_JOG) jog = {};
     if (!acts && jog.kind == NC_MANUAL_JOG) jog.refused = true;
     jog_asked_[s][a] = static_cast<std::int8_t>(jog.kind == NC_MANUAL_JOG ? direction_of(jog.value) : 0);
+    approach_asked_[s] = (approach_asked_[s] & ~(1u << a)) | static_cast<std::uint32_t>(jog.kind == NC_MANUAL_RETURN && !jog.refused) << a;
     manual = {};
     if (!jog.refused) {
       manual.kind = jog.kind;
-      manual.velocity = jog.kind == NC_MANUAL_JOG ? jog.value : 0;
+      manual.velocity = jog.kind == NC_MANUAL_JOG || jog.kind == NC_MANUAL_RETURN ? jog.value : 0;
       manual.distance = jog.kind == NC_MANUAL_STEP ? jog.value : 0;
     }
     if (jog.remaining == ~0u) {
       if ((out_[s].at_reference >> a & 1u) != 0) jog = {};
     } else if (jog.remaining > 0 && --jog.remaining == 0) {
       if (jog.kind == NC_MANUAL_JOG && !jog.refused) refuse(s, Asked::kJog, Answer::kNotRepeated, static_cast<int>(a), true);
+      if (jog.kind == NC_MANUAL_RETURN && !jog.refused && out_[s].velocity.v[a] != 0) refuse(s, Asked::kApproach, Answer::kNotRepeated, static_cast<int>(a), true);
       jog_asked_[s][a] = 0;
       jog = {};
     }
@@ -159,6 +162,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
       } else if (acts && now.handle[a] != 0) {
         in_[s].manual[a] = {NC_MANUAL_HANDLE, 0, now.handle[a] * kHandleIncrement};
       }
+      follow_approach_button(s, a, ((now.approach >> a & 1u)) != 0, acts && !jogs && now.handle[a] == 0);
       if (reference) {
         const Command command{CommandKind::kReference, static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(a), 0, 0, 0, machine_asker()};
         const Answer answer = jogs || (acts && now.handle[a] != 0) ? Answer::kAxesMove : manual(command);
@@ -176,6 +180,7 @@ void Scan::watch_manual() noexcept {
     if (mode_ != Mode::kManual || (!out_[s].tap_retract_possible && out_[s].state != NC_STATE_MANUAL)) taps_drawn_ &= ~(1u << s);
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       watch_jog(s, a);
+      watch_approach(s, a);
       watch_way(s, a);
       watch_handle(s, a);
     }

@@ -34,6 +34,8 @@ struct SystemSnapshot {
   nc_axes actual{};        // measured
   nc_spindle_inputs spindle[NC_MAX_SPINDLES] = {};  // measured
   AxisFlags axes;          // homed, on a limit switch, ...
+  nc_axes begun{};         // commanded machine position where the program was started that is in execution, or that ran last
+  std::uint32_t mirror = 0;  // nc_inputs::mirror, as a start would find it
   Refusal refusal;         // of what was asked for at the panel last
   double feed_override = 1, rapid_override = 1;  // in force: a machine may have a switch for each part system ...
   OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are
@@ -45,6 +47,7 @@ struct SystemSnapshot {
 struct Snapshot {
   std::uint64_t scan = 0;    // number of the scan, from 1
   std::int64_t time_ns = 0;  // time on the scan's clock at its start
+  std::int64_t clock_ms = 0;  // the machine's clock, as programs read it
   Mode mode = Mode::kAuto;
   unsigned system_count = 1;
   std::uint32_t single_block = 0, optional_stop = 0;  // set by the operator; one bit per part system

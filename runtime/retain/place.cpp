@@ -6,6 +6,9 @@
 //   program part.nc
 //   block 12 0 0 11          line, O number, depth, line of the main program that was finished last
 //   at X 1.5
+//   restart 14 812 (SHA-256, or -)        blocks, bytes of the program, its hash; with all that follows only where it is known
+//   begun X 0
+//   cause power
 //   end
 #include "runtime/retain/place.hpp"
 
@@ -31,6 +34,20 @@ std::string number(const char* format, double value) {
   return text;
 }
 
+bool read_axis(std::istringstream* words, std::vector<std::pair<char, double>>* axes) {
+  std::string axis;
+  double value = 0;
+  if (!(*words >> axis >> value) || axis.size() != 1 || !std::isfinite(value) || axes->size() >= NC_MAX_AXES) return false;
+  axes->emplace_back(axis[0], value);
+  return true;
+}
+
+bool read_restart(std::istringstream* words, ProgramPlace* place) {
+  if (!(*words >> place->blocks >> place->size >> place->hash)) return false;
+  if (place->hash == "-") place->hash.clear();
+  return true;
+}
+
 bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
   std::istringstream words(line);
   std::string key;
@@ -48,11 +65,10 @@ bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
     return true;
   }
   if (key == "block") return static_cast<bool>(words >> place.line >> place.number >> place.depth >> place.main_line);
-  std::string axis;
-  double value = 0;
-  if (key != "at" || !(words >> axis >> value) || axis.size() != 1 || !std::isfinite(value) || place.at.size() >= NC_MAX_AXES) return false;
-  place.at.emplace_back(axis[0], value);
-  return true;
+  if (key == "restart") return place.restartable = read_restart(&words, &place);
+  if (key == "cause") return static_cast<bool>(words >> place.cause);
+  if (key == "at") return read_axis(&words, &place.at);
+  return key == "begun" && read_axis(&words, &place.begun);
 }
 
 }  // namespace
@@ -65,6 +81,9 @@ std::string encode_places(const std::vector<ProgramPlace>& places) {
     text << "system " << place.system << "\nprogram " << one_line(place.program) << "\nblock " << place.line << ' ' << place.number << ' '
          << place.depth << ' ' << place.main_line << '\n';
     for (const auto& [axis, value] : place.at) text << "at " << axis << ' ' << number("%.9g", value) << '\n';
+    if (place.restartable) text << "restart " << place.blocks << ' ' << place.size << ' ' << (place.hash.empty() ? "-" : place.hash) << '\n';
+    for (const auto& [axis, value] : place.begun) text << "begun " << axis << ' ' << number("%.17g", value) << '\n';
+    if (!place.cause.empty()) text << "cause " << place.cause << '\n';
   }
   text << "end\n";
   return text.str();
@@ -78,7 +97,7 @@ bool decode_places(const std::string& bytes, std::vector<ProgramPlace>* places) 
   bool good = std::getline(lines, line) && line == kPlaceHead, ended = false;
   while (good && !ended && std::getline(lines, line)) {
     ended = line == "end";
-    good = ended || (places->size() <= NC_MAX_SYSTEMS && read_line(line, places));
+    good = ended || (places->size() <= 2 * NC_MAX_SYSTEMS && read_line(line, places));
   }
   if (good && ended) return true;
   places->clear();
@@ -101,6 +120,13 @@ std::string place_text(const std::vector<ProgramPlace>& places, bool systems) {
 }
 
 bool PlaceData::restore(const std::string& bytes) { return decode_places(bytes, &found_); }
+
+bool StopData::restore(const std::string& bytes) {
+  std::vector<ProgramPlace> places;
+  if (!decode_places(bytes, &places)) return false;
+  feeder_.set_stops(places);
+  return true;
+}
 
 bool PlaceData::take(std::string* bytes) {
   if (!feeder_.take(Feeder::kPlace, bytes)) return false;

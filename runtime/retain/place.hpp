@@ -10,20 +10,10 @@
 #include <vector>
 
 #include "runtime/feeder.hpp"
+#include "runtime/retain/program_place.hpp"
 #include "runtime/retain/retained_data.hpp"
 
 namespace nc::rt {
-
-// Of one part system whose program was in execution or interrupted.
-struct ProgramPlace {
-  unsigned system = 0;         // counted from 0
-  std::string program;         // name of the file, or "MDI"
-  std::uint32_t main_line = 0; // line of the main program that was finished last; 0: none
-  std::uint32_t line = 0;      // of the block in execution ...
-  std::uint32_t number = 0, depth = 0;  // ... in the program with this O number (0: it has none), called so deep
-  std::vector<std::pair<char, double>> at;  // axes and where they were commanded to, machine coordinates
-  bool operator==(const ProgramPlace&) const = default;
-};
 
 std::string encode_places(const std::vector<ProgramPlace>& places);
 // False when the bytes are not such places; *places is empty then. No bytes are no places.
@@ -49,6 +39,21 @@ class PlaceData final : public RetainedData {
   Feeder& feeder_;
   Scan& scan_;
   std::vector<ProgramPlace> found_;
+};
+
+// Where programs have stopped that did not come to their end: a restart begins there. They stay until the same program has come to its end.
+class StopData final : public RetainedData {
+ public:
+  explicit StopData(Feeder* feeder) : feeder_(*feeder) {}
+  const char* name() const override { return "the places where programs have stopped"; }
+  const char* start() const override { return "are not known"; }
+  bool restore(const std::string& bytes) override;
+  std::string now() override { return feeder_.stop_bytes(); }
+  void want() override { feeder_.want(Feeder::kStops); }
+  bool take(std::string* bytes) override { return feeder_.take(Feeder::kStops, bytes); }
+
+ private:
+  Feeder& feeder_;
 };
 
 }  // namespace nc::rt

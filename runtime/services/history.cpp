@@ -9,6 +9,7 @@
 #include "runtime/clock.hpp"
 #include "runtime/services/service_table.hpp"
 #include "runtime/services/shown.hpp"
+#include "runtime/services/restart.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::services {
@@ -46,10 +47,13 @@ std::string words_of(const share::Request& r) {
     case share::RequestKind::kSingleBlock:
     case share::RequestKind::kOptionalStop: return (r.number != 0 ? "on" : "off") + system;
     case share::RequestKind::kJog: return "axis " + std::to_string(r.axis + 1) + " at " + number_text(r.value) + system;
+    case share::RequestKind::kRestartApproach: return "axis " + std::to_string(r.axis + 1) + system;
     case share::RequestKind::kMdi:
     case share::RequestKind::kSelectProgram: return text + system;
     case share::RequestKind::kForce:
     case share::RequestKind::kWriteDevice: return text + " = " + number_text(r.value);
+    case share::RequestKind::kRestartFind: return restart_words(r) + system;
+    case share::RequestKind::kRestartConfirm: return (r.number == kEveryEntry ? "all entries" : "entry " + std::to_string(r.number + 1)) + system;
     case share::RequestKind::kReleaseForce: return text.empty() ? "all devices" : text;
     default: return system.empty() ? "" : system.substr(1);
   }
@@ -184,7 +188,7 @@ void ActionNotes::answered(const share::Request* request, const share::Ack& ack)
     }
     if (known) entry.user = name_of(user);
   }
-  if (refused || kind == share::RequestKind::kJog) {
+  if (refused || kind == share::RequestKind::kJog || kind == share::RequestKind::kRestartApproach) {
     const std::int64_t now = RealClock().now_ns();
     const std::lock_guard lock(mutex_);
     if (last_.size() >= kMostNames) last_.clear();

@@ -74,6 +74,15 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kLadderName, "name", Kind::kName, 1, 127, "", "name of the ladder program in messages; \"swapped\" when it is not given"},
     {Field::kInterval, "interval_ms", Kind::kWhole, kShortestInterval, kLongestInterval, "ms", "time between two updates; 200 when it is not given"},
     {Field::kWatch, "watch", Kind::kWhole, 1, kMost32, "", "number of a watch list of this connection"},
+    {Field::kBlock, "block", Kind::kWhole, 0, kMostSize, "", "the program goes on behind so many blocks that were executed"},
+    {Field::kSequence, "sequence", Kind::kWhole, 1, kMost32, "", "the program goes on with the block of this sequence number"},
+    {Field::kLine, "line", Kind::kWhole, 1, kMost32, "", "the program goes on with the block on this line"},
+    {Field::kPassing, "passing", Kind::kWhole, 1, kMost32, "", "of a sequence number or line: when the program comes there for so many times; the first when it is not given"},
+    {Field::kInFile, "file", Kind::kName, 1, 127, "", "of a sequence number or line: name of the program in which it stands, such as one that is called; the selected one when it is not given"},
+    {Field::kPowerOff, "power_off", Kind::kFlag, 0, 1, "", "true: where the program was when the power failed"},
+    {Field::kLastStop, "last_stop", Kind::kFlag, 0, 1, "", "true: where a reset, an alarm or a power cut has stopped the program last"},
+    {Field::kEntry, "entry", Kind::kWhole, 1, 100, "", "number of an entry of the recovery list; all of them when it is not given"},
+    {Field::kSpeed, "velocity", Kind::kNumber, 0, 1e6, "mm/s, deg/s", "velocity; the speed of jogs (plc.jog_feed) when it is not given or 0. To be repeated within 200 scans, else the axis stops"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -93,6 +102,10 @@ constexpr Wanted kPercentArguments[] = {must(Field::kPercent), may(Field::kSyste
 constexpr Wanted kOnArguments[] = {must(Field::kOn), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kJogArguments[] = {must(Field::kAxis), must(Field::kVelocity), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kMdiArguments[] = {must(Field::kBlocks), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kFindArguments[] = {may(Field::kBlock), may(Field::kSequence), may(Field::kLine), may(Field::kPassing), may(Field::kInFile), may(Field::kPowerOff), may(Field::kLastStop), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kConfirmArguments[] = {may(Field::kEntry), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kApproachArguments[] = {must(Field::kAxis), may(Field::kSpeed), may(Field::kSystem), may(Field::kLifespan)};
+constexpr Wanted kSystemOnly[] = {may(Field::kSystem)};
 constexpr Wanted kSelectArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear)};
 constexpr Wanted kOffsetArguments[] = {must(Field::kOffset), must(Field::kAxis), must(Field::kValue), may(Field::kSystem)};
@@ -307,6 +320,27 @@ constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the 
 constexpr ReplyRow kReadReply[] = {{"data", "data", "bytes in base64"},
                                    {"size", "whole", "bytes of the whole program"},
                                    {"modified_ns", "whole", "time of its last change; when it differs between two pieces, the program was changed meanwhile"}};
+constexpr ReplyRow kRestartReply[] = {{"system", "whole", "part system, from 1"},
+                                      {"phase", "text", "none; searching; found: the next cycle start comes to the place; stands: the program stands there, and cycle start goes on; ended"},
+                                      {"text", "text", "what is looked for, or why it has ended"},
+                                      {"read", "whole", "blocks that have been read, in steps"},
+                                      {"file", "text", "name of the program in which the place is"},
+                                      {"line", "whole", "line of the block with which the program goes on, 0 = not known"},
+                                      {"program", "whole", "O number of its program, 0 = none"},
+                                      {"depth", "whole", "0 in the main program, one more in each program that is called"},
+                                      {"blocks", "whole", "blocks that come before it"},
+                                      {"modal", "text", "codes in force there"},
+                                      {"asked[]", "text", "what the program has asked the machine on the way, and what was answered with the present state: with another answer it may come there otherwise"},
+                                      {"axes[].name", "text", "name of the axis"},
+                                      {"axes[].place", "number", "where the program goes on, in machine coordinates, mm or deg"},
+                                      {"axes[].machine", "number", "where the axis is"},
+                                      {"axes[].to_go", "number", "the difference"},
+                                      {"axes[].away", "flag", "cycle start waits for it; or, in another block stop, it was moved by hand"},
+                                      {"codes[].entry", "whole", "number of the entry, from 1"},
+                                      {"codes[].code", "text", "what the program has given to the machine before the place"},
+                                      {"codes[].state", "text", "open; done: the machine has it; confirmed: the operator has said that it is right as it is"},
+                                      {"open", "whole", "entries that are open: as long as there is one, the cycle start that goes on is refused"},
+                                      {"left_out", "whole", "M codes that have come so long before that they are not in the list"}};
 constexpr ReplyRow kBeginReply[] = {{"upload", "whole", "number of the upload, for this connection"}, {"bytes", "whole", "of one piece at most"}};
 constexpr ReplyRow kDataReply[] = {{"begin", "whole", "place of the next byte"}};
 
@@ -341,6 +375,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kWatchBegin, "watch.begin", Right::kView, Lane::kData, kNo, kWatchArguments, kWatchReply,
      "the values of the devices come again and again without a request, all of one scan, until watch.end or the end of the connection; see Watch lists"},
     {Service::kWatchEnd, "watch.end", Right::kView, Lane::kData, kNo, kWatchOnly, kDoneReply, "ends a watch list of this connection; no update comes behind the reply"},
+    {Service::kRestartStatus, "restart.status", Right::kView, Lane::kData, kNo, kSystemOnly, kRestartReply, "a program that is begun inside: the place, the recovery list, and how far the operator is"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
      "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
@@ -356,6 +391,14 @@ constexpr ServiceRow kRows[] = {
     {Service::kJog, "jog", Right::kOperate, Lane::kCommand, RequestKind::kJog, kJogArguments, kDoneReply, "moves an axis by hand, in mode manual"},
     {Service::kMdi, "mdi", Right::kOperate, Lane::kCommand, RequestKind::kMdi, kMdiArguments, kDoneReply, "loads blocks, in mode mdi; a start executes them"},
     {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto"},
+    {Service::kRestartFind, "restart.find", Right::kOperate, Lane::kCommand, RequestKind::kRestartFind, kFindArguments, kDoneReply,
+     "looks for a place in the selected program, in mode auto, so that the next cycle start begins there; exactly one of block, sequence, line, power_off and last_stop. The reply comes when the search has begun"},
+    {Service::kRestartConfirm, "restart.confirm", Right::kOperate, Lane::kCommand, RequestKind::kRestartConfirm, kConfirmArguments, kDoneReply,
+     "the operator says that an entry of the recovery list, or all of them, need not be given out"},
+    {Service::kRestartApproach, "restart.approach", Right::kOperate, Lane::kCommand, RequestKind::kRestartApproach, kApproachArguments, kDoneReply,
+     "an axis goes to where the program goes on, in any block stop in which it was moved by hand; in mode manual, one axis at a time"},
+    {Service::kRestartCancel, "restart.cancel", Right::kOperate, Lane::kCommand, RequestKind::kRestartCancel, kCommandOnly, kDoneReply,
+     "the place is no longer looked for, or forgotten: the next cycle start begins at the head of the program"},
 
     {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
     {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},

@@ -17,7 +17,8 @@ namespace nc::rt::services {
 enum class Field : std::uint8_t {
   kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
-  kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch, kFields
+  kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch,
+  kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -47,8 +48,8 @@ struct ReplyRow {
 
 enum class Service : std::uint8_t {
   kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead,
-  kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd,
-  kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect,
+  kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd, kRestartStatus,
+  kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect, kRestartFind, kRestartConfirm, kRestartApproach, kRestartCancel,
   kSetTool, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
   kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kLadderSwap, kServiceCount
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/services/restart.hpp"
 #include "runtime/services/shown.hpp"
 #include "runtime/services/table_changes.hpp"
 #include "runtime/services/tables.hpp"
@@ -39,6 +40,37 @@ Refused refused_of(const share::Ack& ack) {
     default:
       return Refused::kState;
   }
+}
+
+bool is_of_restart(share::RequestKind kind) {
+  using share::RequestKind;
+  return kind == RequestKind::kRestartFind || kind == RequestKind::kRestartConfirm || kind == RequestKind::kRestartApproach || kind == RequestKind::kRestartCancel;
+}
+
+// The one way in which a place is named.
+bool fill_place(const Call& call, share::Request* request, Outcome* outcome) {
+  struct Row {
+    Field field;
+    RestartBy by;
+  };
+  constexpr Row kWays[] = {{Field::kBlock, RestartBy::kBlock}, {Field::kSequence, RestartBy::kSequence}, {Field::kLine, RestartBy::kLine}, {Field::kPowerOff, RestartBy::kPowerOff}, {Field::kLastStop, RestartBy::kLastStop}};
+  unsigned ways = 0;
+  RestartBy by = RestartBy::kBlock;
+  for (const Row& row : kWays) {
+    const bool flag = row.by >= RestartBy::kPowerOff;
+    if (!call.has(row.field) || (flag && !call.flag(row.field))) continue;
+    ++ways;
+    by = row.by;
+    if (!flag) request->value = call.value(row.field);
+  }
+  const bool line = by == RestartBy::kSequence || by == RestartBy::kLine;
+  std::string wrong;
+  if (ways != 1) wrong = "exactly one of block, sequence, line, power_off and last_stop names the place";
+  else if (!line && (call.has(Field::kPassing) || call.has(Field::kInFile))) wrong = "passing and file belong to a sequence number or a line";
+  request->axis = static_cast<std::uint32_t>(by);
+  request->number = static_cast<std::uint32_t>(call.value_or(Field::kPassing, 0));
+  if (!wrong.empty()) *outcome = Outcome::refused(Refused::kMalformed, wrong);
+  return wrong.empty();
 }
 
 }  // namespace
@@ -96,7 +128,10 @@ Outcome Services::show(const Session& session, const Call& call) const {
 bool Services::fill(const Call& call, share::Request* request, Outcome* outcome) const {
   const Config& config = runtime_.config();
   const share::RequestKind kind = call.row->command;
-  const bool one = kind == share::RequestKind::kJog || kind == share::RequestKind::kMdi || kind == share::RequestKind::kSelectProgram;
+  const bool one = kind == share::RequestKind::kJog || kind == share::RequestKind::kMdi || kind == share::RequestKind::kSelectProgram || is_of_restart(kind);
+  if (kind == share::RequestKind::kRestartFind && !fill_place(call, request, outcome)) return false;
+  if (kind == share::RequestKind::kRestartConfirm) request->number = call.has(Field::kEntry) ? static_cast<std::uint32_t>(call.value(Field::kEntry)) - 1 : kEveryEntry;
+  if (call.has(Field::kSpeed)) request->value = call.value(Field::kSpeed);
   const auto system = static_cast<unsigned>(call.value_or(Field::kSystem, one ? 1 : 0));
   request->kind = static_cast<std::uint32_t>(kind);
   request->system = system == 0 ? share::kEverySystem : system - 1;
@@ -120,7 +155,7 @@ bool Services::fill(const Call& call, share::Request* request, Outcome* outcome)
     const nc_system_config& axes = config.nc.system[request->system];
     while (request->axis < axes.axis_count && axes.axis[request->axis].name != call.words(Field::kAxis)[0]) ++request->axis;
   }
-  for (const Field field : {Field::kBlocks, Field::kFile, Field::kDevice})
+  for (const Field field : {Field::kBlocks, Field::kFile, Field::kDevice, Field::kInFile})
     if (call.has(field)) share::set_text(&request->text, call.words(field));
   return true;
 }
@@ -211,6 +246,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kLadderDevices: return ladder_.list_devices(call);
     case Service::kWatchBegin: return watch_.begin(session.number, call, RealClock().now_ns());
     case Service::kWatchEnd: return watch_.end(session.number, call);
+    case Service::kRestartStatus: return show_restart(&runtime_, call);
     case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
     case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:

@@ -10,6 +10,7 @@
 namespace nc::rt::share {
 namespace {
 
+constexpr double kMostExact = 9007199254740992.0;  // whole numbers up to here are exact
 constexpr double kMaxVelocity = 1e6;  // mm/s; the scan checks the limit of the axis itself
 
 bool is_graphic(std::string_view text) {
@@ -57,6 +58,9 @@ constexpr Row kRows[] = {
     {RequestKind::kSingleBlock, CommandKind::kSingleBlock, false},
     {RequestKind::kOptionalStop, CommandKind::kOptionalStop, false},
     {RequestKind::kJog, CommandKind::kJog, false},
+    {RequestKind::kRestartConfirm, CommandKind::kConfirmRestart, false},
+    {RequestKind::kRestartApproach, CommandKind::kApproach, false},
+    {RequestKind::kRestartCancel, CommandKind::kCancelRestart, false},
 };
 
 const Row* row_of(RequestKind kind) {
@@ -78,7 +82,8 @@ Ack make_ack(const Request& request, Way way, std::int64_t now_ns) {
 
 // Commands that must name one part system.
 constexpr bool is_of_one_system(RequestKind kind) {
-  return kind == RequestKind::kJog || kind == RequestKind::kMdi || kind == RequestKind::kSelectProgram;
+  return kind == RequestKind::kJog || kind == RequestKind::kMdi || kind == RequestKind::kSelectProgram || kind == RequestKind::kRestartFind ||
+         kind == RequestKind::kRestartConfirm || kind == RequestKind::kRestartApproach || kind == RequestKind::kRestartCancel;
 }
 
 // Commands that act on the whole control, whichever part system is named.
@@ -195,6 +200,16 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
                  : bad("the value of a device is a whole number of 32 bits");
     case RequestKind::kReleaseForce:
       return text.empty() || is_device_name(text) ? Verdict{} : bad("not the name of a device");
+    case RequestKind::kRestartFind:
+      if (r.axis >= static_cast<std::uint32_t>(RestartBy::kCount)) return bad("no such way to name a place");
+      if (!(r.value >= 0 && r.value <= kMostExact && r.value == std::floor(r.value))) return bad("not a number of blocks, a sequence number or a line");
+      return text.empty() || is_file_name(text) ? Verdict{} : bad("not the name of a program");
+    case RequestKind::kRestartConfirm:
+    case RequestKind::kRestartCancel:
+      return {};
+    case RequestKind::kRestartApproach:
+      if (r.axis >= state.axis_count[r.system]) return bad("no such axis");
+      return r.value >= 0 && r.value <= kMaxVelocity ? Verdict{} : bad("velocity out of range");
     case RequestKind::kClientGone:
     case RequestKind::kGatewayBegan:
     case RequestKind::kCount:
@@ -304,6 +319,8 @@ Intake::Verdict Intake::execute(const Request& request) {
     answer = machine_.write_device(std::string(text_of(request.text)), static_cast<std::int64_t>(request.value));
   } else if (kind == RequestKind::kReleaseForce) {
     answer = machine_.release(std::string(text_of(request.text)));
+  } else if (kind == RequestKind::kRestartFind) {
+    answer = machine_.find_restart(request.system, {static_cast<RestartBy>(request.axis), static_cast<std::uint64_t>(request.value), request.number, std::string(text_of(request.text))});
   } else if (kind == RequestKind::kSelectProgram) {
     answer = machine_.select_program(request.system, std::string(text_of(request.text)));
   } else if (const Row* row = row_of(kind); row != nullptr) {
@@ -318,6 +335,7 @@ Intake::Verdict Intake::execute(const Request& request) {
     takes_time = row->takes_time;
     if (kind == RequestKind::kJog && answer == Answer::kDone)
       jogging_[request.system][request.axis] = request.value != 0;
+    if (kind == RequestKind::kRestartApproach && answer == Answer::kDone) jogging_[request.system][request.axis] = true;
   }
   if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, machine_.explain(answer), refusal_cause(answer)};
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};

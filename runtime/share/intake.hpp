@@ -26,6 +26,7 @@
 
 #include "runtime/command.hpp"
 #include "runtime/refusal.hpp"
+#include "runtime/restart/wish.hpp"
 #include "runtime/share/layout.hpp"
 
 namespace nc::rt::share {
@@ -52,6 +53,7 @@ class Machine {
   // Devices of the ladder; "" releases all of them.
   virtual Answer force(const std::string& device, std::int64_t value) = 0;
   virtual Answer write_device(const std::string& device, std::int64_t value) = 0;
+  virtual Answer find_restart(unsigned system, const RestartWish& wish) = 0;
   virtual Answer release(const std::string& device) = 0;
   // What the last answer means, with its reason when that is known.
   virtual std::string explain(Answer answer) { return answer_text(answer); }

@@ -22,7 +22,7 @@
 namespace nc::rt::share {
 
 inline constexpr std::uint64_t kMagic = 0x3165'7261'6873'636e;  // "ncshare1" in memory
-inline constexpr std::uint32_t kLayoutVersion = 7;
+inline constexpr std::uint32_t kLayoutVersion = 8;
 inline constexpr unsigned kHistory = 256;  // alarms and messages that are kept
 inline constexpr unsigned kAlarms = 16;
 inline constexpr unsigned kMaxSignals = 1280;  // signals between NC and ladder
@@ -195,6 +195,10 @@ enum class RequestKind : std::uint32_t {
   kForce,          // text: device of the ladder, value: value at which it is held
   kReleaseForce,   // text: device, "" = all of them
   kWriteDevice,    // text: device, value: value that it gets once
+  kRestartFind,    // system, axis: RestartBy, value: number, number: passing, text: name of a program, "" = the selected one
+  kRestartConfirm, // system, number: entry of the recovery list from 0, kEveryEntry = all of them
+  kRestartApproach,  // system, axis, value: velocity in mm/s, 0 = the jog feed; to be repeated as a jog
+  kRestartCancel,  // system
   // from the gateway itself, without acknowledgement
   kClientGone,    // writer: this participant is dead or has left
   kGatewayBegan,  // a new gateway has started: every client of the previous one is gone

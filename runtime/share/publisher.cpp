@@ -15,6 +15,8 @@ namespace {
 
 constexpr unsigned kFiguresEvery = 10;  // figures are computed in every tenth publication only, because a percentile walks through the whole histogram
 
+}  // namespace
+
 std::string modal_text(const nc_control* control, const nc_modal& modal) {
   char codes[NC_GROUPS][8];
   const unsigned count = nc_modal_codes_get(control, &modal, codes, NC_GROUPS);
@@ -22,8 +24,6 @@ std::string modal_text(const nc_control* control, const nc_modal& modal) {
   for (unsigned i = 0; i < count; ++i) text += (i == 0 ? "" : " ") + std::string(codes[i]);
   return text;
 }
-
-}  // namespace
 
 MachineBlock machine_block(const Config& config, const std::string& name) {
   MachineBlock block{};

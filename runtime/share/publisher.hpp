@@ -14,6 +14,9 @@
 
 namespace nc::rt::share {
 
+// The G codes in force: "G0 G17 G90".
+std::string modal_text(const nc_control* control, const nc_modal& modal);
+
 // The description of the machine, from its configuration.
 MachineBlock machine_block(const Config& config, const std::string& name);
 

@@ -35,6 +35,7 @@ class RuntimeMachine final : public Machine {
   }
   Answer force(const std::string& device, std::int64_t value) override { return runtime_.force(device, value); }
   Answer write_device(const std::string& device, std::int64_t value) override { return runtime_.write_device(device, value); }
+  Answer find_restart(unsigned system, const RestartWish& wish) override { return runtime_.find_restart(system, wish); }
   Answer release(const std::string& device) override { return runtime_.release(device); }
   std::string explain(Answer answer) override { return runtime_.explain(answer); }
 

@@ -59,6 +59,7 @@ struct FuzzMachine final : Machine {
   Answer execute(const Command& c) override {
     must(std::isfinite(c.value) && (c.system < now.system_count || (c.system == kAllSystems && takes_all_systems(c.kind))));
     if (c.kind == CommandKind::kJog) must(c.axis < now.axis_count[c.system] && std::abs(c.value) <= 1e6);
+    if (c.kind == CommandKind::kApproach) must(c.axis < now.axis_count[c.system] && c.value >= 0 && c.value <= 1e6);
     if (c.kind == CommandKind::kFeedOverride) must(c.value >= 0 && c.value <= now.max_feed_override);
     if (c.kind == CommandKind::kRapidOverride) must(c.value >= 0 && c.value <= 1);
     if (c.kind == CommandKind::kSetMode) must(c.number <= 2);
@@ -74,6 +75,12 @@ struct FuzzMachine final : Machine {
     return answer;
   }
   Answer write_device(const std::string& device, std::int64_t value) override { return force(device, value); }
+  Answer find_restart(unsigned system, const RestartWish& wish) override {
+    must(!only_stop && control == client && system < now.system_count && wish.by < RestartBy::kCount && wish.number <= 9007199254740992ull);
+    must(wish.file.find('/') == std::string::npos);
+    ++executed;
+    return answer;
+  }
   Answer release(const std::string& device) override {
     must(!only_stop && control == client && device.size() <= 64);
     ++executed;

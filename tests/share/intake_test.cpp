@@ -20,6 +20,7 @@ struct FakeMachine final : Machine {
   Answer answer = Answer::kDone;
   std::vector<Command> executed;
   std::vector<std::string> mdi, selected, forced, released;
+  std::vector<nc::rt::RestartWish> places;
   std::string why;
   FakeMachine() {
     now.axis_count[0] = 3;
@@ -41,6 +42,10 @@ struct FakeMachine final : Machine {
   Answer write_device(const std::string& device, std::int64_t value) override { return force(device + ".once", value); }
   Answer force(const std::string& device, std::int64_t value) override {
     forced.push_back(device + "=" + std::to_string(value));
+    return answer;
+  }
+  Answer find_restart(unsigned, const nc::rt::RestartWish& wish) override {
+    places.push_back(wish);
     return answer;
   }
   Answer release(const std::string& device) override {

@@ -49,6 +49,7 @@ class Command {
     switch (command_.what) {
       case What::kWatch: return command_.args.contains("devices") ? watch_devices() : watch();
       case What::kJog: return jog();
+      case What::kApproach: return approach();
       case What::kMdi: return mdi();
       case What::kPut: return put();
       case What::kGet: return get();
@@ -192,6 +193,27 @@ class Command {
     Json stop = command_.args;
     stop["velocity"] = 0;
     return call("jog", stop, &reply) ? 0 : status_;
+  }
+
+  // Until the axis is there, a signal, or a refusal. When this process is killed the axis stops, as a jog does.
+  int approach() {
+    if (!take_control()) return status_;
+    Json system = Json::object(), reply;
+    if (command_.args.contains("system")) system["system"] = command_.args["system"];
+    bool away = true;
+    while (away && rt::end_signal() == 0) {
+      if (!call("restart.approach", command_.args, &reply)) return status_;
+      std::this_thread::sleep_for(kJogPeriod);
+      if (!call("restart.status", system, &reply)) return status_;
+      away = false;
+      for (const Json& axis : reply.value("axes", Json::array()))
+        if (axis.value("name", "") == command_.args["axis"]) away = axis.value("away", false);
+    }
+    Json stop = system;
+    stop["axis"] = command_.args["axis"];
+    stop["velocity"] = 0;
+    if (!call("jog", stop, &reply)) return status_;
+    return away ? failed(kControlFailed, "the axis was stopped before it was there") : 0;
   }
 
   int mdi() {

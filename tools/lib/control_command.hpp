@@ -15,7 +15,7 @@ struct ControlCommand {
   bool json = false;            ///< replies are printed as JSON, one in a line
   std::string service;          ///< service to be used
   Json args = Json::object();
-  enum class What { kService, kWatch, kJog, kMdi, kPut, kGet, kPipe, kExport, kImport, kSwap, kRecord, kSave, kDocument } what = What::kService;
+  enum class What { kService, kWatch, kJog, kMdi, kPut, kGet, kPipe, kExport, kImport, kSwap, kRecord, kSave, kApproach, kDocument } what = What::kService;
   double seconds = 0;           ///< kJog: how long; kWatch: how long, 0 = until a signal
   double rate = 5;              ///< kWatch: lines per second
   bool all = false;             ///< the history: all of it

@@ -97,6 +97,7 @@ void add_service(CLI::App* app, const ServiceRow& row, ControlCommand* command) 
     sub->add_option("--for", command->seconds, "how long the axis moves, at most 60")->required()->check(seconds(false, "60"));
     sub->callback([command, &row] { command->service = row.name, command->what = What::kJog; });
   }
+  if (row.service == rt::services::Service::kRestartApproach) sub->callback([command, &row] { command->service = row.name, command->what = What::kApproach; });
   if (row.service == rt::services::Service::kMdi) {
     sub->add_flag("--start", command->start, "start them as well");
     sub->callback([command, &row] { command->service = row.name, command->what = What::kMdi; });
@@ -139,6 +140,13 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
     if (!history->get_subcommands().empty()) return;
     command->service = "history.list";
     if (!command->all && !command->args.contains("count")) command->args["count"] = 50;
+  });
+
+  CLI::App* restart = subcommand(app, "restart.find", "")->get_parent();
+  restart->description("begins a program inside; without one of these words it shows how far that is (view)");
+  restart->require_subcommand(0, 1);
+  restart->callback([command, restart] {
+    if (restart->get_subcommands().empty()) command->service = "restart.status";
   });
 
   CLI::App* put = subcommand(app, "programs.put", "writes a file into the folder of programs (set up)");

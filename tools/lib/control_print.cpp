@@ -119,6 +119,25 @@ std::string status_text(const Json& status) {
   return text;
 }
 
+// A program that is begun inside: what is to be done next, the place, and the two tables that an operator works through.
+std::string restart_text(const Json& reply) {
+  const std::string phase = text_at(reply, "phase"), what = text_at(reply, "text");
+  if (phase == "none") return "no place has been looked for\n";
+  if (phase == "ended") return "ended: " + what + "\n";
+  if (phase == "searching") return "searching: " + what + ", " + text_at(reply, "read") + " blocks so far\n";
+  std::string text = phase == "found" ? "found: " + what + ". Cycle start comes to the place, and moves nothing\n" : "stands at the place: " + what + "\n";
+  text += text_at(reply, "file") + " line " + text_at(reply, "line") + ", behind " + text_at(reply, "blocks") + " blocks\n" + text_at(reply, "modal") + "\n";
+  if (const std::string asked = text_at(reply, "asked"); !asked.empty()) text += "the program has asked for: " + asked + "; it was answered with the present state\n";
+  std::vector<std::vector<std::string>> axes = {{"axis", "place", "machine", "to go", ""}}, codes = {{"entry", "code", "state"}};
+  for (const Json& axis : reply.value("axes", Json::array()))
+    axes.push_back({text_at(axis, "name"), text_at(axis, "place"), text_at(axis, "machine"), text_at(axis, "to_go"), axis.value("away", false) ? "away" : ""});
+  text += table_text(axes);
+  for (const Json& code : reply.value("codes", Json::array())) codes.push_back({text_at(code, "entry"), text_at(code, "code"), text_at(code, "state")});
+  if (codes.size() > 1) text += table_text(codes);
+  if (reply.value("left_out", 0) != 0) text += text_at(reply, "left_out") + " older M codes are not in the list\n";
+  return text + (reply.value("open", 0) == 0 ? "nothing is open\n" : text_at(reply, "open") + " open: cycle start does not go on before they are given out or confirmed\n");
+}
+
 // One line for each entry, the newest last, as in a journal.
 std::string history_text(const Json& reply) {
   std::vector<std::vector<std::string>> rows;
@@ -170,6 +189,7 @@ std::string status_line(const Json& status) {
 
 std::string reply_text(const ServiceRow& row, const Json& reply) {
   if (row.service == Service::kStatus) return status_text(reply);
+  if (row.service == Service::kRestartStatus) return restart_text(reply);
   if (row.service == Service::kHistory) return history_text(reply);
   std::string text;
   for (const auto& [key, value] : reply.items()) {

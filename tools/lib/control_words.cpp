@@ -25,6 +25,7 @@ struct OwnCommand {
 constexpr OwnCommand kOwn[] = {
     {"history", "[--since TIME] [--until TIME] [--kind KIND] [--user USER] [--count N | --all]", Right::kView,
      "the memory of the machine, the newest last: alarms, messages, actions of operators, changes, runs of programs; 50 entries without --count. TIME is 90s, 15m, 8h or 7d ago, or a date and time as '2026-01-31 08:00' or '2026-01-31'"},
+    {"restart", "", Right::kView, "restart status: where a program that is begun inside stands, the recovery list, and how far the axes are away"},
     {"watch", "[DEVICES...] [--rate N] [--for SECONDS]", Right::kView, "the status again and again, or the values of devices of the ladder, signals and points, until Ctrl-C"},
     {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
     {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},

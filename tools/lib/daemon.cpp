@@ -139,6 +139,7 @@ int Daemon::load_program() {
   files_.set_report([](const std::string& why) { warn(rt::valid_utf8(why)); });
   files_.attach(runtime_->control());
   runtime_->set_program_refresh([this] { files_.look_again(runtime_->control()); });
+  runtime_->set_program_hash([this](unsigned file) { return files_.hash_of(file); });
   runtime_->set_changed_programs([this] { return rt::valid_utf8(files_.changed()); });
   if (has_program()) {
     if (files_.add(runtime_->control(), options_.program, &file_, &error) != NC_OK) return failed(error);

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/services/sha256.hpp"
+
 namespace nc::tools {
 
 struct ProgramFiles::Entry {
@@ -212,6 +214,20 @@ std::string ProgramFiles::path_of(unsigned file) const {
 ProgramFiles::Text ProgramFiles::text_of(unsigned file) const {
   const Entry* found = entry(file);
   return found ? found->text : nullptr;
+}
+
+std::string ProgramFiles::hash_of(unsigned file) const {
+  const Text text = text_of(file);
+  if (text == nullptr) return "";
+  rt::services::Sha256 sum;
+  std::string bytes(rt::ProgramText::kPart, '\0');
+  for (uint64_t at = 0; at < text->size();) {
+    const long count = text->read(at, bytes.data(), bytes.size());
+    if (count <= 0) return "";
+    sum.add({bytes.data(), static_cast<size_t>(count)});
+    at += static_cast<uint64_t>(count);
+  }
+  return sum.finish();
 }
 
 long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t size) {

@@ -60,6 +60,8 @@ class ProgramFiles {
   uint64_t entered() const { return entered_; }
   /** Text of the file that has this index in the program store; null when it did not come from here. */
   Text text_of(unsigned file) const;
+  /** SHA-256 of that text, "" when it did not come from here or cannot be read. */
+  std::string hash_of(unsigned file) const;
 
   /**
    * The file in the folder for "O1000" (only the number counts, so `o1000.NC` and `O01000` match, too, with or without an

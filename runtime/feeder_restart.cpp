@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that is begun inside, in the feeder: the place that the operator names, the search beside the other work, and where programs have stopped.
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/feeder.hpp"
+#include "runtime/retain/place.hpp"
+
+namespace nc::rt {
+namespace {
+
+std::string place_words(const RestartWish& wish) {
+  constexpr const char* kWords[] = {"behind block ", "sequence number ", "line ", "", ""};  // in the order of RestartBy
+  std::string text = kWords[static_cast<unsigned>(wish.by)] + std::to_string(wish.number);
+  if (!wish.file.empty()) text += " of " + wish.file;
+  if (wish.passing > 1) text += ", time " + std::to_string(wish.passing);
+  return text;
+}
+
+}  // namespace
+
+void Feeder::set_restart_wish(const RestartWish& wish) {
+  const std::lock_guard lock(mutex_);
+  wish_ = wish;
+}
+
+// ---- commands ----
+
+// The answer comes when the search has begun.
+Answer Feeder::find_restart(const Command& command) {
+  const unsigned s = command.system;
+  if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
+  if (!system_[s].selected || system_[s].mdi) return Answer::kNoProgram;
+  RestartWish wish;
+  {
+    const std::lock_guard lock(mutex_);
+    wish = wish_;
+  }
+  nc_restart_place place;
+  nc_restart_place_init(&place);
+  std::string what;
+  const bool known = wish.by < RestartBy::kPowerOff ? restart_place(s, wish, &place, &what) : stopped_place(s, wish, &place, &what);
+  if (!known) return refuse(Answer::kNoPlace, what);
+  place.mirror = seen_.system[s].mirror;
+  nc_world world;
+  nc_world_init(&world);
+  std::copy(std::begin(seen_.interface_input), std::end(seen_.interface_input), world.input);
+  world.clock_ms = seen_.clock_ms;
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step: by then the scan knows of the search
+  const nc_status status = restart_[s].begin(nc_, s, place, world, what);
+  if (status < 0) return refuse(Answer::kRefusedByControl, std::string("the place cannot be looked for: ") + nc_status_text(status));
+  follow_restart();
+  return Answer::kDone;
+}
+
+bool Feeder::restart_place(unsigned s, const RestartWish& wish, nc_restart_place* place, std::string* what) {
+  place->by = static_cast<std::uint8_t>(wish.by);
+  place->number = wish.number;
+  place->passing = wish.passing;
+  place->start = seen_.system[s].nc.command;  // where the axes are now
+  const int file = wish.file.empty() ? 0 : nc_->program_of(wish.file);
+  place->in_file = !wish.file.empty();
+  place->file = static_cast<std::uint16_t>(std::max(file, 0));
+  *what = file < 0 ? "the control has no program \"" + wish.file + "\" now: it has been neither selected nor called" : place_words(wish);
+  return file >= 0;
+}
+
+// Where the program was stopped, by whatever, or where it was when the power failed. It must be the same program still.
+bool Feeder::stopped_place(unsigned s, const RestartWish& wish, nc_restart_place* place, std::string* what) {
+  const bool power = wish.by == RestartBy::kPowerOff;
+  const Stops& stops = stops_[s];
+  const ProgramPlace& at = power ? stops.power : stops.last;
+  const char* const when = power ? "when the power failed" : "at the last stop";
+  const auto refused = [&](std::string why) {
+    *what = std::move(why);
+    return false;
+  };
+  if (!(power ? stops.any_power : stops.any)) return refused(power ? "it is not known where a program was when the power failed" : "no program has been stopped before its end");
+  if (!at.restartable) return refused("what was kept of the place does not tell how many blocks had been executed: name a line or a sequence number");
+  const std::string name = nc_->program_name(system_[s].file);
+  if (name != at.program) return refused(std::string(when) + " the program was " + at.program + ", and " + name + " is selected");
+  if (nc_->program_size(system_[s].file) != at.size || (!at.hash.empty() && at.hash != stops.hash))
+    return refused("the program has been changed since: the place " + std::string(when) + " is another one in it. Name a line or a sequence number");
+  place->by = NC_RESTART_BLOCK;
+  place->number = at.blocks;
+  place->start_given = true;
+  const std::string letters = nc_->axis_letters(s);
+  for (const auto& [axis, value] : at.begun)
+    if (const std::size_t index = letters.find(axis); index != std::string::npos) place->start.v[index] = value;
+  *what = "behind block " + std::to_string(at.blocks) + ", " + when;
+  return true;
+}
+
+Answer Feeder::confirm_restart(const Command& command) {
+  RestartDesk& desk = restart_[command.system];
+  if (!desk.in_hand() || desk.searching()) return refuse(Answer::kNoPlace, "no place has been found: there is nothing to be confirmed");
+  if (command.number != kEveryEntry && command.number >= desk.status().list.entries().size()) return Answer::kOutOfRange;
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  if (command.number == kEveryEntry) desk.list()->confirm_all();
+  else (void)desk.list()->confirm(command.number);
+  follow_restart();
+  return Answer::kDone;
+}
+
+Answer Feeder::cancel_restart(const Command& command) {
+  RestartDesk& desk = restart_[command.system];
+  if (!desk.in_hand()) return refuse(Answer::kNoPlace, "no place is looked for or found");
+  if (!claim(command.ticket)) return Answer::kNoAnswer;
+  scan_->set_loaded(Scan::kNothingLoaded);
+  if (const nc_status status = nc_->restart_cancel(command.system); status < 0)
+    return refuse(Answer::kRefusedByControl, std::string("it cannot be cancelled: ") + nc_status_text(status));
+  desk.end("it was cancelled");
+  follow_restart();
+  return Answer::kDone;
+}
+
+// ---- each step ----
+
+void Feeder::follow_restart() {
+  for (GivenCode code; scan_->poll_given(&code);)
+    if (code.system < systems_) restart_[code.system].given(code);
+  std::uint32_t searches = 0, bars = 0, stands = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    RestartDesk& desk = restart_[s];
+    const bool searched = desk.searching();
+    desk.follow(seen_, s);
+    bool again = searched && !desk.searching();
+    if (desk.searching()) again = desk.search(nc_, s);
+    // What was read on the way is not what a start should find: that begins at the head of the program.
+    if (again && system_[s].selected && !system_[s].mdi) {
+      scan_->set_loaded(Scan::kNothingLoaded);
+      if (const nc_status status = nc_->select(s, system_[s].file); status < 0 && status != NC_E_STATE) system_[s] = {};
+    }
+    searches |= static_cast<std::uint32_t>(desk.searching()) << s;
+    bars |= static_cast<std::uint32_t>(desk.bars()) << s;
+    stands |= static_cast<std::uint32_t>(desk.status().phase == RestartPhase::kStands) << s;
+  }
+  scan_->set_restart(searches, bars, stands);
+  const std::lock_guard lock(mutex_);
+  for (unsigned s = 0; s < systems_; ++s)
+    if (restart_[s].status().phase != RestartPhase::kNone) info_.system[s].restart = restart_[s].status();
+}
+
+// Notes where a part program is that is in execution or interrupted, and keeps that when it ends before its end.
+void Feeder::follow_stops() {
+  const std::uint32_t failed = scan_->power_failed_in();
+  for (unsigned s = 0; s < systems_; ++s) {
+    Stops& stops = stops_[s];
+    const std::uint8_t state = seen_.system[s].nc.state;
+    const bool by_hand = stops.runs && state == NC_STATE_MANUAL;  // in a block stop
+    const bool runs = system_[s].selected && !system_[s].mdi && (state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED || by_hand);
+    if (runs && !stops.runs) {
+      const RestartPhase phase = restart_[s].status().phase;
+      stops.begun = phase == RestartPhase::kFound || phase == RestartPhase::kStands ? restart_[s].start() : seen_.system[s].begun;
+    }
+    const bool stopped = stops.runs && !runs;
+    if (runs || (stopped && state == NC_STATE_ALARM)) stops.now = place_of(s, seen_);
+    if (stopped) stops.now.blocks = std::max(stops.now.blocks, seen_.system[s].nc.blocks);  // finished since the last step
+    stops.runs = runs;
+    if (!stopped || !stops.now.restartable) continue;
+    if (system_[s].ended && !system_[s].alarmed) {
+      if (stops.any && stops.last.program == stops.now.program) stops.any = stops.any_power = false;
+      continue;
+    }
+    stops.last = stops.now;
+    stops.last.cause = (failed >> s & 1u) != 0 ? "power" : state == NC_STATE_ALARM ? "alarm" : "reset";
+    stops.any = true;
+    if (stops.last.cause != "power") continue;
+    stops.power = stops.last;
+    stops.any_power = true;
+  }
+}
+
+std::string Feeder::stop_bytes() const {
+  std::vector<ProgramPlace> places;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const Stops& stops = stops_[s];
+    if (stops.any_power && !(stops.any && stops.power == stops.last)) places.push_back(stops.power);
+    if (stops.any) places.push_back(stops.last);
+  }
+  return encode_places(places);
+}
+
+void Feeder::set_stops(const std::vector<ProgramPlace>& places) {
+  for (const ProgramPlace& place : places) {
+    if (place.system >= systems_) continue;
+    Stops& stops = stops_[place.system];
+    stops.last = place;
+    stops.any = true;
+    if (place.cause == "reset" || place.cause == "alarm") continue;
+    stops.power = place;
+    stops.any_power = true;
+  }
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// See recovery_list.hpp.
+#include "runtime/restart/recovery_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace nc::rt {
+namespace {
+
+using Kind = RecoveryEntry::Kind;
+using State = RecoveryEntry::State;
+
+constexpr double kSameSpeed = 0.5;  // r/min
+
+// Program stop, optional stop and end (M00, M01, M02, M30) are nothing that a machine has to be given again.
+bool is_stop(double code) { return code == 0 || code == 1 || code == 2 || code == 30; }
+
+}  // namespace
+
+const char* recovery_state_text(State state) {
+  switch (state) {
+    case State::kOpen: return "open";
+    case State::kDone: return "done";
+    case State::kConfirmed: return "confirmed";
+  }
+  return "?";
+}
+
+void RecoveryList::begin(const nc_restart_found& found) {
+  entries_.clear();
+  const auto add = [&](Kind kind, double value) { entries_.push_back({kind, State::kOpen, value, 0, 0, 0}); };
+  if (found.t_given) add(Kind::kTool, found.t);
+  if (found.b_given) add(Kind::kSecond, found.b);
+  if (found.s_given) add(Kind::kSpeed, found.s);
+  for (unsigned i = 0; i < std::min<std::uint32_t>(found.m_count, NC_RESTART_CODES); ++i)
+    if (!is_stop(found.m[i])) add(Kind::kM, found.m[i]);
+  for (std::uint32_t w = 0; w < NC_WORDS; ++w)
+    if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, w, found.output_written[w], found.output[w] & found.output_written[w]});
+}
+
+void RecoveryList::given(std::uint8_t group, double value) {
+  if (group == kGivenM && !is_stop(value)) given_m(value);
+  for (RecoveryEntry& entry : entries_) {
+    const bool tool = group == kGivenT && entry.kind == Kind::kTool, second = group == kGivenB && entry.kind == Kind::kSecond;
+    if (tool || second) entry.state = entry.value == value ? State::kDone : State::kOpen;
+  }
+}
+
+// A code that is not in the list may do anything, so everything behind it is open again.
+void RecoveryList::given_m(double value) {
+  const auto is_it = [&](const RecoveryEntry& entry) { return entry.kind == Kind::kM && entry.value == value; };
+  const auto found = std::find_if(entries_.begin(), entries_.end(), is_it);
+  for (auto entry = found == entries_.end() ? entries_.begin() : found; entry != entries_.end(); ++entry)
+    if (entry->kind == Kind::kM) entry->state = State::kOpen;
+  if (found != entries_.end()) found->state = State::kDone;
+}
+
+// What can be seen at the machine at any time. What the operator has confirmed stays so until the machine has what the program wants, and then loses it.
+void RecoveryList::compare(RecoveryEntry* entry, bool has) {
+  if (has) entry->state = State::kDone;
+  else if (entry->state == State::kDone) entry->state = State::kOpen;
+}
+
+void RecoveryList::look(const nc_outputs& out, const std::uint32_t outputs[NC_WORDS]) {
+  for (RecoveryEntry& entry : entries_) {
+    if (entry.kind == Kind::kSpeed) compare(&entry, std::abs(out.s - entry.value) <= kSameSpeed);
+    if (entry.kind == Kind::kOutputs) compare(&entry, (outputs[entry.word] & entry.mask) == entry.bits);
+    // The number of a tool that is there already. 0 is what a machine shows that has got none since it was switched on.
+    if (entry.kind == Kind::kTool && entry.value != 0) compare(&entry, out.t == entry.value);
+    if (entry.kind == Kind::kSecond && entry.value != 0) compare(&entry, out.b == entry.value);
+  }
+}
+
+bool RecoveryList::confirm(std::size_t entry) {
+  if (entry >= entries_.size()) return false;
+  if (entries_[entry].state == State::kOpen) entries_[entry].state = State::kConfirmed;
+  return true;
+}
+
+void RecoveryList::confirm_all() {
+  for (std::size_t i = 0; i < entries_.size(); ++i) (void)confirm(i);
+}
+
+unsigned RecoveryList::open() const {
+  return static_cast<unsigned>(std::count_if(entries_.begin(), entries_.end(), [](const RecoveryEntry& entry) { return entry.state == State::kOpen; }));
+}
+
+std::string recovery_text(const RecoveryEntry& entry) {
+  char text[64];
+  constexpr const char* kLetters = "TBSM";  // in the order of Kind; the letter of the second auxiliary function depends on the machine
+  constexpr unsigned kFirstWord = 1132;
+  if (entry.kind == Kind::kOutputs) std::snprintf(text, sizeof text, "#%u bits %X = %X", kFirstWord + entry.word, entry.mask, entry.bits);
+  else std::snprintf(text, sizeof text, "%c%.10g", kLetters[static_cast<unsigned>(entry.kind)], entry.value);
+  return text;
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a program that begins inside would have given to the machine on its way there: tool, spindle speed, M codes, macro outputs. The machine has got nothing
+// of it. Each entry is open until it has been given out by MDI, or until the operator has said that it is right as it is.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "nc/nc.h"
+
+namespace nc::rt {
+
+// The groups of codes, as bits of nc_outputs::strobe.
+enum GivenGroup : std::uint8_t { kGivenM = 1, kGivenS = 2, kGivenT = 4, kGivenB = 8 };
+
+// A code that the machine has got.
+struct GivenCode {
+  std::uint8_t system = 0, group = 0;
+  double value = 0;
+};
+
+struct RecoveryEntry {
+  enum class Kind : std::uint8_t { kTool, kSecond, kSpeed, kM, kOutputs } kind = Kind::kM;
+  enum class State : std::uint8_t { kOpen, kDone, kConfirmed } state = State::kOpen;
+  double value = 0;                          // the code
+  std::uint32_t word = 0, mask = 0, bits = 0;  // kOutputs: the word, the bits that the program has written, and their values
+};
+const char* recovery_state_text(RecoveryEntry::State state);
+
+class RecoveryList {
+ public:
+  void begin(const nc_restart_found& found);
+  void clear() { entries_.clear(); }
+  // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: M5 behind
+  // M3, or a tool change behind both.
+  void given(std::uint8_t group, double value);
+  // What the machine has now.
+  void look(const nc_outputs& out, const std::uint32_t outputs[NC_WORDS]);
+  // The operator says that an entry (from 0) is right as it is. False: there is none.
+  bool confirm(std::size_t entry);
+  void confirm_all();
+  unsigned open() const;
+  const std::vector<RecoveryEntry>& entries() const { return entries_; }
+
+ private:
+  void given_m(double value);
+  void compare(RecoveryEntry* entry, bool has);
+  std::vector<RecoveryEntry> entries_;
+};
+
+// "M6", "S1500", "#1132 bits 0x3 = 0x1"
+std::string recovery_text(const RecoveryEntry& entry);
+
+}  // namespace nc::rt

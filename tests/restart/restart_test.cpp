@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+// A program that is begun inside, on the simulated machine: the rest of it has the path of the whole run, and nothing moves before the operator has said so.
+#include "restart_machine.hpp"
+
+#include "runtime/test_config.hpp"
+
+namespace {
+
+using namespace nc::rt;
+
+// The whole run is known at one place for each scan, and its corners lie between two of them.
+constexpr double kChord = 2e-4;
+
+const char* const kPart =
+    "N10 G90 G54 G17 G21 T5 M6\n"
+    "S1200 M3\n"
+    "G0 X10. Y10.\n"
+    "N40 G1 Z-2. F600. M8\n"
+    "N50 G91 G1 X20. F1200.\n"
+    "Y15.\n"
+    "N70 G2 X-10. Y10. I0. J10.\n"
+    "N80 G90 G1 X5. Y5.\n"
+    "N90 G0 Z20. M9\n"
+    "M5\n"
+    "M30\n";
+
+class Restart : public testing::Test {
+ protected:
+  void build(const std::string& more = "") {
+    runtime.reset();
+    config = nc::test::parse_or_fail(nc::test::base_toml() + "[motion]\nmode = \"trapezoid\"\n" + more);
+    machine = std::make_unique<nc::test::PathMachine>(config);
+    std::vector<ConfigError> errors;
+    runtime = Runtime::create(config, {&clock, machine.get(), nullptr, nullptr}, &errors);
+    ASSERT_NE(runtime, nullptr);
+    std::string error;
+    ASSERT_TRUE(runtime->start_stepping(&error)) << error;
+  }
+  void TearDown() override {
+    EXPECT_EQ(machine == nullptr ? 0u : machine->violations, 0u) << "limits of the axes";
+  }
+  void select(const std::string& source, const std::string& name = "part.nc") {
+    const std::string& text = texts.emplace_back(source);
+    unsigned file = 0;
+    ASSERT_EQ(nc_program_add_text(runtime->control(), name.c_str(), text.data(), text.size(), &file), NC_OK);
+    ASSERT_EQ(runtime->select_program(file), Answer::kDone);
+  }
+  void steps(int n) { while (n-- > 0) runtime->step(); }
+  template <class Condition>
+  bool until(Condition condition, int most = 200000) {
+    while (most-- > 0 && !condition()) runtime->step();
+    return condition();
+  }
+  nc_outputs out() const { return runtime->snapshot().system[0].nc; }
+  RestartStatus restart() const { return runtime->info().system[0].restart; }
+  Answer start() { return runtime->execute(CommandKind::kCycleStart); }
+  Answer mode(Mode mode) { return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(mode)); }
+  Answer find(RestartBy by, std::uint64_t number = 0, std::uint32_t passing = 0) { return runtime->find_restart(0, {by, number, passing, ""}); }
+  void reset() {
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && out().state == NC_STATE_IDLE; }));
+    steps(5);
+  }
+  bool to_end() {
+    const std::uint64_t runs = runtime->info().system[0].runs;
+    return until([&] { return runtime->info().system[0].runs != runs || runtime->snapshot().alarmed(); }) && !runtime->snapshot().alarmed();
+  }
+  void mdi(const std::string& blocks) {
+    ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+    ASSERT_EQ(runtime->load_mdi(blocks), Answer::kDone) << runtime->explain(Answer::kRefusedByControl);
+    const std::uint64_t serial = out().serial;
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(until([&] { return out().state == NC_STATE_STOPPED && out().cause == NC_CAUSE_MDI_ENDED && out().serial != serial; }));
+    steps(3);
+  }
+  void let_go(unsigned axis) {
+    Command stop;
+    stop.kind = CommandKind::kJog;
+    stop.axis = static_cast<std::uint8_t>(axis);
+    ASSERT_EQ(runtime->execute(stop), Answer::kDone);
+  }
+  Answer ask_approach(unsigned axis, double velocity = 50) {
+    Command command;
+    command.kind = CommandKind::kApproach;
+    command.axis = static_cast<std::uint8_t>(axis);
+    command.value = velocity;
+    return runtime->execute(command);
+  }
+  void approach(unsigned axis) {
+    for (int i = 0; i < 2000 && (out().restart_axes >> axis & 1u) != 0; ++i) {
+      ASSERT_EQ(ask_approach(axis), Answer::kDone) << axis;
+      steps(20);
+    }
+    EXPECT_EQ(out().restart_axes >> axis & 1u, 0u) << axis;
+    let_go(axis);
+    steps(5);
+  }
+  // From the found place to the stop in front of it.
+  void come_to_place() {
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound || restart().phase == RestartPhase::kEnded; })) << restart().text;
+    ASSERT_EQ(restart().phase, RestartPhase::kFound) << restart().text;
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kStands; }));
+  }
+  // The places of the run from the one on that is nearest to where `rest` begins must be those of `rest`: compared as a curve.
+  static double most_beside(const std::vector<nc_axes>& whole, const std::vector<nc_axes>& rest) {
+    double most = 0;
+    for (const nc_axes& place : rest) {
+      double least = 1e9;
+      for (std::size_t i = 0; i + 1 < whole.size(); ++i) {
+        double length = 0, along = 0, square = 0;
+        for (unsigned a = 0; a < 3; ++a) {
+          const double way = whole[i + 1].v[a] - whole[i].v[a];
+          length += way * way;
+          along += (place.v[a] - whole[i].v[a]) * way;
+        }
+        const double share = length == 0 ? 0 : std::clamp(along / length, 0.0, 1.0);
+        for (unsigned a = 0; a < 3; ++a) {
+          const double beside = place.v[a] - whole[i].v[a] - share * (whole[i + 1].v[a] - whole[i].v[a]);
+          square += beside * beside;
+        }
+        least = std::min(least, std::sqrt(square));
+      }
+      most = std::max(most, least);
+    }
+    return most;
+  }
+
+  Config config;
+  VirtualClock clock;
+  std::unique_ptr<nc::test::PathMachine> machine;
+  std::unique_ptr<Runtime> runtime;
+  std::deque<std::string> texts;
+};
+
+TEST_F(Restart, TheRestOfAPartHasThePathOfTheWholeRun) {
+  build();
+  select(kPart);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  const std::vector<nc_axes> whole = machine->path;
+
+  ASSERT_EQ(find(RestartBy::kSequence, 70), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  EXPECT_EQ(restart().found.source.line, 7u);
+  machine->path.clear();
+  steps(300);
+  EXPECT_EQ(machine->path.size(), 1u) << "nothing moves before the operator has said so";
+  EXPECT_EQ(start(), Answer::kRestartOpen);
+  ASSERT_NO_FATAL_FAILURE(mdi("T5 M6\nS1200 M3\nM8\n"));
+  EXPECT_EQ(restart().list.open(), 0u);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartAxes);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  for (const unsigned axis : {0u, 1u, 2u}) ASSERT_NO_FATAL_FAILURE(approach(axis));
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  machine->path.clear();
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  EXPECT_LT(most_beside(whole, machine->path), kChord);
+  EXPECT_NEAR(machine->path.back().v[2], 20, 1e-9);
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+}
+
+// Comes to the place, is given nothing, and has its axes there.
+TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
+  build("[signals]\n\"plc.cycle_start\" = \"in0\"\n");
+  select(kPart);
+  ASSERT_EQ(find(RestartBy::kLine, 6), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  const auto open = [&] {
+    std::string all;
+    const RestartStatus now = restart();
+    for (const RecoveryEntry& entry : now.list.entries())
+      if (entry.state == RecoveryEntry::State::kOpen) all += recovery_text(entry) + " ";
+    return all;
+  };
+  EXPECT_EQ(open(), "T5 S1200 M6 M3 M8 ");
+  ASSERT_NO_FATAL_FAILURE(mdi("T6 M6\nS1200 M3\nM8\n"));
+  EXPECT_EQ(open(), "T5 ") << "the wrong tool";
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartOpen);
+  ASSERT_NO_FATAL_FAILURE(mdi("T5\nM5\n"));
+  EXPECT_EQ(open(), "M6 M3 M8 ") << "M5 is none of the list, so nothing is known of those any more";
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\nM3\n"));
+  ASSERT_NO_FATAL_FAILURE(mdi("S900\n"));
+  EXPECT_EQ(open(), "S1200 M8 ");
+  ASSERT_NO_FATAL_FAILURE(mdi("S1200 M6\n"));
+  EXPECT_EQ(open(), "M3 M8 ") << "a tool change behind M3 has stopped the spindle";
+  ASSERT_NO_FATAL_FAILURE(mdi("M3\n"));
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, 99), Answer::kOutOfRange);
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, 4), Answer::kDone);
+  EXPECT_EQ(open(), "");
+  ASSERT_NO_FATAL_FAILURE(mdi("M9\n"));
+  EXPECT_EQ(open(), "M6 M3 M8 ") << "and what was confirmed is not any more";
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  // By a button as by a command.
+  const std::uint32_t refusals = runtime->snapshot().system[0].refusal.count;
+  machine->press(config.points.find("in0"), true);
+  steps(10);
+  machine->press(config.points.find("in0"), false);
+  steps(10);
+  EXPECT_EQ(runtime->snapshot().system[0].refusal.count, refusals + 1);
+  EXPECT_EQ(runtime->snapshot().system[0].refusal.why, Answer::kRestartOpen);
+  EXPECT_EQ(out().state, NC_STATE_STOPPED);
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartAxes);
+}
+
+TEST_F(Restart, OneAxisAtATimeAndOnlyWhileItIsAskedFor) {
+  build();
+  select(kPart);
+  ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
+  EXPECT_EQ(ask_approach(0), Answer::kNotInThisMode);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  EXPECT_EQ(ask_approach(0), Answer::kNotInThisMode);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  EXPECT_EQ(ask_approach(7), Answer::kAxisUnknown);
+  EXPECT_EQ(ask_approach(0, 1e5), Answer::kOutOfRange);
+  EXPECT_EQ(ask_approach(0, -1), Answer::kOutOfRange);
+  EXPECT_EQ(ask_approach(0, 0), Answer::kNoJogFeed);
+  EXPECT_EQ(ask_approach(0, 20), Answer::kLetGoFirst) << "it was asked for in another mode, and has been asked for since";
+  let_go(0);
+  ASSERT_EQ(ask_approach(0, 20), Answer::kDone);
+  steps(30);
+  EXPECT_GT(out().velocity.v[0], 0);
+  EXPECT_EQ(ask_approach(1, 20), Answer::kAxesMove);
+  let_go(1);
+  // Nobody asks again: the axis stops, and it is away still.
+  steps(400);
+  EXPECT_EQ(out().velocity.v[0], 0);
+  EXPECT_EQ(out().restart_axes & 1u, 1u);
+  ASSERT_NO_FATAL_FAILURE(approach(1));
+  ASSERT_NO_FATAL_FAILURE(approach(0));
+  ASSERT_NO_FATAL_FAILURE(approach(2));
+  EXPECT_EQ(out().restart_axes, 0u);
+  EXPECT_NEAR(out().command.v[0], restart().found.machine.v[0], 1e-9);
+}
+
+TEST_F(Restart, TheLastStopIsFoundAndTheRestHasThePathOfTheWholeRun) {
+  build();
+  select(kPart);
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kNoPlace) << "nothing has been stopped";
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kNoPlace) << "it has come to its end";
+  const std::vector<nc_axes> whole = machine->path;
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return out().source.line == 7 && out().velocity.v[0] != 0; }));
+  steps(40);
+  ASSERT_NO_FATAL_FAILURE(reset());
+  ASSERT_EQ(find(RestartBy::kPowerOff), Answer::kNoPlace);
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  EXPECT_EQ(restart().found.source.line, 7u);
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  for (const unsigned axis : {2u, 0u, 1u}) ASSERT_NO_FATAL_FAILURE(approach(axis));
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  machine->path.clear();
+  ASSERT_EQ(start(), Answer::kDone);
+  // It is stopped once more, and goes on once more.
+  ASSERT_TRUE(until([&] { return out().source.line == 8 && out().velocity.v[0] != 0; }));
+  steps(20);
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_LT(most_beside(whole, machine->path), kChord);
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  EXPECT_EQ(restart().found.source.line, 8u);
+}
+
+// A loop that is long enough for the search to take many steps of the feeder.
+const char* const kLoop = "#1=0\nN1 #1=#1+1\nG1 X[#1/100000] F6000.\nIF[#1LT300000]GOTO1\nN9 G1 X20.\nM30\n";
+
+TEST_F(Restart, AResetOrAnotherModeEndsTheSearchAndTheNextStartBeginsAtTheHead) {
+  build();
+  select(kLoop);
+  ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
+  steps(5);
+  ASSERT_EQ(restart().phase, RestartPhase::kSearching) << restart().text;
+  EXPECT_GT(restart().read, 0u);
+  EXPECT_EQ(start(), Answer::kRestartSearch);
+  EXPECT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
+  steps(5);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  steps(5);
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  EXPECT_EQ(restart().text, "another mode has been chosen");
+  EXPECT_EQ(find(RestartBy::kSequence, 9), Answer::kNotInThisMode);
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
+  steps(5);
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+  EXPECT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kNoPlace);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return out().source.line == 3; }));
+  EXPECT_LT(out().command.v[0], 0.1);
+}
+
+TEST_F(Restart, WhatIsNotThereIsSaidAndTheNextStartBeginsAtTheHead) {
+  build();
+  select(kPart);
+  struct Row {
+    RestartBy by;
+    std::uint64_t number;
+    const char* text;
+  };
+  for (const Row& row : {Row{RestartBy::kSequence, 4711, "no such sequence number"}, Row{RestartBy::kLine, 99, "ended before it came there"}, Row{RestartBy::kBlock, 1000000, "ended before it came there"}}) {
+    ASSERT_EQ(find(row.by, row.number), Answer::kDone);
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kEnded; }));
+    EXPECT_NE(restart().text.find(row.text), std::string::npos) << restart().text;
+  }
+  EXPECT_EQ(find(RestartBy::kSequence, 0), Answer::kRefusedByControl) << "0 is no sequence number";
+  EXPECT_EQ(runtime->find_restart(0, {RestartBy::kLine, 3, 0, "other.nc"}), Answer::kNoPlace);
+  EXPECT_EQ(runtime->find_restart(1, {RestartBy::kLine, 3, 0, ""}), Answer::kAxisUnknown);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  EXPECT_NEAR(out().command.v[2], 20, 1e-9);
+  select("G90 G1 X1. F600.\n#1=SQRT[-1]\nN3 X2.\nM30\n", "wrong.nc");
+  ASSERT_EQ(find(RestartBy::kSequence, 3), Answer::kDone);
+  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kEnded; }));
+  EXPECT_NE(restart().text.find("(line 2)"), std::string::npos) << restart().text;
+  EXPECT_FALSE(runtime->snapshot().alarmed()) << "nothing has run";
+}
+
+TEST_F(Restart, AChangedProgramAndAnotherOneAreRefused) {
+  build();
+  runtime->set_program_hash([&](unsigned file) { return std::to_string(std::hash<std::string>()(texts.at(file))); });
+  select(kPart);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return out().source.line == 6; }));
+  ASSERT_NO_FATAL_FAILURE(reset());
+  select("G0 X1.\nM30\n", "other.nc");
+  EXPECT_EQ(find(RestartBy::kLastStop), Answer::kNoPlace);
+  EXPECT_EQ(runtime->explain(Answer::kNoPlace), "at the last stop the program was part.nc, and other.nc is selected");
+  ASSERT_EQ(nc_program_remove(runtime->control(), 0), NC_OK);
+  std::string changed = kPart;
+  changed.replace(changed.find("X20."), 4, "X21.");
+  texts.pop_front();
+  texts.push_front(changed);
+  unsigned file = 9;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "part.nc", texts[0].data(), texts[0].size(), &file), NC_OK);
+  ASSERT_EQ(file, 0u);
+  ASSERT_EQ(runtime->select_program(file), Answer::kDone);
+  EXPECT_EQ(find(RestartBy::kLastStop), Answer::kNoPlace);
+  EXPECT_NE(runtime->explain(Answer::kNoPlace).find("has been changed since"), std::string::npos) << runtime->explain(Answer::kNoPlace);
+}
+
+TEST_F(Restart, ChangedTablesForgetThePlace) {
+  build();
+  select(kPart);
+  ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
+  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; }));
+  ASSERT_EQ(runtime->change([](nc_control*) {}), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  ASSERT_EQ(start(), Answer::kDone);
+  EXPECT_TRUE(to_end());
+  EXPECT_EQ(runtime->info().system[0].runs, 1u);
+}
+
+// Behind motion by hand in any block stop.
+TEST_F(Restart, AnAxisComesBackToThePathInABlockStop) {
+  build();
+  select("G90 G1 X10. F3000.\nM0\nY5.\nM30\n");
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return out().state == NC_STATE_STOPPED; }));
+  steps(3);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  Command step;
+  step.kind = CommandKind::kStep;
+  step.value = 3;
+  ASSERT_EQ(runtime->execute(step), Answer::kDone);
+  ASSERT_TRUE(until([&] { return out().command.v[0] > 12.9999 && out().distance_zero; }));
+  steps(5);
+  for (int i = 0; i < 500 && std::abs(out().command.v[0] - 10) > 1e-9; ++i) {
+    ASSERT_EQ(ask_approach(0), Answer::kDone) << i << " " << refusal_text(config, 0, runtime->snapshot().system[0].refusal);
+    steps(20);
+  }
+  EXPECT_NEAR(out().command.v[0], 10, 1e-9);
+}
+
+}  // namespace
