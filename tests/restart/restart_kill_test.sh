@@ -27,6 +27,7 @@ state() { "$ncctl" --json restart | python3 -c "import json, sys; s = json.load(
 phase_is() { [ "$(state 's["phase"]')" = "$1" ]; }
 ready() { "$ncctl" --json status | python3 -c 'import json, sys; s = json.load(sys.stdin); sys.exit(s["resetting"] or s["alarms"] + s["warnings"] != 0)'; }
 machine() { "$ncctl" --json status | python3 -c 'import json, sys; print(*("%.4f" % a["machine"] for a in json.load(sys.stdin)["systems"][0]["axes"]))'; }
+stopped() { "$ncctl" --json status | python3 -c 'import json, sys; sys.exit(json.load(sys.stdin)["systems"][0]["state"] != "stopped")'; }
 line_is() { [ "$("$ncctl" --json status | python3 -c 'import json, sys; print(json.load(sys.stdin)["systems"][0]["line"])')" = "$1" ]; }
 
 cat >"$work/programs/part.nc" <<'PROGRAM'
@@ -83,6 +84,7 @@ expect 0 "$ncctl" mode mdi
 expect 0 "$ncctl" mdi --start 'S900 M3'
 until_true says 'M3 +done' "$ncctl" restart
 expect 0 "$ncctl" restart confirm
+until_true stopped
 expect 0 "$ncctl" mode auto
 expect 2 "$ncctl" start
 said err "an axis is not where the program goes on"
@@ -96,7 +98,7 @@ until_true says '^ *X +1 ' "$ncctl" status
 [ "$(state 's["text"]')" = "the program has gone on" ] || fail "it has not gone on"
 
 # A reset is a stop, too, which outlives the kill; behind it the program is changed.
-until_true says 'the program is over|ended|completed|ready|idle' "$ncctl" status
+until_true says '^ready|^no program|idle' "$ncctl" status
 expect 0 "$ncctl" start
 until_true line_is 5
 expect 0 "$ncctl" reset
