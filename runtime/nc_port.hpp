@@ -46,6 +46,7 @@ class NcPort {
   // Letters of the axes, and the name of a program in the store; "" when they are not known.
   virtual std::string axis_letters(unsigned /*system*/) { return {}; }
   virtual std::string program_name(unsigned /*file*/) { return {}; }
+  virtual nc_dialect dialect() const { return {}; }
   // The program in the store that has this name; -1 = there is none. Below, the bytes of a program.
   virtual int program_of(const std::string& /*name*/) { return -1; }
   virtual std::uint64_t program_size(unsigned /*file*/) { return 0; }
@@ -82,6 +83,7 @@ class LibNc final : public NcPort {
   std::string tables() override;
   std::string axis_letters(unsigned system) override;
   std::string program_name(unsigned file) override;
+  nc_dialect dialect() const override { return static_cast<nc_dialect>(config_.dialect); }
   int program_of(const std::string& name) override;
   std::uint64_t program_size(unsigned file) override;
   nc_status restart_begin(unsigned system, const nc_restart_place& place, const nc_world& world) override;

@@ -78,7 +78,7 @@ void RestartDesk::found(NcPort* nc, unsigned system, const nc_restart_found& pla
   status_.program = nc->program_name(place.source.file);
   nc_modal_init(&status_.modal);
   status_.modal_known = place.modal != 0 && nc->modal(system, place.modal, &status_.modal) == NC_OK;
-  status_.list.begin(place);
+  status_.list.begin(place, nc->dialect());
 }
 
 void RestartDesk::follow(const Snapshot& now, unsigned system) {

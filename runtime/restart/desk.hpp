@@ -22,7 +22,9 @@ class RestartDesk {
   bool search(NcPort* nc, unsigned system);
   // Goes by what the scan shows.
   void follow(const Snapshot& now, unsigned system);
-  void given(const GivenCode& code) { if (in_hand()) status_.list.given(code.group, code.value); }
+  void given(const GivenCode& code) {
+    if (in_hand()) status_.list.given(code.group, code.value);
+  }
   // Where something was in hand it has ended; `why` is a sentence.
   void end(const std::string& why);
 

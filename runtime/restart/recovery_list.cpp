@@ -14,9 +14,6 @@ using State = RecoveryEntry::State;
 
 constexpr double kSameSpeed = 0.5;  // r/min
 
-// Program stop, optional stop and end (M00, M01, M02, M30) are nothing that a machine has to be given again.
-bool is_stop(double code) { return code == 0 || code == 1 || code == 2 || code == 30; }
-
 }  // namespace
 
 const char* recovery_state_text(State state) {
@@ -28,14 +25,31 @@ const char* recovery_state_text(State state) {
   return "?";
 }
 
-void RecoveryList::begin(const nc_restart_found& found) {
+nc_code_role RecoveryList::role_of(double code) const { return nc_code_role_get(dialect_, 'M', static_cast<std::uint32_t>(code)); }
+
+// Nothing that a machine has to be given again.
+bool RecoveryList::is_stop(double code) const {
+  const nc_code_role role = role_of(code);
+  return role == NC_CODE_PROGRAM_STOP || role == NC_CODE_OPTIONAL_STOP || role == NC_CODE_PROGRAM_END;
+}
+
+bool RecoveryList::turns_spindle(double code) const {
+  const nc_code_role role = role_of(code);
+  return role == NC_CODE_SPINDLE_FORWARD || role == NC_CODE_SPINDLE_REVERSE || role == NC_CODE_SPINDLE_STOP;
+}
+
+void RecoveryList::begin(const nc_restart_found& found, nc_dialect dialect) {
   entries_.clear();
+  dialect_ = dialect;
   const auto add = [&](Kind kind, double value) { entries_.push_back({kind, State::kOpen, value, 0, 0, 0}); };
   if (found.t_given) add(Kind::kTool, found.t);
   if (found.b_given) add(Kind::kSecond, found.b);
   if (found.s_given) add(Kind::kSpeed, found.s);
-  for (unsigned i = 0; i < std::min<std::uint32_t>(found.m_count, NC_RESTART_CODES); ++i)
-    if (!is_stop(found.m[i])) add(Kind::kM, found.m[i]);
+  const std::uint32_t* const end = found.m + std::min<std::uint32_t>(found.m_count, NC_RESTART_CODES);
+  for (const std::uint32_t* m = found.m; m != end; ++m) {
+    const bool other_follows = turns_spindle(*m) && std::any_of(m + 1, end, [&](std::uint32_t later) { return turns_spindle(later); });
+    if (!is_stop(*m) && !other_follows) add(Kind::kM, *m);
+  }
   for (std::uint32_t w = 0; w < NC_WORDS; ++w)
     if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, w, found.output_written[w], found.output[w] & found.output_written[w]});
 }
@@ -48,12 +62,13 @@ void RecoveryList::given(std::uint8_t group, double value) {
   }
 }
 
-// A code that is not in the list may do anything, so everything behind it is open again.
+// A code that is not in the list may do anything, so every M code of the list is open again.
 void RecoveryList::given_m(double value) {
   const auto is_it = [&](const RecoveryEntry& entry) { return entry.kind == Kind::kM && entry.value == value; };
   const auto found = std::find_if(entries_.begin(), entries_.end(), is_it);
-  for (auto entry = found == entries_.end() ? entries_.begin() : found; entry != entries_.end(); ++entry)
-    if (entry->kind == Kind::kM) entry->state = State::kOpen;
+  const bool spindle = turns_spindle(value);
+  for (auto entry = found == entries_.end() || spindle ? entries_.begin() : found; entry != entries_.end(); ++entry)
+    if (entry->kind == Kind::kM && (!spindle || turns_spindle(entry->value))) entry->state = State::kOpen;
   if (found != entries_.end()) found->state = State::kDone;
 }
 

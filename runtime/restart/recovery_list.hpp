@@ -30,10 +30,11 @@ const char* recovery_state_text(RecoveryEntry::State state);
 
 class RecoveryList {
  public:
-  void begin(const nc_restart_found& found);
+  // Stops and the end of a program are not in it, and of the codes that turn and stop the spindle only the newest.
+  void begin(const nc_restart_found& found, nc_dialect dialect);
   void clear() { entries_.clear(); }
-  // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: M5 behind
-  // M3, or a tool change behind both.
+  // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: a tool
+  // change behind the start of the spindle. A code that only turns or stops the spindle opens only that of the spindle.
   void given(std::uint8_t group, double value);
   // What the machine has now.
   void look(const nc_outputs& out, const std::uint32_t outputs[NC_WORDS]);
@@ -46,6 +47,10 @@ class RecoveryList {
  private:
   void given_m(double value);
   void compare(RecoveryEntry* entry, bool has);
+  nc_code_role role_of(double code) const;
+  bool is_stop(double code) const;
+  bool turns_spindle(double code) const;
+  nc_dialect dialect_{};
   std::vector<RecoveryEntry> entries_;
 };
 

@@ -21,9 +21,9 @@ struct ProgramPlace {
   std::uint64_t blocks = 0;    // blocks that were finished
   bool restartable = false;    // the members below are known
   std::uint64_t size = 0;      // bytes of the program ...
-  std::string hash;            // ... and their SHA-256, "" = not known
-  std::vector<std::pair<char, double>> begun;  // where the axes stood when the program was begun
-  std::string cause;           // "power", "reset" or "alarm"
+  std::string hash = {};       // ... and their SHA-256, "" = not known
+  std::vector<std::pair<char, double>> begun = {};  // where the axes stood when the program was begun
+  std::string cause = {};      // "power", "reset" or "alarm"
   bool operator==(const ProgramPlace&) const = default;
 };
 

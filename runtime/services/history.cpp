@@ -7,9 +7,9 @@
 #include <iterator>
 
 #include "runtime/clock.hpp"
+#include "runtime/services/restart.hpp"
 #include "runtime/services/service_table.hpp"
 #include "runtime/services/shown.hpp"
-#include "runtime/services/restart.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::services {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,10 +26,10 @@ class PathMachine final : public hal::Hal {
   bool start(const hal::PointImage& initial, std::string* error) override { return sim.start(initial, error); }
   void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override {
     sim.read(feedback, image);
-    if (pressed_ >= 0) image->value[pressed_] = on_;
+    for (const auto& [point, value] : held_) image->value[point] = value;
   }
-  // A contact is on or off from the next scan on.
-  void press(int point, bool on) { pressed_ = point, on_ = on; }
+  // An input has this value from the next scan on.
+  void hold(int point, std::int32_t value) { held_[static_cast<unsigned>(point)] = value; }
   void write(const hal::Command& command, const hal::PointImage& image) noexcept override {
     const nc_system_config& system = config_.nc.system[0];
     const double cycle = config_.nc.cycle_s;
@@ -51,8 +52,7 @@ class PathMachine final : public hal::Hal {
 
  private:
   const rt::Config& config_;
-  int pressed_ = -1;
-  bool on_ = false;
+  std::map<unsigned, std::int32_t> held_;
   nc_axes before_{};
   double velocity_[NC_MAX_AXES] = {};
   std::uint64_t scans_ = 0;

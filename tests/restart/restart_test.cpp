@@ -45,7 +45,9 @@ class Restart : public testing::Test {
     ASSERT_EQ(nc_program_add_text(runtime->control(), name.c_str(), text.data(), text.size(), &file), NC_OK);
     ASSERT_EQ(runtime->select_program(file), Answer::kDone);
   }
-  void steps(int n) { while (n-- > 0) runtime->step(); }
+  void steps(int n) {
+    while (n-- > 0) runtime->step();
+  }
   template <class Condition>
   bool until(Condition condition, int most = 200000) {
     while (most-- > 0 && !condition()) runtime->step();
@@ -181,7 +183,11 @@ TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
   ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
   EXPECT_EQ(start(), Answer::kRestartOpen);
   ASSERT_NO_FATAL_FAILURE(mdi("T5\nM5\n"));
-  EXPECT_EQ(open(), "M6 M3 M8 ") << "M5 is none of the list, so nothing is known of those any more";
+  EXPECT_EQ(open(), "M3 ") << "the spindle has been stopped again";
+  ASSERT_NO_FATAL_FAILURE(mdi("M3\n"));
+  EXPECT_EQ(open(), "");
+  ASSERT_NO_FATAL_FAILURE(mdi("M55\n"));
+  EXPECT_EQ(open(), "M6 M3 M8 ") << "M55 is none of the list, so nothing is known of those any more";
   ASSERT_NO_FATAL_FAILURE(mdi("M6\nM3\n"));
   ASSERT_NO_FATAL_FAILURE(mdi("S900\n"));
   EXPECT_EQ(open(), "S1200 M8 ");
@@ -196,15 +202,26 @@ TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
   ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
   // By a button as by a command.
   const std::uint32_t refusals = runtime->snapshot().system[0].refusal.count;
-  machine->press(config.points.find("in0"), true);
+  machine->hold(config.points.find("in0"), 1);
   steps(10);
-  machine->press(config.points.find("in0"), false);
+  machine->hold(config.points.find("in0"), 0);
   steps(10);
   EXPECT_EQ(runtime->snapshot().system[0].refusal.count, refusals + 1);
   EXPECT_EQ(runtime->snapshot().system[0].refusal.why, Answer::kRestartOpen);
   EXPECT_EQ(out().state, NC_STATE_STOPPED);
   ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
   EXPECT_EQ(start(), Answer::kRestartAxes);
+}
+
+TEST_F(Restart, TheListHasWhatCountsAndTheNewestOfTheSpindle) {
+  build();
+  select("T1\nS500 M3\nM5\nM0\nM6\nM1\nS800 M4\nM8\nM9\nM8\n#1100=1\nN9 G1 X1. F600.\nM30\n");
+  ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  const RestartStatus now = restart();
+  std::string all;
+  for (const RecoveryEntry& entry : now.list.entries()) all += recovery_text(entry) + "; ";
+  EXPECT_EQ(all, "T1; S800; M6; M4; M9; M8; #1132 bits 1 = 1; ");
 }
 
 TEST_F(Restart, OneAxisAtATimeAndOnlyWhileItIsAskedFor) {
@@ -235,6 +252,46 @@ TEST_F(Restart, OneAxisAtATimeAndOnlyWhileItIsAskedFor) {
   ASSERT_NO_FATAL_FAILURE(approach(2));
   EXPECT_EQ(out().restart_axes, 0u);
   EXPECT_NEAR(out().command.v[0], restart().found.machine.v[0], 1e-9);
+}
+
+TEST_F(Restart, AButtonLeadsItsAxisToThePlaceAsLongAsItIsHeld) {
+  build("[signals]\n\"plc.restart_approach.X\" = \"in0\"\n\"plc.restart_approach.Y\" = \"in1\"\n\"plc.jog_feed\" = \"word_in\"\n");
+  const int x = config.points.find("in0"), y = config.points.find("in1"), feed = config.points.find("word_in");
+  select(kPart);
+  ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  machine->hold(feed, 1200);
+  machine->hold(x, 1);
+  steps(30);
+  EXPECT_EQ(out().velocity.v[0], 0) << "not in this mode";
+  EXPECT_EQ(runtime->snapshot().system[0].refusal.why, Answer::kNotInThisMode);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  steps(30);
+  EXPECT_EQ(out().velocity.v[0], 0) << "it was on before: it must be let go first";
+  machine->hold(x, 0);
+  steps(5);
+  machine->hold(x, 1);
+  steps(50);
+  EXPECT_NEAR(out().velocity.v[0], 20, 1e-6);
+  machine->hold(y, 1);
+  steps(50);
+  EXPECT_EQ(out().velocity.v[1], 0) << "one axis at a time";
+  EXPECT_GT(out().velocity.v[0], 0) << "and the first one goes on";
+  machine->hold(x, 0);
+  steps(100);
+  EXPECT_EQ(out().velocity.v[0], 0);
+  EXPECT_EQ(out().velocity.v[1], 0) << "the other one does not begin by itself";
+  EXPECT_EQ(out().restart_axes & 3u, 3u);
+  machine->hold(y, 0);
+  steps(5);
+  for (const int button : {y, x}) {
+    machine->hold(button, 1);
+    steps(3000);
+    machine->hold(button, 0);
+    steps(50);
+  }
+  EXPECT_EQ(out().restart_axes & 3u, 0u);
+  EXPECT_FALSE(runtime->snapshot().alarmed());
 }
 
 TEST_F(Restart, TheLastStopIsFoundAndTheRestHasThePathOfTheWholeRun) {

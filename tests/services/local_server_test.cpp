@@ -33,6 +33,7 @@ Json arguments_of(const ServiceRow& row) {
     }
   }
   if (row.service == Service::kSetTool) args["length"] = 1;
+  if (row.service == Service::kRestartFind) args["line"] = 1;
   if (row.service == Service::kSetVariable) args["value"] = 1;
   if (row.service == Service::kImport) args["toml"] = "[tool_offsets]\n1 = 1\n";
   return args;

@@ -519,6 +519,46 @@ TEST_F(IntakeRules, ForcesNeedControlANameAndAWholeNumber) {
   EXPECT_EQ(machine_.forced.size(), 3u);
 }
 
+TEST_F(IntakeRules, CommandsOfARestartAreCheckedBeforeTheMachineGetsThem) {
+  take_control();
+  std::uint64_t sequence = 1;
+  const auto ask = [&](RequestKind kind, std::uint32_t axis, double value, const char* text = "", std::uint32_t system = 0) {
+    Request r = request(kind, ++sequence);
+    r.axis = axis;
+    r.value = value;
+    r.system = system;
+    set_text(&r.text, text);
+    return give(r);
+  };
+  EXPECT_EQ(ask(RequestKind::kRestartFind, static_cast<std::uint32_t>(RestartBy::kLine), 12, "O9.nc").state, state(AckState::kDone));
+  ASSERT_EQ(machine_.places.size(), 1u);
+  EXPECT_EQ(machine_.places[0].number, 12u);
+  EXPECT_EQ(machine_.places[0].file, "O9.nc");
+  for (const double value : {-1.0, 0.5, 1e17, std::nan(""), HUGE_VAL}) expect_rejected(ask(RequestKind::kRestartFind, 0, value), AckReason::kMalformed);
+  expect_rejected(ask(RequestKind::kRestartFind, static_cast<std::uint32_t>(RestartBy::kCount), 1), AckReason::kMalformed);
+  for (const char* name : {"../O9.nc", ".O9", "O\n9"}) expect_rejected(ask(RequestKind::kRestartFind, 0, 1, name), AckReason::kMalformed);
+  for (const RequestKind kind : {RequestKind::kRestartFind, RequestKind::kRestartConfirm, RequestKind::kRestartApproach, RequestKind::kRestartCancel})
+    expect_rejected(ask(kind, 0, 1, "", kEverySystem), AckReason::kMalformed);
+  expect_rejected(ask(RequestKind::kRestartApproach, 3, 1), AckReason::kMalformed);
+  expect_rejected(ask(RequestKind::kRestartApproach, 0, -1), AckReason::kMalformed);
+  EXPECT_EQ(machine_.places.size(), 1u);
+  EXPECT_EQ(ask(RequestKind::kRestartApproach, 2, 5).state, state(AckState::kDone));
+  EXPECT_EQ(machine_.executed.back().kind, CommandKind::kApproach);
+}
+
+// As a jog does.
+TEST_F(IntakeRules, AReturnToThePathEndsWithControl) {
+  take_control();
+  Request r = request(RequestKind::kRestartApproach, 2);
+  r.axis = 1;
+  r.value = 5;
+  EXPECT_EQ(give(r).state, state(AckState::kDone));
+  EXPECT_EQ(give(request(RequestKind::kReleaseControl, 3)).state, state(AckState::kDone));
+  EXPECT_EQ(machine_.executed.back().kind, CommandKind::kJog);
+  EXPECT_EQ(machine_.executed.back().axis, 1u);
+  EXPECT_EQ(machine_.executed.back().value, 0);
+}
+
 TEST_F(IntakeRules, AcceptedBecomesFailedWhenItsStateDoesNotCome) {
   take_control();
   Request r = request(RequestKind::kSetMode, 2);
