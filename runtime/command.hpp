@@ -111,6 +111,7 @@ enum class Answer : std::uint8_t {
   kRestartOpen,       // entries of the recovery list are open
   kRestartAxes,       // an axis is not where a program that begins inside goes on
   kNoPlace,           // there is nothing to which the axis could go back
+  kNotChecked,        // the program has not passed its check (StartGate)
   kNoAnswer           // the runtime does not run
 };
 inline constexpr unsigned kAnswers = static_cast<unsigned>(Answer::kNoAnswer) + 1;
@@ -203,6 +204,8 @@ constexpr const char* answer_text(Answer answer) {
       return "an axis is not where the program goes on: bring it there by hand first";
     case Answer::kNoPlace:
       return "no program in a block stop has left the axis anywhere";
+    case Answer::kNotChecked:
+      return "the program has not passed its check";
     case Answer::kNoAnswer:
       return "the runtime does not answer";
   }

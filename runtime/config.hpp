@@ -168,6 +168,9 @@ struct ShareConfig {
 };
 
 // The socket of the services for programs on this computer (runtime/services/).
+// Whether programs are checked before they run: one that has not passed may not begin; it begins with a message; or they are checked when somebody asks for it.
+enum class ProgramCheck : std::uint8_t { kRequired, kWarn, kOff };
+
 struct ServicesConfig {
   bool enabled = true;
   std::string socket;          // path of the socket; empty = see services::socket_path()
@@ -179,6 +182,8 @@ struct ServicesConfig {
   unsigned history_entries = 200'000, history_days = 730, history_mb = 256;  // its bounds
   unsigned program_mb = 4096;  // size that one program may have
   unsigned programs_mb = 16384;  // size that all programs in the folder may have together
+  ProgramCheck check = ProgramCheck::kRequired;
+  unsigned check_seconds = 60;   // processor time that the check of one program may take
 };
 
 // A signal that is connected directly to a point of the machine, without a ladder program between them.

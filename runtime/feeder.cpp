@@ -90,10 +90,17 @@ void Feeder::step() {
   for (unsigned n = 0; n < answered_count; ++n) (void)answers_.push(answered[n]);
 }
 
+Scan::Loaded Feeder::at_head(unsigned system) const {
+  const System& head = system_[system];
+  if (!head.selected) return Scan::kNothingLoaded;
+  if (head.mdi) return Scan::kMdiLoaded;
+  return gate_ == nullptr || gate_->may_begin(system, head.file) ? Scan::kPartLoaded : Scan::kPartNotChecked;
+}
+
 void Feeder::tell_what_is_loaded() {
   std::uint32_t loaded = Scan::kNothingLoaded;
   for (unsigned s = 0; s < systems_; ++s)
-    if (system_[s].selected) loaded |= std::uint32_t{system_[s].mdi ? Scan::kMdiLoaded : Scan::kPartLoaded} << Scan::kLoadedBits * s;
+    loaded |= std::uint32_t{at_head(s)} << Scan::kLoadedBits * s;
   scan_->set_loaded(loaded);
   const std::lock_guard lock(mutex_);
   for (unsigned s = 0; s < systems_; ++s) info_.system[s].selected = {system_[s].selected, system_[s].mdi, system_[s].file};
@@ -495,8 +502,9 @@ void Feeder::tell_changes() {
     const bool active = state == NC_STATE_RUNNING || state == NC_STATE_HOLD || state == NC_STATE_STOPPED;
     const bool begins = active && !was_active_[s];
     was_active_[s] = active;
-    if (!begins || !changed_ || !system_[s].selected || system_[s].mdi) continue;
-    const std::string names = changed_();
+    if (!begins || !system_[s].selected || system_[s].mdi) continue;
+    if (const std::string remark = gate_ != nullptr ? gate_->remark(s) : ""; !remark.empty()) tell(remark, s);
+    const std::string names = changed_ ? changed_() : "";
     if (!names.empty()) tell("changed since it was selected, runs as it was then: " + names, s);
   }
 }

@@ -18,6 +18,7 @@
 #include "runtime/restart/desk.hpp"
 #include "runtime/retain/program_place.hpp"
 #include "runtime/scan.hpp"
+#include "runtime/start_gate.hpp"
 
 namespace nc::rt {
 
@@ -141,6 +142,7 @@ class Feeder {
   void set_program_refresh(ProgramRefresh refresh) { refresh_ = std::move(refresh); }
   void set_changed_programs(ChangedPrograms changed) { changed_ = std::move(changed); }
   void set_program_hash(ProgramHash hash) { hash_ = std::move(hash); }
+  void set_start_gate(StartGate* gate) { gate_ = gate; }
   void set_printer(Printer printer) { printer_ = std::move(printer); }
   void set_path_sink(PathSink* sink) {
     path_sink_ = sink;
@@ -175,6 +177,7 @@ class Feeder {
   void take_messages();
   void print(unsigned system, const nc_text* text);
   void tell_changes();
+  Scan::Loaded at_head(unsigned system) const;
   void tell(std::string message, unsigned system);
   void take_alarm();
   void take_modal();
@@ -234,6 +237,7 @@ class Feeder {
   ProgramRefresh refresh_;
   ChangedPrograms changed_;
   ProgramHash hash_;
+  StartGate* gate_ = nullptr;
   bool was_active_[NC_MAX_SYSTEMS] = {};
   std::uint32_t modal_id_[NC_MAX_SYSTEMS] = {};
   std::string refusal_;  // guarded by mutex_

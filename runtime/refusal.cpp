@@ -55,6 +55,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kOutOfRange: return RefusalCause::kRange;
     case Answer::kAxisUnknown: return RefusalCause::kAxis;
     case Answer::kRefusedByControl: return RefusalCause::kControl;
+    case Answer::kNotChecked:
     case Answer::kNotLoaded: return RefusalCause::kNotLoaded;
     case Answer::kForced:
     case Answer::kNoDevice: return RefusalCause::kNoDevice;

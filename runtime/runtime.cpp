@@ -426,6 +426,11 @@ std::string Runtime::explain(Answer answer) const {
     const std::lock_guard lock(operator_);
     text = refused_;
   }
+  if (answer == Answer::kNotChecked && gate_ != nullptr)
+    for (unsigned s = 0; s < config_.nc.system_count; ++s) {
+      const std::string remark = gate_->remark(s);
+      if (!remark.empty()) text += (text.empty() ? "" : "; ") + remark;
+    }
   return text.empty() ? answer_text(answer) : text;
 }
 

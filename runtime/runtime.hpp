@@ -83,6 +83,12 @@ class Runtime {
   void set_program_hash(ProgramHash hash) { feeder_->set_program_hash(std::move(hash)); }
   // Says which files of programs have changed since they were read. To be set before the start.
   void set_changed_programs(ChangedPrograms changed) { feeder_->set_changed_programs(std::move(changed)); }
+  // Says which part programs may begin; null = all of them. To be set before the start; must outlive the runtime.
+  void set_start_gate(StartGate* gate) {
+    gate_ = gate;
+    feeder_->set_start_gate(gate);
+  }
+  StartGate* start_gate() const { return gate_; }
   // True for a part program that is selected, or that will be selected again after MDI: its entry in the store must stay. Feeder thread.
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
 
@@ -143,6 +149,7 @@ class Runtime {
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
   std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of
   std::string found_place_;               // where the power failed before this start; "" = nowhere
+  StartGate* gate_ = nullptr;
   std::string refused_;                   // why a force was refused; guarded by operator_
   struct FreeMemory {
     void operator()(void* memory) const;

@@ -287,15 +287,21 @@ Answer Scan::set_mode(Mode mode) noexcept {
 // all part systems (`all`) begins no program while one of them runs or is interrupted: a program that has ended meanwhile must not begin again just
 // because the program of another part system goes on. A start that names one part system begins its program even then.
 std::uint32_t Scan::ready_systems(std::uint32_t systems, bool all) const noexcept {
-  const std::uint32_t loaded = loaded_.load(std::memory_order_acquire), wanted = mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded;
-  const std::uint32_t active = active_systems();
-  std::uint32_t begins = 0;
-  for (unsigned s = 0; s < systems_ && (active == 0 || !all); ++s)
-    if ((loaded >> kLoadedBits * s & wanted) != 0) begins |= 1u << s;
+  const std::uint32_t begins = head_with(mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded, all);
   std::uint32_t goes_on = in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
   // In MDI the interrupted program of AUTO does not go on, but blocks of MDI begin in it, or go on.
   if (mode_ == Mode::kMdi && program_mode_ == Mode::kAuto) goes_on &= (mdi_waiting() & in_state(NC_STATE_STOPPED)) | (mdi_runs_ & ~mdi_beginning());
-  return systems & (goes_on | (begins & ~active));
+  return systems & (goes_on | begins);
+}
+
+// The part systems at whose head this is loaded, as far as a start could begin it.
+std::uint32_t Scan::head_with(Loaded wanted, bool all) const noexcept {
+  const std::uint32_t loaded = loaded_.load(std::memory_order_acquire), active = active_systems();
+  constexpr std::uint32_t kMask = (1u << kLoadedBits) - 1;
+  std::uint32_t found = 0;
+  for (unsigned s = 0; s < systems_ && (active == 0 || !all); ++s)
+    if ((loaded >> kLoadedBits * s & kMask) == wanted) found |= 1u << s;
+  return found & ~active;
 }
 
 // Blocks of MDI that wait for a start.
@@ -337,6 +343,8 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (alarms_.stops()) return Answer::kAlarmActive;
   const std::uint32_t ready = ready_systems(systems, all), active = active_systems();
   if ((systems & active) == 0 && alarms_.waits_for_reset()) return Answer::kWarningActive;
+  // A start of several part systems begins none of them when one may not: their programs belong together.
+  if (mode_ == Mode::kAuto && (systems & head_with(kPartNotChecked, all)) != 0) return Answer::kNotChecked;
   if (ready == 0 && (systems & in_state(NC_STATE_RUNNING)) != 0) return Answer::kAlreadyRunning;
   std::uint32_t held = 0;
   for (unsigned s = 0; s < systems_; ++s) held |= machine_holds_[s] ? 1u << s : 0;

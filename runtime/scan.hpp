@@ -82,7 +82,8 @@ class Scan {
   // ---- feeder thread ----
   // What is loaded in the control and ready to start, with kLoadedBits bits for each part system. A part program starts only in AUTO and MDI blocks only in
   // MDI, so that a start in one mode never begins something that was left over from the other mode in any part system.
-  enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2 };
+  // kPartNotChecked: a part program that may not begin (StartGate).
+  enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2, kPartNotChecked = 3 };
   static constexpr unsigned kLoadedBits = 2;
   void set_loaded(std::uint32_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
   // Blocks of MDI wait that are to interrupt the program of a part system, which stands in a block stop (M700 12.4.4): `text` is their number, 0 = there are
@@ -194,6 +195,7 @@ class Scan {
   std::uint32_t all_systems() const noexcept { return (1u << systems_) - 1; }
   Answer start_cycle(std::uint32_t systems, bool all, Asker by) noexcept;
   std::uint32_t ready_systems(std::uint32_t systems, bool all) const noexcept;
+  std::uint32_t head_with(Loaded wanted, bool all) const noexcept;
   void hold(std::uint32_t systems) noexcept;
   Answer set_mode(Mode mode) noexcept;
   Answer manual(const Command& command) noexcept;

@@ -47,6 +47,8 @@ class ProgramText {
   ProgramText& operator=(const ProgramText&) = delete;
 
   std::uint64_t size() const { return size_; }
+  // Of the file, as it was opened.
+  const struct stat& info() const { return info_; }
   bool copied() const { return descriptor_ < 0; }
   // As nc_read_at. Any thread.
   long read(std::uint64_t offset, char* buffer, std::size_t size);

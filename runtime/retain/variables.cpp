@@ -107,6 +107,15 @@ std::string executed_variables(nc_control* control) {
 
 bool is_local_variable(const nc_control* control, std::uint32_t number) { return holds(kind_of(control, NC_VARIABLES_LOCAL), number); }
 
+void set_variables(nc_control* control, const std::string& bytes) {
+  std::vector<Variable> variables;
+  std::vector<Name> names;
+  if (!decode(bytes, &variables, &names)) return;
+  for (const Variable& variable : variables)
+    if (!is_local_variable(control, variable.number & kNumber)) (void)nc_variable_set(control, api_system(variable.number >> kSystemShift), variable.number & kNumber, variable.value, false);
+  for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);
+}
+
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {
   std::vector<Variable> variables;
   std::vector<Name> names;

@@ -22,6 +22,8 @@ std::string executed_variables(nc_control* control);
 // more) are skipped, and so are those of `not_kept`, and NC_VARIABLES_CLEARED when a
 // parameter says so (M700 #1129 PwrVC1).
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
+// Sets all of them but the local ones, also those that would not be kept over power off.
+void set_variables(nc_control* control, const std::string& bytes);
 
 // M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
 bool is_local_variable(const nc_control* control, std::uint32_t number);

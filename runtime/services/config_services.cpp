@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration section [services].
+#include <algorithm>
+
 #include "runtime/config_sections.hpp"
 #include "runtime/services/local_server.hpp"
 #include "runtime/services/rights.hpp"
@@ -42,6 +44,13 @@ void read_services(TableReader* root, Config* config) {
     reader.integer("history_days", &services.history_days, 1, 36'500);
     reader.integer("history_mb", &services.history_mb, 1, 100'000);
     reader.integer("program_mb", &services.program_mb, 1, 1'000'000);
+    std::string check = "required";
+    constexpr const char* kChecks[] = {"required", "warn", "off"};  // in the order of ProgramCheck
+    reader.string("check", &check);
+    const auto found = std::find(std::begin(kChecks), std::end(kChecks), check);
+    if (found == std::end(kChecks)) reader.error("check", "must be \"required\", \"warn\" or \"off\"");
+    else services.check = static_cast<ProgramCheck>(found - std::begin(kChecks));
+    reader.integer("check_seconds", &services.check_seconds, 1, 86'400);
     reader.integer("programs_mb", &services.programs_mb, 1, 100'000'000);
   });
 }

@@ -83,6 +83,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kLastStop, "last_stop", Kind::kFlag, 0, 1, "", "true: where a reset, an alarm or a power cut has stopped the program last"},
     {Field::kEntry, "entry", Kind::kWhole, 1, 100, "", "number of an entry of the recovery list; all of them when it is not given"},
     {Field::kSpeed, "velocity", Kind::kNumber, 0, 1e6, "mm/s, deg/s", "velocity; the speed of jogs (plc.jog_feed) when it is not given or 0. To be repeated within 200 scans, else the axis stops"},
+    {Field::kCheckSeconds, "seconds", Kind::kWhole, 1, 86400, "s", "processor time that the check may take; that of the configuration when it is not given"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -114,6 +115,8 @@ constexpr Wanted kBeginArguments[] = {must(Field::kFile), must(Field::kSize), mu
 constexpr Wanted kDataArguments[] = {must(Field::kUpload), must(Field::kBegin), must(Field::kData)};
 constexpr Wanted kUploadOnly[] = {must(Field::kUpload)};
 constexpr Wanted kRenameArguments[] = {must(Field::kFile), must(Field::kNewName)};
+constexpr Wanted kCheckArguments[] = {must(Field::kFile), may(Field::kSystem)};
+constexpr Wanted kRecheckArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kCheckSeconds)};
 constexpr Wanted kFileOnly[] = {must(Field::kFile)};
 constexpr Wanted kForceArguments[] = {must(Field::kDevice), must(Field::kDeviceValue), may(Field::kLifespan)};
 constexpr Wanted kReleaseArguments[] = {may(Field::kDevice), may(Field::kLifespan)};
@@ -314,6 +317,7 @@ constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the 
                                        {"programs[].modified_ns", "whole", "time of day of the last change, ns since 1970"},
                                        {"programs[].protected", "flag", "cannot be changed before its protection is taken away"},
                                        {"programs[].selected", "flag", "selected in a part system"},
+                                       {"programs[].check", "text", "unchecked, checking, passed or refused: its check in part system 1"},
                                        {"bytes", "whole", "of all programs together"},
                                        {"most_bytes", "whole", "that all programs may have together"},
                                        {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
@@ -341,6 +345,22 @@ constexpr ReplyRow kRestartReply[] = {{"system", "whole", "part system, from 1"}
                                       {"codes[].state", "text", "open; done: the machine has it; confirmed: the operator has said that it is right as it is"},
                                       {"open", "whole", "entries that are open: as long as there is one, the cycle start that goes on is refused"},
                                       {"left_out", "whole", "M codes that have come so long before that they are not in the list"}};
+constexpr ReplyRow kCheckReply[] = {{"state", "text", "unchecked, checking, passed or refused"},
+                                    {"text", "text", "why, or what is to be said of it"},
+                                    {"alarms[].code", "text", "code of the alarm, empty = an axis would go beyond its limit"},
+                                    {"alarms[].text", "text", "what is wrong"},
+                                    {"alarms[].program", "text", "file in which it is"},
+                                    {"alarms[].line", "whole", "its line"},
+                                    {"asks_line", "whole", "line of the first block that asks the machine: an input, a skip signal, the clock, a device; 0 = none does"},
+                                    {"asks_program", "text", "file of that line"},
+                                    {"seconds", "number", "estimated time at 100 %, without what M, S and T take"},
+                                    {"length", "number", "mm, way of all moves"},
+                                    {"blocks", "whole", "blocks that were executed"},
+                                    {"axes[].name", "text", "name of the axis"},
+                                    {"axes[].least", "number", "mm or deg, smallest machine coordinate"},
+                                    {"axes[].most", "number", "mm or deg, largest machine coordinate"},
+                                    {"tools[]", "whole", "tools as they are called, each once"},
+                                    {"time_ns", "whole", "time of day of the check, ns since 1970; 0 = there is no result"}};
 constexpr ReplyRow kBeginReply[] = {{"upload", "whole", "number of the upload, for this connection"}, {"bytes", "whole", "of one piece at most"}};
 constexpr ReplyRow kDataReply[] = {{"begin", "whole", "place of the next byte"}};
 
@@ -366,6 +386,8 @@ constexpr ServiceRow kRows[] = {
      "tool offsets, work offsets and common variables as TOML, as the executed blocks have left them; variables that are vacant are left out"},
     {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
     {Service::kProgramRead, "programs.read", Right::kView, Lane::kData, kNo, kReadArguments, kReadReply, "a piece of a program"},
+    {Service::kProgramCheck, "programs.check", Right::kView, Lane::kData, kNo, kCheckArguments, kCheckReply,
+     "what the check of a program has found, with the offsets, parameters and common variables that the machine had then; part system 1 when none is given"},
     {Service::kTraceSignals, "trace.signals", Right::kView, Lane::kData, kNo, kPage, kTraceSignalsReply, "the signals and points that can be recorded; devices of the ladder are named as in its program"},
     {Service::kTraceStatus, "trace.status", Right::kView, Lane::kData, kNo, {}, kTraceStatusReply, "how far the recording of signals is"},
     {Service::kTraceRead, "trace.read", Right::kView, Lane::kData, kNo, kTraceReadArguments, kTraceReadReply, "a recording that has ended, one row for each scan"},
@@ -390,7 +412,9 @@ constexpr ServiceRow kRows[] = {
     {Service::kOptionalStop, "optional", Right::kOperate, Lane::kCommand, RequestKind::kOptionalStop, kOnArguments, kDoneReply, "optional stop"},
     {Service::kJog, "jog", Right::kOperate, Lane::kCommand, RequestKind::kJog, kJogArguments, kDoneReply, "moves an axis by hand, in mode manual"},
     {Service::kMdi, "mdi", Right::kOperate, Lane::kCommand, RequestKind::kMdi, kMdiArguments, kDoneReply, "loads blocks, in mode mdi; a start executes them"},
-    {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto"},
+    {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto; the reply comes when it has been checked, or after 10 s"},
+    {Service::kProgramRecheck, "programs.recheck", Right::kOperate, Lane::kData, kNo, kRecheckArguments, kDoneReply,
+     "checks a program once more, before those that wait, with what the tables of the machine hold now; programs.check shows the result"},
     {Service::kRestartFind, "restart.find", Right::kOperate, Lane::kCommand, RequestKind::kRestartFind, kFindArguments, kDoneReply,
      "looks for a place in the selected program, in mode auto, so that the next cycle start begins there; exactly one of block, sequence, line, power_off and last_stop. The reply comes when the search has begun"},
     {Service::kRestartConfirm, "restart.confirm", Right::kOperate, Lane::kCommand, RequestKind::kRestartConfirm, kConfirmArguments, kDoneReply,

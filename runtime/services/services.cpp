@@ -298,6 +298,29 @@ Outcome Services::undo(const Session& session, const Call& call) {
   return outcome;
 }
 
+Outcome Services::renamed(const Call& call) {
+  const Outcome outcome = store_.rename(call);
+  if (outcome.ok && checks_ != nullptr) {
+    checks_->gone(call.words(Field::kFile));
+    checks_->arrived(call.words(Field::kNewName));
+  }
+  return outcome;
+}
+
+Outcome Services::removed(const Call& call) {
+  const Outcome outcome = store_.remove(call);
+  if (outcome.ok && checks_ != nullptr) checks_->gone(call.words(Field::kFile));
+  return outcome;
+}
+
+Outcome Services::list_programs(const Call& call) const {
+  Outcome outcome = store_.list(call);
+  if (outcome.ok)
+    for (Json& program : outcome.reply["programs"])
+      program["check"] = check_state_name(checks_ == nullptr ? CheckState::kUnchecked : checks_->state(program["name"].get<std::string>(), 0));
+  return outcome;
+}
+
 Outcome Services::program(const Session& session, const Call& call) {
   Change done;
   const auto noted = [&](Outcome outcome) {
@@ -306,7 +329,9 @@ Outcome Services::program(const Session& session, const Call& call) {
   };
   done.what = "program " + call.words(Field::kFile);
   switch (call.row->service) {
-    case Service::kPrograms: return store_.list(call);
+    case Service::kPrograms: return list_programs(call);
+    case Service::kProgramCheck: return checks_ == nullptr ? Outcome::refused(Refused::kNotFound, "programs are not checked here") : checks_->show(call);
+    case Service::kProgramRecheck: return checks_ == nullptr ? Outcome::refused(Refused::kNotFound, "programs are not checked here") : checks_->again(call);
     case Service::kProgramRead: return store_.read(call);
     case Service::kProgramBegin: return store_.begin(session.number, call);
     case Service::kProgramData: return store_.data(session.number, call);
@@ -315,13 +340,14 @@ Outcome Services::program(const Session& session, const Call& call) {
       std::string name;
       const Outcome outcome = store_.finish(session.number, call, &name);
       done.what = "program " + name;
+      if (outcome.ok && checks_ != nullptr) checks_->arrived(name);
       return noted(outcome);
     }
     case Service::kProgramRename:
       done.before = call.words(Field::kFile);
       done.after = call.words(Field::kNewName);
-      return noted(store_.rename(call));
-    case Service::kProgramDelete: return noted(store_.remove(call));
+      return noted(renamed(call));
+    case Service::kProgramDelete: return noted(removed(call));
     case Service::kProgramProtect:
       done.after = call.flag(Field::kOn) ? "protected" : "not protected";
       return noted(store_.protect(call));

@@ -13,6 +13,7 @@
 #include "runtime/services/change_log.hpp"
 #include "runtime/services/history.hpp"
 #include "runtime/services/ladder.hpp"
+#include "runtime/services/program_checks.hpp"
 #include "runtime/services/program_store.hpp"
 #include "runtime/services/trace.hpp"
 #include "runtime/services/watch.hpp"
@@ -35,6 +36,8 @@ class Services {
  public:
   // All must outlive the services. The segment shows the state, and must exist before the first call. `history` may be null: then there is none.
   Services(Runtime* runtime, const share::ProgramTable* programs, share::IntakeDesk* desk, const share::Segment* segment, history::Recorder* history);
+  // Without them nothing is known of any program. Before the first call.
+  void set_checks(ProgramChecks* checks) { checks_ = checks; }
   // Prepares the files of the services. A sentence in *warning when changes cannot be written down.
   void open(std::string* warning);
 
@@ -67,6 +70,9 @@ class Services {
   ProgramStore::Use use() const;
   Outcome change(const Session& session, const Call& call);
   Outcome undo(const Session& session, const Call& call);
+  Outcome renamed(const Call& call);
+  Outcome removed(const Call& call);
+  Outcome list_programs(const Call& call) const;
   Outcome program(const Session& session, const Call& call);
   void note(const Session& session, const Call& call, Change change, Outcome* outcome);
 
@@ -75,6 +81,7 @@ class Services {
   share::IntakeDesk& desk_;
   const share::Segment& segment_;
   ProgramStore store_;
+  ProgramChecks* checks_ = nullptr;
   ChangeLog log_;
   TraceDesk trace_;
   LadderDesk ladder_;

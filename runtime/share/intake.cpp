@@ -323,6 +323,8 @@ Intake::Verdict Intake::execute(const Request& request) {
     answer = machine_.find_restart(request.system, {static_cast<RestartBy>(request.axis), static_cast<std::uint64_t>(request.value), request.number, std::string(text_of(request.text))});
   } else if (kind == RequestKind::kSelectProgram) {
     answer = machine_.select_program(request.system, std::string(text_of(request.text)));
+    takes_time = answer == Answer::kDone && machine_.checks(request.system);  // who is told that it is selected may start it at once
+    if (answer == Answer::kDone && !takes_time) return {AckState::kDone, AckReason::kNone, machine_.remark(request.system)};
   } else if (const Row* row = row_of(kind); row != nullptr) {
     Command command;
     command.kind = row->command;
@@ -460,6 +462,12 @@ void Intake::tick(const Now& now, std::vector<Ack>* acks) {
   const Machine::State state = machine_.state();
   for (Pending& pending : pending_) {
     if (!pending.used) continue;
+    if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kSelectProgram) {
+      const unsigned system = pending.request.system;
+      if (!machine_.checks(system) || now.steady_ns - pending.since_ns > kReachNs)
+        settle(&pending, {AckState::kDone, AckReason::kNone, machine_.remark(system)}, now.wall_ns, acks);
+      continue;
+    }
     if (reached(pending.request, state, pending.runs))
       settle(&pending, {AckState::kDone, AckReason::kNone, scope_text(pending.request, state.system_count)}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)

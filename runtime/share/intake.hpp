@@ -55,6 +55,9 @@ class Machine {
   virtual Answer write_device(const std::string& device, std::int64_t value) = 0;
   virtual Answer find_restart(unsigned system, const RestartWish& wish) = 0;
   virtual Answer release(const std::string& device) = 0;
+  // The program that was selected is still being checked; and what is to be said of it, also when it was not.
+  virtual bool checks(unsigned /*system*/) { return false; }
+  virtual std::string remark(unsigned /*system*/) { return {}; }
   // What the last answer means, with its reason when that is known.
   virtual std::string explain(Answer answer) { return answer_text(answer); }
 };

@@ -37,6 +37,8 @@ class RuntimeMachine final : public Machine {
   Answer write_device(const std::string& device, std::int64_t value) override { return runtime_.write_device(device, value); }
   Answer find_restart(unsigned system, const RestartWish& wish) override { return runtime_.find_restart(system, wish); }
   Answer release(const std::string& device) override { return runtime_.release(device); }
+  bool checks(unsigned system) override { return runtime_.start_gate() != nullptr && runtime_.start_gate()->waits(system); }
+  std::string remark(unsigned system) override { return runtime_.start_gate() != nullptr ? runtime_.start_gate()->remark(system) : std::string(); }
   std::string explain(Answer answer) override { return runtime_.explain(answer); }
 
  private:

@@ -21,6 +21,7 @@
 #include "runtime/services/local_server.hpp"
 #include "runtime/share/service.hpp"
 #include "runtime/test_config.hpp"
+#include "tools/lib/program_check.hpp"
 #include "tools/lib/program_files.hpp"
 
 namespace nc::test {
@@ -128,8 +129,10 @@ class LocalMachine : public testing::Test {
   }
 
   virtual std::string machine_text() {
-    return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nhistory = \"history\"\nprogram_mb = 4\nprograms_mb = 8\n";
+    return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nhistory = \"history\"\nprogram_mb = 4\nprograms_mb = 8\n" + check_text();
   }
+  // Whether programs are checked; most tests start those that they have just written.
+  virtual std::string check_text() { return "check = \"off\"\n"; }
   void start() {
     std::string text = machine_text();
     text.replace(text.find("name = \"test\"\n"), 0, "programs = \"programs\"\nvariables = \"variables\"\noffsets = \"offsets\"\n");
@@ -160,6 +163,11 @@ class LocalMachine : public testing::Test {
     });
     runtime_->set_history(history_->tap());
     services_ = std::make_unique<rt::services::Services>(runtime_.get(), programs_.get(), share_->desk(), share_->segment(), history_.get());
+    checks_ = std::make_unique<rt::services::ProgramChecks>(config_, programs_.get(), [this](const rt::services::CheckOrder& order, const std::atomic<bool>& given_up) {
+      return tools::check_program(config_, tools::machine_tables(runtime_.get()), order, given_up);
+    });
+    services_->set_checks(checks_.get());
+    runtime_->set_start_gate(checks_.get());
     services_->open(&error);
     ASSERT_EQ(error, "");
     server_ = std::make_unique<rt::services::LocalServer>(services_.get(), options.name, [this](const rt::services::Credentials&) {
@@ -170,16 +178,19 @@ class LocalMachine : public testing::Test {
     share_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
     ASSERT_TRUE(runtime_->start(&error)) << error;
     ASSERT_TRUE(history_->start(&error)) << error;
+    ASSERT_TRUE(checks_->start(&error)) << error;
     ASSERT_TRUE(share_->start(&error)) << error;
     ASSERT_TRUE(server_->start(&error)) << error;
   }
   void stop() {
     if (server_ != nullptr) server_->stop();
+    if (checks_ != nullptr) checks_->stop();
     if (share_ != nullptr) share_->stop();
     if (runtime_ != nullptr) runtime_->stop();
     if (history_ != nullptr) history_->stop();
     server_.reset();
     services_.reset();
+    checks_.reset();
     share_.reset();
     history_.reset();
     runtime_.reset();
@@ -212,6 +223,7 @@ class LocalMachine : public testing::Test {
   std::unique_ptr<rt::share::Service> share_;
   std::unique_ptr<rt::history::Recorder> history_;
   std::string said_;  // by the history; guarded by mutex_
+  std::unique_ptr<rt::services::ProgramChecks> checks_;
   std::unique_ptr<rt::services::Services> services_;
   std::unique_ptr<rt::services::LocalServer> server_;
   std::mutex mutex_;

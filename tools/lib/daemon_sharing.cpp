@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "tools/lib/program_check.hpp"
+
 namespace nc::tools {
 
 DaemonSharing::DaemonSharing(const DaemonOptions& options, const rt::Config& config, hal::Hal* machine)
@@ -69,6 +71,13 @@ bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
   const rt::services::RightGroups groups = rt::services::find_groups(config_.services, &unknown);
   for (const std::string& name : unknown) std::fprintf(stderr, "warning: [services]: there is no group \"%s\": nobody has a right by it\n", name.c_str());
   services_ = std::make_unique<rt::services::Services>(runtime, &programs_, service_->desk(), service_->segment(), history_.get());
+  if (!share_.virtual_time) {
+    checks_ = std::make_unique<rt::services::ProgramChecks>(config_, &programs_, [this, runtime](const rt::services::CheckOrder& order, const std::atomic<bool>& given_up) {
+      return check_program(config_, machine_tables(runtime), order, given_up);
+    });
+    services_->set_checks(checks_.get());
+    runtime->set_start_gate(checks_.get());
+  }
   server_ = std::make_unique<rt::services::LocalServer>(services_.get(), share_.name, [groups, owner = geteuid()](const rt::services::Credentials& peer) {
     return rt::services::rights_of(peer, groups, owner);
   });
@@ -81,6 +90,8 @@ bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
     return true;
   }
   server_.reset();
+  runtime->set_start_gate(nullptr);
+  checks_.reset();
   *error = "no services on a socket, nothing for ncctl: " + why;
   if (!config_.services.socket.empty()) return false;
   std::fprintf(stderr, "warning: %s\n", error->c_str());
@@ -90,11 +101,13 @@ bool DaemonSharing::open_services(rt::Runtime* runtime, std::string* error) {
 bool DaemonSharing::start(std::string* error) {
   if (history_ != nullptr && !history_->start(error)) return false;
   if (service_ == nullptr) return true;
+  if (checks_ != nullptr && !checks_->start(error)) return false;
   return service_->start(error) && (server_ == nullptr || server_->start(error));
 }
 
 void DaemonSharing::stop() {
   if (server_ != nullptr) server_->stop();
+  if (checks_ != nullptr) checks_->stop();
   if (service_ != nullptr) service_->stop();
 }
 

@@ -47,6 +47,7 @@ class DaemonSharing final : public rt::EventSink {
   std::uint64_t last_entered_ = 0;
   std::unique_ptr<rt::share::Service> service_;
   std::unique_ptr<rt::history::Recorder> history_;
+  std::unique_ptr<rt::services::ProgramChecks> checks_;
   std::unique_ptr<rt::services::Services> services_;
   std::unique_ptr<rt::services::LocalServer> server_;
 };

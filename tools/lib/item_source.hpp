@@ -46,49 +46,49 @@ class ItemSource {
 /** Items of one part system of a control. */
 class ControlSource final : public ItemSource {
  public:
-  ControlSource(nc_control* control, nc_dialect dialect) : control_(control), dialect_(dialect) {}
+  ControlSource(nc_control* control, nc_dialect dialect, unsigned system = kPartSystem) : control_(control), dialect_(dialect), system_(system) {}
   nc_status pull(uint32_t budget, nc_item* item) override {
-    return nc_pull(control_, kPartSystem, budget, item);
+    return nc_pull(control_, system_, budget, item);
   }
-  nc_status answer(const nc_world& world) override { return nc_answer(control_, kPartSystem, &world); }
+  nc_status answer(const nc_world& world) override { return nc_answer(control_, system_, &world); }
   bool interrupt(bool on) override {
     bool take_back = false;
-    nc_interrupt_signal(control_, kPartSystem, on, &take_back);
+    nc_interrupt_signal(control_, system_, on, &take_back);
     return take_back;
   }
   bool move_point(double share, nc_axes* machine) override {
-    return nc_move_point(control_, kPartSystem, share, machine) == NC_OK;
+    return nc_move_point(control_, system_, share, machine) == NC_OK;
   }
-  bool move_zero(nc_axes* zero) override { return nc_move_zero(control_, kPartSystem, zero) == NC_OK; }
-  bool move_side(nc_side* side, uint8_t plane_axis[2]) override { return nc_move_side(control_, kPartSystem, side, plane_axis) == NC_OK; }
+  bool move_zero(nc_axes* zero) override { return nc_move_zero(control_, system_, zero) == NC_OK; }
+  bool move_side(nc_side* side, uint8_t plane_axis[2]) override { return nc_move_side(control_, system_, side, plane_axis) == NC_OK; }
   void shown(nc_axes* machine, nc_axes* work) override {
-    nc_position_shown(control_, kPartSystem, machine, work);
+    nc_position_shown(control_, system_, machine, work);
   }
   uint32_t main_line(const nc_source& source) override {
     uint32_t line = 0;
-    nc_main_line_get(control_, kPartSystem, &source, &line);
+    nc_main_line_get(control_, system_, &source, &line);
     return line;
   }
   uint64_t program_state() override {
     uint64_t hash = 0;
-    nc_program_state_hash(control_, kPartSystem, &hash);
+    nc_program_state_hash(control_, system_, &hash);
     return hash;
   }
-  nc_status rewind(uint64_t serial) override { return nc_rewind(control_, kPartSystem, serial); }
-  nc_status reset() override { return nc_reset(control_, kPartSystem); }
+  nc_status rewind(uint64_t serial) override { return nc_rewind(control_, system_, serial); }
+  nc_status reset() override { return nc_reset(control_, system_); }
   bool alarm(nc_alarm* alarm) override {
-    if (nc_alarm_get(control_, kPartSystem, alarm) != NC_OK) return false;
+    if (nc_alarm_get(control_, system_, alarm) != NC_OK) return false;
     rt::make_valid(alarm->detail.s, sizeof alarm->detail.s);
     return true;
   }
   bool text(uint32_t id, nc_text* text) override {
-    if (nc_text_get(control_, kPartSystem, id, text) != NC_OK) return false;
+    if (nc_text_get(control_, system_, id, text) != NC_OK) return false;
     if (text->size == 0) rt::make_valid(text->s, sizeof text->s);  // size != 0: bytes of BPRNT, which stay as they are
     return true;
   }
   unsigned modal_codes(uint32_t id, char (*codes)[8], unsigned capacity) override {
     nc_modal modal;
-    if (nc_modal_get(control_, kPartSystem, id, &modal) != NC_OK) return 0;
+    if (nc_modal_get(control_, system_, id, &modal) != NC_OK) return 0;
     return nc_modal_codes_get(control_, &modal, codes, capacity);
   }
   uint32_t optional_stop_code() override {
@@ -98,12 +98,13 @@ class ControlSource final : public ItemSource {
     return code;
   }
   bool next_common(uint32_t from, uint32_t* number, double* value) override {
-    return nc_variable_next(control_, kPartSystem, from, number, value) == NC_OK;
+    return nc_variable_next(control_, system_, from, number, value) == NC_OK;
   }
 
  private:
   nc_control* control_;
   nc_dialect dialect_;
+  const unsigned system_;
 };
 
 }  // namespace nc::tools

@@ -28,6 +28,7 @@ class OfflineRun {
       else empty_lines_ = 0;
       if (max_silent_blocks && (silent_ >= max_silent_blocks || (empty_lines_ != 0 && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks)))
         return endless();
+      if (status == NC_BUDGET && sink_.stop()) return stopped();
       if (status == NC_BUDGET) continue;
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
@@ -76,6 +77,7 @@ class OfflineRun {
   }
 
   RunResult endless() {
+    result_.silent = true;
     const std::string place = last_.line == 0
                                   ? ""
                                   : "line " + std::to_string(last_.line) +
@@ -83,6 +85,11 @@ class OfflineRun {
     return give_up(place + std::to_string(silent_) +
                    " blocks without anything that the machine would do: an endless loop, or too few allowed "
                    "(--max-silent-blocks)");
+  }
+
+  RunResult stopped() {
+    result_.how = RunResult::How::kStopped;
+    return finish();
   }
 
   // Ends the run. What has been done so far is kept: the sink is closed as at the end of a program.

@@ -42,6 +42,7 @@ struct RunResult {
   nc_alarm alarm = {};  // for kAlarmed
   std::string error;    // for kFailed; for kEndless the loop that was given up
   uint64_t blocks = 0, moves = 0;
+  bool silent = false;    // with kEndless: so many blocks in a row did nothing that the machine would notice
   bool one_pass = false;  // with kEnded: the run ended where M99 would begin the main program again
   double length = 0.0;    // mm
   double seconds = 0.0;   // on the clock of the trace

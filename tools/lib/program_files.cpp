@@ -163,6 +163,12 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
   return NC_OK;
 }
 
+std::vector<std::pair<std::string, ProgramFiles::Text>> ProgramFiles::texts() const {
+  std::vector<std::pair<std::string, Text>> all;
+  for (const auto& entry : entries_) all.emplace_back(entry->path, entry->text);
+  return all;
+}
+
 std::string ProgramFiles::changed() const {
   std::string names;
   for (const auto& entry : entries_)

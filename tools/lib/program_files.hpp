@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nc/nc.h"
@@ -47,6 +48,9 @@ class ProgramFiles {
 
   /** Removes programs to which nothing refers, so that a sub program that is called next is read from its file again. To be called while no program runs. */
   void look_again(nc_control* control) { give_up_unused(control); }
+
+  /** The texts that are entered now, with the paths of their files. */
+  std::vector<std::pair<std::string, Text>> texts() const;
 
   /** Names of files that have changed since they were entered, both selected and called ones: "part.nc, O77"; "" = none. */
   std::string changed() const;

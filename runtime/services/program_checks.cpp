@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// See program_checks.hpp.
+#include "runtime/services/program_checks.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "runtime/share/text.hpp"
+
+namespace nc::rt::services {
+namespace {
+
+constexpr auto kLookPeriod = std::chrono::milliseconds(500);  // how often the files of what was found are looked at
+constexpr int kLeastPriority = 19;
+
+bool is_unchanged(const CheckReport::File& file) {
+  struct stat now {};
+  if (stat(file.path.c_str(), &now) != 0) return false;
+  const auto same = [](const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; };
+  return now.st_dev == file.info.st_dev && now.st_ino == file.info.st_ino && now.st_size == file.info.st_size && same(now.st_mtim, file.info.st_mtim) &&
+         same(now.st_ctim, file.info.st_ctim);
+}
+
+}  // namespace
+
+const char* check_state_name(CheckState state) {
+  constexpr const char* kNames[] = {"unchecked", "checking", "passed", "refused"};
+  return kNames[static_cast<unsigned>(state)];
+}
+
+ProgramChecks::ProgramChecks(const Config& config, const share::ProgramTable* programs, CheckRun run)
+    : policy_(config.services.check), limit_s_(config.services.check_seconds), systems_(config.nc.system_count), folder_(config.programs_folder()), programs_(*programs), run_(std::move(run)) {}
+
+bool ProgramChecks::start(std::string* error) {
+  return thread_.start([this] { work(); }, error);
+}
+
+void ProgramChecks::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    given_up_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+// ---- the thread ----
+
+void ProgramChecks::work() {
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLeastPriority);
+  std::unique_lock lock(mutex_);
+  while (!stop_) {
+    if (waiting_.empty()) {
+      wake_.wait_for(lock, kLookPeriod);
+      lock.unlock();
+      forget_changed();
+      lock.lock();
+      continue;
+    }
+    const CheckOrder order = waiting_.front();
+    waiting_.pop_front();
+    in_work_ = {order.name, order.system};
+    working_ = true;
+    given_up_ = false;
+    lock.unlock();
+    CheckReport report = run_(order, given_up_);
+    report.time_ns = share::wall_ns();
+    lock.lock();
+    working_ = false;
+    if (given_up_) continue;
+    if (reports_.size() >= kMostKept) reports_.erase(reports_.begin());
+    reports_[in_work_] = std::move(report);
+  }
+}
+
+// What was found ends with a change of a file that it was found in. The disk is asked without the lock, because that may take its time.
+void ProgramChecks::forget_changed() {
+  std::map<Key, CheckReport> kept;
+  {
+    const std::lock_guard lock(mutex_);
+    kept = reports_;
+  }
+  for (const auto& [key, report] : kept) {
+    const std::vector<CheckReport::File>& files = report.files;
+    const auto changed = std::find_if_not(files.begin(), files.end(), is_unchanged);
+    if (changed == files.end()) continue;
+    const std::lock_guard lock(mutex_);
+    const auto found = reports_.find(key);
+    if (found == reports_.end() || found->second.time_ns != report.time_ns) continue;
+    reports_.erase(found);
+    // A program that is selected runs as it was then, but what it calls is read again.
+    for (Head& head : head_)
+      if (head.key == key && changed != files.begin()) head.passed = false;
+  }
+}
+
+// ---- the queue ----
+
+bool ProgramChecks::is_waiting(const Key& key) const {
+  return (working_ && in_work_ == key && !given_up_) ||
+         std::any_of(waiting_.begin(), waiting_.end(), [&](const CheckOrder& order) { return order.name == key.first && order.system == key.second; });
+}
+
+CheckOrder ProgramChecks::order_of(const Key& key) const { return {key.first, path_of(key.first), key.second, limit_s_}; }
+
+bool ProgramChecks::enqueue(const CheckOrder& order, bool first) {
+  if (waiting_.size() >= kMostWaiting) return false;
+  if (first) waiting_.push_front(order);
+  else waiting_.push_back(order);
+  wake_.notify_all();
+  return true;
+}
+
+void ProgramChecks::gone(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [&](const CheckOrder& order) { return order.name == name; });
+  std::erase_if(reports_, [&](const auto& kept) { return kept.first.first == name; });
+  if (working_ && in_work_.first == name) given_up_ = true;
+}
+
+void ProgramChecks::arrived(const std::string& name) {
+  gone(name);
+  if (policy_ == ProgramCheck::kOff) return;
+  const std::lock_guard lock(mutex_);
+  std::vector<Key> again = {{name, 0}};
+  for (const auto& [key, report] : reports_)
+    if (report.state == CheckState::kRefused) again.push_back(key);
+  for (const Key& key : again) {
+    reports_.erase(key);
+    if (!is_waiting(key)) (void)enqueue(order_of(key), false);  // where there is no room, it is checked when it is selected
+  }
+}
+
+bool ProgramChecks::order(const std::string& name, unsigned system, double limit_s) {
+  const Key key{name, system};
+  const std::lock_guard lock(mutex_);
+  std::erase_if(waiting_, [&](const CheckOrder& order) { return order.name == name && order.system == system; });
+  if (working_ && in_work_ == key) given_up_ = true;
+  reports_.erase(key);
+  return enqueue({name, path_of(name), system, limit_s}, true);
+}
+
+CheckState ProgramChecks::state(const std::string& name, unsigned system) const {
+  const std::lock_guard lock(mutex_);
+  const Key key{name, system};
+  if (is_waiting(key)) return CheckState::kChecking;
+  const auto found = reports_.find(key);
+  return found == reports_.end() ? CheckState::kUnchecked : found->second.state;
+}
+
+// ---- cycle start ----
+
+bool ProgramChecks::may_begin(unsigned system, unsigned file) {
+  const share::ProgramTable::Program program = programs_.at(file);
+  const std::shared_ptr<ProgramText> text = program.text.lock();
+  const std::string name = share::file_name(program.path);
+  const std::lock_guard lock(mutex_);
+  Head& head = head_[system];
+  if (policy_ == ProgramCheck::kOff || text == nullptr || program.path != path_of(name)) {  // none of the folder of programs
+    head = {};
+    return true;
+  }
+  if (head.text.lock() != text) head = {text, {name, system}, false, false};
+  const bool before = head.passed;
+  const auto found = reports_.find(head.key);
+  head.waits = is_waiting(head.key);
+  if (found == reports_.end()) {
+    if (!before && !head.waits) head.waits = enqueue(order_of(head.key), true);
+  } else if (!found->second.files.empty() && text->is_file(found->second.files.front().info)) {
+    head.passed = found->second.state == CheckState::kPassed;
+  }
+  return head.passed || policy_ == ProgramCheck::kWarn;
+}
+
+bool ProgramChecks::waits(unsigned system) {
+  const std::lock_guard lock(mutex_);
+  return head_[system].waits && !head_[system].passed;
+}
+
+std::string ProgramChecks::remark(unsigned system) {
+  const std::lock_guard lock(mutex_);
+  const Head& head = head_[system];
+  if (head.key.first.empty() || head.passed) return "";
+  const auto found = reports_.find(head.key);
+  if (is_waiting(head.key)) return head.key.first + " is being checked";
+  if (found == reports_.end()) return head.key.first + " is not checked yet";
+  const CheckReport& report = found->second;
+  if (report.state == CheckState::kPassed) return head.key.first + " was changed since it was selected: select it again";
+  return head.key.first + (report.state == CheckState::kRefused ? " was refused by its check: " : " is not checked: ") + report.text;
+}
+
+// ---- services ----
+
+ProgramChecks::Key ProgramChecks::key_of(const Call& call) const {
+  const auto system = static_cast<unsigned>(call.value_or(Field::kSystem, 1));
+  return {call.words(Field::kFile), system == 0 ? 0 : system - 1};
+}
+
+Outcome ProgramChecks::show(const Call& call) const {
+  const Key key = key_of(call);
+  if (key.second >= systems_) return Outcome::refused(Refused::kMalformed, "there is no such part system");
+  struct stat info {};
+  if (stat(path_of(key.first).c_str(), &info) != 0) return Outcome::refused(Refused::kNotFound, key.first + ": there is no such program");
+  const CheckState now = state(key.first, key.second);
+  const std::lock_guard lock(mutex_);
+  const auto found = reports_.find(key);
+  CheckReport report;
+  if (now != CheckState::kChecking && found != reports_.end()) report = found->second;
+  Json alarms = Json::array(), axes = Json::array();
+  for (const CheckAlarm& alarm : report.alarms) alarms.push_back({{"code", alarm.code}, {"text", alarm.text}, {"program", alarm.program}, {"line", alarm.line}});
+  for (const CheckReport::Axis& axis : report.axes) axes.push_back({{"name", std::string(1, axis.name)}, {"least", axis.least}, {"most", axis.most}});
+  return Outcome::with({{"state", check_state_name(now)},
+                        {"text", report.text},
+                        {"alarms", std::move(alarms)},
+                        {"asks_line", report.asks_line},
+                        {"asks_program", report.asks_program},
+                        {"seconds", report.seconds},
+                        {"length", report.length},
+                        {"blocks", report.blocks},
+                        {"axes", std::move(axes)},
+                        {"tools", report.tools},
+                        {"time_ns", report.time_ns}});
+}
+
+Outcome ProgramChecks::again(const Call& call) {
+  const Key key = key_of(call);
+  if (key.second >= systems_) return Outcome::refused(Refused::kMalformed, "there is no such part system");
+  struct stat info {};
+  if (stat(path_of(key.first).c_str(), &info) != 0) return Outcome::refused(Refused::kNotFound, key.first + ": there is no such program");
+  return order(key.first, key.second, call.value_or(Field::kCheckSeconds, limit_s_)) ? Outcome::done() : Outcome::refused(Refused::kBusy, "too many programs wait for their check");
+}
+
+}  // namespace nc::rt::services

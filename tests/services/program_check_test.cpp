@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+// The check of programs before they may run.
+#include <filesystem>
+
+#include "services/local_machine.hpp"
+
+namespace nc::test {
+namespace {
+
+using rt::services::Right;
+
+class ProgramCheckServices : public LocalMachine {
+ protected:
+  std::string check_text() override { return policy_; }
+  // Writes a program through the services.
+  static std::string put(ServiceClient* client, const std::string& name, const std::string& text, bool replace = false) {
+    rt::services::Sha256 sum;
+    sum.add(text);
+    const Json begun = client->call("programs.begin", {{"name", name}, {"size", text.size()}, {"sha256", sum.finish()}, {"replace", replace}});
+    if (begun["ok"] != true) return begun.dump();
+    const std::string sent = client->outcome("programs.data", {{"upload", begun["reply"]["upload"]}, {"begin", 0}, {"data", rt::services::to_base64(text)}});
+    return sent.empty() ? client->outcome("programs.finish", {{"upload", begun["reply"]["upload"]}}) : sent;
+  }
+  Json checked(ServiceClient* client, const std::string& name) {
+    return until(client, "programs.check", [](const Json& reply) { return reply["state"] == "passed" || reply["state"] == "refused" || !reply["text"].get<std::string>().empty(); }, {{"name", name}});
+  }
+  Json put_and_check(ServiceClient* client, const std::string& name, const std::string& text) {
+    EXPECT_EQ(put(client, name, text, true), "");
+    return checked(client, name);
+  }
+  static std::string start(ServiceClient* client, std::string* text = nullptr) {
+    const Json reply = client->call("start");
+    if (text != nullptr && reply["ok"] == false) *text = reply["text"].get<std::string>();
+    return reply["ok"] == true ? "" : reply["error"].get<std::string>();
+  }
+  static void take_control(ServiceClient* client) {
+    ASSERT_EQ(client->outcome("control.take", {{"lease_ms", 60000}}), "");
+    ASSERT_EQ(client->outcome("mode", {{"mode", "auto"}}), "");
+  }
+  std::string policy_ = "check = \"required\"\n";
+};
+class ProgramCheckWarns : public ProgramCheckServices {
+ protected:
+  ProgramCheckWarns() { policy_ = "check = \"warn\"\n"; }
+};
+class ProgramCheckOff : public ProgramCheckServices {
+ protected:
+  ProgramCheckOff() { policy_ = "check = \"off\"\n"; }
+};
+
+const char* const kGood = "G90 G21 G94\nT3 M6\nG0 X10. Y-5.\nG1 X40. F600.\nG3 X40. Y5. I0. J5.\nT12 M6\nT3\nM30\n";
+
+TEST_F(ProgramCheckServices, SaysWhatAProgramDoes) {
+  ServiceClient client(path_);
+  const Json report = put_and_check(&client, "good.nc", kGood);
+  EXPECT_EQ(report["state"], "passed") << report;
+  EXPECT_TRUE(report["alarms"].empty());
+  EXPECT_EQ(report["tools"], (Json{3, 12}));
+  EXPECT_EQ(report["axes"][0]["name"], "X");
+  EXPECT_NEAR(report["axes"][0]["least"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(report["axes"][0]["most"].get<double>(), 45, 1e-6) << "the half circle goes beyond its ends";
+  EXPECT_NEAR(report["axes"][1]["least"].get<double>(), -5, 1e-9);
+  EXPECT_NEAR(report["axes"][1]["most"].get<double>(), 5, 1e-9);
+  EXPECT_NEAR(report["length"].get<double>(), std::hypot(10, 5) + 30 + 5 * M_PI, 1e-6);
+  EXPECT_GT(report["seconds"].get<double>(), (30 + 5 * M_PI) / 10);
+  EXPECT_LT(report["seconds"].get<double>(), (30 + 5 * M_PI) / 10 + 5);
+  EXPECT_GT(report["time_ns"].get<std::int64_t>(), 0);
+  EXPECT_EQ(client.call("programs.list")["reply"]["programs"][0]["check"], "passed");
+}
+
+TEST_F(ProgramCheckServices, AnAlarmRefusesAProgramAndItsStart) {
+  ServiceClient client(path_);
+  take_control(&client);
+  const Json report = put_and_check(&client, "bad.nc", "G0 X1.\nG1 X2. F100.\nG7.7\nM30\n");
+  EXPECT_EQ(report["state"], "refused");
+  ASSERT_EQ(report["alarms"].size(), 1u);
+  EXPECT_EQ(report["alarms"][0]["line"], 3);
+  EXPECT_EQ(report["alarms"][0]["program"], "bad.nc");
+  EXPECT_NE(report["alarms"][0]["code"], "");
+  ASSERT_EQ(client.outcome("select", {{"name", "bad.nc"}}), "");
+  std::string why;
+  EXPECT_EQ(start(&client, &why), "refused");
+  EXPECT_NE(why.find("bad.nc line 3"), std::string::npos) << why;
+  EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_IDLE);
+  // Mended, it is checked again and runs.
+  ASSERT_EQ(put(&client, "bad.nc", "G0 X1.\nM30\n", true), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "bad.nc"}}), "");
+  EXPECT_EQ(start(&client), "");
+}
+
+TEST_F(ProgramCheckServices, APassedProgramStartsAgainAndAgain) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "part.nc", "G0 X1.\nG0 X0.\nM30\n"), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "part.nc"}}), "") << "the reply waits for the check";
+  for (unsigned run = 1; run <= 3; ++run) {
+    ASSERT_EQ(start(&client), "");
+    until(&client, "status", [&](const Json&) { return runtime_->info().system[0].runs == run; });
+  }
+}
+
+TEST_F(ProgramCheckServices, AProgramThatNobodyUploadedIsCheckedWhenItIsSelected) {
+  write_program("copied.nc", "G0 X1.\nM30\n");
+  write_program("wrong.nc", "G0 X1.\nG1 X2. F100. Q\n");
+  ServiceClient client(path_);
+  take_control(&client);
+  EXPECT_EQ(client.call("programs.check", {{"name", "copied.nc"}})["reply"]["state"], "unchecked");
+  ASSERT_EQ(client.outcome("select", {{"name", "wrong.nc"}}), "");
+  EXPECT_EQ(start(&client), "refused");
+  ASSERT_EQ(client.outcome("select", {{"name", "copied.nc"}}), "");
+  EXPECT_EQ(start(&client), "");
+}
+
+TEST_F(ProgramCheckServices, TheRunningCopyIsNotTheOneOfTheFile) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "part.nc", "G0 X1.\nM30\n"), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "part.nc"}}), "");
+  write_program("part.nc", "G7.7\nM30\n");
+  EXPECT_EQ(client.call("programs.recheck", {{"name", "part.nc"}})["ok"], true);
+  EXPECT_EQ(checked(&client, "part.nc")["state"], "refused");
+  EXPECT_EQ(start(&client), "") << "what was selected has passed";
+}
+
+TEST_F(ProgramCheckServices, FollowsCallsIntoTheStore) {
+  ServiceClient client(path_);
+  Json report = put_and_check(&client, "main.nc", "G0 X1.\nM98 P77\nM30\n");
+  EXPECT_EQ(report["state"], "refused") << "there is no O77 yet";
+  EXPECT_EQ(report["alarms"][0]["line"], 2);
+  // What was refused may have missed it.
+  ASSERT_EQ(put(&client, "O77.nc", "G0 Y25.\nM99\n"), "");
+  report = until(&client, "programs.check", [](const Json& reply) { return reply["state"] == "passed"; }, {{"name", "main.nc"}});
+  EXPECT_NEAR(report["axes"][1]["most"].get<double>(), 25, 1e-9);
+  // A change of what it calls ends what was found.
+  ASSERT_EQ(put(&client, "O77.nc", "G0 Y25.\nG7.7\nM99\n", true), "");
+  until(&client, "programs.check", [](const Json& reply) { return reply["state"] == "unchecked"; }, {{"name", "main.nc"}});
+  EXPECT_EQ(client.outcome("programs.recheck", {{"name", "main.nc"}}), "");
+  report = checked(&client, "main.nc");
+  EXPECT_EQ(report["state"], "refused");
+  EXPECT_EQ(report["alarms"][0]["program"], "O77.nc");
+  EXPECT_EQ(report["alarms"][0]["line"], 2);
+}
+
+TEST_F(ProgramCheckServices, GoesByThePresentTables) {
+  ServiceClient client(path_);
+  const char* text = "G54\nG0 X10.\nIF[#501GT5]GOTO9\nM30\nN9 G7.7\nM30\n";
+  EXPECT_EQ(put_and_check(&client, "tables.nc", text)["state"], "passed");
+  ASSERT_EQ(client.outcome("offsets.set", {{"index", 1}, {"axis", "X"}, {"value", 100}}), "");
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"value", 7}}), "");
+  EXPECT_EQ(client.call("programs.check", {{"name", "tables.nc"}})["reply"]["state"], "passed") << "it says what was found then";
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "tables.nc"}}), "");
+  const Json report = checked(&client, "tables.nc");
+  EXPECT_EQ(report["state"], "refused");
+  EXPECT_NEAR(report["axes"][0]["most"].get<double>(), 110, 1e-9);
+}
+
+TEST_F(ProgramCheckServices, BehindAQuestionToTheMachineAnAlarmDoesNotRefuse) {
+  ServiceClient client(path_);
+  Json report = put_and_check(&client, "asks.nc", "G0 X1.\nIF[#1000EQ1]GOTO5\nG7.7\nN5 M30\n");
+  EXPECT_EQ(report["state"], "passed") << report;
+  EXPECT_EQ(report["asks_line"], 2);
+  EXPECT_EQ(report["asks_program"], "asks.nc");
+  ASSERT_EQ(report["alarms"].size(), 1u);
+  EXPECT_EQ(report["alarms"][0]["line"], 3);
+  report = put_and_check(&client, "waits.nc", "G0 X1.\nN1 IF[#1000EQ0]GOTO1\nM30\n");
+  EXPECT_EQ(report["state"], "passed") << report;
+  EXPECT_NE(report["text"].get<std::string>().find("waits for the machine"), std::string::npos) << report;
+}
+
+TEST_F(ProgramCheckServices, EndlessProgramsEndTheirCheck) {
+  ServiceClient client(path_);
+  EXPECT_EQ(put_and_check(&client, "silent.nc", "N1 #100=#100+1\nGOTO1\n")["state"], "unchecked");
+  EXPECT_EQ(put_and_check(&client, "warm.nc", "WHILE[1EQ1]DO1\nG0 X1.\nG0 X0.\nEND1\n")["state"], "passed");
+  EXPECT_EQ(put_and_check(&client, "again.nc", "G0 X1.\nG0 X0.\nM99\n")["state"], "passed");
+}
+
+TEST_F(ProgramCheckServices, WhatTakesTooLongIsNotChecked) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "long.nc", "#100=0\nWHILE[#100LT2000000000]DO1\n#100=#100+1\nG0 X1.\nG0 X0.\nEND1\nM30\n"), "");
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "long.nc"}, {"seconds", 1}}), "");
+  const Json report = checked(&client, "long.nc");
+  EXPECT_EQ(report["state"], "unchecked");
+  EXPECT_NE(report["text"].get<std::string>().find("not checked: too long"), std::string::npos) << report;
+  ASSERT_EQ(client.outcome("select", {{"name", "long.nc"}}), "");
+  std::string why;
+  EXPECT_EQ(start(&client, &why), "refused");
+  EXPECT_NE(why.find("too long"), std::string::npos) << why;
+}
+
+TEST_F(ProgramCheckServices, ADeletedProgramEndsItsCheckAndThoseBehindItCome) {
+  ServiceClient client(path_);
+  const char* text = "#100=0\nWHILE[#100LT2000000000]DO1\n#100=#100+1\nG0 X1.\nG0 X0.\nEND1\nM30\n";
+  for (const char* name : {"a.nc", "b.nc"}) ASSERT_EQ(put(&client, name, text), "");
+  for (const char* name : {"c.nc", "d.nc"}) ASSERT_EQ(put(&client, name, "G0 X1.\nM30\n"), "");
+  EXPECT_EQ(client.call("programs.check", {{"name", "c.nc"}})["reply"]["state"], "checking") << "one after the other";
+  ASSERT_EQ(client.outcome("programs.delete", {{"name", "a.nc"}}), "");
+  ASSERT_EQ(put(&client, "b.nc", "G0 X1.\nM30\n", true), "");
+  for (const char* name : {"b.nc", "c.nc", "d.nc"}) EXPECT_EQ(checked(&client, name)["state"], "passed") << name;
+  EXPECT_EQ(client.outcome("programs.check", {{"name", "a.nc"}}), "not found");
+  ASSERT_EQ(client.outcome("programs.rename", {{"name", "c.nc"}, {"new_name", "e.nc"}}), "");
+  EXPECT_EQ(checked(&client, "e.nc")["state"], "passed");
+}
+
+TEST_F(ProgramCheckServices, TheMachineIsAsItWasBehindACheck) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 502}, {"value", 1}}), "");
+  const Json before = client.call("variables.list"), place = client.call("status")["reply"]["systems"][0]["axes"];
+  EXPECT_EQ(put_and_check(&client, "sets.nc", "#502=99\nG10 L2 P1 X5.\nG0 X50.\nM30\n")["state"], "passed");
+  EXPECT_EQ(client.call("variables.list")["reply"], before["reply"]);
+  EXPECT_EQ(client.call("offsets.list", {{"count", 1}, {"from", 1}})["ok"], true);
+  EXPECT_EQ(client.call("status")["reply"]["systems"][0]["axes"], place);
+}
+
+TEST_F(ProgramCheckServices, BlocksOfMdiAreNotChecked) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "");
+  ASSERT_EQ(client.outcome("mdi", {{"blocks", "G0 X1."}}), "");
+  EXPECT_EQ(start(&client), "");
+}
+
+TEST_F(ProgramCheckWarns, AStartIsTakenWithAMessage) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "bad.nc", "G0 X0.5\nG7.7\nM30\n"), "");
+  const Json selected = client.call("select", {{"name", "bad.nc"}});
+  EXPECT_NE(selected["reply"]["text"].get<std::string>().find("refused by its check"), std::string::npos) << selected;
+  (void)start(&client);  // it may have come to its alarm already
+  const auto told = [this] {
+    for (const auto& said : runtime_->info().said)
+      if (said.text.find("bad.nc was refused by its check") != std::string::npos) return true;
+    return false;
+  };
+  until(&client, "status", [&](const Json&) { return told(); });
+  EXPECT_TRUE(told());
+}
+
+TEST_F(ProgramCheckOff, NothingIsCheckedBeforeSomebodyAsks) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "part.nc", "G0 X1.\nM30\n"), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "part.nc"}}), "");
+  EXPECT_EQ(client.call("programs.check", {{"name", "part.nc"}})["reply"]["state"], "unchecked");
+  EXPECT_EQ(start(&client), "");
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "part.nc"}}), "");
+  EXPECT_EQ(checked(&client, "part.nc")["state"], "passed");
+}
+
+TEST(ProgramCheckConfig, KnowsThreePolicies) {
+  EXPECT_EQ(parse_or_fail(base_toml()).services.check, rt::ProgramCheck::kRequired);
+  EXPECT_EQ(parse_or_fail(base_toml() + "[services]\ncheck = \"warn\"\ncheck_seconds = 5\n").services.check, rt::ProgramCheck::kWarn);
+  for (const char* bad : {"check = \"maybe\"", "check = true", "check_seconds = 0"}) {
+    rt::Config config;
+    EXPECT_FALSE(rt::parse_config(base_toml() + "[services]\n" + bad + "\n", "test.toml", &config).empty()) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace nc::test
