@@ -124,6 +124,13 @@ TEST(HxBlocks, TheEndOfAModalCallMayStandWhereThereIsNone) {  // 3.2: G67 is in 
   EXPECT_EQ(run.path(), (Path{"rapid 1 0 0", "rapid 2 0 0", "rapid 3 0 0"}));
 }
 
+TEST(HxBlocks, ThePlaneStaysUntilAMoveBehindTheEndOfCompensation) {  // as M700 App. 1 P112
+  const Outcome run = hx("G10 L12 P1 R2.\nG01 G41 D1 X10. F100\nX20.\nG40\nG18\nM30");
+  EXPECT_EQ(run.alarm_line, 5u);
+  EXPECT_EQ(run.alarm_detail, "The plane cannot be changed while tool radius compensation is on, nor behind G40 before the tool has moved.");
+  EXPECT_EQ(hx("G10 L12 P1 R2.\nG01 G41 D1 X10. F100\nX20.\nG40 X30.\nG18\nM30").alarm, "");
+}
+
 TEST(HxBlocks, AToolThatCallsIsWithinItsRange) {  // 10.1.1
   for (const char* block : {"T-5", "X5. T-5", "T100000000"}) {
     Bench b(NC_DIALECT_HX);

@@ -386,6 +386,9 @@ TEST(IsoRadius, BehindItsEndThePlaneIsFree) {
   EXPECT_EQ(bench.run("F100\nG41 D1 G1 X10\nX30\nG40\nG18\nG0 Z5\nX40 Y1\nM2").path(), (Path{"line 10 2 0 F100", "line 30 2 0 F100", "rapid 30 2 5", "rapid 40 1 5"}));
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1\nG40\nG18\nG2 X4 I2\nM2").alarm, "");
   EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nX30\nG40\nG18 G41 D1\nG1 X40\nX50\nM2").path().back(), "line 50 0 -2 F100");
+  for (const char* safe : {"G40 G54", "G54 G40 G17 G49 G80 G90"})  // RS-274/NGC 3.8: compensation is set before the coordinate system
+    EXPECT_EQ(bench.at(0, 0, 0).run(std::string("F100\nG41 D1 G1 X10\nX30\n") + safe + "\nG0 X40 Y0\nM2").path().back(), "rapid 40 0 0") << safe;
+  EXPECT_EQ(bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nG40 G18\nM2").alarm, "NC-OFFSET-CODE") << "the plane is set before both";
   const Outcome on = bench.at(0, 0, 0).run("F100\nG41 D1 G1 X10\nG18\nM2");
   EXPECT_EQ(on.alarm, "NC-OFFSET-CODE");
   EXPECT_EQ(on.alarm_detail, "The plane cannot be changed while tool radius compensation is on. Cancel it with G40 first.");

@@ -52,6 +52,7 @@ bool turns_one_way(const Dialect& dialect, const Fault&) {
   return std::none_of(dialect.misc.begin(), dialect.misc.end(), reverses) && std::none_of(dialect.outputs.begin(), dialect.outputs.end(), reverses);
 }
 bool of_unit(const Dialect& dialect, const Fault& fault) { return of<Function::inch>(dialect, fault) || of<Function::metric>(dialect, fault); }
+bool end_is_at_once(const Dialect& dialect, const Fault&) { return dialect.rules.compensation.end_is_at_once; }
 bool scaling_binds_plane(const Dialect& dialect, const Fault&) { return dialect.rules.scaling.binds_plane; }
 /// A code for machine coordinates that has no arcs (LinuxCNC G53), and one that has them (Series 8 G69).
 bool of_machine_line(const Dialect& dialect, const Fault& fault) {
@@ -178,7 +179,9 @@ constexpr Sentence kSentences[] = {
      "The plane cannot be selected while {rotation_on} rotates the coordinates. Select it before, or behind {rotation_off}.", nullptr},
     {C::space_conversion, "{rotation_on} with {vector_x}, {vector_y} and {vector_z} is the conversion in space, which this control does not have.", nullptr},
     {C::plane_in_compensation,
-     "The plane cannot be changed while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr},
+     "The plane cannot be changed while tool radius compensation is on. Cancel it with {comp_off} first.", nullptr, nullptr, end_is_at_once},
+    {C::plane_in_compensation,
+     "The plane cannot be changed while tool radius compensation is on, nor behind {comp_off} before the tool has moved.", nullptr},
     {C::arc_in_compensation_start,
      "Tool radius compensation can only start and end on a straight move ({rapid} or {linear}).", nullptr},
     {C::no_offset_number, "There is no offset number {value}.", "No offset number was given ({offset_number} or {length_number})."},

@@ -200,9 +200,9 @@ struct CompensationRules {
   /// The plane cannot be changed while compensation is on, nor directly behind its end (M700 App. 1 P112). Otherwise it is no fault to select
   /// the plane again (DGSHAPE G40-G42).
   bool plane_is_fixed;
-  /// Behind the code of its end compensation is off, and the plane free, also where the tool has not moved since (RS-274/NGC 3.5.10; LinuxCNC G40). Otherwise
-  /// plane_is_fixed acts until a movement (M700 App. 1 P112).
-  bool end_frees_plane = false;
+  /// The code of its end acts at once: behind it the plane is free, also where the tool has not moved since, and in its block so are the workpiece coordinate
+  /// systems (RS-274/NGC 3.5.10, 3.8: set behind it). Otherwise plane_is_fixed acts until a movement (M700 App. 1 P112), and the systems wait for the next block.
+  bool end_is_at_once = false;
   /// The codes of workpiece coordinate systems, of coordinate system setting and of data setting are faults while compensation is on (DGSHAPE
   /// G40-G42). M700 12.4.4 allows them.
   bool bars_systems_and_data;

@@ -47,7 +47,7 @@ Execution select_plane(BlockInHand& in, const FunctionRow& row) {
   const bool other = row.function != Function::plane_xy;
   if (other && state.comp.side != 0 && rules.compensation.xy_plane_only) return in.raise_code(Condition::plane_in_compensation, row);
   if (other && state.cycle.kind != CycleKind::none && rules.cycle.xy_plane_only) return in.raise_code(Condition::cycle_wrong_plane, row);
-  const bool ends_only = state.moves_since_comp_off == 0 && !rules.compensation.end_frees_plane;
+  const bool ends_only = state.moves_since_comp_off == 0 && !rules.compensation.end_is_at_once;
   if (changes && (state.comp.side != 0 || ends_only) && rules.compensation.plane_is_fixed)
     return in.raise_code(Condition::plane_in_compensation, row);
   state.modal.set(row);

@@ -55,7 +55,7 @@ inline constexpr Rules kRules = {
     .dwell = {.time_optional = false, .early_x_is_length = false, .longest_s = 1e6, .x_is_seconds = false, .refuses_axes = true},
     .compensation = {.xy_plane_only = false,  // LinuxCNC G41: G17 and G18
                      .plane_is_fixed = true,  // RS-274/NGC 3.5.10: no change of the plane
-                     .end_frees_plane = true,
+                     .end_is_at_once = true,
                      .bars_systems_and_data = true,  // RS-274/NGC 3.5.13, 3.5.18
                      .bars_reference_return = true,  // RS-274/NGC 3.5.8
                      .may_change_side = false,       // RS-274/NGC 3.5.10: an error while compensation is on

@@ -53,7 +53,7 @@ uint32_t tool_in_spindle(const BlockInHand& in) {
 }
 
 /// The word names an offset. Where the code without it means the tool in the spindle, so does 0 (LinuxCNC G41 D0, G43 H0).
-bool names_offset(const BlockContext& in, Role word, bool number_is_that_of_tool) {
+bool names_offset(const BlockInHand& in, Role word, bool number_is_that_of_tool) {
   return in.words.has(word) && !(number_is_that_of_tool && in.words.get(word) == 0);
 }
 

@@ -3,6 +3,8 @@
 #include "interpret/functions/functions.hpp"
 #include "interpret/program_map.hpp"
 
+#include <algorithm>
+
 namespace nc {
 
 /// A one-shot function, and a call, have words of their own: which code they belong to is not for this one to say.
@@ -10,9 +12,15 @@ void take_word_of_code(BlockInHand& in, Role word) {
   if (in.words.one_shot == nullptr && !has_words_of_call(in)) in.words.present &= ~in.set_of({word});
 }
 
+static bool ends_compensation_first(const BlockInHand& in) {
+  const auto ends = [](const FunctionRow* row) { return row->function == Function::comp_off; };
+  return in.dialect->rules.compensation.end_is_at_once && std::any_of(in.words.functions.begin(), in.words.functions.end(), ends);
+}
+
 Execution select_work_system(BlockInHand& in, const FunctionRow& row) {
   State& state = in.state;
-  if (in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, row);
+  const bool barred = in.dialect->rules.compensation.bars_systems_and_data && state.comp.side != 0;
+  if (barred && !ends_compensation_first(in)) return in.raise_code(Condition::not_in_compensation, row);
   const AxisVec zero_before = in.zero();
   if (row.function == Function::work_system) {
     const unsigned standard = Frames::kStandardSystems;
