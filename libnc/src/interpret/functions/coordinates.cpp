@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work coordinate systems G54-G59, G54.1; local system G52; coordinate system setting G92, preset G92.1.
+#include <algorithm>
+
 #include "interpret/functions/functions.hpp"
 #include "interpret/program_map.hpp"
-
-#include <algorithm>
 
 namespace nc {
 
