@@ -120,7 +120,7 @@ Answer Feeder::cancel_restart(const Command& command) {
 void Feeder::follow_restart() {
   for (GivenCode code; scan_->poll_given(&code);)
     if (code.system < systems_) restart_[code.system].given(code);
-  std::uint32_t searches = 0, bars = 0, stands = 0;
+  std::uint32_t searches = 0, found = 0, bars = 0, stands = 0;
   for (unsigned s = 0; s < systems_; ++s) {
     RestartDesk& desk = restart_[s];
     const bool searched = desk.searching();
@@ -133,10 +133,11 @@ void Feeder::follow_restart() {
       if (const nc_status status = nc_->select(s, system_[s].file); status < 0 && status != NC_E_STATE) system_[s] = {};
     }
     searches |= static_cast<std::uint32_t>(desk.searching()) << s;
+    found |= static_cast<std::uint32_t>(desk.status().phase == RestartPhase::kFound) << s;
     bars |= static_cast<std::uint32_t>(desk.bars()) << s;
     stands |= static_cast<std::uint32_t>(desk.status().phase == RestartPhase::kStands) << s;
   }
-  scan_->set_restart(searches, bars, stands);
+  scan_->set_restart(searches, found, bars, stands);
   const std::lock_guard lock(mutex_);
   for (unsigned s = 0; s < systems_; ++s)
     if (restart_[s].status().phase != RestartPhase::kNone) info_.system[s].restart = restart_[s].status();

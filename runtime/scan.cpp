@@ -287,7 +287,9 @@ Answer Scan::set_mode(Mode mode) noexcept {
 // all part systems (`all`) begins no program while one of them runs or is interrupted: a program that has ended meanwhile must not begin again just
 // because the program of another part system goes on. A start that names one part system begins its program even then.
 std::uint32_t Scan::ready_systems(std::uint32_t systems, bool all) const noexcept {
-  const std::uint32_t begins = head_with(mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded, all);
+  std::uint32_t begins = head_with(mode_ == Mode::kMdi ? kMdiLoaded : kPartLoaded, all);
+  // The program of another part system would begin at its head, in front of an operator who wants to come to a place without a movement.
+  if (const std::uint32_t found = begins & restart_found_.load(std::memory_order_acquire); found != 0 && all) begins = found;
   std::uint32_t goes_on = in_state(NC_STATE_HOLD) | in_state(NC_STATE_STOPPED);
   // In MDI the interrupted program of AUTO does not go on, but blocks of MDI begin in it, or go on.
   if (mode_ == Mode::kMdi && program_mode_ == Mode::kAuto) goes_on &= (mdi_waiting() & in_state(NC_STATE_STOPPED)) | (mdi_runs_ & ~mdi_beginning());

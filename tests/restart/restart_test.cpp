@@ -419,6 +419,29 @@ TEST_F(Restart, ChangedTablesForgetThePlace) {
   EXPECT_EQ(runtime->info().system[0].runs, 1u);
 }
 
+TEST_F(Restart, AStartOfAllPartSystemsBeginsNoOtherProgramAtItsHead) {
+  build("[[axis]]\nsystem = 2\nname = \"X\"\nmax_velocity = 200.0\nmax_acceleration = 2000.0\nmax_jerk = 50000.0\nsoft_limits = [-500.0, 500.0]\n");
+  select(kPart);
+  const std::string& text = texts.emplace_back("G90 G1 X5. F600.\nN2 X7.\nM30\n");
+  unsigned file = 0;
+  ASSERT_EQ(nc_program_add_text(runtime->control(), "second.nc", text.data(), text.size(), &file), NC_OK);
+  Command choose;
+  choose.kind = CommandKind::kSelectProgram;
+  choose.system = 1;
+  choose.number = file;
+  ASSERT_EQ(runtime->execute(choose), Answer::kDone);
+  ASSERT_EQ(runtime->find_restart(1, {RestartBy::kSequence, 2, 0, ""}), Answer::kDone);
+  ASSERT_TRUE(until([&] { return runtime->info().system[1].restart.phase == RestartPhase::kFound; }));
+  machine->path.clear();
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return runtime->info().system[1].restart.phase == RestartPhase::kStands; }));
+  steps(200);
+  EXPECT_EQ(out().state, NC_STATE_IDLE);
+  EXPECT_EQ(machine->path.size(), 1u);
+  EXPECT_EQ(start(), Answer::kRestartAxes);
+  EXPECT_EQ(out().state, NC_STATE_IDLE);
+}
+
 // Behind motion by hand in any block stop.
 TEST_F(Restart, AnAxisComesBackToThePathInABlockStop) {
   build();
