@@ -7,7 +7,7 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kSameEnd = 1e-6;  ///< mm: what is followed rests where the path ends
+constexpr double kSameEnd = 1e-6;  ///< mm: a law in phases that ends so near to the end of the path rests there
 
 }  // namespace
 

@@ -9,10 +9,10 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kNear = 1e-10;       ///< mm, by which a stop may miss its end at most
-constexpr double kSame = 1e-12;       ///< of a speed: rounding
-constexpr double kMoreJerk = 1.0005;  ///< of the limit: a state from which only such a stop leads to rest
-constexpr double kClose = 1e-14;      ///< of the distance
+constexpr double kNear = 1e-10;  ///< mm: a stop may miss its end by this much at most
+constexpr double kSame = 1e-12;  ///< two speeds that differ by this part of themselves are the same but for rounding
+constexpr double kMoreJerk = 1.0005;  ///< from a state that needs up to this many times the limit of the jerk to come to rest, only such a stop leads to rest
+constexpr double kClose = 1e-14;  ///< a length is found when it is known to this part of the distance
 constexpr unsigned kSteps = 100;
 
 /// The largest x in [low, high] with way(x) <= distance, where way grows and lies around it (regula falsi, Illinois).

@@ -7,34 +7,35 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kArc = 0.06;         ///< rad that a cell on an arc may turn
-constexpr double kRatio = 1.12;       ///< of the speeds at both ends of a cell: its jerk goes with the speed
+constexpr double kArc = 0.06;  ///< rad: a cell on an arc turns by no more
+constexpr double kRatio = 1.12;  ///< the speed at one end of a cell is at most this many times that at the other: the jerk in a cell goes with its speed
 constexpr double kRatioAlone = 1.04;  ///< the same on a line from rest to rest, where nothing else asks for cells
-constexpr double kLaunch = 4;         ///< periods that the cell next to rest takes
-constexpr double kLaunchSpeed = 0.5;  ///< of the speed and acceleration that the path allows
-constexpr unsigned kShorterLaunch = 12;  ///< times that it is made shorter
-constexpr double kCurvedLaunch = 0.125;  ///< of its length where the path bends
-constexpr double kShortLaunch = 0.025;   ///< of the window, at most
-constexpr double kGentle = 24;           ///< cells that the guess takes to leave the speed of the start
+constexpr double kLaunch = 4;  ///< the cell next to rest takes at most this many periods
+constexpr double kLaunchSpeed = 0.5;  ///< in the cell next to rest the tool comes to at most this part of the speed and acceleration that the path allows
+constexpr unsigned kShorterLaunch = 12;  ///< the cell next to rest is made shorter at most so often
+constexpr double kCurvedLaunch = 0.125;  ///< where the path bends, the cell next to rest has this part of its length
+constexpr double kShortLaunch = 0.025;  ///< the cell next to rest is at most this part of the window
+constexpr double kGentle = 24;  ///< the guess leaves the speed of the start within this many cells
 constexpr double kFeed =
     0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
 constexpr double kAtStart = 1.0012;   ///< a start at speed is given, and rows of other cells have let it pass
-constexpr double kRounding = 1e-12;  ///< of the length of the window
-constexpr double kBraking = 0.8;      ///< of the length in which a start that brakes would come to rest twice as fast
-constexpr unsigned kShorter = 100;     ///< times that a window is made shorter
-constexpr double kSameReach = 1e-9;   ///< mm: the path ends with a piece
-constexpr unsigned kNodesPerCell = 2;  ///< a cell has one period of the estimate, or a half more
-constexpr unsigned kShare = 8;         ///< one part of a window that has too many cells is left away
-constexpr double kSameCap = 1e-7;      ///< of a squared speed
-constexpr double kLevelUse = 0.9;      ///< of a limit, that the path itself may take where the speed is known to stay
-constexpr double kRampUse = 0.6;       ///< of the limits, with which such a speed is reached
-constexpr double kGentleLevel = 10;    ///< cells that the guess takes to come to it
-constexpr unsigned kFewestLevel = 8;   ///< cells in a row
+constexpr double kRounding = 1e-12;  ///< two places that are nearer to each other than this part of the length of the window are the same but for rounding
+/// The first cell of a start that brakes is at most this part of the length in which it would come to rest braking twice as hard.
+constexpr double kBraking = 0.8;
+constexpr unsigned kShorter = 100;  ///< a window is made shorter at most so often
+constexpr double kSameReach = 1e-9;  ///< mm: where the path ends so near to the end of a piece, it ends with the piece
+constexpr unsigned kNodesPerCell = 2;  ///< the estimate has so many nodes for each cell: a cell lasts one of its periods, or half a period more
+constexpr unsigned kShare = 8;  ///< a window with too many cells loses one part in so many
+constexpr double kSameCap = 1e-7;  ///< two bounds of the squared speed that differ by this part of themselves are the same
+constexpr double kLevelUse = 0.9;  ///< where the speed is known to stay, the path itself may take this part of a limit
+constexpr double kRampUse = 0.6;  ///< the guess comes to such a steady speed with this part of the limits
+constexpr double kGentleLevel = 10;  ///< the guess comes to a steady speed within this many cells
+constexpr unsigned kFewestLevel = 8;  ///< a steady speed is looked for where at least so many cells in a row allow the same
 constexpr double kSteep = 0.5;         ///< an estimate from rest that is flatter, speed times period by length, makes cells that grow by some percent each
-constexpr double kSlowest = 1e-3;    ///< mm/s, where nothing else bounds a cell from below
+constexpr double kSlowest = 1e-3;  ///< mm/s: the speed that a cell has at least in the estimate, where nothing else bounds it from below
 // Instructions: of a piece or a knot for each axis, on a polynomial and on another curve, of a step of the estimate, and of a cell.
 constexpr int64_t kPieceCost = 200, kCurveCost = 1500, kNodeCost = 60, kCellCost = 400, kLevelCost = 60;
-constexpr unsigned kNodesAtOnce = 256, kCellsAtOnce = 32, kKnotsAtOnce = 8;  ///< then others may have their turn
+constexpr unsigned kNodesAtOnce = 256, kCellsAtOnce = 32, kKnotsAtOnce = 8;  ///< how many are made before others may have their turn
 
 /// What the derivatives of an axis are measured by.
 double measure(const Limits& limits, unsigned i) {

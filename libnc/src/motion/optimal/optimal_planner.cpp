@@ -7,13 +7,14 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kPeriod = 0.005;      ///< s, of a cell
-constexpr double kHungry = 0.5;        ///< s of chain that are left when it is made longer
-constexpr double kPartLeft = 0.5;      ///< of what was made, where no more of the path could be gone through at once
-constexpr double kEnough = 1.0;        ///< s of chain that are made at once where there are many rests
-constexpr double kNew = 0.1;           ///< of the path that is left, what must have come before a law is solved for it
-constexpr double kLongestLead = 0.2;   ///< s
-constexpr double kDown = 1.06;         ///< of the squared speed of a stop, below which a lower feed is reached
+constexpr double kPeriod = 0.005;  ///< s that a cell lasts
+constexpr double kHungry = 0.5;  ///< the chain is made longer when it lasts for less, in s
+/// The chain is made longer when this part of what was made is left, where no more of the path could be gone through at once.
+constexpr double kPartLeft = 0.5;
+constexpr double kEnough = 1.0;  ///< s of chain that are made at once where there are many rests
+constexpr double kNew = 0.1;  ///< a law is solved anew when this part of the path that is left has been added to it
+constexpr double kLongestLead = 0.2;  ///< s: a law begins no farther ahead of the scan
+constexpr double kDown = 1.06;  ///< the way down to a lower feed has this many times the squared speed of the stop that was found last
 constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
 constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
@@ -21,7 +22,7 @@ constexpr uint32_t kRetry = 4;         ///< cells that the scan goes until a law
 constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law in phases goes where no other has been found so far
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
-constexpr double kTiny = 1e-9;         ///< mm
+constexpr double kTiny = 1e-9;  ///< mm: places that are nearer to each other are the same
 constexpr double kLeastPart = 0.25;    ///< of a cycle, that either part of a cell takes at least that is cut in two
 // Instructions: of a law in closed form, of a cell that is copied, and of one of the chain that is looked at.
 constexpr int64_t kLineCost = 15000, kCopyCost = 300, kChainCost = 20;

@@ -10,24 +10,24 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kLeastLength = 1e-6;  ///< mm, of what is left of a record
-constexpr unsigned kOfRing = 32;        ///< knots of the lines that the ring of records holds, at least
-constexpr unsigned kWorthwhile = 16;   ///< vertices that are waited for, at least, before a line is smoothed again
-constexpr unsigned kOfWaiting = 5;     ///< and that part of those that wait
+constexpr double kLeastLength = 1e-6;  ///< mm: what is left of a record is taken to be at least so long
+constexpr unsigned kOfRing = 32;  ///< the ring of records holds the lines for at least so many knots
+constexpr unsigned kWorthwhile = 16;  ///< a line is smoothed again when at least so many vertices more have come ...
+constexpr unsigned kOfWaiting = 5;  ///< ... and one for so many of those that wait already
 constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
-constexpr unsigned kFewest = 3;        ///< vertices that are smoothed at once, where more need too many knots
+constexpr unsigned kFewest = 3;  ///< where more vertices would need too many knots, fewer are smoothed at once, but at least so many
 constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
-constexpr unsigned kMostAtOnce = 512;  ///< pieces of one smoothing
-constexpr double kBeside = 1e-6;       ///< mm, and of the length: from a cusp
-constexpr double kLongestReach = 10;   ///< mm, of a transition
+constexpr unsigned kMostAtOnce = 512;  ///< one smoothing makes at most so many pieces
+constexpr double kBeside = 1e-6;  ///< a curve keeps away from its cusp by this much, in mm, or by this part of its length where it is longer than 1 mm
+constexpr double kLongestReach = 10;  ///< mm: a transition reaches no farther
 constexpr double kPeriodsApart = 1.5;  ///< periods of the feed from knot to knot, where the tolerance lets them be so far apart
 constexpr double kTurns = 50;          ///< rev/s, for such a spacing: the spindle may have another speed when the path is gone
-constexpr double kMostSpeed = 1e4;     ///< mm/s, whose knots are the farthest apart
-constexpr double kCollinear = 1e-9;    ///< |t2 - t1| of no corner, where lines are followed exactly
-constexpr double kSameSlope = 1e-6;    ///< of q' and of q'', by which pieces may differ where they meet
-constexpr double kRounding = 1e-14;    ///< of a place, which q'' has by the squared length of a piece
-constexpr double kLeastBend = 1;       ///< 1/mm, which the difference of q'' is measured by at least
-constexpr unsigned kRecords = 64;      ///< then others may have their turn
+constexpr double kMostSpeed = 1e4;  ///< mm/s: at a higher speed knots lie no farther apart
+constexpr double kCollinear = 1e-9;  ///< where |t2 - t1| is no larger than this there is no corner, and lines are followed exactly
+constexpr double kSameSlope = 1e-6;  ///< q' may differ by this much, and q'' by this part of itself, where pieces meet
+constexpr double kRounding = 1e-14;  ///< a place is rounded by this part of itself, which q'' shows divided by the square of the length of a piece
+constexpr double kLeastBend = 1;  ///< 1/mm: the difference of q'' is compared with at least so much
+constexpr unsigned kRecords = 64;  ///< records that are taken before others may have their turn
 // Instructions: of so many records, of a line that is gathered, of a curve and its transition, and of a piece that is given out.
 constexpr int64_t kRecordsCost = 2000, kLineCost = 150, kCurveCost = 40000, kPieceCost = 400;
 

@@ -8,11 +8,11 @@ namespace nc::optimal {
 namespace {
 
 constexpr double kShare = 0.3;       ///< of the axes' acceleration and jerk, with which the speed along the path changes: the bends need the rest
-constexpr double kNothing = 1e-9;    ///< of a derivative that is not there
-constexpr double kSlowest = 1e-6;    ///< mm/s
-constexpr double kFastest = 1e4;     ///< mm/s, where nothing limits
-constexpr unsigned kAtOnce = 32;     ///< pieces, then others may have their turn
-constexpr int64_t kBendCost = 70, kWayCost = 40;  ///< instructions of a piece: for each axis, and for each way
+constexpr double kNothing = 1e-9;  ///< is added to each derivative, so that nothing is divided by one that is 0
+constexpr double kSlowest = 1e-6;  ///< mm/s: no piece is slower, whatever its limits say
+constexpr double kFastest = 1e4;  ///< mm/s: no piece is faster, also where nothing limits it
+constexpr unsigned kAtOnce = 32;  ///< pieces that are looked at before others may have their turn
+constexpr int64_t kBendCost = 70, kWayCost = 40;  ///< instructions that a piece costs: for each axis, and for each way
 
 /// What the bends of one piece allow: the largest derivatives are at its ends.
 PieceSpeed bend_speed(const Piece& p, const Limits& limits, double turns) {

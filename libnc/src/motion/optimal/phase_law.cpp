@@ -7,19 +7,20 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kBend = 0.6;         ///< of the limits, that the bends may take where the speed changes
-constexpr double kHold = 0.98;        ///< and where it does not
-constexpr double kBendOfRest = 0.5;   ///< of the jerk that is left, that 3 q'' u' u'' may take
-constexpr double kTurn = 0.15;        ///< rad, of a stretch of a curve
-constexpr unsigned kMostParts = 64;   ///< of a piece
-constexpr unsigned kLooks = 4;        ///< parts of a stretch, between which its derivatives are looked at
-constexpr double kSameSpeed = 1.03;   ///< within that speeds are not worth a change
-constexpr double kNear = 1e-9;        ///< mm
-constexpr double kNearSpeed = 1e-9;   ///< of a speed
+constexpr double kBend = 0.6;  ///< the bends of the path may take this part of the limits where the speed changes ...
+constexpr double kHold = 0.98;  ///< ... and this part where the speed stays
+constexpr double kBendOfRest = 0.5;  ///< the term 3 q'' u' u'' may take this part of the jerk that the other terms leave
+constexpr double kTurn = 0.15;  ///< rad: a stretch of a curve turns by no more
+constexpr unsigned kMostParts = 64;  ///< a piece is cut into at most so many stretches
+constexpr unsigned kLooks = 4;  ///< the derivatives of a stretch are looked at between so many parts of it
+constexpr double kSameSpeed = 1.03;  ///< a speed that is higher by no more than this factor is not worth a change of the speed
+constexpr double kNear = 1e-9;  ///< mm: places that are nearer to each other are the same
+constexpr double kNearSpeed = 1e-9;  ///< speeds that differ by this part of themselves are the same
 constexpr unsigned kHalvings = 24;
-constexpr double kStart = 1.004;      ///< of the limits, that a start may use
-constexpr double kSlowerStart[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};  ///< of the speed that a start comes to by itself
-constexpr double kTurnsBack = 1.001;  ///< of the speed that is lost while the acceleration goes to 0
+constexpr double kStart = 1.004;  ///< a given start may use this many times what a stretch allows
+/// Parts of the speed that a start comes to by itself, which are tried one after the other.
+constexpr double kSlowerStart[] = {1, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05};
+constexpr double kTurnsBack = 1.001;  ///< a start must be faster by this factor than what it loses until its acceleration is 0
 constexpr double kWorthIt = 1.5;      ///< a speed that is higher by less is not gone to for a moment
 
 // Instructions: of a look at the derivatives of an axis of a polynomial and of another curve, to bound a stretch, to look for the slowest of

@@ -9,17 +9,17 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kPeriod = 0.005;       ///< s, of a cell
-constexpr double kMostSeconds = 2;      ///< of one law, where constant speed can be left away
-constexpr unsigned kMostCells = 1024;   ///< of one law; where it takes longer, they do
+constexpr double kPeriod = 0.005;  ///< s that a cell lasts
+constexpr double kMostSeconds = 2;  ///< s that one law lasts at most, where a part of constant speed can be left away
+constexpr unsigned kMostCells = 1024;  ///< cells that one law has at most; where it takes longer, they do
 constexpr unsigned kMostPieces = 512;
-constexpr double kSame = 1e-9;          ///< of directions and speeds
-constexpr double kEdge = 1e-9;          ///< mm, of a line
+constexpr double kSame = 1e-9;  ///< directions and speeds that differ by no more are the same
+constexpr double kEdge = 1e-9;  ///< mm: a line that is no longer than this is none
 constexpr unsigned kHalvings = 60;
-constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< of each phase
+constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< places of each phase that are looked at
 constexpr unsigned kBends = 32;         ///< places of a piece where its bends are looked at
 constexpr unsigned kCreepLooks = 16;    ///< and of each phase of a law along it
-constexpr unsigned kSlowerStill = 24;   ///< times that such a law is made twice as slow
+constexpr unsigned kSlowerStill = 24;  ///< a law along a bent piece is made twice as slow at most so often
 // Instructions: of a look at such a law for each axis, and of a cell that is written.
 constexpr int64_t kCreepCost = 30000, kCopyCost = 200, kEdgeCost = 1500;
 

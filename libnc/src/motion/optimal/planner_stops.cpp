@@ -9,18 +9,20 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kPeriod = 0.005;      ///< s, of a cell
-constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};  ///< of the distance that a stop takes on a line
+constexpr double kPeriod = 0.005;  ///< s that a cell lasts
+/// A stop is looked for at these many times the distance that a stop on a line takes.
+constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
-constexpr double kAtOnce = 1e-4;       ///< s: a stop that is as good as done
-constexpr double kHardlyLonger = 3;    ///< times as long as a stop on a line
+constexpr double kAtOnce = 1e-4;  ///< s: a stop that takes no longer is as good as done
+/// Where the end of what is planned is nearer than this many times the time of a stop on a line, there is no room for another stop.
+constexpr double kHardlyLonger = 3;
 constexpr double kFarthestAmid = 4;    ///< of that distance, from amid a cell: where none so short is found, one from its end may be shorter
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
 constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
-constexpr unsigned kNearer = 4;        ///< halvings between one that is too short and one that is not
-constexpr unsigned kStopSteps = 18;    ///< of the solver, after which there is none so short
+constexpr unsigned kNearer = 4;  ///< so often the distance between a stop that is too short and one that is not is halved
+constexpr unsigned kStopSteps = 18;  ///< the solver makes so many steps, after which there is no stop that is so short
 constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
-constexpr double kCloseStops = 1.02;   ///< within that distances are not worth one
+constexpr double kCloseStops = 1.02;  ///< the halving ends when the two distances differ by no more than this factor
 // Instructions: of a stop on a straight line, and of a record that is looked at.
 constexpr int64_t kLineCost = 15000, kRecordCost = 20;
 

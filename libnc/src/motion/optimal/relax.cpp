@@ -6,17 +6,17 @@
 namespace nc::optimal {
 namespace {
 
-constexpr unsigned kRounds = 2;       ///< the second with the speeds of the first one
-constexpr unsigned kSteps = 15;       ///< of a fit
-constexpr unsigned kMoreSteps = 10;   ///< of one whose places have been told to come nearer to the line
-constexpr unsigned kTrials = 12;      ///< until all cells are near enough
+constexpr unsigned kRounds = 2;  ///< rounds of the whole; the second one has the speeds of the first
+constexpr unsigned kSteps = 15;  ///< steps of a fit
+constexpr unsigned kMoreSteps = 10;  ///< steps of a fit whose places have been told to come nearer to the line
+constexpr unsigned kTrials = 12;  ///< trials that are made until all cells are near enough
 constexpr double kWorthwhile = 0.97;  ///< of the time of a run: less is not worth a path that uses more of the limits, since a hold stops later on it
-constexpr double kWithin = 0.96;      ///< of the tolerance, for the places of a fit
-constexpr double kTighter = 0.93;     ///< of that, in each trial
+constexpr double kWithin = 0.96;  ///< a fit keeps its places within this part of the tolerance ...
+constexpr double kTighter = 0.93;  ///< ... and within this part of that in each further trial
 constexpr double kBetween = 0.1;      ///< of the tolerance: a cell that bends by more between two places has twice as many
 constexpr unsigned kVertices = 8;     ///< of a cell that a fit looks at, at most; the look at its distance is at all of them
-constexpr unsigned kFewest = 8;       ///< control points that are worth a fit
-constexpr unsigned kCellsAtOnce = 8;  ///< then others may have their turn
+constexpr unsigned kFewest = 8;  ///< a fit is worth it for at least so many control points
+constexpr unsigned kCellsAtOnce = 8;  ///< cells that are looked at before others may have their turn
 constexpr unsigned kPlacesAtOnce = 64;
 // Instructions: to add a place; for each axis, to pass a place, to solve for a control point, and to measure the distance of a cell.
 constexpr int64_t kAddCost = 400, kPassCost = 30, kSolveCost = 40, kCellCost = 500;

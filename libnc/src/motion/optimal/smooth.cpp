@@ -9,19 +9,19 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kUse = 0.94;       ///< of the tolerance, that one corner is given
-constexpr double kUseTurn = 0.975;  ///< the same at a sharp corner, which is cut by a known depth
-constexpr double kSharp = 0.5;      ///< |t2 - t1| of a corner that always has its own knots
+constexpr double kUse = 0.94;  ///< one corner is given this part of the tolerance ...
+constexpr double kUseTurn = 0.975;  ///< ... and a sharp one this part, for it is cut by a depth that is known
+constexpr double kSharp = 0.5;  ///< a corner with |t2 - t1| above this always has its own knots
 constexpr double kAlone = 1.7;      ///< of its room, that a corner may ask for and is still one by itself, with what there is
 /// The same for one that is not sharp: lines that follow a curve within the tolerance have no such corners.
 constexpr double kAloneGentle = 0.95;
 constexpr double kApart = 0.1;      ///< of the reach of a corner, that its knots lie apart from others, at least
 constexpr double kShared = 1e-6;    ///< of it: a knot so near to its place is the last one, too
 constexpr double kHigh = 2;         ///< in tolerances: a sharp corner of shorter edges is what the lines are rough by
-constexpr double kStraight = 1e-9;  ///< |t2 - t1| of no corner
+constexpr double kStraight = 1e-9;  ///< where |t2 - t1| is no larger than this, there is no corner
 constexpr unsigned kFine = 8;       ///< more of them, where they leave it open
-constexpr double kRounding = 1e-11;  ///< of q'
-constexpr double kStraightEnd = 0.2; ///< of an edge, up to its first knot
+constexpr double kRounding = 1e-11;  ///< a difference of q' that is smaller is rounding
+constexpr double kStraightEnd = 0.2;  ///< the first knot lies no farther than this part of the first edge from its end
 constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
 constexpr unsigned kRounds = 40;
 constexpr unsigned kHangsOn = 3;    ///< cells on either side, whose knots make what a cell is
@@ -30,11 +30,11 @@ constexpr double kGrowth = 0.5;     ///< and by this much of the way more: where
 constexpr unsigned kRemembered = 4;  ///< cells that are known, the longest of which counts
 /// Times that a cell is halved until its control points lie on the line, where halving is known to end.
 constexpr unsigned char kFitted = 6;
-constexpr double kLeastSpacing = 0.005;  ///< mm, that a slow feed asks for
-constexpr double kShortestSpacing = 1e-4;  ///< mm, that short lines do
+constexpr double kLeastSpacing = 0.005;  ///< mm: a slow feed brings knots no nearer to each other ...
+constexpr double kShortestSpacing = 1e-4;  ///< mm: ... and short lines no nearer than this
 constexpr double kUseBorder = 0.9;  ///< of the tolerance, which a border is preferably no farther away from the line than
-constexpr unsigned kLast = 3;       ///< knots that belong to the end
-constexpr unsigned kFinal = 6;      ///< cells at the end that hang on the end
+constexpr unsigned kLast = 3;  ///< so many knots belong to the end of the line
+constexpr unsigned kFinal = 6;  ///< so many cells change when the end of the line does
 constexpr unsigned kBorders = 24;   ///< places that are looked at for such a one
 constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near to its end
 constexpr int64_t kPlaces = 256;    ///< and of places where the distance is measured

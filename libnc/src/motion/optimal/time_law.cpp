@@ -15,24 +15,24 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kGap = 4e-4;       ///< of the time, that the result may be longer than the optimum
+constexpr double kGap = 4e-4;  ///< a law may take longer than the shortest one by this part of its time
 constexpr double kGapOfDip = 1e-5;  ///< the same where the speed falls into a hole ...
-constexpr unsigned kDipSteps = 8;   ///< ... for which so many more steps are made, at most
-constexpr double kDip = 1.0 / 9;    ///< of b beside it, in which it is one
-constexpr double kInside = 0.999;   ///< of the limits, that the law may use: what is left makes the start of the next one an inside place
+constexpr unsigned kDipSteps = 8;  ///< ... for which at most so many more steps of the solver are made
+constexpr double kDip = 1.0 / 9;  ///< a cell is a hole when its b is less than this part of the b on both sides of it
+constexpr double kInside = 0.999;  ///< a law may use this part of the limits: what is left makes the start of the next law a place inside of them
 constexpr double kInsideCurve =
     0.996;  ///< the same of the jerk where the path bends: between the rows it may be a little more
-constexpr double kLeft = 0.2;     ///< of a slack or a multiplier, at least, after a step
+constexpr double kLeft = 0.2;  ///< a step leaves at least this part of each slack and of each multiplier
 constexpr double kFall = 0.2, kRise = 5;  ///< of a control value, after a step
 constexpr double kResidual = 0.003;
 constexpr double kSmallestSlack = 0.5;
-constexpr double kGapFirst = 0.4;      ///< of the time
-constexpr double kSlackAgain = 0.003;   ///< the same from a solution of nearly the same rows
+constexpr double kGapFirst = 0.4;  ///< the solver begins with a gap of this part of the time, shared by all rows
+constexpr double kSlackAgain = 0.003;  ///< the smallest slack where it begins from a solution of nearly the same rows
 constexpr double kGapAgain = 0.003;
 constexpr double kAlong = 2.5;         ///< times the acceleration and jerk that an axis would allow, at most, along the path
-constexpr double kLittle = 0.5;        ///< of a limit
-constexpr double kStartUse = 1.004;    ///< of the acceleration at a given start: nothing there can become less
-constexpr unsigned kAtOnce = 32;       ///< cells, then others may have their turn
+constexpr double kLittle = 0.5;  ///< an axis that can take no more than this part of a limit has no row for it
+constexpr double kStartUse = 1.004;  ///< a given start may use this many times the acceleration: nothing there can become less
+constexpr unsigned kAtOnce = 32;  ///< cells that are worked through before others may have their turn
 // Instructions: of a cell in a pass without axes and for each of them, to fill its rows, to begin with it and to end a step in it.
 constexpr int64_t kCellCost = 400, kAxisCost = 250, kFillCost = 200, kBeginCost = 150, kStepCost = 60;
 

@@ -7,18 +7,18 @@
 namespace nc::optimal {
 namespace {
 
-constexpr double kTangent = 1e-9;   ///< |q'| and length times |q''| of no step
-constexpr double kCut = 3.0 / 16;   ///< distance at the joint over reach times step of q'
-constexpr double kBow = 0.0108;     ///< largest distance over reach^2 times step of q''
-constexpr double kUse = 0.92;       ///< of the tolerance, to begin with
-constexpr double kUseMost = 0.97;   ///< of the tolerance, at any place that is looked at
-constexpr double kLess = 0.8;       ///< the next reach, when it was too long
+constexpr double kTangent = 1e-9;  ///< where |q'| and the length times |q''| change by no more than this at a joint, there is no step
+constexpr double kCut = 3.0 / 16;  ///< the distance at the joint divided by the reach times the step of q'
+constexpr double kBow = 0.0108;  ///< the largest distance divided by the square of the reach times the step of q''
+constexpr double kUse = 0.92;  ///< a transition is laid out for this part of the tolerance at first
+constexpr double kUseMost = 0.97;  ///< it may be away by this part of the tolerance at any place that is looked at
+constexpr double kLess = 0.8;  ///< where the reach was too long, the next one is this part of it
 constexpr unsigned kTries = 16;
-constexpr unsigned kLooks = 16;     ///< places on either side of the joint
+constexpr unsigned kLooks = 16;  ///< places on either side of the joint that are looked at
 constexpr unsigned kLooksTurn = 3;  ///< the same in each piece of a sharp corner
 constexpr double kBowOfTurn = 0.1;  ///< of the tolerance, that the step of curvature may take at a sharp corner
-constexpr double kShortest = 2e-6;  ///< mm
-constexpr double kCell = 0.125;     ///< of the length, that a cell of the time law may have
+constexpr double kShortest = 2e-6;  ///< mm: a transition is no shorter
+constexpr double kCell = 0.125;  ///< a cell of the time law has at most this part of the length
 
 double distance(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
   double sum = 0;

@@ -10,22 +10,22 @@ namespace nc::optimal {
 namespace {
 
 constexpr double kSpare = 1.3;
-constexpr double kFiner = 4;        ///< a short path from rest to rest has cells of this part, which it gains some percent by
-constexpr double kFinerAgain = 2;   ///< the same where a law was not found
-constexpr double kOfMost = 0.95;    ///< of the cells that a law may have, which it has then at most
-constexpr unsigned kTightened = 6;  ///< times that a law is corrected
-constexpr double kExcess = 1.0003;  ///< of a limit, that a law may use inside its cells
-constexpr double kLonger = 1.02;    ///< of the time of the law in phases, that another one may take
-constexpr double kOfPhases = 0.9;   ///< of the squared speed of that law, where another one begins with it
-constexpr double kGentle = 24;      ///< cells that this takes to leave the speed of the start
-constexpr double kMuchLonger = 4;   ///< the same of the estimate, where there is none
-constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< of the limits, for the law in phases
-constexpr double kTurning = 1e-9;    ///< mm/s: rounding
-constexpr double kAtEnd = 1e-10;     ///< mm: the same
-constexpr double kEnds = 1e-4;       ///< of the distance of two looks
-constexpr double kLongestPhases = 2;  ///< s, of a law in phases
+constexpr double kFiner = 4;  ///< a short path from rest to rest has cells of one part in so many of the usual length, which makes it faster by some percent
+constexpr double kFinerAgain = 2;  ///< the same for a path for which no law was found
+constexpr double kOfMost = 0.95;  ///< a mesh has at most this part of the cells that a law may have
+constexpr unsigned kTightened = 6;  ///< a law that exceeds a limit is corrected at most so often
+constexpr double kExcess = 1.0003;  ///< inside its cells a law may use this many times a limit
+constexpr double kLonger = 1.02;  ///< a law is good enough when it takes no more than this many times the time of the law in phases, or the estimate
+constexpr double kOfPhases = 0.9;  ///< another law that begins with the law in phases begins with this part of its squared speed
+constexpr double kGentle = 24;  ///< a law that begins with the law in phases leaves the speed of the start within this many cells
+constexpr double kMuchLonger = 4;  ///< where there is no law in phases, another one may take this many times the estimated time
+constexpr double kPhaseShares[] = {1, 0.9, 0.75, 0.5, 0.3, 0.1};  ///< parts of the limits that are tried for the law in phases
+constexpr double kTurning = 1e-9;  ///< mm/s: a speed below 0 by no more than this is 0 but for rounding
+constexpr double kAtEnd = 1e-10;  ///< mm: a law that ends so near to the end of its path ends there
+constexpr double kEnds = 1e-4;  ///< a look next to the end of a phase lies inside of it by this part of the distance between two looks
+constexpr double kLongestPhases = 2;  ///< s: a law in phases is no longer
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
-constexpr unsigned kAtOnce = 8;      ///< cells, then others may have their turn
+constexpr unsigned kAtOnce = 8;  ///< cells that are looked at before others may have their turn
 // Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
 constexpr int64_t kCubicCost = 800, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
