@@ -171,8 +171,14 @@ bool ChangeLog::add(Change change, std::string* error) {
     return false;
   }
   if (!turn(error)) return false;
-  if (write(file_, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && fdatasync(file_) == 0) return true;
-  *error = system_error(path_);
+  struct stat before {};
+  const bool known = fstat(file_, &before) == 0;
+  const ssize_t count = write(file_, line.data(), line.size());
+  if (count == static_cast<ssize_t>(line.size()) && fdatasync(file_) == 0) return true;
+  // Half of a line would run into the next one, and both would be lost.
+  const bool half = count >= 0 && count < static_cast<ssize_t>(line.size());
+  *error = half ? path_ + ": the disk is full" : system_error(path_);
+  if (half && (!known || ftruncate(file_, before.st_size) != 0)) *error += ", and half of a line is left";
   return false;
 }
 

@@ -3,7 +3,10 @@
 #include "runtime/services/program_store.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -218,6 +221,52 @@ TEST_F(Store, AFolderThatIsGoneIsSaid) {
   EXPECT_EQ(begin("a.nc", "abc").why, Refused::kNotFound);
   EXPECT_EQ(store_->list(call(Service::kPrograms, {})).why, Refused::kNotFound);
   EXPECT_EQ(remove("a.nc").why, Refused::kNotFound);
+}
+
+// A file system of its own with 64 KiB, in a process of its own, because that hides folders from all threads.
+int with_small_disk(const std::string& folder, int (*what)(const std::string& folder)) {
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr int kCannot = 77;
+    if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) _exit(kCannot);
+    (void)mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
+    if (mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=64k") != 0) _exit(kCannot);
+    _exit(what(folder));
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+class FullDisk : public Store {
+ public:
+  void TestBody() override {}
+  // The number of the first thing that is not as it should be; 0 = none.
+  int run(const std::string& folder) {
+    folder_ = folder;
+    store_ = std::make_unique<ProgramStore>(folder_, StoreLimits{1 << 20, 1 << 20, 100}, [this] { return use_; });
+    const std::string old(30'000, 'a');
+    if (!put("old.nc", old).ok) return 1;
+    // It is told before a byte has been sent, and nothing of it stays; what was there is there.
+    Outcome outcome = begin("new.nc", std::string(100'000, 'b'));
+    if (outcome.why != Refused::kNoSpace || outcome.text.find("full") == std::string::npos) return 2;
+    outcome = begin("old.nc", std::string(100'000, 'b'), true);
+    if (outcome.why != Refused::kNoSpace || content("old.nc") != old || files() != 1) return 3;
+    // What was begun has its room, whatever else comes.
+    const std::string small(8'000, 'c');
+    if (!begin("small.nc", small).ok) return 4;
+    std::ofstream(folder_ + "/other", std::ios::binary) << std::string(100'000, 'x');
+    if (!data(small, 0).ok || !finish().ok || content("small.nc") != small) return 5;
+    if (begin("more.nc", std::string(4'096, 'd')).why != Refused::kNoSpace || content("old.nc") != old) return 6;
+    // With room again it goes on.
+    std::filesystem::remove(folder_ + "/other");
+    return put("more.nc", std::string(500, 'd')).ok && content("old.nc") == old ? 0 : 7;
+  }
+};
+
+TEST_F(Store, AFullDiskIsToldBeforeAnythingIsSent) {
+  const int result = with_small_disk(folder_, [](const std::string& folder) { return FullDisk().run(folder); });
+  if (result == 77) GTEST_SKIP() << "no file system can be mounted here";
+  EXPECT_EQ(result, 0);
 }
 
 }  // namespace
