@@ -84,6 +84,8 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kEntry, "entry", Kind::kWhole, 1, 100, "", "number of an entry of the recovery list; all of them when it is not given"},
     {Field::kSpeed, "velocity", Kind::kNumber, 0, 1e6, "mm/s, deg/s", "velocity; the speed of jogs (plc.jog_feed) when it is not given or 0. To be repeated within 200 scans, else the axis stops"},
     {Field::kCheckSeconds, "seconds", Kind::kWhole, 1, 86400, "s", "processor time that the check may take; that of the configuration when it is not given"},
+    {Field::kVariableName, "name", Kind::kText, 0, 7, "", "name of the variable: capital letters and digits, a letter first; an empty one takes it away"},
+    {Field::kAll, "all", Kind::kFlag, 0, 1, "", "true: also the parameters that are not set"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -94,6 +96,7 @@ constexpr Wanted may(Field field) { return {field, false}; }
 constexpr Wanted kPage[] = {may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kHistoryArguments[] = {may(Field::kSince), may(Field::kUntil), may(Field::kEntryKind), may(Field::kUser), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kSystemPage[] = {may(Field::kSystem), may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kParametersArguments[] = {may(Field::kSystem), may(Field::kAll), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kReadArguments[] = {must(Field::kFile), must(Field::kBegin), must(Field::kBytes)};
 constexpr Wanted kLeaseOnly[] = {may(Field::kLease)};
 constexpr Wanted kCommandOnly[] = {may(Field::kSystem), may(Field::kLifespan)};
@@ -110,7 +113,7 @@ constexpr Wanted kSystemOnly[] = {may(Field::kSystem)};
 constexpr Wanted kSelectArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear)};
 constexpr Wanted kOffsetArguments[] = {must(Field::kOffset), must(Field::kAxis), must(Field::kValue), may(Field::kSystem)};
-constexpr Wanted kVariableArguments[] = {must(Field::kVariable), may(Field::kVariableValue), may(Field::kVacant), may(Field::kSystem)};
+constexpr Wanted kVariableArguments[] = {must(Field::kVariable), may(Field::kVariableValue), may(Field::kVacant), may(Field::kVariableName), may(Field::kSystem)};
 constexpr Wanted kBeginArguments[] = {must(Field::kFile), must(Field::kSize), must(Field::kHash), may(Field::kReplace)};
 constexpr Wanted kDataArguments[] = {must(Field::kUpload), must(Field::kBegin), must(Field::kData)};
 constexpr Wanted kUploadOnly[] = {must(Field::kUpload)};
@@ -307,10 +310,15 @@ constexpr ReplyRow kVariablesReply[] = {{"variables[].number", "whole", "number 
                                         {"variables[].value", "number", "its value"},
                                         {"variables[].name", "text", "its name, empty = none"},
                                         {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
-constexpr ReplyRow kParametersReply[] = {{"parameters[].key", "text", "number or name in the manual; those that are not set are not in the list"},
+constexpr ReplyRow kParametersReply[] = {{"parameters[].key", "text", "number or name in the manual"},
                                          {"parameters[].system", "whole", "part system, from 1"},
                                          {"parameters[].axis", "text", "name of the axis, empty = all axes"},
-                                         {"parameters[].value", "text", "in the manual's units"},
+                                         {"parameters[].value", "text", "in the manual's units, empty = not set"},
+                                         {"parameters[].set", "flag", "it has been set"},
+                                         {"parameters[].name", "text", "what it means; empty = nothing in the control asks for it"},
+                                         {"parameters[].values", "text", "unit and range, or the possible values; the one that holds while it is not set comes first"},
+                                         {"parameters[].by_axis", "flag", "may differ from axis to axis"},
+                                         {"parameters[].section", "text", "section of the manual"},
                                          {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the file"},
                                        {"programs[].size", "whole", "bytes"},
@@ -381,7 +389,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them"},
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
     {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
-    {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kSystemPage, kParametersReply, "the parameters that are set"},
+    {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kParametersArguments, kParametersReply, "the parameters that are set, or all of them, with their meaning and range"},
     {Service::kExport, "tables.export", Right::kView, Lane::kData, kNo, kExportArguments, kExportReply,
      "tool offsets, work offsets and common variables as TOML, as the executed blocks have left them; variables that are vacant are left out"},
     {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
@@ -426,7 +434,7 @@ constexpr ServiceRow kRows[] = {
 
     {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
     {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},
-    {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable, or makes it vacant"},
+    {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable or makes it vacant, and gives it a name"},
     {Service::kImport, "tables.import", Right::kSetUp, Lane::kData, kNo, kImportArguments, kDoneReply,
      "sets what the sections name and leaves everything else as it is. The whole text is checked before the first value is set, and it is one change"},
     {Service::kUndo, "undo", Right::kSetUp, Lane::kData, kNo, kUndoArguments, kDoneReply,

@@ -162,11 +162,19 @@ Outcome set_variable(Runtime* runtime, const Call& call, Change* change) {
   TableValue value;
   value.place.table = Table::kVariable;
   if (!system_of(*runtime, call, &value.place.system)) return no_system();
-  const bool vacant = call.has(Field::kVacant) && call.flag(Field::kVacant);
-  if (vacant == call.has(Field::kVariableValue)) return Outcome::refused(Refused::kMalformed, "variables.set needs a value, or vacant and no value");
+  const bool vacant = call.has(Field::kVacant) && call.flag(Field::kVacant), given = call.has(Field::kVariableValue), named = call.has(Field::kVariableName);
+  if ((vacant && given) || !(vacant || given || named)) return Outcome::refused(Refused::kMalformed, "variables.set needs a value, or vacant and no value, or a name");
   value.place.number = static_cast<std::uint32_t>(call.value(Field::kVariable));
-  if (!vacant) value.value = number_text(call.value(Field::kVariableValue));
-  return set(runtime, {value}, change);
+  if (given) value.value = number_text(call.value(Field::kVariableValue));
+  std::vector<TableValue> wanted;
+  if (vacant || given) wanted.push_back(value);
+  if (named) {
+    TableValue& name = wanted.emplace_back();
+    name.place.table = Table::kVariableName;
+    name.place.number = value.place.number;
+    name.value = call.words(Field::kVariableName);
+  }
+  return set(runtime, std::move(wanted), change);
 }
 
 Outcome set_parameter(Runtime* runtime, const Call& call, Change* change) {

@@ -10,6 +10,7 @@
 #include "nc/nc.h"
 #include "runtime/nc_system.hpp"
 #include "runtime/retain/variables.hpp"
+#include "runtime/services/parameter_meaning.hpp"
 #include "runtime/toml_reader.hpp"
 
 namespace nc::rt::services {
@@ -55,7 +56,10 @@ Outcome write_parameter(nc_control* control, const TablePlace& place, const std:
     case NC_OK: return Outcome::done();
     case NC_E_NOT_FOUND: return Outcome::refused(Refused::kNotFound, "there is no such parameter");
     case NC_E_MEMORY: return Outcome::refused(Refused::kState, "too many parameters are set");
-    default: return Outcome::refused(Refused::kState, "no such axis, or the value is out of the range of the parameter");
+    default: {
+      const std::string range = parameter_range_text(nc_control_dialect(control), place.key);
+      return Outcome::refused(Refused::kState, "no such axis, or the value is out of the range of the parameter" + (range.empty() ? "" : ": " + range));
+    }
   }
 }
 

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <set>
 
 #include "runtime/nc_system.hpp"
+#include "runtime/services/parameter_meaning.hpp"
 #include "runtime/services/table_toml.hpp"
 #include "runtime/services/table_values.hpp"
 #include "runtime/work_offset_name.hpp"
@@ -125,26 +127,36 @@ Outcome list_variables(Runtime* runtime, const Call& call) {
   });
 }
 
+// The parameters that are set, in the order of the control; with `all` those of the family's table that are not set behind them, without a value.
 Outcome list_parameters(Runtime* runtime, const Call& call) {
   unsigned system = 0;
   if (!system_of(*runtime, call, &system)) return no_system();
-  return look(runtime, [page = page_of(call), system](const nc_control* control) {
-    Json parameters = Json::array();
-    unsigned place = page.from, next = 0;
+  Outcome outcome = look(runtime, [system](const nc_control* control) {
+    Json set = Json::array();
     char key[24], text[64], axis = 0;
     double value = 0;
-    for (; nc_parameter_next(control, api_system(system), place, &place, key, &axis, &value, text) == NC_OK; ++place) {
-      if (parameters.size() == page.count) {
-        next = place;
-        break;
-      }
-      parameters.push_back({{"key", std::string(key)},
-                            {"system", system + 1},
-                            {"axis", axis != 0 ? std::string(1, axis) : std::string()},
-                            {"value", parameter_value(value, text)}});
-    }
-    return Json{{"parameters", std::move(parameters)}, {"next", next}};
+    for (unsigned place = 0; nc_parameter_next(control, api_system(system), place, &place, key, &axis, &value, text) == NC_OK; ++place)
+      set.push_back({{"key", std::string(key)}, {"axis", axis != 0 ? std::string(1, axis) : std::string()}, {"value", parameter_value(value, text)}, {"set", true}});
+    return set;
   });
+  if (!outcome.ok) return outcome;
+  const auto dialect = static_cast<nc_dialect>(runtime->config().nc.dialect);
+  Json rows = std::move(outcome.reply);
+  if (call.has(Field::kAll) && call.flag(Field::kAll)) {
+    std::set<std::string> set;
+    for (const Json& row : rows) set.insert(row["key"].get<std::string>());
+    for (const ParameterMeaning& meaning : parameter_meanings(dialect))
+      if (set.count(meaning.key.substr(0, meaning.key.find('/'))) == 0) rows.push_back({{"key", meaning.key}, {"axis", ""}, {"value", ""}, {"set", false}});
+  }
+  const Page page = page_of(call);
+  Json parameters = Json::array();
+  std::size_t at = page.from;
+  for (; at < rows.size() && parameters.size() < page.count; ++at) {
+    const ParameterMeaning meaning = parameter_meaning(dialect, rows[at]["key"].get<std::string>());
+    parameters.push_back(std::move(rows[at]));
+    parameters.back().update({{"system", system + 1}, {"name", meaning.name}, {"values", meaning.values}, {"by_axis", meaning.by_axis}, {"section", meaning.section}});
+  }
+  return Outcome::with({{"parameters", std::move(parameters)}, {"next", at < rows.size() ? at : 0}});
 }
 
 Outcome export_tables(Runtime* runtime, const Call& call) {

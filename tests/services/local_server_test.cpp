@@ -98,21 +98,23 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
   until(&client, "status", [](const Json& now) { return now["scan"] > 0; });
   ASSERT_EQ(client.outcome("variables.set", {{"number", 500}, {"value", 1.5}}), "");
   ASSERT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");
-  write_program("part.nc", "M30\n");
+  write_program("part.nc", "T1\nG0 X1.\nG7.7\nM30\n");
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "part.nc"}}), "");
+  until(&client, "programs.check", [](const Json& now) { return now["state"] == "refused"; }, {{"name", "part.nc"}});
   ASSERT_EQ(client.outcome("trace.arm", {{"signals", {"in0"}}, {"samples", 3}}), "");
   until(&client, "trace.status", [](const Json& now) { return now["state"] == "complete"; });
   for (const ServiceRow& row : service_table()) {
     if (row.right != Right::kView) continue;
     if (row.service == Service::kLadderRungs || row.service == Service::kLadderDevices || row.service == Service::kWatchBegin || row.service == Service::kWatchEnd) continue;  // this machine has no ladder: ladder_test.cpp
     SCOPED_TRACE(row.name);
-    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : Json::object());
+    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : row.service == Service::kProgramCheck ? Json{{"name", "part.nc"}} : Json::object());
     ASSERT_EQ(reply["ok"], true) << reply;
     std::set<std::string> known, found;
     for (const ReplyRow& member : row.reply) known.insert(member.path);
     test::collect_members(reply["reply"], "", &found);
     for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
     if (row.service == Service::kTools || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
-        row.service == Service::kPrograms || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kTraceSignals ||
+        row.service == Service::kPrograms || row.service == Service::kProgramCheck || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kTraceSignals ||
         row.service == Service::kTraceStatus || row.service == Service::kTraceRead || row.service == Service::kMachine) {
       EXPECT_EQ(found, known);
     }

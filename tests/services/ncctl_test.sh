@@ -122,6 +122,20 @@ said err "protected"
 expect 0 "$ncctl" programs protect flange.nc off
 expect 2 "$ncctl" start
 expect 0 "$ncctl" select flange.nc
+until_true says '^state +passed' "$ncctl" programs check flange.nc
+expect 0 "$ncctl" programs check flange.nc
+said out "NO PART IN THE CLAMP"
+said out "asks the machine"
+expect 0 "$ncctl" programs list
+grep -qE 'flange.nc.*passed' "$work/out" || { fail "the list does not show the check"; cat "$work/out"; }
+printf 'G0 X1.\nG7.7\nM30\n' >"$work/wrong.nc"
+expect 0 "$ncctl" programs put "$work/wrong.nc"
+expect 0 "$ncctl" select wrong.nc
+said out "wrong.nc line 2"
+expect 2 "$ncctl" start
+said err "refused by its check"
+expect 2 "$ncctl" programs check none.nc
+expect 0 "$ncctl" programs recheck flange.nc --seconds 5
 printf 'G54 G90 G1 X-50. F3000.\nG4 X60.\nM30\n' >"$work/long.nc"
 expect 0 "$ncctl" programs put "$work/long.nc"
 expect 0 "$ncctl" select long.nc

@@ -2,6 +2,7 @@
 // Tool offsets, work offsets, variables and parameters through the services: set, read, written down, kept, and refused while a program is in execution.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "services/local_machine.hpp"
@@ -139,6 +140,74 @@ TEST_F(TableServices, ListsComeInPages) {
   } while (from != 0);
   EXPECT_EQ(numbers.size(), config_.nc.tool_offsets);
   EXPECT_EQ(pages, (config_.nc.tool_offsets + 29) / 30);
+}
+
+TEST_F(TableServices, AVariableGetsAName) {
+  ServiceClient client(path_);
+  const auto name_of = [&] {
+    const Json reply = client.call("variables.list", {{"from", 501}, {"count", 1}})["reply"];
+    return reply["variables"][0]["name"];
+  };
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"value", 2.5}, {"name", "DEPTH"}}), "");
+  EXPECT_EQ(name_of(), "DEPTH");
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", "WIDTH"}}), "");
+  EXPECT_EQ(name_of(), "WIDTH");
+  EXPECT_EQ(variable(&client, 501), 2.5) << "a name alone leaves the value";
+  EXPECT_EQ(client.call("changes", {{"count", 1}})["reply"]["changes"][0]["what"], "name of #501");
+  ASSERT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(name_of(), "DEPTH");
+  EXPECT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", "depth"}, {"value", 9}}), "refused");
+  EXPECT_EQ(variable(&client, 501), 2.5) << "all of it or nothing";
+  EXPECT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", "TOOLONGA"}}), "malformed");
+  EXPECT_EQ(client.outcome("variables.set", {{"number", 501}}), "malformed");
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", ""}}), "");
+  EXPECT_EQ(name_of(), "");
+}
+
+TEST_F(TableServices, ParametersHaveTheirMeaningAndRange) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");
+  std::map<std::string, Json> all;
+  const Json set = client.call("parameters.list")["reply"]["parameters"];
+  for (const Json& row : set) EXPECT_EQ(row["set"], true);
+  unsigned pages = 0;
+  for (std::uint64_t from = 0; pages == 0 || from != 0; ++pages) {
+    const Json reply = client.call("parameters.list", {{"all", true}, {"from", from}, {"count", 50}})["reply"];
+    for (const Json& row : reply["parameters"]) {
+      EXPECT_TRUE(row["axis"] != "" || all.emplace(row["key"], row).second) << row["key"] << " is there twice";
+      EXPECT_EQ(row["set"] == false, row["value"] == "") << row;
+    }
+    from = reply["next"];
+  }
+  EXPECT_GT(pages, 2u);
+  EXPECT_EQ(all["1078"]["value"], "1");
+  EXPECT_EQ(all["1078"]["set"], true);
+  // As the table of the family says it.
+  unsigned seen = 0;
+  nc_parameter row;
+  for (unsigned i = 0; nc_parameter_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i) {
+    const std::string key = row.key != nullptr ? row.key : std::to_string(row.first) + (row.bit < 0 ? "" : "/bit" + std::to_string(row.bit));
+    if (all.count(key) == 0) continue;  // a bit of a parameter that is set
+    EXPECT_NE(all[key]["name"].get<std::string>().find(row.name), std::string::npos) << key;
+    EXPECT_EQ(all[key]["by_axis"], row.by_axis) << key;
+    EXPECT_EQ(all[key]["section"], row.section) << key;
+    EXPECT_EQ(all[key]["values"] == "", std::string(row.values).empty()) << key;
+    ++seen;
+  }
+  EXPECT_GT(seen, 50u);
+}
+
+TEST_F(TableServices, ARefusedParameterIsToldItsRange) {
+  ServiceClient client(path_);
+  const Json reply = client.call("parameters.set", {{"key", "1078"}, {"value", "77"}});
+  EXPECT_EQ(reply["error"], "refused");
+  nc_parameter row, found{};
+  for (unsigned i = 0; nc_parameter_row(NC_DIALECT_M700, i, &row) == NC_OK; ++i)
+    if (row.key == nullptr && row.first <= 1078 && row.last >= 1078) found = row;
+  ASSERT_NE(found.name, nullptr);
+  EXPECT_NE(reply["text"].get<std::string>().find(found.name), std::string::npos) << reply;
+  EXPECT_NE(reply["text"].get<std::string>().find("0"), std::string::npos) << reply;
+  EXPECT_EQ(client.outcome("parameters.set", {{"key", "nonsense"}, {"value", "1"}}), "not found");
 }
 
 }  // namespace
