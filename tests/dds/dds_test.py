@@ -77,6 +77,8 @@ programs = "."
 policy = "other"
 lock_memory = false
 overrun = "count"
+[services]
+check = "off"       # bad.nc is to come to its alarm
 [[axis]]
 name = "X"
 max_velocity = 200.0

@@ -6,5 +6,5 @@ set -euo pipefail
 completed() { COMP_WORDS=(ncctl "$@"); COMP_CWORD=$#; COMPREPLY=(); _ncctl; echo "${COMPREPLY[*]:-}"; }
 source "$NC_SOURCE_DIR/packaging/completion/ncctl"
 [ "$(completed sta)" = "start status" ] || { echo "FAILED: sta: $(completed sta)"; exit 1; }
-[ "$(completed --json programs re)" = "rename" ] || { echo "FAILED: programs re: $(completed --json programs re)"; exit 1; }
+[ "$(completed --json programs re)" = "recheck rename" ] || { echo "FAILED: programs re: $(completed --json programs re)"; exit 1; }
 [ "$(completed --socket /x mode m)" = "mdi manual" ] || { echo "FAILED: mode m: $(completed --socket /x mode m)"; exit 1; }
