@@ -420,7 +420,7 @@ namespace {
 /// a cylinder (6.9) on which a degree has that length.
 class InchDegrees {
  public:
-  InchDegrees(BlockContext& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
+  InchDegrees(InForce& in, unsigned h, unsigned v) : state_(in.state), kept_(in.state.map), special_(in.state.special) {
     const uint32_t plane = 1u << h | 1u << v, turning = in.rotary & plane;
     on_ = in.dialect->rules.arc.degree_is_tenth_of_inch && turning != 0 && turning != plane && in.state.modal.is(Function::inch) && !in.state.map.active();
     if (!on_) return;

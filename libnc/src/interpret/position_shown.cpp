@@ -15,11 +15,11 @@ AxisVec shown(const InForce& in, uint32_t axes, const AxisVec& position) {
 
 }  // namespace
 
-AxisVec work_shown(const BlockInHand& in, const AxisVec& work) {
+AxisVec work_shown(const InForce& in, const AxisVec& work) {
   // In the plane of G12.1 the rotary axis holds a length (M700 6.10).
   const uint32_t lengths = in.state.map.kind == AxisMap::Kind::polar ? 1u << in.state.map.rotary : 0u;
   return shown(in, in.settings.turning & ~lengths, work);
 }
-AxisVec machine_shown(const BlockInHand& in, const AxisVec& machine) { return shown(in, in.settings.machine_turn, machine); }
+AxisVec machine_shown(const InForce& in, const AxisVec& machine) { return shown(in, in.settings.machine_turn, machine); }
 
 }  // namespace nc

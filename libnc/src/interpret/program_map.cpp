@@ -71,19 +71,19 @@ Affine mirror_by_switch(const InForce& in) {
   return map;
 }
 
-Affine in_plane(const BlockInHand& in, const Affine::Angle& angle, const double center[2]) {
+Affine in_plane(const InForce& in, const Affine::Angle& angle, const double center[2]) {
   const PlaneAxes axes = plane(in);
   if (axes.h < 0 || axes.v < 0) return Affine{};
   return Affine::rotation(static_cast<unsigned>(axes.h), static_cast<unsigned>(axes.v), angle, center[0], center[1]);
 }
 
-Affine rotation_by_program(const BlockInHand& in) {
+Affine rotation_by_program(const InForce& in) {
   if (!in.state.rotated) return Affine{};
   const ProgramMaps& maps = in.records->maps;
   return in_plane(in, Affine::Angle::degrees(maps.rotation_deg), maps.rotation_center);
 }
 
-Affine turn_of_figure(const BlockInHand& in) {
+Affine turn_of_figure(const InForce& in) {
   if (!in_figure(in)) return Affine{};
   const Figure& figure = in.records->figure;
   return in_plane(in, Affine::Angle::radians(figure.angle), figure.center);

@@ -28,7 +28,7 @@ double position_read(const Interpreter& in, unsigned axis, double mm) {
 }
 
 /// A position, as a program reads it, of an axis that may be counted within one turn: 359.9999 is 0 where the unit is 0.001.
-using Shown = AxisVec (*)(const BlockInHand&, const AxisVec&);
+using Shown = AxisVec (*)(const InForce&, const AxisVec&);
 double shown_position(const Interpreter& in, unsigned axis, AxisVec position, Shown shown) {
   if (((in.rotary >> axis) & 1) != 0) position[axis] = position_read(in, axis, position[axis]);
   return position_read(in, axis, shown(in, position)[axis]);

@@ -73,7 +73,7 @@ void forget_hole_data(CycleState& c) {
   c.q = 0;
 }
 
-void begin_mode(BlockContext& in, unsigned axis) {
+void begin_mode(InForce& in, unsigned axis) {
   State& state = in.state;
   state.cycle.drill_axis = static_cast<uint8_t>(axis);
   state.cycle.initial_level = state.machine[axis] - state.applied[axis];
@@ -111,7 +111,7 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
 }
 
 /// RS-274/NGC 3.5.16: the axis that is normal to the plane drills, also where the plane has changed in the mode.
-Execution follow_plane(BlockContext& in) {
+Execution follow_plane(BlockInHand& in) {
   const int axis = drilling_axis(in);
   if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
   if (axis != in.state.cycle.drill_axis) begin_mode(in, static_cast<unsigned>(axis));

@@ -46,7 +46,7 @@ Execution take_words(BlockInHand& in, ExponentialWords* words) {
   return Execution::done;
 }
 
-Execution check_modes(BlockContext& in) {
+Execution check_modes(BlockInHand& in) {
   const State& state = in.state;
   if (state.high_speed == SpeedMode::accuracy_2) return in.raise_mode(Condition::illegal_g, Mode::motion);
   const bool length_starts = state.length_value != 0 && in.words.any({Role::length_number});

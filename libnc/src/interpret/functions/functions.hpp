@@ -40,8 +40,8 @@ Execution do_machine_move(BlockContext& in);       // reference.cpp
 void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes);
 void cancel_length_of(InForce& in, uint32_t axes);
 /// Positions as the counters show them (M700 14.13): interpret/position_shown.cpp.
-AxisVec work_shown(const BlockInHand& in, const AxisVec& work);
-AxisVec machine_shown(const BlockInHand& in, const AxisVec& machine);
+AxisVec work_shown(const InForce& in, const AxisVec& work);
+AxisVec machine_shown(const InForce& in, const AxisVec& machine);
 Execution do_skip(BlockContext& in);               // skip.cpp
 Execution skip_answered(BlockInHand& in);         // skip.cpp
 /// Where the amounts end that a program may give an offset of a tool, in mm. `column`: nc_tool_column.

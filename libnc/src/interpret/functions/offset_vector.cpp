@@ -13,7 +13,7 @@ namespace {
 /// What the block commands of its vector stands in the state while its movement is made, and nowhere else.
 class OfThisBlock {
  public:
-  explicit OfThisBlock(BlockContext& in) : comp_(in.state.comp) {}
+  explicit OfThisBlock(InForce& in) : comp_(in.state.comp) {}
   ~OfThisBlock() { comp_.has_vector = comp_.hold_vector = comp_.corner_arc = false; }
   OfThisBlock(const OfThisBlock&) = delete;
   OfThisBlock& operator=(const OfThisBlock&) = delete;

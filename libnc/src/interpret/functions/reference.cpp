@@ -23,13 +23,13 @@ void take_remembered_midpoints(InForce& in, AxisVec& mid, uint32_t& axes) {
 /// The area of G22 does not count for the moves that are made while this object exists (M700 15.7 (6)).
 class WithoutStrokeCheck {
  public:
-  explicit WithoutStrokeCheck(BlockContext& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
+  explicit WithoutStrokeCheck(InForce& in) : in_(in), box_(in.state.stroke_box) { in_.state.stroke_box = 0; }
   ~WithoutStrokeCheck() { in_.state.stroke_box = box_; }
   WithoutStrokeCheck(const WithoutStrokeCheck&) = delete;
   WithoutStrokeCheck& operator=(const WithoutStrokeCheck&) = delete;
 
  private:
-  BlockContext& in_;
+  InForce& in_;
   uint32_t box_;
 };
 

@@ -42,7 +42,7 @@ bool factors_of_axes(const BlockInHand& in, AxisVec& factors, Role* word) {
 
 }  // namespace
 
-Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockContext& in, ProgramMaps* maps)) {
+Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockInHand& in, ProgramMaps* maps)) {
   Command& w = in.words;
   const FunctionRow& row = *w.one_shot;
   const PlaneAxes plane = plane_axes(in);
@@ -65,7 +65,7 @@ Execution begin_map_about_zero(BlockContext& in, Role word, bool (*set)(BlockCon
 
 namespace {
 
-bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
+bool set_factor_of_plane(BlockInHand& in, ProgramMaps* maps) {
   const Command& w = in.words;
   double factor = 1;
   if (!in.dialect->rules.scaling.factor_of_word(w.get(Role::scaling_factor), w.pointed(Role::scaling_factor), in.dialect->rules.range, &factor)) return false;
@@ -79,7 +79,7 @@ bool set_factor_of_plane(BlockContext& in, ProgramMaps* maps) {
   return true;
 }
 
-bool set_turn_of_plane(BlockContext& in, ProgramMaps* maps) {
+bool set_turn_of_plane(BlockInHand& in, ProgramMaps* maps) {
   const Command& w = in.words;
   maps->rotation_deg = std::fmod(length_value(in, w.written(Role::rotation_angle), true, true), 360);
   maps->rotation_center[0] = maps->rotation_center[1] = 0;

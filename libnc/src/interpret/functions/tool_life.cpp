@@ -45,7 +45,7 @@ void clear_group(BlockContext& in, uint32_t group) {
     if (in.lives->tool[slot].group == group) clear_slot(in, slot);
 }
 
-Execution number_of(BlockContext& in, Role word, uint32_t least, uint32_t most, uint32_t* number) {
+Execution number_of(BlockInHand& in, Role word, uint32_t least, uint32_t most, uint32_t* number) {
   if (!in.words.has(word)) return in.raise(Condition::format_error, word);
   if (whole_number(in.words.get(word), number) && *number >= least && *number <= most) return Execution::done;
   return in.raise(Condition::value_range, word, in.words.get(word));
@@ -84,7 +84,7 @@ Execution take_group(BlockContext& in) {
 }
 
 /// T H D: the next tool of the group.
-Execution take_tool(BlockContext& in) {
+Execution take_tool(BlockInHand& in) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // another part system may register a tool in the same place
   const LifeInput& input = in.state.life_input;
   uint32_t tool = 0, length = 0, radius = 0;

@@ -16,7 +16,7 @@ constexpr ParameterOf kVectorV = {Parameter::work_turn_vector, 1};
 constexpr ParameterOf kAngle = Parameter::work_turn_angle;
 
 /// Stores a value in a parameter, rounded to nine decimals.
-bool store(BlockContext& in, ParameterOf parameter, double value) {
+bool store(BlockInHand& in, ParameterOf parameter, double value) {
   constexpr double kDecimals = 1e9;
   const double rounded = std::nearbyint(std::fabs(value) * kDecimals) / kDecimals;
   return in.set_parameter(parameter, value < 0 && rounded != 0 ? -rounded : rounded);
