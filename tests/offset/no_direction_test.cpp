@@ -129,6 +129,42 @@ TEST(WithoutDirection, OneThatOpensTheContourWaitsForABlockWithADirection) {
   EXPECT_NEAR(at[1], 3, 2 * kNanometre);
 }
 
+// A change of the amount in such a line takes place between the blocks around it: the one in front ends where the corner with its amount is, the one behind begins where the
+// corner with its own is, wherever the line leads.
+TEST(WithoutDirection, OneThatChangesTheAmount) {
+  const auto beside = [](double turn, double way, double before, double behind) {  // the end of the block in front, the start of the one behind
+    PathBuilder path(-80, 10);
+    path.side(1, before);
+    path.comp.check = true;
+    path.line(-60, 0).line(0, 0);
+    path.side(1, behind);
+    path.comp.check = true;
+    if (before != behind) path.by(kNanometre * std::cos(way), kNanometre * std::sin(way));
+    path.by(60 * std::cos(turn), 60 * std::sin(turn));
+    path.cancel().by(20, 20).end();
+    const std::vector<Item> out = run_stage(path);
+    EXPECT_EQ(alarm_of(out), nullptr) << turn << ' ' << way << ' ' << before;
+    std::pair<AxisVec, AxisVec> ends;
+    const uint32_t last = before != behind ? 4 : 3;
+    for (const Item& item : out) {
+      if (item.kind != ItemKind::move || item.move.connecting) continue;
+      if (item.source.line == 2) ends.first = item.move.end;
+      if (item.source.line == last) ends.second = item.move.start;
+    }
+    return ends;
+  };
+  for (double turn = -165; turn <= 150; turn += 15) {
+    for (double way = 0; way < 360; way += 22.5) {
+      for (const auto& [before, behind] : {std::pair{5.0, 4.0}, std::pair{4.0, 5.0}}) {
+        const double rad = std::numbers::pi / 180;
+        const auto ends = beside(turn * rad, way * rad, before, behind), first = beside(turn * rad, 0, before, before), last = beside(turn * rad, 0, behind, behind);
+        EXPECT_LE(apart(ends.first, first.first), 1e-5) << turn << ' ' << way << ' ' << before;
+        EXPECT_LE(apart(ends.second, last.second), turn < -90 ? behind + 1e-5 : 1e-5) << turn << ' ' << way << ' ' << before;  // of a lengthened corner with two amounts the last vector stays
+      }
+    }
+  }
+}
+
 // A change of side in such a line takes place between the blocks around it: its own direction would end the arc wherever it crosses it.
 TEST(WithoutDirection, OneThatChangesTheSide) {
   const auto ends = [](double tiny) {

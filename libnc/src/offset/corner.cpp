@@ -112,6 +112,21 @@ bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, do
   return norm(*w - center) < kNoDirection_mm;
 }
 
+// Two blocks with lines between them that have no direction, in which the amount changes: the first half of the corner that the amount in front of them makes, the
+// second half of the one of the amount behind them.
+bool joint_of_amount_change(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint) {
+  ContourJoint first, last;
+  if (!joint_in_mode(before, offset_before, delta_before, behind, offset_before, delta_behind, &first)) return false;
+  if (!joint_in_mode(before, offset_behind, delta_before, behind, offset_behind, delta_behind, &last)) return false;
+  const unsigned of_first = (first.n + 1) / 2;
+  joint->set({});
+  joint->n = 0;
+  for (unsigned k = 0; k < of_first; ++k) joint->v[joint->n++] = first.v[k];
+  for (unsigned k = last.n / 2; k < last.n; ++k) joint->v[joint->n++] = last.v[k];
+  joint->lengthened = first.lengthened && last.lengthened;
+  return true;
+}
+
 }  // namespace
 
 bool goes_round(const Move& move) {
@@ -206,6 +221,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     *joint = joint_of_side_change(before, offset_before, delta_before, behind, offset_behind, delta_behind);
     return true;
   }
+  if (offset_before != offset_behind) return joint_of_amount_change(before, offset_before, delta_before, behind, offset_behind, delta_behind, joint);
   // The vectors at the end of a block have the amount of that block (M700 12.4.5 (2)).
   const double o = offset_before;
   const Turn turn = classify(before, behind, o);

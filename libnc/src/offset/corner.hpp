@@ -110,7 +110,8 @@ inline bool offset_exists(const Leg& leg, double offset) {
 /// Vector to the intersection of two offset curves, the one nearest to the joint.
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w);
 
-/// The joint inside the mode. False: no intersection on the inner side (M700 12.4.1 (4)).
+/// The joint inside the mode. False: no intersection on the inner side (M700 12.4.1 (4)). The amounts are those in front of it and behind it: they differ where the amount
+/// changes in the joint itself, not along one of the blocks.
 /// The ways that the two blocks lead, `delta_before` and `delta_behind`, bound how much a change of side may cut off.
 bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint);
 

@@ -130,6 +130,7 @@ void OffsetStage::keep_state(Held* mark) {
   held.level = level_end_;
   held.approach = approach_;
   held.side_changed = side_changed_;
+  held.passed = held.passed || amount_changed_;  // read again from here, the block behind would go from one amount to the other
   held.given = given_ && open() == nullptr;
   held.in_contour = memory_.state().open;
   if (held.in_contour) contour_at(held) = memory_.state();
@@ -180,7 +181,7 @@ void OffsetStage::reset() {
   tail_ = chain_start_ = approach_ = vector_ = direction_ = Vec2{};
   start_commanded_ = out_commanded_ = true;
   start_erased_ = false;
-  trim_next_ = out_trim_ = bound_ = side_changed_ = false;
+  trim_next_ = out_trim_ = bound_ = side_changed_ = amount_changed_ = false;
   given_ = true;
   unchecked_ = false;
   turn_ = {};
@@ -345,7 +346,8 @@ void OffsetStage::intake_carried(Held* held) {
 bool OffsetStage::intake_without_direction(Held* held, double offset_before, Leg* begin, Leg* end) {
   const Move& move = held->item.move;
   const Vec2 delta = plane_delta(move);
-  const bool ordinary = move.comp.side == 0 || move.comp.transparent || move.comp.hold_vector || std::abs(signed_offset(move.comp)) != std::abs(offset_before);
+  const bool other_amount = std::abs(signed_offset(move.comp)) != std::abs(offset_before);
+  const bool ordinary = move.comp.side == 0 || move.comp.transparent || move.comp.hold_vector || (other_amount && open() == nullptr);
   if (ordinary || begin->curvature != 0 || norm(delta) >= kNoDirection_mm) return false;
   const Vec2 since_joint = approach_ + delta;
   if (norm(since_joint) >= kNoDirection_mm) {
@@ -353,6 +355,7 @@ bool OffsetStage::intake_without_direction(Held* held, double offset_before, Leg
     return false;
   }
   approach_ = since_joint;
+  amount_changed_ = amount_changed_ || other_amount;
   moved_ = true;
   idle_blocks_ = 0;
   held->role = Role::carried;
@@ -494,7 +497,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   if (!section.cancel && !section.start) {
     // It begins with the amount of the block before (M700 12.4.6).
     const Section* last = open();
-    const double offset_begin = last == nullptr ? section.offset : offset_on_side(last->offset, section.offset);
+    const double offset_begin = last == nullptr || amount_changed_ ? section.offset : offset_on_side(last->offset, section.offset);
     section.vanished = vanishes(begin, end, section.offset) || !offset_exists(begin, offset_begin);
   }
   if (!turn_fits(section)) return;
@@ -524,6 +527,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   }
   chain_.push_back();
   approach_ = {};
+  amount_changed_ = false;
   ++count_;
   // settle() compares its joints. Which sections it may let go depends on arcs that only the avoidance leaves out, so these are looked for first.
   unchecked_ = true;
@@ -565,9 +569,9 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
 }
 
 // False: there is no such joint.
-bool OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint) {
+bool OffsetStage::find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint) const {
   const bool cancels = comp_behind.side == 0;
-  const double offset_behind = cancels ? before.offset : offset_on_side(before.offset, behind.offset);
+  const double offset_behind = cancels ? before.offset : amount_changed_ ? behind.offset : offset_on_side(before.offset, behind.offset);
   if (before.start) {
     *joint = joint_at_start(before.end, behind.begin, offset_behind, comp_before.type_b);
   } else if (cancels && comp_behind.cancel_vector) {

@@ -149,7 +149,7 @@ class OffsetStage {
   bool look_at_step(const Held& held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
-  static bool find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint);
+  bool find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint) const;
   bool check_joints(unsigned last_call);
   bool look_at_left_out(unsigned sections);
   bool look_at_walls(unsigned sections);
@@ -206,6 +206,7 @@ class OffsetStage {
   bool unchecked_ = false;     ///< the last section has not been compared with those in front
   bool given_ = true;          ///< restored: the vector goes by no block behind it
   bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side
+  bool amount_changed_ = false;  ///< ... or the amount
   bool start_commanded_ = true;  ///< it may lie anywhere
   bool start_erased_ = false;    ///< ContourJoint::last_erased of the joint that it belongs to
   bool trim_next_ = false;       ///< restored: the section that comes
