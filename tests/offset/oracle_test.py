@@ -12,7 +12,7 @@ write them (cam_profiles.py). The programs run in contour_paths.cpp. Of each tha
   uncut    every point of the contour that GEOS' offset curve reaches is reached by the path
   open     the path has no gap and ends where the program says
 
-to a micrometre and the error of the fine polygons. Contours of which the tool reaches every block are asked the same without CONTOUR_CHECK: what is wrong at a corner must
+to a micrometre and the error of the fine polygons. Contours of which the tool reaches every block are asked for the gouge without CONTOUR_CHECK, too: what is wrong at a corner must
 not be left to it. Then the contour is mirrored, turned, scaled and run backwards, and the path has to follow. How
 many may end in an alarm is bounded for each kind of contour.
 
