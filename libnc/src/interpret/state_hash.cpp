@@ -151,6 +151,42 @@ class Hash {
     const auto& [deg, center, axis] = turn;
     add(deg, center, axis);
   }
+  void add_one(const WorkTurns& turns) {
+    const auto& [commanded, reached] = turns;
+    add(commanded, reached);
+  }
+  void add_one(const SwitchMirror& mirror) {
+    const auto& [center] = mirror;
+    add(center);
+  }
+  void add_one(const ReferenceMidpoints& midpoints) {
+    const auto& [axis] = midpoints;
+    add(axis);
+  }
+  void add_one(const SkipPosition& skip) {
+    const auto& [work, touched] = skip;
+    add(work, touched);
+  }
+  void add_one(const InterfaceOutput& output) {
+    const auto& [bits] = output;
+    add(bits);
+  }
+  void add_one(const WorkpieceCounts& workpieces) {
+    const auto& [count] = workpieces;
+    add(count);
+  }
+  void add_one(const InputAnswer& answer) {
+    const auto& [value] = answer;
+    add(value);
+  }
+  void add_one(const ShiftKept& kept) {
+    const auto& [at] = kept;
+    add(at);
+  }
+  void add_one(const StoredArea& area) {
+    const auto& [box] = area;
+    add(box);
+  }
   void add_one(const Loop& loop) {
     const auto& [offset, body, end, line, end_line, number] = loop;
     add(offset, body, end, line, end_line, number);
@@ -247,7 +283,7 @@ void add_parameters(Hash& hash, const Parameters& parameters) {
 void add_records(Hash& hash, const ProgramRecords& records) {
   {
     const auto& [modal_call, figure, interrupt, switch_mirror, selection, work_turn] = static_cast<const ProgramRecordsLife&>(records);
-    hash.add(modal_call, figure, interrupt, switch_mirror.center, selection, work_turn.commanded, work_turn.reached);
+    hash.add(modal_call, figure, interrupt, switch_mirror, selection, work_turn);
   }
   {
     const auto& [maps] = static_cast<const MapRecordsLife&>(records);
@@ -255,8 +291,7 @@ void add_records(Hash& hash, const ProgramRecords& records) {
   }
   {
     const auto& [midpoints, skip, output, workpieces, answer, shift_kept, area, tools] = static_cast<const MachineRecordsLife&>(records);
-    hash.add(midpoints.axis, skip.work, skip.touched, workpieces.count, answer.value, shift_kept.at, area.box, tools);
-    for (const InterfaceOutput& word : output) hash.add(word.bits);
+    hash.add(midpoints, skip, output, workpieces, answer, shift_kept, area, tools);
   }
 }
 
@@ -267,7 +302,8 @@ uint64_t state_hash(const Interpreter& in) {
   add_values(hash, in, in.state);
   add_calls(hash, in.state);
   add_values(hash, in, in.interrupted_state());
-  hash.add(in.state.executed);
+  const auto& [executed] = static_cast<const ModesInExecution&>(in.state);
+  hash.add(executed);
   hash.add(in.jobs.input_wait.left);  // a wait comes to its end, though nothing else changes
   add_variables(hash, in);
   for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));
