@@ -47,6 +47,7 @@ breaks 'a struct in a union grows' item.h 's/^(\} nc_move;)/  double later[40];\
 breaks 'a struct in a union grows within its room' item.h 's/^(\} nc_gate;)/  double later;\n\1/'
 breaks 'a callback that a struct holds has another parameter' vendor.h 's/(nc_inverse_kinematics\)\(void\* user, const nc_axes\* machine, nc_axes\* joint)/\1, int later/'
 breaks 'a callback that a function takes has another result' program.h 's/typedef long \(\*nc_read_at\)/typedef int (*nc_read_at)/'
+breaks 'a member that becomes a bit field' run.h 's/^  uint8_t strobe; /  uint8_t strobe : 4; /'
 passes 'an enumerator more' types.h 's/^(  NC_E_READ = -5)/\1,\n  NC_E_LATER = -6/'
 passes 'a function more' types.h 's/^(NC_API const char\* nc_status_text)/NC_API int nc_later(int what);\n\1/'
 passes 'an enumerator more of a type that a struct has as a byte' item.h 's/^(  NC_ITEM_END = 6)( .*)$/\1,\2\n  NC_ITEM_LATER = 7/'
