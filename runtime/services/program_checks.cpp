@@ -14,7 +14,7 @@ namespace nc::rt::services {
 namespace {
 
 constexpr auto kLookPeriod = std::chrono::milliseconds(500);  // how often the files of what was found are looked at
-constexpr int kLeastPriority = 19;
+constexpr int kLeastPriority = 10;
 
 bool is_unchanged(const CheckReport::File& file) {
   struct stat now {};
