@@ -92,7 +92,7 @@ const SignalRow kSignals[] = {
     {"block_stop", kBit, kFrom, kSystem, 0, 0, "stopped between two blocks: single block, M00, M01", "level",
      NC_READ { return state(image, s, NC_STATE_STOPPED); }, nullptr},
     {"stop_cause", kWord16, kFrom, kSystem, 0, 0,
-     "stopped by: 1 FIN, 2 dwell, 3 in position, 4 M00, 5 block, 6 hold, 7 interlock, 8 override, 9 starved, 10 alarm, 11 F1-F5 0, 12 spindle, "
+     "why: 1 FIN, 2 dwell, 3 position, 4 M00, 5 block, 6 hold, 7 interlock, 8 override, 9 starved, 10 alarm, 11 F1-F5 0, 12 spindle, "
      "13 angle, 14 thread, 15 servo, 16 tap, 17 unmeasured, 18 no law, 19 reset, 20 reversed, 21 in hole, 22 MDI, 23 dry 0, 24 restart",
      "level", NC_READ { return out(image, s).cause; }, nullptr},
 
