@@ -90,14 +90,26 @@ Condition round_on_side(const Side& before, const Side& behind, double radius, d
   return fits(before, behind, *taken);
 }
 
+/// By how much a rounding turns, 0 to a whole turn.
+double sweep_of(const Side& before, const Side& behind, const Taken& taken) {
+  const Vec2 from = point_along(before.leg, -taken.before), to = point_along(behind.leg, taken.behind);
+  const double sweep = taken.left * turned(from - taken.center, to - taken.center);
+  return sweep < -kNoTurn ? sweep + 2 * kPi : sweep;
+}
+
 /// The rounding lies on the side to which the path turns. At a cusp the tangents may tell one side of a gap of micrometres, behind which the blocks cross and
-/// lie apart on the other: there it is the side on which the rounding has room.
+/// lie apart on the other: there it is the side on which the rounding has room. A circle of about the radius of an arc may touch it where the gap ends, and turn
+/// by nothing there: the path would still turn back in one point, so at a cusp that is none.
 Condition round_between(const Side& before, const Side& behind, double radius, Taken* taken) {
   const double sine = sine_of_turn(before.leg, behind.leg), left = sine > 0 ? 1 : -1;
   const Condition bad = round_on_side(before, behind, radius, left, taken);
-  if (bad == Condition::none || !is_cusp(before.leg, behind.leg)) return bad;
-  if (round_on_side(before, behind, radius, -left, taken) == Condition::none) return Condition::none;
-  return std::abs(sine) < kNoTurn ? Condition::corner_reversal : bad;
+  if (!is_cusp(before.leg, behind.leg)) return bad;
+  const auto rounds = [&](const Taken& one) { return sweep_of(before, behind, one) * radius >= kNoDirection_mm; };
+  if (bad == Condition::none && rounds(*taken)) return Condition::none;
+  const Condition other = round_on_side(before, behind, radius, -left, taken);
+  if (other == Condition::none && rounds(*taken)) return Condition::none;
+  if (std::abs(sine) < kNoTurn) return Condition::corner_reversal;
+  return bad != Condition::none ? bad : other != Condition::none ? other : Condition::corner_reversal;
 }
 
 }  // namespace
@@ -139,8 +151,7 @@ Condition cut_arc_corner(const Move& first, const Move& next, unsigned axis_coun
   const Condition bad = round ? round_between(before, behind, first.corner_mm, &taken) : fits(before, behind, taken);
   if (bad != Condition::none) return bad;
   const Vec2 from = point_along(before.leg, -taken.before), to = point_along(behind.leg, taken.behind);
-  double sweep = taken.left * turned(from - taken.center, to - taken.center);
-  if (sweep < -kNoTurn) sweep += 2 * kPi;
+  const double sweep = sweep_of(before, behind, taken);
   if (round && sweep * first.corner_mm < kNoDirection_mm) return Condition::none;
   const unsigned h = first.plane_axis[0], v = first.plane_axis[1];
   for (unsigned i = 0; i < axis_count; ++i) {
