@@ -64,7 +64,7 @@ if(TARGET ncmon)
   nc_package_file(nc_tools share/man/man1 ${nc_packaging}/man/ncmon.1)
 endif()
 # A document leads to no other that its package does not have (tests/install/package_test.sh).
-foreach(name packaging ladder signals modbus gpio canopen homing safety connecting-a-machine services security dds macros parameters system-variables functions cycles motion motion-optimal high-accuracy benchmarks)
+foreach(name packaging ladder signals modbus gpio canopen homing safety restart connecting-a-machine services security dds macros parameters system-variables functions cycles motion motion-optimal high-accuracy benchmarks)
   if(EXISTS ${CMAKE_SOURCE_DIR}/docs/${name}.md)
     nc_package_file(ncrtd share/doc/ncrtd ${CMAKE_SOURCE_DIR}/docs/${name}.md)
   endif()

@@ -6,8 +6,8 @@ namespace nc::rt {
 namespace {
 
 // Of one step of the feeder, which has other work as well.
-constexpr std::uint32_t kBudget = 256;
-constexpr unsigned kCalls = 4;
+constexpr std::uint32_t kSearchBudget = 256;
+constexpr unsigned kSearchCalls = 4;
 
 // The alarm at which the program has stopped on its way to the place.
 std::string alarm_sentence(NcPort* nc, unsigned system) {
@@ -53,12 +53,12 @@ nc_status RestartDesk::begin(NcPort* nc, unsigned system, const nc_restart_place
 }
 
 bool RestartDesk::search(NcPort* nc, unsigned system) {
-  for (unsigned call = 0; call < kCalls; ++call) {
+  for (unsigned call = 0; call < kSearchCalls; ++call) {
     nc_restart_found place;
     nc_restart_found_init(&place);
-    const nc_status status = nc->restart_find(system, kBudget, &place);
+    const nc_status status = nc->restart_find(system, kSearchBudget, &place);
     if (status == NC_BUDGET) {
-      status_.read += kBudget;
+      status_.read += kSearchBudget;
       continue;
     }
     if (status == NC_OK) {
