@@ -10,6 +10,7 @@ time-optimal mode; then the path of its tool, as `ncsim trace` shows it, is run 
 """
 import argparse
 import json
+import math
 import os
 import subprocess
 import sys
@@ -21,6 +22,7 @@ import oracle_test  # noqa: E402
 
 NCSIM = os.path.join(os.environ.get("NC_BINARY_DIR", os.path.join(root, "build", "release")), "bin", "ncsim")
 MOST = 0.001
+SPIRAL = 0.001  # mm
 
 
 def seconds(folder, blocks):
@@ -32,7 +34,8 @@ def seconds(folder, blocks):
 
 
 def path_of(folder, blocks):
-    """The blocks of the tool's path without compensation; None where the contour ends in an alarm."""
+    """The blocks of the tool's path without compensation; None where the contour ends in an alarm, or has an amount that changes along an arc: the tool goes
+    on a spiral there, which G2 and G3 cannot say."""
     program = os.path.join(folder, "compensated.nc")
     with open(program, "w", encoding="ascii") as out:
         out.write("\n".join(["G17 G90 G21 G94", *blocks, "M30", ""]))
@@ -49,6 +52,9 @@ def path_of(folder, blocks):
         if event["kind"] == "rapid":
             path.append(f"G0 {words}")
         elif center:
+            radii = [math.hypot(point[0] - center["X"], point[1] - center["Y"]) for point in ((at["X"], at["Y"]), (to["X"], to["Y"]))]
+            if abs(radii[0] - radii[1]) > SPIRAL:
+                return None
             path.append(f"G{3 if event['dir'] == 'ccw' else 2} {words} I{center['X'] - at['X']:.9f} J{center['Y'] - at['Y']:.9f}{feed}")
         else:
             path.append(f"G1 {words}{feed}")
