@@ -2,8 +2,7 @@
 // The checks of programs before they may run: which program is checked next, what was found, and whether a cycle start may begin a program. How a
 // program is checked is not known here (tools/lib/program_check.hpp).
 //
-// The checks are made one after the other in a thread of their own, the most good-natured that the system has, with processor time that neither the scan
-// nor the feeder wants. What was found holds for the files that the check has read, as they were then: a change of one of them ends it.
+// The checks are made one after the other in a thread of their own that yields to the scan and, most of the time, to the feeder (nice 10). What was found holds for the files that the check has read, as they were then: a change of one of them ends it.
 #pragma once
 
 #include <sys/stat.h>

@@ -39,7 +39,7 @@ typedef struct nc_manual {
   double distance; /**< mm or deg, signed, -1e6..1e6 */
 } nc_manual;
 
-#define NC_SPINDLE_AGE_MAX 0.06 /**< greatest nc_inputs::spindle_age_s, s; with a cycle below 0.12 ms it is 500 cycles */
+#define NC_SPINDLE_AGE_MAX 0.06 /**< greatest nc_inputs::spindle_age_s, s. Of a cycle below 0.12 ms an age counts as 511 cycles at most */
 
 /** What is measured of a spindle. */
 typedef struct nc_spindle_inputs {

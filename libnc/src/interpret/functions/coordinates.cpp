@@ -12,6 +12,7 @@ void take_word_of_code(BlockInHand& in, Role word) {
   if (in.words.one_shot == nullptr && !has_words_of_call(in)) in.words.present &= ~in.set_of({word});
 }
 
+/// The block ends radius compensation, which acts in front of what else it says.
 static bool ends_compensation_first(const BlockInHand& in) {
   const auto ends = [](const FunctionRow* row) { return row->function == Function::comp_off; };
   return in.dialect->rules.compensation.end_is_at_once && std::any_of(in.words.functions.begin(), in.words.functions.end(), ends);
