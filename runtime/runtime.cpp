@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "hal/drive_fault.hpp"
+#include "runtime/alarm_message.hpp"
 #include "runtime/nc_system.hpp"
 #include "runtime/power/power_text.hpp"
 #include "runtime/retain/ladder_data.hpp"
@@ -345,32 +346,30 @@ Answer Runtime::execute(CommandKind kind, double value, std::uint32_t number) {
   return execute(command);
 }
 
+static Command command_of(CommandKind kind, unsigned system, std::uint32_t number = 0) {
+  Command command;
+  command.kind = kind;
+  command.system = static_cast<std::uint8_t>(system);
+  command.number = number;
+  return command;
+}
+
 Answer Runtime::load_mdi(const std::string& text, unsigned system) {
   const std::lock_guard lock(operator_);
   feeder_->set_mdi_text(text);
-  Command command;
-  command.kind = CommandKind::kLoadMdi;
-  command.system = static_cast<std::uint8_t>(system);
-  return execute_alone(command);
+  return execute_alone(command_of(CommandKind::kLoadMdi, system));
 }
 
 Answer Runtime::select_program(unsigned system, const std::string& name) {
   const std::lock_guard lock(operator_);
   feeder_->set_program_name(name);
-  Command command;
-  command.kind = CommandKind::kSelectProgram;
-  command.system = static_cast<std::uint8_t>(system);
-  command.number = kProgramByName;
-  return execute_alone(command);
+  return execute_alone(command_of(CommandKind::kSelectProgram, system, kProgramByName));
 }
 
 Answer Runtime::find_restart(unsigned system, const RestartWish& wish) {
   const std::lock_guard lock(operator_);
   feeder_->set_restart_wish(wish);
-  Command command;
-  command.kind = CommandKind::kFindRestart;
-  command.system = static_cast<std::uint8_t>(system);
-  return execute_alone(command);
+  return execute_alone(command_of(CommandKind::kFindRestart, system));
 }
 
 Answer Runtime::with_job(CommandKind kind, ControlJob job) {
@@ -526,9 +525,7 @@ std::string Runtime::alarm_text(const ActiveAlarm& alarm) const {
   if (alarm.id == AlarmId::kProgram) {
     const FeederInfo::System now = info().system[alarm.system];
     if (!now.alarm) return "program alarm";
-    std::string text = std::string(now.program_alarm.code) + " " + now.program_alarm.message;
-    if (now.program_alarm.detail.s[0] != 0) text += std::string(": ") + now.program_alarm.detail.s;
-    return text + place_text(now.program_alarm.source) + callers_text(now);
+    return std::string(now.program_alarm.code) + " " + alarm_message(now.program_alarm) + place_text(now.program_alarm.source) + callers_text(now);
   }
   const AlarmRow& row = alarm_row(alarm.id);
   const std::string code = alarm_code(alarm.id);

@@ -206,6 +206,8 @@ class Scan {
   Answer approach(const Command& command) noexcept;
   Answer approach_hindrance(unsigned system, unsigned axis) const noexcept;
   void follow_approach_button(unsigned system, unsigned axis, bool on, bool free) noexcept;
+  // What the buttons of motion by hand ask for, mm/s or deg/s, before the axis' own limit.
+  static double button_feed(const nc_axis_config& axis, const LadderRequests::System& now) noexcept { return now.rapid ? axis.rapid : std::max(0, now.jog_feed) / 60.0; }
   double approach_feed(unsigned system, unsigned axis, const LadderRequests& requests) const noexcept;
   void watch_approach(unsigned system, unsigned axis) noexcept;
   bool others_move(unsigned system, unsigned axis) const noexcept;

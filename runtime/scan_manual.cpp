@@ -151,7 +151,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
       const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
       const bool reference = ((now.reference & ~before.reference) >> a & 1u) != 0;
       const bool jogs = acts && direction != 0 && (button_refused_[s] >> a & 1u) == 0;
-      const double asked = now.rapid ? axis.rapid : std::max(0, now.jog_feed) / 60.0;
+      const double asked = button_feed(axis, now);
       if (direction != 0) {
         jog_asked_[s][a] = static_cast<std::int8_t>(direction);
         jog_without_feed_[s] = static_cast<std::uint8_t>(jog_without_feed_[s] | (asked > 0 ? 0u : 1u << a));

@@ -18,8 +18,8 @@ Answer Scan::restart_hindrance(std::uint32_t ready) const noexcept {
   return Answer::kDone;
 }
 
-// Each code with the scan in which its strobe comes on. A full queue loses codes: then the feeder has not run for hundreds of them, and what it knows of the
-// machine less of stays open.
+// Each code with the scan in which its strobe comes on. A full queue loses codes: the feeder has not run for hundreds of them, and their entries
+// of the recovery list stay open.
 void Scan::note_given() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     const nc_outputs& out = out_[s];
@@ -52,8 +52,7 @@ Answer Scan::approach_hindrance(unsigned system, unsigned axis) const noexcept {
 
 double Scan::approach_feed(unsigned system, unsigned axis, const LadderRequests& requests) const noexcept {
   const nc_axis_config& limits = config_.nc.system[system].axis[axis];
-  const LadderRequests::System& now = requests.system[system];
-  return std::min(now.rapid ? limits.rapid : std::max(0, now.jog_feed) / 60.0, limits.max_velocity);
+  return std::min(button_feed(limits, requests.system[system]), limits.max_velocity);
 }
 
 // The command of a client works like a button, as a jog does.

@@ -32,11 +32,14 @@ nanoseconds stamp_now() {
   return time_of(now);
 }
 
-// Compares also the time of the last change of the inode: a program such as cp -p or touch can set back the time of the content, but not this one.
+}  // namespace
+
 bool same_content(const struct stat& a, const struct stat& b) {
   return a.st_size == b.st_size && time_of(a.st_mtim) == time_of(b.st_mtim) && time_of(a.st_ctim) == time_of(b.st_ctim) &&
          a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
+
+namespace {
 
 // The time until the file has been unchanged for `quiet`; 0 when it has been. A time of the file that lies in the future is ignored.
 nanoseconds unrest(const struct stat& info, nanoseconds quiet) {

@@ -26,6 +26,10 @@
 
 namespace nc::rt {
 
+// Whether a file is the one that it was, unchanged. Compares also the time of the last change of the inode: a program such as cp -p or touch can set back the
+// time of the content, but not this one.
+bool same_content(const struct stat& a, const struct stat& b);
+
 class ProgramText {
  public:
   struct Options {

@@ -2,6 +2,8 @@
 // See desk.hpp.
 #include "runtime/restart/desk.hpp"
 
+#include "runtime/alarm_message.hpp"
+
 namespace nc::rt {
 namespace {
 
@@ -14,8 +16,7 @@ std::string alarm_sentence(NcPort* nc, unsigned system) {
   nc_alarm alarm;
   nc_alarm_init(&alarm);
   if (nc->alarm(system, &alarm) != NC_OK) return "the program has stopped with an alarm on the way there";
-  std::string text = "the program has stopped on the way there: " + std::string(alarm.code) + " " + alarm.message;
-  if (alarm.detail.s[0] != 0) text += std::string(": ") + alarm.detail.s;
+  const std::string text = "the program has stopped on the way there: " + std::string(alarm.code) + " " + alarm_message(alarm);
   return alarm.source.line == 0 ? text : text + " (line " + std::to_string(alarm.source.line) + ")";
 }
 

@@ -16,7 +16,7 @@ namespace nc::rt {
 
 class RestartDesk {
  public:
-  // Begins the search. `what` is the place in words, `program` the name of the program.
+  // Begins the search. `what` is the place in words.
   nc_status begin(NcPort* nc, unsigned system, const nc_restart_place& place, const nc_world& world, std::string what);
   // A slice of the search. True: it has ended without a place, and the program has to be read again from its head.
   bool search(NcPort* nc, unsigned system);

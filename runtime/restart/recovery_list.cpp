@@ -102,13 +102,20 @@ unsigned RecoveryList::open() const {
   return static_cast<unsigned>(std::count_if(entries_.begin(), entries_.end(), [](const RecoveryEntry& entry) { return entry.state == State::kOpen; }));
 }
 
-std::string recovery_text(const RecoveryEntry& entry) {
+std::string RecoveryList::text(const RecoveryEntry& entry) const {
   char text[64];
   constexpr const char* kLetters = "TBSM";  // in the order of Kind; the letter of the second auxiliary function depends on the machine
-  constexpr unsigned kFirstWord = 1132;
-  if (entry.kind == Kind::kOutputs) std::snprintf(text, sizeof text, "#%u bits %X = %X", kFirstWord + entry.word, entry.mask, entry.bits);
+  if (entry.kind == Kind::kOutputs) std::snprintf(text, sizeof text, " bits %X = %X", entry.mask, entry.bits);
   else std::snprintf(text, sizeof text, "%c%.10g", kLetters[static_cast<unsigned>(entry.kind)], entry.value);
-  return text;
+  return entry.kind == Kind::kOutputs ? word_name(entry.word) + text : text;
+}
+
+// The variable by which a program of the family writes a word of outputs; a family may write them by other means.
+std::string RecoveryList::word_name(std::uint32_t word) const {
+  nc_system_variable row = NC_INIT(nc_system_variable);
+  for (unsigned i = 0; nc_system_variable_row(dialect_, i, &row) == NC_OK; ++i)
+    if (row.role == NC_VARIABLE_OUTPUT_WORD && word >= row.word && word - row.word <= row.last - row.first) return "#" + std::to_string(row.first + word - row.word);
+  return "output word " + std::to_string(word);
 }
 
 }  // namespace nc::rt

@@ -32,7 +32,6 @@ class RecoveryList {
  public:
   // Stops and the end of a program are not in it, and of the codes that turn and stop the spindle only the newest.
   void begin(const nc_restart_found& found, nc_dialect dialect);
-  void clear() { entries_.clear(); }
   // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: a tool
   // change behind the start of the spindle. A code that only turns or stops the spindle opens only that of the spindle.
   void given(std::uint8_t group, double value);
@@ -43,8 +42,11 @@ class RecoveryList {
   void confirm_all();
   unsigned open() const;
   const std::vector<RecoveryEntry>& entries() const { return entries_; }
+  // "M6", "S1500", "#1132 bits 3 = 1" (hexadecimal)
+  std::string text(const RecoveryEntry& entry) const;
 
  private:
+  std::string word_name(std::uint32_t word) const;
   void given_m(double value);
   void compare(RecoveryEntry* entry, bool has);
   nc_code_role role_of(double code) const;
@@ -53,8 +55,5 @@ class RecoveryList {
   nc_dialect dialect_{};
   std::vector<RecoveryEntry> entries_;
 };
-
-// "M6", "S1500", "#1132 bits 0x3 = 0x1"
-std::string recovery_text(const RecoveryEntry& entry);
 
 }  // namespace nc::rt

@@ -8,20 +8,18 @@
 #include <algorithm>
 #include <chrono>
 
+#include "runtime/programs/program_text.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::services {
 namespace {
 
 constexpr auto kLookPeriod = std::chrono::milliseconds(500);  // how often the files of what was found are looked at
-constexpr int kLeastPriority = 10;
+constexpr int kNiceness = 10;  // below the feeder, which is an ordinary thread, and high enough to come to an end on a busy computer
 
 bool is_unchanged(const CheckReport::File& file) {
   struct stat now {};
-  if (stat(file.path.c_str(), &now) != 0) return false;
-  const auto same = [](const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; };
-  return now.st_dev == file.info.st_dev && now.st_ino == file.info.st_ino && now.st_size == file.info.st_size && same(now.st_mtim, file.info.st_mtim) &&
-         same(now.st_ctim, file.info.st_ctim);
+  return stat(file.path.c_str(), &now) == 0 && same_content(now, file.info);
 }
 
 }  // namespace
@@ -51,7 +49,7 @@ void ProgramChecks::stop() {
 // ---- the thread ----
 
 void ProgramChecks::work() {
-  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kLeastPriority);
+  (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   std::unique_lock lock(mutex_);
   while (!stop_) {
     if (waiting_.empty()) {

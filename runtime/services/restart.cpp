@@ -25,7 +25,7 @@ Json asked_json(std::uint32_t asked) {
 
 Json codes_json(const RecoveryList& list) {
   Json codes = Json::array();
-  for (const RecoveryEntry& entry : list.entries()) codes.push_back({{"entry", codes.size() + 1}, {"code", recovery_text(entry)}, {"state", recovery_state_text(entry.state)}});
+  for (const RecoveryEntry& entry : list.entries()) codes.push_back({{"entry", codes.size() + 1}, {"code", list.text(entry)}, {"state", recovery_state_text(entry.state)}});
   return codes;
 }
 

@@ -2,6 +2,7 @@
 // See alarm_entry.hpp.
 #include "runtime/share/alarm_entry.hpp"
 
+#include "runtime/alarm_message.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::share {
@@ -38,9 +39,7 @@ bool describe_alarm(const Runtime& runtime, const FeederInfo& info, const Active
   if (!info.system[alarm.system].alarm) return false;
   const nc_alarm& details = info.system[alarm.system].program_alarm;
   set_text(&entry->code, details.code);
-  std::string text = details.message;
-  if (details.detail.s[0] != 0) text += std::string(": ") + details.detail.s;
-  set_text(&entry->text, text);
+  set_text(&entry->text, alarm_message(details));
   if (details.source.line != 0) {
     entry->line = details.source.line;
     entry->program_number = details.source.program;

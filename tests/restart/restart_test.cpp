@@ -174,7 +174,7 @@ TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
     std::string all;
     const RestartStatus now = restart();
     for (const RecoveryEntry& entry : now.list.entries())
-      if (entry.state == RecoveryEntry::State::kOpen) all += recovery_text(entry) + " ";
+      if (entry.state == RecoveryEntry::State::kOpen) all += now.list.text(entry) + " ";
     return all;
   };
   EXPECT_EQ(open(), "T5 S1200 M6 M3 M8 ");
@@ -213,6 +213,27 @@ TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
   EXPECT_EQ(start(), Answer::kRestartAxes);
 }
 
+TEST(RecoveryNames, OutputsHaveTheNameOfTheFamily) {
+  const struct {
+    nc_dialect dialect;
+    unsigned word;
+    const char* text;
+  } rows[] = {{NC_DIALECT_M700, 1, "#1133 bits 3 = 1"},
+              {NC_DIALECT_HX, 1, "#7533 bits 3 = 1"},
+              {NC_DIALECT_ISO, 1, "#6132 bits 3 = 1"},
+              {NC_DIALECT_ISO, 0, "output word 0 bits 3 = 1"}};  // of that one it has the bits alone
+  for (const auto& row : rows) {
+    nc_restart_found found;
+    nc_restart_found_init(&found);
+    found.output_written[row.word] = 3;
+    found.output[row.word] = 1;
+    RecoveryList list;
+    list.begin(found, row.dialect);
+    ASSERT_EQ(list.entries().size(), 1u);
+    EXPECT_EQ(list.text(list.entries().front()), row.text);
+  }
+}
+
 TEST_F(Restart, TheListHasWhatCountsAndTheNewestOfTheSpindle) {
   build();
   select("T1\nS500 M3\nM5\nM0\nM6\nM1\nS800 M4\nM8\nM9\nM8\n#1100=1\nN9 G1 X1. F600.\nM30\n");
@@ -220,7 +241,7 @@ TEST_F(Restart, TheListHasWhatCountsAndTheNewestOfTheSpindle) {
   ASSERT_NO_FATAL_FAILURE(come_to_place());
   const RestartStatus now = restart();
   std::string all;
-  for (const RecoveryEntry& entry : now.list.entries()) all += recovery_text(entry) + "; ";
+  for (const RecoveryEntry& entry : now.list.entries()) all += now.list.text(entry) + "; ";
   EXPECT_EQ(all, "T1; S800; M6; M4; M9; M8; #1132 bits 1 = 1; ");
 }
 

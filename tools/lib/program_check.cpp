@@ -13,6 +13,7 @@
 #include <memory>
 #include <numbers>
 
+#include "runtime/alarm_message.hpp"
 #include "runtime/nc_system.hpp"
 #include "runtime/retain/tables.hpp"
 #include "runtime/retain/variables.hpp"
@@ -80,9 +81,7 @@ class CheckSink final : public RunSink {
     if ((what & kAsks) != 0) asks(source);
   }
   void alarm(const nc_alarm& alarm) override {
-    std::string text = alarm.message;
-    if (alarm.detail.s[0] != '\0') text += (text.empty() ? "" : ": ") + std::string(alarm.detail.s);
-    add({alarm.code, std::move(text), program_of(alarm.source), alarm.source.line});
+    add({alarm.code, rt::alarm_message(alarm), program_of(alarm.source), alarm.source.line});
   }
   bool stop() const override {
     if (++looks_ % kItemsPerLook != 0) return stopped_;
