@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of [[axis]]: homing, limit_switches, brake. See config_equipment.hpp, docs/homing.md.
+// Keys of [[axis]]: homing, limit_switches, brake; screw: config_screw.cpp. See config_equipment.hpp, docs/homing.md.
 #include "runtime/config_equipment.hpp"
 
 #include <algorithm>
@@ -169,6 +169,7 @@ void read_equipment(TableReader* axis, Config* config, unsigned s, unsigned a) {
     reader.number("close_s", &equipment.brake.close_s, 0, 10);
     if (config->nc.system[s].axis[a].spindle != 0) reader.error("point", "the axis is a spindle, whose servo goes off by itself");
   });
+  axis->table("screw", [&](TableReader& reader) { read_screw(&reader, config->nc.system[s].axis[a], &equipment.screw); });
 }
 
 void resolve_equipment(TableReader* root, Config* config) {

@@ -94,7 +94,7 @@ void read_axis(TableReader* reader, Config* config) {
   reader->number("following_error_limit", &entry.sim.following_error_limit, 0, kMaxLength);
   reader->number("unclamp_s", &entry.sim.clamp.unclamp_s, 0, 3600);
   reader->number("clamp_s", &entry.sim.clamp.clamp_s, 0, 3600);
-  for (const char* key : {"homing", "limit_switches", "brake"}) (void)reader->find(key);  // read_equipment() below
+  for (const char* key : {"homing", "limit_switches", "brake", "screw"}) (void)reader->find(key);  // read_equipment() below
   if (entry.axis.name == 0) return;
 
   const unsigned s = entry.system - 1;

@@ -415,7 +415,10 @@ void Scan::build_nc_inputs() noexcept {
     for (unsigned i = 0; i < alarms_.count; ++i) in.alarm |= stops_the_nc(alarms_.alarm[i]);
     in.skip = machine.skip;
     in.skip_latched = machine.skip_latched;
-    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) in.skip_place.v[a] = machine.skip_place.v[a] + axes_[s][a].shift + axes_[s][a].beside;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+      const AxisWork& axis = axes_[s][a];
+      in.skip_place.v[a] = machine.skip_place.v[a] - axis.screw.value() + axis.shift + axis.beside;
+    }
     in.unclamped = machine.unclamped;
     in.mirror = 0;
     in.feed_override = feed_override_[s];  // decide_overrides() may replace it

@@ -183,6 +183,7 @@ class Scan {
     bool locked = false;     // machine lock (scan_lock.cpp)
     double beside = 0;       // what was counted in it: machine position = drive + shift + that
     double held = 0;         // newest place that the drive was given
+    ScrewCompensation screw;  // what the drive is given beyond that; not in drive and held
     bool limit[2] = {};       // it stands on its switch in -, in +
     bool blind[2] = {};       // which cannot be read
     bool limit_told[2] = {};  // its alarm has been raised

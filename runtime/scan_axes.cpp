@@ -12,7 +12,9 @@ void Scan::create_axes() {
   for (unsigned s = 0; s < systems_; ++s) {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       axes_[s][a].drive = axes_[s][a].held = config_.start[s].v[a];
-      axes_[s][a].power.create(config_.equipment[s][a].brake);
+      const AxisEquipment& equipment = config_.equipment[s][a];
+      axes_[s][a].power.create(equipment.brake);
+      axes_[s][a].screw.create(equipment.screw, equipment.homing.mark(config_.nc.system[s].axis[a]), equipment.homing.mark_direction());
     }
   }
 }
@@ -31,13 +33,13 @@ bool Scan::is_on(const Contact& contact) const noexcept {
 // The machine has the places of its drives, everybody else those of the machine.
 void Scan::read_machine() noexcept {
   for (unsigned s = 0; s < systems_; ++s)
-    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) feedback_.system[s].actual.v[a] = axes_[s][a].drive;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) feedback_.system[s].actual.v[a] = axes_[s][a].drive + axes_[s][a].screw.value();
   hal_->read(&feedback_, &points_);
   for (unsigned s = 0; s < systems_; ++s) {
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       double& actual = feedback_.system[s].actual.v[a];
-      axes_[s][a].drive = actual;
-      actual += axes_[s][a].shift + axes_[s][a].beside;
+      axes_[s][a].drive = actual - axes_[s][a].screw.value();
+      actual = axes_[s][a].drive + axes_[s][a].shift + axes_[s][a].beside;
     }
   }
 }

@@ -66,7 +66,10 @@ void Scan::give_to_drive(unsigned s, unsigned a) noexcept {
   } else {
     axis.held = command - axis.beside;
   }
-  machine_.system[s].position.v[a] = axis.held;
+  const double before = axis.screw.value();
+  const double beyond = axis.screw.step(axis.held + axis.shift, axis.homed, out_[s].followed, config_.nc.cycle_s);
+  machine_.system[s].position.v[a] = axis.held + beyond;
+  machine_.system[s].velocity.v[a] += (beyond - before) / config_.nc.cycle_s;
 }
 
 void Scan::publish_lock(unsigned s, unsigned a) noexcept {
@@ -76,6 +79,7 @@ void Scan::publish_lock(unsigned s, unsigned a) noexcept {
   flags.locked |= static_cast<std::uint32_t>(axis.locked) << a;
   flags.beside |= static_cast<std::uint32_t>(std::abs(axis.beside) > kSamePlace) << a;
   flags.counted[a] = axis.beside;
+  flags.screw[a] = axis.screw.value();
 }
 
 }  // namespace nc::rt

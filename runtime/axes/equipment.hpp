@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands beside an axis on the machine, as the configuration says it: how it is homed, its limit switches, its brake. docs/homing.md.
+// What stands beside an axis on the machine, as the configuration says it: how it is homed, its limit switches, its brake, its screw. docs/homing.md.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include "nc/config.h"
 #include "nc/types.h"
+#include "runtime/axes/screw.hpp"
 
 namespace nc::rt {
 
@@ -42,6 +44,10 @@ struct HomingConfig {
   int request = -1, done = -1;  // of kDrive: the output point that asks for it, the input point that says that it is done
 
   bool present() const { return kind != HomingKind::kNone; }
+  // In which the axis goes over its mark, -1 or +1; without one it is taken to lie on the side in +.
+  int mark_direction() const { return kind == HomingKind::kSwitch ? direction : kind == HomingKind::kLimit ? -direction : 1; }
+  // Where its measuring system is set.
+  double mark(const nc_axis_config& axis) const { return axis.reference[0] - (kind == HomingKind::kDrive ? 0 : offset); }
   // Its position is lost with the power, and to be found again.
   bool forgets() const { return present() && kind != HomingKind::kAbsolute; }
 };
@@ -56,6 +62,7 @@ struct AxisEquipment {
   HomingConfig homing;
   Contact limit[2];  // in -, in +
   BrakeConfig brake;
+  ScrewConfig screw;
 };
 
 // Direction of a motion, -1 or +1, as a place in AxisEquipment::limit.
@@ -71,6 +78,7 @@ struct AxisFlags {
   std::uint32_t locked = 0;      // machine lock: its commands are counted, and its drive is not given them
   std::uint32_t beside = 0;      // what was counted in a machine lock is not where it stands
   double counted[NC_MAX_AXES] = {};  // so much, mm or deg
+  double screw[NC_MAX_AXES] = {};    // what its drive is given beyond the machine position for backlash and pitch, mm or deg
 };
 
 }  // namespace nc::rt

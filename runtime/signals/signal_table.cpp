@@ -210,6 +210,8 @@ const SignalRow kSignals[] = {
      NC_READ { return static_cast<std::int32_t>(image.feedback->system[s].drive_fault >> i & 1u); }, nullptr},
     {"position", kWord32, kFrom, kAxis, 0, 0, "measured machine position, 0.001 mm or 0.001 deg; in a machine lock where the axis stands, not what is counted", "every scan",
      NC_READ { return to_int((image.feedback->system[s].actual.v[i] - axes(image, s).counted[i]) * 1000); }, nullptr},
+    {"screw", kWord32, kFrom, kAxis, 0, 0, "what the drive is given beyond the machine position for backlash and pitch, 0.0001 mm or 0.0001 deg", "every scan",
+     NC_READ { return to_int(axes(image, s).screw[i] * 10000); }, nullptr},
     {"homed", kBit, kFrom, kAxis, 0, 0, "the axis knows where it stands: it has been homed, or needs no homing", "level",
      NC_READ { return flag(axes(image, s).homed, i); }, nullptr},
     {"all_homed", kBit, kFrom, kControl, 0, 0, "every axis does", "level", NC_READ { return image.status->all_homed; }, nullptr},
