@@ -64,6 +64,38 @@ TEST(Cusp, TheLastDigitsOfWordsDoNotMakeAnOuterCornerOfIt) {
   }
 }
 
+// Two arcs, back to back, which overlap beside the point in which they turn by less than half a micrometre: nothing that a tool could go round. It stays where it touches both.
+TEST(Cusp, ArcsThatOverlapByLessThanHalfAMicrometreAreAnInnerCorner) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(4000, 400);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double r1 = std::exp(between(std::log(0.5), std::log(50))), r2 = std::exp(between(std::log(0.5), std::log(50))), r = std::min({r1, r2, 4.0}) * between(0.1, 0.5);
+    const double tilt = std::sqrt(2 * between(0, 4.5e-4) * (1 / r1 + 1 / r2)), turned = between(-kPi, kPi), way = 4 * r + 5;
+    const auto at = [&](double h, double v) { return Point{std::cos(turned) * h - std::sin(turned) * v, std::sin(turned) * h + std::cos(turned) * v}; };
+    // The first circle lies above the corner and the second one below it; the way comes along the first and goes back along the second, with the tool between.
+    const double swing = 1, back = tilt - swing;
+    const double from_h = r1 * std::sin(swing), from_v = r1 - r1 * std::cos(swing), center_h = r2 * std::sin(tilt), center_v = -r2 * std::cos(tilt);
+    const double to_h = center_h - r2 * std::sin(back), to_v = center_v + r2 * std::cos(back);
+    const Point from = at(from_h, from_v), before = at(from_h + way * std::cos(swing), from_v + way * std::sin(swing));
+    const Point start = at(from_h + way * std::cos(swing) + 2 * r * std::sin(swing), from_v + way * std::sin(swing) - 2 * r * std::cos(swing));
+    const Point to = at(to_h, to_v), behind = at(to_h + way * std::cos(back), to_v + way * std::sin(back));
+    const Point end = at(to_h + way * std::cos(back) - 2 * r * std::sin(back), to_v + way * std::sin(back) + 2 * r * std::cos(back));
+    const Point i1 = at(-from_h, r1 - from_v), i2 = at(center_h, center_v);
+    PathBuilder path(start.h, start.v);
+    path.side(1, r);
+    path.line(before.h, before.v).line(from.h, from.v).arc(false, 0, 0, i1.h, i1.v).arc(false, to.h, to.v, i2.h, i2.v).line(behind.h, behind.v);
+    path.cancel().line(end.h, end.v).end();
+    const std::vector<Item> out = run_stage(path);
+    ASSERT_EQ(alarm_of(out), nullptr) << "seed " << seed;
+    const AxisVec place = at_block(out, path.start(), 3);
+    const Point c1 = at(0, r1);
+    ASSERT_NEAR(std::hypot(place[0] - c1.h, place[1] - c1.v), r1 + r, 1e-6) << "seed " << seed;
+    ASSERT_NEAR(std::hypot(place[0] - i2.h, place[1] - i2.v), r2 + r, 1e-6) << "seed " << seed;
+    ASSERT_GT(std::cos(turned) * place[0] + std::sin(turned) * place[1], r) << "seed " << seed;
+  }
+}
+
 // A spike of a third of a degree, one side of which bends to the other: there is room between the two, and the tool goes round the tip.
 TEST(Cusp, ASpikeIsAnOuterCorner) {
   const double angle = 0.006, radius = 1000, i = -radius * std::sin(angle), j = radius * std::cos(angle), along = 10 / radius;

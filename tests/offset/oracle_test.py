@@ -332,6 +332,8 @@ def reaches_every_block(contour):
     """Does the tool touch each block of the contour, as it goes round it in one piece? Then no block is in the way of another one, and all that the control has to get right is the corners."""
     if isinstance(contour, Profile) and (contour.cross is not None or len(contour.cuts) > 1):
         return False
+    if not contour.wall().is_simple:
+        return False  # blocks that cross each other have no side on which nothing is in the way
     curve = None if contour.other else reached(contour, contour.radius, contour.inside, 0, lengthened_arcs(contour, contour.radius, contour.inside))
     if curve is None or isinstance(curve, str) or curve.is_empty:
         return False
@@ -339,10 +341,27 @@ def reaches_every_block(contour):
     return touches(contour.elements[0].start) and all(e.length() < NO_DIRECTION or any(touches(e.at(part / 40)[0]) for part in range(41)) for e in contour.elements)
 
 
+def beside(element, move, radius):
+    """The parts of a move on which the tool touches its own block. On the others it goes round a corner, on sides that 12.4.1 lengthens; what else stands there is for CONTOUR_CHECK."""
+    points, block = move.points(), LineString(element.points())
+    parts, last = [], False
+    for one, other in zip(points, points[1:]):
+        pieces = max(1, math.ceil(math.hypot(other[0] - one[0], other[1] - one[1]) / (radius / 20)))
+        for n in range(pieces):
+            ends = [(one[0] + (other[0] - one[0]) * part / pieces, one[1] + (other[1] - one[1]) * part / pieces) for part in (n, n + 1)]
+            touches = all(block.distance(Point(end)) <= radius + TOLERANCE for end in ends)
+            if touches and last:
+                parts[-1].append(ends[1])
+            elif touches:
+                parts.append(ends)
+            last = touches
+    return parts
+
+
 def judge_blocks(contour, result):
     """The contour without its ways in and out and the two blocks that these lead to: what they pass there is for CONTOUR_CHECK."""
-    lines = contour.lines_of[1:-1]
-    paths = [(block, LineString(move.points())) for block, move, *_ in result.moves if lines and lines[0] <= block <= lines[-1] and move.length() > 1e-9]
+    elements = dict(list(zip(contour.lines_of, contour.programmed))[1:-1])
+    paths = [(block, LineString(part)) for block, move, *_ in result.moves if block in elements and move.length() > 1e-9 for part in beside(elements[block], move, contour.radius)]
     return judge_gouge(paths, contour.wall(), contour.radius) if paths else None
 
 

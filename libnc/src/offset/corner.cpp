@@ -10,10 +10,11 @@ namespace nc {
 namespace {
 
 constexpr double kSmallTurn = 1e-6;   // rad: below it two tangents count as one direction
-constexpr double kCusp = 1e-2;        // sine below which a turn back may be a cusp, depending on the curvatures
+constexpr double kCusp = 0.1;         // sine below which a turn back may be a cusp, depending on the curvatures
 // Where the tangents of a cusp tell another side than its curvatures do, the blocks overlap behind it until they cross, sin^2 / 2 (k + k') at most. What the last of three
-// digits makes, of the ends of lines that are long enough for the tool and of centres, is less than this.
-constexpr double kOverlap_mm = 2e-5;
+// digits makes, of the ends of lines that are long enough for the tool and of centres, is less than 20 nm. Round the point of a larger overlap the tool would go, too, and
+// then through both blocks; below what is no direction of a line it is no place that a tool could go round.
+constexpr double kOverlap_mm = kNoDirection_mm;
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
