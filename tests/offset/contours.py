@@ -130,7 +130,7 @@ def slot(rng, r):
 
 
 def rounded_plate(rng, r):
-    """Corner radii about that of the tool, convex or concave corners."""
+    """Corner radii about that of the tool, convex or concave corners, at any angle."""
     radius = r * rng.choice([1, 1, 0.999, 1.001, 0.5, 2])
     a, b = rng.uniform(3, 30) + 2 * radius, rng.uniform(3, 20) + 2 * radius
     elements, concave = [], rng.random() < 0.4
@@ -145,7 +145,15 @@ def rounded_plate(rng, r):
         nx, ny, nk = at[(i + 1) % 4]
         nd = ways[nk]
         elements.append(Element(behind, rounded((nx - nd[0] * radius, ny - nd[1] * radius))))
-    return elements
+    return turned(rng, elements) if rng.random() < 0.7 else elements
+
+
+def turned(rng, elements):
+    """By any angle, with each word rounded to three, four or six digits: arcs of the tool's radius have it but for the last digit, and what touches does so but for that, too."""
+    angle, digits = rng.uniform(-math.pi, math.pi), rng.choice([3, 4, 6])
+    c, s = math.cos(angle), math.sin(angle)
+    place = lambda p: (round(c * p[0] - s * p[1], digits), round(s * p[0] + c * p[1], digits))
+    return [Element(place(e.start), place(e.end), e.center and place(e.center), e.ccw) for e in elements]
 
 
 def nearly_round(rng, r):

@@ -105,12 +105,11 @@ bool meet_behind_cusp(const Leg& before, const Leg& behind, double offset, Vec2*
 }
 
 // Of an arc whose radius is the amount there is no more than a point, its centre, and rounding decides whether that lies on the other curve. It does as far as the
-// words can tell: the vector leads to the place of the other curve beside it.
-bool meets_in_a_point(const Leg& arc, double offset_of_arc, const Leg& other, double offset, Vec2* w) {
-  if (arc.curvature == 0 || !(std::abs(1 / arc.curvature - offset_of_arc) < kNoDirection_mm)) return false;
-  const Vec2 center = (1 / arc.curvature) * left_of(arc.u);
-  *w = nearest_on_curve(other, offset, center);
-  return norm(*w - center) < kNoDirection_mm;
+// words can tell. The vector leads to the centre, from which the tool touches all of the arc.
+bool meets_in_a_point(const Leg& arc, const Leg& other, double offset, Vec2* w) {
+  if (!is_point(arc, offset)) return false;
+  *w = (1 / arc.curvature) * left_of(arc.u);
+  return norm(nearest_on_curve(other, offset, *w) - *w) < kLastDigit_mm;
 }
 
 // Two blocks with lines between them that have no direction, in which the amount changes: the first half of the corner that the amount in front of them makes, the
@@ -232,11 +231,11 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     joint->set(w);
     return true;
   }
-  if (turn == Turn::inner) {
-    if (!curves || (!meets_in_a_point(before, o, behind, o, &w) && !meets_in_a_point(behind, o, before, o, &w))) return false;
+  if (meets_in_a_point(before, behind, o, &w) || meets_in_a_point(behind, before, o, &w)) {
     joint->set(w);
     return true;
   }
+  if (turn == Turn::inner) return false;
   *joint = lengthened_joint(before, behind, o);
   return true;
 }

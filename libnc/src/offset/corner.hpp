@@ -107,6 +107,17 @@ inline bool offset_exists(const Leg& leg, double offset) {
   return 1 - leg.curvature * offset > -1e-9;
 }
 
+/// What the last of three digits makes of the radius of an arc, I and J and both ends together; less than what the check of walls allows (kEnters_mm).
+inline constexpr double kLastDigit_mm = 9e-4;
+
+/// The offset curve inside of an arc that is as large as the tool, as far as the last digit tells, is a point: its centre.
+inline bool is_point(const Leg& leg, double offset) {
+  return leg.curvature != 0 && std::abs(1 / leg.curvature - offset) < kLastDigit_mm;
+}
+
+/// Can the tool go along the block at all?
+inline bool tool_fits(const Leg& leg, double offset) { return offset_exists(leg, offset) || is_point(leg, offset); }
+
 /// Vector to the intersection of two offset curves, the one nearest to the joint.
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w);
 

@@ -21,14 +21,15 @@ constexpr double kCosineNoise = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
 constexpr double kHalfTurn = kPi + 1e-9;
 
-// Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not. They cross in s a = d + t b, s and t compared without a
-// division.
+// Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not, nor do those that touch but for the last digit: at the centre of an arc of the
+// tool's radius. They cross in s a = d + t b, s and t compared without a division.
 bool vectors_cross(Vec2 a, Vec2 b, Vec2 d) {
   const double c = cross(a, b), size = std::abs(c);
   if (c * c <= 1e-24 * (dot(a, a) * dot(b, b))) return false;
   const double s = std::copysign(1, c) * cross(d, b), t = std::copysign(1, c) * cross(d, a);
   const double near_end = 1e-9 * size;
-  return s > near_end && s < size - near_end && t > near_end && t < size - near_end;
+  if (!(s > near_end && s < size - near_end && t > near_end && t < size - near_end)) return false;
+  return (size - s) * norm(a) >= kLastDigit_mm * size || (size - t) * norm(b) >= kLastDigit_mm * size;
 }
 
 // An offset curve: a line through `point` along `u`, or a circle about `center`.
@@ -104,7 +105,7 @@ bool runs_backwards(const Section& section, Vec2 from, Vec2 to) {
 
 // The same of an arc: its sweep has changed its sign.
 bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
-  if (section.begin.curvature == 0 || section.sweep == 0) return false;
+  if (section.begin.curvature == 0 || section.sweep == 0 || is_point(section.begin, section.offset)) return false;
   const double sense = section.sweep > 0 ? 1 : -1;
   const Vec2 radius_start = (-sense / std::abs(section.begin.curvature)) * left_of(section.begin.u);
   const Vec2 radius_end = (-sense / std::abs(section.end.curvature)) * left_of(section.end.u);

@@ -52,7 +52,7 @@ bool cuts_inner_corner(const Section& before, const Move& move, const Section& b
 }
 
 bool vanishes(const Leg& begin, const Leg& end, double offset) {
-  return !offset_exists(begin, offset) || !offset_exists(end, offset);
+  return !tool_fits(begin, offset) || !tool_fits(end, offset);
 }
 
 Item alarm_in(const nc_source& source, Condition condition) {
@@ -498,7 +498,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
     // It begins with the amount of the block before (M700 12.4.6).
     const Section* last = open();
     const double offset_begin = last == nullptr || amount_changed_ ? section.offset : offset_on_side(last->offset, section.offset);
-    section.vanished = vanishes(begin, end, section.offset) || !offset_exists(begin, offset_begin);
+    section.vanished = vanishes(begin, end, section.offset) || !tool_fits(begin, offset_begin);
   }
   if (!turn_fits(section)) return;
   if (trim_next_) held->trim = true;

@@ -271,7 +271,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
     const Vec2 end{programmed.end[axis_[0]], programmed.end[axis_[1]]};
     shift_circle(&move.circle, start, end, vector_, end_vector, held.trim);
     // An arc whose radius is that of the tool: what is left of it is rounding, which would stop the machine as the bend that it is.
-    if (move.circle.radius_start < kNoDirection_mm && move.circle.radius_end < kNoDirection_mm) make_line(&move);
+    if (move.circle.radius_start < kLastDigit_mm && move.circle.radius_end < kLastDigit_mm) make_line(&move);
   } else if (move.circular) {  // an arc in another plane goes along as a whole
     for (unsigned i = 0; i < 2; ++i) {
       if (move.plane_axis[i] == axis_[0]) move.circle.center[i] += vector_.h;

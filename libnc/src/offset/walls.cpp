@@ -133,7 +133,7 @@ Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to) {
   Piece path;
   path.from = start + from;
   path.to = start + section.delta + to;
-  if (section.begin.curvature == 0 || section.dead || section.oblique) return path;
+  if (section.begin.curvature == 0 || section.dead || section.oblique || is_point(section.begin, section.offset)) return path;
   arc_of(section, start, &path);
   const Vec2 center = path.center;
   path.radius = norm(path.from - center);
