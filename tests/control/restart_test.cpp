@@ -155,6 +155,74 @@ TEST_P(Restart, BlocksOfMdiBringSpindleAndToolThereAndAxesComeBackBehindThem) {
   EXPECT_LT(m.worst, 1.001);
 }
 
+// What the operator enters in the stop brings tool and spindle there. The rest of the program is that of the program, whatever modes the blocks have left.
+TEST_P(Restart, BlocksOfMdiAtThePlaceLeaveTheProgramItsModes) {
+  const std::string program = "G90 G54 G21 G17 G94 G0 X10. Y5.\nG43 H3 Z-10.\nG1 X20. F1200\nN50 G1 X30.\nY15.\nG2 X40. Y5. R10.\nG91 G1 X5. Z-1.\nG90 X0 Y0\nM30";
+  const auto prepare = [](RestartMachine* m) { m->bench.work_offset(1, {10, 5, 0}).work_offset(2, {33, 44, 55}).tool(3, 7); };
+  RestartMachine whole(GetParam(), program);
+  prepare(&whole);
+  ASSERT_TRUE(whole.to_end()) << whole.drive->alarm();
+  for (const char* blocks : {"T2 M6\nM3 S500", "G91", "G20", "G18", "G55", "F77.", "G95 F0.1", "G68 X0 Y0 R30.", "G51.1 X0", "G49", "G49 G0 Z-3.\nX1. Y1.", "G91 G28 Z0\nT2 M6", "G41 D1", "G96 S100",
+                             "G61", "G99 G81 X1. Y1. Z-1. R0 F100.", "G20 G91 G18 G55\nM3 S500"}) {
+    SCOPED_TRACE(blocks);
+    RestartMachine m(GetParam(), program);
+    prepare(&m);
+    ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+    m.enter();
+    for (unsigned twice = 0; twice < 2; ++twice) {
+      ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks, std::strlen(blocks)), NC_OK);
+      m.press();
+      ASSERT_TRUE(m.until_stop());
+      ASSERT_EQ(m.drive->out.cause, NC_CAUSE_MDI_ENDED) << m.drive->alarm();
+    }
+    m.bring_axes();
+    EXPECT_EQ(m.drive->out.restart_axes, 0u);
+    ASSERT_TRUE(m.to_end()) << m.drive->alarm();
+    const auto expected = whole.drive->ends(), ends = m.drive->ends();
+    ASSERT_GE(ends.size(), 5u);
+    for (unsigned back = 1; back <= 5; ++back)
+      for (unsigned i = 0; i < kAxes; ++i) EXPECT_NEAR(ends[ends.size() - back].v[i], expected[expected.size() - back].v[i], 1e-9) << back << ' ' << i;
+    EXPECT_LT(m.worst, 1.001);
+  }
+}
+
+// The place was found with the offsets that were there. With others it would be another one, and the blocks behind it would not belong to it.
+TEST_P(Restart, OffsetsThatBlocksOfMdiChangeAtThePlaceEndTheRun) {
+  for (const char* blocks : {"G10 L10 P3 R9.", "G10 L2 P1 X-3.", "G52 X5.", "G92 X7.", "M3 S500\nG10 L2 P2 X1.", "G10 L10 P3 R9.\nG43 H3 Z5."}) {
+    SCOPED_TRACE(blocks);
+    RestartMachine m(GetParam(), "G90 G54 G0 X10. Y5.\nG43 H3 Z-10.\nG1 X20. F1200\nN50 G1 X30.\nM30");
+    m.bench.tool(3, 7);
+    ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+    m.enter();
+    ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks, std::strlen(blocks)), NC_OK);
+    m.press();
+    ASSERT_TRUE(m.until_stop());
+    EXPECT_EQ(m.drive->out.state, NC_STATE_ALARM);
+    EXPECT_EQ(m.drive->alarm(), "NC-RESTART");
+    m.drive->in.reset = true;
+    m.step(5);
+    m.drive->in.reset = false;
+    m.step(5);
+    EXPECT_EQ(m.find(at_sequence(50)), NC_OK);
+  }
+}
+
+// In a block stop of a program that was begun inside blocks of MDI keep what they change, as in every other one (12.4.4).
+TEST_P(Restart, BlocksOfMdiBehindThePlaceKeepTheirModes) {
+  RestartMachine m(GetParam(), "G90 G0 X10.\nN50 G1 X20. F6000\nM0\nX3.\nM30");
+  ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+  m.enter();
+  m.bring_axes();
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_EQ(m.drive->out.cause, NC_CAUSE_PROGRAM_STOP);
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, "G91", 3), NC_OK);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_TRUE(m.to_end()) << m.drive->alarm();
+  EXPECT_NEAR(m.drive->out.command.v[0], 23, 1e-9);
+}
+
 TEST_P(Restart, AResetInTheStopGivesThePlaceUp) {
   RestartMachine m(GetParam(), "G0 X10.\n#100=7\nX20.\nX30.\nM30");
   ASSERT_EQ(m.find(at_line(3)), NC_OK);

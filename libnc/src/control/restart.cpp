@@ -106,6 +106,7 @@ bool PartSystem::begin_found() {
   }
   executor.restart_at(commit_.machine(), search_.blocks());
   const MarkPoint* const before = commit_.newest();
+  interpreter.begin_inside(before != nullptr ? before->seq : 0);
   Record record;
   record.serial = before != nullptr ? before->serial : 0;
   record.epoch = run_.epoch();

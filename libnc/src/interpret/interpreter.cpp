@@ -164,6 +164,7 @@ void Interpreter::refresh_derived() {
 /// M700 3.7 "reset 2": modal state to its initial values; positions, offsets and G92 shifts stay (M700 9.1). Where the place of a program is kept
 /// (program_restart.cpp), that program goes on there in its modes.
 void Interpreter::reset(bool keep_modal) {
+  begun_inside_.kept = false;
   keep_modal = keep_modal || place_.kept;
   begin_program(state, initial_values(), keep_modal);
   if (dialect->rules.coordinate.shift_ends_with_program && !keep_modal)

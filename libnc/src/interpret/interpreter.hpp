@@ -102,6 +102,8 @@ struct Interpreter : BlockContext {
   void enter_mdi(const ProgramRef& blocks);
   /// The blocks of MDI that interrupt a program have ended: the program, in which they were entered, goes on with the next start.
   Execution leave_mdi();
+  /// The program is begun inside, behind block `seq` (nc/restart.h): what blocks of MDI change of its modes there is put back behind them.
+  void begin_inside(BlockSeq seq);
   /// The next block goes on where it was cut (State::repeat).
   void go_on_inside(unsigned items) {
     note_world();
@@ -204,6 +206,15 @@ struct Interpreter : BlockContext {
     nc_world world{};
     ProgramMaps maps;            ///< centres and factors of the maps that are in force in `state`
   };
+  /// A place at which the program is begun inside, and what it comes there with.
+  struct BegunInside {
+    bool kept = false;
+    BlockSeq seq = 0;        ///< the newest block in front of it, the blocks of MDI there included
+    StateValues state;
+    ProgramMaps maps;        ///< centres and factors of the maps that are in force in `state`
+    uint64_t tables = 0;     ///< tables_hash()
+  };
+  void put_back_modes();
   /// Where a reset goes back to, in place of the head of the program.
   struct Place {
     bool kept = false;
@@ -263,6 +274,7 @@ struct Interpreter : BlockContext {
   unsigned made_ = 0;          ///< number of items of the block in hand so far
   BlockSeq block_seq_ = 0;     ///< number of the block before it
   InterruptReturn interrupted_;
+  BegunInside begun_inside_;
   Place place_;
   VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for

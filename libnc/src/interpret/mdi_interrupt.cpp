@@ -5,9 +5,16 @@
 // they change stays changed. In radius compensation "the offset vectors are automatically re-calculated at the movement block after the interrupt": the stage
 // of compensation goes on from the vector at the stop, with the blocks that come now. Without a movement the path of the program stays as it was.
 //
+// At a place where a program is begun inside (nc/restart.h) they bring tool, spindle and coolant there, and the program comes to it in its own modes: what they
+// change of these is put back behind them. Offsets and parameters cannot be: the place was found with those that were there, and another one ends the run.
+//
 // They are a call without a block that makes it (CallOrigin::mdi), and count as one level of calls (M700 13.3.1 (3) (5)).
 #include "interpret/calls.hpp"
+#include "interpret/feed.hpp"
+#include "interpret/functions/functions.hpp"
 #include "interpret/interpreter.hpp"
+#include "interpret/lifetimes.hpp"
+#include "interpret/state_hash.hpp"
 
 namespace nc {
 namespace {
@@ -36,7 +43,31 @@ bool Interpreter::takes_mdi(BlockSeq seq) const {
   return true;
 }
 
+void Interpreter::begin_inside(BlockSeq seq) {
+  begun_inside_.kept = checkpoints_.holds(seq);
+  if (!begun_inside_.kept) return;
+  begun_inside_.seq = seq;
+  checkpoints_.values(seq, &begun_inside_.state);
+  look_back(seq, true);  // blocks behind the place may have been read
+  begun_inside_.maps = records->maps;
+  begun_inside_.tables = tables_hash(*this);
+  look_back(seq, false);
+}
+
+/// As behind an interrupt program (M700 13.12), and the length that the moves have applied, too: the axes go back to the place before the program goes on.
+void Interpreter::put_back_modes() {
+  const Function cutting = state.modal.of(Mode::cutting);
+  const SpindleControl spindle = state.spindle;
+  return_from_interrupt(state, begun_inside_.state, false);
+  take<AppliedLength>(state, begun_inside_.state);
+  change_cutting_mode(*this, cutting);
+  if (spindle.axis != state.spindle.axis || (state.spindle.axis != 0 && spindle.surface != state.spindle.surface)) announce_surface(*this);
+  refresh_derived();
+  change(&ProgramRecords::maps, begun_inside_.maps);
+}
+
 void Interpreter::enter_mdi(const ProgramRef& blocks) {
+  const bool puts_back = begun_inside_.kept && state.seq == begun_inside_.seq;
   place_at_next_block();
   if (state.owes_mark) {  // the block that called the program which has just returned ends before them
     finish_call();
@@ -51,6 +82,7 @@ void Interpreter::enter_mdi(const ProgramRef& blocks) {
     return;
   }
   state.frame[state.depth].modal_call = 0;  // no macro is called behind the moves of blocks that do not belong to the program
+  state.frame[state.depth].puts_back = puts_back;
   state.spline_way = {};                    // the curve of fine segments begins again
   show_modal_call(*this);
   keep_state();
@@ -59,13 +91,17 @@ void Interpreter::enter_mdi(const ProgramRef& blocks) {
 Execution Interpreter::leave_mdi() {
   if (check_loops_closed(*this) != Execution::done) return Execution::fault;
   if (inside_something(state)) return raise(Condition::program_end);
+  const bool puts_back = state.frame[state.depth].puts_back;
+  if (puts_back && tables_hash(*this) != begun_inside_.tables) return raise(Condition::restart_void);
   state.loop_count = state.frame[state.depth].loop_base;
   leave_program(*this);
+  if (puts_back) put_back_modes();
   state.spline_way = {};
   Gate& stop_here = emit(ItemKind::gate).gate;
   stop_here.kind = NC_GATE_STOP;
   stop_here.behind_mdi = true;
   finish_block(false, false);
+  if (puts_back) begun_inside_.seq = state.seq;
   return Execution::later;
 }
 

@@ -149,6 +149,7 @@ bool PartInterpreter::interrupt(const AxisVec& machine, unsigned taken_back, boo
 bool PartInterpreter::interrupt_inside(const AxisVec& machine, unsigned items) { return in_->interrupt_inside(machine, items); }
 bool PartInterpreter::takes_mdi(uint64_t seq) const { return in_->takes_mdi(seq); }
 void PartInterpreter::enter_mdi(const ProgramRef& blocks) { in_->enter_mdi(blocks); }
+void PartInterpreter::begin_inside(BlockSeq seq) { in_->begin_inside(seq); }
 void PartInterpreter::go_on_inside(unsigned items) { in_->go_on_inside(items); }
 const Repeat& PartInterpreter::repeat() const { return in_->state.repeat; }
 const AxisVec& PartInterpreter::interrupted_at() const { return in_->interrupted_state().machine; }

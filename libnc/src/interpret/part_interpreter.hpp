@@ -182,6 +182,8 @@ class PartInterpreter {
   bool takes_mdi(uint64_t seq) const;
   /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
   void enter_mdi(const ProgramRef& blocks);
+  /// The program is begun inside, behind block `seq` (nc/restart.h).
+  void begin_inside(BlockSeq seq);
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
   /// Tells whether the next block was cut by an interrupt, and how many of its items have been executed.

@@ -79,6 +79,7 @@ struct CallFrame {
   uint8_t figure = 0;         ///< passes are rotated (M700 13.3.3): one of the two below, 0 = no
   uint32_t last_sequence = 0;  ///< behind the block of this number a pass has ended (HX 2.4.3), 0 = M99 says so
   bool last_begun = false;    ///< that block has been read
+  bool puts_back = false;     ///< blocks of MDI at a place where the program is begun inside: behind them its modes are those of the place
 };
 static_assert(sizeof(CallFrame) == 72);
 

@@ -106,9 +106,9 @@ class Hash {
   }
   void add_one(const CallFrame& frame) {
     const auto& [program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot,
-                 figure, last_sequence, last_begun] = frame;
+                 figure, last_sequence, last_begun, puts_back] = frame;
     add(program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot, figure, last_sequence,
-        last_begun);
+        last_begun, puts_back);
   }
   void add_one(const OptionalDouble& number) { add_one(number.value_or(std::numeric_limits<double>::quiet_NaN())); }
   void add_one(const ModalCall& call) {
@@ -296,6 +296,13 @@ void add_records(Hash& hash, const ProgramRecords& records) {
 }
 
 }  // namespace
+
+uint64_t tables_hash(const Interpreter& in) {
+  Hash hash;
+  for (unsigned key = 0; key < in.frames.size(); ++key) hash.add(in.frames.get(key));
+  add_parameters(hash, in.parameters);
+  return hash.value();
+}
 
 uint64_t state_hash(const Interpreter& in) {
   Hash hash;

@@ -13,4 +13,7 @@ struct Interpreter;
 /// parameter, so it is not meant for every block.
 uint64_t state_hash(const Interpreter& in);
 
+/// The same of offsets, coordinate systems and parameters alone.
+uint64_t tables_hash(const Interpreter& in);
+
 }  // namespace nc
