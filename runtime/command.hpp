@@ -108,6 +108,7 @@ enum class Answer : std::uint8_t {
   kLocked,            // the axis is locked (plc.machine_lock, plc.axis_lock)
   kLockLeft,          // an axis was moved in a machine lock that has been taken off
   kRestartSearch,     // a place in the program is being looked for
+  kRestartLost,       // the place in the program was not found, or was forgotten
   kRestartOpen,       // entries of the recovery list are open
   kRestartAxes,       // an axis is not where a program that begins inside goes on
   kNoPlace,           // there is nothing to which the axis could go back
@@ -198,6 +199,8 @@ constexpr const char* answer_text(Answer answer) {
       return "an axis was moved in the machine lock and is not where it is shown: reset first";
     case Answer::kRestartSearch:
       return "a place in the program is being looked for: wait, or cancel it";
+    case Answer::kRestartLost:
+      return "the place at which the program was to begin was not found, or was forgotten: look for it again, or cancel it and begin at the head";
     case Answer::kRestartOpen:
       return "what the program has given to the machine before the place is not there: give it out by MDI, or confirm it";
     case Answer::kRestartAxes:

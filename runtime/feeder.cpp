@@ -85,6 +85,7 @@ void Feeder::step() {
   tell_changes();
   take_alarm();
   take_modal();
+  tell_restart();
   tell_what_is_loaded();
   // The answers come last: a client that is told that its program is selected may start it at once, and by then the scan must know of the program.
   for (unsigned n = 0; n < answered_count; ++n) (void)answers_.push(answered[n]);
@@ -119,7 +120,7 @@ void Feeder::restore_parts() {
     }
     const nc_status status = nc_->select(s, system.part_file);
     if (status == NC_E_STATE) continue;  // not yet: the next step tries again
-    restart_[s].end("the program was selected again");
+    restart_[s].lose("the program was selected again");
     if (status < 0) system = {};
     else system.take_part(system.part_file);
   }
@@ -170,7 +171,7 @@ nc_status Feeder::read_again() {
     scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded() at the end of this step
     const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
     if (status == NC_E_STATE) return status;
-    restart_[s].end("tables or outputs were changed, and the program is read again from its head");
+    restart_[s].lose("tables or outputs were changed");
     if (status < 0) system = {};
   }
   return NC_OK;
@@ -315,7 +316,7 @@ Answer Feeder::load_mdi(const Command& command) {
   if (const nc_status status = nc_->load_mdi(system, text.data(), text.size()); status < 0)
     return refuse(Answer::kRefusedByControl,
                   status == NC_E_ARGUMENT ? "more than 1024 bytes of blocks" : status_text(status));
-  restart_[system].end("blocks of MDI were loaded");
+  restart_[system].lose("blocks of MDI were loaded");
   if (refresh_) refresh_();  // only after load_mdi(): now the programs called by the one that was selected here are free
   system_[system].take_mdi(std::move(text));
   nothing_has_run(system);

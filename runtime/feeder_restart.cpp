@@ -105,7 +105,7 @@ Answer Feeder::confirm_restart(const Command& command) {
 
 Answer Feeder::cancel_restart(const Command& command) {
   RestartDesk& desk = restart_[command.system];
-  if (!desk.in_hand()) return refuse(Answer::kNoPlace, "no place is looked for or found");
+  if (!desk.in_hand() && !desk.lost()) return refuse(Answer::kNoPlace, "no place is looked for or found");
   if (!claim(command.ticket)) return Answer::kNoAnswer;
   scan_->set_loaded(Scan::kNothingLoaded);
   if (const nc_status status = nc_->restart_cancel(command.system); status < 0)
@@ -120,7 +120,6 @@ Answer Feeder::cancel_restart(const Command& command) {
 void Feeder::follow_restart() {
   for (GivenCode code; scan_->poll_given(&code);)
     if (code.system < systems_) restart_[code.system].given(code);
-  std::uint32_t searches = 0, found = 0, bars = 0, stands = 0;
   for (unsigned s = 0; s < systems_; ++s) {
     RestartDesk& desk = restart_[s];
     const bool searched = desk.searching();
@@ -132,12 +131,22 @@ void Feeder::follow_restart() {
       scan_->set_loaded(Scan::kNothingLoaded);
       if (const nc_status status = nc_->select(s, system_[s].file); status < 0 && status != NC_E_STATE) system_[s] = {};
     }
+  }
+  tell_restart();
+}
+
+// To the scan, before it may begin what this step has loaded, and to who shows it.
+void Feeder::tell_restart() {
+  std::uint32_t searches = 0, found = 0, bars = 0, stands = 0, lost = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const RestartDesk& desk = restart_[s];
     searches |= static_cast<std::uint32_t>(desk.searching()) << s;
     found |= static_cast<std::uint32_t>(desk.status().phase == RestartPhase::kFound) << s;
     bars |= static_cast<std::uint32_t>(desk.bars()) << s;
     stands |= static_cast<std::uint32_t>(desk.status().phase == RestartPhase::kStands) << s;
+    lost |= static_cast<std::uint32_t>(desk.lost()) << s;
   }
-  scan_->set_restart(searches, found, bars, stands);
+  scan_->set_restart(searches, found, bars, stands, lost);
   const std::lock_guard lock(mutex_);
   for (unsigned s = 0; s < systems_; ++s)
     if (restart_[s].status().phase != RestartPhase::kNone) info_.system[s].restart = restart_[s].status();

@@ -70,6 +70,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kLocked:
     case Answer::kLockLeft: return RefusalCause::kMachineLock;
     case Answer::kRestartSearch:
+    case Answer::kRestartLost:
     case Answer::kRestartOpen:
     case Answer::kRestartAxes:
     case Answer::kNoPlace: return RefusalCause::kRestart;

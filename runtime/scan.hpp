@@ -120,7 +120,8 @@ class Scan {
   // A program that is begun inside (runtime/restart/), one bit per part system each: nothing starts while its place is looked for, a start of all part systems
   // begins only those whose place is found as long as there are such, and a program does not go on from the place while what it has given to the machine is not
   // there.
-  void set_restart(std::uint32_t searches, std::uint32_t found, std::uint32_t bars, std::uint32_t stands) noexcept {
+  void set_restart(std::uint32_t searches, std::uint32_t found, std::uint32_t bars, std::uint32_t stands, std::uint32_t lost) noexcept {
+    restart_lost_.store(lost, std::memory_order_release);
     restart_found_.store(found, std::memory_order_release);
     restart_searches_.store(searches, std::memory_order_release);
     restart_bars_.store(bars, std::memory_order_release);
@@ -358,7 +359,7 @@ class Scan {
   std::uint8_t last_strobe_[NC_MAX_SYSTEMS] = {};  // strobes of the previous scan
   std::uint8_t fin_own_taken_[NC_MAX_SYSTEMS] = {};  // groups that have been completed by their own FIN, which is on now
   std::uint8_t fin_taken_[NC_MAX_SYSTEMS] = {};    // groups that have been completed by the FIN that is on now
-  std::atomic<std::uint32_t> restart_searches_{0}, restart_found_{0}, restart_bars_{0}, restart_stands_{0};  // set_restart()
+  std::atomic<std::uint32_t> restart_searches_{0}, restart_found_{0}, restart_bars_{0}, restart_stands_{0}, restart_lost_{0};  // set_restart()
   std::uint8_t given_strobe_[NC_MAX_SYSTEMS] = {};  // strobes whose codes have been noted
   std::uint32_t approach_asked_[NC_MAX_SYSTEMS] = {};    // bit per axis: it is asked for in this scan to go back, with or without effect
   std::uint32_t approach_buttons_refused_[NC_MAX_SYSTEMS] = {};  // bit per axis: its button was refused or stopped and has been on since

@@ -11,6 +11,7 @@ namespace nc::rt {
 // Of a start in AUTO that goes on from the place. The first start, which only comes to the place, and blocks of MDI in the stop are free.
 Answer Scan::restart_hindrance(std::uint32_t ready) const noexcept {
   if ((ready & restart_searches_.load(std::memory_order_acquire)) != 0) return Answer::kRestartSearch;
+  if (mode_ == Mode::kAuto && (ready & restart_lost_.load(std::memory_order_acquire)) != 0) return Answer::kRestartLost;
   const std::uint32_t goes_on = mode_ == Mode::kAuto ? ready & in_state(NC_STATE_STOPPED) : 0;
   if ((goes_on & restart_bars_.load(std::memory_order_acquire)) != 0) return Answer::kRestartOpen;
   for (unsigned s = 0; s < systems_; ++s)

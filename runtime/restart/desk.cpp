@@ -38,6 +38,7 @@ const char* restart_phase_text(RestartPhase phase) {
     case RestartPhase::kSearching: return "searching";
     case RestartPhase::kFound: return "found";
     case RestartPhase::kStands: return "stands";
+    case RestartPhase::kLost: return "lost";
     case RestartPhase::kEnded: return "ended";
   }
   return "?";
@@ -66,7 +67,7 @@ bool RestartDesk::search(NcPort* nc, unsigned system) {
       found(nc, system, place);
       return false;
     }
-    end(status_.text + ": " + why_not(nc, system, status));
+    lose(status_.text + ": " + why_not(nc, system, status));
     return true;
   }
   return false;
@@ -83,7 +84,7 @@ void RestartDesk::found(NcPort* nc, unsigned system, const nc_restart_found& pla
 }
 
 void RestartDesk::follow(const Snapshot& now, unsigned system) {
-  if (searching() && now.mode != Mode::kAuto) return end("another mode has been chosen");
+  if (searching() && now.mode != Mode::kAuto) return lose("another mode has been chosen");
   if (status_.phase != RestartPhase::kFound && status_.phase != RestartPhase::kStands) return;
   const nc_outputs& out = now.system[system].nc;
   status_.list.look(out, now.interface_output);
@@ -99,8 +100,14 @@ void RestartDesk::follow(const Snapshot& now, unsigned system) {
 }
 
 void RestartDesk::end(const std::string& why) {
-  if (!in_hand()) return;
+  if (!in_hand() && !lost()) return;
   status_.phase = RestartPhase::kEnded;
+  status_.text = why;
+}
+
+void RestartDesk::lose(const std::string& why) {
+  if (!in_hand()) return;
+  status_.phase = RestartPhase::kLost;
   status_.text = why;
 }
 

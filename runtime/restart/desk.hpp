@@ -3,7 +3,8 @@
 //
 //   kNone -> kSearching -> kFound -> (cycle start) kStands -> (cycle start) kEnded
 //
-// A reset, another mode during the search, another program, changed tables and an alarm end it in any phase.
+// A reset, another program, and who cancels it end it in any phase. A search without a place, another mode during the search, changed tables and blocks of MDI that
+// come before the start lose the place: the operator still means it, so no program begins at its head before one of those three says so, or a place is found.
 #pragma once
 
 #include <string>
@@ -25,12 +26,15 @@ class RestartDesk {
   void given(const GivenCode& code) {
     if (in_hand()) status_.list.given(code.group, code.value);
   }
-  // Where something was in hand it has ended; `why` is a sentence.
+  // Where something was in hand or lost it has ended; `why` is a sentence.
   void end(const std::string& why);
+  // Where something was in hand it is lost.
+  void lose(const std::string& why);
 
   bool searching() const { return status_.phase == RestartPhase::kSearching; }
   // A place is looked for or found, and the program does not go on from there yet.
   bool in_hand() const { return searching() || status_.phase == RestartPhase::kFound || status_.phase == RestartPhase::kStands; }
+  bool lost() const { return status_.phase == RestartPhase::kLost; }
   // Entries of the recovery list are open, so the start that goes on is refused.
   bool bars() const { return (status_.phase == RestartPhase::kFound || status_.phase == RestartPhase::kStands) && status_.list.open() != 0; }
   // Where the program was begun, as the search was told.

@@ -25,6 +25,7 @@ enum class RestartPhase : std::uint8_t {
   kSearching,
   kFound,      // the next cycle start comes to the place
   kStands,     // the program stands at the place: cycle start goes on
+  kLost,       // it was not found, or was forgotten: no start, which would begin at the head of the program, until somebody says so. RestartStatus::text says why
   kEnded       // RestartStatus::text says why
 };
 const char* restart_phase_text(RestartPhase phase);

@@ -333,7 +333,7 @@ constexpr ReplyRow kReadReply[] = {{"data", "data", "bytes in base64"},
                                    {"size", "whole", "bytes of the whole program"},
                                    {"modified_ns", "whole", "time of its last change; when it differs between two pieces, the program was changed meanwhile"}};
 constexpr ReplyRow kRestartReply[] = {{"system", "whole", "part system, from 1"},
-                                      {"phase", "text", "none; searching; found: the next cycle start comes to the place; stands: the program stands there, and cycle start goes on; ended"},
+                                      {"phase", "text", "none; searching; found: the next cycle start comes to the place; stands: the program stands there, and cycle start goes on; lost: it was not found or was forgotten, and nothing starts before it is found, cancelled, or a reset or a select says that the program begins at its head; ended"},
                                       {"text", "text", "what is looked for, or why it has ended"},
                                       {"read", "whole", "blocks that have been read, in steps"},
                                       {"file", "text", "name of the program in which the place is"},

@@ -350,7 +350,7 @@ TEST_F(Restart, TheLastStopIsFoundAndTheRestHasThePathOfTheWholeRun) {
 // A loop that is long enough for the search to take many steps of the feeder.
 const char* const kLoop = "#1=0\nN1 #1=#1+1\nG1 X[#1/100000] F6000.\nIF[#1LT300000]GOTO1\nN9 G1 X20.\nM30\n";
 
-TEST_F(Restart, AResetOrAnotherModeEndsTheSearchAndTheNextStartBeginsAtTheHead) {
+TEST_F(Restart, AResetOrAnotherModeEndsTheSearch) {
   build();
   select(kLoop);
   ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
@@ -365,10 +365,11 @@ TEST_F(Restart, AResetOrAnotherModeEndsTheSearchAndTheNextStartBeginsAtTheHead) 
   steps(5);
   ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
   steps(5);
-  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  EXPECT_EQ(restart().phase, RestartPhase::kLost);
   EXPECT_EQ(restart().text, "another mode has been chosen");
   EXPECT_EQ(find(RestartBy::kSequence, 9), Answer::kNotInThisMode);
   ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartLost);
   ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
   steps(5);
   ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
@@ -378,7 +379,7 @@ TEST_F(Restart, AResetOrAnotherModeEndsTheSearchAndTheNextStartBeginsAtTheHead) 
   EXPECT_LT(out().command.v[0], 0.1);
 }
 
-TEST_F(Restart, WhatIsNotThereIsSaidAndTheNextStartBeginsAtTheHead) {
+TEST_F(Restart, WhatIsNotThereIsSaidAndNothingStartsBeforeItIsCancelled) {
   build();
   select(kPart);
   struct Row {
@@ -388,18 +389,22 @@ TEST_F(Restart, WhatIsNotThereIsSaidAndTheNextStartBeginsAtTheHead) {
   };
   for (const Row& row : {Row{RestartBy::kSequence, 4711, "no such sequence number"}, Row{RestartBy::kLine, 99, "ended before it came there"}, Row{RestartBy::kBlock, 1000000, "ended before it came there"}}) {
     ASSERT_EQ(find(row.by, row.number), Answer::kDone);
-    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kEnded; }));
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kLost; }));
     EXPECT_NE(restart().text.find(row.text), std::string::npos) << restart().text;
   }
   EXPECT_EQ(find(RestartBy::kSequence, 0), Answer::kRefusedByControl) << "0 is no sequence number";
   EXPECT_EQ(runtime->find_restart(0, {RestartBy::kLine, 3, 0, "other.nc"}), Answer::kNoPlace);
   EXPECT_EQ(runtime->find_restart(1, {RestartBy::kLine, 3, 0, ""}), Answer::kAxisUnknown);
+  EXPECT_EQ(start(), Answer::kRestartLost);
+  steps(50);
+  EXPECT_EQ(out().state, NC_STATE_IDLE);
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
   ASSERT_EQ(start(), Answer::kDone);
   ASSERT_TRUE(to_end());
   EXPECT_NEAR(out().command.v[2], 20, 1e-9);
   select("G90 G1 X1. F600.\n#1=SQRT[-1]\nN3 X2.\nM30\n", "wrong.nc");
   ASSERT_EQ(find(RestartBy::kSequence, 3), Answer::kDone);
-  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kEnded; }));
+  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kLost; }));
   EXPECT_NE(restart().text.find("(line 2)"), std::string::npos) << restart().text;
   EXPECT_FALSE(runtime->snapshot().alarmed()) << "nothing has run";
 }
@@ -427,14 +432,32 @@ TEST_F(Restart, AChangedProgramAndAnotherOneAreRefused) {
   EXPECT_NE(runtime->explain(Answer::kNoPlace).find("has been changed since"), std::string::npos) << runtime->explain(Answer::kNoPlace);
 }
 
-TEST_F(Restart, ChangedTablesForgetThePlace) {
+// A place that the operator means, and that somebody else's change has lost, is no reason to begin the whole program.
+TEST_F(Restart, ChangedTablesLoseThePlaceAndNothingStartsBeforeTheOperatorSaysSo) {
   build();
   select(kPart);
+  const auto lose = [&] {
+    ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; }));
+    ASSERT_EQ(runtime->change([](nc_control*) {}), Answer::kDone);
+    EXPECT_EQ(start(), Answer::kRestartLost);
+    steps(3);
+    EXPECT_EQ(restart().phase, RestartPhase::kLost);
+    EXPECT_EQ(start(), Answer::kRestartLost);
+    steps(50);
+    EXPECT_EQ(out().state, NC_STATE_IDLE);
+  };
+  ASSERT_NO_FATAL_FAILURE(lose());
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  ASSERT_NO_FATAL_FAILURE(lose());
   ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
   ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; }));
-  ASSERT_EQ(runtime->change([](nc_control*) {}), Answer::kDone);
-  steps(3);
+  ASSERT_NO_FATAL_FAILURE(lose());
+  ASSERT_EQ(runtime->select_program(0), Answer::kDone);
   EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  ASSERT_NO_FATAL_FAILURE(lose());
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
   ASSERT_EQ(start(), Answer::kDone);
   EXPECT_TRUE(to_end());
   EXPECT_EQ(runtime->info().system[0].runs, 1u);

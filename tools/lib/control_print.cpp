@@ -124,6 +124,7 @@ std::string restart_text(const Json& reply) {
   const std::string phase = text_at(reply, "phase"), what = text_at(reply, "text");
   if (phase == "none") return "no place has been looked for\n";
   if (phase == "ended") return "ended: " + what + "\n";
+  if (phase == "lost") return "lost: " + what + ". No cycle start: look for the place again, or cancel it; then the program begins at its head\n";
   if (phase == "searching") return "searching: " + what + ", " + text_at(reply, "read") + " blocks so far\n";
   std::string text = phase == "found" ? "found: " + what + ". Cycle start comes to the place, and moves nothing\n" : "stands at the place: " + what + "\n";
   text += text_at(reply, "file") + " line " + text_at(reply, "line") + ", behind " + text_at(reply, "blocks") + " blocks\n" + text_at(reply, "modal") + "\n";
