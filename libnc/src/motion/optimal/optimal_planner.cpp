@@ -13,8 +13,8 @@ constexpr double kHungry = 0.5;  ///< the chain is made longer when it lasts for
 constexpr double kPartLeft = 0.5;
 constexpr double kEnough = 1.0;  ///< s of chain that are made at once where there are many rests
 constexpr double kNew = 0.1;  ///< a law is solved anew when this part of the path that is left has been added to it
-constexpr double kLongestLead = 0.2;  ///< s: a law begins no farther ahead of the scan
 constexpr double kDown = 1.06;  ///< the way down to a lower feed has this many times the squared speed of the stop that was found last
+constexpr double kLongestLead = 0.2;  ///< s: a law begins no farther ahead of the scan
 constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
 constexpr unsigned kBack = 7;          ///< cells farther back, from which a law is tried that was not found
@@ -113,6 +113,11 @@ void OptimalPlanner::rebuild(const Following& f) {
   fresh_x_ = 0;
 }
 
+/// A law came too late: the next one begins farther ahead.
+void OptimalPlanner::begin_later() {
+  lead_ = std::min(2 * lead_, kLongestLead);
+}
+
 /// False while an offer waits for its answer.
 bool OptimalPlanner::answered(const Following& f) {
   if (!open_) return true;
@@ -126,7 +131,7 @@ bool OptimalPlanner::answered(const Following& f) {
     line_lead_ = std::max(0.9 * line_lead_, least_line_lead());
   } else {
     write_ = offer_.first;
-    lead_ = std::min(2 * lead_, kLongestLead);
+    begin_later();
     line_lead_ = std::min(2 * line_lead_, kLongestLead);
   }
   return true;
@@ -638,11 +643,31 @@ Task<bool> OptimalPlanner::extend(Work& work, const Following& f, const Start& s
     write_ = offer_first_;
     co_return false;
   }
+  offer_laws(work, f, start);
+  co_return true;
+}
+
+/// The law found last goes on from `start`. False when it has no room.
+Task<bool> OptimalPlanner::offer_law(Work& work, const Following& f, const Start& start, double most) {
+  offer_first_ = write_;
+  next_chain_ = {};
+  Start end;
+  const bool copied = co_await copy_law(work, start, &end);
+  if (!copied) {
+    write_ = offer_first_;
+    co_return false;
+  }
+  keep_law(offer_first_, end, most);
+  offer_laws(work, f, start);
+  co_return true;
+}
+
+/// What has been copied from cell offer_first_ on.
+void OptimalPlanner::offer_laws(Work& work, const Following& f, const Start& start) {
   next_chain_.block_rests = f.block_rests;
   next_chain_.enough_s = whole() ? kHungry : kPartLeft * (chain_end_[next_chain_.keep & store_.cell_mask] - (start.fresh ? 0 : chain_end_[start.after & store_.cell_mask]));
   offer(start, false);
   work.spend(kChainCost * static_cast<int64_t>(write_ - offer_first_));
-  co_return true;
 }
 
 /// The chain goes on up to the end of the law that was copied from cell `first` on, and will have to be another one from some cell of it on.

@@ -88,6 +88,8 @@ class OptimalPlanner {
   double ahead(const Following& f, CellIndex cell) const;
   bool moving(const Following& f) const { return f.cell != kNoCell && !(f.at_end && f.cell == chain_.last); }
   Task<bool> extend(Work& work, const Following& f, const Start& start, double most, const WayDown* down);
+  Task<bool> offer_law(Work& work, const Following& f, const Start& start, double most);
+  void offer_laws(Work& work, const Following& f, const Start& start);
   bool keep_law(CellIndex first, const Start& end, double most);
   Task<bool> extend_later(Work& work, const Following& f, const Start& start, double most);
   const Followed* follow(const Start& start);
@@ -132,7 +134,11 @@ class OptimalPlanner {
   Task<bool> stop_soon(Work& work, const Following& f, const Start& start);
   Task<bool> stop_later(Work& work, const Start& from);
   void reuse_cells(const Following& f);
+  Task<bool> law_to_block(Work& work, const Start& start, double u);
+  bool too_late(const Start& start);
+  void begin_later();
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
+  Task<bool> stop_between(Work& work, const Following& f, const Start& start, double none, double some);
   Task<bool> slow_down(Work& work, const Following& f, const Start& start);
   Limits unbound(const Start& start) const;
   double way_to(const Start& at, double u) const;

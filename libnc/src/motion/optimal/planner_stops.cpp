@@ -23,6 +23,7 @@ constexpr unsigned kNearer = 4;  ///< so often the distance between a stop that 
 constexpr unsigned kStopSteps = 18;  ///< the solver makes so many steps, after which there is no stop that is so short
 constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
 constexpr double kCloseStops = 1.02;  ///< the halving ends when the two distances differ by no more than this factor
+constexpr double kFarEnd = 1.5;       ///< times the way to the end of a block: farther is the next one, so that a law to this one is worth all its time
 // Instructions: of a stop on a straight line, and of a record that is looked at.
 constexpr int64_t kLineCost = 15000, kRecordCost = 20;
 
@@ -215,21 +216,72 @@ Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, Stops whic
   co_return true;
 }
 
-/// Single block has been switched on: to the first end of a block that can be reached at rest.
+/// A law to the end of a block that lies at u, looked for as a stop is: it is one of some that are tried while the axes move.
+Task<bool> OptimalPlanner::law_to_block(Work& work, const Start& start, double u) {
+  double seconds = 0;
+  const double way = way_to(start, u), distance = stopping_distance(start, &seconds);
+  const double period = std::min(kPeriod, kStopPeriod * seconds / 14 * way / distance);
+  found_ = Found::line;
+  const bool on_a_line = find_line_law(start, way);
+  co_await work.pause(kLineCost);
+  if (on_a_line) co_return true;
+  found_ = Found::cells;
+  const bool found = co_await one_law(work, start, way, nullptr, true, period, kStopSteps);
+  co_return found;
+}
+
+/// The scan has passed the place, so that a law from there would come too late.
+bool OptimalPlanner::too_late(const Start& start) {
+  if (start.fresh || ahead(now_, start.after) > 0) return false;
+  begin_later();
+  return true;
+}
+
+/// Single block has been switched on: to the first end of a block that can be reached at rest. Ever farther ends are tried until there is a law to
+/// one. None is looked for twice in the same way, because meanwhile the ends of blocks go by; but where the next end lies much farther, all is done for
+/// this one.
 Task<bool> OptimalPlanner::stop_at_block(Work& work, const Following& f, const Start& start) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
+  double none = start.u;
   for (const double farther : kFarther) {
     const double end = next_block_end(start.u + distance * farther, f.tail);
     co_await work.pause(kRecordCost * (builder_.taken() - f.tail));
     if (!(end < chain_.u)) {
+      if (none > start.u) break;  // from a place farther on there may be a law to one of the ends before
       chain_.block_rests = true;  // the chain itself ends before; what comes behind it rests
       co_return false;
     }
+    if (!(end > none)) continue;
+    const bool found = co_await law_to_block(work, start, end);
+    if (too_late(start)) co_return false;
+    if (found) {
+      const bool done = co_await stop_between(work, f, start, none, end);
+      co_return done;
+    }
+    none = end;
+    if (next_block_end(end, f.tail) - start.u < kFarEnd * (end - start.u)) continue;
     const bool done = co_await extend(work, f, start, way_to(start, end), nullptr);
-    if (done) co_return true;
+    if (done || too_late(start)) co_return done;
   }
   co_return false;
+}
+
+/// The law found last goes to the end of a block at `some`, and none goes to the one at `none`, which is where it begins if none was tried: the same for
+/// the ends between the two, and what is found is offered.
+Task<bool> OptimalPlanner::stop_between(Work& work, const Following& f, const Start& start, double none, double some) {
+  bool last = true;
+  for (unsigned n = 0; n < kNearer && none > start.u; ++n) {
+    const double end = next_block_end(start.u + std::sqrt((none - start.u) * (some - start.u)), f.tail);
+    co_await work.pause(kRecordCost * (builder_.taken() - f.tail));
+    if (!(end < some)) break;
+    last = co_await law_to_block(work, start, end);
+    if (too_late(start)) co_return false;
+    (last ? some : none) = end;
+  }
+  if (!last) last = co_await law_to_block(work, start, some);
+  if (last) last = co_await offer_law(work, f, start, way_to(start, some));
+  co_return last;
 }
 
 }  // namespace nc::optimal
