@@ -3,13 +3,16 @@
 // along the tangent of the path, and to stop there as fast as the limits of the axes allow, from the speed and the acceleration that it has.
 // No stop along a bent path is shorter than that. The difference is what the path and the control add to a hold.
 //
-//   hold_stops [--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] PROGRAM.nc ...
+//   hold_stops [--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...
 //
 // Each program runs once, with a call of nc_feed in each cycle. In every tenth cycle (--every) in which it moves the process forks, and the
 // copy presses feed hold and counts the cycles until the axes stand. So each hold begins from the motion of an undisturbed program.
 // Standard output: for each program the number of holds, then of the difference in ms the median, the value that 95 % do not exceed, the worst
 // and the share above 20 ms; then median, 95 % and worst once more, of the time beyond what the slowest axis alone needs; then the worst hold.
 // The last row is for all programs. Exit status: 0; 1 after a message.
+// --write: for best_stop.py, of each hold that is later than 20 ms a file of that directory, PROGRAM_CYCLE.hold: a line with the limits and the time of
+// a cycle, one with the time in ms that the stop took and that of the ideal one, and then the positions of each cycle without a hold, from the two
+// in front of the hold on.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,6 +34,7 @@ constexpr uint32_t kBudget = 1000;      // blocks per call of nc_feed
 constexpr long kMostCycles = 5000;      // after a hold the axes must stand within so many
 constexpr long kMostProgram = 2000000;  // a program must end within so many cycles
 constexpr double kLate = 20;            // ms: the table gives the share of the holds that are later than this
+constexpr long kWritten = 600;          // cycles of the motion without the hold
 constexpr double kMoves = 1e-3;         // mm/s: below that the axes as good as stand, and a hold says nothing
 
 struct Options {
@@ -39,6 +43,7 @@ struct Options {
   double velocity = 250, acceleration = 2000, jerk = 50000, tolerance = 0.01;
   size_t worst = 0;
   bool list = false;
+  std::string write;  // where the holds go that are late; empty: nowhere
   std::vector<std::string> programs;
 };
 
@@ -107,6 +112,7 @@ class Machine {
     return true;
   }
   void hold() { in_.feed_hold = true; }
+  const double* place(unsigned cycles_ago) const { return place_[cycles_ago]; }
   bool stands() const { return std::equal(place_[0], place_[0] + kAxes, place_[1]); }
   bool ended() const { return out_.state == NC_STATE_IDLE && out_.blocks > 0; }
   bool alarmed() const { return out_.state == NC_STATE_ALARM; }
@@ -191,6 +197,26 @@ bool hold_in_a_copy(Machine& m, long* cycles) {
   return waitpid(copy, &status, 0) == copy && got;
 }
 
+// What the machine does without the hold, by a copy of the process: its positions, up to the end of the program.
+bool write_in_a_copy(Machine& m, const Options& options, const Hold& h) {
+  const pid_t copy = fork();
+  if (copy < 0) return false;
+  if (copy == 0) {
+    std::FILE* out = std::fopen((options.write + "/" + h.program + "_" + std::to_string(h.cycle) + ".hold").c_str(), "w");
+    if (out == nullptr) _exit(1);
+    std::fprintf(out, "%.9g %.9g %.9g %.9g\n%.9g %.9g\n", options.velocity, options.acceleration, options.jerk, m.cycle_s(), 1e3 * h.took_s, 1e3 * h.ideal_s);
+    for (unsigned ago = 2; ago > 0; --ago) std::fprintf(out, "%.12f %.12f %.12f\n", m.place(ago)[0], m.place(ago)[1], m.place(ago)[2]);
+    bool goes_on = true;
+    for (long n = 0; n < kWritten && goes_on; ++n) {
+      std::fprintf(out, "%.12f %.12f %.12f\n", m.place(0)[0], m.place(0)[1], m.place(0)[2]);
+      goes_on = !m.ended() && m.cycle() && !m.alarmed();
+    }
+    _exit(std::fclose(out) == 0 ? 0 : 1);
+  }
+  int status = 0;
+  return waitpid(copy, &status, 0) == copy && status == 0;
+}
+
 std::string short_name(const std::string& path) {
   const size_t slash = path.find_last_of('/'), from = slash == std::string::npos ? 0 : slash + 1;
   return path.substr(from, path.find_last_of('.') > from ? path.find_last_of('.') - from : std::string::npos);
@@ -213,6 +239,7 @@ bool measure(const Options& options, const std::string& program, std::vector<Hol
     if (!hold_in_a_copy(m, &cycles)) return complain("a copy of the process could not be made") == 0;
     h.stood = cycles >= 0;
     h.took_s = static_cast<double>(cycles) * m.cycle_s();
+    if (!options.write.empty() && h.late_ms() > kLate && !write_in_a_copy(m, options, h)) return complain("cannot write to " + options.write) == 0;
     holds->push_back(h);
   }
   return true;
@@ -257,6 +284,9 @@ bool read_options(int argc, char** argv, Options* o) {
     } else if (word == "--limits") {
       if (std::sscanf(value, "%lf,%lf,%lf", &o->velocity, &o->acceleration, &o->jerk) != 3) return false;
       ++k;
+    } else if (word == "--write") {
+      o->write = value;
+      ++k;
     } else if (word.rfind("--", 0) == 0) {
       if (!number(value, &x)) return false;
       if (word == "--every") o->every = std::max(1L, static_cast<long>(x));
@@ -277,7 +307,7 @@ bool read_options(int argc, char** argv, Options* o) {
 int main(int argc, char** argv) {
   Options options;
   if (!read_options(argc, argv, &options))
-    return complain("[--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] PROGRAM.nc ...");
+    return complain("[--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...");
   std::vector<Hold> all;
   std::printf("%-18s %6s %7s %6s %6s %8s %8s %6s %6s  the worst\n", "program", "holds", "median", "95 %", "worst", "> 20 ms", "median", "95 %", "worst");
   for (const std::string& program : options.programs) {
