@@ -260,7 +260,9 @@ Task<bool> OptimalPlanner::stop_at_block(Work& work, const Following& f, const S
       co_return done;
     }
     none = end;
-    if (next_block_end(end, f.tail) - start.u < kFarEnd * (end - start.u)) continue;
+    const double next = next_block_end(end, f.tail);
+    co_await work.pause(kRecordCost * (builder_.taken() - f.tail));
+    if (next - start.u < kFarEnd * (end - start.u)) continue;
     const bool done = co_await extend(work, f, start, way_to(start, end), nullptr);
     if (done || too_late(start)) co_return done;
   }
