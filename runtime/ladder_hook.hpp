@@ -46,6 +46,7 @@ struct LadderRequests {
     std::uint32_t skip_switches = 0;  // bit n: optional block skip n
     bool recalculate = false;
     bool rapid = false;          // jogs go at rapid
+    bool length_by_handle = false;  // the handle of the third axis changes the length along the tool axis
     std::int32_t feed_override = -1, rapid_override = -1;  // in 0.01 %; -1 = none given: that of the operator is in force
     std::int32_t jog_feed = 0;   // mm/min or deg/min
     std::uint32_t jog_p = 0, jog_m = 0, reference = 0;  // bit n: axis n

@@ -429,6 +429,7 @@ void Scan::build_nc_inputs() noexcept {
     in.spindle_encoder = 0;
     in.servo_on = 0;
     in.feed_pulses = 0;
+    in.tool_length_handle = 0;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
     in.follow_up = (drives_off_ || machine.not_following != 0) && !feedback_.lost;

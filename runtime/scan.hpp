@@ -317,6 +317,8 @@ class Scan {
   void watch_jog(unsigned system, unsigned axis) noexcept;
   void watch_way(unsigned system, unsigned axis) noexcept;
   void watch_handle(unsigned system, unsigned axis) noexcept;
+  bool handle_changes_length(const LadderRequests::System& now, unsigned axis) const noexcept;
+  void watch_length_handle(unsigned system) noexcept;
   bool is_spindle_now(unsigned system, unsigned axis) const noexcept;
   bool machine_faulty() const noexcept;
   bool axes_stand() const noexcept;
@@ -386,6 +388,7 @@ class Scan {
   std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was refused or stopped and has been on since
   std::uint32_t pulses_lost_[NC_MAX_SYSTEMS] = {};           // bit per axis: pulses of its handle do not go to the NC in this scan
   Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // reason for lost pulses that was noted last
+  bool length_handle_noted_[NC_MAX_SYSTEMS] = {};            // that its pulses did not change the length along the tool axis was noted
   Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return that has not ended
   // True from a fault of the machine to the end of the reset; meanwhile the commanded position follows the measured one.
   bool drives_off_ = false;

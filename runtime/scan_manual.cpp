@@ -16,6 +16,7 @@ namespace {
 constexpr double kAtLimit = 1e-6;           // mm or deg
 constexpr double kHandleIncrement = 0.001;  // mm or deg
 constexpr double kLongestStep = 1e6;        // mm or deg
+constexpr unsigned kToolHandleAxis = 2;     // M700 12.3: "the 3rd axis (tool axis) is selected for the handle"
 
 // True when the jog button must be released and pressed again after this reason has gone. A soft limit and a jog feed of 0 need no new press: the button is
 // obeyed all the time, only the axis cannot move.
@@ -134,6 +135,11 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
 
 // ---- buttons and handles of the machine, in manual mode; they have priority over the operator's jogs ----
 
+// M700 12.3: in "MDI, memory or tape operation mode". Whether the program is where the length may be changed is for the NC to say.
+bool Scan::handle_changes_length(const LadderRequests::System& now, unsigned axis) const noexcept {
+  return axis == kToolHandleAxis && mode_ != Mode::kManual && now.length_by_handle && now.handle[axis] != 0;
+}
+
 // When the buttons of both directions are on, there is no jog.
 void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
   if (requests.home && !last_requests_.home) {
@@ -156,7 +162,8 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
         jog_asked_[s][a] = static_cast<std::int8_t>(direction);
         jog_without_feed_[s] = static_cast<std::uint8_t>(jog_without_feed_[s] | (asked > 0 ? 0u : 1u << a));
       }
-      if (now.handle[a] != 0 && (!acts || jogs)) pulses_lost_[s] |= 1u << a;
+      if (handle_changes_length(now, a)) in_[s].tool_length_handle = now.handle[a] * kHandleIncrement;
+      else if (now.handle[a] != 0 && (!acts || jogs)) pulses_lost_[s] |= 1u << a;
       if (jogs) {
         in_[s].manual[a] = {NC_MANUAL_JOG, direction * std::min(asked, axis.max_velocity), 0};
       } else if (acts && now.handle[a] != 0) {
@@ -177,6 +184,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
 
 void Scan::watch_manual() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
+    watch_length_handle(s);
     if (mode_ != Mode::kManual || (!out_[s].tap_retract_possible && out_[s].state != NC_STATE_MANUAL)) taps_drawn_ &= ~(1u << s);
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       watch_jog(s, a);
@@ -247,6 +255,14 @@ void Scan::watch_handle(unsigned s, unsigned a) noexcept {
   if (why == Answer::kDone) why = jogs ? Answer::kAxesMove : at_soft_limit(s, a, direction_of(given.distance)) ? Answer::kSoftLimit : Answer::kHandleTooFar;
   if (why != noted) refuse(s, Asked::kHandle, why, static_cast<int>(a), given.kind != NC_MANUAL_HANDLE && !ignored);
   noted = why;
+}
+
+// Of pulses that do not change the length along the tool axis the first is noted, until some act again.
+void Scan::watch_length_handle(unsigned s) noexcept {
+  const bool dropped = out_[s].tool_length_dropped;
+  if (dropped && !length_handle_noted_[s]) refuse(s, Asked::kHandle, Answer::kRefusedByControl, static_cast<int>(kToolHandleAxis));
+  if (!dropped && in_[s].tool_length_handle != 0) happened(s, Asked::kHandle);
+  if (dropped || in_[s].tool_length_handle != 0) length_handle_noted_[s] = dropped;
 }
 
 // A command draws out the tap that a reset or a power cut has left in its hole.

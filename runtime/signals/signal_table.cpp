@@ -351,6 +351,12 @@ const SignalRow kSignals[] = {
      NC_WRITE { image->requests->system[s].approach |= static_cast<std::uint32_t>(value != 0) << i; }},
     {"tool_broken", kBit, kTo, kSystem, 0, 0, "the tool in the spindle is not to be used any more (tool life management)", "acts when it rises", nullptr,
      NC_WRITE { image->nc_in[s].tool_broken |= value != 0; }},
+    {"tool_length_by_handle", kBit, kTo, kSystem, 0, 0,
+     "in automatic and MDI mode the handle of the third axis changes the length that is compensated along the tool axis, by 0.001 mm for an increment (YC92 with YC5E)",
+     "in each scan in which that handle is not 0, with G43.1 in a block stop, a feed hold or a cut; the next block has the new length", nullptr,
+     NC_WRITE { image->requests->system[s].length_by_handle = value != 0; }},
+    {"tool_length_added", kWord32, kFrom, kSystem, 0, 0, "what the handle has added to the length along the tool axis, 0.001 mm", "until another number, G49, a reset or the end of the program",
+     NC_READ { return static_cast<std::int32_t>(std::lround(std::clamp(out(image, s).tool_length_added, -2e6, 2e6) * 1e3)); }, nullptr},
 };
 
 const unsigned kSignalCount = sizeof(kSignals) / sizeof(kSignals[0]);

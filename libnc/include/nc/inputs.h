@@ -61,7 +61,8 @@ typedef enum nc_input_bits {
   NC_INPUT_ACTUAL = 8,         /**< the axis counts as standing at its last accepted position, but not as in position */
   NC_INPUT_MANUAL = 16,        /**< nothing is commanded by hand for the axis; set also for a kind that is no nc_manual_kind */
   NC_INPUT_MANUAL_FEED = 32,   /**< the last accepted manual feed rate acts */
-  NC_INPUT_SKIP_PLACE = 64     /**< the skip signals count as not latched */
+  NC_INPUT_SKIP_PLACE = 64,    /**< the skip signals count as not latched */
+  NC_INPUT_TOOL_LENGTH = 128   /**< the handle adds nothing to the tool length */
 } nc_input_bits;
 
 /**
@@ -129,6 +130,11 @@ typedef struct nc_inputs {
   double spindle_age_s[NC_MAX_SPINDLES]; /**< the age of `turns` of each spindle against the commands, seconds, 0..NC_SPINDLE_AGE_MAX: 0 where they were measured while
                               the axes stood at the commands of the cycle before, one cycle more where they stood at the commands of the one before that, as behind
                               a bus. The axis of a synchronous tap (M700 13.1.1) is compared with its spindle at that moment; a lag of its drive belongs to it */
+  double tool_length_handle; /**< way by which a handle changes, in this cycle, the length that is compensated along the tool axis (G43.1, M700 12.3), mm, signed, -1e6..1e6.
+                              It is added to the amount of the number in force (nc_outputs::tool_length_added) and moves nothing at once: blocks behind the one in
+                              execution go with the new amount, and are read again for it, so the axes come to rest at its end. It counts while a program stands in
+                              a block stop or a feed hold or cuts, and length is compensated along the tool axis; not in rapid traverse, under an alarm, during a
+                              reset, in an interrupt program, and where a program that is begun inside has not gone on: nc_outputs::tool_length_dropped tells it */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.

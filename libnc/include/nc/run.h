@@ -350,6 +350,11 @@ typedef struct nc_outputs {
                                  The axis of the tap is free, and the way out; when its spindle does not follow, that is an alarm, which ends this */
   bool followed;            /**< in this cycle `command` was taken from nc_inputs::actual (nc_inputs::follow_up) */
   uint32_t restart_axes;    /**< bit n: a program that is begun inside (nc/restart.h) waits for axis n, which is not where it goes on */
+  double tool_length_added; /**< what nc_inputs::tool_length_handle has added to the length of the number in force, mm, also what counts only from the next block on. 0
+                                 again with another number, at the end of the compensation (G49, G43, G44, number 0), with the end of the program and a reset; the
+                                 table of tool offsets is not changed */
+  bool tool_length_dropped; /**< in this cycle a way of nc_inputs::tool_length_handle was dropped: it did not count (see there), the amount would have been out of the
+                                 range of an offset, or its number was changed before it could act */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.

@@ -828,6 +828,7 @@ nc_status PartSystem::feed(uint32_t budget) {
       interrupt_online();
     } else {
       displace(executor.commanded(), executor.left_at(), executor.shift_asked());
+      add_by_handle(executor.handle_asked());
       if (blocks.valid()) interpreter.enter_mdi(blocks);  // they are read first, and then the program
     }
     executor.reread_done();
@@ -865,6 +866,11 @@ bool PartSystem::read_again(Serial last) {
   fault.condition = Condition::internal;
   stop_on(fault, interpreter.source());
   return false;
+}
+
+/// M700 12.3: what follows goes with the length along the tool that the handle has changed.
+void PartSystem::add_by_handle(double way) {
+  executor.tell_along_tool(way != 0 && interpreter.add_by_handle(way), interpreter.along_tool());
 }
 
 /// The axes were moved by hand in a block stop, and what follows starts where the machine is. An axis that the next block does not name stays

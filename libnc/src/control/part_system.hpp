@@ -164,6 +164,7 @@ class PartSystem {
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
   void displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift);
+  void add_by_handle(double way);
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   void forget_mdi();

@@ -121,6 +121,7 @@ bool PartSystem::begin_found() {
     record.mark.modal = restart_modal_;
     record.mark.seq = before != nullptr ? before->seq : 0;
     record.mark.stop = record.mark.report = false;
+    record.mark.along_tool = interpreter.along_tool();
     executor.push(record);
   };
   push_mark();

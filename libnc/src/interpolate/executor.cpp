@@ -243,6 +243,13 @@ AxisVec Executor::shift_asked() const {
   return state_->shared.reread_shift;
 }
 
+double Executor::handle_asked() const { return state_->shared.reread_handle; }
+
+void Executor::tell_along_tool(bool added, const LengthAlongTool& length) {
+  state_->shared.handle_added = added;
+  state_->shared.along_tool = length;
+}
+
 Cut Executor::cut() const {
   return state_->shared.status.read().cut;
 }

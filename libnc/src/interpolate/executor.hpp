@@ -112,6 +112,10 @@ class Executor {
   AxisVec shift_asked() const;
   /// With reread_asked(): where the program has left the axes, before they were moved by hand or turned as a spindle.
   AxisVec left_at() const;
+  /// With reread_asked(): by how much the handle has been turned to change the length along the tool (M700 12.3); 0 = it was not.
+  double handle_asked() const;
+  /// To be called before reread_done(): whether that has been added, and the length along the tool with which reading goes on.
+  void tell_along_tool(bool added, const LengthAlongTool& length);
   void reread_done();
   /// Where the axes have to be for the program that is begun inside by the gate pushed next (Gate::begins_again), and how many blocks come before.
   void restart_at(const AxisVec& machine, uint64_t blocks);

@@ -36,6 +36,7 @@ const nc_inputs& InputBorder::check(const nc_inputs& in) {
   actual();
   skip_place();
   manual();
+  tool_length();
   return now_;
 }
 
@@ -124,6 +125,12 @@ void InputBorder::manual() {
     refused_ |= NC_INPUT_MANUAL;
     m = {};
   }
+}
+
+void InputBorder::tool_length() {
+  if (within(now_.tool_length_handle, kMostByHand)) return;
+  refused_ |= NC_INPUT_TOOL_LENGTH;
+  now_.tool_length_handle = 0;
 }
 
 }  // namespace nc

@@ -23,6 +23,7 @@ class InputBorder {
   void skip_place() NC_RT;
   void manual() NC_RT;
   void manual_feed() NC_RT;
+  void tool_length() NC_RT;
 
   unsigned axis_count_ = 0;
   double most_ = 2, cycle_s_ = 0.001;

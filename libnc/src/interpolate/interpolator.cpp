@@ -76,6 +76,7 @@ void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   const AxisVec began = wanted_;
   answer_truncate();
   ask_for_interrupt();
+  length_dropped_ = false;
   await_reread();
   take_plan();
   handshake(in);
@@ -87,6 +88,7 @@ void Interpolator::cycle(const nc_inputs& given, nc_outputs& out) {
   states(in);
   interrupt(in);
   turn_feed_handle(in);
+  take_length_handle(in);
   if (filter_.active()) watch_skip(in);
   if (!frozen_ && !rereading_) run(in);  // the ring from here on may be the feeder's
   if (cutting_ && stands() && !frozen_ && !rereading_) cut_block();
@@ -125,6 +127,7 @@ void Interpolator::answer_truncate() {
 void Interpolator::await_reread() {
   if (!rereading_ || shared_->reread_done.load(std::memory_order_acquire) != reread_) return;
   rereading_ = displaced_ = false;
+  take_length_answer();
 }
 
 /// FIN completes the strobes that are on, whatever the program does meanwhile. FIN2 completes them when it rises; FIN1 takes the strobes off when it
@@ -229,6 +232,8 @@ void Interpolator::ask_for_interrupt() {
   shared_->block_begun.store(0, std::memory_order_relaxed);
   shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
   tell_where_left();
+  if (reread_interrupt_) shared_->reread_handle = 0;
+  else tell_length_way();
   shared_->reread_shift = {};
   shared_->reread_mdi.store(0, std::memory_order_relaxed);
   shared_->reread_request.store(++reread_, std::memory_order_release);
@@ -240,6 +245,7 @@ void Interpolator::ask_for_interrupt() {
 void Interpolator::take_start(const nc_inputs& in) {
   if (in.cycle_start && !last_start_ && !in.reset && (!reset_ || shown_ == NC_STATE_IDLE)) start_ = true;
   last_start_ = in.cycle_start;
+  if (!start_) start_told_ = false;
   if (!in.feed_hold) start_refused_ = false;
   if (!tap_bars()) tap_refuses_ = false;
 }
@@ -302,14 +308,17 @@ void Interpolator::states(const nc_inputs& in) {
   if (start_ && !frozen_ && !rereading_) {
     const bool mdi = starts_ != 0 && shared_->mdi_waits.load(std::memory_order_acquire) == starts_;
     if (restart_bars(mdi)) return;
-    // Axes were moved by hand, or there are blocks of MDI: the start acts when blocks have been read again.
-    if ((displaced_ || mdi) && still && state_ == NC_STATE_STOPPED) {
+    // Axes were moved by hand, the handle has changed the length along the tool, or there are blocks of MDI: the start acts when blocks have been read again.
+    const bool lengthens = length_waits() && !start_told_ && between_blocks();
+    if ((displaced_ || lengthens || mdi) && still && state_ == NC_STATE_STOPPED) {
       rereading_ = true;
       in_mdi_ = in_mdi_ || mdi;
       shared_->reread_mdi.store(mdi ? 1 : 0, std::memory_order_relaxed);
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
       tell_where_left();
+      tell_length_way();
+      start_told_ = true;
       for (unsigned i = 0; i < config_.axis_count; ++i) {
         const bool shifts = in.manual_absolute_off && !begins_again_ && (by_hand_ >> i & 1) != 0;
         shared_->reread_shift[i] = shifts ? wanted_[i] - shared_->reread_from[i] : 0;
@@ -379,6 +388,7 @@ void Interpolator::give_up() {
   interrupt_rest_.forget();
   interrupt_wanted_ = false;
   recalculate_ = false;
+  forget_length();
   spindles_.reset();
   settle_axes();
   messages_.clear();
@@ -544,7 +554,7 @@ void Interpolator::publish(const nc_inputs& in) {
   status.feed_override = feed_override(in);
   status.dry = dry_;
   // The plan also comes to rest at the end of a block when an interrupt waits for it, a hold was pressed in a thread, or blocks are to be read again.
-  status.single_block = (in.single_block && !(suppress_ & NC_SUPPRESS_SINGLE_BLOCK)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_;
+  status.single_block = (in.single_block && !(suppress_ & NC_SUPPRESS_SINGLE_BLOCK)) || interrupt_wanted_ || hold_behind_thread_ || stale_ != 0 || recalculate_ || length_waits();
   status.servo_ready = servo_ready_;
   status.referenced = referenced_;
   status.ended = run_ended_;
@@ -659,6 +669,8 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.handle_dropped = manual_.handle_dropped();
   out.moved_by_hand = by_hand_;
   out.restart_axes = begins_again_ ? axes_off_restart() : 0;
+  out.tool_length_added = length_.by_handle + length_told_ + length_way_;
+  out.tool_length_dropped = length_dropped_;
   out.manual_absolute = !in.manual_absolute_off;
   out.message = message_;
   out.message_text = message_text_.id;

@@ -80,6 +80,9 @@ struct ScanShared {
   std::atomic<uint32_t> reread_mdi{0};  ///< by the scan, with the request: 1: the feeder is to begin with them
   AxisVec reread_from;                      ///< by the scan, with the request: where the program has left the axes, before they were moved by hand
   AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
+  double reread_handle = 0;                 ///< by the scan, with the request: way of the handle that changes the length along the tool
+  bool handle_added = false;                ///< by the feeder, with the answer: it has been added
+  LengthAlongTool along_tool;               ///< ... and the length with which reading goes on
   AxisVec restart_at;                       ///< by the feeder, before it pushes the gate of a program that is begun inside: Executor::restart_at()
   uint64_t restart_blocks = 0;              ///< ... and with it
   std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
@@ -154,6 +157,14 @@ class Interpolator {
 
   void count_cutting(const nc_inputs& in) NC_RT;
 
+  // interpolator_length.cpp: the handle changes the length along the tool (M700 12.3)
+  void take_length_handle(const nc_inputs& in) NC_RT;
+  bool length_handle_acts(const nc_inputs& in) const NC_RT;
+  bool length_waits() const NC_RT { return length_way_ != 0 && (interrupt_mode_ & NC_INTERRUPT_IN_SERVICE) == 0; }  ///< for blocks to be read again
+  void tell_length_way() NC_RT;
+  void take_length_answer() NC_RT;
+  void note_length(const LengthAlongTool& length) NC_RT;
+  void forget_length() NC_RT;
   // interpolator_dry.cpp: dry run
   void take_dry_run(const nc_inputs& in) NC_RT;
   double dry_feed(const Segment& segment) const NC_RT;
@@ -376,6 +387,13 @@ class Interpolator {
   Serial done_ = 0;                  ///< newest record that has been executed
   Cut cut_;
   bool recalculate_ = false, recalculate_last_ = false;  ///< a recalculation waits for the end of the block; level of the signal
+  // ---- length along the tool (M700 12.3)
+  LengthAlongTool length_;           ///< behind the newest block end that has been executed
+  double length_way_ = 0;            ///< way of the handle that the feeder does not know yet, mm
+  double length_told_ = 0;           ///< way that it has been told and has not answered yet
+  bool length_dropped_ = false;      ///< nc_outputs::tool_length_dropped
+  bool start_told_ = false;          ///< blocks have been read again for the start that is under way, with what the handle had been turned by then
+
   bool reread_reached_ = false;      ///< the place from which blocks are read again has been reached: the feeder is asked in the next cycle
   bool reread_interrupt_ = false;    ///< the feeder begins with the interrupt program then
 

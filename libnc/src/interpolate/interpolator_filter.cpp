@@ -21,7 +21,7 @@ bool Interpolator::waits_for_filters(const Record& r, const nc_inputs& in) {
   }
   bool waits = check_ || stands_there;
   if (r.kind == ItemKind::action) waits = waits || r.action.kind <= NC_ACTION_B || r.action.kind == NC_ACTION_MESSAGE;
-  if (r.kind == ItemKind::mark) waits = waits || stops_at(r.mark, in) || interrupt_wanted_ || recalculate_ || stale_ != 0;
+  if (r.kind == ItemKind::mark) waits = waits || stops_at(r.mark, in) || interrupt_wanted_ || recalculate_ || length_waits() || stale_ != 0;
   if (waits) wait(NC_CAUSE_IN_POSITION);
   return waits;
 }

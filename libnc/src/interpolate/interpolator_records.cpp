@@ -47,6 +47,7 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       modal_ = r.end.modal;
       settle_axes();
       recalculate_ = false;
+      forget_length();
       interrupt_mode_ = 0;
       interrupt_rest_.forget();
       interrupt_wanted_ = hold_behind_tap_ = false;
@@ -507,6 +508,7 @@ Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
 /// The end of a block, or a place inside a cycle where single block may stop.
 void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
+  note_length(m.along_tool);
   if (m.report) {
     if (!m.aside) ++blocks_;
     interrupt_rest_.block_ended();
@@ -523,8 +525,9 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
     rereading_ = reread_reached_ = reread_interrupt_ = true;
     return;
   }
-  // Blocks that are read again begin at the end of this one. Where the axes stand beside it, the next block end serves, which the plan comes to exactly.
-  if (m.resume && at_rest() && ((recalculate_ && !beside_path_end()) || (stale_ != 0 && may_read_again()))) {
+  // Blocks that are read again begin at the end of this one. Where the axes stand beside it, the next block end serves, which the plan comes to exactly. A changed
+  // length leads away from this end anyway, by a line.
+  if (m.resume && at_rest() && ((recalculate_ && !beside_path_end()) || length_waits() || (stale_ != 0 && may_read_again()))) {
     settle_axes();
     recalculate_ = false;
     rereading_ = reread_reached_ = true;

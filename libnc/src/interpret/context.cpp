@@ -103,6 +103,7 @@ void BlockContext::emit_stop_point(bool resume) {
   item.block_end = false;
   new (&item.mark) Mark{position(), modals.intern(state.modal), resume ? state.seq : 0, 0,
                         (state.suppressed & NC_SUPPRESS_SINGLE_BLOCK) == 0 && !state.modal.is(Function::tapping_mode), false, resume, false, {}};
+  item.mark.along_tool = along_tool();
 }
 
 ModalId BlockContext::modal_now(bool executable) {
@@ -127,6 +128,7 @@ void BlockContext::finish_block(bool stop, bool executable) {
     stop = false;
   Item& item = next_item(ItemKind::mark, executable);
   new (&item.mark) Mark{position(), modal_now(executable), state.seq, 0, stop, true, true, begins_again, state.repeat};
+  item.mark.along_tool = along_tool();
   item.mark.aside = aside;
   item.mark.of_call = call_ends;
   call_ends = false;

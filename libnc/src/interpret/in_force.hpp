@@ -15,6 +15,7 @@
 #include "interpret/state.hpp"
 #include "macro/variables.hpp"
 #include "nc/config.h"
+#include "stream/stream.hpp"
 
 namespace nc {
 
@@ -86,6 +87,10 @@ struct InForce {
   /// The slot of the tool in the spindle in the table of tool life, ToolLives::kNone = its life is not managed, or it is not registered there any more.
   unsigned managed_tool() const { return lives->find(records->tools.spindle); }
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
+  /// What the machine has to know of the length along the tool in force.
+  LengthAlongTool along_tool() const {
+    return state.modal.is(Function::length_along_tool) ? LengthAlongTool{state.modal.h, state.length_by_handle} : LengthAlongTool{};
+  }
 
   /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.
   void program_changed() {

@@ -2,11 +2,13 @@
 // The main loop: reading the next block, blocks that take several calls, checkpoints, rewind, reset.
 #include "interpret/interpreter.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
 #include <new>
 
+#include "interpret/functions/functions.hpp"
 #include "interpret/journal_keys.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/shared_tables.hpp"
@@ -241,6 +243,22 @@ void Interpreter::shift_coordinates(unsigned axis, double by) {
     return;
   }
   set_table_from_outside(Frames::shift_key(axis), frames.get(Frames::shift_key(axis)) + by);
+}
+
+bool Interpreter::add_by_handle(double way) {
+  if (along_tool().number == 0) return false;
+  const double before = state.length_by_handle;
+  state.length_by_handle += way;
+  state.tool_length = amount_along_tool(*this);
+  const bool fits = std::fabs(state.tool_length) < end_of_offset(*this, NC_TOOL_LENGTH);
+  if (fits) {
+    state.length_changed_by_handle = true;
+  } else {
+    state.length_by_handle = before;
+    state.tool_length = amount_along_tool(*this);
+  }
+  keep_state();
+  return fits;
 }
 
 bool Interpreter::refers_to(unsigned file) const {

@@ -85,6 +85,9 @@ struct Interpreter : BlockContext {
     moved_by_hand();
     keep_state();
   }
+  /// The handle has been turned by `way` since the newest block: the length along the tool changes from the next block on (M700 12.3). A rewind to that block
+  /// finds it changed, too. False: there is none now, or the amount would be out of the range of an offset, and nothing has changed.
+  bool add_by_handle(double way);
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.

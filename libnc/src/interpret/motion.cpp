@@ -97,7 +97,10 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;
   if (in.state.moved_side != in.state.comp.side) [[unlikely]] note_side(in, start, target, move);
-  if (leads_beside(in.state)) [[unlikely]] in.state.moved_space = move.space = space_vector(in, machine);
+  if (leads_beside(in.state)) [[unlikely]] {
+    in.state.moved_space = move.space = space_vector(in, machine);
+    in.state.length_changed_by_handle = false;
+  }
   return move;
 }
 
@@ -569,6 +572,7 @@ static double displaced_apart(const InForce& in, const MoveFrame& frame, unsigne
 
 Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& target, uint32_t commanded, ArcWords words, bool ccw) {
   if (starts_or_ends_compensation(in)) return in.raise_mode(Condition::arc_in_compensation_start, Mode::radius);
+  if (in.state.length_changed_by_handle) [[unlikely]] move_nowhere(in);  // M700 12.3: both ends of an arc lie on a circle, so the new vector is gone to first
   const auto h = static_cast<unsigned>(plane.h), v = static_cast<unsigned>(plane.v);
   if (!in.dialect->rules.arc.takes_rotary_axes && (commanded & in.rotary) != 0) return in.raise_axis(Condition::illegal_axis, first_of(commanded & in.rotary));
   const InchDegrees scope(in, h, v);

@@ -122,6 +122,8 @@ AxisVec PartInterpreter::beside_end(const uint8_t (&axis)[2], const double (&vec
 }
 void PartInterpreter::end_at(const AxisVec& machine) { in_->state.machine = machine; }
 void PartInterpreter::set_machine(const AxisVec& machine) { in_->set_machine(machine); }
+bool PartInterpreter::add_by_handle(double way) { return in_->add_by_handle(way); }
+LengthAlongTool PartInterpreter::along_tool() const { return in_->along_tool(); }
 void PartInterpreter::move_to(const AxisVec& machine, const AxisVec& beside) { in_->move_to(machine, beside); }
 void PartInterpreter::shift_coordinates(unsigned axis, double by) { in_->shift_coordinates(axis, by); }
 AxisVec PartInterpreter::work_zero() const {

@@ -160,6 +160,9 @@ class PartInterpreter {
   void set_machine(const AxisVec& machine);
   /// The axes have been moved by hand behind the newest block; a rewind to that block finds them at `machine`, too.
   void move_to(const AxisVec& machine, const AxisVec& beside);
+  /// The handle changes the length along the tool from the next block on (M700 12.3). False: it does not.
+  bool add_by_handle(double way);
+  LengthAlongTool along_tool() const;
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Machine coordinates of the workpiece zero, with the tool length that is applied.

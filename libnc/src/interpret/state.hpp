@@ -278,6 +278,9 @@ struct UntilReset {
   bool spindle_on = false;
   bool spindle_reverse = false; ///< as it was last turned
   bool spindle_clamped = false; ///< by G92 S Q (M700 10.4): what at is known where it is executed
+  uint32_t length_handle_number = 0;  ///< number of the length along the tool to which the handle has added ...
+  double length_by_handle = 0;        ///< ... this, mm (M700 12.3)
+  bool length_changed_by_handle = false;  ///< since the last movement
 };
 
 /// What outlives the end of a program, but not a reset by the operator (M700 9.1).

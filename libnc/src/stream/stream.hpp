@@ -231,6 +231,12 @@ struct Repeat {
   uint16_t items = 0;   ///< number of items of that block that have been executed
 };
 
+/// The length that is compensated along the axis of the tool behind a block (M700 12.3).
+struct LengthAlongTool {
+  uint32_t number = 0;  ///< of its amount; 0 = there is none
+  double by_handle = 0; ///< what the handle has added to that amount, mm
+};
+
 struct Mark {
   AxisVec work;                  ///< programmed position at the end of the block, active workpiece coordinates
   ModalId modal = 0;
@@ -244,6 +250,7 @@ struct Mark {
   bool of_call = false;          ///< of a block that has called a program: what stands between it and the mark before is that program
   bool aside = false;            ///< of a block of MDI in a block stop, or of an interrupt program: it is none of the program
   bool beside = false;           ///< the axes stand beside the programmed end, because a corner was cut: a macro interrupt waits for a later block end
+  LengthAlongTool along_tool{};
 };
 
 /// Rule of a stage that needs no parameters (StageRow).

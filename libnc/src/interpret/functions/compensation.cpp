@@ -127,11 +127,19 @@ Execution take_radius_number(BlockInHand& in) {
 
 double radius_amount(const InForce& in, uint32_t number) { return amount(in, number, true); }
 
+/// M700 12.3: what the handle has added belongs to the number that was in force then, and ends with it.
+double amount_along_tool(InForce& in) {
+  State& state = in.state;
+  if (state.length_handle_number != state.modal.h) state.length_by_handle = 0;
+  state.length_handle_number = state.modal.h;
+  return amount(in, state.modal.h, false) + state.length_by_handle;
+}
+
 void take_changed_amounts(InForce& in) {
   State& state = in.state;
   if (!in.dialect->rules.compensation.takes_changed_amounts) return;
   if (length_in_force(state.modal)) state.length_value = length_amount(in);
-  if (state.modal.is(Function::length_along_tool)) state.tool_length = amount(in, state.modal.h, false);
+  if (state.modal.is(Function::length_along_tool)) state.tool_length = amount_along_tool(in);
   if (state.comp.side != 0) state.comp.radius = radius_amount(in, state.modal.d);
 }
 
@@ -237,7 +245,7 @@ Execution change_length(BlockInHand& in) {
   const Execution did = take_length_number(in);
   // Like a changed amount it acts from the next command of the axis on (12.1).
   if (did == Execution::done && length_in_force(in.state.modal)) in.state.length_value = length_amount(in);
-  if (did == Execution::done && in.state.modal.is(Function::length_along_tool)) in.state.tool_length = amount(in, in.state.modal.h, false);
+  if (did == Execution::done && in.state.modal.is(Function::length_along_tool)) in.state.tool_length = amount_along_tool(in);
   return did;
 }
 
@@ -269,11 +277,12 @@ Execution set_length(BlockContext& in, Function function) {
   }
   in.words.comp_command = in.words.comp_command || (state.tool_length != 0 && function != Function::length_along_tool);  // that vector goes at once
   state.tool_length = 0;
+  if (function != Function::length_along_tool) state.length_by_handle = 0;
   if (function == Function::length_off) {
     state.length_value = 0;
   } else {
     if (rules.zero_is_number ? state.modal.h_given == 0 : state.modal.h == 0 && !in.words.has(Role::length_number)) return in.raise(Condition::no_offset_number, Role::length_number);
-    if (function == Function::length_along_tool) return set_length_along_tool(in, amount(in, state.modal.h, false));
+    if (function == Function::length_along_tool) return set_length_along_tool(in, amount_along_tool(in));
     const int axis = length_axis_of_block(in);
     if (axis < 0) return in.raise(Condition::illegal_axis, Role::basic_z);
     state.length_axis = static_cast<uint8_t>(axis);

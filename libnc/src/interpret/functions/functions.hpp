@@ -90,6 +90,7 @@ Execution change_space_vector(BlockInHand& in);
 
 /// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
 Execution set_length_along_tool(BlockInHand& in, double length);
+double amount_along_tool(InForce& in);        ///< of the number in force, with what the handle has added to it (compensation.cpp)
 
 /// coordinates.cpp: the word is of a code that the block names, so it is not one of the motion or the cycle in force (M700 14.10 (12)).
 void take_word_of_code(BlockInHand& in, Role word);

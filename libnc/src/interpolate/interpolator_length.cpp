@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scan and the handle that changes the length along the axis of the tool (M700 12.3, "changing the amount"). The handle moves no axis: its way is collected
+// here, and at the end of the block in execution, or at the start that goes on from a block stop, the feeder reads the blocks behind it again with the new
+// amount ("effective immediately in the next block", note 2).
+#include "interpolate/interpolator.hpp"
+
+namespace nc {
+
+void Interpolator::take_length_handle(const nc_inputs& in) {
+  if (in.tool_length_handle == 0) return;
+  if (length_handle_acts(in)) length_way_ += in.tool_length_handle;
+  else length_dropped_ = true;
+}
+
+/// 12.3 (1): "during single block stop, during feed hold or during cutting feed movement", not "during error"; and during G43.1. An interrupt program may have cut
+/// a block that goes on behind it as it was.
+bool Interpolator::length_handle_acts(const nc_inputs& in) const {
+  if (length_.number == 0 || alarmed_ || reset_ || in.reset || begins_again_ || (interrupt_mode_ & NC_INTERRUPT_IN_SERVICE) != 0) return false;
+  if (state_ == NC_STATE_STOPPED || state_ == NC_STATE_HOLD) return true;
+  return state_ == NC_STATE_RUNNING && moving_ && !current().segment.rapid;
+}
+
+/// With a request to read again.
+void Interpolator::tell_length_way() {
+  shared_->reread_handle = length_told_ = length_way_;
+  shared_->handle_added = false;
+  length_way_ = 0;
+}
+
+void Interpolator::take_length_answer() {
+  if (length_told_ == 0) return;
+  if (shared_->handle_added) length_ = shared_->along_tool;
+  else length_dropped_ = true;
+  length_told_ = 0;
+}
+
+/// The end of a block. With another number the change is cancelled (12.3 (2)), as it is by G49 (note 3).
+void Interpolator::note_length(const LengthAlongTool& length) {
+  if (length.number != length_.number && length_way_ != 0) {
+    length_way_ = 0;
+    length_dropped_ = true;
+  }
+  length_ = length;
+}
+
+/// The program has ended, or is given up.
+void Interpolator::forget_length() {
+  length_dropped_ = length_dropped_ || length_way_ != 0;
+  length_ = {};
+  length_way_ = length_told_ = 0;
+}
+
+}  // namespace nc
