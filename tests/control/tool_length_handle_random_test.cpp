@@ -117,7 +117,7 @@ class HandleSession {
   void step() {
     const uint8_t before = out().state;
     const double way = in().tool_length_handle;
-    const bool stood = before == NC_STATE_STOPPED && !starting_;
+    const bool stood = before == NC_STATE_STOPPED && !starting_ && !in().cycle_start;  // a start may lead to the stop behind MDI within its cycle
     machine_.step();
     for (size_t i = machine_.drive->fresh; i < machine_.drive->events.size(); ++i) follow(machine_.drive->events[i]);
     const bool counted = way != 0 && !out().tool_length_dropped;
