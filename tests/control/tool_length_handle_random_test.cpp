@@ -107,6 +107,7 @@ class HandleSession {
     EXPECT_EQ(out().tool_length_added, 0);
     for (unsigned i = 0; i < kAxes; ++i) at_[i] = out().command.v[i];
     change_number(0);
+    moved_ = false;
     machine_.step(5);
     in().cycle_start = true;
     step();
@@ -137,12 +138,21 @@ class HandleSession {
     const Effect& effect = mdi ? mdi_ : program_[event.source.line - 1];
     if (event.kind == NC_ITEM_MOVE) block_ends(effect, event);
     if (event.kind != NC_ITEM_MARK) return;
-    change_number(moved_number_);  // the end of the block whose move has come last
+    if (!moved_ && !mdi) ends_where_it_stands(effect);  // behind the last block of MDI there is a mark more
+    moved_ = false;
+    change_number(moved_number_);
     least_ = std::max(least_, turns_[0]);
     for (unsigned i = 0; i + 1 < kLate; ++i) turns_[i] = turns_[i + 1];
     turns_[kLate - 1] = sums_.size() - 1;
   }
+  /// A block whose end with its vector is where a reset has left the axes has no move. Its words and its number count all the same.
+  void ends_where_it_stands(const Effect& effect) {
+    for (unsigned i = 0; i < kAxes && !effect.increments; ++i)
+      if (effect.named[i]) at_[i] = effect.to[i];
+    if (effect.number >= 0) moved_number_ = static_cast<unsigned>(effect.number);
+  }
   void block_ends(const Effect& effect, const nc_event& event) {
+    moved_ = true;
     for (unsigned i = 0; i < kAxes; ++i)
       if (effect.named[i]) at_[i] = effect.increments ? at_[i] + effect.to[i] : effect.to[i];
     const unsigned number = moved_number_ = effect.number >= 0 ? static_cast<unsigned>(effect.number) : number_;
@@ -177,6 +187,7 @@ class HandleSession {
   std::array<double, kAxes> at_{};  ///< programmed
   unsigned number_ = 0;             ///< of the length along the tool behind the newest block that has ended
   unsigned moved_number_ = 0;       ///< the same behind the newest move
+  bool moved_ = false;              ///< the block in execution has had its move
   std::vector<double> sums_{0};     ///< what the handle had made of its amount, after each turn
   size_t least_ = 0;                ///< the next block has this one of them, or a later one
   std::array<size_t, kLate> turns_{};  ///< number of turns at the ends of the last blocks
