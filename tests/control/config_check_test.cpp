@@ -70,7 +70,7 @@ const Row kRows[] = {
      {1, 25, 33, 100, 500, 3000, 999995}, {400, 800000}},
     {"system[1].axis_count", [](nc_config& c, double v) { c.system[1].axis_count = static_cast<uint8_t>(v); }, {0, 9, 255}, {1, 4}},
     {"system[1].spindle_count", [](nc_config& c, double v) { c.system[1].spindle_count = static_cast<uint8_t>(v); }, {5, 255}, {0, 4}},
-    {"system[1].reserved", [](nc_config& c, double v) { c.system[1].reserved[6] = v; }, {1, kNan}, {0}},
+    {"system[1].reserved", [](nc_config& c, double v) { c.system[1].reserved[5] = v; }, {1, kNan}, {0}},
     {"system[1].axis[2].name", [](nc_config& c, double v) { c.system[1].axis[2].name = static_cast<char>(v); }, {0, 'x', 'F', 'X', 'Y'}, {'Z', 'W'}},
     {"system[1].axis[2].rapid", [](nc_config& c, double v) { c.system[1].axis[2].rapid = v; }, {kNan, kInf, -1, 1.1e12}, {0, 1e12}},
     {"system[1].axis[2].max_velocity", [](nc_config& c, double v) { c.system[1].axis[2].max_velocity = v; }, {kNan, kInf, -1, 1.1e12}, {0, 1e12}},

@@ -117,7 +117,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ModalInProgram, comp, cycle, motion_off, moves_since_comp_off, moved_side, arc_points, nurbs, nurbs_order, arc_step, parameter_input, tap_code, switch_mirror, figure_scaled,
             figure_mirror, vacant_feed_file, vacant_feed, vacant_feed_line, spline_way, meeting, space, life_input, moved_space)
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
-  NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle)
+  NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
   NC_FIELDS(UntilOperatorReset, left_by_end)
   NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open, selected_tool, spindle_tool)
   NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)

@@ -19,8 +19,9 @@ class WatchedMachine {
  public:
   static constexpr double kCycle = 0.001;
 
-  WatchedMachine(nc_dialect dialect, const char* names, std::vector<double> velocity, bool optimal, unsigned feed)
-      : bench(dialect, limits(names, velocity, optimal)), velocity_(std::move(velocity)), feed_(feed) {}
+  /// `more` changes its configuration.
+  WatchedMachine(nc_dialect dialect, const char* names, std::vector<double> velocity, bool optimal, unsigned feed, const std::function<void(nc_config&)>& more = {})
+      : bench(dialect, limits(names, velocity, optimal, more)), velocity_(std::move(velocity)), feed_(feed) {}
 
   void start(const std::string& text) {
     drive = std::make_unique<Drive>(bench, text);
@@ -52,8 +53,8 @@ class WatchedMachine {
   unsigned worst_axis = 0, worst_line = 0;
 
  private:
-  static std::function<void(nc_config&)> limits(const char* names, const std::vector<double>& velocity, bool optimal) {
-    return [names, velocity, optimal](nc_config& c) {
+  static std::function<void(nc_config&)> limits(const char* names, const std::vector<double>& velocity, bool optimal, const std::function<void(nc_config&)>& more) {
+    return [names, velocity, optimal, more](nc_config& c) {
       axes(names)(c);
       c.cycle_s = kCycle;
       c.look_ahead = 128;
@@ -64,6 +65,7 @@ class WatchedMachine {
         axis.max_acceleration = 20 * velocity[i];
         axis.max_jerk = optimal ? 400 * velocity[i] : 0;
       }
+      if (more) more(c);
     };
   }
 

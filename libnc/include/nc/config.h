@@ -30,13 +30,21 @@ typedef struct nc_axis_config {
 } nc_axis_config;
 
 /** One part system. */
+/** What turns the tool where its length is compensated along its axis (G43.1, M700 12.3). */
+typedef enum nc_tool_axis {
+  NC_TOOL_AXIS_TURNED = 0,       /**< rotary axes of the part system: C and A, or C and B where there is no A. Their machine positions are the angles */
+  NC_TOOL_AXIS_MECHANICAL_A = 1, /**< a head that is no axis of the part system ("mechanical axes"), as C and A: nc_inputs::tool_angle has the angles */
+  NC_TOOL_AXIS_MECHANICAL_B = 2  /**< the same as C and B */
+} nc_tool_axis;
+
 typedef struct nc_system_config {
   uint8_t axis_count;      /**< 1..NC_MAX_AXES */
   nc_axis_config axis[NC_MAX_AXES]; /**< nothing of those behind axis_count is looked at */
   uint8_t spindle_count;   /**< 1..NC_MAX_SPINDLES; 0 = one */
   uint64_t spindle_unsigned; /**< bit n: the speed in nc_inputs::spindle[n] is measured without a sign, so a thread does not check in which
                                   direction this spindle turns */
-  double reserved[7];      /**< for members of later versions, must be 0 */
+  uint64_t tool_axis;      /**< nc_tool_axis; default NC_TOOL_AXIS_TURNED */
+  double reserved[6];      /**< for members of later versions, must be 0 */
 } nc_system_config;
 
 /** How the machine moves along the path. */

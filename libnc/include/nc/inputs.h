@@ -28,7 +28,9 @@ typedef enum nc_manual_kind {
                                axis plus its braking distance ahead; the rest of the way is dropped, so that the axis is at rest soon after the
                                wheel. Also dropped is the way beyond a soft limit, the way commanded while commands are refused, and the way that
                                a stop or a jog ends. nc_outputs::handle_dropped tells it */
-  NC_MANUAL_REFERENCE = 4, /**< the axis goes to its first reference position */
+  NC_MANUAL_REFERENCE = 4, /**< the axis goes to its first reference position. Where the family says so, its length compensation ends there, and along the axis of the tool
+                               that of any axis which has to do with it: with the next start, and without a movement (M700 12.2 (4), 12.3). Not while a program that
+                               is begun inside has not gone on */
   NC_MANUAL_RETURN = 5    /**< in a block stop: the axis goes back to where the program, or the blocks of MDI behind it, have left it, or, where the program is begun inside (nc/restart.h), to where it
                                goes on. An axis that stands there already does not move. Of a velocity the amount counts, 0 means the top speed of the axis */
 } nc_manual_kind;
@@ -62,7 +64,8 @@ typedef enum nc_input_bits {
   NC_INPUT_MANUAL = 16,        /**< nothing is commanded by hand for the axis; set also for a kind that is no nc_manual_kind */
   NC_INPUT_MANUAL_FEED = 32,   /**< the last accepted manual feed rate acts */
   NC_INPUT_SKIP_PLACE = 64,    /**< the skip signals count as not latched */
-  NC_INPUT_TOOL_LENGTH = 128   /**< the handle adds nothing to the tool length */
+  NC_INPUT_TOOL_LENGTH = 128,  /**< the handle adds nothing to the tool length */
+  NC_INPUT_TOOL_ANGLE = 256    /**< the last accepted angles of the tool act, 0 where there were none */
 } nc_input_bits;
 
 /**
@@ -135,6 +138,9 @@ typedef struct nc_inputs {
                               execution go with the new amount, and are read again for it, so the axes come to rest at its end. It counts while a program stands in
                               a block stop or a feed hold or cuts, and length is compensated along the tool axis; not in rapid traverse, under an alarm, during a
                               reset, in an interrupt program, and where a program that is begun inside has not gone on: nc_outputs::tool_length_dropped tells it */
+  double tool_angle[2];  /**< angles of a head that is no axis of the part system (nc_system_config::tool_axis), deg, -1e6..1e6: [0] about X or Y (A, B), [1] about Z (C).
+                              Read only with NC_TOOL_AXIS_MECHANICAL_A or _B, where a block needs them: when it has G43.1, and with G43.1 in force behind M, S, T and B, since
+                              what is given out by them may have turned the head. That block waits until everything before it has been executed */
 } nc_inputs;
 /**
  * Clear the struct, set its size, and set both overrides to 100 %: the inputs of a machine at which no switch is on. Any thread.

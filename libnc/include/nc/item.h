@@ -121,7 +121,7 @@ typedef enum nc_gate_kind {
 /** What a sync waits for; bits of nc_item::sync.what. */
 typedef enum nc_sync_what {
   NC_SYNC_POSITION = 1, /**< machine, workpiece or skip position */
-  NC_SYNC_INPUT = 2,    /**< macro interface inputs */
+  NC_SYNC_INPUT = 2,    /**< macro interface inputs, or the angles of the tool */
   NC_SYNC_CLOCK = 4,    /**< date, time, integrated time */
   NC_SYNC_SKIP = 8,     /**< the position at which a G31 move has ended */
   NC_SYNC_MODAL = 16,   /**< modal state in execution (#4200s) */
@@ -265,6 +265,7 @@ typedef struct nc_world {
   int64_t clock_ms;         /**< wall clock, ms since 1970-01-01 local time (#3011, #3012) */
   double power_on_ms;       /**< integrated time of power on, ms (#3001) */
   double run_ms;            /**< integrated time of automatic operation, ms (#3002) */
+  double tool_angle[2];     /**< angles of the tool, deg (nc_inputs::tool_angle) */
 } nc_world;
 /**
  * Clear it and set its size. Any thread.

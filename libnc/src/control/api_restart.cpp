@@ -10,6 +10,7 @@ nc_status nc_restart_begin(nc_control* c, unsigned system, const nc_restart_plac
   nc_restart_place place{};
   nc_world world{};
   if (!nc::take_struct(given, &place) || (of_machine != nullptr && !nc::take_struct(of_machine, &world))) return NC_E_ARGUMENT;
+  if (!are_tool_angles(world.tool_angle)) return NC_E_ARGUMENT;
   nc::PartSystem& of = c->system[system];
   const bool line = place.by != NC_RESTART_BLOCK;
   if (place.by > NC_RESTART_LINE || (line && (place.number == 0 || place.number > UINT32_MAX))) return NC_E_ARGUMENT;

@@ -86,6 +86,7 @@ nc_status nc_answer(nc_control* c, unsigned system, const nc_world* given) {
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i)
     if (!std::isfinite(world.machine.v[i]) || (world.skipped && !std::isfinite(world.skip_machine.v[i]))) return NC_E_ARGUMENT;
   if (!std::isfinite(world.power_on_ms) || !std::isfinite(world.run_ms)) return NC_E_ARGUMENT;
+  if (!are_tool_angles(world.tool_angle)) return NC_E_ARGUMENT;
   if (c->system[system].busy()) return NC_E_STATE;  // the scan answers
   return c->system[system].answer(world);
 }

@@ -68,6 +68,17 @@ class Commit {
   void forget_stages(uint8_t which) {
     if (mark_count_ != 0) marks_[(mark_count_ - 1) & mark_mask_].stages &= static_cast<uint8_t>(~which);
   }
+  /// Changes what a stage needs to go on from the newest mark.
+  template <class Stage>
+  void change_stage(const typename Stage::Resume& resume) {
+    if (mark_count_ == 0) return;
+    constexpr size_t kPlace = Stages::place_of<Stage>();
+    MarkPoint& newest = marks_[(mark_count_ - 1) & mark_mask_];
+    newest.stages = static_cast<uint8_t>(newest.stages & ~(1u << kPlace));
+    if (!in_force(resume)) return;
+    newest.stages = static_cast<uint8_t>(newest.stages | 1u << kPlace);
+    std::get<kPlace>(resumes_[&newest - marks_].of) = resume;
+  }
   void restart() {
     last_serial_ = 0;
     mark_count_ = 0;

@@ -151,6 +151,7 @@ bool Check::system(unsigned index) {
   if (s.spindle_count > NC_MAX_SPINDLES) return refuse(Path(path).member("spindle_count"), "must be 0 to 4; 0 = one");
   if (s.spindle_unsigned >> (s.spindle_count == 0 ? 1 : s.spindle_count) != 0)
     return refuse(Path(path).member("spindle_unsigned"), "must have bits of spindles that there are: bit 0 to spindle_count - 1");
+  if (s.tool_axis > NC_TOOL_AXIS_MECHANICAL_B) return refuse(Path(path).member("tool_axis"), "must be an nc_tool_axis");
   for (unsigned i = 0; i < s.axis_count; ++i)
     if (!axis(index, i)) return false;
   return unused(Path(path).member("reserved"), s.reserved);

@@ -2,6 +2,8 @@
 // The members of an nc_control.
 #pragma once
 
+#include <cmath>
+
 #include "control/joints.hpp"
 #include "control/part_system.hpp"
 
@@ -17,6 +19,9 @@ struct nc_control {
   bool any_joints;
   char mdi[NC_MAX_SYSTEMS][1024 + 6];  // the MDI blocks of each part system; 6 bytes for what is put before and behind them
 };
+
+/// Whether the host's answer has angles of a tool (nc_world::tool_angle); false for NaN, too.
+inline bool are_tool_angles(const double (&angle)[2]) { return std::fabs(angle[0]) <= 1e6 && std::fabs(angle[1]) <= 1e6; }
 
 /// Whether there is a control, with this part system (from 0).
 inline bool has_system(const nc_control* control, unsigned system) { return control != nullptr && system < control->config.system_count; }

@@ -562,7 +562,7 @@ nc_status PartSystem::rewind(Serial serial) {
   MarkPoint head;  // the beginning of the program: nothing has been read there
   const MarkPoint* point = serial == 0 ? &head : commit_.find(serial);
   if (point == nullptr || !interpreter.rewind(point->seq)) return NC_E_NOT_FOUND;
-  if (serial == 0) head.machine = interpreter.machine();
+  if (serial == 0) head.machine = interpreter.stands_at();
   forget_interrupt();
   if (stop_ == Stop::committed) stop_ = Stop::none;  // the block of the stop is read again; where it is `passed` the machine has still to execute it
   clear_staged();
@@ -577,6 +577,7 @@ nc_status PartSystem::rewind(Serial serial) {
   } else {
     stages_.reset();
   }
+  if (serial == 0) stages_.go_on_from<SpaceStage>(interpreter.vector_in_space());
   commit_.rewind_to(*point);
   if (interpreter.repeat().active) drop_repeated(interpreter.repeat(), interpreter.machine());
   return NC_OK;
@@ -595,6 +596,7 @@ void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   uit_mode_ = 0;
   uit_rest_.forget();
   stages_.reset();
+  stages_.go_on_from<SpaceStage>(interpreter.vector_in_space());
   clear_staged();
   open_sync_ = 0;
   answered_block_ = 0;
@@ -744,6 +746,7 @@ void PartSystem::follow_run() {
     interpreter.set_mirror_signal(executor.mirror());
     restart(executor.commanded(), interpreter.is_mdi());
     commit_.restart();
+    take_returned();
   }
   executor.run_taken(now.word());
 }
@@ -812,7 +815,10 @@ nc_status PartSystem::feed(uint32_t budget) {
   follow_run();
   int64_t left = int64_t{budget} * kUnit;
   if (!run_.active() || !interpreter.is_selected()) {
-    if (executor.reread_asked()) executor.reread_done();  // there is nothing left to be read again
+    if (executor.reread_asked()) {  // there is nothing left to be read again
+      executor.tell_along_tool(false, {});
+      executor.reread_done();
+    }
     feeding_.open = false;
     if (!executor.answer(&left) || !executor.plan(&left)) return NC_BUDGET;
     if (!finished_) return NC_WAITING;
@@ -823,8 +829,9 @@ nc_status PartSystem::feed(uint32_t budget) {
     const ProgramRef blocks = executor.mdi_asked() ? mdi_blocks_ : ProgramRef{};
     if (executor.mdi_asked()) forget_mdi();
     if (!read_again(executor.give_up_ahead())) {
-      // stopped with an alarm
-    } else if (interrupt) {
+      executor.tell_along_tool(false, interpreter.along_tool());  // stopped with an alarm
+    } else if (take_returned(); interrupt) {
+      executor.tell_along_tool(false, interpreter.along_tool());
       interrupt_online();
     } else {
       displace(executor.commanded(), executor.left_at(), executor.shift_asked());
@@ -866,6 +873,16 @@ bool PartSystem::read_again(Serial last) {
   fault.condition = Condition::internal;
   stop_on(fault, interpreter.source());
   return false;
+}
+
+/// Axes that have come to their reference positions by hand end the compensation of a length (M700 12.2 (4), 12.3). No axis moves by that.
+void PartSystem::take_returned() {
+  const uint32_t axes = executor.returned();
+  if (axes == 0) return;
+  interpreter.returned_by_hand(axes);
+  const SpaceVector& vector = interpreter.vector_in_space();
+  stages_.go_on_from<SpaceStage>(vector);
+  commit_.change_stage<SpaceStage>(vector);
 }
 
 /// M700 12.3: what follows goes with the length along the tool that the handle has changed.

@@ -165,6 +165,7 @@ class PartSystem {
   bool read_again(Serial last);
   void displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift);
   void add_by_handle(double way);
+  void take_returned();
   void take_spindle_axes(const nc_world& world);
   bool begin_interrupt();
   void forget_mdi();

@@ -21,6 +21,7 @@
 
 #include <bit>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "base/arena.hpp"
@@ -79,6 +80,20 @@ class StageRow {
   void restore(const Resume& resume, uint8_t which) {
     reset();
     restore(resume, which, kAll);
+  }
+  /// A stage that holds nothing goes on from `resume`.
+  template <class Stage>
+  void go_on_from(const typename Stage::Resume& resume) {
+    std::get<Stage>(stages_).restore(resume);
+    look(kAll);
+  }
+  /// The number of a stage in the row.
+  template <class Stage>
+  static constexpr size_t place_of() {
+    constexpr bool kIs[] = {std::is_same_v<Stage, Stages>...};
+    size_t place = 0;
+    while (!kIs[place]) ++place;
+    return place;
   }
   void reset() {
     std::apply([](auto&... stage) { (stage.reset(), ...); }, stages_);

@@ -371,6 +371,8 @@ struct ReferenceRules {
   /// The length compensation of an axis is cancelled when the axis reaches its reference position (M700 12.2, 14.7 (9), 14.8 (6)). DGSHAPE
   /// G28 does not say so.
   bool cancels_length;
+  /// So does a reference return by hand, which also ends the compensation along the axis of the tool (M700 12.2 (4) (a), 12.3). The others do not say so.
+  bool hand_cancels_length = false;
   /// P of the further reference positions is 2 to 4, and anything else a fault (HX 6.2). Otherwise it is the 2nd position (M700 14.8 (1)).
   bool place_is_checked = false;
   /// A block without axis words moves all axes, without an intermediate point (RS-274/NGC 3.5.8). Otherwise it is a fault that words are

@@ -243,6 +243,8 @@ AxisVec Executor::shift_asked() const {
   return state_->shared.reread_shift;
 }
 
+uint32_t Executor::returned() const { return state_->shared.returned.load(std::memory_order_relaxed); }
+
 double Executor::handle_asked() const { return state_->shared.reread_handle; }
 
 void Executor::tell_along_tool(bool added, const LengthAlongTool& length) {

@@ -112,6 +112,8 @@ class Executor {
   AxisVec shift_asked() const;
   /// With reread_asked(): where the program has left the axes, before they were moved by hand or turned as a spindle.
   AxisVec left_at() const;
+  /// With reread_asked(), and with a run that is new: bit i: axis i has come to its reference position by hand meanwhile.
+  uint32_t returned() const;
   /// With reread_asked(): by how much the handle has been turned to change the length along the tool (M700 12.3); 0 = it was not.
   double handle_asked() const;
   /// To be called before reread_done(): whether that has been added, and the length along the tool with which reading goes on.

@@ -11,6 +11,7 @@ constexpr double kLeastOverride = 1e-4;
 constexpr double kLeastRevPerS = 1e-5, kMostRevPerS = 1e4, kMostTurns = 1e12;
 constexpr double kMostPlace = 1e9;   // mm or deg
 constexpr double kMostByHand = 1e6;  // mm, deg, and each of them per s
+constexpr double kMostAngle = 1e6;   // deg
 constexpr double kLeastByHand = 1e-6;
 constexpr double kSpindleGoesOn_s = 0.02;
 
@@ -37,6 +38,7 @@ const nc_inputs& InputBorder::check(const nc_inputs& in) {
   skip_place();
   manual();
   tool_length();
+  tool_angle();
   return now_;
 }
 
@@ -131,6 +133,17 @@ void InputBorder::tool_length() {
   if (within(now_.tool_length_handle, kMostByHand)) return;
   refused_ |= NC_INPUT_TOOL_LENGTH;
   now_.tool_length_handle = 0;
+}
+
+void InputBorder::tool_angle() {
+  for (unsigned i = 0; i < 2; ++i) {
+    if (within(now_.tool_angle[i], kMostAngle)) {
+      tool_angle_[i] = now_.tool_angle[i];
+    } else {
+      refused_ |= NC_INPUT_TOOL_ANGLE;
+      now_.tool_angle[i] = tool_angle_[i];
+    }
+  }
 }
 
 }  // namespace nc

@@ -24,6 +24,7 @@ class InputBorder {
   void manual() NC_RT;
   void manual_feed() NC_RT;
   void tool_length() NC_RT;
+  void tool_angle() NC_RT;
 
   unsigned axis_count_ = 0;
   double most_ = 2, cycle_s_ = 0.001;
@@ -31,6 +32,7 @@ class InputBorder {
   uint32_t refused_ = 0, lost_axes_ = 0;
   // the last values that were accepted
   double feed_ = 0, rapid_ = 0, manual_feed_ = 0;
+  double tool_angle_[2] = {0, 0};
   nc_axes actual_{};
   struct Spindle {
     double rev_per_s = 0, turns = 0, age_s = 0;

@@ -232,6 +232,7 @@ void Interpolator::ask_for_interrupt() {
   shared_->block_begun.store(0, std::memory_order_relaxed);
   shared_->reread_interrupt.store(reread_interrupt_ ? 1 : 0, std::memory_order_relaxed);
   tell_where_left();
+  tell_returned();
   if (reread_interrupt_) shared_->reread_handle = 0;
   else tell_length_way();
   shared_->reread_shift = {};
@@ -317,6 +318,7 @@ void Interpolator::states(const nc_inputs& in) {
       shared_->block_begun.store(block_begun_ ? 1 : 0, std::memory_order_relaxed);
       shared_->reread_interrupt.store(0, std::memory_order_relaxed);
       tell_where_left();
+      tell_returned();
       tell_length_way();
       start_told_ = true;
       for (unsigned i = 0; i < config_.axis_count; ++i) {
@@ -349,6 +351,7 @@ void Interpolator::start(const nc_inputs& in) {
       by_hand_ = 0;
       if (tap_.held) leave_tap();  // out of its hole, or freed by hand: else the start was refused
       shared_->mirror.store(in.mirror, std::memory_order_relaxed);
+      tell_returned();
       run_.start();
       run_ended_ = false;
       follower_.give_up();  // path lengths are counted from 0 again, so that they do not grow with the years
@@ -529,7 +532,8 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
     by_hand_ |= 1u << i;
     if (wanted_[i] == (begins_again_ ? restart_at_ : left_at_)[i]) by_hand_ &= ~(1u << i);  // it has gone back
   }
-  if (displaced_ && elsewhere_ && wanted_ == left_at_) displaced_ = elsewhere_ = false;  // all have: the program goes on with what was read
+  note_returned(before);
+  if (displaced_ && elsewhere_ && wanted_ == left_at_ && returned_ == 0) displaced_ = elsewhere_ = false;  // all have: the program goes on with what was read
 }
 
 /// While the drives are off the commanded position follows the measured one, so that nothing jumps when the drives come on again.

@@ -80,6 +80,7 @@ struct ScanShared {
   std::atomic<uint32_t> reread_mdi{0};  ///< by the scan, with the request: 1: the feeder is to begin with them
   AxisVec reread_from;                      ///< by the scan, with the request: where the program has left the axes, before they were moved by hand
   AxisVec reread_shift;                     ///< by the scan, with the request: by how much the coordinate systems are moved along
+  std::atomic<uint32_t> returned{0};        ///< by the scan, with a request and with a run: bit i: axis i has come to its reference position by hand since the last one
   double reread_handle = 0;                 ///< by the scan, with the request: way of the handle that changes the length along the tool
   bool handle_added = false;                ///< by the feeder, with the answer: it has been added
   LengthAlongTool along_tool;               ///< ... and the length with which reading goes on
@@ -162,6 +163,8 @@ class Interpolator {
   bool length_handle_acts(const nc_inputs& in) const NC_RT;
   bool length_waits() const NC_RT { return length_way_ != 0 && (interrupt_mode_ & NC_INTERRUPT_IN_SERVICE) == 0; }  ///< for blocks to be read again
   void tell_length_way() NC_RT;
+  void note_returned(const AxisVec& before) NC_RT;
+  void tell_returned() NC_RT;
   void take_length_answer() NC_RT;
   void note_length(const LengthAlongTool& length) NC_RT;
   void forget_length() NC_RT;
@@ -301,6 +304,7 @@ class Interpolator {
   AxisVec left_at_;         ///< where the program has left the axes, if something else has moved them since (elsewhere_)
   bool elsewhere_ = false;
   AxisVec path_end_;  ///< end of the newest move that has been executed
+  uint32_t returned_ = 0;   ///< bit i: axis i has come to its reference position by hand, and the feeder does not know it yet
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
   bool begins_again_ = false;  ///< a program that is begun inside stands at its place, and has not gone on yet

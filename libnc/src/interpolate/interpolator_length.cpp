@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scan and the handle that changes the length along the axis of the tool (M700 12.3, "changing the amount"). The handle moves no axis: its way is collected
+// The scan and what is done by hand to the compensation of lengths: the handle that changes the one along the axis of the tool (M700 12.3, "changing the amount"), and
+// the reference return that ends it. The handle moves no axis: its way is collected
 // here, and at the end of the block in execution, or at the start that goes on from a block stop, the feeder reads the blocks behind it again with the new
 // amount ("effective immediately in the next block", note 2).
 #include "interpolate/interpolator.hpp"
@@ -20,6 +21,22 @@ bool Interpolator::length_handle_acts(const nc_inputs& in) const {
   return state_ == NC_STATE_RUNNING && moving_ && !current().segment.rapid;
 }
 
+/// What a return to the reference position by hand ends (12.2 (4) (a), 12.3 "compensation amount resetting") is gone when the program goes on, also where the axis
+/// has stood there already. A program that is begun inside is as it was at its place.
+void Interpolator::note_returned(const AxisVec& before) {
+  if (manual_.returned() == 0 || begins_again_) return;
+  returned_ |= manual_.returned();
+  if (state_ != NC_STATE_STOPPED) return;
+  leave_at(before);
+  displaced_ = true;
+}
+
+/// With a request to read again, and with a run.
+void Interpolator::tell_returned() {
+  shared_->returned.store(returned_, std::memory_order_relaxed);
+  returned_ = 0;
+}
+
 /// With a request to read again.
 void Interpolator::tell_length_way() {
   shared_->reread_handle = length_told_ = length_way_;
@@ -28,10 +45,9 @@ void Interpolator::tell_length_way() {
 }
 
 void Interpolator::take_length_answer() {
-  if (length_told_ == 0) return;
-  if (shared_->handle_added) length_ = shared_->along_tool;
-  else length_dropped_ = true;
+  length_dropped_ = length_dropped_ || (length_told_ != 0 && !shared_->handle_added);
   length_told_ = 0;
+  note_length(shared_->along_tool);
 }
 
 /// The end of a block. With another number the change is cancelled (12.3 (2)), as it is by G49 (note 3).

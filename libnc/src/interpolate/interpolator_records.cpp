@@ -48,6 +48,7 @@ Interpolator::Done Interpolator::execute(const Record& r, const nc_inputs& in) {
       settle_axes();
       recalculate_ = false;
       forget_length();
+      length_ = r.end.along_tool;
       interrupt_mode_ = 0;
       interrupt_rest_.forget();
       interrupt_wanted_ = hold_behind_tap_ = false;
@@ -498,6 +499,7 @@ Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
   }
   for (unsigned i = 0; i < NC_WORDS; ++i) w.world.input[i] = in.input[i];
   w.world.skipped = skipped_;
+  for (unsigned i = 0; i < 2; ++i) w.world.tool_angle[i] = in.tool_angle[i];
   w.world.clock_ms = in.clock_ms;
   w.world.power_on_ms = static_cast<double>(power_cycles_) * config_.cycle_s * 1e3;
   w.world.run_ms = static_cast<double>(run_cycles_) * config_.cycle_s * 1e3;

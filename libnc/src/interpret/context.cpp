@@ -144,6 +144,7 @@ void BlockContext::emit_end() {
   end.end.ok = true;
   end.end.work = position();
   end.end.modal = modals.intern(state.modal);
+  if (mdi) end.end.along_tool = along_tool();
   ended = true;
 }
 

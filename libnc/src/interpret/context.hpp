@@ -33,6 +33,7 @@ struct Message {
 struct BlockContext : BlockInHand {
   InternPool<Affine> transforms;   ///< from the compensation frame to machine coordinates; Move::transform
   InternPool<MoveShape> shapes;    ///< shapes of moves under way; Move::shape counts from 1
+  bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
 
   /// A new item at the end of the queue, with the default payload of its kind; moves are made by emit_move().
   Item& emit(ItemKind kind);

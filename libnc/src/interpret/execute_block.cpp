@@ -483,6 +483,10 @@ Execution execute_read_words(Interpreter& in) {
     did = check_unit(in);
     if (did != Execution::done) return did;
   }
+  if (turned_outside(in)) [[unlikely]] {
+    did = take_tool_angles(in);
+    if (did != Execution::done) return did;
+  }
   if (only_moves(in)) return execute_move(in);
   if (only_drills(in)) return execute_holes(in);
   const bool macro_call = w.one_shot != nullptr && is_macro_call(w.one_shot->function);

@@ -561,6 +561,7 @@ Execution text_ended(Interpreter& in) {
   end.end.ok = true;
   end.end.work = in.position();
   end.end.modal = in.modals.intern(in.state.modal);
+  if (in.mdi) end.end.along_tool = in.along_tool();
   in.ended = true;
   return Execution::later;
 }

@@ -89,7 +89,8 @@ struct InForce {
   unsigned macro_level() const { return state.frame[state.depth].macro_level; }
   /// What the machine has to know of the length along the tool in force.
   LengthAlongTool along_tool() const {
-    return state.modal.is(Function::length_along_tool) ? LengthAlongTool{state.modal.h, state.length_by_handle} : LengthAlongTool{};
+    if (!state.modal.is(Function::length_along_tool)) return {};
+    return {state.modal.h, state.length_handle_number == state.modal.h ? state.length_by_handle : 0};
   }
 
   /// The program that runs, or what is in force in it, has changed: sets the members of the state that follow from it.

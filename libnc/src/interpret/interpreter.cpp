@@ -168,7 +168,10 @@ void Interpreter::refresh_derived() {
 void Interpreter::reset(bool keep_modal) {
   begun_inside_.kept = false;
   keep_modal = keep_modal || place_.kept;
+  SpaceVector along_tool = state.moved_space;
+  for (unsigned i = 0; state.space.on && i < 3; ++i) along_tool.v[i] -= state.space.v[i];
   begin_program(state, initial_values(), keep_modal);
+  if (state.tool_length != 0) state.moved_space = along_tool;  // the axes still stand beside the program by it
   if (dialect->rules.coordinate.shift_ends_with_program && !keep_modal)
     for (unsigned i = 0; i < axis_count; ++i) set_table_from_outside(Frames::shift_key(i), 0);
   if (place_.kept) {
@@ -268,9 +271,33 @@ bool Interpreter::refers_to(unsigned file) const {
   return (store->entry(file)->noted >> system_index & 1) != 0 || checkpoints_.call(file);
 }
 
+AxisVec Interpreter::beside_by(const SpaceVector& vector) const {
+  AxisVec beside;
+  for (unsigned i = 0; vector.on && i < 3; ++i) beside[vector.axis[i]] = vector.v[i];
+  const Affine* map = transforms.newest();
+  return map == nullptr ? beside : map->direct(beside);
+}
+
+AxisVec Interpreter::stands_at() const {
+  AxisVec place = state.machine;
+  const AxisVec beside = beside_by(state.moved_space);
+  for (unsigned i = 0; i < kMaxAxes; ++i) place[i] += beside[i];
+  return place;
+}
+
+/// The vector along the tool is none any more where the axes stand, and no movement leads back from it.
+void Interpreter::returned_by_hand(uint32_t axes) {
+  const AxisVec place = stands_at();
+  cancel_length_by_hand(*this, axes);
+  const AxisVec beside = beside_by(state.moved_space);
+  for (unsigned i = 0; i < kMaxAxes; ++i) state.machine[i] = place[i] - beside[i];
+  keep_state();
+}
+
 void Interpreter::set_machine(const AxisVec& machine) {
-  const bool moved = !(machine == state.machine);
-  state.machine = machine;
+  const AxisVec beside = beside_by(state.moved_space);
+  const bool moved = !(machine == stands_at());
+  for (unsigned i = 0; i < kMaxAxes; ++i) state.machine[i] = machine[i] - beside[i];
   if (moved) moved_by_hand();
   const auto mirrored = static_cast<uint8_t>(mirror_switch | mirror_signal | settings.mirror_axes);
   if (state.seq == 0 && (mirrored | state.switch_mirror) != 0) {  // at the head of a program

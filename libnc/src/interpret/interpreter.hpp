@@ -88,6 +88,11 @@ struct Interpreter : BlockContext {
   /// The handle has been turned by `way` since the newest block: the length along the tool changes from the next block on (M700 12.3). A rewind to that block
   /// finds it changed, too. False: there is none now, or the amount would be out of the range of an offset, and nothing has changed.
   bool add_by_handle(double way);
+  /// These axes have come to their reference positions by hand, behind the newest block. A rewind to that block finds it so, too.
+  void returned_by_hand(uint32_t axes);
+  /// Where the axes are that stand beside the program by a vector in space, and how far that is in machine coordinates.
+  AxisVec stands_at() const;
+  AxisVec beside_by(const SpaceVector& vector) const;
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Macro interrupt (M700 13.12): an interrupt signal would be accepted.
@@ -163,7 +168,6 @@ struct Interpreter : BlockContext {
     settings_of_moves_stale_ = true;
   }
   ProgramRef main_program;
-  bool mdi = false;                ///< the main program is blocks of MDI: their end is no alarm
   uint8_t mirror_switch = 0;       ///< axes that the next program is mirrored in
   uint8_t mirror_signal = 0;       ///< the same by the signals of the machine when it was started
 

@@ -124,6 +124,9 @@ void PartInterpreter::end_at(const AxisVec& machine) { in_->state.machine = mach
 void PartInterpreter::set_machine(const AxisVec& machine) { in_->set_machine(machine); }
 bool PartInterpreter::add_by_handle(double way) { return in_->add_by_handle(way); }
 LengthAlongTool PartInterpreter::along_tool() const { return in_->along_tool(); }
+void PartInterpreter::returned_by_hand(uint32_t axes) { in_->returned_by_hand(axes); }
+AxisVec PartInterpreter::stands_at() const { return in_->stands_at(); }
+const SpaceVector& PartInterpreter::vector_in_space() const { return in_->state.moved_space; }
 void PartInterpreter::move_to(const AxisVec& machine, const AxisVec& beside) { in_->move_to(machine, beside); }
 void PartInterpreter::shift_coordinates(unsigned axis, double by) { in_->shift_coordinates(axis, by); }
 AxisVec PartInterpreter::work_zero() const {

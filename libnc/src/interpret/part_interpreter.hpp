@@ -163,6 +163,11 @@ class PartInterpreter {
   /// The handle changes the length along the tool from the next block on (M700 12.3). False: it does not.
   bool add_by_handle(double way);
   LengthAlongTool along_tool() const;
+  /// These axes have come to their reference positions by hand behind the newest block (M700 12.2 (4), 12.3).
+  void returned_by_hand(uint32_t axes);
+  /// Where the axes are, and the vector in space by which they stand beside machine().
+  AxisVec stands_at() const;
+  const SpaceVector& vector_in_space() const;
   /// Moves all coordinate systems along with an axis that was moved by hand.
   void shift_coordinates(unsigned axis, double by);
   /// Machine coordinates of the workpiece zero, with the tool length that is applied.

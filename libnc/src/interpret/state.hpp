@@ -281,6 +281,8 @@ struct UntilReset {
   uint32_t length_handle_number = 0;  ///< number of the length along the tool to which the handle has added ...
   double length_by_handle = 0;        ///< ... this, mm (M700 12.3)
   bool length_changed_by_handle = false;  ///< since the last movement
+  bool tool_angles_old = false;           ///< the machine has been told something that may have turned the tool since its angles were read
+  double tool_angle[2] = {0, 0};          ///< of the tool, deg, where no axis of the part system turns it (M700 12.3 (3))
 };
 
 /// What outlives the end of a program, but not a reset by the operator (M700 9.1).

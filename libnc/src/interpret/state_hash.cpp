@@ -236,8 +236,8 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled);
   }
   {
-    const auto& [spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle] = static_cast<const UntilReset&>(values);
-    hash.add(spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle);
+    const auto& [spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle] = static_cast<const UntilReset&>(values);
+    hash.add(spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle);
   }
   {
     const auto& [left_by_end] = static_cast<const UntilOperatorReset&>(values);

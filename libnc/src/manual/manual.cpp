@@ -22,6 +22,10 @@ constexpr double kHandleAhead_s = 0.5;
 
 }  // namespace
 
+bool Manual::stands_at_reference(const Axis& a, double position) {
+  return a.kind == NC_MANUAL_REFERENCE && a.to_reference && !a.going && a.velocity == 0 && position == a.target;
+}
+
 double Manual::top_speed(unsigned i) const {
   const AxisLimits& l = config_.limits[i];
   const double rapid = l.rapid > 0 ? l.rapid : kUnlimited;
@@ -75,16 +79,18 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
       a.going = true;
       break;
     }
-    case NC_MANUAL_REFERENCE:
+    case NC_MANUAL_REFERENCE: {
       if (!edge && a.going) break;
       give_up_handle(i);
-      a.target = config_.reference[i];
+      double reference = config_.reference[i];
       // Within its limits an axis has one way only, whatever is shorter.
-      if (turning) a.target = position + turn_to(a.target, within_one_turn(position), ((rules.short_cut & (~config_.soft_limited | rules.unlimited)) >> i & 1) != 0);
-      a.target = within(i, rules, a.target, position);
+      if (turning) reference = position + turn_to(reference, within_one_turn(position), ((rules.short_cut & (~config_.soft_limited | rules.unlimited)) >> i & 1) != 0);
+      a.target = within(i, rules, reference, position);
+      a.to_reference = a.target == reference;
       a.cap = top_speed(i);
       a.going = true;
       break;
+    }
     case NC_MANUAL_RETURN:
       if ((rules.returns >> i & 1) == 0) {
         a.going = a.going && !was;
@@ -162,22 +168,23 @@ bool Manual::let_go(unsigned i, const nc_manual& w) {
 }
 
 void Manual::idle(const nc_manual* wishes) {
-  moved_ = handle_dropped_ = 0;
+  moved_ = handle_dropped_ = returned_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) refuse(i, wishes[i]);
 }
 
 void Manual::cycle(const nc_manual* wishes, const Rules& rules, AxisVec* position) {
-  active_ = moved_ = handle_dropped_ = 0;
+  active_ = moved_ = handle_dropped_ = returned_ = 0;
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const bool dropped = (rules.dropped >> i & 1) != 0;
     if (dropped || rules.stop || (rules.refused >> i & 1) != 0) refuse(i, wishes[i]);
     else if (let_go(i, wishes[i])) wish(i, wishes[i], rules, (*position)[i]);
     if (dropped) axis_[i].velocity = 0;
-    if (axis_[i].velocity == 0 && !axis_[i].going) continue;
+    const bool rests = axis_[i].velocity == 0 && !axis_[i].going;
     const double before = (*position)[i];
-    (*position)[i] = move(i, rules, before);
+    if (!rests) (*position)[i] = move(i, rules, before);
     if ((*position)[i] != before) moved_ |= 1u << i;
     if (axis_[i].velocity != 0 || axis_[i].going) active_ |= 1u << i;
+    if (stands_at_reference(axis_[i], (*position)[i])) returned_ |= 1u << i;
   }
 }
 

@@ -46,6 +46,8 @@ class Manual {
   uint32_t active_axes() const NC_RT { return active_; }
   /// Bit i: in the last cycle a part of the way that the handle of axis i asked for was given up.
   uint32_t handle_dropped() const NC_RT { return handle_dropped_; }
+  /// Bit i: a reference return of axis i is commanded, and the axis stands at its reference position.
+  uint32_t returned() const NC_RT { return returned_; }
 
  private:
   struct Axis {
@@ -56,7 +58,9 @@ class Manual {
     uint8_t refused = NC_MANUAL_NONE;  ///< kind that was refused or stopped and is still commanded: it has to be released before it acts again
     bool going = false;                ///< true: it goes to its target; false: it brakes or stands
     bool by_handle = false;            ///< the target comes from a handle
+    bool to_reference = false;         ///< of a reference return: its target is the reference position, and not a soft limit in front of it
   };
+  static bool stands_at_reference(const Axis& axis, double position) NC_RT;
   void give_up_handle(unsigned axis) NC_RT;
   void refuse(unsigned axis, const nc_manual& wish) NC_RT;
   bool let_go(unsigned axis, const nc_manual& wish) NC_RT;
@@ -71,6 +75,7 @@ class Manual {
   uint32_t active_ = 0;
   uint32_t moved_ = 0;  ///< bit i: the position of axis i was changed in the last cycle
   uint32_t handle_dropped_ = 0;
+  uint32_t returned_ = 0;
 };
 
 }  // namespace nc

@@ -260,6 +260,7 @@ struct End {
   AxisVec work;
   ModalId modal = 0;
   bool ok = false;
+  LengthAlongTool along_tool{};  ///< of blocks of MDI, whose modes stay for those that follow (M700 5.1)
 };
 
 struct Item {

@@ -80,6 +80,7 @@ inline constexpr Rules kRules = {
                   .forgets_with_program = false,
                   .takes_rotary_axes = true,
                   .cancels_length = true,
+                  .hand_cancels_length = true,
                   .all_axes_without_words = false},
     .coordinate = {.machine_move_may_be_incremental = true, .machine_code_ends_shift = true, .machine_move_by_motion = false,
                .incremental_machine_move_rests = false},

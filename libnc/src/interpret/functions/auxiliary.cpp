@@ -10,6 +10,7 @@ namespace {
 
 Action& emit_action(BlockContext& in, nc_action_kind kind, WordSlot word, double value) {
   Action& action = in.emit(ItemKind::action).action;
+  in.state.tool_angles_old = turned_outside(in);
   action.kind = kind;
   name_word(action, word);
   action.value = value;

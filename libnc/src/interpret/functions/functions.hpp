@@ -90,6 +90,12 @@ Execution change_space_vector(BlockInHand& in);
 
 /// Length along the axis of the tool (M700 12.3): tool_axis.cpp.
 Execution set_length_along_tool(BlockInHand& in, double length);
+/// 12.3 (3): the tool is turned by a head that is no axis of the part system.
+bool turned_outside(const InForce& in);
+/// There: asks for the angles of the tool, where the block needs them and they are not known.
+Execution take_tool_angles(BlockInHand& in);
+/// These axes have come to their reference positions by hand: that ends the compensation of a length that has to do with them (12.2 (4), 12.3).
+void cancel_length_by_hand(InForce& in, uint32_t axes);
 double amount_along_tool(InForce& in);        ///< of the number in force, with what the handle has added to it (compensation.cpp)
 
 /// coordinates.cpp: the word is of a code that the block names, so it is not one of the motion or the cycle in force (M700 14.10 (12)).
