@@ -217,6 +217,8 @@ struct Config {
   nc_config nc;  // everything that libnc is created with
   bool look_ahead_given = false;
   bool motion_given = false;  // the file names the law of motion
+  unsigned tool_axes_given = 0;  // number of part systems for which machine.tool_axis has a word
+  ConfigPlace tool_axes_place;
   unsigned spindles_given = 0;  // number of part systems for which machine.spindles gives a count
   ConfigPlace spindles_place;
   SchedulingConfig scheduling;

@@ -138,6 +138,21 @@ void read_spindles(TableReader* reader, Config* config) {
   config->spindles_place = {reader->line("spindles"), reader->path("spindles")};
 }
 
+// What turns the tool in each part system for a length along its axis (M700 12.3). Part systems behind the last word have "turned".
+void read_tool_axes(TableReader* reader, Config* config) {
+  constexpr std::string_view kWords[] = {"turned", "mechanical_a", "mechanical_b"};  // in the order of nc_tool_axis
+  std::vector<std::pair<std::string, unsigned>> words;
+  if (!reader->strings("tool_axis", &words)) return;
+  if (words.size() > NC_MAX_SYSTEMS) return reader->error("tool_axis", "has a word for each part system, at most " + std::to_string(NC_MAX_SYSTEMS));
+  for (std::size_t s = 0; s < words.size(); ++s) {
+    const auto* const known = std::find(std::begin(kWords), std::end(kWords), words[s].first);
+    if (known == std::end(kWords)) return reader->error("tool_axis", "must have \"turned\", \"mechanical_a\" or \"mechanical_b\", not \"" + words[s].first + "\"");
+    config->nc.system[s].tool_axis = static_cast<std::uint64_t>(known - std::begin(kWords));
+  }
+  config->tool_axes_given = static_cast<unsigned>(words.size());
+  config->tool_axes_place = {reader->line("tool_axis"), reader->path("tool_axis")};
+}
+
 // Reads ranges of common variables in addition to those of variable_sets. It comes after the other options of variables, because a range must not
 // overlap with the variables that they give.
 void read_variable_ranges(TableReader* machine, Config* config) {
@@ -218,6 +233,7 @@ void read_machine(TableReader* root, Config* config) {
     config->negative_count_place = {reader.line("negative_count"), reader.path("negative_count")};
     reader.integer("window_bytes", &nc.window_bytes, 4096, 1 << 24);
     read_spindles(&reader, config);
+    read_tool_axes(&reader, config);
     reader.number("max_feed_override", &nc.max_feed_override, 1.0, 3.0);
   });
 }
@@ -252,6 +268,9 @@ void read_axes(TableReader* root, Config* config) {
     root->errors()->add(config->spindles_place.line, config->spindles_place.key,
                         "counts the spindles of " + std::to_string(config->spindles_given) + " part systems, and the axes belong to " +
                             std::to_string(config->nc.system_count));
+  if (config->tool_axes_given > config->nc.system_count)
+    root->errors()->add(config->tool_axes_place.line, config->tool_axes_place.key,
+                        "has a word for " + std::to_string(config->tool_axes_given) + " part systems, and the axes belong to " + std::to_string(config->nc.system_count));
   config->sim.system_count = config->nc.system_count;
   config->sim.cycle_s = config->nc.cycle_s;
   config->sim.dialect = config->nc.dialect;

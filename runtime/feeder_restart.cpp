@@ -46,6 +46,7 @@ Answer Feeder::find_restart(const Command& command) {
   nc_world_init(&world);
   std::copy(std::begin(seen_.interface_input), std::end(seen_.interface_input), world.input);
   world.clock_ms = seen_.clock_ms;
+  std::copy(std::begin(seen_.system[s].tool_angle), std::end(seen_.system[s].tool_angle), world.tool_angle);
   if (!claim(command.ticket)) return Answer::kNoAnswer;
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step: by then the scan knows of the search
   const nc_status status = restart_[s].begin(nc_, s, place, world, what);

@@ -494,7 +494,8 @@ static std::string bad_input_text(std::uint32_t bits) {
   static constexpr Row kRows[] = {{NC_INPUT_FEED_OVERRIDE, "feed override"}, {NC_INPUT_RAPID_OVERRIDE, "rapid override"},
                                   {NC_INPUT_SPINDLE, "spindle"},             {NC_INPUT_ACTUAL, "measured position"},
                                   {NC_INPUT_MANUAL, "manual motion"},             {NC_INPUT_MANUAL_FEED, "manual feed rate"},
-                                  {NC_INPUT_SKIP_PLACE, "skip position"}};
+                                  {NC_INPUT_SKIP_PLACE, "skip position"},         {NC_INPUT_TOOL_LENGTH, "handle of the tool length"},
+                                  {NC_INPUT_TOOL_ANGLE, "angle of the tool"}};
   std::string text;
   for (const Row& row : kRows)
     if ((bits & row.bit) != 0) text += (text.empty() ? ": " : ", ") + std::string(row.name);

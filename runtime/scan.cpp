@@ -429,7 +429,7 @@ void Scan::build_nc_inputs() noexcept {
     in.spindle_encoder = 0;
     in.servo_on = 0;
     in.feed_pulses = 0;
-    in.tool_length_handle = 0;
+    in.tool_length_handle = in.tool_angle[0] = in.tool_angle[1] = 0;
     in.actual_valid = machine.actual_valid;
     in.actual = machine.actual;
     in.follow_up = (drives_off_ || machine.not_following != 0) && !feedback_.lost;
@@ -540,6 +540,7 @@ void Scan::publish() noexcept {
     out.system[s].actual = feedback_.system[s].actual;
     out.system[s].begun = begun_[s];
     out.system[s].mirror = in_[s].mirror;
+    std::copy(std::begin(in_[s].tool_angle), std::end(in_[s].tool_angle), out.system[s].tool_angle);
     out.system[s].refusal = refusal_[s];
     publish_overrides(s, &out.system[s]);
     out.system[s].axes = flags_[s];

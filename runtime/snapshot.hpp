@@ -36,6 +36,7 @@ struct SystemSnapshot {
   AxisFlags axes;          // homed, on a limit switch, ...
   nc_axes begun{};         // commanded machine position where the program was started that is in execution, or that ran last
   std::uint32_t mirror = 0;  // nc_inputs::mirror, as a start would find it
+  double tool_angle[2] = {0, 0};  // nc_inputs::tool_angle
   Refusal refusal;         // of what was asked for at the panel last
   double feed_override = 1, rapid_override = 1;  // in force: a machine may have a switch for each part system ...
   OverrideSource feed_override_source = OverrideSource::kOperator, rapid_override_source = OverrideSource::kOperator;  // ... and whose they are

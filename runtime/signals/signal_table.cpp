@@ -355,6 +355,10 @@ const SignalRow kSignals[] = {
      "in automatic and MDI mode the handle of the third axis changes the length that is compensated along the tool axis, by 0.001 mm for an increment (YC92 with YC5E)",
      "in each scan in which that handle is not 0, with G43.1 in a block stop, a feed hold or a cut; the next block has the new length", nullptr,
      NC_WRITE { image->requests->system[s].length_by_handle = value != 0; }},
+    {"tool_tilt", kWord32, kTo, kSystem, 0, 0, "angle about X or Y of a head that is no axis (`tool_axis` of [machine]), 0.001 deg (R2628 to R2631)",
+     "where a block needs it: one with G43.1, and with it in force one behind M, S, T and B", nullptr, NC_WRITE { image->nc_in[s].tool_angle[0] = value * 1e-3; }},
+    {"tool_turn", kWord32, kTo, kSystem, 0, 0, "its angle about Z, 0.001 deg (R2628 to R2631)", "as tool_tilt", nullptr,
+     NC_WRITE { image->nc_in[s].tool_angle[1] = value * 1e-3; }},
     {"tool_length_added", kWord32, kFrom, kSystem, 0, 0, "what the handle has added to the length along the tool axis, 0.001 mm", "until another number, G49, a reset or the end of the program",
      NC_READ { return static_cast<std::int32_t>(std::lround(std::clamp(out(image, s).tool_length_added, -2e6, 2e6) * 1e3)); }, nullptr},
 };

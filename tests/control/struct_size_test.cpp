@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "nc/nc.h"
@@ -489,6 +490,50 @@ TEST(StructSize, EventsOfAnOlderCaller) {
     }
   }
   EXPECT_GE(seen, 4u);
+}
+
+TEST(StructSize, TheLengthAlongTheToolIsForThoseWhoKnowOfIt) {
+  static_assert(offsetof(nc_inputs, tool_length_handle) == offsetof(nc_inputs, spindle_age_s) + sizeof(nc_inputs::spindle_age_s));
+  static_assert(offsetof(nc_inputs, tool_angle) == offsetof(nc_inputs, tool_length_handle) + sizeof(double));
+  static_assert(offsetof(nc_world, tool_angle) == offsetof(nc_world, run_ms) + sizeof(double));
+  nc_config config = small();
+  config.system[0].tool_axis = NC_TOOL_AXIS_MECHANICAL_A;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const bool old : {true, false}) {
+    Control c(config);
+    nc_inputs in;
+    nc_inputs_init(&in);
+    in.tool_length_handle = in.tool_angle[1] = none;
+    nc_outputs out;
+    nc_outputs_init(&out);
+    out.tool_length_added = 77;
+    out.tool_length_dropped = true;
+    if (old) in.struct_size = offsetof(nc_inputs, tool_length_handle), out.struct_size = offsetof(nc_outputs, tool_length_added);
+    EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+    EXPECT_EQ(out.inputs_refused, old ? 0u : uint32_t{NC_INPUT_TOOL_LENGTH} | NC_INPUT_TOOL_ANGLE);
+    EXPECT_EQ(out.tool_length_added, old ? 77 : 0);
+    EXPECT_EQ(out.tool_length_dropped, old);
+  }
+  for (const bool old : {true, false}) {
+    Control c(config);
+    ASSERT_EQ(nc_tool_offset_set(c.control, 1, NC_TOOL_LENGTH, 10), NC_OK);
+    c.program("G43.1 H1 G0 X0\nM30\n");
+    nc_item item;
+    nc_item_init(&item);
+    while (nc_pull(c.control, 0, 100, &item) == NC_OK && item.kind != NC_ITEM_SYNC) {
+    }
+    ASSERT_EQ(item.kind, NC_ITEM_SYNC);
+    nc_world world;
+    nc_world_init(&world);
+    world.tool_angle[0] = 90;
+    if (old) world.struct_size = offsetof(nc_world, tool_angle);
+    EXPECT_EQ(nc_answer(c.control, 0, &world), NC_OK);
+    while (nc_pull(c.control, 0, 100, &item) == NC_OK && item.kind != NC_ITEM_MOVE) {
+    }
+    ASSERT_EQ(item.kind, NC_ITEM_MOVE);
+    EXPECT_NEAR(item.u.move.machine.v[2], old ? 10 : 0, 1e-9);
+    EXPECT_NEAR(item.u.move.machine.v[1], old ? 0 : -10, 1e-9);
+  }
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The handle changes the length along the axis of the tool (M700 12.3) at any cycle of random programs, which run, are held, stop between blocks, are interrupted by MDI and are
-// reset. Where each block ends is compared with a second writing of the section: the vector of the amount that the handle had made when the block began. A turn that comes
+// The handle changes the length along the axis of the tool (M700 12.3) at any cycle of random programs, which run, are held, stop between blocks, are interrupted by MDI or by a reference
+// return by hand, and are reset. Where each block ends is compared with a second writing of the section: the vector of the amount that the handle had made when the block began. A turn that comes
 // while a block runs may act one block later, because the axes have to rest before blocks are read again. No axis gets a larger step than it can do in a cycle.
 #include <gtest/gtest.h>
 
@@ -87,7 +87,24 @@ class HandleSession {
     const bool stands = out().state == NC_STATE_STOPPED || out().state == NC_STATE_HOLD;
     if (stands && pick(60) == 0) in().cycle_start = true;
     if (out().state == NC_STATE_STOPPED && pick(120) == 0) enter_mdi();
+    if (out().state == NC_STATE_STOPPED && pick(200) == 0) return_by_hand(pick(kAxes));
     if (pick(4000) == 0) reset();
+  }
+  /// An axis goes to its reference position by hand. Each of them has to do with the length along the tool, which ends: the axes stay where the vector has led them.
+  void return_by_hand(unsigned axis) {
+    if (starting_ || in().cycle_start || in().feed_hold || !out().manual_allowed) return;
+    log_ += "\nreturn of axis " + std::to_string(axis);
+    in().tool_length_handle = 0;
+    const double left = out().command.v[axis];
+    in().manual[axis] = {NC_MANUAL_REFERENCE, 0, 0};
+    for (unsigned n = 0; n < 5000 && (n < 2 || out().state != NC_STATE_STOPPED); ++n) step();
+    in().manual[axis] = {};
+    EXPECT_EQ(out().command.v[axis], 0) << log_;
+    at_[axis] -= left;
+    if (number_ == 0) return;
+    for (unsigned i = 0; i < kAxes; ++i) at_[i] += beside_of_[i];
+    change_number(0);
+    ended_by_hand_ = true;
   }
   void enter_mdi() {
     std::vector<Effect> effects;
@@ -106,6 +123,7 @@ class HandleSession {
     for (unsigned n = 0; n < 2000 && out().state != NC_STATE_IDLE; ++n) step();
     EXPECT_EQ(out().tool_length_added, 0);
     for (unsigned i = 0; i < kAxes; ++i) at_[i] = out().command.v[i];
+    beside_of_ = {};
     change_number(0);
     moved_ = false;
     machine_.step(5);
@@ -122,12 +140,13 @@ class HandleSession {
     machine_.step();
     for (size_t i = machine_.drive->fresh; i < machine_.drive->events.size(); ++i) follow(machine_.drive->events[i]);
     const bool counted = way != 0 && !out().tool_length_dropped;
-    if (counted) {
+    if (counted && !ended_by_hand_) {
       sums_.push_back(sums_.back() + way);
       log_ += "\nturned " + std::to_string(way) + " line " + std::to_string(out().source.line);
     }
     starting_ = in().cycle_start || (starting_ && out().state == NC_STATE_STOPPED);
-    if (stood && out().state == NC_STATE_STOPPED && way != 0) {
+    if (out().state == NC_STATE_RUNNING) ended_by_hand_ = false;
+    if (stood && out().state == NC_STATE_STOPPED && way != 0 && !ended_by_hand_) {  // a turn behind the return counts until the start, and is dropped there
       EXPECT_EQ(counted, number_ != 0) << log_;
     }
     if (out().state == NC_STATE_STOPPED && !starting_) least_ = sums_.size() - 1;
@@ -147,8 +166,10 @@ class HandleSession {
   }
   /// A block whose end with its vector is where a reset has left the axes has no move. Its words and its number count all the same.
   void ends_where_it_stands(const Effect& effect) {
+    const std::array<double, kAxes> before = at_;
     for (unsigned i = 0; i < kAxes && !effect.increments; ++i)
       if (effect.named[i]) at_[i] = effect.to[i];
+    for (unsigned i = 0; i < kAxes; ++i) beside_of_[i] += before[i] - at_[i];
     if (effect.number >= 0) moved_number_ = static_cast<unsigned>(effect.number);
   }
   void block_ends(const Effect& effect, const nc_event& event) {
@@ -158,6 +179,7 @@ class HandleSession {
     const unsigned number = moved_number_ = effect.number >= 0 ? static_cast<unsigned>(effect.number) : number_;
     double nearest = number != number_ ? beside(number, 0, event) : INFINITY;  // of a new number nothing has been turned yet
     for (size_t i = least_; number == number_ && i < sums_.size(); ++i) nearest = std::min(nearest, beside(number, sums_[i], event));
+    for (unsigned i = 0; i < kAxes; ++i) beside_of_[i] = event.machine.v[i] - at_[i];
     const bool fits = nearest < beside_;
     EXPECT_TRUE(fits) << "line " << event.source.line << " depth " << int(event.source.depth) << " number " << number << " off " << nearest << " sums " << sums_.size() << " least "
                       << least_ << log_;
@@ -191,6 +213,8 @@ class HandleSession {
   std::vector<double> sums_{0};     ///< what the handle had made of its amount, after each turn
   size_t least_ = 0;                ///< the next block has this one of them, or a later one
   std::array<size_t, kLate> turns_{};  ///< number of turns at the ends of the last blocks
+  std::array<double, kAxes> beside_of_{};  ///< the axes stood so far beside the programmed end of the newest block
+  bool ended_by_hand_ = false;      ///< a return has ended the length in this block stop
   bool starting_ = false;           ///< start was pressed in a block stop
   std::string log_;
 };

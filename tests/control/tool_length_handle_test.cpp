@@ -77,6 +77,22 @@ TEST_P(ToolLengthHandle, InABlockStopItMovesNothingAndTheNextBlockHasTheNewAmoun
   EXPECT_NEAR(added(), -0.5, near_);
 }
 
+// The block of M00 has its end behind the stop: it was read with the old amount.
+TEST_P(ToolLengthHandle, InAStopOfM00Too) {
+  start("G43.1 H1 Z0\nM0\nX10.\nX20.\nM30", false);
+  until_stop();
+  EXPECT_EQ(out().state, NC_STATE_STOPPED);
+  EXPECT_TRUE(turn(0.5));
+  machine_.press();
+  for (unsigned n = 0; n < 60000 && out().state == NC_STATE_RUNNING; ++n) {
+    machine_.step();
+    if (out().source.line < 6) {
+      EXPECT_EQ(added(), 0.5) << "line " << out().source.line;
+    }
+  }
+  EXPECT_NEAR(at(2), kFirst + 0.5, near_);
+}
+
 TEST_P(ToolLengthHandle, WhileItCutsTheBlockGoesOnAndTheNextOneHasTheNewAmount) {
   start("G43.1 H1 Z0\nX10.\nX20.\nG4 X0.1\nM30", false);
   run_on(3);

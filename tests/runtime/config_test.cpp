@@ -369,6 +369,8 @@ const Case kCases[] = {
     {"retain_d_range", nullptr, "[ladder]\nprogram = \"x.il\"\nretain_d = [0, 8192]\n", "ladder.retain_d", "0 to 8191"},
     {"retain_d_fraction", nullptr, "[ladder]\nprogram = \"x.il\"\nretain_d = [0.5, 8]\n", "ladder.retain_d", "first and the last"},
     {"point_meaning", "name = \"in1\"", "name = \"in1\"\nmeaning = \"" NC_LONG "\"", "point[2].meaning", "longer than 127"},
+    {"tool_axis_word", "name = \"test\"", "name = \"test\"\ntool_axis = [\"mechanical\"]", "machine.tool_axis", "\"mechanical_a\" or \"mechanical_b\", not \"mechanical\""},
+    {"tool_axis_of_nobody", "name = \"test\"", "name = \"test\"\ntool_axis = [\"turned\", \"turned\"]", "machine.tool_axis", "for 2 part systems, and the axes belong to 1"},
     {"spindles_none", "name = \"test\"", "name = \"test\"\nspindles = [0]", "machine.spindles", "1 to 4 spindles, not 0"},
     {"spindles_many", "name = \"test\"", "name = \"test\"\nspindles = [5]", "machine.spindles", "1 to 4 spindles, not 5"},
     {"spindles_half", "name = \"test\"", "name = \"test\"\nspindles = [1.5]", "machine.spindles", "1 to 4 spindles, not 1.5"},

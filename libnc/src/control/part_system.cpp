@@ -887,7 +887,8 @@ void PartSystem::take_returned() {
 
 /// M700 12.3: what follows goes with the length along the tool that the handle has changed.
 void PartSystem::add_by_handle(double way) {
-  executor.tell_along_tool(way != 0 && interpreter.add_by_handle(way), interpreter.along_tool());
+  const bool added = way != 0 && interpreter.add_by_handle(way);
+  executor.tell_along_tool(added, interpreter.along_tool());
 }
 
 /// The axes were moved by hand in a block stop, and what follows starts where the machine is. An axis that the next block does not name stays

@@ -167,6 +167,7 @@ class Interpolator {
   void tell_returned() NC_RT;
   void take_length_answer() NC_RT;
   void note_length(const LengthAlongTool& length) NC_RT;
+  void block_ends_with(const Mark& mark) NC_RT;
   void forget_length() NC_RT;
   // interpolator_dry.cpp: dry run
   void take_dry_run(const nc_inputs& in) NC_RT;
@@ -396,6 +397,7 @@ class Interpolator {
   double length_way_ = 0;            ///< way of the handle that the feeder does not know yet, mm
   double length_told_ = 0;           ///< way that it has been told and has not answered yet
   bool length_dropped_ = false;      ///< nc_outputs::tool_length_dropped
+  bool end_is_old_ = false;          ///< the end of the block behind which blocks have been read again is still to come, and was read with the length before
   bool start_told_ = false;          ///< blocks have been read again for the start that is under way, with what the handle had been turned by then
 
   bool reread_reached_ = false;      ///< the place from which blocks are read again has been reached: the feeder is asked in the next cycle

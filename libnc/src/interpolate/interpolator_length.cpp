@@ -42,6 +42,7 @@ void Interpolator::tell_length_way() {
   shared_->reread_handle = length_told_ = length_way_;
   shared_->handle_added = false;
   length_way_ = 0;
+  end_is_old_ = block_begun_;
 }
 
 void Interpolator::take_length_answer() {
@@ -50,7 +51,12 @@ void Interpolator::take_length_answer() {
   note_length(shared_->along_tool);
 }
 
-/// The end of a block. With another number the change is cancelled (12.3 (2)), as it is by G49 (note 3).
+void Interpolator::block_ends_with(const Mark& mark) {
+  if (!end_is_old_) note_length(mark.along_tool);
+  else end_is_old_ = !mark.resume;
+}
+
+/// With another number the change is cancelled (12.3 (2)), as it is by G49 (note 3).
 void Interpolator::note_length(const LengthAlongTool& length) {
   if (length.number != length_.number && length_way_ != 0) {
     length_way_ = 0;
@@ -64,6 +70,7 @@ void Interpolator::forget_length() {
   length_dropped_ = length_dropped_ || length_way_ != 0;
   length_ = {};
   length_way_ = length_told_ = 0;
+  end_is_old_ = false;
 }
 
 }  // namespace nc

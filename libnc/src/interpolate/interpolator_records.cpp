@@ -510,7 +510,7 @@ Interpolator::Done Interpolator::sync(const Record& r, const nc_inputs& in) {
 /// The end of a block, or a place inside a cycle where single block may stop.
 void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   modal_ = m.modal;
-  note_length(m.along_tool);
+  block_ends_with(m);
   if (m.report) {
     if (!m.aside) ++blocks_;
     interrupt_rest_.block_ended();

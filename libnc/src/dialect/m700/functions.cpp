@@ -76,7 +76,7 @@ constexpr FunctionRow kListed[] = {
     {420, 7, F::comp_right, nullptr, "tool radius compensation right, with I J K in three dimensions", "12.4, 12.5"},
     {421, 15, F::normal_line_right, "P900", "normal line control right", "13.14"},
     {430, 8, F::length_plus, nullptr, "tool length compensation plus", "12.2"},
-    {431, 8, F::length_along_tool, nullptr, "tool length compensation along the tool axis", "12.3", "change of the amount by the handle, R2628 to R2631"},
+    {431, 8, F::length_along_tool, nullptr, "tool length compensation along the tool axis", "12.3"},
     {434, 8, F::tool_tip_1, "P940", "tool centre point control type 1", "13.23"},
     {435, 8, F::tool_tip_2, "P940", "tool centre point control type 2", "13.23"},
     {440, 8, F::length_minus, nullptr, "tool length compensation minus", "12.2"},
