@@ -139,8 +139,8 @@ TEST_F(ToolAxisRuntime, TheConfigurationNamesTheHead) {
     text.replace(text.find(name), name.size(), name + "\n" + line);
     return text;
   };
-  EXPECT_EQ(parse_or_fail(with("tool_axis = [\"mechanical_b\"]")).nc.system[0].tool_axis, static_cast<std::uint64_t>(NC_TOOL_AXIS_MECHANICAL_B));
-  EXPECT_EQ(parse_or_fail(with("")).nc.system[0].tool_axis, static_cast<std::uint64_t>(NC_TOOL_AXIS_TURNED));
+  EXPECT_EQ(nc::test::parse_or_fail(with("tool_axis = [\"mechanical_b\"]")).nc.system[0].tool_axis, static_cast<std::uint64_t>(NC_TOOL_AXIS_MECHANICAL_B));
+  EXPECT_EQ(nc::test::parse_or_fail(with("")).nc.system[0].tool_axis, static_cast<std::uint64_t>(NC_TOOL_AXIS_TURNED));
 }
 
 }  // namespace

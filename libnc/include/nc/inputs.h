@@ -43,6 +43,8 @@ typedef struct nc_manual {
 
 #define NC_SPINDLE_AGE_MAX 0.06 /**< greatest nc_inputs::spindle_age_s, s. Of a cycle below 0.12 ms an age counts as 511 cycles at most */
 
+#define NC_TOOL_ANGLE_MAX 1e6 /**< greatest amount of an nc_inputs::tool_angle and nc_world::tool_angle, deg */
+
 /** What is measured of a spindle. */
 typedef struct nc_spindle_inputs {
   double rev_per_s;  /**< actual speed, rev/s, signed, -10000..10000; below 0.00001 the spindle counts as standing. Used by feed per revolution, threads
@@ -138,7 +140,7 @@ typedef struct nc_inputs {
                               execution go with the new amount, and are read again for it, so the axes come to rest at its end. It counts while a program stands in
                               a block stop or a feed hold or cuts, and length is compensated along the tool axis; not in rapid traverse, under an alarm, during a
                               reset, in an interrupt program, and where a program that is begun inside has not gone on: nc_outputs::tool_length_dropped tells it */
-  double tool_angle[2];  /**< angles of a head that is no axis of the part system (nc_system_config::tool_axis), deg, -1e6..1e6: [0] about X or Y (A, B), [1] about Z (C).
+  double tool_angle[2];  /**< angles of a head that is no axis of the part system (nc_system_config::tool_axis), deg, at most NC_TOOL_ANGLE_MAX either way: [0] about X or Y (A, B), [1] about Z (C).
                               Read only with NC_TOOL_AXIS_MECHANICAL_A or _B, where a block needs them: when it has G43.1, and with G43.1 in force behind M, S, T and B, since
                               what is given out by them may have turned the head. That block waits until everything before it has been executed */
 } nc_inputs;

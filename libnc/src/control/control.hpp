@@ -21,7 +21,7 @@ struct nc_control {
 };
 
 /// Whether the host's answer has angles of a tool (nc_world::tool_angle); false for NaN, too.
-inline bool are_tool_angles(const double (&angle)[2]) { return std::fabs(angle[0]) <= 1e6 && std::fabs(angle[1]) <= 1e6; }
+inline bool are_tool_angles(const double (&angle)[2]) { return std::fabs(angle[0]) <= NC_TOOL_ANGLE_MAX && std::fabs(angle[1]) <= NC_TOOL_ANGLE_MAX; }
 
 /// Whether there is a control, with this part system (from 0).
 inline bool has_system(const nc_control* control, unsigned system) { return control != nullptr && system < control->config.system_count; }

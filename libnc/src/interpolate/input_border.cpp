@@ -11,7 +11,6 @@ constexpr double kLeastOverride = 1e-4;
 constexpr double kLeastRevPerS = 1e-5, kMostRevPerS = 1e4, kMostTurns = 1e12;
 constexpr double kMostPlace = 1e9;   // mm or deg
 constexpr double kMostByHand = 1e6;  // mm, deg, and each of them per s
-constexpr double kMostAngle = 1e6;   // deg
 constexpr double kLeastByHand = 1e-6;
 constexpr double kSpindleGoesOn_s = 0.02;
 
@@ -137,7 +136,7 @@ void InputBorder::tool_length() {
 
 void InputBorder::tool_angle() {
   for (unsigned i = 0; i < 2; ++i) {
-    if (within(now_.tool_angle[i], kMostAngle)) {
+    if (within(now_.tool_angle[i], NC_TOOL_ANGLE_MAX)) {
       tool_angle_[i] = now_.tool_angle[i];
     } else {
       refused_ |= NC_INPUT_TOOL_ANGLE;
