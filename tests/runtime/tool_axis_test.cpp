@@ -15,11 +15,12 @@ constexpr double kNear = 0.0101;  // the optimal mode stops on the rounding of a
 
 class ToolAxisRuntime : public nc::test::OwnLadder {
  protected:
-  // word_in 1 to 3 turn the third handle by 3 increments back, by 200 forth, and that of X; in0 chooses the mode of the length. M50 turns the head.
+  // word_in 1 to 3 turn the third handle by 3 increments back, by 200 forth, and that of X; in0 chooses the mode of the length. M50 turns the head: its angles
+  // are there when it is answered.
   void run() {
     use("LD in0\nOUT plc.tool_length_by_handle\nLD SM400\nMOV K0 plc.handle.Z\nMOV K0 plc.handle.X\nLDD= word_in K1\nMOV K-3 plc.handle.Z\nLDD= word_in K2\nMOV K200 plc.handle.Z\n"
-        "LDD= word_in K3\nMOV K5 plc.handle.X\nLD SM400\nDMOV D0 plc.tool_tilt\nDMOV D2 plc.tool_turn\nDMOV nc.tool_length_added D4\n"
-        "LDD= nc.m_code K50\nAND nc.m_strobe\nDMOV K90000 D0\nDMOV K90000 D2\nLD nc.m_strobe\nOUT plc.fin2\nEND\n");
+        "LDD= word_in K3\nMOV K5 plc.handle.X\nLDD= nc.m_code K50\nAND nc.m_strobe\nDMOV K90000 D0\nDMOV K90000 D2\n"
+        "LD SM400\nDMOV D0 plc.tool_tilt\nDMOV D2 plc.tool_turn\nDMOV nc.tool_length_added D4\nLD nc.m_strobe\nOUT plc.fin2\nEND\n");
     config.nc.system[0].tool_axis = NC_TOOL_AXIS_MECHANICAL_A;
     build();
     ASSERT_EQ(nc_tool_offset_set(runtime->control(), 1, NC_TOOL_LENGTH, 20), NC_OK);
