@@ -5,6 +5,7 @@
 #include <iconv.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 namespace nc::rt {
@@ -26,8 +27,14 @@ constexpr EncodingRow kEncodings[] = {
 
 const iconv_t kNone = reinterpret_cast<iconv_t>(-1);  // NOLINT(performance-no-int-to-ptr): the value that iconv_open() returns on failure
 
+// Eight characters are looked at together, because nearly all of a program is ASCII.
 std::size_t ascii_length(std::string_view text) {
+  constexpr std::uint64_t kNotAscii = 0x8080808080808080u;
   std::size_t n = 0;
+  for (std::uint64_t eight = 0; n + sizeof eight <= text.size(); n += sizeof eight) {
+    std::memcpy(&eight, text.data() + n, sizeof eight);
+    if ((eight & kNotAscii) != 0) break;
+  }
   while (n < text.size() && static_cast<unsigned char>(text[n]) < 0x80) ++n;
   return n;
 }

@@ -20,6 +20,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "runtime/programs/encoding.hpp"
@@ -54,6 +55,8 @@ class ProgramText {
   // Of the file, as it was opened.
   const struct stat& info() const { return info_; }
   bool copied() const { return descriptor_ < 0; }
+  // The whole text of a file that was copied, as long as this object lives; of another one "".
+  std::string_view whole() const { return copied() ? std::string_view(text_) : std::string_view(); }
   // As nc_read_at. Any thread.
   long read(std::uint64_t offset, char* buffer, std::size_t size);
   // True when `info` is that of the file that was opened, unchanged as far as its size and times tell.

@@ -52,7 +52,7 @@ struct Scene {
     std::string error;
     ASSERT_TRUE(parse_setup(setup_text, "s.json", &setup, &error)) << error;
     VirtualWorld world(setup, xyz());
-    result = run_offline(&items, &world, &notes, false, 0);
+    result = run_offline(&items, &world, &notes, {}, 0);
   }
   nc_action& action(uint32_t line, nc_action_kind kind, double value) {
     nc_item& item = items.add(NC_ITEM_ACTION, line);
@@ -200,7 +200,7 @@ TEST(OfflineRun, AnEndlessLoopIsAnError) {
   tools::Setup setup;
   VirtualWorld world(setup, xyz());
   RunSink sink;
-  const RunResult result = run_offline(&items, &world, &sink, false, 100'000);
+  const RunResult result = run_offline(&items, &world, &sink, {}, 100'000);
   EXPECT_EQ(result.how, RunResult::How::kEndless);
   EXPECT_NE(result.error.find("endless loop"), std::string::npos);
 }
@@ -242,10 +242,10 @@ TEST(OfflineRun, CalculationWithoutEndIsAnErrorButWaitingForTheClockIsNot) {
   RunSink sink;
   VirtualWorld one(setup, xyz()), two(setup, xyz());
   Calculating loop(0, 1 << 30), wait(10, 50'000);
-  const RunResult endless = run_offline(&loop, &one, &sink, false, 10'000);
+  const RunResult endless = run_offline(&loop, &one, &sink, {}, 10'000);
   EXPECT_EQ(endless.how, RunResult::How::kEndless);
   EXPECT_NE(endless.error.find("line 7: 10000 blocks"), std::string::npos) << endless.error;
-  EXPECT_EQ(run_offline(&wait, &two, &sink, false, 10'000).how, RunResult::How::kEnded);
+  EXPECT_EQ(run_offline(&wait, &two, &sink, {}, 10'000).how, RunResult::How::kEnded);
 }
 
 TEST(OfflineRun, ALongRunIsToldWithEachDoubling) {
@@ -258,7 +258,7 @@ TEST(OfflineRun, ALongRunIsToldWithEachDoubling) {
   EXPECT_EQ(progress.first, 10'000'000u);
   progress.first = 1'000;
   progress.tell = [&](const nc_source& source, uint64_t count) { told += std::to_string(source.line) + "@" + std::to_string(count) + " "; };
-  EXPECT_EQ(run_offline(&blocks, &world, &sink, false, 0, false, progress).how, RunResult::How::kEnded);
+  EXPECT_EQ(run_offline(&blocks, &world, &sink, {}, 0, false, progress).how, RunResult::How::kEnded);
   EXPECT_EQ(told, "7@1000 7@2000 7@4000 ");
 }
 

@@ -6,6 +6,9 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
 
 namespace nc::tools {
 namespace {
@@ -22,7 +25,7 @@ std::string switched_off(const Session& session, nc_parameter_role role) {
 }
 
 /// The word as it is written in the block at `begin`, without blanks; its address alone where the block is so long that its place is not known.
-std::string spelled(const std::string& text, size_t begin, const nc_plain_word& word) {
+std::string spelled(std::string_view text, size_t begin, const nc_plain_word& word) {
   std::string spelling = word.comma ? "," : "";
   if (word.end == 0) return spelling + word.letter;
   for (size_t i = begin + word.begin; i < begin + word.end; ++i)
@@ -30,46 +33,99 @@ std::string spelled(const std::string& text, size_t begin, const nc_plain_word& 
   return spelling;
 }
 
+/// Finds the lines of a text that may have the time of a dwell, without reading the others, which are nearly all: a line with the code of a dwell, or one behind
+/// which the lines are data. A number that is not written plainly may be any code.
+class DwellSearch {
+ public:
+  DwellSearch(std::string_view text, nc_dialect dialect) : text_(text) {
+    nc_function row = NC_INIT(nc_function);
+    for (unsigned i = 0; nc_function_row(dialect, i, &row) == NC_OK; ++i) {
+      const auto tenths = static_cast<uint32_t>(std::lround(std::strtod(row.code + 1, nullptr) * 10));
+      const nc_code_role role = nc_code_role_get(dialect, row.code[0], tenths);
+      if (role != NC_CODE_DWELL && role != NC_CODE_DATA_INPUT) continue;
+      wanted_.push_back(tenths);
+      letters_[0].spelling = row.code[0];
+      letters_[1].spelling = static_cast<char>(std::tolower(row.code[0]));
+    }
+  }
+
+  /// The first character from `from` on, where a block begins, of such a line; the size of the text where none follows.
+  size_t next(size_t from) {
+    for (size_t at = from; (at = next_letter(at)) != text_.size(); ++at) {
+      if (!may_be_wanted(at + 1)) continue;
+      const size_t line_end = text_.rfind('\n', at);
+      return line_end == text_.npos ? from : std::max(from, line_end + 1);
+    }
+    return text_.size();
+  }
+
+ private:
+  struct Letter {
+    char spelling = 0;
+    size_t place = 0;      ///< the first one at or behind the place that was asked for last
+    bool searched = false;
+  };
+
+  size_t next_letter(size_t from) {
+    size_t nearest = text_.size();
+    for (Letter& letter : letters_) {
+      if (!letter.searched || letter.place < from) letter.place = std::min(text_.find(letter.spelling, from), text_.size());
+      letter.searched = true;
+      nearest = std::min(nearest, letter.place);
+    }
+    return nearest;
+  }
+
+  bool may_be_wanted(size_t at) const {
+    constexpr uint32_t kMost = 10000;
+    const auto is = [&](char from, char to) { return at < text_.size() && text_[at] >= from && text_[at] <= to; };
+    uint32_t number = 0;
+    const size_t begin = at;
+    for (; is('0', '9') && number < kMost; ++at) number = 10 * number + static_cast<uint32_t>(text_[at] - '0');
+    const bool digits = at != begin && number < kMost;
+    while (is(' ', ' ') || is('\r', '\r')) ++at;
+    const bool plain = digits && (at == text_.size() || is('\n', '\n') || is('A', 'Z') || is('a', 'z'));
+    return !plain || std::find(wanted_.begin(), wanted_.end(), number * 10) != wanted_.end();
+  }
+
+  const std::string_view text_;
+  std::vector<uint32_t> wanted_;  // codes, times 10
+  Letter letters_[2];  // of codes: the capital and the small one
+};
+
 }  // namespace
 
-void NumberHints::count_without_point(const std::string& word, double value, uint32_t line) {
-  if (without_point++ == 0) {
-    first_without = line;
-    first_word = word;
-  }
+bool NumberHints::count_without_point(const std::string& word, double value) {
+  const bool first = without_point++ == 0;
+  if (first) first_word = word;
   if (value > largest_without) {
     largest_without = value;
     largest_word = word;
   }
+  return first;
 }
 
-NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes, bool lengths) {
+NumberHints number_hints(std::string_view text, nc_dialect dialect, const std::string& axes, bool lengths) {
   NumberHints hints;
-  bool plain_place[256] = {};  // a line of nothing but these characters commands places: no dwell
-  for (const unsigned char c : axes + "0123456789+-. \t\r") plain_place[c] = true;
-  uint32_t line = 1;
+  const auto line_of = [&](size_t place) { return 1 + static_cast<uint32_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(place), '\n')); };
+  DwellSearch dwells(text, dialect);
   nc_block_text block = NC_INIT(nc_block_text);
   nc_plain_word words[NC_MAX_WORDS];
   for (size_t begin = 0; begin < text.size(); begin += block.used) {
-    const size_t line_end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-    if (!lengths && std::all_of(text.begin() + static_cast<ptrdiff_t>(begin), text.begin() + static_cast<ptrdiff_t>(line_end) - 1, [&](unsigned char c) { return plain_place[c]; })) {
-      block.used = line_end - begin;
-      ++line;
-      continue;
-    }
+    if (!lengths && !block.data) begin = dwells.next(begin);
+    if (begin == text.size()) break;
     if (nc_block_words(dialect, axes.c_str(), text.data() + begin, text.size() - begin, &block, words) != NC_OK || block.used == 0) return {};
     for (uint32_t i = 0; i < block.count; ++i) {
       const nc_plain_word& word = words[i];
       if (word.value == 0) continue;  // the same in every unit
       if (word.kind == NC_NUMBER_LENGTH) {
         if (word.point) ++hints.with_point;
-        else hints.count_without_point(spelled(text, begin, word), std::fabs(word.value), line);
+        else if (hints.count_without_point(spelled(text, begin, word), std::fabs(word.value))) hints.first_without = line_of(begin);
       }
       if (word.kind != NC_NUMBER_DWELL || !word.point || hints.dwells++ != 0) continue;
-      hints.first_dwell = line;
+      hints.first_dwell = line_of(begin);
       hints.dwell_word = spelled(text, begin, word);
     }
-    if (text[begin + block.used - 1] == '\n') ++line;
   }
   return hints;
 }
@@ -80,7 +136,7 @@ bool note_numbers(const Session& session, std::FILE* err) {
   bool whole = true;
   nc_undotted_get(session.control(), kPartSystem, &whole);
   if (whole && dwell_point.empty()) return false;
-  const std::string text = session.main_text();
+  const std::string_view text = session.main_text();
   const nc_config& config = session.config();
   std::string letters;
   for (unsigned i = 0; i < config.system[kPartSystem].axis_count; ++i) letters += config.system[kPartSystem].axis[i].name;

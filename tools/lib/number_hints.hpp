@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "tools/lib/session.hpp"
 
@@ -21,7 +22,8 @@ struct NumberHints {
   uint32_t first_dwell = 0;
   std::string dwell_word;  // "P1.00000"
 
-  void count_without_point(const std::string& word, double value, uint32_t line);
+  /** Counts a word without a point. @return true when it is the first one. */
+  bool count_without_point(const std::string& word, double value);
 
   /**
    * True when the numbers without a point were probably not meant in thousandths: other numbers have a point, or all of them are less than a millimetre. A
@@ -40,7 +42,7 @@ struct NumberHints {
  * @param axes letters of the axes
  * @param lengths true: all hints; false: only those of dwells, which is much faster
  */
-NumberHints number_hints(const std::string& text, nc_dialect dialect, const std::string& axes, bool lengths);
+NumberHints number_hints(std::string_view text, nc_dialect dialect, const std::string& axes, bool lengths);
 
 /**
  * Prints on `err` the hints that apply with the parameters of this control. Returns true when numbers were probably meant in whole mm or inch, and the family

@@ -4,6 +4,7 @@
 #include "tools/lib/offline_run.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace nc::tools {
 namespace {
@@ -13,12 +14,12 @@ constexpr uint64_t kMostMovesInBlock = 1000000;  // a cycle with a peck of a tho
 
 class OfflineRun {
  public:
-  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops)
-      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(decides), loops_(loops) {}
+  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops)
+      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops) {}
 
   RunResult run(uint64_t max_silent_blocks) {
     nc_item item;
-    passes_differ();
+    passes_.begin([this](uint32_t from, uint32_t* number, double* value) { return items_.next_common(from, number, value); });
     for (;;) {
       const nc_status status = items_.pull(kBudget, &item);
       // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
@@ -267,7 +268,7 @@ class OfflineRun {
 
 }  // namespace
 
-bool has_decision(const std::string& text) {
+bool has_decision(std::string_view text) {
   bool comment = false;
   bool matters[256] = {};  // nearly all characters are others
   for (const unsigned char c : {'(', ')', '\n', 'I', 'i', 'W', 'w'}) matters[c] = true;
@@ -289,9 +290,9 @@ bool has_decision(const std::string& text) {
   return false;
 }
 
-RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides,
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides,
                       uint64_t max_silent_blocks, bool one_pass, const RunProgress& progress, const LoopLimits& loops) {
-  return OfflineRun(items, world, sink, decides, one_pass, progress, loops).run(max_silent_blocks);
+  return OfflineRun(items, world, sink, std::move(decides), one_pass, progress, loops).run(max_silent_blocks);
 }
 
 }  // namespace nc::tools

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -49,7 +51,11 @@ struct RunResult {
 };
 
 /** True when the text of a main program has an IF or a WHILE outside of comments. */
-bool has_decision(const std::string& text);
+bool has_decision(std::string_view text);
+
+/** Says has_decision() of the main program. It is asked only where the main program begins again, because the text may be long; one that
+ * is empty says no. */
+using Decides = std::function<bool()>;
 
 /**
  * Whether a main program that M99 begins again may come to an end by itself: it has a decision (IF or WHILE), and the
@@ -57,22 +63,37 @@ bool has_decision(const std::string& text);
  */
 class Passes {
  public:
-  explicit Passes(bool decides) : decides_(decides) {}
-  /** To be called at the head of the first pass and of each further one. `next` is like nc_variable_next(). */
+  explicit Passes(Decides decides) : decides_(std::move(decides)) {}
+  /** To be called at the head of the first pass. `next` is like nc_variable_next(). */
+  template <typename Next>
+  void begin(const Next& next) {
+    before_ = variables(next);
+  }
+  /** To be called at the head of each further pass. */
   template <typename Next>
   bool differ(const Next& next) {
-    std::vector<std::pair<uint32_t, double>> now;
-    uint32_t number = 0;
-    double value = 0.0;
-    for (uint32_t from = 0; decides_ && next(from, &number, &value); from = number + 1) now.emplace_back(number, value);
-    const bool differs = decides_ && now != before_;
+    if (!known_) known_ = decides_ && decides_();
+    if (!*known_) return false;
+    Variables now = variables(next);
+    const bool differs = now != before_;
     before_ = std::move(now);
     return differs;
   }
 
  private:
-  const bool decides_;
-  std::vector<std::pair<uint32_t, double>> before_;
+  using Variables = std::vector<std::pair<uint32_t, double>>;
+  template <typename Next>
+  static Variables variables(const Next& next) {
+    Variables all;
+    uint32_t number = 0;
+    double value = 0.0;
+    for (uint32_t from = 0; next(from, &number, &value); from = number + 1) all.emplace_back(number, value);
+    return all;
+  }
+
+  const Decides decides_;
+  std::optional<bool> known_;  // what it has said
+  Variables before_;
 };
 
 /**
@@ -88,9 +109,9 @@ struct RunProgress {
  * Runs the program to its end. The run is given up after `max_silent_blocks` blocks in a row that only calculate and jump, and after more passes of a
  * loop than `loops` allows; 0 = no limit. Blocks that read the clock are not counted: time passes, so a waiting loop ends. Where M99
  * would begin the main program again, the run ends; without `one_pass` it goes on there if the passes differ (Passes).
- * @param decides has_decision() of the main program
+ * @param decides has_decision() of the main program, asked at the end of its first pass
  */
-RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, bool decides,
+RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides,
                       uint64_t max_silent_blocks, bool one_pass = false, const RunProgress& progress = {},
                       const LoopLimits& loops = LoopLimits::all(0));
 

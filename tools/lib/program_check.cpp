@@ -216,7 +216,7 @@ class Check {
     setup.start = machine_.position[order_.system];
     setup.clock_ms = local_ms();
     VirtualWorld world(setup, config_.nc.system[order_.system]);
-    const RunResult result = run_offline(items_.get(), &world, sink_.get(), has_decision(head_of(files_.text_of(file_).get())), kMostSilentBlocks, true, {}, LoopLimits{});
+    const RunResult result = run_offline(items_.get(), &world, sink_.get(), [this] { return has_decision(head_of(files_.text_of(file_).get())); }, kMostSilentBlocks, true, {}, LoopLimits{});
     report_.seconds = std::max(0.0, result.seconds + sink_->extra_seconds());
     report_.length = result.length;
     report_.blocks = result.blocks;

@@ -61,13 +61,6 @@ int spool_standard_input(std::string* error) {
   }
 }
 
-std::string whole_text(rt::ProgramText* text) {
-  std::string content(static_cast<size_t>(text->size()), '\0');
-  const long got = text->read(0, content.data(), content.size());
-  content.resize(got > 0 ? static_cast<size_t>(got) : 0);
-  return content;
-}
-
 // The values of a machine in the form of a setup, as defaults for what the setup does not name.
 Setup setup_of(const rt::Config& machine) {
   Setup setup;
@@ -210,14 +203,14 @@ bool Session::add_standard_input(bool tape, std::string* error) {
   return files_->add_descriptor(control_, descriptor, "stdin", &main_file_, error, tape) == NC_OK;
 }
 
-std::string Session::main_text() const {
+std::string_view Session::main_text() const {
   if (given_ != nullptr) return *given_;
   const ProgramFiles::Text text = files_->text_of(main_file_);
-  return text == nullptr || !text->copied() ? "" : whole_text(text.get());
+  return text == nullptr ? std::string_view() : text->whole();
 }
 
-bool Session::decides() const {
-  return has_decision(main_text());
+Decides Session::decides() const {
+  return [this] { return has_decision(main_text()); };
 }
 
 std::string Session::file_name(const nc_source& source) const {

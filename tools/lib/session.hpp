@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "nc/nc.h"
 #include "runtime/config.hpp"
@@ -54,12 +55,12 @@ class Session {
   const rt::Config* machine() const { return machine_.get(); }
   const Setup& setup() const { return setup_; }
   nc_control* control() const { return control_; }
-  /** Text of the main program; "" for one that is too large to be copied. */
-  std::string main_text() const;
+  /** Text of the main program, as long as the session lives; "" for one that is too large to be copied. */
+  std::string_view main_text() const;
   nc_dialect dialect() const { return dialect_; }
   unsigned main_file() const { return main_file_; }
-  /** True when the main program has an IF or a WHILE; false for one that is too large to be copied. */
-  bool decides() const;
+  /** Says whether the main program has an IF or a WHILE, as long as the session lives; of one that is too large to be copied it says no. */
+  Decides decides() const;
   /** The file of a source in the form for messages. */
   std::string file_name(const nc_source& source) const;
 

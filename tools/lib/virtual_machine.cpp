@@ -17,12 +17,12 @@ constexpr double kPatience = 10.0;  // s; a program that does not go on for this
 
 class VirtualMachine {
  public:
-  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, const LoopLimits& loops, const ServoModel* servo)
+  VirtualMachine(nc_control* control, const nc_config& config, const Setup& setup, Decides decides, const LoopLimits& loops, const ServoModel* servo)
       : control_(control),
         config_(config),
         setup_(setup),
         servo_(servo),
-        passes_(decides),
+        passes_(std::move(decides)),
         world_(setup, config.system[0]),
         foresight_(&world_, config.system[0].axis_count),
         loops_(loops),
@@ -37,7 +37,7 @@ class VirtualMachine {
   MachineResult run(double limit_s, const CycleObserver& observe) {
     nc_outputs& out = out_[kPartSystem];
     double waiting = 0.0;
-    passes_differ();
+    at_executed([&](const auto& next) { passes_.begin(next); });
     const uint64_t limit = static_cast<uint64_t>(limit_s / config_.cycle_s);
     for (uint64_t cycle = 0; cycle < limit; ++cycle) {
       if (!feed()) return give_up("the program is read on and on, and nothing comes of it: an endless loop of calculation");
@@ -185,19 +185,21 @@ class VirtualMachine {
     }
   }
 
-  bool passes_differ() {
-    struct Look {
-      Passes* passes;
-      bool differ;
-    } look = {&passes_, false};
-    const auto at_executed = [](void* user, const nc_control* control) {
-      Look& l = *static_cast<Look*>(user);
-      l.differ = l.passes->differ([control](uint32_t from, uint32_t* number, double* value) {
+  // Lets `use` look at the common variables without what was read ahead, which belongs to later passes.
+  template <typename Use>
+  void at_executed(Use use) {
+    const auto look = [](void* user, const nc_control* control) {
+      (*static_cast<Use*>(user))([control](uint32_t from, uint32_t* number, double* value) {
         return nc_variable_next(control, kPartSystem, from, number, value) == NC_OK;
       });
     };
-    nc_look_executed(control_, at_executed, &look);  // without what was read ahead, which belongs to later passes
-    return look.differ;
+    nc_look_executed(control_, look, &use);
+  }
+
+  bool passes_differ() {
+    bool differ = false;
+    at_executed([&](const auto& next) { differ = passes_.differ(next); });
+    return differ;
   }
 
   MachineResult take(MachineResult::How how) {
@@ -246,9 +248,9 @@ class VirtualMachine {
 
 }  // namespace
 
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, double limit_s,
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, Decides decides, double limit_s,
                           const LoopLimits& loops, const CycleObserver& observe, const ServoModel* servo) {
-  return VirtualMachine(control, config, setup, decides, loops, servo).run(limit_s, observe);
+  return VirtualMachine(control, config, setup, std::move(decides), loops, servo).run(limit_s, observe);
 }
 
 }  // namespace nc::tools

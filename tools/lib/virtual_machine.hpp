@@ -46,7 +46,7 @@ struct ServoModel {
  * @param loops passes after which a loop is given up.
  * @param servo null: the axes are always where they are commanded to be.
  */
-MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, bool decides, double limit_s, const LoopLimits& loops,
+MachineResult run_machine(nc_control* control, const nc_config& config, const Setup& setup, Decides decides, double limit_s, const LoopLimits& loops,
                           const CycleObserver& observe = {}, const ServoModel* servo = nullptr);
 
 }  // namespace nc::tools
