@@ -18,32 +18,32 @@ class OfflineRun {
       : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops) {}
 
   RunResult run(uint64_t max_silent_blocks) {
-    nc_item item;
     passes_.begin([this](uint32_t from, uint32_t* number, double* value) { return items_.next_common(from, number, value); });
     for (;;) {
-      const nc_status status = items_.pull(kBudget, &item);
-      // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
-      // marks.
-      constexpr uint64_t kLinesForABlock = 1000;
-      if (status == NC_BUDGET) empty_lines_ += kBudget;
-      else empty_lines_ = 0;
-      if (max_silent_blocks && (silent_ >= max_silent_blocks || (empty_lines_ != 0 && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks)))
-        return endless();
-      if (status == NC_BUDGET && sink_.stop()) return stopped();
-      if (status == NC_BUDGET) continue;
+      if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
+      const nc_status status = items_.pull(kBudget, &item_);
+      if (status == NC_BUDGET) {
+        // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
+        // marks.
+        constexpr uint64_t kLinesForABlock = 1000;
+        empty_lines_ += kBudget;
+        if (max_silent_blocks && silent_ + empty_lines_ / kLinesForABlock >= max_silent_blocks) return endless();
+        if (sink_.stop()) return stopped();
+        continue;
+      }
       if (status == NC_ENDED || status == NC_ALARMED) break;
       if (status != NC_OK) return fail("the control stopped with status " + std::to_string(status));
-      last_ = item.source;
-      count_silence(item);
-      if (world_.on_item(item, world_.waits_for_block() ? items_.main_line(item.source) : 0)) return reset();
+      empty_lines_ = 0;
+      count_silence(item_);
+      if (world_.on_item(item_, world_.waits_for_block() ? items_.main_line(item_.source) : 0)) return reset();
       if (world_.macro_interrupt() != interrupt_) {
         interrupt_ = !interrupt_;
         if (items_.interrupt(interrupt_)) continue;  // the interrupt program comes before this item
       }
-      if (!handle(item)) return result_;
+      if (!handle(item_)) return result_;
       if (result_.one_pass || sink_.stop()) {
         result_.how = result_.one_pass ? RunResult::How::kEnded : RunResult::How::kStopped;
-        if (result_.one_pass) sink_.end(last_, true, work_, world_.machine(), modal_);
+        if (result_.one_pass) sink_.end(last(), true, work_, world_.machine(), modal_);
         return finish();
       }
     }
@@ -52,6 +52,9 @@ class OfflineRun {
   }
 
  private:
+  // Where the last item comes from; all 0 before there is one.
+  const nc_source& last() const { return item_.source; }
+
   // Counts blocks that only calculate and jump. The count begins anew with every item that the machine notices or that lets time pass, and with a block of
   // the main program beyond all that were executed before, because a program that goes forward comes to its
   // end.
@@ -79,10 +82,10 @@ class OfflineRun {
 
   RunResult endless() {
     result_.silent = true;
-    const std::string place = last_.line == 0
+    const std::string place = last().line == 0
                                   ? ""
-                                  : "line " + std::to_string(last_.line) +
-                                        (last_.program ? " of O" + std::to_string(last_.program) : "") + ": ";
+                                  : "line " + std::to_string(last().line) +
+                                        (last().program ? " of O" + std::to_string(last().program) : "") + ": ";
     return give_up(place + std::to_string(silent_) +
                    " blocks without anything that the machine would do: an endless loop, or too few allowed "
                    "(--max-silent-blocks)");
@@ -97,7 +100,7 @@ class OfflineRun {
   RunResult give_up(std::string why) {
     result_.how = RunResult::How::kEndless;
     result_.error = std::move(why);
-    sink_.end(last_, false, work_, world_.machine(), modal_);
+    sink_.end(last(), false, work_, world_.machine(), modal_);
     return finish();
   }
 
@@ -231,7 +234,7 @@ class OfflineRun {
     if (items_.rewind(last_mark_) != NC_OK) return fail("the control cannot go back to the end of the block before the reset");
     items_.reset();
     result_.how = RunResult::How::kReset;
-    sink_.end(last_, true, work_, world_.machine(), modal_);
+    sink_.end(last(), true, work_, world_.machine(), modal_);
     return finish();
   }
 
@@ -255,7 +258,7 @@ class OfflineRun {
   Passes passes_;
   LoopWatch loops_;
   RunResult result_;
-  nc_source last_ = {};
+  nc_item item_ = NC_INIT(nc_item);  // the last one
   nc_axes work_ = {};
   uint64_t silent_ = 0;         // number of blocks since something happened
   uint64_t empty_lines_ = 0;    // number of lines without a block since the last item

@@ -57,11 +57,12 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
   if (!has_system(c, system) || item == nullptr) return NC_E_ARGUMENT;
-  if (c->system[system].busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
-  c->system[system].forget_restart();
-  c->system[system].publish_all();
-  if (nc::caller_bytes(item) != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(c->system[system], budget, item);
-  return c->system[system].pull(budget, item);
+  nc::PartSystem& part = c->system[system];
+  if (part.busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
+  part.forget_restart();
+  part.publish_all();
+  if (nc::caller_bytes(item) != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(part, budget, item);
+  return part.pull(budget, item);
 }
 
 nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {
