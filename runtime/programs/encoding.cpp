@@ -41,6 +41,8 @@ std::size_t ascii_length(std::string_view text) {
 
 }  // namespace
 
+bool is_ascii(std::string_view text) { return ascii_length(text) == text.size(); }
+
 std::optional<Encoding> encoding_from_name(std::string_view name) {
   for (const EncodingRow& row : kEncodings)
     if (row.name == name) return row.encoding;

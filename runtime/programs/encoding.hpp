@@ -17,6 +17,9 @@ enum class Encoding : std::uint8_t { kUtf8, kLatin1, kShiftJis };
 // "utf-8", "latin-1", "shift-jis"; nothing for another name.
 std::optional<Encoding> encoding_from_name(std::string_view name);
 
+// A text of ASCII alone is the same in each of these encodings.
+bool is_ascii(std::string_view text);
+
 // Bytes of the well-formed UTF-8 character at the start of `text`, 0 when there is none (overlong, surrogate, cut off).
 std::size_t utf8_length(std::string_view text);
 // The text, in which each byte that belongs to no character is replaced by U+FFFD.

@@ -143,6 +143,9 @@ bool ProgramText::copy(std::string* error) {
   look_at_head(bytes.substr(0, kPart));
   if (options_.as_it_is) {
     text_ = std::move(bytes);
+  } else if (is_ascii(bytes)) {
+    text_ = std::move(bytes);
+    finish(&text_);
   } else {
     Decoder decoder(options_.encoding);
     text_.clear();

@@ -268,6 +268,12 @@ void Commit::rewind_to(const MarkPoint& point) {
   while (mark_count_ > 0 && marks_[(mark_count_ - 1) & mark_mask_].serial > serial) --mark_count_;
 }
 
+void Commit::circle_to_public(nc_move* out) const {
+  out->turns = extra_turns(circle_.sweep);
+  out->sweep_deg = circle_.sweep * 180 / kPi;
+  out->ccw = circle_.sweep > 0;
+}
+
 void Commit::space_arc_to_public(nc_move* out) const {
   const CurveShape& shape = *curve_.shape;
   const SpaceArc& arc = shape.what.arc;
@@ -338,7 +344,7 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.skip_mask = move.skip_mask;
       m.skip_away = move.skip_away;
       m.plane = move.circular ? static_cast<uint8_t>(move.plane) : static_cast<uint8_t>(NC_PLANE_NONE);
-      m.turns = move.circular ? extra_turns(circle_.sweep) : 0;
+      m.turns = 0;
       m.curved = curve_.shape != nullptr;
       m.center_axes = move.circular ? 2 : 0;
       m.center[0] = move.work_center[0];
@@ -348,8 +354,9 @@ void Commit::to_public(const Item& item, nc_item* out) const {
       m.machine_center[0] = circle_.center[0];
       m.machine_center[1] = circle_.center[1];
       m.radius = circle_.radius_start;
-      m.sweep_deg = circle_.sweep * 180 / kPi;
-      m.ccw = circle_.sweep > 0;
+      m.sweep_deg = 0;
+      m.ccw = false;
+      if (move.circular) circle_to_public(&m);
       if (curve_.shape != nullptr && curve_.shape->what.kind == ShapeKind::space_arc) space_arc_to_public(&m);
       if (curve_.shape != nullptr && move.circular && move.shape == 0) tilted_arc_to_public(move, &m);
       break;

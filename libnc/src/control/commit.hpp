@@ -188,6 +188,7 @@ class Commit {
   void set_rule(const FeedRule& rule, bool dry_rapid, bool is_tap, Segment* segment);
   void set_filter(const Move& move, const FilterParameters& filters, Segment* segment) const;
   bool turns_round(bool checked);
+  void circle_to_public(nc_move* out) const;
   void space_arc_to_public(nc_move* out) const;
   void tilted_arc_to_public(const Move& move, nc_move* out) const;
   double helix_slope() const;

@@ -82,6 +82,9 @@ struct CycleTable {
   bool takes_widths;   ///< ,I and ,J hold (M700 13.1.1, "programmable in-position width command in fixed cycle")
   bool pecks;          ///< it wants the depth of a cut
   bool shifts;         ///< it goes beside the hole
+  bool turns_spindle;  ///< it has M codes of the spindle
+  bool restarts;       ///< one of them is that of the direction in which the spindle turned before
+  bool leaves_rapidly; ///< it goes to its exit in rapid traverse
 };
 
 struct CycleTables {

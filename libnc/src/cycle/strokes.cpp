@@ -238,12 +238,15 @@ constexpr Stroke kFaceUpwards[] = {
 
 template <unsigned count>
 constexpr CycleTable table(const Stroke (&rows)[count], bool takes_widths) {
-  bool pecks = false, shifts = false;
+  CycleTable all{rows, count, takes_widths, false, false, false, false, false};
   for (const Stroke& row : rows) {
-    pecks = pecks || row.kind == again;
-    shifts = shifts || row.to == L::beside;
+    all.pecks = all.pecks || row.kind == again;
+    all.shifts = all.shifts || row.to == L::beside;
+    all.turns_spindle = all.turns_spindle || row.kind == spindle;
+    all.restarts = all.restarts || row.spindle == S::as_before;
+    all.leaves_rapidly = all.leaves_rapidly || (row.kind == rapid && row.to == L::exit);
   }
-  return {rows, count, takes_widths, pecks, shifts};
+  return all;
 }
 
 constexpr Stroke kNothing[] = {{dwell}};

@@ -7,6 +7,7 @@
 // independent rotations in different planes (G68 and 13.21 of the M700) couple four axes, a conversion in space three.
 #pragma once
 
+#include <bit>
 #include <cstring>
 
 #include "stream/stream.hpp"
@@ -43,7 +44,11 @@ class Affine {
   Affine inverse() const;
 
   bool only_translates() const { return translates_; }
-  bool translates_by(const AxisVec& by) const { return translates_ && std::memcmp(&offset_, &by, sizeof by) == 0; }
+  bool translates_by(const AxisVec& by) const {
+    uint64_t other_bits = 0;  // compared without a branch for each axis, because every move asks
+    for (unsigned i = 0; i < kMaxAxes; ++i) other_bits |= std::bit_cast<uint64_t>(offset_[i]) ^ std::bit_cast<uint64_t>(by[i]);
+    return translates_ && other_bits == 0;
+  }
   AxisVec apply(const AxisVec& p) const {
     if (!translates_) [[unlikely]] return apply_linear(p);
     AxisVec q;

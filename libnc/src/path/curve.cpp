@@ -116,26 +116,6 @@ void arc_axis_bounds(const Curve& c, uint8_t axis, double phase, double* low, do
 
 }  // namespace
 
-void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve) {
-  curve->circular = false;
-  curve->shape = nullptr;
-  curve->start = start;
-  curve->end = end;
-  double linear = 0, turned = 0;
-  // Each way is squared where it is made: to read it back from the curve would wait for its store.
-  for (unsigned i = 0; i < axis_count; ++i) {
-    const double way = end[i] - start[i];
-    curve->delta[i] = way;
-    if ((rotary >> i & 1) != 0) [[unlikely]] {
-      turned += squared(way);
-    } else {
-      linear += squared(way);
-    }
-  }
-  for (unsigned i = axis_count; i < kMaxAxes; ++i) curve->delta[i] = 0;
-  curve->length = std::sqrt(linear > 0 ? linear : turned);
-}
-
 Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary) {
   Curve c;
   make_line(start, end, axis_count, rotary, &c);

@@ -3,6 +3,8 @@
 // are exact; nothing behind this header replaces an arc by chords. All other curves are shapes (path/shape.hpp).
 #pragma once
 
+#include <cmath>
+
 #include "stream/stream.hpp"
 
 namespace nc {
@@ -31,8 +33,23 @@ struct Curve {
 
 /// Makes a line. `axis_count` axes; bit i of `rotary` = axis i is rotary.
 Curve make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary);
-/// Makes a line in *curve, without a copy, because one is made for every block.
-void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve);
+/// Makes a line in *curve, without a copy and without a call, because one is made for every move.
+inline void make_line(const AxisVec& start, const AxisVec& end, unsigned axis_count, uint32_t rotary, Curve* curve) {
+  curve->circular = false;
+  curve->shape = nullptr;
+  AxisVec way;  // of all axes, because the compiler knows that count; those that the machine does not have are 0
+  for (unsigned i = 0; i < kMaxAxes; ++i) way[i] = end[i] - start[i];
+  curve->start = start;
+  curve->end = end;
+  curve->delta = way;
+  double linear = 0, turned = 0;
+  for (unsigned i = 0; i < axis_count; ++i) {
+    const double square = way[i] * way[i];
+    if ((rotary >> i & 1) != 0) [[unlikely]] turned += square;
+    else linear += square;
+  }
+  curve->length = std::sqrt(linear > 0 ? linear : turned);
+}
 
 /// Makes an arc or helix. `circle` is in the same coordinates as start and end.
 Curve make_arc(const AxisVec& start, const AxisVec& end, uint8_t h, uint8_t v, const Circle& circle,

@@ -203,14 +203,8 @@ Execution hole_count(BlockInHand& in, uint32_t* count) {
 Execution check_spindle(BlockInHand& in) {
   const CycleKind kind = in.state.cycle.kind;
   const CycleRules& rules = in.dialect->rules.cycle;
-  bool by_codes = false;
-  const CycleTable& table = strokes_of(kind);
-  bool restarts = false;  // which direction that is must be known
-  for (unsigned i = 0; i < table.count; ++i) {
-    by_codes = by_codes || table.stroke[i].kind == StrokeKind::spindle;
-    restarts = restarts || table.stroke[i].spindle == CycleSpindle::as_before;
-  }
-  const bool wanted = rules.needs_turning_spindle || restarts || (rules.keeps_spindle_direction && by_codes);
+  const CycleTable& table = strokes_of(kind);  // where it restarts the spindle, the direction must be known
+  const bool wanted = rules.needs_turning_spindle || table.restarts || (rules.keeps_spindle_direction && table.turns_spindle);
   const bool wrong = rules.keeps_spindle_direction && is_tap(kind) && in.state.spindle_reverse != taps_left_hand(kind);
   return wanted && (!in.state.spindle_on || wrong) ? in.raise_mode(Condition::spindle_not_turning, Mode::cycle) : Execution::done;
 }

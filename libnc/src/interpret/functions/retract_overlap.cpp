@@ -92,10 +92,8 @@ bool strokes_flow(const BlockInHand& in) { return in.retract_overlap > 0 && !in.
 int8_t way_back(const BlockInHand& in) {
   const Hole& hole = in.jobs.holes.hole;
   const CycleTable& table = strokes_of(in.state.cycle.kind);
-  if (table.shifts || hole.bottom == hole.r) return 0;
-  for (unsigned i = 0; i < table.count; ++i)
-    if (table.stroke[i].kind == StrokeKind::rapid && table.stroke[i].to == Level::exit) return hole.bottom < hole.r ? int8_t{1} : int8_t{-1};
-  return 0;
+  if (table.shifts || !table.leaves_rapidly || hole.bottom == hole.r) return 0;
+  return hole.bottom < hole.r ? int8_t{1} : int8_t{-1};
 }
 
 bool traverse_beyond_level(BlockContext& in, const AxisVec& target, uint32_t axes) {
