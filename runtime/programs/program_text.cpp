@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "nc/control.h"
+#include "runtime/programs/large_pages.hpp"
 #include "runtime/programs/open_for_writing.hpp"
 
 namespace nc::rt {
@@ -131,6 +132,8 @@ std::shared_ptr<ProgramText> ProgramText::open_file(const std::string& path, con
 bool ProgramText::copy(std::string* error) {
   std::string bytes, again;
   const auto size = static_cast<std::size_t>(info_.st_size);
+  bytes.reserve(size + 1);
+  ask_for_large_pages(bytes.data(), size + 1);
   const bool whole = read_file(descriptor_, 0, size + 1, &bytes);
   if (!whole) *error = std::generic_category().message(errno);
   if (!whole || bytes.size() != size) return false;

@@ -192,12 +192,15 @@ bool run_printing(Session* session, RunSink* sink, ItemSource* items, const RunL
   return file.good();
 }
 
+constexpr uint32_t kLookAhead = 256;  // records of the ring: nothing is planned in it here, and a large one would only take time to make
+
 bool open_session(Session* session, const SessionOptions& options, std::string* error) {
   std::unique_ptr<rt::Config> machine;
   if (!options.machine.empty() && !(machine = load_machine(options.machine, error))) return false;
   if (!session->configure(options, error, std::move(machine))) return false;
   const bool limited =
       session->machine() == nullptr || set_machine_limits({}, session->machine(), &session->config(), error);
+  session->config().look_ahead = std::min(session->config().look_ahead, kLookAhead);
   return limited && session->start(options, error);
 }
 

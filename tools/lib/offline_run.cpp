@@ -59,7 +59,9 @@ class OfflineRun {
   // the main program beyond all that were executed before, because a program that goes forward comes to its
   // end.
   void count_silence(const nc_item& item) {
-    if (item.kind == NC_ITEM_MARK) {
+    if (item.kind == NC_ITEM_MOVE) {  // most items are
+      silent_ = 0;
+    } else if (item.kind == NC_ITEM_MARK) {
       ++silent_;
       tell_progress(item.source);
       if (item.source.depth == 0 && item.source.line > furthest_line_) {

@@ -15,13 +15,13 @@
 #include <system_error>
 #include <utility>
 
+#include "runtime/programs/large_pages.hpp"
 #include "tools/lib/item_source.hpp"
 #include "tools/lib/json_check.hpp"
 
 namespace nc::tools {
 namespace {
 
-constexpr size_t kLargePage = size_t{2} << 20;
 constexpr size_t kMaxStandardInput = size_t{1} << 30;
 
 std::string folder_of(const std::string& path) {
@@ -127,11 +127,9 @@ bool Session::start(const SessionOptions& options, std::string* error) {
     return false;
   }
   const size_t size = nc_memory_required(&config_);
-  const size_t pages = (size + kLargePage - 1) / kLargePage * kLargePage;
-  memory_.reset(std::aligned_alloc(kLargePage, pages));
-  // Nearly all of it is written when the control is created. Small pages that come one by one would take half of the time of a short check; a system that has no
-  // large ones gives small ones all the same.
-  if (memory_) (void)madvise(memory_.get(), pages, MADV_HUGEPAGE);
+  const size_t pages = (size + rt::kLargePage - 1) / rt::kLargePage * rt::kLargePage;
+  memory_.reset(std::aligned_alloc(rt::kLargePage, pages));
+  if (memory_) rt::ask_for_large_pages(memory_.get(), pages);  // nearly all of it is written when the control is created
   nc_status status = NC_E_MEMORY;
   if (memory_) control_ = nc_create(&config_, memory_.get(), size, &status);
   if (!control_) {

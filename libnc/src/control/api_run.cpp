@@ -61,7 +61,7 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
   if (part.busy()) return NC_E_STATE;  // an item that is taken here would be missing at the machine
   part.forget_restart();
   part.publish_all();
-  if (nc::caller_bytes(item) != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(part, budget, item);
+  if (item->struct_size != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(part, budget, item);
   return part.pull(budget, item);
 }
 

@@ -55,6 +55,22 @@ inline AxisVec choose(uint32_t axes, const AxisVec& named, const AxisVec& others
   return chosen;
 }
 
+/// `others`, but `to` on one axis: the same for the strokes of holes.
+inline AxisVec with_one(unsigned axis, double to, const AxisVec& others) {
+  struct Rows {
+    uint64_t of[kMaxAxes][kMaxAxes] = {};
+    constexpr Rows() {
+      for (unsigned i = 0; i < kMaxAxes; ++i) of[i][i] = ~uint64_t{0};
+    }
+  };
+  static constexpr Rows kMasks;
+  const uint64_t(&mask)[kMaxAxes] = kMasks.of[axis];
+  AxisVec chosen;
+  for (unsigned i = 0; i < kMaxAxes; ++i)
+    chosen[i] = std::bit_cast<double>((std::bit_cast<uint64_t>(to) & mask[i]) | (std::bit_cast<uint64_t>(others[i]) & ~mask[i]));
+  return chosen;
+}
+
 /// The shift from the compensation frame to machine coordinates: the zero point and the tool length that is applied.
 AxisVec offset_in_force(const InForce& in) {
   AxisVec offset;
@@ -346,9 +362,7 @@ void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& st
   const AxisVec offset = offset_in_force(in);
   AxisVec start;
   for (unsigned i = 0; i < kMaxAxes; ++i) start[i] = in.state.machine[i] - offset[i];
-  AxisVec there;
-  for (unsigned i = 0; i < kMaxAxes; ++i) there[i] = to;
-  const AxisVec end = choose(1u << axis, there, start);
+  const AxisVec end = with_one(axis, to, start);
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
   check_deceleration(in, style.kind, style.in_position);
