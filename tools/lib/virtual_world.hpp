@@ -39,7 +39,7 @@ class VirtualWorld {
    * @return true when an event commands reset: the run ends here, and the item is not executed.
    */
   bool on_item(const nc_item& item, uint32_t main_line) {
-    if (item.kind == NC_ITEM_MOVE && item.u.move.kind == NC_MOVE_SKIP) now_ = item.source;
+    now_ = item.source;
     return schedule_.any() || !time_events_.empty() ? fire_due(item, main_line) : reset_;
   }
 
@@ -129,7 +129,7 @@ class VirtualWorld {
   bool skipped_ = false;
   OutsideSignals signals_;
   nc_axes work_;  // machine_ in the workpiece coordinates of the last move
-  nc_source now_ = {};  // of the skip move in hand
+  nc_source now_ = {};
   std::vector<HitState> hits_;
   double seconds_ = 0.0;
   double spindle_rev_min_ = 0.0;
