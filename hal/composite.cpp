@@ -5,10 +5,21 @@
 #include <system_error>
 #include <thread>
 
+#include "hal/bus_thread.hpp"
+
 namespace nc::hal {
+namespace {
+
+std::size_t count_probes(const std::vector<PointBus*>& buses) {
+  std::size_t count = 0;
+  for (const PointBus* bus : buses) count += bus->probes().size();
+  return count;
+}
+
+}  // namespace
 
 Composite::Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table)
-    : machine_(machine), buses_(std::move(buses)) {
+    : machine_(machine), buses_(std::move(buses)), has_probes_(count_probes(buses_) != 0), latch_(count_probes(buses_)) {
   for (unsigned p = 0; p < table.size(); ++p)
     if (table.at(p).bus == 0) own_points_.push_back(static_cast<std::uint16_t>(p));
 }
@@ -25,11 +36,17 @@ void Composite::read(Feedback* feedback, PointImage* image) noexcept {
   const std::uint8_t good = feedback->lost ? 0 : 1;
   for (const std::uint16_t point : own_points_) image->good[point] = good;
   for (PointBus* bus : buses_) bus->read(image);
+  if (!has_probes_) return;
+  latch_.begin(monotonic_ns(), *feedback);
+  std::size_t index = 0;
+  for (const PointBus* bus : buses_)
+    for (const ProbeSeen& probe : bus->probes()) latch_.add(index++, probe, feedback);
 }
 
 void Composite::write(const Command& command, const PointImage& image) noexcept {
   machine_->write(command, image);
   for (PointBus* bus : buses_) bus->write(image);
+  if (has_probes_) latch_.commanded(command);
 }
 
 void Composite::stop() noexcept {

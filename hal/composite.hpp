@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "hal/edge_latch.hpp"
 #include "hal/hal.hpp"
 #include "hal/point_bus.hpp"
 
@@ -24,6 +25,8 @@ class Composite final : public Hal {
   Hal* machine_;
   std::vector<PointBus*> buses_;
   std::vector<std::uint16_t> own_points_;  // the points of the machine itself, with bus 0
+  bool has_probes_ = false;
+  EdgeLatch latch_;
 };
 
 }  // namespace nc::hal

@@ -16,6 +16,7 @@ namespace nc::hal {
 struct SystemFeedback {
   bool actual_valid = false;          // `actual` is measured
   nc_axes actual{};                   // machine position, mm or deg
+  std::int64_t actual_ns = 0;         // when that was, in nanoseconds of CLOCK_MONOTONIC; 0 = when the scan began
   std::uint32_t following_fault = 0;  // bit per axis: following error beyond its limit
   std::uint32_t drive_fault = 0;      // bit per axis: the drive reports a fault
   std::uint32_t drive_fault_code[NC_MAX_AXES] = {};  // which fault, as drive_fault_text() of hal/drive_fault.hpp takes it

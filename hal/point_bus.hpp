@@ -6,11 +6,21 @@
 // only its own points, which are those whose Point::bus is its number.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "hal/points.hpp"
 
 namespace nc::hal {
+
+// A skip signal of a bus that notes the times of edges.
+struct ProbeSeen {
+  std::uint8_t system = 0, signal = 0;  // signal: bit of SystemFeedback::skip
+  bool on = false;                      // level of the signal
+  bool edge = false;                    // it has come since the read() before, though it may be off again
+  std::int64_t edge_ns = 0;             // with `edge`: when it came first since then, in nanoseconds of CLOCK_MONOTONIC; 0 = not known
+};
 
 class PointBus {
  public:
@@ -20,6 +30,8 @@ class PointBus {
   virtual bool start(const PointImage& initial, std::string* error) = 0;
   // Copies the inputs of this bus, and the quality of its points, into the image. NC_RT.
   virtual void read(PointImage* image) noexcept = 0;
+  // The skip signals as the last read() has found them, always as many of them and in the same order. NC_RT.
+  virtual std::span<const ProbeSeen> probes() const noexcept { return {}; }
   // Takes the outputs of this bus from the image. NC_RT.
   virtual void write(const PointImage& image) noexcept = 0;
   // False while outputs that keep their value from one control to the next have not been read back. Any thread.

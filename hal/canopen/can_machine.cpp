@@ -229,6 +229,7 @@ void CanMachine::read(Feedback* feedback, PointImage* image) noexcept {
     if (axis.homing) homing_[i].begun = true;
     if (map.homed >= 0) image->value[map.homed] = axis.homed ? 1 : 0;
     if (axis.known) out.actual.v[map.axis] = machine(axis.position);
+    out.actual_ns = std::max(out.actual_ns, axis.measured_ns);
     out.actual_valid = true;
     if (!axis.follows) out.not_following |= bit;
     if (shown.serial < reset_serial_) continue;  // these faults are from before the reset

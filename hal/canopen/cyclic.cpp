@@ -56,6 +56,7 @@ void Cyclic::cycle(std::int64_t now_ns) noexcept {
   }
   take_frames(now_ns);
   if (sync) {
+    sync_ns_ = now_ns;
     watch_nodes(now_ns);
     for (unsigned i = 0; i < axes_.size(); ++i) watch_axis(i);
     const bool commanded = take_wanted(now_ns);
@@ -156,6 +157,7 @@ void Cyclic::take_position(Axis* axis, const CanFrame& frame) noexcept {
   axis->position = axis->known ? axis->position + step : raw;
   axis->raw = raw;
   axis->measured_at = given_[1];
+  axis->measured_ns = sync_ns_;
   axis->status = static_cast<std::uint16_t>(get_le(frame.data, 2));
   axis->known = true;
   axis->set_up_again = false;
@@ -250,6 +252,7 @@ void Cyclic::publish() noexcept {
     enabled_[i].store(node.operational && (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive), std::memory_order_relaxed);
     out.position = axis.position;
     out.measured_at = axis.measured_at;
+    out.measured_ns = axis.measured_ns;
     out.known = axis.known;
     all &= axis.known;
     out.follows = follows(i);

@@ -52,6 +52,7 @@ struct BusWanted {
 struct AxisShown {
   std::int64_t position = 0;  // increments
   std::uint64_t measured_at = 0;  // serial number of the command at which a drive that follows stood when `position` was measured
+  std::int64_t measured_ns = 0;   // time of the SYNC with which `position` was measured
   bool known = false;         // a position has come
   bool follows = false;       // the drive is enabled, in cyclic position, and bit 12 says that it follows the command
   bool homed = false;
@@ -127,6 +128,7 @@ class Cyclic {
     std::int32_t raw = 0;
     std::int64_t position = 0;
     std::uint64_t measured_at = 0;  // as AxisShown::measured_at
+    std::int64_t measured_ns = 0;   // as AxisShown::measured_ns
     bool known = false, fresh = false;
     unsigned missed = 0;         // SYNCs in a row without a position
     bool set_up_again = false;   // its node was, because positions did not come; none has come since
@@ -214,6 +216,7 @@ class Cyclic {
   unsigned cycles_ = 0, slow_wait_ = 0;
   std::int64_t beat_ns_ = 0;
   std::int64_t command_ns_ = 0;  // time at which the last new command of the scan was seen
+  std::int64_t sync_ns_ = 0;  // time of the last SYNC whose answers can have come
   std::array<std::uint32_t, NC_MAX_SYSTEMS> latched_{};  // as BusShown::latched
   std::uint64_t serial_ = 0;
   std::uint64_t given_[2] = {};  // serial numbers of the commands that went to the drives after the last SYNC and after the one before

@@ -19,9 +19,22 @@ constexpr std::int64_t kStuckNs = 1'000'000'000;
 GpioBus::GpioBus(const BankConfig& config, std::unique_ptr<LineChip> chip, Report report)
     : config_(config),
       bank_(config, std::move(chip), std::move(report)),
-      inputs_({LineBank::Values(config.lines.size()), LineBank::Values(config.lines.size()), false}),
+      inputs_(empty(config)),
       outputs_(LineBank::Values(config.lines.size())),
-      sent_(config.lines.size()) {}
+      sent_(config.lines.size()),
+      edges_seen_(config.probes.size()) {
+  for (const Probe& probe : config_.probes) probes_.push_back({probe.system, probe.signal});
+}
+
+GpioBus::Shown GpioBus::empty(const BankConfig& config) {
+  Shown shown;
+  shown.value.resize(config.lines.size());
+  shown.good.resize(config.lines.size());
+  shown.probe.resize(config.probes.size());
+  shown.count.resize(config.encoders.size());
+  shown.count_good.resize(config.encoders.size());
+  return shown;
+}
 
 GpioBus::~GpioBus() {
   stop();
@@ -69,8 +82,28 @@ void GpioBus::read(PointImage* image) noexcept {
     if (line.line.output) continue;
     image->value[line.point] = stuck && !line.hold_on_loss ? line.loss_value : shown.value[i];
   }
+  for (std::size_t i = 0; i < config_.encoders.size(); ++i) {
+    image->value[config_.encoders[i].point] = shown.count[i];
+    image->good[config_.encoders[i].point] = stuck ? 0 : shown.count_good[i];
+  }
+  for (std::size_t i = 0; i < config_.probes.size(); ++i) {
+    const Probe& probe = config_.probes[i];
+    const bool level = image->value[config_.lines[probe.line].point] != 0;
+    see_probe(i, shown.probe[i], level != probe.falling);
+  }
   image->value[config_.ok_point] = shown.ok && !stuck ? 1 : 0;
   image->good[config_.ok_point] = 1;
+}
+
+// The scan may have missed several edges; the first one of them counts, or the oldest whose time is still there.
+void GpioBus::see_probe(std::size_t index, const LineBank::ProbeEdges& edges, bool on) noexcept {
+  ProbeSeen& seen = probes_[index];
+  std::uint64_t& known = edges_seen_[index];
+  seen.on = on;
+  seen.edge = edges.count != known;
+  const std::uint64_t first = std::max(known, edges.count - std::min<std::uint64_t>(edges.count, LineBank::kProbeEdges));
+  seen.edge_ns = seen.edge ? edges.time_ns[first % LineBank::kProbeEdges] : 0;
+  known = edges.count;
 }
 
 void GpioBus::write(const PointImage& image) noexcept {
@@ -116,6 +149,11 @@ void GpioBus::publish() {
   for (std::size_t i = 0; i < config_.lines.size(); ++i) {
     shown.value[i] = bank_.shown(i);
     shown.good[i] = bank_.good(i) ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < config_.probes.size(); ++i) shown.probe[i] = bank_.probe(i);
+  for (std::size_t i = 0; i < config_.encoders.size(); ++i) {
+    shown.count[i] = bank_.count(i);
+    shown.count_good[i] = bank_.count_good(i) ? 1 : 0;
   }
   shown.ok = bank_.up();
   inputs_.publish();

@@ -28,18 +28,23 @@ class GpioBus final : public PointBus {
   // Requests the lines. False with a sentence in *error when a line is in use, or when the chip is there but does not have the line or refuses its setting.
   bool start(const PointImage& initial, std::string* error) override;
   void read(PointImage* image) noexcept override;
+  std::span<const ProbeSeen> probes() const noexcept override { return probes_; }
   void write(const PointImage& image) noexcept override;
   // Writes the values for the end and releases the lines. It waits for the thread, whose call of the kernel cannot be interrupted.
   void stop() noexcept override;
 
  private:
-  // Indexed as config_.lines.
   struct Shown {
-    std::vector<std::uint8_t> value;
+    std::vector<std::uint8_t> value;  // indexed as config_.lines, as is good
     std::vector<std::uint8_t> good;
+    std::vector<LineBank::ProbeEdges> probe;
+    std::vector<std::uint32_t> count;  // indexed as config_.encoders, as is count_good
+    std::vector<std::uint8_t> count_good;
     bool ok = false;
   };
+  static Shown empty(const BankConfig& config);
 
+  void see_probe(std::size_t index, const LineBank::ProbeEdges& edges, bool on) noexcept;
   void run();
   bool wait_until(LineBank::Time time);
   void publish();
@@ -53,6 +58,8 @@ class GpioBus final : public PointBus {
   TripleBuffer<Shown> inputs_;
   TripleBuffer<LineBank::Values> outputs_;
   LineBank::Values sent_;                   // outputs that were published last
+  std::vector<ProbeSeen> probes_;           // as the last read() has found them
+  std::vector<std::uint64_t> edges_seen_;   // of each probe
   std::atomic<std::uint32_t> scans_{0};     // number of scans, from which the thread drives the line of the watchdog
   std::atomic<std::int64_t> alive_ns_{0};   // time at which the thread published last
 

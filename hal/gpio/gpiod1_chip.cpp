@@ -2,13 +2,14 @@
 // Lines of a chip through libgpiod 1.6 (Debian 12). Only this file uses the interface of that library, and it is built only where that version is found.
 //
 // This version requests lines in groups of at most 64 with the same direction and flags. It cannot use the debouncing of the kernel, so
-// hal/gpio/line_bank.cpp debounces.
+// hal/gpio/line_bank.cpp debounces. A line with edges is a request of its own for the kernel, which keeps 16 edges of it.
 #include <gpiod.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "hal/gpio/line_chip.hpp"
@@ -21,6 +22,9 @@ Opening opening_of(int problem) {
   if (problem == ENOENT || problem == ENODEV || problem == ENXIO) return Opening::kNoChip;
   return problem == EBUSY ? Opening::kTaken : Opening::kRefused;
 }
+
+// What the kernel says of a line that has no interrupt. The chip is there, since it has just been opened.
+bool gives_no_interrupt(int problem) { return problem == ENODEV || problem == ENXIO; }
 
 int flags_of(const LineSetup& line) {
   int flags = line.active_low ? GPIOD_LINE_REQUEST_FLAG_ACTIVE_LOW : 0;
@@ -54,10 +58,13 @@ gpiod_chip* chip_by_label(const std::string& label, unsigned* found) {
   return match;
 }
 
-// Lines with the same direction and flags, which are requested together.
+constexpr unsigned kKept = 16;  // edges of a line that the kernel keeps
+
+// Lines with the same direction and flags, with or without edges, which are requested together.
 struct Bulk {
   gpiod_line_bulk lines = GPIOD_LINE_BULK_INITIALIZER;
   bool output = false;
+  bool edges = false;
   std::vector<std::size_t> places;  // index in the request for each of the lines
 };
 using Levels = std::array<int, GPIOD_LINE_BULK_MAX_LINES>;
@@ -94,6 +101,18 @@ class GpiodChip final : public LineChip {
     return true;
   }
 
+  bool edges(std::vector<LineEdge>* edges, std::string* error) override {
+    for (Bulk& bulk : bulks_) {
+      if (!bulk.edges) continue;
+      const timespec at_once{};
+      gpiod_line_bulk ready = GPIOD_LINE_BULK_INITIALIZER;
+      if (gpiod_line_event_wait_bulk(&bulk.lines, &at_once, &ready) < 0) return failed("cannot be asked for edges", error);
+      for (unsigned i = 0; i < gpiod_line_bulk_num_lines(&ready); ++i)
+        if (!read_edges(bulk, gpiod_line_bulk_get_line(&ready, i), edges)) return failed("cannot be asked for edges", error);
+    }
+    return true;
+  }
+
   void release() noexcept override {
     for (std::size_t i = 0; i < requested_; ++i) gpiod_line_release_bulk(&bulks_[i].lines);
     requested_ = 0;
@@ -103,6 +122,20 @@ class GpiodChip final : public LineChip {
   }
 
  private:
+  // Reads what the kernel has kept of a line that has edges.
+  static bool read_edges(const Bulk& bulk, gpiod_line* line, std::vector<LineEdge>* edges) {
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < bulk.places.size(); ++i)
+      if (bulk.lines.lines[i] == line) place = bulk.places[i];
+    std::array<gpiod_line_event, kKept> events{};
+    const int count = gpiod_line_event_read_multiple(line, events.data(), kKept);
+    for (int i = 0; i < count; ++i) {
+      const gpiod_line_event& event = events[static_cast<std::size_t>(i)];
+      edges->push_back({place, event.event_type == GPIOD_LINE_EVENT_RISING_EDGE, event.ts.tv_sec * 1'000'000'000LL + event.ts.tv_nsec});
+    }
+    return count >= 0;
+  }
+
   Opening open_chip(const std::string& name, std::string* error) {
     name_ = name;
     unsigned found = 0;
@@ -143,7 +176,7 @@ class GpiodChip final : public LineChip {
 
   Opening sort_lines(std::span<const LineSetup> lines, std::string* error) {
     std::map<unsigned, std::size_t> owner;
-    std::map<std::pair<bool, int>, std::size_t> filling;  // for each direction and flags the bulk that takes further lines
+    std::map<std::tuple<bool, bool, int>, std::size_t> filling;  // for each direction, edges and flags the bulk that takes further lines
     for (std::size_t i = 0; i < lines.size(); ++i) {
       unsigned offset = 0;
       if (const Opening opening = offset_of(lines[i], &offset, error); opening != Opening::kOpen) return opening;
@@ -155,11 +188,12 @@ class GpiodChip final : public LineChip {
       gpiod_line* line = gpiod_chip_get_line(chip_, offset);
       if (line == nullptr) return refused(lines[i], errno, error);
       if (gpiod_line_is_used(line)) return taken(lines[i], gpiod_line_consumer(line), error);
-      const std::pair<bool, int> kind(lines[i].output, flags_of(lines[i]));
+      const std::tuple<bool, bool, int> kind(lines[i].output, lines[i].edges, flags_of(lines[i]));
       const auto place = filling.find(kind);
       if (place == filling.end() || bulks_[place->second].places.size() == GPIOD_LINE_BULK_MAX_LINES) {
         filling[kind] = bulks_.size();
         bulks_.emplace_back().output = lines[i].output;
+        bulks_.back().edges = lines[i].edges;
       }
       Bulk& bulk = bulks_[filling[kind]];
       gpiod_line_bulk_add(&bulk.lines, line);
@@ -172,8 +206,11 @@ class GpiodChip final : public LineChip {
     for (Bulk& bulk : bulks_) {
       const LineSetup& first = lines[bulk.places.front()];
       const Levels levels = levels_of(bulk, values);
-      const int result = bulk.output ? gpiod_line_request_bulk_output_flags(&bulk.lines, consumer.c_str(), flags_of(first), levels.data())
-                                     : gpiod_line_request_bulk_input_flags(&bulk.lines, consumer.c_str(), flags_of(first));
+      int result = 0;
+      if (bulk.output) result = gpiod_line_request_bulk_output_flags(&bulk.lines, consumer.c_str(), flags_of(first), levels.data());
+      else if (bulk.edges) result = gpiod_line_request_bulk_both_edges_events_flags(&bulk.lines, consumer.c_str(), flags_of(first));
+      else result = gpiod_line_request_bulk_input_flags(&bulk.lines, consumer.c_str(), flags_of(first));
+      if (result != 0 && bulk.edges && gives_no_interrupt(errno)) return without_edges(first, error);
       if (result != 0) return errno == EBUSY ? taken(first, nullptr, error) : refused(first, errno, error);
       ++requested_;
     }
@@ -189,6 +226,11 @@ class GpiodChip final : public LineChip {
   Opening taken(const LineSetup& line, const char* owner, std::string* error) const {
     *error = "line " + line.text() + " of chip \"" + name_ + "\" is taken" + (owner != nullptr ? std::string(" by \"") + owner + "\"" : " by another");
     return Opening::kTaken;
+  }
+
+  Opening without_edges(const LineSetup& line, std::string* error) const {
+    *error = "line " + line.text() + " of chip \"" + name_ + "\" gives no edges: " + std::strerror(errno);
+    return Opening::kRefused;
   }
 
   Opening refused(const LineSetup& line, int problem, std::string* error) const {

@@ -14,12 +14,32 @@ constexpr milliseconds kFirstPause{100}, kLastPause{5000};  // shortest and long
 // expander forgets its outputs when its supply fails for a moment.
 constexpr milliseconds kRefresh{100};
 
+constexpr milliseconds kFaultShown{500};  // so long a count is not good behind a fault
+constexpr milliseconds kSayAgain{10000};  // pause between two lines about edges that were lost
+
+std::int64_t ns(LineBank::Time time) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+
 }  // namespace
 
 LineBank::LineBank(const BankConfig& config, std::unique_ptr<LineChip> chip, Report report)
-    : config_(config), chip_(std::move(chip)), report_(std::move(report)), filter_(config.lines.size()), pause_(kFirstPause) {
-  for (const PointLine& line : config_.lines) setup_.push_back(line.line);
-  if (config_.has_watchdog) setup_.push_back(config_.watchdog);
+    : config_(config), chip_(std::move(chip)), report_(std::move(report)), filter_(config.lines.size()), pause_(kFirstPause), probe_(config.probes.size()) {
+  std::vector<std::int64_t> debounce_ns;
+  const auto add = [&](const LineSetup& line, unsigned debounce_ms) {
+    const bool by_kernel = !line.output && !line.edges && chip_->debounces();
+    setup_.push_back(line);
+    setup_.back().debounce_ms = by_kernel ? debounce_ms : 0;
+    debounce_ns.push_back(debounce_ms * 1'000'000LL);
+  };
+  for (const PointLine& line : config_.lines) add(line.line, line.debounce_ms);
+  for (const Encoder& encoder : config_.encoders) {
+    add(encoder.a, encoder.debounce_ms);
+    add(encoder.b, encoder.debounce_ms);
+    encoder_.push_back({Quadrature(encoder.counts, encoder.bits), false, false, 0, {}, false});
+  }
+  if (config_.has_watchdog) add(config_.watchdog, 0);
+  edge_lines_ = std::make_unique<EdgeLines>(setup_, debounce_ns);
   read_.resize(setup_.size());
 }
 
@@ -51,6 +71,10 @@ Opening LineBank::request(Time now, const Values& outputs, std::string* why) {
   errors_ = 0;
   pause_ = kFirstPause;
   for (Filter& filter : filter_) filter.known = false;
+  edge_lines_->restart();
+  edges_known_ = false;
+  to_count_.clear();
+  polled_at_ = now;
   if (!trouble_.empty()) report("the lines of " + config_.chip + " are there");
   trouble_.clear();
   return opening;
@@ -103,8 +127,10 @@ bool LineBank::exchange(Time now, const Values& wanted, std::string* why) {
   }
   if (std::all_of(setup_.begin(), setup_.end(), output)) return true;
   if (!chip_->read(&read_, why)) return false;
+  if (edge_lines_->any() && !take_edges(now, why)) return false;
   for (std::size_t i = 0; i < filter_.size(); ++i)
-    if (!setup_[i].output) take(now, i, read_[i]);
+    if (!setup_[i].output && !setup_[i].edges) take(now, i, read_[i]);
+  polled_at_ = now;
   return true;
 }
 
@@ -122,8 +148,97 @@ void LineBank::take(Time now, std::size_t line, std::uint8_t raw) {
   Filter& filter = filter_[line];
   if (!filter.known || filter.raw != raw) filter.since = now;
   filter.raw = raw;
-  if (!filter.known || now - filter.since >= milliseconds(config_.lines[line].debounce_ms)) filter.shown = raw;
+  const unsigned debounce_ms = kernel_debounces(line) ? 0 : config_.lines[line].debounce_ms;
+  if (!filter.known || now - filter.since >= milliseconds(debounce_ms)) filter.shown = raw;
   filter.known = true;
+}
+
+// ---- edges ----
+
+bool LineBank::take_edges(Time now, std::string* why) {
+  edges_.clear();
+  changes_.clear();
+  if (!chip_->edges(&edges_, why)) return false;
+  const bool first = !edges_known_;
+  edge_lines_->poll(ns(now), read_, edges_, &changes_);
+  for (std::size_t i = 0; i < filter_.size(); ++i) {
+    if (!setup_[i].edges) continue;
+    filter_[i].known = true;
+    filter_[i].shown = edge_lines_->level(i) ? 1 : 0;
+  }
+  if (first) begin_encoders();
+  edges_known_ = true;
+  for (const LineChange& change : changes_) {
+    if (change.line < config_.lines.size()) note_probe(change);
+    else to_count_.push_back(change);
+  }
+  count_encoders(now);
+  report_losses(now);
+  return true;
+}
+
+// The first level is no edge.
+void LineBank::note_probe(const LineChange& change) {
+  for (std::size_t i = 0; i < config_.probes.size(); ++i) {
+    const Probe& probe = config_.probes[i];
+    if (probe.line != change.line || change.lost || change.level == probe.falling) continue;
+    ProbeEdges& edges = probe_[i];
+    edges.time_ns[edges.count++ % kProbeEdges] = change.timed ? change.time_ns : 0;
+  }
+}
+
+void LineBank::begin_encoders() {
+  for (std::size_t e = 0; e < encoder_.size(); ++e) {
+    Wheel& wheel = encoder_[e];
+    wheel.a = edge_lines_->level(line_of_encoder(e));
+    wheel.b = edge_lines_->level(line_of_encoder(e) + 1);
+    wheel.wheel.begin(wheel.a, wheel.b);
+    wheel.faulty = false;
+  }
+}
+
+// Changes of two lines are counted in the order of their times. The lines are read one behind the other, so an earlier change of the one may be read behind a later
+// one of the other, with the next poll: a change waits until that has been.
+void LineBank::count_encoders(Time now) {
+  std::stable_sort(to_count_.begin(), to_count_.end(), [](const LineChange& one, const LineChange& other) { return one.time_ns < other.time_ns; });
+  std::size_t counted = 0;
+  for (; counted < to_count_.size(); ++counted) {
+    const LineChange& change = to_count_[counted];
+    const std::size_t e = (change.line - config_.lines.size()) / 2;
+    if (change.time_ns > ns(polled_at_ - milliseconds(config_.encoders[e].debounce_ms))) break;
+    Wheel& wheel = encoder_[e];
+    if (change.lost) {
+      wheel.wheel.fault();
+      continue;
+    }
+    (change.line == line_of_encoder(e) ? wheel.a : wheel.b) = change.level;
+    wheel.wheel.step(wheel.a, wheel.b);
+  }
+  to_count_.erase(to_count_.begin(), to_count_.begin() + static_cast<std::ptrdiff_t>(counted));
+  for (Wheel& wheel : encoder_) {
+    if (wheel.wheel.faults() != wheel.faults) {
+      wheel.faulty = true;
+      wheel.fault_at = now;
+    }
+    wheel.faults = wheel.wheel.faults();
+    if (now - wheel.fault_at >= kFaultShown) wheel.faulty = false;
+  }
+}
+
+void LineBank::report_losses(Time now) {
+  if (edge_lines_->other_clock() && !clock_said_) {
+    report("the kernel does not give the times of edges by CLOCK_MONOTONIC, as Linux does from 5.7 on: skip positions are those of the scan");
+    clock_said_ = true;
+  }
+  const std::uint64_t losses = edge_lines_->losses();
+  if (losses == losses_said_ || (losses_said_ != 0 && now - losses_at_ < kSayAgain)) return;
+  report("edges were lost " + std::to_string(losses - losses_said_) + " times: a contact bounces, or edges come faster than they are read");
+  losses_said_ = losses;
+  losses_at_ = now;
+}
+
+bool LineBank::count_good(std::size_t encoder) const {
+  return up_ && edge_lines_->known(line_of_encoder(encoder)) && !encoder_[encoder].faulty;
 }
 
 // ---- the values of the points ----

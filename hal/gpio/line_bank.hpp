@@ -7,6 +7,7 @@
 // tries again.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -14,6 +15,8 @@
 #include <vector>
 
 #include "hal/gpio/bank_config.hpp"
+#include "hal/gpio/edge_lines.hpp"
+#include "hal/gpio/quadrature.hpp"
 
 namespace nc::hal::gpio {
 
@@ -41,6 +44,18 @@ class LineBank {
   std::uint8_t shown(std::size_t line) const;
   bool good(std::size_t line) const;
 
+  // The edges at which the signal of a probe has come, all since the bank was made, and the times of the last ones: that of edge number n is at n % kProbeEdges;
+  // 0 = not known.
+  static constexpr unsigned kProbeEdges = 8;
+  struct ProbeEdges {
+    std::uint64_t count = 0;
+    std::array<std::int64_t, kProbeEdges> time_ns{};
+  };
+  const ProbeEdges& probe(std::size_t probe) const { return probe_[probe]; }
+  std::uint32_t count(std::size_t encoder) const { return encoder_[encoder].wheel.count(); }
+  // The count is not good while its lines are not there, and for half a second behind a fault of its lines, because it has lost its way then.
+  bool count_good(std::size_t encoder) const;
+
  private:
   // The debouncing of one input.
   struct Filter {
@@ -49,19 +64,33 @@ class LineBank {
     std::uint8_t raw = 0;      // level of the line at the last poll
     Time since{};              // time since which raw has not changed
   };
+  struct Wheel {
+    Quadrature wheel;
+    bool a = false, b = false;   // levels of its lines behind the changes that have been counted
+    std::uint32_t faults = 0;    // those before this poll
+    Time fault_at{};
+    bool faulty = false;
+  };
 
   Opening request(Time now, const Values& outputs, std::string* why);
   void wait_for_lines(Time now, const std::string& why);
   Values levels(const Values& wanted) const;
   bool exchange(Time now, const Values& wanted, std::string* why);
   void take(Time now, std::size_t line, std::uint8_t raw);
+  bool take_edges(Time now, std::string* why);
+  void note_probe(const LineChange& change);
+  void count_encoders(Time now);
+  void begin_encoders();
+  void report_losses(Time now);
+  bool kernel_debounces(std::size_t line) const { return setup_[line].debounce_ms != 0; }
+  std::size_t line_of_encoder(std::size_t encoder) const { return config_.lines.size() + 2 * encoder; }
   void failed(Time now, const std::string& why);
   void report(const std::string& line) const;
 
   const BankConfig config_;
   const std::unique_ptr<LineChip> chip_;
   const Report report_;
-  std::vector<LineSetup> setup_;  // the lines of the points, then that of the watchdog
+  std::vector<LineSetup> setup_;  // the lines of the points, then two for each encoder, then that of the watchdog
   std::vector<Filter> filter_;
   bool up_ = false;
   Values written_;                // values that were written last, with the watchdog
@@ -72,6 +101,18 @@ class LineBank {
   std::chrono::milliseconds pause_;
   Time retry_at_{};
   std::string trouble_;           // the last one that was reported
+
+  // ---- edges ----
+  std::unique_ptr<EdgeLines> edge_lines_;
+  bool edges_known_ = false;      // the lines with edges have been read since the lines were requested
+  std::vector<LineEdge> edges_;
+  std::vector<LineChange> changes_, to_count_;  // of this poll; of encoders, not yet counted
+  std::vector<ProbeEdges> probe_;
+  std::vector<Wheel> encoder_;
+  Time polled_at_{};              // the last poll
+  std::uint64_t losses_said_ = 0;
+  Time losses_at_{};
+  bool clock_said_ = false;
 };
 
 }  // namespace nc::hal::gpio

@@ -25,6 +25,8 @@ struct LineSetup {
   bool active_low = false;
   Bias bias = Bias::kAsIs;
   Drive drive = Drive::kPushPull;  // only for an output
+  bool edges = false;              // an input whose edges the kernel is to note with their times
+  unsigned debounce_ms = 0;        // an input that the kernel is to debounce; only where LineChip::debounces()
 
   // "ESTOP", or "17" without a name.
   std::string text() const { return name.empty() ? std::to_string(offset) : name; }
@@ -37,6 +39,13 @@ enum class Opening : std::uint8_t {
   kRefused,  // there is no such line, the chip does not have this bias or drive, or the process may not open it
 };
 
+// An edge as the kernel has noted it.
+struct LineEdge {
+  std::size_t line = 0;      // place in the request
+  bool rising = false;       // the line became active
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC; before Linux 5.7 CLOCK_REALTIME
+};
+
 class LineChip {
  public:
   virtual ~LineChip() = default;
@@ -45,6 +54,11 @@ class LineChip {
   virtual Opening request(const std::string& chip, const std::string& consumer, std::span<const LineSetup> lines, std::span<const std::uint8_t> values, std::string* error) = 0;
   // Reads the inputs into *values, in the order of the request; the values of outputs are not changed. False with a sentence in *error: then *values is not valid.
   virtual bool read(std::vector<std::uint8_t>* values, std::string* error) = 0;
+  // Appends the edges that have come since the last call, those of one line in their order. It does not wait. The kernel keeps only some edges of a line (16
+  // in version 1 of its interface); of further ones it drops some, which the caller sees by two edges of the same kind in a row or by a level that does not fit.
+  virtual bool edges(std::vector<LineEdge>* edges, std::string* error) = 0;
+  // Whether the kernel can debounce, with this library.
+  virtual bool debounces() const { return false; }
   // Writes the outputs from `values`, in the order of the request.
   virtual bool write(std::span<const std::uint8_t> values, std::string* error) = 0;
   // Releases the lines for other processes. The level of an output after that depends on the chip.

@@ -84,6 +84,7 @@ void SimMachine::read(Feedback* feedback, PointImage* image) noexcept {
     out.drive_fault = system.drive_fault;
     out.not_following = system.off;
     out.skip = skip_signals(s);
+    out.skip_latched = 0;
     for (unsigned n = 0; n < config_.spindle_count[s]; ++n) {
       const SimSpindle& turning = spindle(s, n);
       out.spindle[n] = {turning.rpm() / 60.0, turning.turns(), true, turning.ready(), turning.ready(), false};

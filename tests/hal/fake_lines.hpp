@@ -27,6 +27,19 @@ struct FakeBoard {
   std::string consumer;
   unsigned requests = 0, releases = 0, reads = 0, writes = 0;
   std::map<std::string, unsigned> changes;  // number of changes of each output
+  struct Edge {
+    std::string line;
+    bool rising = false;
+    std::int64_t time_ns = 0;
+  };
+  std::vector<Edge> edges;                 // that have not been read yet
+  bool debounces = false;
+
+  // A line gets another level, and the kernel notes the edge.
+  void turn(const std::string& line, bool to, std::int64_t time_ns) {
+    level[line] = to ? 1 : 0;
+    edges.push_back({line, to, time_ns});
+  }
 };
 
 class FakeChip final : public hal::gpio::LineChip {
@@ -67,6 +80,17 @@ class FakeChip final : public hal::gpio::LineChip {
       if (!board_->asked[i].output) values->at(i) = static_cast<std::uint8_t>(board_->level[board_->asked[i].text()]);
     return true;
   }
+
+  bool edges(std::vector<hal::gpio::LineEdge>* edges, std::string* error) override {
+    const std::lock_guard lock(board_->mutex);
+    if (!works(error)) return false;
+    for (const FakeBoard::Edge& edge : board_->edges)
+      for (std::size_t i = 0; i < board_->asked.size(); ++i)
+        if (board_->asked[i].text() == edge.line && board_->asked[i].edges) edges->push_back({i, edge.rising, edge.time_ns});
+    board_->edges.clear();
+    return true;
+  }
+  bool debounces() const override { return board_->debounces; }
 
   bool write(std::span<const std::uint8_t> values, std::string* error) override {
     const std::lock_guard lock(board_->mutex);

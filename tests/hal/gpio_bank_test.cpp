@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fake_lines.hpp"
 
 namespace {
@@ -266,6 +268,221 @@ TEST_F(GpioBank, AnEndThatCannotWriteSaysSo) {
   ASSERT_TRUE(open());
   bank->close();
   EXPECT_EQ(log, "board: there is no chip \"fake\"\nboard: safe values not written: the lines are not there\n");
+}
+
+// ---- edges ----
+
+// The input "stop" notes edges and is the probe; "a" and "b" are an encoder.
+class GpioEdges : public GpioBank {
+ protected:
+  GpioEdges() {
+    config.lines[0].line.edges = true;
+    config.probes.push_back({0, 0, 0, false});
+    nc::hal::gpio::Encoder encoder;
+    encoder.point = 9;
+    encoder.a.name = "a";
+    encoder.b.name = "b";
+    encoder.a.edges = encoder.b.edges = true;
+    config.encoders.push_back(encoder);
+  }
+  std::int64_t ns(double after_ms = 0) const {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(now.time_since_epoch()).count() + static_cast<std::int64_t>(after_ms * 1e6);
+  }
+  std::int64_t last_edge() const { return bank->probe(0).time_ns[(bank->probe(0).count - 1) % LineBank::kProbeEdges]; }
+  // The wheel goes to a place, in quarters of a period, with an edge each so many milliseconds, which the kernel notes before the next poll.
+  void turn_to(int to, double each_ms = 0.1) {
+    const int way = to > place ? 1 : -1;
+    for (double at = each_ms; place != to; at += each_ms) {
+      const int before = (place % 4 + 4) % 4;
+      place += way;
+      const int next = (place % 4 + 4) % 4;
+      const auto a = [](int p) { return p == 1 || p == 2; };
+      if (a(before) != a(next)) board.turn("a", a(next), ns(at));
+      else board.turn("b", next >= 2, ns(at));
+    }
+  }
+  int place = 0;
+};
+
+TEST_F(GpioEdges, AnEdgeOfAProbeHasTheTimeOfTheKernel) {
+  ASSERT_TRUE(open()) << error;
+  EXPECT_TRUE(board.asked[0].edges);
+  EXPECT_FALSE(board.asked[1].edges);
+  board.level["stop"] = 1;
+  poll();
+  EXPECT_EQ(bank->shown(0), 1);
+  EXPECT_EQ(bank->probe(0).count, 0u) << "the first level is no edge";
+  board.turn("stop", false, ns(0.3));
+  poll();
+  EXPECT_EQ(bank->shown(0), 0);
+  EXPECT_EQ(bank->probe(0).count, 0u) << "a falling edge";
+  const std::int64_t when = ns(0.7);
+  board.turn("stop", true, when);
+  poll();
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(last_edge(), when);
+  const std::int64_t pulse = ns(0.2);
+  board.turn("stop", false, ns(0.1));
+  board.turn("stop", true, pulse);
+  board.turn("stop", false, ns(0.3));
+  poll();
+  EXPECT_EQ(bank->shown(0), 0);
+  EXPECT_EQ(bank->probe(0).count, 2u) << "a pulse between two polls";
+  EXPECT_EQ(last_edge(), pulse);
+  EXPECT_EQ(log, "");
+}
+
+TEST_F(GpioEdges, ALevelIsNotSeenBeforeItsEdge) {
+  ASSERT_TRUE(open());
+  poll();
+  board.level["stop"] = 1;  // read; the edge comes behind it
+  poll();
+  EXPECT_EQ(bank->shown(0), 0);
+  board.turn("stop", true, ns());
+  poll();
+  EXPECT_EQ(bank->shown(0), 1);
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(log, "");
+}
+
+TEST_F(GpioEdges, AProbeThatBouncesHasThePlaceOfItsFirstEdge) {
+  config.lines[0].debounce_ms = 3;
+  board.debounces = true;
+  ASSERT_TRUE(open());
+  EXPECT_EQ(board.asked[0].debounce_ms, 0u) << "the kernel would give the time behind the bouncing";
+  poll();
+  const std::int64_t first = ns(0.2);
+  board.turn("stop", true, first);
+  board.turn("stop", false, ns(0.4));
+  poll();
+  board.turn("stop", true, ns(0.5));
+  poll();
+  poll(2);
+  EXPECT_EQ(bank->probe(0).count, 0u);
+  EXPECT_EQ(bank->shown(0), 0);
+  poll();
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(last_edge(), first);
+  EXPECT_EQ(bank->shown(0), 1);
+}
+
+TEST_F(GpioEdges, TheKernelDebouncesWhatIsNoProbeWhereItCan) {
+  for (const bool can : {false, true}) {
+    board.debounces = can;
+    board.level.clear();
+    config.lines[1].debounce_ms = 5;
+    ASSERT_TRUE(open());
+    EXPECT_EQ(board.asked[1].debounce_ms, can ? 5u : 0u);
+    poll();
+    board.level["door"] = 1;
+    poll();
+    EXPECT_EQ(bank->shown(1), can ? 1 : 0);
+    poll(5);
+    EXPECT_EQ(bank->shown(1), 1);
+    bank->close();
+  }
+}
+
+TEST_F(GpioEdges, LostEdgesAreSeenAndSaid) {
+  ASSERT_TRUE(open());
+  poll();
+  board.level["stop"] = 1;  // the kernel had no room for the edge
+  poll();
+  poll();
+  EXPECT_EQ(bank->shown(0), 1);
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(last_edge(), 0) << "nobody knows when it was";
+  EXPECT_EQ(log, "board: edges were lost 1 times: a contact bounces, or edges come faster than they are read\n");
+  board.edges.push_back({"stop", true, ns(0.5)});
+  poll();
+  poll();
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1) << "not again within 10 s";
+  poll(10000);
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 2);
+}
+
+TEST_F(GpioEdges, TimesOfAnotherClockAreNone) {
+  ASSERT_TRUE(open());
+  poll();
+  board.turn("stop", true, 1'700'000'000'000'000'000);  // CLOCK_REALTIME, of a kernel before 5.7
+  poll();
+  EXPECT_EQ(bank->shown(0), 1);
+  EXPECT_EQ(bank->probe(0).count, 1u);
+  EXPECT_EQ(last_edge(), 0);
+  EXPECT_EQ(log, "board: the kernel does not give the times of edges by CLOCK_MONOTONIC, as Linux does from 5.7 on: skip positions are those of the scan\n");
+}
+
+TEST_F(GpioEdges, AnEncoderCountsToAndFroInTheOrderOfTheTimes) {
+  board.level["a"] = 1;  // amid a period
+  place = 1;
+  ASSERT_TRUE(open());
+  EXPECT_FALSE(bank->count_good(0));
+  poll();
+  EXPECT_TRUE(bank->count_good(0));
+  EXPECT_EQ(bank->count(0), 0u);
+  turn_to(8);
+  std::stable_partition(board.edges.begin(), board.edges.end(), [](const FakeBoard::Edge& edge) { return edge.line == "b"; });  // one line behind the other
+  poll();
+  poll();
+  EXPECT_EQ(bank->count(0), 7u);
+  turn_to(-3);
+  poll(2);
+  poll();
+  EXPECT_EQ(bank->count(0), static_cast<std::uint32_t>(-4));
+  EXPECT_TRUE(bank->count_good(0));
+  EXPECT_EQ(log, "");
+}
+
+TEST_F(GpioEdges, AnEdgeOfOneLineThatIsReadBehindALaterOneOfTheOtherCountsInItsPlace) {
+  ASSERT_TRUE(open());
+  poll();
+  const FakeBoard::Edge late{"a", true, ns(0.95)};
+  board.turn("b", true, ns(0.98));
+  poll();
+  board.level["a"] = 1;
+  board.edges.push_back(late);
+  poll();
+  poll();
+  EXPECT_EQ(bank->count(0), 2u) << "and not two to and fro";
+}
+
+TEST_F(GpioEdges, ACountThatHasLostItsWayIsNotGoodForAWhile) {
+  ASSERT_TRUE(open());
+  poll();
+  turn_to(5);
+  board.edges.erase(board.edges.begin() + 2);  // a goes off
+  poll();
+  poll();
+  EXPECT_FALSE(bank->count_good(0)) << "a has come on twice";
+  poll(499);
+  EXPECT_FALSE(bank->count_good(0));
+  poll(1);
+  EXPECT_TRUE(bank->count_good(0));
+}
+
+TEST_F(GpioEdges, AnEncoderGoesOnCountingBehindALoss) {
+  ASSERT_TRUE(open());
+  poll();
+  turn_to(4);
+  poll();
+  poll();
+  EXPECT_EQ(bank->count(0), 4u);
+  board.present = false;
+  for (unsigned i = 0; i < 3; ++i) poll();
+  EXPECT_FALSE(bank->count_good(0));
+  EXPECT_EQ(bank->count(0), 4u);
+  board.edges.clear();
+  turn_to(6);  // unseen
+  board.edges.clear();
+  board.present = true;
+  poll(100);
+  EXPECT_TRUE(bank->count_good(0));
+  EXPECT_EQ(bank->count(0), 4u);
+  turn_to(8);
+  poll();
+  poll();
+  EXPECT_EQ(bank->count(0), 6u);
 }
 
 }  // namespace

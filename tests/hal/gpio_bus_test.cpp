@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "fake_lines.hpp"
+#include "hal/bus_thread.hpp"
 
 namespace {
 
@@ -138,6 +139,36 @@ TEST_F(GpioBusTest, TheEndWritesItsValuesAndAStartAfterItBeginsAnew) {
   ASSERT_TRUE(bus->start(image, &error)) << error;
   EXPECT_EQ(level("lamp"), 0u);
   EXPECT_TRUE(until([&] { return image.value[kDoor] == 1 && image.good[kDoor] != 0; }));
+}
+
+TEST_F(GpioBusTest, AnEdgeOfAProbeIsSeenByOneScan) {
+  config.lines[0].line.edges = true;
+  config.probes.push_back({0, 1, 4, false});
+  nc::hal::gpio::Encoder encoder;
+  encoder.point = 7;
+  encoder.a.name = "a";
+  encoder.b.name = "b";
+  encoder.a.edges = encoder.b.edges = true;
+  config.encoders.push_back(encoder);
+  ASSERT_TRUE(start()) << error;
+  ASSERT_EQ(bus->probes().size(), 1u);
+  EXPECT_EQ(bus->probes()[0].system, 1);
+  EXPECT_EQ(bus->probes()[0].signal, 4);
+  ASSERT_TRUE(until([&] { return image.good[kDoor] != 0 && image.good[7] != 0; }));
+  EXPECT_FALSE(bus->probes()[0].on || bus->probes()[0].edge);
+  const std::int64_t when = nc::hal::monotonic_ns();
+  set([when](FakeBoard& b) {
+    b.turn("door", true, when);
+    b.turn("a", true, when);
+    b.turn("b", true, when + 1);
+  });
+  ASSERT_TRUE(until([&] { return bus->probes()[0].edge; }));
+  EXPECT_EQ(bus->probes()[0].edge_ns, when);
+  EXPECT_TRUE(bus->probes()[0].on);
+  EXPECT_EQ(image.value[kDoor], 1u);
+  bus->read(&image);
+  EXPECT_TRUE(bus->probes()[0].on && !bus->probes()[0].edge);
+  EXPECT_TRUE(until([&] { return image.value[7] == 2; }));
 }
 
 }  // namespace

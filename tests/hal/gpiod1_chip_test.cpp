@@ -189,4 +189,37 @@ TEST_F(Gpiod1Chip, AChipThatIsPulledOutFailsInItsWords) {
   EXPECT_EQ(error, "chip \"soc\" cannot be written: No such device");
 }
 
+TEST_F(Gpiod1Chip, EdgesComeWithTheirLinesKindsAndTimes) {
+  lines = {{.name = "L1"}, {.name = "L2", .edges = true}, {.name = "L3", .edges = true}};
+  ASSERT_EQ(request(), Opening::kOpen) << error;
+  EXPECT_EQ(stand_in().requests, 2u);
+  EXPECT_TRUE(line(2).edges && line(3).edges && !line(1).edges);
+  std::vector<nc::hal::gpio::LineEdge> edges;
+  ASSERT_TRUE(chip->edges(&edges, &error)) << error;
+  EXPECT_TRUE(edges.empty());
+  line(3).kept = {{true, 5, 7}, {false, 6, 0}};
+  ASSERT_TRUE(chip->edges(&edges, &error)) << error;
+  ASSERT_EQ(edges.size(), 2u);
+  EXPECT_EQ(edges[0].line, 2u);
+  EXPECT_TRUE(edges[0].rising && !edges[1].rising);
+  EXPECT_EQ(edges[0].time_ns, 5'000'000'007);
+  EXPECT_EQ(edges[1].time_ns, 6'000'000'000);
+  line(3).level = 1;
+  std::vector<std::uint8_t> read(3);
+  ASSERT_TRUE(chip->read(&read, &error)) << error;
+  EXPECT_EQ(read[2], 1);
+  stand_in().chips[1].gone = true;
+  EXPECT_FALSE(chip->edges(&edges, &error));
+  EXPECT_EQ(error, "chip \"soc\" cannot be asked for edges: No such device");
+}
+
+TEST_F(Gpiod1Chip, ALineWithoutAnInterruptIsRefusedForItsEdges) {
+  lines = {{.name = "L2", .edges = true}};
+  for (const int problem : {ENXIO, ENODEV}) {
+    stand_in().request_error = problem;
+    EXPECT_EQ(request(), Opening::kRefused);
+    EXPECT_EQ(error.find("line L2 of chip \"soc\" gives no edges: "), 0u) << error;
+  }
+}
+
 }  // namespace

@@ -54,7 +54,7 @@ void expect_bulk(const gpiod_line_bulk* bulk) {
   for (unsigned i = 0; i < bulk->num_lines; ++i) EXPECT_EQ(bulk->lines[i]->chip, bulk->lines[0]->chip);
 }
 
-int request(gpiod_line_bulk* bulk, const char* consumer, int flags, const int* levels) {
+int request(gpiod_line_bulk* bulk, const char* consumer, int flags, const int* levels, bool edges = false) {
   expect_bulk(bulk);
   if (stand_in().request_error != 0 && stand_in().requests >= stand_in().requests_before) return fails(stand_in().request_error);
   for (unsigned i = 0; i < bulk->num_lines; ++i)
@@ -66,6 +66,7 @@ int request(gpiod_line_bulk* bulk, const char* consumer, int flags, const int* l
     line.flags = flags;
     line.request = number;
     line.output = levels != nullptr;
+    line.edges = edges;
     if (levels != nullptr) line.level = levels[i];
   }
   return 0;
@@ -117,6 +118,27 @@ bool gpiod_line_is_used(gpiod_line* line) { return !line->line->owner.empty() ||
 const char* gpiod_line_consumer(gpiod_line* line) { return line->line->owner.c_str(); }
 
 int gpiod_line_request_bulk_input_flags(gpiod_line_bulk* bulk, const char* consumer, int flags) { return request(bulk, consumer, flags, nullptr); }
+int gpiod_line_request_bulk_both_edges_events_flags(gpiod_line_bulk* bulk, const char* consumer, int flags) { return request(bulk, consumer, flags, nullptr, true); }
+int gpiod_line_event_wait_bulk(gpiod_line_bulk* bulk, const timespec* timeout, gpiod_line_bulk* ready) {
+  if (usable(bulk, false) != 0) return -1;
+  EXPECT_TRUE(timeout != nullptr && timeout->tv_sec == 0 && timeout->tv_nsec == 0) << "it would wait";
+  ready->num_lines = 0;
+  for (unsigned i = 0; i < bulk->num_lines; ++i) {
+    EXPECT_TRUE(bulk->lines[i]->line->edges);
+    if (!bulk->lines[i]->line->kept.empty()) gpiod_line_bulk_add(ready, bulk->lines[i]);
+  }
+  return ready->num_lines > 0 ? 1 : 0;
+}
+int gpiod_line_event_read_multiple(gpiod_line* line, gpiod_line_event* events, unsigned most) {
+  std::vector<StandInLine::Edge>& kept = line->line->kept;
+  unsigned count = 0;
+  for (; count < most && count < kept.size(); ++count) {
+    events[count].event_type = kept[count].rising ? GPIOD_LINE_EVENT_RISING_EDGE : GPIOD_LINE_EVENT_FALLING_EDGE;
+    events[count].ts = {kept[count].seconds, kept[count].nanoseconds};
+  }
+  kept.erase(kept.begin(), kept.begin() + count);
+  return static_cast<int>(count);
+}
 int gpiod_line_request_bulk_output_flags(gpiod_line_bulk* bulk, const char* consumer, int flags, const int* levels) { return request(bulk, consumer, flags, levels); }
 int gpiod_line_get_value_bulk(gpiod_line_bulk* bulk, int* levels) {
   if (usable(bulk, false) != 0) return -1;

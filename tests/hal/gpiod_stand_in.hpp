@@ -16,8 +16,14 @@ struct StandInLine {
   // As requested:
   std::string consumer;
   bool output = false;
+  bool edges = false;
   int flags = 0;
   unsigned request = 0;  // number of the request, 0 = none
+  struct Edge {
+    bool rising = false;
+    long seconds = 0, nanoseconds = 0;
+  };
+  std::vector<Edge> kept;  // edges that have not been read
 };
 
 struct StandInChip {
