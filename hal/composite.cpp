@@ -5,8 +5,6 @@
 #include <system_error>
 #include <thread>
 
-#include "hal/bus_thread.hpp"
-
 namespace nc::hal {
 namespace {
 
@@ -18,8 +16,8 @@ std::size_t count_probes(const std::vector<PointBus*>& buses) {
 
 }  // namespace
 
-Composite::Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table)
-    : machine_(machine), buses_(std::move(buses)), has_probes_(count_probes(buses_) != 0), latch_(count_probes(buses_)) {
+Composite::Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table, std::int64_t (*now_ns)() noexcept)
+    : machine_(machine), buses_(std::move(buses)), now_ns_(now_ns), has_probes_(count_probes(buses_) != 0), latch_(count_probes(buses_)) {
   for (unsigned p = 0; p < table.size(); ++p)
     if (table.at(p).bus == 0) own_points_.push_back(static_cast<std::uint16_t>(p));
 }
@@ -37,7 +35,7 @@ void Composite::read(Feedback* feedback, PointImage* image) noexcept {
   for (const std::uint16_t point : own_points_) image->good[point] = good;
   for (PointBus* bus : buses_) bus->read(image);
   if (!has_probes_) return;
-  latch_.begin(monotonic_ns(), *feedback);
+  latch_.begin(now_ns_(), *feedback);
   std::size_t index = 0;
   for (const PointBus* bus : buses_)
     for (const ProbeSeen& probe : bus->probes()) latch_.add(index++, probe, feedback);

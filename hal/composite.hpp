@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "hal/bus_thread.hpp"
 #include "hal/edge_latch.hpp"
 #include "hal/hal.hpp"
 #include "hal/point_bus.hpp"
@@ -13,7 +14,8 @@ namespace nc::hal {
 class Composite final : public Hal {
  public:
   // Points name a bus by its place in `buses`, counted from 1. All of them must outlive this object.
-  Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table);
+  // `now_ns` gives the time of CLOCK_MONOTONIC, by which buses say when an edge came.
+  Composite(Hal* machine, std::vector<PointBus*> buses, const PointTable& table, std::int64_t (*now_ns)() noexcept = monotonic_ns);
 
   bool start(const PointImage& initial, std::string* error) override;
   void read(Feedback* feedback, PointImage* image) noexcept override;
@@ -25,6 +27,7 @@ class Composite final : public Hal {
   Hal* machine_;
   std::vector<PointBus*> buses_;
   std::vector<std::uint16_t> own_points_;  // the points of the machine itself, with bus 0
+  std::int64_t (*now_ns_)() noexcept;
   bool has_probes_ = false;
   EdgeLatch latch_;
 };

@@ -24,6 +24,10 @@ void gpio_resources(const Config& config, const PointBusConfig& bus, std::vector
     resources->push_back({key, words});
   };
   for (const hal::gpio::PointLine& line : bank.lines) add(line.line);
+  for (const hal::gpio::Encoder& encoder : bank.encoders) {
+    add(encoder.a);
+    add(encoder.b);
+  }
   if (bank.has_watchdog) add(bank.watchdog);
 }
 

@@ -72,6 +72,35 @@ TEST_F(GpioConfig, EverythingThatCanBeSaidIsRead) {
   EXPECT_EQ(pump.stop_value, 0);
 }
 
+TEST_F(GpioConfig, ProbesAndEncodersAreRead) {
+  const Config config = nc::test::parse_or_fail(
+      nc::test::base_toml() + kBank + point("door", "input", "bank = \"board\", line = \"DOOR\"") +
+      point("probe", "input", "bank = \"board\", line = \"PROBE\", debounce_ms = 200, probe = { skip_signal = 3, edge = \"falling\", system = 1 }") +
+      point("wheel", "input", "bank = \"board\", active_low = true, bias = \"pull-up\", debounce_ms = 1, encoder = { a = \"A\", b = 21, counts = 1, bits = 16 }", "type = \"word\"\n") +
+      point("other", "input", "bank = \"board\", encoder = { a = 5, b = 6 }", "type = \"word\"\n"));
+  const BankConfig& bank = config.gpio.at(0).bank;
+  ASSERT_EQ(bank.lines.size(), 2u);
+  EXPECT_TRUE(bank.lines[1].line.edges && !bank.lines[0].line.edges);
+  ASSERT_EQ(bank.probes.size(), 1u);
+  EXPECT_EQ(bank.probes[0].line, 1u);
+  EXPECT_EQ(bank.probes[0].signal, 2);
+  EXPECT_EQ(bank.probes[0].system, 0);
+  EXPECT_TRUE(bank.probes[0].falling);
+  ASSERT_EQ(bank.encoders.size(), 2u);
+  const nc::hal::gpio::Encoder& wheel = bank.encoders[0];
+  EXPECT_EQ(wheel.point, static_cast<unsigned>(config.points.find("wheel")));
+  EXPECT_EQ(wheel.a.name, "A");
+  EXPECT_TRUE(wheel.b.name.empty());
+  EXPECT_EQ(wheel.b.offset, 21u);
+  EXPECT_TRUE(wheel.a.active_low && wheel.b.active_low && wheel.a.edges && wheel.b.edges);
+  EXPECT_EQ(wheel.b.bias, Bias::kPullUp);
+  EXPECT_EQ(wheel.counts, 1u);
+  EXPECT_EQ(wheel.bits, 16u);
+  EXPECT_EQ(wheel.debounce_ms, 1u);
+  EXPECT_EQ(bank.encoders[1].counts, 4u);
+  EXPECT_EQ(bank.encoders[1].bits, 32u);
+}
+
 // The indented text at the beginning of the document is a configuration.
 TEST_F(GpioConfig, TheExampleOfTheDocumentIsOne) {
   std::ifstream document(nc::test::kSourceDir + "/docs/gpio.md");
@@ -163,6 +192,22 @@ const Mistake kMistakes[] = {
     {"point_on_the_watchdog", kBank + "watchdog = { line = \"WD\" }\n" + point("p", "output", "bank = \"board\", line = \"WD\""), "point[6].gpio.line", "is the watchdog of \"board\"", 9},
     {"two_buses", "[[modbus]]\nname = \"io\"\nhost = \"h\"\n[[point]]\nname = \"m\"\ndirection = \"input\"\nmodbus = { link = \"io\", table = \"coil\", address = 0 }\n" +
                       kBank + "watchdog = { line = \"WD\" }\n" + point("p", "input", "bank = \"board\", line = \"DOOR\"") + "modbus = { link = \"io\", table = \"coil\", address = 1 }\n", "point[7].gpio", "is a second bus: modbus", 16},
+    {"probe_no_signal", input("line = \"P\", probe = { edge = \"rising\" }"), "point[6].gpio.probe.skip_signal", "is missing", 8},
+    {"probe_signal", input("line = \"P\", probe = { skip_signal = 9 }"), "point[6].gpio.probe.skip_signal", "from 1 to 8", 8},
+    {"probe_edge", input("line = \"P\", probe = { skip_signal = 1, edge = \"both\" }"), "point[6].gpio.probe.edge", "must be \"rising\" or \"falling\", not \"both\"", 8},
+    {"probe_system", input("line = \"P\", probe = { skip_signal = 1, system = 2 }"), "point[6].gpio.probe.system", "1", 8},
+    {"probe_of_an_output", output("line = \"P\", probe = { skip_signal = 1 }"), "point[6].gpio.probe", "is for inputs", 8},
+    {"probe_debounce", input("line = \"P\", debounce_ms = 201, probe = { skip_signal = 1 }"), "point[6].gpio.debounce_ms", "of a probe is at most 200", 8},
+    {"encoder_of_a_bit", input("encoder = { a = \"A\", b = \"B\" }"), "point[6].gpio", "an encoder is an input that is a word", 8},
+    {"encoder_one_line", kBank + point("p", "input", "bank = \"board\", encoder = { a = \"A\" }", "type = \"word\"\n"), "point[6].gpio.encoder.b", "is missing", 9},
+    {"encoder_same_lines", kBank + point("p", "input", "bank = \"board\", encoder = { a = \"A\", b = \"A\" }", "type = \"word\"\n"), "point[6].gpio.encoder.b", "is line a", 9},
+    {"encoder_counts", kBank + point("p", "input", "bank = \"board\", encoder = { a = \"A\", b = \"B\", counts = 3 }", "type = \"word\"\n"), "point[6].gpio.encoder.counts", "1, 2 or 4", 9},
+    {"encoder_bits", kBank + point("p", "input", "bank = \"board\", encoder = { a = \"A\", b = \"B\", bits = 24 }", "type = \"word\"\n"), "point[6].gpio.encoder.bits", "16 or 32", 9},
+    {"encoder_beside_line", kBank + point("p", "input", "bank = \"board\", line = \"C\", encoder = { a = \"A\", b = \"B\" }", "type = \"word\"\n"), "point[6].gpio.line", "no meaning beside encoder", 9},
+    {"encoder_on_loss", kBank + point("p", "input", "bank = \"board\", on_loss = 1, encoder = { a = \"A\", b = \"B\" }", "type = \"word\"\n"), "point[6].gpio.on_loss", "no meaning for an encoder", 9},
+    {"encoder_on_a_line", input("line = \"A\"") + point("q", "input", "bank = \"board\", encoder = { a = \"A\", b = \"B\" }", "type = \"word\"\n"), "point[7].gpio.encoder.a", "point \"p\" has line A of \"board\" already", 13},
+    {"line_of_an_encoder", kBank + point("p", "input", "bank = \"board\", encoder = { a = \"A\", b = \"B\" }", "type = \"word\"\n") + point("q", "input", "bank = \"board\", line = \"B\""), "point[7].gpio.line",
+     "point \"p\" has line B", 13},
     {"not_a_table", kBank + "watchdog = { line = \"WD\" }\n[[point]]\nname = \"p\"\ndirection = \"input\"\ngpio = \"DOOR\"\n", "point[6].gpio", "must be a table", 9},
 };
 
