@@ -19,6 +19,7 @@ using hal::gpio::LineSetup;
 using hal::gpio::PointLine;
 using hal::gpio::Probe;
 
+constexpr unsigned kNarrow = 16, kWide = 32;  // bits of a count
 constexpr std::size_t kMaxKernelName = 31;  // longest label of a chip, name of a line or consumer in the kernel, in bytes
 
 bool valid_bank_name(const std::string& name) {
@@ -184,14 +185,14 @@ bool read_encoder(TableReader* gpio, TableReader* reader, Encoder* encoder) {
   common.edges = true;
   encoder->a = encoder->b = common;
   const bool a = read_encoder_line(reader, "a", &encoder->a), b = read_encoder_line(reader, "b", &encoder->b);
-  unsigned word = 0;
-  if (reader->integer("counts", &word, 1, 4)) {
-    if (word == 3) reader->error("counts", "must be 1, 2 or 4 in each period of the lines");
-    else encoder->counts = word;
+  unsigned given = 0;
+  if (reader->integer("counts", &given, 1, 4)) {
+    if (given == 3) reader->error("counts", "must be 1, 2 or 4 in each period of the lines");
+    else encoder->counts = given;
   }
-  if (reader->integer("bits", &word, 16, 32)) {
-    if (word != 16 && word != 32) reader->error("bits", "must be 16 or 32");
-    else encoder->bits = word;
+  if (reader->integer("bits", &given, kNarrow, kWide)) {
+    if (given != kNarrow && given != kWide) reader->error("bits", "must be 16 or 32");
+    else encoder->bits = given;
   }
   if (!a || !b) return false;
   if (!same_line(encoder->a, encoder->b)) return true;
