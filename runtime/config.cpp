@@ -88,6 +88,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_ladder(&reader, &read);
   read_signals(&reader, &read);
   read_power(&reader, &read);
+  read_handwheels(&reader, &read);
   resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);

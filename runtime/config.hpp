@@ -20,6 +20,7 @@
 #include "hal/sim/sim_machine.hpp"
 #include "nc/control.h"
 #include "runtime/axes/equipment.hpp"
+#include "runtime/axes/handwheel.hpp"
 #include "runtime/power/power_watch.hpp"
 #include "runtime/programs/program_text.hpp"
 
@@ -235,6 +236,7 @@ struct Config {
   std::vector<CanIoConfig> can_io;
   LadderConfig ladder;
   PowerConfig power;
+  std::vector<HandwheelConfig> handwheels;
   std::string place;           // file of the places in the programs when the power failed, relative like `print`; empty = see place_path()
   ConfigPlace place_place;
   std::vector<SignalWire> wires;

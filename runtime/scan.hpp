@@ -316,6 +316,8 @@ class Scan {
   void watch_manual() noexcept;
   void watch_jog(unsigned system, unsigned axis) noexcept;
   void watch_way(unsigned system, unsigned axis) noexcept;
+  void turn_handwheels(LadderRequests* requests) noexcept;
+  int chosen_axis(const HandwheelConfig& wheel) const noexcept;
   void watch_handle(unsigned system, unsigned axis) noexcept;
   bool handle_changes_length(const LadderRequests::System& now, unsigned axis) const noexcept;
   void watch_length_handle(unsigned system) noexcept;
@@ -387,6 +389,7 @@ class Scan {
   std::uint8_t jog_without_feed_[NC_MAX_SYSTEMS] = {};       // bit per axis: a jog is asked for while the jog feed is 0
   std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was refused or stopped and has been on since
   std::uint32_t pulses_lost_[NC_MAX_SYSTEMS] = {};           // bit per axis: pulses of its handle do not go to the NC in this scan
+  Handwheel handwheel_[kMostHandwheels];
   Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // reason for lost pulses that was noted last
   bool length_handle_noted_[NC_MAX_SYSTEMS] = {};            // that its pulses did not change the length along the tool axis was noted
   Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return that has not ended

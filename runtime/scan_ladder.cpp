@@ -29,6 +29,7 @@ void Scan::run_ladder() noexcept {
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;
   ladder_->scan(&image);
+  turn_handwheels(&requests);
   for (unsigned s = 0; s < systems_; ++s) {
     machine_holds_[s] = in_[s].feed_hold;
     in_[s].feed_hold |= (hold_request_ >> s & 1u) != 0;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Configuration sections [[handwheel]]: wheels that turn axes without a ladder program. docs/connecting-a-machine.md.
+#include "runtime/axes/handwheel.hpp"
+#include "runtime/config_sections.hpp"
+
+namespace nc::rt {
+namespace {
+
+// The input that `key` names. -1 when the key is not there or names none.
+int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config) {
+  std::string name;
+  if (!reader->string(key, &name)) return -1;
+  const int index = config.points.find(name);
+  const bool fits = index >= 0 && config.points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kInput && config.points.at(static_cast<unsigned>(index)).type == type;
+  if (index < 0) reader->error(key, "no point is named \"" + name + "\"");
+  else if (!fits) reader->error(key, std::string("must be an input that is a ") + (type == hal::PointType::kWord ? "word" : "bit"));
+  return fits ? index : -1;
+}
+
+void read_axes_of(TableReader* wheel, const Config& config, HandwheelConfig* entry) {
+  wheel->require("axes");
+  wheel->table("axes", [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node&) {
+      unsigned system = 0, axis = 0;
+      if (!find_axis(config, key, &system, &axis)) return reader.error(key, "no axis has this name");
+      const int point = read_input(&reader, key, hal::PointType::kBit, config);
+      if (point >= 0) entry->axes.push_back({static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point});
+    });
+  });
+}
+
+void read_wheel(TableReader* reader, Config* config) {
+  HandwheelConfig entry;
+  reader->require("counter");
+  const int counter = read_input(reader, "counter", hal::PointType::kWord, *config);
+  if (counter >= 0) entry.counter = static_cast<unsigned>(counter);
+  reader->integer("counts", &entry.counts, 1, 1000);
+  unsigned bits = entry.bits;
+  if (reader->integer("bits", &bits, 8, 32)) entry.bits = bits;
+  entry.times_10 = read_input(reader, "times_10", hal::PointType::kBit, *config);
+  entry.times_100 = read_input(reader, "times_100", hal::PointType::kBit, *config);
+  read_axes_of(reader, *config, &entry);
+  for (const HandwheelConfig& other : config->handwheels)
+    if (counter >= 0 && other.counter == entry.counter) reader->error("counter", "is that of another handwheel already");
+  if (config->handwheels.size() == kMostHandwheels) return reader->error("counter", "there are more than " + std::to_string(kMostHandwheels) + " handwheels");
+  config->handwheels.push_back(std::move(entry));
+}
+
+}  // namespace
+
+void read_handwheels(TableReader* root, Config* config) {
+  root->tables("handwheel", [&](TableReader& reader, std::size_t) { read_wheel(&reader, config); });
+}
+
+}  // namespace nc::rt

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// [[handwheel]]: wheels that turn axes by their counters, without a ladder program.
+#include "runtime/axes/handwheel.hpp"
+
+#include "switch_machine.hpp"
+
+namespace {
+
+using nc::rt::Handwheel;
+using nc::rt::Mode;
+
+std::string point(const std::string& name, bool word = false) {
+  return "[[point]]\nname = \"" + name + "\"\ntype = \"" + (word ? "word" : "bit") + "\"\ndirection = \"input\"\n";
+}
+const std::string kPoints = point("wheel", true) + point("wheel2", true) + point("sel_x") + point("sel_y") + point("sel2_x") + point("ten") + point("hundred");
+const std::string kWheel = "[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\", Y = \"sel_y\" }\ntimes_10 = \"ten\"\ntimes_100 = \"hundred\"\n";
+
+TEST(Handwheel, TheFirstCountIsNoWayAndNeitherIsTheOneBehindALoss) {
+  Handwheel wheel;
+  EXPECT_EQ(wheel.step(500, true, 32, 1, 0), 0);
+  EXPECT_EQ(wheel.step(503, true, 32, 1, 0), 3);
+  EXPECT_EQ(wheel.step(510, false, 32, 1, 0), 0);
+  EXPECT_EQ(wheel.step(600, true, 32, 1, 0), 0);
+  EXPECT_EQ(wheel.step(599, true, 32, 1, 0), -1);
+}
+
+TEST(Handwheel, TheCounterWraps) {
+  for (const unsigned bits : {16u, 32u}) {
+    Handwheel wheel;
+    const std::uint32_t most = bits == 32 ? 0xffffffffu : 0xffffu;
+    (void)wheel.step(most - 1, true, bits, 1, 0);
+    EXPECT_EQ(wheel.step(2, true, bits, 1, 0), 4) << bits;
+    EXPECT_EQ(wheel.step(most, true, bits, 1, 0), -3) << bits;
+  }
+}
+
+TEST(Handwheel, CountsOfADivisionThatIsNotCompleteAreKeptForTheAxis) {
+  Handwheel wheel;
+  (void)wheel.step(0, true, 32, 4, 0);
+  EXPECT_EQ(wheel.step(3, true, 32, 4, 0), 0);
+  EXPECT_EQ(wheel.step(4, true, 32, 4, 0), 1);
+  EXPECT_EQ(wheel.step(7, true, 32, 4, 0), 0);
+  EXPECT_EQ(wheel.step(8, true, 32, 4, 1), 0) << "of another axis only its own counts";
+  EXPECT_EQ(wheel.step(11, true, 32, 4, 1), 1);
+  EXPECT_EQ(wheel.step(50, true, 32, 4, -1), 0);
+  EXPECT_EQ(wheel.step(51, true, 32, 4, 0), 0);
+}
+
+class HandwheelMachine : public nc::test::SwitchMachine {
+ protected:
+  void by_hand(const std::string& wheels) {
+    build(kPoints + wheels);
+    ASSERT_EQ(mode(Mode::kManual), nc::rt::Answer::kDone);
+    steps(3);
+  }
+  void at_rest(double x, double y) {
+    ASSERT_GE(until([&] { return out().distance_zero && std::abs(counted(0) - x) < 1e-9 && std::abs(counted(1) - y) < 1e-9; }, 2000), 0) << counted(0) << " " << counted(1);
+    steps(20);
+    EXPECT_NEAR(counted(0), x, 1e-9);
+    EXPECT_NEAR(counted(1), y, 1e-9);
+  }
+};
+
+TEST_F(HandwheelMachine, TurnsTheAxisThatIsChosenByTheFactorThatIs) {
+  by_hand(kWheel);
+  turn("wheel", 7);  // no axis
+  steps(5);
+  turn("sel_x", 1);
+  steps(5);
+  turn("wheel", 12);
+  at_rest(0.005, 0);
+  turn("ten", 1);
+  turn("wheel", 10);
+  at_rest(-0.015, 0);
+  turn("hundred", 1);
+  turn("sel_x", 0);
+  turn("sel_y", 1);
+  steps(2);
+  turn("wheel", 13);
+  at_rest(-0.015, 0.3);
+  turn("sel_x", 1);  // both: neither
+  steps(2);
+  turn("wheel", 20);
+  at_rest(-0.015, 0.3);
+}
+
+TEST_F(HandwheelMachine, TwoWheelsOnOneAxisTurnItByNeither) {
+  by_hand(kWheel + "[[handwheel]]\ncounter = \"wheel2\"\ncounts = 2\naxes = { X = \"sel2_x\" }\n");
+  turn("sel_x", 1);
+  turn("sel2_x", 1);
+  steps(3);
+  turn("wheel", 5);
+  turn("wheel2", 8);
+  steps(50);
+  at_rest(0, 0);
+  turn("sel_x", 0);
+  steps(3);
+  turn("wheel", 9);
+  turn("wheel2", 12);
+  at_rest(0.002, 0);
+}
+
+TEST_F(HandwheelMachine, DoesNothingInAutomatic) {
+  build(kPoints + kWheel);
+  turn("sel_x", 1);
+  steps(3);
+  turn("wheel", 100);
+  steps(50);
+  ASSERT_EQ(mode(Mode::kManual), nc::rt::Answer::kDone);
+  at_rest(0, 0);
+}
+
+TEST(HandwheelConfigErrors, AreNamedWithTheirKeys) {
+  const std::string base = nc::test::base_toml() + kPoints;
+  const auto line = static_cast<unsigned>(std::count(base.begin(), base.end(), '\n'));
+  const struct {
+    std::string added;
+    const char *key, *message;
+    unsigned line;
+  } mistakes[] = {
+      {"[[handwheel]]\naxes = { X = \"sel_x\" }\n", "handwheel[1].counter", "is missing", 1},
+      {"[[handwheel]]\ncounter = \"wheel\"\n", "handwheel[1].axes", "is missing", 1},
+      {"[[handwheel]]\ncounter = \"sel_x\"\naxes = { X = \"sel_x\" }\n", "handwheel[1].counter", "an input that is a word", 2},
+      {"[[handwheel]]\ncounter = \"nothing\"\naxes = { X = \"sel_x\" }\n", "handwheel[1].counter", "no point is named", 2},
+      {"[[handwheel]]\ncounter = \"wheel\"\naxes = { W = \"sel_x\" }\n", "handwheel[1].axes.W", "no axis", 3},
+      {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"out0\" }\n", "handwheel[1].axes.X", "an input that is a bit", 3},
+      {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\ntimes_10 = \"wheel\"\n", "handwheel[1].times_10", "an input that is a bit", 4},
+      {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\ncounts = 0\n", "handwheel[1].counts", "from 1", 4},
+      {kWheel + "[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel2_x\" }\n", "handwheel[2].counter", "of another handwheel", 7},
+  };
+  for (const auto& mistake : mistakes) {
+    SCOPED_TRACE(mistake.added);
+    nc::rt::Config config;
+    const auto errors = nc::rt::parse_config(base + mistake.added, "m.toml", &config);
+    ASSERT_EQ(errors.size(), 1u) << (errors.empty() ? "" : errors.back().text());
+    EXPECT_EQ(errors[0].key, mistake.key);
+    EXPECT_NE(errors[0].message.find(mistake.message), std::string::npos) << errors[0].text();
+    EXPECT_EQ(errors[0].line, line + mistake.line);
+  }
+}
+
+}  // namespace
