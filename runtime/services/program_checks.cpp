@@ -14,7 +14,8 @@
 namespace nc::rt::services {
 namespace {
 
-constexpr auto kLookPeriod = std::chrono::milliseconds(500);  // how often the files of what was found are looked at
+constexpr auto kLookPeriod = std::chrono::milliseconds(50);  // how often the files of the programs that may be started are looked at ...
+constexpr unsigned kLooksOfAll = 10;                           // ... and, each so many times, those of all that was found
 constexpr int kNiceness = 10;  // below the feeder, which is an ordinary thread, and high enough to come to an end on a busy computer
 
 bool is_unchanged(const CheckReport::File& file) {
@@ -51,11 +52,12 @@ void ProgramChecks::stop() {
 void ProgramChecks::work() {
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   std::unique_lock lock(mutex_);
-  while (!stop_) {
+  for (unsigned looks = 0; !stop_;) {
     if (waiting_.empty()) {
       wake_.wait_for(lock, kLookPeriod);
       lock.unlock();
-      forget_changed();
+      look_at_heads();
+      forget_changed(looks++ % kLooksOfAll == 0);
       lock.lock();
       continue;
     }
@@ -75,24 +77,37 @@ void ProgramChecks::work() {
   }
 }
 
-// What was found ends with a change of a file that it was found in. The disk is asked without the lock, because that may take its time.
-void ProgramChecks::forget_changed() {
+// What a program at a head calls has changed: it has not passed any more. The disk is asked without the lock, because that may take its time.
+void ProgramChecks::look_at_heads() {
+  for (Head& head : head_) {
+    std::vector<CheckReport::File> called;
+    std::weak_ptr<ProgramText> text;
+    {
+      const std::lock_guard lock(mutex_);
+      called = head.called;
+      text = head.text;
+    }
+    if (std::all_of(called.begin(), called.end(), is_unchanged)) continue;
+    const std::lock_guard lock(mutex_);
+    if (head.text.lock() != text.lock()) continue;  // another program has been selected meanwhile
+    head.passed = false;
+    head.called.clear();
+  }
+}
+
+// What was found ends with a change of a file that it was found in; `all`: also of programs that are at no head.
+void ProgramChecks::forget_changed(bool all) {
   std::map<Key, CheckReport> kept;
   {
     const std::lock_guard lock(mutex_);
-    kept = reports_;
+    for (const auto& [key, report] : reports_)
+      if (all || std::any_of(head_.begin(), head_.end(), [&](const Head& head) { return head.key == key; })) kept.emplace(key, report);
   }
   for (const auto& [key, report] : kept) {
-    const std::vector<CheckReport::File>& files = report.files;
-    const auto changed = std::find_if_not(files.begin(), files.end(), is_unchanged);
-    if (changed == files.end()) continue;
+    if (std::all_of(report.files.begin(), report.files.end(), is_unchanged)) continue;
     const std::lock_guard lock(mutex_);
     const auto found = reports_.find(key);
-    if (found == reports_.end() || found->second.time_ns != report.time_ns) continue;
-    reports_.erase(found);
-    // A program that is selected runs as it was then, but what it calls is read again.
-    for (Head& head : head_)
-      if (head.key == key && changed != files.begin()) head.passed = false;
+    if (found != reports_.end() && found->second.time_ns == report.time_ns) reports_.erase(found);
   }
 }
 
@@ -162,14 +177,20 @@ bool ProgramChecks::may_begin(unsigned system, unsigned file) {
     head = {};
     return true;
   }
-  if (head.text.lock() != text) head = {text, {name, system}, false, false};
-  const bool before = head.passed;
-  const auto found = reports_.find(head.key);
+  if (head.text.lock() != text) head = {text, {name, system}, false, false, {}};
+  auto found = reports_.find(head.key);
+  const bool is_of_text = found != reports_.end() && !found->second.files.empty() && text->is_file(found->second.files.front().info);
+  // It was found in a text that is in the file no more: that of the head is newer.
+  if (!is_of_text && !head.passed && found != reports_.end() && !found->second.files.empty() && !is_unchanged(found->second.files.front())) {
+    reports_.erase(found);
+    found = reports_.end();
+  }
   head.waits = is_waiting(head.key);
   if (found == reports_.end()) {
-    if (!before && !head.waits) head.waits = enqueue(order_of(head.key), true);
-  } else if (!found->second.files.empty() && text->is_file(found->second.files.front().info)) {
+    if (!head.passed && !head.waits) head.waits = enqueue(order_of(head.key), true);
+  } else if (is_of_text) {
     head.passed = found->second.state == CheckState::kPassed;
+    head.called.assign(found->second.files.begin() + 1, found->second.files.end());
   }
   return head.passed || policy_ == ProgramCheck::kWarn;
 }

@@ -3,6 +3,8 @@
 // program is checked is not known here (tools/lib/program_check.hpp).
 //
 // The checks are made one after the other in a thread of their own that yields to the scan and, most of the time, to the feeder (nice 10). What was found holds for the files that the check has read, as they were then: a change of one of them ends it.
+// The program at the head of a part system runs as it was when it was selected, whatever becomes of its own file; what it calls is read again, so a change of that ends
+// what was found, too.
 #pragma once
 
 #include <sys/stat.h>
@@ -57,7 +59,7 @@ struct CheckReport {
     std::string path;
     struct stat info {};
   };
-  std::vector<File> files;  // that were read; the first one is the program itself
+  std::vector<File> files;  // that were read; the first one is the program itself. Where it calls others the folders in which they were looked for are among them: a new name may be called
   std::int64_t time_ns = 0;
 
   static constexpr std::size_t kMostAlarms = 20, kMostTools = 500;
@@ -105,11 +107,13 @@ class ProgramChecks final : public StartGate {
     std::weak_ptr<ProgramText> text;
     Key key;
     bool passed = false, waits = false;
+    std::vector<CheckReport::File> called;  // with which it has passed, besides its own file
   };
   void work();
   bool enqueue(const CheckOrder& order, bool first);
   bool is_waiting(const Key& key) const;
-  void forget_changed();
+  void forget_changed(bool all);
+  void look_at_heads();
   CheckOrder order_of(const Key& key) const;
   Key key_of(const Call& call) const;
   std::string path_of(const std::string& name) const { return folder_ + "/" + name; }

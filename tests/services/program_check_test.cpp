@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The check of programs before they may run.
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "services/local_machine.hpp"
 
@@ -139,6 +141,51 @@ TEST_F(ProgramCheckServices, FollowsCallsIntoTheStore) {
   EXPECT_EQ(report["state"], "refused");
   EXPECT_EQ(report["alarms"][0]["program"], "O77.nc");
   EXPECT_EQ(report["alarms"][0]["line"], 2);
+}
+
+// A program that is selected and has passed is not begun when what it calls has become another one: also where its own file was touched before, or what was found is kept
+// no more, and where a file comes that is found in front of the one that was checked.
+TEST_F(ProgramCheckServices, WhatIsCalledIsWhatWasChecked) {
+  ServiceClient client(path_);
+  take_control(&client);
+  const auto selected = [&] {
+    ASSERT_EQ(put(&client, "main.nc", "G0 X1.\nM98 P1000\nM30\n", true), "");
+    ASSERT_EQ(put(&client, "O1000.nc", "G1 X10. F600.\nM99\n", true), "");
+    std::filesystem::remove(in_programs("O1000"));
+    ASSERT_EQ(client.outcome("select", {{"name", "main.nc"}}), "");
+    EXPECT_EQ(checked(&client, "main.nc")["state"], "passed");
+  };
+  const auto refused = [&](const std::string& what) {
+    SCOPED_TRACE(what);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    EXPECT_EQ(start(&client), "refused");
+    EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_IDLE);
+  };
+  ASSERT_NO_FATAL_FAILURE(selected());
+  write_program("main.nc", "G0 X1.\nM98 P1000\nM30\n(touched)\n");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // what was found of its file is forgotten by now
+  write_program("O1000.nc", "G1 X99999. F600.\nM99\n");
+  refused("touched, then another sub program");
+  ASSERT_NO_FATAL_FAILURE(selected());
+  write_program("O1000", "G1 X99999. F600.\nM99\n");
+  refused("a file in front of the one that was found");
+  ASSERT_NO_FATAL_FAILURE(selected());
+  write_program("O1000.nc", "G1 X99999. F600.\nM99\n");
+  refused("another sub program");
+}
+
+// Right behind a change of its file by another program: what was found of the old text says nothing of the new one.
+TEST_F(ProgramCheckServices, ASelectionBehindAnEditIsCheckedAnew) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "i.nc", "G0 X1.\nM30\n", true), "");
+  EXPECT_EQ(checked(&client, "i.nc")["state"], "passed");
+  for (int n = 0; n < 5; ++n) {
+    write_program("i.nc", "G0 X" + std::to_string(n) + ".\nM30\n");
+    ASSERT_EQ(client.outcome("select", {{"name", "i.nc"}}), "");
+    EXPECT_EQ(start(&client), "");
+    until(&client, "status", [&](const Json&) { return runtime_->info().system[0].runs > static_cast<unsigned>(n) && runtime_->snapshot().system[0].nc.state == NC_STATE_IDLE; });
+  }
 }
 
 TEST_F(ProgramCheckServices, GoesByThePresentTables) {

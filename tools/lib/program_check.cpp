@@ -207,6 +207,8 @@ class Check {
     struct stat info {};
     (void)stat(order_.path.c_str(), &info);
     report_.files.push_back({order_.path, info});
+    for (const std::string& folder : {config_.programs_folder(), config_.external_folder()})
+      if (struct stat of_folder {}; !folder.empty() && stat(folder.c_str(), &of_folder) == 0) folders_.push_back({folder, of_folder});
     if (!machine_.known) return unchecked("the tables of the control cannot be read now");
     if (!make_control() || !open()) return report_;
     items_ = std::make_unique<ControlSource>(control_, static_cast<nc_dialect>(config_.nc.dialect), order_.system);
@@ -269,6 +271,7 @@ class Check {
   void note_files() {
     for (const auto& [path, text] : files_.texts())
       if (path != order_.path) report_.files.push_back({path, text->info()});
+    if (report_.files.size() > 1) report_.files.insert(report_.files.end(), folders_.begin(), folders_.end());
   }
 
   void judge(const RunResult& result) {
@@ -320,6 +323,7 @@ class Check {
   const CheckOrder& order_;
   const std::atomic<bool>& given_up_;
   ProgramFiles files_;
+  std::vector<CheckReport::File> folders_;  // in which called programs are looked for, as they were before that
   CheckReport report_;
   std::unique_ptr<void, FreeMemory> memory_;
   nc_control* control_ = nullptr;
