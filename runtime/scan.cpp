@@ -202,8 +202,8 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kCycleStart:
       return start_cycle(systems, command.system == kAllSystems, command.by);
     case CommandKind::kFeedHold:
-      if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
-      hold(systems);
+      if (mode_ == Mode::kManual) hands_held_ |= systems;
+      else hold(systems);
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;

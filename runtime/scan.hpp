@@ -375,6 +375,7 @@ class Scan {
   std::uint64_t mdi_serial_[NC_MAX_SYSTEMS] = {};   // newest item that was executed before them
   std::uint32_t start_pulse_ = 0;  // bit per part system: its program starts or goes on in this scan
   Asker start_by_[NC_MAX_SYSTEMS] = {};  // who has asked for the last start
+  std::uint32_t hands_held_ = 0;    // bit per part system: what moves by hand is to come to rest and to be given up; until it stands
   std::uint32_t hold_request_ = 0;  // bit per part system: its program is to be held, until it stands
   std::uint32_t taps_drawn_ = 0;    // bit per part system: a command draws its tap out of the hole
   std::uint32_t held_now_ = 0;      // bit per part system: a command of this scan has held it

@@ -224,9 +224,13 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
 
 // ---- what is noted, after the NC ----
 
+// A feed hold of a client acts on motion by hand as that of the machine does while it is on, and goes when everything stands: then what was stopped needs a new press.
 void Scan::watch_manual() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
     watch_length_handle(s);
+    bool stands = true;
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) stands &= out_[s].velocity.v[a] == 0;
+    if (stands) hands_held_ &= ~(1u << s);
     if (mode_ != Mode::kManual || (!out_[s].tap_retract_possible && out_[s].state != NC_STATE_MANUAL)) taps_drawn_ &= ~(1u << s);
     for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
       watch_jog(s, a);

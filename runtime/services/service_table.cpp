@@ -411,7 +411,7 @@ constexpr ServiceRow kRows[] = {
      "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
     {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end"},
     {Service::kStart, "start", Right::kOperate, Lane::kCommand, RequestKind::kCycleStart, kCommandOnly, kDoneReply, "cycle start; the reply comes when the program runs"},
-    {Service::kHold, "hold", Right::kOperate, Lane::kCommand, RequestKind::kFeedHold, kCommandOnly, kDoneReply, "feed hold; the reply comes when the axes stand. It needs no control"},
+    {Service::kHold, "hold", Right::kOperate, Lane::kCommand, RequestKind::kFeedHold, kCommandOnly, kDoneReply, "feed hold; the reply comes when the axes stand. It needs no control. In manual mode what moves by hand comes to rest and needs a new press"},
     {Service::kReset, "reset", Right::kOperate, Lane::kCommand, RequestKind::kReset, kLifespanOnly, kDoneReply, "reset of all part systems; the reply comes when it is done"},
     {Service::kSetMode, "mode", Right::kOperate, Lane::kCommand, RequestKind::kSetMode, kModeArguments, kDoneReply, "mode of the control"},
     {Service::kFeedOverride, "override.feed", Right::kOperate, Lane::kCommand, RequestKind::kFeedOverride, kPercentArguments, kDoneReply, "feed override of the operator"},

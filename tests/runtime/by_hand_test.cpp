@@ -62,6 +62,50 @@ class Hindrances : public ByHandRuntime {
   static constexpr Answer kAnswer[] = {Answer::kFeedHold, Answer::kInterlock, Answer::kAlarmActive, Answer::kResetHeld, Answer::kNotInThisMode};
 };
 
+// A feed hold of a client, whoever moves the axis: a button, a jog that is repeated, a step, a reference return, a handle. It comes to rest, and stays.
+TEST_F(Hindrances, AFeedHoldOfAClientStopsWhatMovesByHand) {
+  for (unsigned by = 0; by < 5; ++by) {
+    SCOPED_TRACE(by);
+    run();
+    ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+    if (by == 4) {
+      ASSERT_EQ(ask(CommandKind::kStep, 30), Answer::kDone);
+      ASSERT_GE(until([&] { return out().distance_zero && x() > 29; }, 20000), 0);
+      steps(5);
+    }
+    if (by == 0) in("in0", 1);
+    if (by == 1) { ASSERT_EQ(ask(CommandKind::kJog, 20), Answer::kDone); }
+    if (by == 2) { ASSERT_EQ(ask(CommandKind::kStep, 50), Answer::kDone); }
+    if (by == 3) in("word_in", 6);
+    if (by == 4) { ASSERT_EQ(ask(CommandKind::kReference, 0), Answer::kDone); }
+    steps(60);
+    ASSERT_NE(out().velocity.v[0], 0);
+    ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);
+    if (by == 3) in("word_in", 0);  // a wheel that is turned on turns the axis on
+    for (unsigned n = 0; n < 300; ++n) {
+      if (by == 1 && n % 50 == 0) (void)ask(CommandKind::kJog, 20);
+      steps(1);
+    }
+    const double stood = x();
+    for (unsigned n = 0; n < 300; ++n) {
+      if (by == 1 && n % 50 == 0) (void)ask(CommandKind::kJog, 20);
+      steps(1);
+    }
+    EXPECT_EQ(x(), stood);
+    EXPECT_NE(text().find(by == 0 || by == 1 ? "let it go first" : "feed hold"), std::string::npos) << text();
+    // Let go and pressed again, it acts again.
+    in("in0", 0);
+    (void)ask(CommandKind::kJog, 0);
+    steps(5);
+    in("in0", 1);
+    steps(100);
+    EXPECT_GT(x(), stood + 0.1);
+    in("in0", 0);
+    steps(300);
+    runtime.reset();
+  }
+}
+
 TEST_F(Hindrances, AButtonThatWasOnWhileSomethingRefusedItWaitsToBeLetGo) {
   for (unsigned which = 0; which < 5; ++which) {
     for (const bool moves : {false, true}) {
