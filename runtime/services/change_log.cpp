@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -182,9 +183,14 @@ bool ChangeLog::add(Change change, std::string* error) {
   return false;
 }
 
-Json ChangeLog::newest(std::uint64_t from, std::uint64_t count) const {
+Json ChangeLog::newest(std::uint64_t from, std::uint64_t count, const std::string& of) const {
   Json list = Json::array();
-  for (std::uint64_t i = from; i < changes_.size() && i - from < count; ++i) list.push_back(to_json(changes_[changes_.size() - 1 - i]));
+  std::uint64_t found = 0;
+  for (auto change = changes_.rbegin(); change != changes_.rend() && list.size() < count; ++change) {
+    const auto is_wanted = [&](const ValueChange& value) { return is_of(value.place, of); };
+    if (!of.empty() && std::none_of(change->values.begin(), change->values.end(), is_wanted)) continue;
+    if (found++ >= from) list.push_back(to_json(*change));
+  }
   return {{"changes", std::move(list)}};
 }
 

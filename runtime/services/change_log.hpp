@@ -39,7 +39,8 @@ class ChangeLog {
   // Gives the change its number. False with a sentence in *error when it could not be written; it is remembered all the same.
   bool add(Change change, std::string* error);
   // Entries behind the `from` newest ones, the newest first.
-  Json newest(std::uint64_t from, std::uint64_t count) const;
+  // `of`: only those that have changed this row or value of a table (is_of()), "" = all.
+  Json newest(std::uint64_t from, std::uint64_t count, const std::string& of = "") const;
 
   // The change with this number; null when it is not remembered.
   const Change* find(std::uint64_t number) const;

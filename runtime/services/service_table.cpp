@@ -59,8 +59,8 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kUntil, "until", Kind::kNumber, 0, kMostTime, "s", "only what came at this time or earlier: seconds since 1970"},
     {Field::kEntryKind, "kind", Kind::kText, 1, 8, "", "only entries of this kind: alarm, message, action, change, run or system"},
     {Field::kUser, "user", Kind::kText, 1, 64, "", "only what this user has done"},
-    {Field::kTable, "table", Kind::kText, 5, 9, "", "tools, offsets or variables; all of them when it is not given"},
-    {Field::kToml, "toml", Kind::kText, 1, kMostToml, "", "the sections [tool_offsets], [work_offsets], [variables], [variable_names], or some of them, as tables.export gives them"},
+    {Field::kTable, "table", Kind::kText, 4, 9, "", "tools, life, offsets or variables; all of them when it is not given"},
+    {Field::kToml, "toml", Kind::kText, 1, kMostToml, "", "the sections [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names], or some of them, as tables.export gives them"},
     {Field::kChange, "change", Kind::kWhole, 1, kMostSize, "", "number of the change; the last one of this user when it is not given"},
     {Field::kSignals, "signals", Kind::kList, 1, trace::kMostSignals, "", "names of signals, of points, and of devices of the ladder"},
     {Field::kTrigger, "trigger", Kind::kText, 1, kLongestText, "", "the one of the signals at which the recording begins; it begins at once when it is not given"},
@@ -86,6 +86,17 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kCheckSeconds, "seconds", Kind::kWhole, 1, 86400, "s", "processor time that the check may take; that of the configuration when it is not given"},
     {Field::kVariableName, "name", Kind::kText, 0, 7, "", "name of the variable: capital letters and digits, a letter first; an empty one takes it away"},
     {Field::kAll, "all", Kind::kFlag, 0, 1, "", "true: also the parameters that are not set"},
+    {Field::kLifeRow, "number", Kind::kWhole, 1, NC_TOOL_LIVES, "", "row of the table of tool life; the tools of a group are used in this order"},
+    {Field::kLifeGroup, "group", Kind::kWhole, 0, 99999999, "", "its group of tools; 0 = no tool is registered in this row"},
+    {Field::kLifeTool, "tool", Kind::kWhole, 0, 99999999, "", "number of the tool"},
+    {Field::kLifeFlags, "flags", Kind::kWhole, 0, 255, "", "bits 4 and 5 say what is counted: 0 minutes of cutting, 16 mounts, 32 uses; the others are kept as they are"},
+    {Field::kLifeStatus, "status", Kind::kWhole, 0, 4, "", "0 not used, 1 in use, 2 its life has ended, 3 and 4 not to be used"},
+    {Field::kLife, "life", Kind::kWhole, 0, 9999, "min or times", "its life: 0 to 4000 minutes or 0 to 9999 times; 0 = without end"},
+    {Field::kLifeUsed, "used", Kind::kNumber, 0, 9999, "min or times", "what of its life has been used, in the same range"},
+    {Field::kLifeLength, "length_offset", Kind::kWhole, 0, 999, "", "number of its offset for the length"},
+    {Field::kLifeRadius, "radius_offset", Kind::kWhole, 0, 999, "", "number of its offset for the radius"},
+    {Field::kLifeAuxiliary, "auxiliary", Kind::kNumber, -1e9, 1e9, "", "for the machine's own use"},
+    {Field::kOf, "of", Kind::kText, 4, 64, "", "only changes of this row or value of a table: `tool 3`, `tool 3 radius_wear`, `life 3`, `offset 1 102`, `offset 1 102 X`, `variable 1 501`, `name 501`, `parameter 1 X 2001`, `parameter 1 - 1078`; the number before that of offsets, variables and parameters is the part system, - all axes"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -95,6 +106,7 @@ constexpr Wanted may(Field field) { return {field, false}; }
 // ---- requests ----
 constexpr Wanted kPage[] = {may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kHistoryArguments[] = {may(Field::kSince), may(Field::kUntil), may(Field::kEntryKind), may(Field::kUser), may(Field::kFrom), may(Field::kCount)};
+constexpr Wanted kChangesArguments[] = {may(Field::kOf), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kSystemPage[] = {may(Field::kSystem), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kParametersArguments[] = {may(Field::kSystem), may(Field::kAll), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kReadArguments[] = {must(Field::kFile), must(Field::kBegin), must(Field::kBytes)};
@@ -112,6 +124,8 @@ constexpr Wanted kApproachArguments[] = {must(Field::kAxis), may(Field::kSpeed),
 constexpr Wanted kSystemOnly[] = {may(Field::kSystem)};
 constexpr Wanted kSelectArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear)};
+constexpr Wanted kLifeArguments[] = {must(Field::kLifeRow), may(Field::kLifeGroup), may(Field::kLifeTool), may(Field::kLifeFlags), may(Field::kLifeStatus), may(Field::kLife),
+                                     may(Field::kLifeUsed), may(Field::kLifeLength), may(Field::kLifeRadius), may(Field::kLifeAuxiliary)};
 constexpr Wanted kOffsetArguments[] = {must(Field::kOffset), must(Field::kAxis), must(Field::kValue), may(Field::kSystem)};
 constexpr Wanted kVariableArguments[] = {must(Field::kVariable), may(Field::kVariableValue), may(Field::kVacant), may(Field::kVariableName), may(Field::kSystem)};
 constexpr Wanted kBeginArguments[] = {must(Field::kFile), must(Field::kSize), must(Field::kHash), may(Field::kReplace)};
@@ -248,7 +262,7 @@ constexpr ReplyRow kChangesReply[] = {{"changes[].number", "whole", "number of t
                                       {"changes[].before", "text", "its value before, empty = none"},
                                       {"changes[].after", "text", "its value after it, empty = none"},
                                       {"changes[].undone_by", "whole", "number of the change that has taken it back, 0 = none"}};
-constexpr ReplyRow kExportReply[] = {{"toml", "text", "the sections [tool_offsets], [work_offsets], [variables], [variable_names]; of further part systems [variables2] ..."}};
+constexpr ReplyRow kExportReply[] = {{"toml", "text", "the sections [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]; of further part systems [variables2] ..."}};
 constexpr ReplyRow kTraceSignalsReply[] = {{"signals[].name", "text", "name of the signal or of the point"},
                                            {"signals[].type", "text", "bit, 16 bit or 32 bit"},
                                            {"signals[].meaning", "text", "what it says"},
@@ -300,6 +314,19 @@ constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the s
                                     {"tools[].length_wear", "number", "mm"},
                                     {"tools[].radius", "number", "mm"},
                                     {"tools[].radius_wear", "number", "mm"},
+                                    {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
+constexpr ReplyRow kLivesReply[] = {{"lives[].number", "whole", "row of the table; the tools of a group are used in this order"},
+                                    {"lives[].group", "number", "group of tools, 0 = no tool is registered here"},
+                                    {"lives[].tool", "number", "number of the tool"},
+                                    {"lives[].flags", "number", "as in the table of the manual; bits 4 and 5 are `counts`"},
+                                    {"lives[].counts", "text", "what is counted: minutes (of cutting), mounts or uses"},
+                                    {"lives[].status", "number", "as in the table of the manual"},
+                                    {"lives[].state", "text", "status in words: not used, in use, ended, or not to be used"},
+                                    {"lives[].life", "number", "minutes or times, 0 = without end"},
+                                    {"lives[].used", "number", "minutes or times"},
+                                    {"lives[].length_offset", "number", "number of its offset for the length"},
+                                    {"lives[].radius_offset", "number", "number of its offset for the radius"},
+                                    {"lives[].auxiliary", "number", "for the machine's own use"},
                                     {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kOffsetsReply[] = {{"offsets[].system", "whole", "part system, from 1"},
                                       {"offsets[].index", "whole", "set of work offsets"},
@@ -385,13 +412,14 @@ constexpr ServiceRow kRows[] = {
      "the memory of the machine, the newest first: alarms, messages, actions of operators, changes, runs of programs; `from`: the number of the newest entry that is wanted"},
     {Service::kCounters, "history.counters", Right::kView, Lane::kData, kNo, {}, kCountersReply, "hours of the machine and of its spindles, runs, alarms, over all starts"},
     {Service::kProgramTimes, "history.programs", Right::kView, Lane::kData, kNo, kPage, kProgramTimesReply, "how often each program ran to its end, and how long"},
-    {Service::kChanges, "changes", Right::kView, Lane::kData, kNo, kPage, kChangesReply, "who has changed what through the services, the newest first"},
+    {Service::kChanges, "changes", Right::kView, Lane::kData, kNo, kChangesArguments, kChangesReply, "who has changed what through the services, the newest first; `of` one row, with a `count` of 1: who has changed it last"},
     {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them"},
+    {Service::kLives, "life.list", Right::kView, Lane::kData, kNo, kPage, kLivesReply, "the table of tool life as the executed blocks have left it"},
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
     {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
     {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kParametersArguments, kParametersReply, "the parameters that are set, or all of them, with their meaning and range"},
     {Service::kExport, "tables.export", Right::kView, Lane::kData, kNo, kExportArguments, kExportReply,
-     "tool offsets, work offsets and common variables as TOML, as the executed blocks have left them; variables that are vacant are left out"},
+     "tool offsets, work offsets, tool life and common variables as TOML, as the executed blocks have left them; variables that are vacant and rows of tool life without a tool are left out"},
     {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
     {Service::kProgramRead, "programs.read", Right::kView, Lane::kData, kNo, kReadArguments, kReadReply, "a piece of a program"},
     {Service::kProgramCheck, "programs.check", Right::kView, Lane::kData, kNo, kCheckArguments, kCheckReply,
@@ -433,12 +461,13 @@ constexpr ServiceRow kRows[] = {
      "the place is no longer looked for, or forgotten: the next cycle start begins at the head of the program"},
 
     {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
+    {Service::kSetLife, "life.set", Right::kSetUp, Lane::kData, kNo, kLifeArguments, kDoneReply, "sets the given columns of a row of the table of tool life"},
     {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},
     {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable or makes it vacant, and gives it a name"},
     {Service::kImport, "tables.import", Right::kSetUp, Lane::kData, kNo, kImportArguments, kDoneReply,
      "sets what the sections name and leaves everything else as it is. The whole text is checked before the first value is set, and it is one change"},
     {Service::kUndo, "undo", Right::kSetUp, Lane::kData, kNo, kUndoArguments, kDoneReply,
-     "takes a change of tool offsets, work offsets or variables back: the last one of this user that was not taken back. Refused when a value was changed since"},
+     "takes a change of tool offsets, tool life, work offsets or variables back: the last one of this user that was not taken back. Refused when a value was changed since"},
     {Service::kProgramBegin, "programs.begin", Right::kSetUp, Lane::kData, kNo, kBeginArguments, kBeginReply, "begins to write a program; nobody sees it before programs.finish"},
     {Service::kProgramData, "programs.data", Right::kSetUp, Lane::kData, kNo, kDataArguments, kDataReply, "the next piece; pieces come in their order"},
     {Service::kProgramFinish, "programs.finish", Right::kSetUp, Lane::kData, kNo, kUploadOnly, kDoneReply, "compares size and SHA-256, brings the program to the disk and puts it in its place"},

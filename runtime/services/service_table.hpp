@@ -18,7 +18,8 @@ enum class Field : std::uint8_t {
   kSystem, kLease, kLifespan, kMode, kPercent, kOn, kAxis, kVelocity, kBlocks, kFile, kDevice, kDeviceValue, kFrom, kCount, kTool, kLength, kLengthWear,
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
   kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch,
-  kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kCheckSeconds, kVariableName, kAll, kFields
+  kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kCheckSeconds, kVariableName, kAll,
+  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kOf, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -47,10 +48,10 @@ struct ReplyRow {
 };
 
 enum class Service : std::uint8_t {
-  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead, kProgramCheck,
+  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kLives, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead, kProgramCheck,
   kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd, kRestartStatus,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect, kProgramRecheck, kRestartFind, kRestartConfirm, kRestartApproach, kRestartCancel,
-  kSetTool, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
+  kSetTool, kSetLife, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
   kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kLadderSwap, kServiceCount
 };
 inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);

@@ -226,15 +226,21 @@ ProgramStore::Use Services::use() const {
   return use;
 }
 
+Outcome Services::list_changes(const Call& call) const {
+  const std::string of = call.has(Field::kOf) ? call.words(Field::kOf) : "";
+  if (!of.empty() && !names_table(of)) return Outcome::refused(Refused::kMalformed, "of must begin with tool, life, offset, variable, name or parameter, such as \"tool 3\"");
+  return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500)), of));
+}
+
 Outcome Services::data(const Session& session, const Call& call) {
   if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
   switch (call.row->service) {
-    case Service::kChanges:
-      return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500))));
+    case Service::kChanges: return list_changes(call);
     case Service::kHistory: return list_history(history_, call);
     case Service::kCounters: return list_counters(history_);
     case Service::kProgramTimes: return list_program_times(history_, call);
     case Service::kTools: return list_tools(&runtime_, call);
+    case Service::kLives: return list_lives(&runtime_, call);
     case Service::kOffsets: return list_offsets(&runtime_, call);
     case Service::kVariables: return list_variables(&runtime_, call);
     case Service::kParameters: return list_parameters(&runtime_, call);
@@ -250,6 +256,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
     case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:
+    case Service::kSetLife:
     case Service::kSetOffset:
     case Service::kSetVariable:
     case Service::kSetParameter:
@@ -269,6 +276,7 @@ Outcome Services::change(const Session& session, const Call& call) {
   Outcome outcome;
   switch (call.row->service) {
     case Service::kSetTool: outcome = set_tool(&runtime_, call, &change); break;
+    case Service::kSetLife: outcome = set_life(&runtime_, call, &change); break;
     case Service::kSetOffset: outcome = set_offset(&runtime_, call, &change); break;
     case Service::kSetVariable: outcome = set_variable(&runtime_, call, &change); break;
     case Service::kImport: outcome = import_tables(&runtime_, call, &change); break;

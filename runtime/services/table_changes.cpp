@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "runtime/services/table_toml.hpp"
@@ -28,56 +29,90 @@ struct ValueJob {
 
 std::string shown(const std::string& value) { return value.empty() ? "nothing" : value; }
 
-Outcome at_place(const TablePlace& place, Outcome outcome) {
-  outcome.text = place_text(place) + ": " + outcome.text;
-  return outcome;
+// What the control has refused, each with its place and the line that gives it.
+class Refusals {
+ public:
+  void add(const TableValue& wanted, const Outcome& refused) {
+    if (++count_ == 1) first_ = refused.why;
+    if (count_ > kMost) return;
+    const std::string line = wanted.line != 0 ? "line " + std::to_string(wanted.line) + ": " : "";
+    text_ += (count_ > 1 ? "; " : "") + line + place_text(wanted.place) + ": " + refused.text;
+  }
+  bool empty() const { return count_ == 0; }
+  Outcome outcome() const { return Outcome::refused(first_, text_ + (count_ > kMost ? "; and " + std::to_string(count_ - kMost) + " more" : "")); }
+
+ private:
+  static constexpr std::size_t kMost = 5;
+  std::size_t count_ = 0;
+  Refused first_ = Refused::kFailed;
+  std::string text_;
+};
+
+// Values of one row may bind one another (9000 mounts cannot become minutes before they are 100), so that no order of them is right for every change: what is refused
+// is tried again behind the others, as long as that helps.
+Refusals write_in_any_order(nc_control* control, const nc_config& config, std::vector<TableValue> pending) {
+  for (;;) {
+    std::vector<TableValue> rest;
+    Refusals refusals;
+    for (const TableValue& value : pending) {
+      const Outcome written = write_value(control, config, value.place, value.value);
+      if (written.ok) continue;
+      refusals.add(value, written);
+      rest.push_back(value);
+    }
+    if (rest.empty() || rest.size() == pending.size()) return refusals;
+    pending = std::move(rest);
+  }
 }
 
-// Writes the values from the last to the first.
-void give_back(nc_control* control, const nc_config& config, const std::vector<ValueChange>& done) {
-  for (auto value = done.rbegin(); value != done.rend(); ++value) (void)write_value(control, config, value->place, value->before);
+// Writes the values that were there before.
+void give_back(nc_control* control, const nc_config& config, const std::vector<ValueChange>& all) {
+  std::vector<TableValue> before;
+  for (auto value = all.rbegin(); value != all.rend(); ++value) before.push_back({value->place, value->before});
+  (void)write_in_any_order(control, config, std::move(before));
+}
+
+// What is there now, in the order of what is wanted. False when a place does not exist, or is not as it is expected.
+bool read_all(const nc_control* control, ValueJob* job, std::vector<ValueChange>* all) {
+  Refusals refusals;
+  for (std::size_t i = 0; i < job->wanted.size(); ++i) {
+    const TableValue& wanted = job->wanted[i];
+    ValueChange change{wanted.place, "", wanted.value};
+    if (const Outcome read = read_value(control, *job->config, wanted.place, &change.before); !read.ok) {
+      refusals.add(wanted, read);
+    } else if (!job->expected.empty() && !same_value(change.before, job->expected[i])) {
+      job->outcome = Outcome::refused(Refused::kState, place_text(wanted.place) + " was changed since: it is " + shown(change.before) + ", and not " + shown(job->expected[i]));
+      return false;
+    }
+    all->push_back(std::move(change));
+  }
+  if (!refusals.empty()) job->outcome = refusals.outcome();
+  return refusals.empty();
 }
 
 // In the feeder thread.
 void write_all(nc_control* control, ValueJob* job) {
   const nc_config& config = *job->config;
   std::vector<ValueChange> all;
-  for (std::size_t i = 0; i < job->wanted.size(); ++i) {
-    const auto& [place, value] = job->wanted[i];
-    ValueChange change{place, "", value};
-    job->outcome = read_value(control, config, place, &change.before);
-    if (!job->outcome.ok) {
-      job->outcome = at_place(place, std::move(job->outcome));
-      return;
-    }
-    if (!job->expected.empty() && !same_value(change.before, job->expected[i])) {
-      job->outcome = Outcome::refused(Refused::kState, place_text(place) + " was changed since: it is " + shown(change.before) + ", and not " + shown(job->expected[i]));
-      return;
-    }
-    all.push_back(std::move(change));
+  if (!read_all(control, job, &all)) return;
+  if (const Refusals refusals = write_in_any_order(control, config, job->wanted); !refusals.empty()) {
+    give_back(control, config, all);
+    job->outcome = refusals.outcome();
+    return;
   }
   for (ValueChange& change : all) {
-    Outcome written = write_value(control, config, change.place, change.after);
-    if (!written.ok) {
-      give_back(control, config, job->done);
-      job->done.clear();
-      job->outcome = at_place(change.place, std::move(written));
-      return;
-    }
-    job->done.push_back(change);
-  }
-  for (ValueChange& change : job->done) {
     std::string now;
     (void)read_value(control, config, change.place, &now);
     if (change.place.table == Table::kParameter) {
       if (!now.empty()) change.after = now;  // as the control writes it: "1" for "1.0"
     } else if (!same_value(now, change.after)) {
       job->outcome = Outcome::refused(Refused::kMalformed, place_text(change.place) + " is shared by part systems, and is given twice with different values");
-      give_back(control, config, job->done);
-      job->done.clear();
+      give_back(control, config, all);
       return;
     }
   }
+  job->done = std::move(all);
+  job->outcome = Outcome::done();
 }
 
 // Executes a change of these values; *done gets what it has done.
@@ -100,8 +135,8 @@ std::string joined(const std::vector<ValueChange>& values, std::string (*text)(c
 
 // "12 tool offsets, 1 work offset"
 std::string counts(const std::vector<ValueChange>& values) {
-  constexpr const char* kNames[] = {"tool offset", "work offset", "common variable", "name of a variable", "parameter"};  // in the order of Table
-  constexpr const char* kMany[] = {"tool offsets", "work offsets", "common variables", "names of variables", "parameters"};
+  constexpr const char* kNames[] = {"tool offset", "work offset", "common variable", "name of a variable", "parameter", "entry of tool life"};  // in the order of Table
+  constexpr const char* kMany[] = {"tool offsets", "work offsets", "common variables", "names of variables", "parameters", "entries of tool life"};
   std::array<unsigned, std::size(kNames)> count{};
   for (const ValueChange& value : values) ++count[static_cast<unsigned>(value.place.table)];
   std::string text;
@@ -133,19 +168,31 @@ Outcome set(Runtime* runtime, std::vector<TableValue> wanted, Change* change) {
   return outcome;
 }
 
+// Those columns of a row that the request has.
+Outcome set_columns(Runtime* runtime, const Call& call, Table table, Field number, std::span<const Field> columns, Change* change) {
+  std::vector<TableValue> wanted;
+  std::string names;
+  for (unsigned c = 0; c < columns.size(); ++c) {
+    names += (names.empty() ? "" : ", ") + std::string(row_of(columns[c]).name);
+    if (!call.has(columns[c])) continue;
+    TableValue& value = wanted.emplace_back();
+    value.place.table = table;
+    value.place.number = static_cast<std::uint32_t>(call.value(number));
+    value.place.column = c;
+    value.value = number_text(call.value(columns[c]));
+  }
+  if (wanted.empty()) return Outcome::refused(Refused::kMalformed, call.row->name + std::string(" needs at least one of ") + names);
+  return set(runtime, std::move(wanted), change);
+}
+
 }  // namespace
 
 Outcome set_tool(Runtime* runtime, const Call& call, Change* change) {
-  std::vector<TableValue> wanted;
-  for (unsigned c = 0; c < std::size(kToolColumns); ++c) {
-    if (!call.has(kToolColumns[c])) continue;
-    TableValue& value = wanted.emplace_back();
-    value.place.number = static_cast<std::uint32_t>(call.value(Field::kTool));
-    value.place.column = c;
-    value.value = number_text(call.value(kToolColumns[c]));
-  }
-  if (wanted.empty()) return Outcome::refused(Refused::kMalformed, "tools.set needs at least one of length, length_wear, radius, radius_wear");
-  return set(runtime, std::move(wanted), change);
+  return set_columns(runtime, call, Table::kTool, Field::kTool, kToolColumns, change);
+}
+
+Outcome set_life(Runtime* runtime, const Call& call, Change* change) {
+  return set_columns(runtime, call, Table::kToolLife, Field::kLifeRow, kLifeColumns, change);
 }
 
 Outcome set_offset(Runtime* runtime, const Call& call, Change* change) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The services that set tables of the control: tool offsets, work offsets, common variables, parameters; one value, a file of them, or what was there before a
+// The services that set tables of the control: tool offsets, tool life, work offsets, common variables, parameters; one value, a file of them, or what was there before a
 // change. They are refused while a program is in execution or interrupted (Runtime::change()); the change is kept over power off as one of a program is.
 //
 // A change is whole: all of its values are looked up before the first one is written, and one that the control does not take gives the others back.
@@ -16,6 +16,7 @@ namespace nc::rt::services {
 
 // Each fills in *change when it is done: what, before and after for people, and the values. Without values nothing has changed.
 Outcome set_tool(Runtime* runtime, const Call& call, Change* change);
+Outcome set_life(Runtime* runtime, const Call& call, Change* change);
 Outcome set_offset(Runtime* runtime, const Call& call, Change* change);
 Outcome set_variable(Runtime* runtime, const Call& call, Change* change);
 Outcome set_parameter(Runtime* runtime, const Call& call, Change* change);

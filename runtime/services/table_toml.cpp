@@ -18,6 +18,7 @@ using Table = TablePlace::Table;
 
 constexpr std::size_t kMostErrors = 5;  // that a refusal names
 constexpr unsigned kLargest = 2147483647;
+constexpr double kLargestNumber = 1e9;  // of tool life; the control knows the range of each column
 constexpr std::string_view kVacant = "vacant", kNames = "variable_names";
 
 // "X", in part system 2 "X2"
@@ -51,6 +52,20 @@ void write_offsets(const nc_control* control, const nc_config& config, std::stri
   }
 }
 
+// The rows with a tool.
+void write_lives(const nc_control* control, std::string* text) {
+  *text += "\n[tool_life]\n";
+  double value = 0;
+  for (unsigned number = 1; number <= NC_TOOL_LIVES; ++number) {
+    if (nc_tool_life_get(control, number, NC_LIFE_GROUP, &value) != NC_OK || value == 0) continue;
+    std::string row;
+    for (unsigned c = 0; c < std::size(kLifeColumns); ++c)
+      if (nc_tool_life_get(control, number, static_cast<nc_life_column>(c), &value) == NC_OK)
+        row += std::string(row.empty() ? "" : ", ") + row_of(kLifeColumns[c]).name + " = " + number_text(value);
+    *text += std::to_string(number) + " = { " + row + " }\n";
+  }
+}
+
 void write_variables(const nc_control* control, const nc_config& config, std::string* text) {
   for (unsigned s = 0; s < config.system_count; ++s) {
     *text += "\n[variables" + suffix(s) + "]\n";
@@ -73,9 +88,9 @@ class Values {
  public:
   explicit Values(std::vector<TableValue>* values) : values_(*values) {}
   // False when the place has been given already.
-  bool add(const TablePlace& place, std::string value) {
+  bool add(const TablePlace& place, std::string value, unsigned line) {
     if (!places_.insert(place_key(place)).second) return false;
-    values_.push_back({place, std::move(value)});
+    values_.push_back({place, std::move(value), line});
     return true;
   }
 
@@ -97,7 +112,28 @@ void read_variables(TableReader* root, unsigned system, Values* values) {
       const auto* word = node.as_string();
       const bool vacant = word != nullptr && word->get() == kVacant;
       if (!vacant && !node_number(node, &value)) return reader.error(key, std::string("must be a finite number, or \"vacant\", not ") + shown_type(node));
-      if (!values->add(place, vacant ? "" : number_text(value))) reader.error(key, "stands twice");
+      if (!values->add(place, vacant ? "" : number_text(value), line_of(node))) reader.error(key, "stands twice");
+    });
+  });
+}
+
+void read_lives(TableReader* root, Values* values) {
+  root->table("tool_life", [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node& node) {
+      TablePlace place;
+      place.table = Table::kToolLife;
+      const auto number = whole_number(key, 1, NC_TOOL_LIVES);
+      if (!number) return reader.error(key, "must be a row of the table of tool life, 1 to " + std::to_string(NC_TOOL_LIVES));
+      place.number = *number;
+      const toml::table* const row = node.as_table();
+      if (row == nullptr) return reader.error(key, std::string("must be a table of columns, not ") + shown_type(node));
+      TableReader columns(*row, reader.path(key), reader.errors());
+      for (place.column = 0; place.column < std::size(kLifeColumns); ++place.column) {
+        const FieldInfo& field = row_of(kLifeColumns[place.column]);
+        double value = 0;
+        if (columns.number(field.name, &value, -kLargestNumber, kLargestNumber) && !values->add(place, number_text(value), columns.line(field.name))) columns.error(field.name, "stands twice");
+      }
+      columns.finish();
     });
   });
 }
@@ -116,7 +152,7 @@ void read_names(TableReader* root, const nc_variable_range& named, Values* value
       bool good = name.size() < sizeof(char[8]);
       for (std::size_t i = 0; i < name.size(); ++i) good = good && ((name[i] >= 'A' && name[i] <= 'Z') || (i > 0 && name[i] >= '0' && name[i] <= '9'));
       if (!good) return reader.error(key, "must be a name of at most 7 capital letters and digits, a letter first, or \"\"");
-      if (!values->add(place, name)) reader.error(key, "stands twice");
+      if (!values->add(place, name, line_of(node))) reader.error(key, "stands twice");
     });
   });
 }
@@ -132,7 +168,7 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
       TablePlace place;
       place.number = setting.number;
       place.column = c;
-      if (setting.given[c] && !values->add(place, number_text(setting.column[c]))) errors->add(setting.place.line, setting.place.key, "stands twice");
+      if (setting.given[c] && !values->add(place, number_text(setting.column[c]), setting.place.line)) errors->add(setting.place.line, setting.place.key, "stands twice");
     }
   for (const WorkOffsetSetting& setting : read->work_offsets) {
     TablePlace place;
@@ -140,7 +176,7 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
     place.system = setting.system;
     place.number = setting.index;
     place.axis = machine.nc.system[setting.system].axis[setting.axis].name;
-    if (!values->add(place, number_text(setting.value))) errors->add(setting.place.line, setting.place.key, "stands twice");
+    if (!values->add(place, number_text(setting.value), setting.place.line)) errors->add(setting.place.line, setting.place.key, "stands twice");
   }
 }
 
@@ -182,6 +218,7 @@ std::string tables_toml(const nc_control* control, const nc_config& config, cons
   std::string text;
   if (tables.tools) write_tools(control, config, &text);
   if (tables.offsets) write_offsets(control, config, &text);
+  if (tables.lives) write_lives(control, &text);
   if (tables.variables) write_variables(control, config, &text);
   return text[0] == '\n' ? text.substr(1) : text;
 }
@@ -205,10 +242,11 @@ std::string parse_tables_toml(const Config& machine, std::string_view text, std:
   (void)nc_variable_kind_get(static_cast<nc_dialect>(machine.nc.dialect), NC_VARIABLES_NAMED, &named);
   read_offsets(&reader, machine, &all, &errors);
   for (unsigned s = 0; s < machine.nc.system_count; ++s) read_variables(&reader, s, &all);
+  read_lives(&reader, &all);
   read_names(&reader, named, &all);
   reader.finish();
   if (!errors.empty()) return sentence(errors.take());
-  return values->empty() ? "holds none of [tool_offsets], [work_offsets], [variables], [variable_names]" : "";
+  return values->empty() ? "holds none of [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]" : "";
 }
 
 }  // namespace nc::rt::services

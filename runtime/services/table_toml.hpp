@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tool offsets, work offsets and common variables as TOML. [tool_offsets] and [work_offsets] are those of the configuration; [variables], [variables2] ... hold the
+// Tool offsets, work offsets, tool life and common variables as TOML. [tool_offsets] and [work_offsets] are those of the configuration; [tool_life] has a row for
+// each registered tool; [variables], [variables2] ... hold the
 // common variables of part system 1, 2 ..., and [variable_names] their names.
 #pragma once
 
@@ -14,7 +15,7 @@ namespace nc::rt::services {
 
 // Which tables an export holds.
 struct TomlTables {
-  bool tools = true, offsets = true, variables = true;
+  bool tools = true, lives = true, offsets = true, variables = true;
 };
 // The tables as the control has them. In its thread. The same tables give the same bytes.
 std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables);

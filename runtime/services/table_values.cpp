@@ -63,6 +63,14 @@ Outcome write_parameter(nc_control* control, const TablePlace& place, const std:
   }
 }
 
+// The column with this name; the number of columns when there is none.
+template <std::size_t kCount>
+unsigned column_named(const Field (&columns)[kCount], const std::string& name) {
+  unsigned column = 0;
+  while (column < kCount && name != row_of(columns[column]).name) ++column;
+  return column;
+}
+
 }  // namespace
 
 bool parse_number(const std::string& text, double* value) {
@@ -85,9 +93,21 @@ std::string place_key(const TablePlace& place) {
     case Table::kOffset: return "offset " + system + " " + number + " " + place.axis;
     case Table::kVariable: return "variable " + system + " " + number;
     case Table::kVariableName: return "name " + number;
+    case Table::kToolLife: return "life " + number + " " + row_of(kLifeColumns[place.column]).name;
     case Table::kParameter: return "parameter " + system + " " + (place.axis != 0 ? place.axis : kAllAxes) + " " + place.key;
   }
   return "";
+}
+
+bool is_of(const TablePlace& place, const std::string& text) {
+  const std::string key = place_key(place);
+  return key == text || key.compare(0, text.size() + 1, text + " ") == 0;
+}
+
+bool names_table(const std::string& text) {
+  for (const char* kind : {"tool ", "life ", "offset ", "variable ", "name ", "parameter "})
+    if (text.rfind(kind, 0) == 0) return true;
+  return false;
 }
 
 bool parse_place(const std::string& text, TablePlace* place) {
@@ -98,7 +118,13 @@ bool parse_place(const std::string& text, TablePlace* place) {
   words >> kind;
   if (kind == "tool") {
     words >> place->number >> column;
-    while (place->column < std::size(kToolColumns) && column != row_of(kToolColumns[place->column]).name) ++place->column;
+    place->column = column_named(kToolColumns, column);
+    if (place->column == std::size(kToolColumns)) return false;
+  } else if (kind == "life") {
+    place->table = Table::kToolLife;
+    words >> place->number >> column;
+    place->column = column_named(kLifeColumns, column);
+    if (place->column == std::size(kLifeColumns)) return false;
   } else if (kind == "offset") {
     place->table = Table::kOffset;
     words >> system >> place->number >> place->axis;
@@ -115,7 +141,7 @@ bool parse_place(const std::string& text, TablePlace* place) {
   } else {
     return false;
   }
-  if (words.fail() || system < 1 || system > NC_MAX_SYSTEMS || place->column == std::size(kToolColumns)) return false;
+  if (words.fail() || system < 1 || system > NC_MAX_SYSTEMS) return false;
   place->system = system - 1;
   return place_key(*place) == text;
 }
@@ -128,6 +154,7 @@ std::string place_text(const TablePlace& place) {
     case Table::kOffset: return "offset " + number + axis + system;
     case Table::kVariable: return "#" + number + system;
     case Table::kVariableName: return "name of #" + number;
+    case Table::kToolLife: return "tool " + place_key(place);
     case Table::kParameter: return "parameter " + place.key + axis + system;
   }
   return "";
@@ -158,6 +185,11 @@ Outcome read_value(const nc_control* control, const nc_config& config, const Tab
       (void)nc_variable_name_get(control, place.number, name);
       *value = name;
       return Outcome::done();
+    case Table::kToolLife:
+      if (nc_tool_life_get(control, place.number, static_cast<nc_life_column>(place.column), &number) != NC_OK)
+        return Outcome::refused(Refused::kNotFound, "there is no such row of tool life");
+      *value = number_text(number);
+      return Outcome::done();
     case Table::kParameter:
       *value = parameter_now(control, place);
       return Outcome::done();
@@ -179,10 +211,12 @@ Outcome write_value(nc_control* control, const nc_config& config, const TablePla
       break;
     case Table::kVariable: status = nc_variable_set(control, api_system(place.system), place.number, number, empty); break;
     case Table::kVariableName: status = nc_variable_name_set(control, place.number, value.c_str()); break;
+    case Table::kToolLife: status = nc_tool_life_set(control, place.number, static_cast<nc_life_column>(place.column), number); break;
     case Table::kParameter: break;
   }
   if (status == NC_OK) return Outcome::done();
   if (place.table == Table::kVariableName) return Outcome::refused(Refused::kState, "the variable can have no name, or not this one: at most 7 capital letters and digits, a letter first");
+  if (place.table == Table::kToolLife) return Outcome::refused(Refused::kState, "out of the range of the column: a life and what is used of it have at most 4000 minutes or 9999 times");
   return Outcome::refused(Refused::kState, "refused by the control");
 }
 

@@ -17,12 +17,16 @@ namespace nc::rt::services {
 // Columns of the table of tool offsets, in the order of nc_tool_column.
 inline constexpr Field kToolColumns[] = {Field::kLength, Field::kLengthWear, Field::kRadius, Field::kRadiusWear};
 
+// Columns of the table of tool life, in the order of nc_life_column.
+inline constexpr Field kLifeColumns[] = {Field::kLifeGroup, Field::kLifeTool,   Field::kLifeFlags,  Field::kLifeStatus,   Field::kLife,
+                                         Field::kLifeUsed,  Field::kLifeLength, Field::kLifeRadius, Field::kLifeAuxiliary};
+
 struct TablePlace {
-  enum class Table : std::uint8_t { kTool, kOffset, kVariable, kVariableName, kParameter };
+  enum class Table : std::uint8_t { kTool, kOffset, kVariable, kVariableName, kParameter, kToolLife };
   Table table = Table::kTool;
   unsigned system = 0;       // index of the part system, for kOffset, kVariable and kParameter
-  std::uint32_t number = 0;  // of the tool, the set of work offsets, the variable
-  unsigned column = 0;       // kTool: nc_tool_column
+  std::uint32_t number = 0;  // of the tool, the set of work offsets, the variable, the row of tool life
+  unsigned column = 0;       // kTool: nc_tool_column; kToolLife: nc_life_column
   char axis = 0;             // kOffset; kParameter: 0 = all axes
   std::string key = {};      // kParameter
 };
@@ -30,6 +34,7 @@ struct TablePlace {
 struct TableValue {
   TablePlace place;
   std::string value;
+  unsigned line = 0;  // of the text that gives it, 0 = none
 };
 // What a change has done to a value.
 struct ValueChange {
@@ -37,10 +42,14 @@ struct ValueChange {
   std::string before, after;
 };
 
-// The place in the file of the changes, and back. The texts never change: "tool 3 radius_wear", "offset 1 102 X", "variable 1 501", "name 501", "parameter 1 X 2001"
+// The place in the file of the changes, and back. The texts never change: "tool 3 radius_wear", "offset 1 102 X", "variable 1 501", "name 501", "life 3 used", "parameter 1 X 2001"
 // with "-" for all axes.
 std::string place_key(const TablePlace& place);
 bool parse_place(const std::string& text, TablePlace* place);
+// Whether `text` is such a place, or the beginning of some with all of its words whole: "tool 3" for all columns of the tool.
+bool is_of(const TablePlace& place, const std::string& text);
+// Whether it begins as such a place does.
+bool names_table(const std::string& text);
 // The same for people: "tool 3 radius_wear", "offset 102 X of part system 1", "#501 of part system 1".
 std::string place_text(const TablePlace& place);
 

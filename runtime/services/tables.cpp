@@ -86,6 +86,27 @@ Outcome list_tools(Runtime* runtime, const Call& call) {
   });
 }
 
+Outcome list_lives(Runtime* runtime, const Call& call) {
+  return look(runtime, [page = page_of(call)](const nc_control* control) {
+    constexpr const char* kCounts[] = {"minutes", "mounts", "uses", "uses"};  // bits 4 and 5 of the flags
+    constexpr const char* kStates[] = {"not used", "in use", "ended", "not to be used", "not to be used"};
+    Json lives = Json::array();
+    unsigned number = page.from == 0 ? 1 : page.from;
+    for (; number <= NC_TOOL_LIVES && lives.size() < page.count; ++number) {
+      Json life = {{"number", number}};
+      double value[std::size(kLifeColumns)] = {};
+      for (unsigned c = 0; c < std::size(kLifeColumns); ++c) {
+        (void)nc_tool_life_get(control, number, static_cast<nc_life_column>(c), &value[c]);
+        life[row_of(kLifeColumns[c]).name] = value[c];
+      }
+      life["counts"] = kCounts[static_cast<unsigned>(value[NC_LIFE_FLAGS]) >> 4 & 3u];
+      life["state"] = kStates[std::min(static_cast<std::size_t>(value[NC_LIFE_STATUS]), std::size(kStates) - 1)];
+      lives.push_back(std::move(life));
+    }
+    return Json{{"lives", std::move(lives)}, {"next", number <= NC_TOOL_LIVES ? number : 0}};
+  });
+}
+
 Outcome list_offsets(Runtime* runtime, const Call& call) {
   unsigned system = 0;
   if (!system_of(*runtime, call, &system)) return no_system();
@@ -160,12 +181,12 @@ Outcome list_parameters(Runtime* runtime, const Call& call) {
 }
 
 Outcome export_tables(Runtime* runtime, const Call& call) {
-  constexpr const char* kTables[] = {"tools", "offsets", "variables"};
+  constexpr const char* kTables[] = {"tools", "life", "offsets", "variables"};
   TomlTables tables;
   if (call.has(Field::kTable)) {
     const auto* const found = std::find(std::begin(kTables), std::end(kTables), call.words(Field::kTable));
-    if (found == std::end(kTables)) return Outcome::refused(Refused::kMalformed, "table must be tools, offsets or variables");
-    tables = {found == kTables, found == kTables + 1, found == kTables + 2};
+    if (found == std::end(kTables)) return Outcome::refused(Refused::kMalformed, "table must be tools, life, offsets or variables");
+    tables = {found == kTables, found == kTables + 1, found == kTables + 2, found == kTables + 3};
   }
   return look(runtime, [tables, &config = runtime->config().nc](const nc_control* control) { return Json{{"toml", tables_toml(control, config, tables)}}; });
 }

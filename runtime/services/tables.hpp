@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The services that read tables of the control: tool offsets, work offsets, common variables, parameters, as lists or as TOML. What they read is what the executed
+// The services that read tables of the control: tool offsets, tool life, work offsets, common variables, parameters, as lists or as TOML. What they read is what the executed
 // blocks have left.
 #pragma once
 
@@ -15,6 +15,7 @@ bool system_of(const Runtime& runtime, const Call& call, unsigned* system);
 Outcome no_system();
 
 Outcome list_tools(Runtime* runtime, const Call& call);
+Outcome list_lives(Runtime* runtime, const Call& call);
 Outcome list_offsets(Runtime* runtime, const Call& call);
 Outcome list_variables(Runtime* runtime, const Call& call);
 Outcome list_parameters(Runtime* runtime, const Call& call);

@@ -37,6 +37,12 @@ expect 0 "$ncctl" parameters list
 expect 0 "$ncctl" changes
 said out "tool 3 length"
 said out "$(id -un)"
+expect 0 "$ncctl" changes --of 'tool 3' --count 1
+said out "tool 3 length"
+expect 0 "$ncctl" life set 2 --group 7 --tool 31 --flags 16 --life 500
+expect 0 "$ncctl" life list
+said out "mounts"
+expect 0 "$ncctl" undo
 expect 2 "$ncctl" tools set 999 --length 1
 expect 1 "$ncctl" tools set 3
 expect 1 "$ncctl" tools set three --length 1

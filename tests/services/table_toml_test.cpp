@@ -88,7 +88,7 @@ TEST_F(TableToml, AllOfItOrNothing) {
       {"[variable_names]\n500 = \"lower\"", "malformed", "capital letters"},
       {"[variable_names]\n500 = \"TOOLONGX\"", "malformed", "capital letters"},
       {"[variable_names]\n499 = \"A\"", "malformed", "that can have a name"},
-      {"[parameters]\n1078 = 1", "malformed", "unknown key (known here: tool_offsets, variable_names, variables, work_offsets)"},
+      {"[parameters]\n1078 = 1", "malformed", "unknown key (known here: tool_life, tool_offsets, variable_names, variables, work_offsets)"},
       {"[tool_offsets]\n2 = 1", "malformed", "line 3"},
       {"2 = ", "malformed", "line 3"},
       {"2 = \"\"\"a\"\"\"", "malformed", "several lines"},

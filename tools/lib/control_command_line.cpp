@@ -160,10 +160,10 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
   get->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
   get->callback([command] { command->what = What::kGet; });
 
-  CLI::App* tables = subcommand(app, "tables.export", "tool offsets, work offsets and common variables as TOML (view)");
+  CLI::App* tables = subcommand(app, "tables.export", "tool offsets, work offsets, tool life and common variables as TOML (view)");
   tables->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
-  tables->add_option_function<std::string>("--table", [command](const std::string& table) { command->args["table"] = table; }, "tools, offsets or variables; without it, all of them")
-      ->check(CLI::IsMember({"tools", "offsets", "variables"}));
+  tables->add_option_function<std::string>("--table", [command](const std::string& table) { command->args["table"] = table; }, "tools, life, offsets or variables; without it, all of them")
+      ->check(CLI::IsMember({"tools", "life", "offsets", "variables"}));
   tables->callback([command] { command->what = What::kExport; });
   CLI::App* import = subcommand(app, "tables.import", "sets what the sections of the file name and leaves everything else as it is (set up)");
   import->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
