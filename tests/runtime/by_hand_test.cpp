@@ -74,10 +74,16 @@ TEST_F(Hindrances, AFeedHoldOfAClientStopsWhatMovesByHand) {
       steps(5);
     }
     if (by == 0) in("in0", 1);
-    if (by == 1) { ASSERT_EQ(ask(CommandKind::kJog, 20), Answer::kDone); }
-    if (by == 2) { ASSERT_EQ(ask(CommandKind::kStep, 50), Answer::kDone); }
+    if (by == 1) {
+      ASSERT_EQ(ask(CommandKind::kJog, 20), Answer::kDone);
+    }
+    if (by == 2) {
+      ASSERT_EQ(ask(CommandKind::kStep, 50), Answer::kDone);
+    }
     if (by == 3) in("word_in", 6);
-    if (by == 4) { ASSERT_EQ(ask(CommandKind::kReference, 0), Answer::kDone); }
+    if (by == 4) {
+      ASSERT_EQ(ask(CommandKind::kReference, 0), Answer::kDone);
+    }
     steps(60);
     ASSERT_NE(out().velocity.v[0], 0);
     ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);

@@ -208,7 +208,7 @@ class Check {
     (void)stat(order_.path.c_str(), &info);
     report_.files.push_back({order_.path, info});
     for (const std::string& folder : {config_.programs_folder(), config_.external_folder()})
-      if (struct stat of_folder {}; !folder.empty() && stat(folder.c_str(), &of_folder) == 0) folders_.push_back({folder, of_folder});
+      if (struct stat of_folder{}; !folder.empty() && stat(folder.c_str(), &of_folder) == 0) folders_.push_back({folder, of_folder});
     if (!machine_.known) return unchecked("the tables of the control cannot be read now");
     if (!make_control() || !open()) return report_;
     items_ = std::make_unique<ControlSource>(control_, static_cast<nc_dialect>(config_.nc.dialect), order_.system);
