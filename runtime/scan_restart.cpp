@@ -19,7 +19,7 @@ Answer Scan::restart_hindrance(std::uint32_t ready) const noexcept {
   return Answer::kDone;
 }
 
-// Each code with the scan in which its strobe comes on. A full queue loses codes: the feeder has not run for hundreds of them, and their entries
+// Each code with the scan in which its strobe comes on, the M code of a scan behind the others: a tool change takes the T that stands in its block. A full queue loses codes: the feeder has not run for hundreds of them, and their entries
 // of the recovery list stay open.
 void Scan::note_given() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
@@ -27,7 +27,7 @@ void Scan::note_given() noexcept {
     const unsigned come = out.strobe & ~static_cast<unsigned>(given_strobe_[s]);
     given_strobe_[s] = out.strobe;
     const double values[] = {static_cast<double>(out.m), out.s, static_cast<double>(out.t), static_cast<double>(out.b)};
-    for (unsigned g = 0; g < 4; ++g)
+    for (const unsigned g : {1u, 2u, 3u, 0u})
       if ((come >> g & 1u) != 0) (void)given_.push({static_cast<std::uint8_t>(s), static_cast<std::uint8_t>(1u << g), values[g]});
   }
 }

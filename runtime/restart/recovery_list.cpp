@@ -41,25 +41,77 @@ bool RecoveryList::turns_spindle(double code) const {
 void RecoveryList::begin(const nc_restart_found& found, nc_dialect dialect) {
   entries_.clear();
   dialect_ = dialect;
-  const auto add = [&](Kind kind, double value) { entries_.push_back({kind, State::kOpen, value, 0, 0, 0}); };
-  if (found.t_given) add(Kind::kTool, found.t);
-  if (found.b_given) add(Kind::kSecond, found.b);
-  if (found.s_given) add(Kind::kSpeed, found.s);
-  const std::uint32_t* const end = found.m + std::min<std::uint32_t>(found.m_count, NC_RESTART_CODES);
-  for (const std::uint32_t* m = found.m; m != end; ++m) {
-    const bool other_follows = turns_spindle(*m) && std::any_of(m + 1, end, [&](std::uint32_t later) { return turns_spindle(later); });
-    if (!is_stop(*m) && !other_follows) add(Kind::kM, *m);
-  }
+  called_known_ = called_since_ = false;
+  begin_codes(found);
   for (std::uint32_t w = 0; w < NC_WORDS; ++w)
-    if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, w, found.output_written[w], found.output[w] & found.output_written[w]});
+    if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, false, w, found.output_written[w], found.output[w] & found.output_written[w]});
+}
+
+void RecoveryList::begin_codes(const nc_restart_found& found) {
+  struct Given {
+    std::uint32_t order;
+    RecoveryEntry entry;
+  };
+  std::vector<Given> given;
+  const auto add = [&](std::uint32_t order, Kind kind, double value, bool of_change = false) { given.push_back({order, {kind, State::kOpen, value, of_change, 0, 0, 0}}); };
+  const bool ahead = found.t_given && (!found.change_t_given || found.t_order != found.change_t_order);
+  if (found.change_t_given) add(found.change_t_order, Kind::kTool, found.change_t, true);
+  if (ahead) add(found.t_order, Kind::kTool, found.t);
+  if (found.b_given) add(found.b_order, Kind::kSecond, found.b);
+  if (found.s_given) add(found.s_order, Kind::kSpeed, found.s);
+  const std::uint32_t count = std::min<std::uint32_t>(found.m_count, NC_RESTART_CODES);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const bool other_follows = turns_spindle(found.m[i]) && std::any_of(found.m + i + 1, found.m + count, [&](std::uint32_t later) { return turns_spindle(later); });
+    if (!is_stop(found.m[i]) && !other_follows) add(found.m_order[i], Kind::kM, found.m[i]);
+  }
+  std::stable_sort(given.begin(), given.end(), [](const Given& a, const Given& b) { return a.order < b.order; });
+  for (const Given& code : given) entries_.push_back(code.entry);
 }
 
 void RecoveryList::given(std::uint8_t group, double value) {
   if (group == kGivenM && !is_stop(value)) given_m(value);
+  if (group == kGivenM && role_of(value) == NC_CODE_TOOL_CHANGE) changed();
+  if (group == kGivenT) given_t(value);
+  for (RecoveryEntry& entry : entries_)
+    if (group == kGivenB && entry.kind == Kind::kSecond) entry.state = entry.value == value ? State::kDone : State::kOpen;
+}
+
+// ---- tools ----
+
+RecoveryEntry* RecoveryList::change() {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const RecoveryEntry& entry) { return entry.kind == Kind::kM && role_of(entry.value) == NC_CODE_TOOL_CHANGE; });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+RecoveryEntry* RecoveryList::tool_of_change() {
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [](const RecoveryEntry& entry) { return entry.of_change; });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+// Until the tool of the change is in the spindle it has to be the one that is called; behind that another one may be.
+bool RecoveryList::change_is_open() {
+  const RecoveryEntry* const at = change();
+  return at != nullptr && at->state == State::kOpen;
+}
+
+void RecoveryList::given_t(double value) {
+  called_known_ = called_since_ = true;
+  called_ = value;
   for (RecoveryEntry& entry : entries_) {
-    const bool tool = group == kGivenT && entry.kind == Kind::kTool, second = group == kGivenB && entry.kind == Kind::kSecond;
-    if (tool || second) entry.state = entry.value == value ? State::kDone : State::kOpen;
+    if (entry.kind != Kind::kTool) continue;
+    if (entry.value == value) entry.state = State::kDone;
+    else if (!entry.of_change || change_is_open()) entry.state = State::kOpen;
   }
+}
+
+// A tool change has been given out, and it has brought the tool that was called. Where none is known to be called the operator's word counts.
+void RecoveryList::changed() {
+  RecoveryEntry* const tool = tool_of_change();
+  RecoveryEntry* const change = this->change();
+  if (tool == nullptr || change == nullptr) return;
+  const bool right = called_known_ ? called_ == tool->value : tool->state != State::kOpen;
+  if (right && called_known_) tool->state = State::kDone;
+  if (!right) tool->state = change->state = State::kOpen;
 }
 
 // A code that is not in the list may do anything, so every M code of the list is open again.
@@ -79,11 +131,12 @@ void RecoveryList::compare(RecoveryEntry* entry, bool has) {
 }
 
 void RecoveryList::look(const nc_outputs& out, const std::uint32_t outputs[NC_WORDS]) {
+  if (!called_since_ && out.t != 0) called_known_ = true, called_ = out.t;
   for (RecoveryEntry& entry : entries_) {
     if (entry.kind == Kind::kSpeed) compare(&entry, std::abs(out.s - entry.value) <= kSameSpeed);
     if (entry.kind == Kind::kOutputs) compare(&entry, (outputs[entry.word] & entry.mask) == entry.bits);
-    // The number of a tool that is there already. 0 is what a machine shows that has got none since it was switched on.
-    if (entry.kind == Kind::kTool && entry.value != 0) compare(&entry, out.t == entry.value);
+    // The number of a tool that is called already. 0 is what a machine shows that has got none since it was switched on.
+    if (entry.kind == Kind::kTool && entry.value != 0 && (!entry.of_change || change_is_open())) compare(&entry, out.t == entry.value);
     if (entry.kind == Kind::kSecond && entry.value != 0) compare(&entry, out.b == entry.value);
   }
 }

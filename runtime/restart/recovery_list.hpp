@@ -24,16 +24,19 @@ struct RecoveryEntry {
   enum class Kind : std::uint8_t { kTool, kSecond, kSpeed, kM, kOutputs } kind = Kind::kM;
   enum class State : std::uint8_t { kOpen, kDone, kConfirmed } state = State::kOpen;
   double value = 0;                          // the code
+  bool of_change = false;                    // kTool: the tool that the newest tool change has brought into the spindle
   std::uint32_t word = 0, mask = 0, bits = 0;  // kOutputs: the word, the bits that the program has written, and their values
 };
 const char* recovery_state_text(RecoveryEntry::State state);
 
 class RecoveryList {
  public:
-  // Stops and the end of a program are not in it, and of the codes that turn and stop the spindle only the newest.
+  // In the order of the program. Stops and the end of a program are not in it, and of the codes that turn and stop the spindle only the newest. The tool of the
+  // newest tool change stands in it beside one that was called ahead, for the next change.
   void begin(const nc_restart_found& found, nc_dialect dialect);
   // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: a tool
-  // change behind the start of the spindle. A code that only turns or stops the spindle opens only that of the spindle.
+  // change behind the start of the spindle. A code that only turns or stops the spindle opens only that of the spindle. A tool change that is given out while
+  // another tool than that of the list is called opens both.
   void given(std::uint8_t group, double value);
   // What the machine has now.
   void look(const nc_outputs& out, const std::uint32_t outputs[NC_WORDS]);
@@ -47,13 +50,22 @@ class RecoveryList {
 
  private:
   std::string word_name(std::uint32_t word) const;
+  void begin_codes(const nc_restart_found& found);
   void given_m(double value);
+  void given_t(double value);
+  void changed();
+  RecoveryEntry* change();
+  RecoveryEntry* tool_of_change();
+  bool change_is_open();
   void compare(RecoveryEntry* entry, bool has);
   nc_code_role role_of(double code) const;
   bool is_stop(double code) const;
   bool turns_spindle(double code) const;
   nc_dialect dialect_{};
   std::vector<RecoveryEntry> entries_;
+  // The tool that is called at the machine, which the next tool change brings into the spindle.
+  bool called_known_ = false, called_since_ = false;  // called_since_: a T has been given out behind begin()
+  double called_ = 0;
 };
 
 }  // namespace nc::rt

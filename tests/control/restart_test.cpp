@@ -131,6 +131,34 @@ TEST_P(Restart, TellsTheStateAndGoesOnFromThePlace) {
   EXPECT_LT(m.worst, 1.001);
 }
 
+TEST_P(Restart, TellsTheToolOfTheNewestChangeBesideTheOneThatIsCalledAhead) {
+  RestartMachine m(GetParam(), "T4 M6\nT5\nM6 B3\nS700 M3\nT6\nM8\nN50 G1 X4. F600\nM30");
+  ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+  EXPECT_EQ(m.found.t, 6u);
+  EXPECT_TRUE(m.found.change_t_given);
+  EXPECT_EQ(m.found.change_t, 5u);
+  ASSERT_EQ(m.found.m_count, 3u);
+  const uint32_t m6 = m.found.m_order[0], m3 = m.found.m_order[1], m8 = m.found.m_order[2];
+  EXPECT_LT(m.found.change_t_order, m.found.b_order);
+  EXPECT_LT(m.found.b_order, m6);
+  EXPECT_LT(m6, m.found.s_order);
+  EXPECT_LT(m.found.s_order, m3);
+  EXPECT_LT(m3, m.found.t_order);
+  EXPECT_LT(m.found.t_order, m8);
+}
+
+TEST_P(Restart, TheToolChangeIsNeverTheCodeThatIsLeftOut) {
+  std::string text = "T4 M6\n";
+  for (unsigned code = 100; code < 100 + NC_RESTART_CODES + 5; ++code) text += "M" + std::to_string(code) + "\n";
+  RestartMachine m(GetParam(), text + "N50 G1 X4. F600\nM30");
+  ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+  EXPECT_EQ(m.found.m_count, NC_RESTART_CODES + 6u);
+  EXPECT_EQ(m.found.m[0], 6u);
+  EXPECT_EQ(m.found.m[1], 106u);
+  EXPECT_EQ(m.found.m[NC_RESTART_CODES - 1], 136u);
+  for (unsigned i = 1; i < NC_RESTART_CODES; ++i) EXPECT_LT(m.found.m_order[i - 1], m.found.m_order[i]);
+}
+
 TEST_P(Restart, BlocksOfMdiBringSpindleAndToolThereAndAxesComeBackBehindThem) {
   RestartMachine m(GetParam(), "M3 S1200\nG0 X10. Y5.\nG1 Z-3. F600\nX40.\nM30");
   ASSERT_EQ(m.find(at_line(3)), NC_OK);

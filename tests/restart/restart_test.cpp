@@ -177,12 +177,16 @@ TEST_F(Restart, AWrongToolOrAStandingSpindleIsRefused) {
       if (entry.state == RecoveryEntry::State::kOpen) all += now.list.text(entry) + " ";
     return all;
   };
-  EXPECT_EQ(open(), "T5 S1200 M6 M3 M8 ");
+  EXPECT_EQ(open(), "T5 M6 S1200 M3 M8 ");
   ASSERT_NO_FATAL_FAILURE(mdi("T6 M6\nS1200 M3\nM8\n"));
-  EXPECT_EQ(open(), "T5 ") << "the wrong tool";
+  EXPECT_EQ(open(), "T5 M6 ") << "the wrong tool";
   ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
   EXPECT_EQ(start(), Answer::kRestartOpen);
-  ASSERT_NO_FATAL_FAILURE(mdi("T5\nM5\n"));
+  ASSERT_NO_FATAL_FAILURE(mdi("T5\n"));
+  EXPECT_EQ(open(), "M6 ") << "it is called, and tool 6 is in the spindle";
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\nM3\nM8\n"));
+  EXPECT_EQ(open(), "");
+  ASSERT_NO_FATAL_FAILURE(mdi("M5\n"));
   EXPECT_EQ(open(), "M3 ") << "the spindle has been stopped again";
   ASSERT_NO_FATAL_FAILURE(mdi("M3\n"));
   EXPECT_EQ(open(), "");
@@ -242,7 +246,67 @@ TEST_F(Restart, TheListHasWhatCountsAndTheNewestOfTheSpindle) {
   const RestartStatus now = restart();
   std::string all;
   for (const RecoveryEntry& entry : now.list.entries()) all += now.list.text(entry) + "; ";
-  EXPECT_EQ(all, "T1; S800; M6; M4; M9; M8; #1132 bits 1 = 1; ");
+  EXPECT_EQ(all, "T1; M6; S800; M4; M9; M8; #1132 bits 1 = 1; ");
+}
+
+// The usual way: behind a tool change the next tool is called, so that the changer brings it meanwhile. The tool in the spindle is that of the T in front of the change.
+TEST_F(Restart, AToolThatIsCalledAheadIsNotTheOneInTheSpindle) {
+  build();
+  select("N10 G90 G54 T1 M6\nS500 M3\nN20 T2\nN30 G0 X5. Y5.\nN50 G1 Y15. F1200.\nN60 M6\nX5.\nM30\n");
+  ASSERT_EQ(find(RestartBy::kSequence, 50), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  const auto open = [&] {
+    std::string all;
+    const RestartStatus now = restart();
+    for (const RecoveryEntry& entry : now.list.entries())
+      if (entry.state == RecoveryEntry::State::kOpen) all += now.list.text(entry) + " ";
+    return all;
+  };
+  EXPECT_EQ(open(), "T1 M6 S500 M3 T2 ");
+  ASSERT_NO_FATAL_FAILURE(mdi("T2\n"));
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\n"));
+  EXPECT_EQ(open(), "T1 M6 S500 M3 ") << "tool 2 is in the spindle";
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartOpen);
+  ASSERT_NO_FATAL_FAILURE(mdi("T1\n"));
+  EXPECT_EQ(open(), "M6 S500 M3 T2 ");
+  ASSERT_NO_FATAL_FAILURE(mdi("T2\n"));
+  EXPECT_EQ(open(), "T1 M6 S500 M3 ") << "it was called before the change of tool 1";
+  ASSERT_NO_FATAL_FAILURE(mdi("T1 M6\nS500 M3\n"));
+  EXPECT_EQ(open(), "T2 ");
+  ASSERT_NO_FATAL_FAILURE(mdi("T2\n"));
+  EXPECT_EQ(open(), "") << "called ahead of the next change, it leaves tool 1 in the spindle";
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\n"));
+  EXPECT_EQ(open(), "T1 M6 M3 ") << "now it does not";
+}
+
+// Tool 1 is broken, a new one is put in its place by hand, and the next one stands ready.
+TEST_F(Restart, AToolThatTheOperatorConfirmsIsInTheSpindleUntilAnotherOneIsChanged) {
+  build();
+  select("T1 M6\nT2\nG0 X5.\nN50 G1 X15. F1200.\nM30\n");
+  ASSERT_EQ(find(RestartBy::kSequence, 50), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(mdi("T2\n"));
+  EXPECT_EQ(restart().list.open(), 0u);
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\n"));
+  EXPECT_EQ(restart().list.open(), 2u) << "T1 and M6";
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, 0), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(mdi("M6\n"));
+  EXPECT_EQ(restart().list.open(), 2u) << "what was confirmed is in the spindle; the change brings tool 2";
+}
+
+TEST_F(Restart, AMachineWhoseTChangesTheToolHasOneT) {
+  build();
+  select("T1\nG0 X5.\nT2\nN50 G1 X15. F1200.\nM30\n");
+  ASSERT_EQ(find(RestartBy::kSequence, 50), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  ASSERT_EQ(restart().list.entries().size(), 1u);
+  EXPECT_EQ(restart().list.text(restart().list.entries().front()), "T2");
+  ASSERT_NO_FATAL_FAILURE(mdi("T1\n"));
+  EXPECT_EQ(restart().list.open(), 1u);
+  ASSERT_NO_FATAL_FAILURE(mdi("T2\n"));
+  EXPECT_EQ(restart().list.open(), 0u);
 }
 
 TEST_F(Restart, OneAxisAtATimeAndOnlyWhileItIsAskedFor) {

@@ -67,9 +67,12 @@ typedef struct nc_restart_found {
   bool s_given, t_given, b_given; /**< a code of the kind has come */
   double s;             /**< the last S, as nc_action::value: r/min, in G96 m/min */
   uint32_t t, b;        /**< the last T and second auxiliary function */
-  uint32_t m_count;     /**< number of M codes that have come, each counted once while it is in `m`; when there are more than NC_RESTART_CODES the oldest are not told */
+  uint32_t m_count;     /**< number of M codes that have come, each counted once while it is in `m`; when there are more than NC_RESTART_CODES the oldest but for the tool change are not told */
   uint32_t m[NC_RESTART_CODES]; /**< each of them once, in the order in which they have come last: the newest is the last */
   uint32_t output[NC_WORDS], output_written[NC_WORDS]; /**< macro outputs: words of #1132 to #1135, and bit by bit whether the program has written it */
+  bool change_t_given;  /**< a T has come in front of the newest tool change (NC_CODE_TOOL_CHANGE), which means the tool in the spindle */
+  uint32_t change_t;    /**< the last such T. Where it is the last T at all, change_t_order is t_order; else `t` was called ahead, for the next change */
+  uint32_t m_order[NC_RESTART_CODES], s_order, t_order, b_order, change_t_order; /**< for each code its place among all of them, from 1 on: what came later has the higher one */
 } nc_restart_found;
 /**
  * Clear it and set its size. Any thread.

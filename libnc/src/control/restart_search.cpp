@@ -52,10 +52,10 @@ void RestartSearch::note_action(const Action& action) {
   const bool number = action.value >= 0 && action.value < 4294967296.0;
   const auto code = number ? static_cast<uint32_t>(action.value) : uint32_t{0};
   switch (action.kind) {
-    case NC_ACTION_M: return note_m(code);
-    case NC_ACTION_S: given_.s_given = true, given_.s = action.value; return;
-    case NC_ACTION_T: given_.t_given = true, given_.t = code; return;
-    case NC_ACTION_B: given_.b_given = true, given_.b = code; return;
+    case NC_ACTION_M: return note_m(code, action.changes_tool);
+    case NC_ACTION_S: given_.s_given = true, given_.s = action.value, given_.s_order = ++codes_; return;
+    case NC_ACTION_T: given_.t_given = true, given_.t = code, given_.t_order = ++codes_; return;
+    case NC_ACTION_B: given_.b_given = true, given_.b = code, given_.b_order = ++codes_; return;
     case NC_ACTION_OUTPUT:
       if (action.index >= NC_WORDS) return;
       given_.output[action.index] = (given_.output[action.index] & ~action.mask) | (action.bits & action.mask);
@@ -67,19 +67,22 @@ void RestartSearch::note_action(const Action& action) {
   }
 }
 
-/// Each M code once, the newest at the end. Where there are too many the oldest goes, since the newest tell more.
-void RestartSearch::note_m(uint32_t number) {
-  const unsigned kept = std::min<uint32_t>(given_.m_count, NC_RESTART_CODES);
-  uint32_t* const end = given_.m + kept;
-  uint32_t* at = std::find(given_.m, end, number);
-  if (at == end) ++given_.m_count;
-  if (at == end && kept < NC_RESTART_CODES) {
-    *end = number;
-    return;
+/// Each M code once, the newest at the end. Where there are too many the oldest goes, since the newest tell more; but not the tool change, without which its T
+/// means nothing.
+void RestartSearch::note_m(uint32_t number, bool changes_tool) {
+  if (changes_tool) {
+    changed_ = true, change_ = number;
+    given_.change_t_given = given_.t_given, given_.change_t = given_.t, given_.change_t_order = given_.t_order;
   }
-  if (at == end) at = given_.m;
-  std::copy(at + 1, end, at);
-  end[-1] = number;
+  const unsigned kept = std::min<uint32_t>(given_.m_count, NC_RESTART_CODES);
+  unsigned at = static_cast<unsigned>(std::find(given_.m, given_.m + kept, number) - given_.m);
+  if (at == kept) ++given_.m_count;
+  if (at == NC_RESTART_CODES) at = changed_ && given_.m[0] == change_ ? 1 : 0;
+  const unsigned last = at == kept ? kept : kept - 1;
+  std::copy(given_.m + at + 1, given_.m + last + 1, given_.m + at);
+  std::copy(given_.m_order + at + 1, given_.m_order + last + 1, given_.m_order + at);
+  given_.m[last] = number;
+  given_.m_order[last] = ++codes_;
 }
 
 /// What two clamps of the spindle amount to: S and Q stay where the later one does not command them, and one without both ends the clamp.

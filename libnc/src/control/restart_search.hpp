@@ -57,7 +57,7 @@ class RestartSearch {
  private:
   bool on_line(const Item& item) const { return item.source.file == wanted_.file && item.source.line == wanted_.line; }
   void note_action(const Action& action);
-  void note_m(uint32_t number);
+  void note_m(uint32_t number, bool changes_tool);
   void note_control(const Action& action);
   static constexpr unsigned kControls = 16;
 
@@ -76,6 +76,9 @@ class RestartSearch {
   uint64_t hash_ = 0;
   bool outdated_ = false;
   nc_restart_found given_{};
+  uint32_t codes_ = 0;      ///< codes that have come: the order of the newest
+  bool changed_ = false;    ///< a tool change has come, whose code is change_
+  uint32_t change_ = 0;
   Action control_[kControls];
   unsigned control_count_ = 0;
 };

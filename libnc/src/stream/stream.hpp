@@ -204,6 +204,7 @@ struct Action {
   char letter = 0;
   SpindleTurn turn = SpindleTurn::as_it_is;  ///< NC_ACTION_M
   bool program_flow = false;  ///< NC_ACTION_M: it stops or ends the program, which an auxiliary lock does not prevent
+  bool changes_tool = false;  ///< NC_ACTION_M: it brings the tool of the last T into the spindle
   double value = 0;
   uint32_t mask = 0, bits = 0, index = 0, text = 0;
 };

@@ -33,6 +33,7 @@ void emit_misc(BlockContext& in, MiscFunction function, uint32_t m) {
   Action& action = emit_action(in, NC_ACTION_M, Role::misc_code, m);
   action.turn = turn_of(function);
   action.program_flow = function == MiscFunction::program_stop || function == MiscFunction::program_end;
+  action.changes_tool = function == MiscFunction::tool_change;
 }
 
 void emit_fin(BlockContext& in) { await_fin(in); }
