@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "runtime/toml_reader.hpp"
@@ -18,6 +19,8 @@ void read_scheduling(TableReader* root, Config* config);
 void read_motion(TableReader* root, Config* config);  // after the axes
 void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
+// A parameter's value as the text that nc_parameter_set() takes: of a number, a word or a boolean.
+std::optional<std::string> parameter_text(const toml::node& node);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);
 void read_points(TableReader* root, Config* config);  // after read_point_buses(), which reads the buses that carry points

@@ -11,8 +11,13 @@ namespace {
 constexpr double kMaxOffset = 1e6;
 constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "radius_wear"};
 
-// A parameter's value as the text that nc_parameter_set() takes.
-std::optional<std::string> value_text(const toml::node& node) {
+std::string no_axis(std::string_view name) {
+  return "no axis \"" + std::string(name) + "\" is configured";
+}
+
+}  // namespace
+
+std::optional<std::string> parameter_text(const toml::node& node) {
   double number = 0;
   if (node_number(node, &number)) return number_text(number);
   if (const auto* text = node.as_string()) return text->get();
@@ -20,19 +25,13 @@ std::optional<std::string> value_text(const toml::node& node) {
   return {};
 }
 
-std::string no_axis(std::string_view name) {
-  return "no axis \"" + std::string(name) + "\" is configured";
-}
-
-}  // namespace
-
 void read_parameters(TableReader* root, Config* config) {
   root->table("parameters", [&](TableReader& reader) {
     reader.each([&](const std::string& key, const toml::node& node) {
       if (const toml::table* by_axis = node.as_table()) {
         for (const auto& [axis_name, value] : *by_axis) {
           unsigned system = 0, axis = 0;
-          const auto text = value_text(value);
+          const auto text = parameter_text(value);
           const ConfigPlace place{line_of(value), reader.path(key) + "." + std::string(axis_name.str())};
           if (!find_axis(*config, axis_name.str(), &system, &axis))
             reader.errors()->add(place.line, place.key, no_axis(axis_name.str()));
@@ -44,7 +43,7 @@ void read_parameters(TableReader* root, Config* config) {
         }
         return;
       }
-      const auto text = value_text(node);
+      const auto text = parameter_text(node);
       if (!text)
         reader.error(
             key, std::string("must be a finite number, a word, or a table by axis, not ") + shown_type(node));

@@ -2,12 +2,16 @@
 // See call.hpp.
 #include "runtime/services/call.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "runtime/programs/encoding.hpp"
 
 namespace nc::rt::services {
 namespace {
+
+constexpr Field kOfLines[] = {Field::kBlocks, Field::kToml, Field::kParameterToml, Field::kLadderText};  // texts of several lines
 
 constexpr int kDeepest = 4;  // of a request: itself, its arguments, and what could be wrong in them
 constexpr double kMostId = 9007199254740991.0;
@@ -68,7 +72,7 @@ std::string take(const FieldInfo& row, const Json& value, Call* call) {
       const auto& text = value.get_ref<const std::string&>();
       if (static_cast<double>(text.size()) < row.least || static_cast<double>(text.size()) > row.most) return "must have " + range_text(row) + " bytes";
       if (row.kind == Kind::kName && !is_program_name(text)) return "must be a name in the folder of programs, without a path";
-      if (!is_printable(text, row.field == Field::kBlocks || row.field == Field::kToml || row.field == Field::kLadderText)) return "must not have control characters";
+      if (!is_printable(text, std::find(std::begin(kOfLines), std::end(kOfLines), row.field) != std::end(kOfLines))) return "must not have control characters";
       call->text[at] = text;
       return "";
     }

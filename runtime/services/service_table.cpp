@@ -96,6 +96,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kLifeLength, "length_offset", Kind::kWhole, 0, 999, "", "number of its offset for the length"},
     {Field::kLifeRadius, "radius_offset", Kind::kWhole, 0, 999, "", "number of its offset for the radius"},
     {Field::kLifeAuxiliary, "auxiliary", Kind::kNumber, -1e9, 1e9, "", "for the machine's own use"},
+    {Field::kParameterToml, "toml", Kind::kText, 1, kMostToml, "", "the section [parameters], of further part systems [parameters2] ..., as parameters.export gives them"},
     {Field::kOf, "of", Kind::kText, 4, 64, "", "only changes of this row or value of a table: `tool 3`, `tool 3 radius_wear`, `life 3`, `offset 1 102`, `offset 1 102 X`, `variable 1 501`, `name 501`, `parameter 1 X 2001`, `parameter 1 - 1078`; the number before that of offsets, variables and parameters is the part system, - all axes"},
 };
 static_assert(std::size(kFieldTable) == kFields);
@@ -140,6 +141,7 @@ constexpr Wanted kReleaseArguments[] = {may(Field::kDevice), may(Field::kLifespa
 constexpr Wanted kParameterArguments[] = {must(Field::kParameter), must(Field::kText), may(Field::kAxis), may(Field::kSystem)};
 constexpr Wanted kExportArguments[] = {may(Field::kTable)};
 constexpr Wanted kImportArguments[] = {must(Field::kToml)};
+constexpr Wanted kParameterImportArguments[] = {must(Field::kParameterToml)};
 constexpr Wanted kUndoArguments[] = {may(Field::kChange)};
 constexpr Wanted kTraceArguments[] = {must(Field::kSignals), may(Field::kTrigger), may(Field::kWhen), may(Field::kLevel), may(Field::kSamples), may(Field::kBefore)};
 constexpr Wanted kTraceReadArguments[] = {must(Field::kRecording), may(Field::kFrom), may(Field::kCount)};
@@ -263,6 +265,7 @@ constexpr ReplyRow kChangesReply[] = {{"changes[].number", "whole", "number of t
                                       {"changes[].after", "text", "its value after it, empty = none"},
                                       {"changes[].undone_by", "whole", "number of the change that has taken it back, 0 = none"}};
 constexpr ReplyRow kExportReply[] = {{"toml", "text", "the sections [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]; of further part systems [variables2] ..."}};
+constexpr ReplyRow kParameterExportReply[] = {{"toml", "text", "the section [parameters], of further part systems [parameters2] ..."}};
 constexpr ReplyRow kTraceSignalsReply[] = {{"signals[].name", "text", "name of the signal or of the point"},
                                            {"signals[].type", "text", "bit, 16 bit or 32 bit"},
                                            {"signals[].meaning", "text", "what it says"},
@@ -418,6 +421,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
     {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
     {Service::kParameters, "parameters.list", Right::kView, Lane::kData, kNo, kParametersArguments, kParametersReply, "the parameters that are set, or all of them, with their meaning and range"},
+    {Service::kParameterExport, "parameters.export", Right::kView, Lane::kData, kNo, {}, kParameterExportReply, "the parameters that are set as TOML"},
     {Service::kExport, "tables.export", Right::kView, Lane::kData, kNo, kExportArguments, kExportReply,
      "tool offsets, work offsets, tool life and common variables as TOML, as the executed blocks have left them; variables that are vacant and rows of tool life without a tool are left out"},
     {Service::kPrograms, "programs.list", Right::kView, Lane::kData, kNo, kPage, kProgramsReply, "the files in the folder of programs, in the order of their names"},
@@ -480,6 +484,8 @@ constexpr ServiceRow kRows[] = {
     {Service::kWriteDevice, "ladder.write", Right::kMaintain, Lane::kCommand, RequestKind::kWriteDevice, kForceArguments, kDoneReply,
      "gives a device of the ladder a value once, before the next run of its program; what the machine or the NC writes in each scan is refused"},
     {Service::kSetParameter, "parameters.set", Right::kMaintain, Lane::kData, kNo, kParameterArguments, kDoneReply, "sets a parameter"},
+    {Service::kParameterImport, "parameters.import", Right::kMaintain, Lane::kData, kNo, kParameterImportArguments, kDoneReply,
+     "sets the parameters that the sections name and leaves the others as they are. Every value is tried on a control apart before the first one is set, and it is one change"},
     {Service::kUndoParameter, "parameters.undo", Right::kMaintain, Lane::kData, kNo, kUndoArguments, kDoneReply, "takes a change of a parameter back, as undo does with other tables"},
     {Service::kProgramProtect, "programs.protect", Right::kMaintain, Lane::kData, kNo, kProtectArguments, kDoneReply, "protects a program against every change, or takes its protection away"},
     {Service::kTraceArm, "trace.arm", Right::kMaintain, Lane::kData, kNo, kTraceArguments, kTraceArmReply,

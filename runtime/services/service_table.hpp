@@ -19,7 +19,7 @@ enum class Field : std::uint8_t {
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
   kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch,
   kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kCheckSeconds, kVariableName, kAll,
-  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kOf, kFields
+  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kParameterToml, kOf, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -48,11 +48,11 @@ struct ReplyRow {
 };
 
 enum class Service : std::uint8_t {
-  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kLives, kOffsets, kVariables, kParameters, kExport, kPrograms, kProgramRead, kProgramCheck,
+  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kLives, kOffsets, kVariables, kParameters, kParameterExport, kExport, kPrograms, kProgramRead, kProgramCheck,
   kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd, kRestartStatus,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect, kProgramRecheck, kRestartFind, kRestartConfirm, kRestartApproach, kRestartCancel,
   kSetTool, kSetLife, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
-  kForce, kRelease, kWriteDevice, kSetParameter, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kLadderSwap, kServiceCount
+  kForce, kRelease, kWriteDevice, kSetParameter, kParameterImport, kUndoParameter, kProgramProtect, kTraceArm, kTraceStop, kLadderSwap, kServiceCount
 };
 inline constexpr unsigned kServiceRows = static_cast<unsigned>(Service::kServiceCount);
 

@@ -244,6 +244,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kOffsets: return list_offsets(&runtime_, call);
     case Service::kVariables: return list_variables(&runtime_, call);
     case Service::kParameters: return list_parameters(&runtime_, call);
+    case Service::kParameterExport: return export_parameters(&runtime_);
     case Service::kExport: return export_tables(&runtime_, call);
     case Service::kTraceSignals: return trace_.list_signals(call);
     case Service::kTraceStatus: return trace_.status();
@@ -260,6 +261,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kSetOffset:
     case Service::kSetVariable:
     case Service::kSetParameter:
+    case Service::kParameterImport:
     case Service::kImport:
     case Service::kLadderSwap:
       return change(session, call);
@@ -279,6 +281,7 @@ Outcome Services::change(const Session& session, const Call& call) {
     case Service::kSetLife: outcome = set_life(&runtime_, call, &change); break;
     case Service::kSetOffset: outcome = set_offset(&runtime_, call, &change); break;
     case Service::kSetVariable: outcome = set_variable(&runtime_, call, &change); break;
+    case Service::kParameterImport: outcome = import_parameters(&runtime_, call, &change); break;
     case Service::kImport: outcome = import_tables(&runtime_, call, &change); break;
     case Service::kLadderSwap:
       outcome = ladder_.swap(call, &change);

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "runtime/services/parameter_rehearsal.hpp"
+#include "runtime/services/refusals.hpp"
 #include "runtime/services/table_toml.hpp"
 #include "runtime/services/tables.hpp"
 #include "runtime/toml_reader.hpp"
@@ -28,25 +30,6 @@ struct ValueJob {
 };
 
 std::string shown(const std::string& value) { return value.empty() ? "nothing" : value; }
-
-// What the control has refused, each with its place and the line that gives it.
-class Refusals {
- public:
-  void add(const TableValue& wanted, const Outcome& refused) {
-    if (++count_ == 1) first_ = refused.why;
-    if (count_ > kMost) return;
-    const std::string line = wanted.line != 0 ? "line " + std::to_string(wanted.line) + ": " : "";
-    text_ += (count_ > 1 ? "; " : "") + line + place_text(wanted.place) + ": " + refused.text;
-  }
-  bool empty() const { return count_ == 0; }
-  Outcome outcome() const { return Outcome::refused(first_, text_ + (count_ > kMost ? "; and " + std::to_string(count_ - kMost) + " more" : "")); }
-
- private:
-  static constexpr std::size_t kMost = 5;
-  std::size_t count_ = 0;
-  Refused first_ = Refused::kFailed;
-  std::string text_;
-};
 
 // Values of one row may bind one another (9000 mounts cannot become minutes before they are 100), so that no order of them is right for every change: what is refused
 // is tried again behind the others, as long as that helps.
@@ -168,6 +151,18 @@ Outcome set(Runtime* runtime, std::vector<TableValue> wanted, Change* change) {
   return outcome;
 }
 
+// Sets what a file gives; only what is another value than before is a change.
+Outcome import_values(Runtime* runtime, std::vector<TableValue> wanted, Change* change) {
+  std::vector<ValueChange> done;
+  Outcome outcome = change_values(runtime, std::move(wanted), {}, &done);
+  if (!outcome.ok) return outcome;
+  const std::size_t all = done.size();
+  std::erase_if(done, [](const ValueChange& value) { return same_value(value.before, value.after); });
+  outcome = Outcome::done(std::to_string(all) + (all == 1 ? " value" : " values") + " as in the file, " + (done.empty() ? "none of them another one than before" : "changed: " + counts(done)));
+  if (!done.empty()) describe(std::move(done), change);
+  return outcome;
+}
+
 // Those columns of a row that the request has.
 Outcome set_columns(Runtime* runtime, const Call& call, Table table, Field number, std::span<const Field> columns, Change* change) {
   std::vector<TableValue> wanted;
@@ -237,14 +232,14 @@ Outcome set_parameter(Runtime* runtime, const Call& call, Change* change) {
 Outcome import_tables(Runtime* runtime, const Call& call, Change* change) {
   std::vector<TableValue> wanted;
   if (const std::string wrong = parse_tables_toml(runtime->config(), call.words(Field::kToml), &wanted); !wrong.empty()) return Outcome::refused(Refused::kMalformed, wrong);
-  std::vector<ValueChange> done;
-  Outcome outcome = change_values(runtime, std::move(wanted), {}, &done);
-  if (!outcome.ok) return outcome;
-  const std::size_t all = done.size();
-  std::erase_if(done, [](const ValueChange& value) { return same_value(value.before, value.after); });
-  outcome = Outcome::done(std::to_string(all) + (all == 1 ? " value" : " values") + " as in the file, " + (done.empty() ? "none of them another one than before" : "changed: " + counts(done)));
-  if (!done.empty()) describe(std::move(done), change);
-  return outcome;
+  return import_values(runtime, std::move(wanted), change);
+}
+
+Outcome import_parameters(Runtime* runtime, const Call& call, Change* change) {
+  std::vector<TableValue> wanted;
+  if (const std::string wrong = parse_parameters_toml(runtime->config(), call.words(Field::kParameterToml), &wanted); !wrong.empty()) return Outcome::refused(Refused::kMalformed, wrong);
+  if (Outcome tried = rehearse_parameters(runtime, wanted); !tried.ok) return tried;
+  return import_values(runtime, std::move(wanted), change);
 }
 
 Outcome take_back(Runtime* runtime, const Change& before, Change* change) {

@@ -20,6 +20,7 @@ Outcome set_life(Runtime* runtime, const Call& call, Change* change);
 Outcome set_offset(Runtime* runtime, const Call& call, Change* change);
 Outcome set_variable(Runtime* runtime, const Call& call, Change* change);
 Outcome set_parameter(Runtime* runtime, const Call& call, Change* change);
+Outcome import_parameters(Runtime* runtime, const Call& call, Change* change);
 Outcome import_tables(Runtime* runtime, const Call& call, Change* change);
 // Gives the values back that `done` has changed. Refused when one of them is not any more as `done` has left it.
 Outcome take_back(Runtime* runtime, const Change& done, Change* change);

@@ -2,6 +2,7 @@
 // See table_toml.hpp.
 #include "runtime/services/table_toml.hpp"
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -19,7 +20,8 @@ using Table = TablePlace::Table;
 constexpr std::size_t kMostErrors = 5;  // that a refusal names
 constexpr unsigned kLargest = 2147483647;
 constexpr double kLargestNumber = 1e9;  // of tool life; the control knows the range of each column
-constexpr std::string_view kVacant = "vacant", kNames = "variable_names";
+constexpr std::string_view kVacant = "vacant", kNames = "variable_names", kParameters = "parameters", kAll = "all";
+constexpr std::size_t kLongestValue = 63;  // of a parameter, bytes
 
 // "X", in part system 2 "X2"
 std::string suffix(unsigned system) { return system == 0 ? "" : std::to_string(system + 1); }
@@ -81,6 +83,19 @@ void write_variables(const nc_control* control, const nc_config& config, std::st
     if (nc_variable_name_get(control, number, name) == NC_OK && name[0] != '\0') *text += std::to_string(number) + " = \"" + name + "\"\n";
 }
 
+// As a key or a text of TOML.
+std::string quoted(const std::string& text) {
+  std::string safe = "\"";
+  for (const char c : text) safe += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return safe + "\"";
+}
+
+// A number as one, another value as a text.
+std::string quoted_value(const std::string& value) {
+  double number = 0;
+  return parse_number(value, &number) ? number_text(number) : quoted(value);
+}
+
 // ---- import ----
 
 // The values of one import, each of them once.
@@ -134,6 +149,39 @@ void read_lives(TableReader* root, Values* values) {
         if (columns.number(field.name, &value, -kLargestNumber, kLargestNumber) && !values->add(place, number_text(value), columns.line(field.name))) columns.error(field.name, "stands twice");
       }
       columns.finish();
+    });
+  });
+}
+
+// One value of a parameter. *axis gets the letter that `name` stands for, 0 = all axes.
+void read_parameter(TableReader* reader, const std::string& name, const toml::node& node, const TablePlace& place, Values* values) {
+  const auto text = parameter_text(node);
+  if (!text) return reader->error(name, std::string("must be a number or a word, not ") + shown_type(node));
+  if (text->empty() || text->size() > kLongestValue) return reader->error(name, "must have 1 to " + std::to_string(kLongestValue) + " bytes");
+  if (!values->add(place, *text, line_of(node))) reader->error(name, "stands twice");
+}
+
+void read_parameters_of(TableReader* root, const nc_system_config& system, unsigned index, Values* values) {
+  const auto has_axis = [&](const std::string& name) {
+    bool found = false;
+    for (unsigned a = 0; a < system.axis_count; ++a) found = found || (name.size() == 1 && system.axis[a].name == name[0]);
+    return found;
+  };
+  root->table(std::string(kParameters) + suffix(index), [&](TableReader& reader) {
+    reader.each([&](const std::string& key, const toml::node& node) {
+      TablePlace place;
+      place.table = Table::kParameter;
+      place.system = index;
+      place.key = key;
+      if (key.empty() || key.find(' ') != std::string::npos) return reader.error(key, "cannot be the key of a parameter");
+      const toml::table* const by_axis = node.as_table();
+      if (by_axis == nullptr) return read_parameter(&reader, key, node, place, values);
+      TableReader axes(*by_axis, reader.path(key), reader.errors());
+      axes.each([&](const std::string& name, const toml::node& value) {
+        if (name != kAll && !has_axis(name)) return axes.error(name, "no axis \"" + name + "\" is configured");
+        place.axis = name == kAll ? '\0' : name[0];
+        read_parameter(&axes, name, value, place, values);
+      });
     });
   });
 }
@@ -212,18 +260,9 @@ std::string sentence(const std::vector<ConfigError>& errors) {
   return text;
 }
 
-}  // namespace
-
-std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables) {
-  std::string text;
-  if (tables.tools) write_tools(control, config, &text);
-  if (tables.offsets) write_offsets(control, config, &text);
-  if (tables.lives) write_lives(control, &text);
-  if (tables.variables) write_variables(control, config, &text);
-  return text[0] == '\n' ? text.substr(1) : text;
-}
-
-std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
+// Reads the sections with `read`. "" = they are good, else what is wrong with them, with lines; `sections` are those that there could be.
+template <class Read>
+std::string parse_sections(std::string_view text, std::vector<TableValue>* values, const char* sections, Read read) {
   ErrorList errors("");
   // A text of several lines could hide a key of too many parts from the line below, and nothing here needs one.
   for (const std::string_view mark : {"\"\"\"", "'''"})
@@ -238,15 +277,54 @@ std::string parse_tables_toml(const Config& machine, std::string_view text, std:
   }
   Values all(values);
   TableReader reader(root, "", &errors);
-  nc_variable_range named{};
-  (void)nc_variable_kind_get(static_cast<nc_dialect>(machine.nc.dialect), NC_VARIABLES_NAMED, &named);
-  read_offsets(&reader, machine, &all, &errors);
-  for (unsigned s = 0; s < machine.nc.system_count; ++s) read_variables(&reader, s, &all);
-  read_lives(&reader, &all);
-  read_names(&reader, named, &all);
+  read(&reader, &all, &errors);
   reader.finish();
   if (!errors.empty()) return sentence(errors.take());
-  return values->empty() ? "holds none of [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]" : "";
+  return values->empty() ? std::string("holds none of ") + sections : "";
+}
+
+}  // namespace
+
+std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables) {
+  std::string text;
+  if (tables.tools) write_tools(control, config, &text);
+  if (tables.offsets) write_offsets(control, config, &text);
+  if (tables.lives) write_lives(control, &text);
+  if (tables.variables) write_variables(control, config, &text);
+  return text[0] == '\n' ? text.substr(1) : text;
+}
+
+std::string parameters_toml(const std::vector<TableValue>& values) {
+  std::map<unsigned, std::map<std::string, std::vector<const TableValue*>>> systems;
+  for (const TableValue& value : values) systems[value.place.system][value.place.key].push_back(&value);
+  std::string text;
+  for (const auto& [system, keys] : systems) {
+    text += (text.empty() ? "[" : "\n[") + std::string(kParameters) + suffix(system) + "]\n";
+    for (const auto& [key, rows] : keys) {
+      std::string row;
+      for (const TableValue* value : rows) row += (row.empty() ? "" : ", ") + (value->place.axis != 0 ? std::string(1, value->place.axis) : std::string(kAll)) + " = " + quoted_value(value->value);
+      const bool single = rows.size() == 1 && rows[0]->place.axis == 0;
+      text += quoted(key) + " = " + (single ? quoted_value(rows[0]->value) : "{ " + row + " }") + "\n";
+    }
+  }
+  return text;
+}
+
+std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
+  return parse_sections(text, values, "[tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]", [&](TableReader* reader, Values* all, ErrorList* errors) {
+    nc_variable_range named{};
+    (void)nc_variable_kind_get(static_cast<nc_dialect>(machine.nc.dialect), NC_VARIABLES_NAMED, &named);
+    read_offsets(reader, machine, all, errors);
+    for (unsigned s = 0; s < machine.nc.system_count; ++s) read_variables(reader, s, all);
+    read_lives(reader, all);
+    read_names(reader, named, all);
+  });
+}
+
+std::string parse_parameters_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
+  return parse_sections(text, values, "[parameters]", [&](TableReader* reader, Values* all, ErrorList*) {
+    for (unsigned s = 0; s < machine.nc.system_count; ++s) read_parameters_of(reader, machine.nc.system[s], s, all);
+  });
 }
 
 }  // namespace nc::rt::services

@@ -23,4 +23,10 @@ std::string tables_toml(const nc_control* control, const nc_config& config, cons
 // Reads such a text. "" = it is good and *values has what it gives, else what is wrong with it, with lines. Whether the control has a variable is not asked here.
 std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values);
 
+// The parameters as the section [parameters] of the configuration, of further part systems as [parameters2] ..., in which an axis has no number. A parameter that has a
+// value for all axes and others for some is a table in which that one is `all`.
+std::string parameters_toml(const std::vector<TableValue>& values);
+// As parse_tables_toml().
+std::string parse_parameters_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values);
+
 }  // namespace nc::rt::services

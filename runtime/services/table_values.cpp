@@ -160,6 +160,19 @@ std::string place_text(const TablePlace& place) {
   return "";
 }
 
+void add_parameters(const nc_control* control, unsigned system, std::vector<TableValue>* values) {
+  char key[24], text[64], axis = 0;
+  double value = 0;
+  for (unsigned at = 0; nc_parameter_next(control, api_system(system), at, &at, key, &axis, &value, text) == NC_OK; ++at) {
+    TablePlace place;
+    place.table = Table::kParameter;
+    place.system = system;
+    place.axis = axis;
+    place.key = key;
+    values->push_back({place, parameter_value(value, text)});
+  }
+}
+
 Outcome read_value(const nc_control* control, const nc_config& config, const TablePlace& place, std::string* value) {
   double number = 0;
   bool vacant = false;

@@ -61,6 +61,9 @@ bool same_value(const std::string& one, const std::string& other);
 // The value of a parameter that nc_parameter_next() gives.
 std::string parameter_value(double value, const char* text);
 
+// Adds the parameters of the part system that are set. In the thread of the control.
+void add_parameters(const nc_control* control, unsigned system, std::vector<TableValue>* values);
+
 // In the thread of the control. The outcome is a refusal when there is no such place, or when it does not take the value.
 Outcome read_value(const nc_control* control, const nc_config& config, const TablePlace& place, std::string* value);
 Outcome write_value(nc_control* control, const nc_config& config, const TablePlace& place, const std::string& value);

@@ -180,6 +180,23 @@ Outcome list_parameters(Runtime* runtime, const Call& call) {
   return Outcome::with({{"parameters", std::move(parameters)}, {"next", at < rows.size() ? at : 0}});
 }
 
+bool read_parameters(Runtime* runtime, std::vector<TableValue>* values, Outcome* outcome) {
+  const auto found = std::make_shared<std::vector<TableValue>>();
+  *outcome = look(runtime, [found, systems = runtime->config().nc.system_count](const nc_control* control) {
+    for (unsigned s = 0; s < systems; ++s) add_parameters(control, s, found.get());
+    return Json::object();
+  });
+  *values = std::move(*found);
+  return outcome->ok;
+}
+
+Outcome export_parameters(Runtime* runtime) {
+  std::vector<TableValue> values;
+  Outcome outcome;
+  if (!read_parameters(runtime, &values, &outcome)) return outcome;
+  return Outcome::with({{"toml", parameters_toml(values)}});
+}
+
 Outcome export_tables(Runtime* runtime, const Call& call) {
   constexpr const char* kTables[] = {"tools", "life", "offsets", "variables"};
   TomlTables tables;

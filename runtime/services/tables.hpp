@@ -3,10 +3,16 @@
 // blocks have left.
 #pragma once
 
+#include <vector>
+
 #include "runtime/runtime.hpp"
 #include "runtime/services/call.hpp"
+#include "runtime/services/table_values.hpp"
 
 namespace nc::rt::services {
+
+// The parameters that are set now. False with the refusal in *outcome.
+bool read_parameters(Runtime* runtime, std::vector<TableValue>* values, Outcome* outcome);
 
 // The refusal of a command of the runtime.
 Outcome refused_by(const Runtime& runtime, Answer answer);
@@ -19,6 +25,7 @@ Outcome list_lives(Runtime* runtime, const Call& call);
 Outcome list_offsets(Runtime* runtime, const Call& call);
 Outcome list_variables(Runtime* runtime, const Call& call);
 Outcome list_parameters(Runtime* runtime, const Call& call);
+Outcome export_parameters(Runtime* runtime);
 Outcome export_tables(Runtime* runtime, const Call& call);
 
 }  // namespace nc::rt::services

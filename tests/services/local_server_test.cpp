@@ -33,6 +33,7 @@ Json arguments_of(const ServiceRow& row) {
     }
   }
   if (row.service == Service::kSetTool) args["length"] = 1;
+  if (row.service == Service::kParameterImport) args["toml"] = "[parameters]\n1078 = 1\n";
   if (row.service == Service::kSetLife) args["used"] = 1;
   if (row.service == Service::kRestartFind) args["line"] = 1;
   if (row.service == Service::kSetVariable) args["value"] = 1;
@@ -115,7 +116,7 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
     test::collect_members(reply["reply"], "", &found);
     for (const std::string& path : found) EXPECT_TRUE(known.count(path)) << path << " is not in the table";
     if (row.service == Service::kTools || row.service == Service::kLives || row.service == Service::kOffsets || row.service == Service::kVariables || row.service == Service::kParameters ||
-        row.service == Service::kPrograms || row.service == Service::kProgramCheck || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kTraceSignals ||
+        row.service == Service::kPrograms || row.service == Service::kProgramCheck || row.service == Service::kHistory || row.service == Service::kCounters || row.service == Service::kChanges || row.service == Service::kProgramRead || row.service == Service::kExport || row.service == Service::kParameterExport || row.service == Service::kTraceSignals ||
         row.service == Service::kTraceStatus || row.service == Service::kTraceRead || row.service == Service::kMachine) {
       EXPECT_EQ(found, known);
     }

@@ -73,6 +73,15 @@ expect 1 "$ncctl" tables import "$work/none.toml"
 expect 1 "$ncctl" tables export --table all
 printf '[tool_offsets]\n1 = 5\n' | "$ncctl" tables import - >"$work/out" || fail "tables from standard input"
 
+# Parameters as a file.
+expect 0 "$ncctl" parameters export "$work/parameters.toml"
+[ "$(head -n 1 "$work/parameters.toml")" = '[parameters]' ] || { fail "no parameters"; cat "$work/parameters.toml"; }
+expect 0 "$ncctl" parameters import "$work/parameters.toml"
+said out "none of them another one than before"
+printf '[parameters]\n1078 = 77\n' >"$work/wrong.toml"
+expect 2 "$ncctl" parameters import "$work/wrong.toml"
+said err "line 2"
+
 # Signals, as CSV.
 expect 2 "$ncctl" trace save
 expect 0 "$ncctl" trace record nc.feed D0 nc.mode_auto --samples 700

@@ -304,7 +304,7 @@ class Command {
 
   int export_tables() {
     Json reply;
-    if (!call("tables.export", command_.args, &reply) || !open_output()) return status_;
+    if (!call(command_.service, command_.args, &reply) || !open_output()) return status_;
     const Json toml = reply.value("toml", Json());
     if (!toml.is_string()) return failed(kControlFailed, "the control sends what is no text");
     return write_out(command_.json ? json_line(reply) : toml.get<std::string>()) ? 0 : status_;
@@ -325,8 +325,8 @@ class Command {
   int import_tables() {
     std::string text;
     Json reply;
-    if (!read_text(rt::services::kMostToml, &text) || !call("tables.import", {{"toml", text}}, &reply)) return status_;
-    print(rt::services::row_of(rt::services::Service::kImport), reply);
+    if (!read_text(rt::services::kMostToml, &text) || !call(command_.service, {{"toml", text}}, &reply)) return status_;
+    print(*rt::services::find_service(command_.service), reply);
     return 0;
   }
 

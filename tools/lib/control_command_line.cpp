@@ -164,10 +164,28 @@ void add_own_commands(CLI::App* app, ControlCommand* command) {
   tables->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
   tables->add_option_function<std::string>("--table", [command](const std::string& table) { command->args["table"] = table; }, "tools, life, offsets or variables; without it, all of them")
       ->check(CLI::IsMember({"tools", "life", "offsets", "variables"}));
-  tables->callback([command] { command->what = What::kExport; });
+  tables->callback([command] {
+    command->what = What::kExport;
+    command->service = "tables.export";
+  });
   CLI::App* import = subcommand(app, "tables.import", "sets what the sections of the file name and leaves everything else as it is (set up)");
   import->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
-  import->callback([command] { command->what = What::kImport;
+  import->callback([command] {
+    command->what = What::kImport;
+  command->service = "tables.import";
+});
+
+CLI::App* parameters = subcommand(app, "parameters.export", "the parameters that are set as TOML (view)");
+parameters->add_option("FILE", command->file, "file on this side; - or nothing: standard output")->check(given());
+parameters->callback([command] {
+  command->what = What::kExport;
+  command->service = "parameters.export";
+});
+CLI::App* set = subcommand(app, "parameters.import", "sets the parameters that the sections of the file name and leaves the others as they are (maintain)");
+set->add_option("FILE", command->file, "file on this side; - is standard input")->required()->check(given());
+set->callback([command] {
+  command->what = What::kImport;
+  command->service = "parameters.import";
 });
 
 CLI::App* swap = subcommand(app, "ladder.swap", "a ladder program takes the place of the one in execution (maintain)");

@@ -29,7 +29,9 @@ constexpr OwnCommand kOwn[] = {
     {"watch", "[DEVICES...] [--rate N] [--for SECONDS]", Right::kView, "the status again and again, or the values of devices of the ladder, signals and points, until Ctrl-C"},
     {"programs get", "NAME [FILE]", Right::kView, "reads a program, to standard output without FILE"},
     {"programs put", "FILE [--name NAME] [--replace]", Right::kSetUp, "writes a file into the folder of programs"},
-    {"tables export", "[FILE] [--table TABLE]", Right::kView, "tool offsets, work offsets and common variables as TOML, to standard output without FILE"},
+    {"parameters export", "[FILE]", Right::kView, "the parameters that are set as TOML, to standard output without FILE"},
+    {"parameters import", "FILE", Right::kMaintain, "sets the parameters that the sections of the file name and leaves the others as they are; - is standard input"},
+    {"tables export", "[FILE] [--table TABLE]", Right::kView, "tool offsets, work offsets, tool life and common variables as TOML, to standard output without FILE"},
     {"tables import", "FILE", Right::kSetUp, "sets what the sections of the file name and leaves everything else as it is; - is standard input"},
     {"ladder swap", "FILE [--name NAME]", Right::kMaintain,
      "a ladder program takes the place of the one in execution, between two scans, and goes on with the state of its devices; - is standard input. It stays until ncrtd ends"},
@@ -114,7 +116,7 @@ std::string joined(const std::set<std::string>& words) {
 }  // namespace
 
 bool is_command(const ServiceRow& row) {
-  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kLadderSwap, Service::kWatchBegin, Service::kWatchEnd, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kParameterExport, Service::kParameterImport, Service::kLadderSwap, Service::kWatchBegin, Service::kWatchEnd, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
   return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
 }
 
@@ -207,7 +209,7 @@ std::string services_bash() {
   for (const auto& [first, next] : tree)
     if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next) + "' -- \"$word\")) ;;\n";
   text += "        mode) COMPREPLY=($(compgen -W 'auto mdi manual' -- \"$word\")) ;;\n        single | optional) COMPREPLY=($(compgen -W 'on off' -- \"$word\")) ;;\n      esac\n      ;;\n"
-      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'ladder swap' | 'tables import' | 'tables export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
+      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'ladder swap' | 'tables import' | 'tables export' | 'parameters import' | 'parameters export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
       "  esac\n}\ncomplete -F _ncctl ncctl\n";
   return text;
 }
