@@ -50,6 +50,7 @@ int main(int argc, char** argv) try {
     sub->add_flag("--quiet", options.quiet, "only the summary: no messages, no stops");
   }
   CLI::App* service = app.add_subcommand("serve", "bring the machine up and stay until SIGTERM or SIGINT");
+  service->add_flag("--summary", options.summary, "at the end, how long the scans took");
   for (CLI::App* sub : {run, mdi, service}) {
     sub->add_option("--share", options.share, "shared memory of this name, for ncdds")->check(given());
     sub->add_flag("--commands", options.commands, "take commands from it");

@@ -181,6 +181,7 @@ int Daemon::serve_to_signal() {
   service.leave = [this] { sharing_->stop(); };  // ends the commands as well
   const bool rest = serve(runtime_.get(), service);
   runtime_->stop();
+  if (options_.summary) std::printf("%s", rt::summary_text(*runtime_, runtime_->snapshot().system[0].nc, options_.since_ns).c_str());
   sharing_->stop_history();
   return rest ? 0 : kDaemonAlarm;
 }

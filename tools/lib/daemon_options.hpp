@@ -25,6 +25,7 @@ struct DaemonOptions {
   std::string share;                                               ///< name of the shared memory; "" = the configured one
   bool fast = false;                                               ///< virtual time
   bool no_progress = false, quiet = false;
+  bool summary = false;                               ///< of kServe: at its end, how long the scans took
   bool commands = false;                              ///< commands are taken from the shared memory; the configuration may say so, too
   std::int64_t since_ns = rt::RealClock().now_ns();   ///< start of the process, for the start-up time
 };
