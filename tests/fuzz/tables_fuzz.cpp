@@ -35,7 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!wrong.empty()) return 0;
   require(!values.empty());
   std::set<std::string> keys;
-  for (const auto& [place, value] : values) {
+  for (const auto& [place, value, line] : values) {
+    require(line != 0);
     TablePlace back;
     const std::string key = place_key(place);
     require(keys.insert(key).second && parse_place(key, &back) && place_key(back) == key);
