@@ -20,7 +20,7 @@ using Table = TablePlace::Table;
 constexpr std::size_t kMostErrors = 5;  // that a refusal names
 constexpr unsigned kLargest = 2147483647;
 constexpr double kLargestNumber = 1e9;  // of tool life; the control knows the range of each column
-constexpr std::string_view kVacant = "vacant", kNames = "variable_names", kParameters = "parameters", kAll = "all";
+constexpr std::string_view kVacant = "vacant", kNames = "variable_names", kLives = "tool_life", kParameters = "parameters", kAll = "all";
 constexpr std::size_t kLongestValue = 63;  // of a parameter, bytes
 
 // "X", in part system 2 "X2"
@@ -56,7 +56,7 @@ void write_offsets(const nc_control* control, const nc_config& config, std::stri
 
 // The rows with a tool.
 void write_lives(const nc_control* control, std::string* text) {
-  *text += "\n[tool_life]\n";
+  *text += "\n[" + std::string(kLives) + "]\n";
   double value = 0;
   for (unsigned number = 1; number <= NC_TOOL_LIVES; ++number) {
     if (nc_tool_life_get(control, number, NC_LIFE_GROUP, &value) != NC_OK || value == 0) continue;
@@ -133,7 +133,7 @@ void read_variables(TableReader* root, unsigned system, Values* values) {
 }
 
 void read_lives(TableReader* root, Values* values) {
-  root->table("tool_life", [&](TableReader& reader) {
+  root->table(kLives, [&](TableReader& reader) {
     reader.each([&](const std::string& key, const toml::node& node) {
       TablePlace place;
       place.table = Table::kToolLife;
