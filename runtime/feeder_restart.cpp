@@ -17,6 +17,9 @@ std::string place_words(const RestartWish& wish) {
   return text;
 }
 
+// The cause of a kept stop behind which its program has been begun again. Where that run has stopped is known only when the control sees it.
+constexpr const char* kOutdated = "outdated";
+
 }  // namespace
 
 void Feeder::set_restart_wish(const RestartWish& wish) {
@@ -77,9 +80,11 @@ bool Feeder::stopped_place(unsigned s, const RestartWish& wish, nc_restart_place
     *what = std::move(why);
     return false;
   };
-  if (!(power ? stops.any_power : stops.any)) return refused(power ? "it is not known where a program was when the power failed" : "no program has been stopped before its end");
+  if (!(power ? stops.any_power : stops.any)) return refused(power ? "it is not known where a program was when the power failed" : "no stop of a program before its end is known");
   if (!at.restartable) return refused("what was kept of the place does not tell how many blocks had been executed: name a line or a sequence number");
   const std::string name = nc_->program_name(system_[s].file);
+  if (at.cause == kOutdated && name == at.program)
+    return refused("it is not known: the control has ended in a later run of " + name + " than that of the stop that was kept. Name a line or a sequence number");
   if (name != at.program) return refused(std::string(when) + " the program was " + at.program + ", and " + name + " is selected");
   if (nc_->program_size(system_[s].file) != at.size || (!at.hash.empty() && at.hash != stops.hash))
     return refused("the program has been changed since: the place " + std::string(when) + " is another one in it. Name a line or a sequence number");
@@ -183,12 +188,18 @@ void Feeder::follow_stops() {
   }
 }
 
+// While a program runs the stop that is kept of an earlier run of it is outdated, so that a control that is killed in the run does not offer that stop. It is
+// written when the run begins, once, and only where a stop is kept.
 std::string Feeder::stop_bytes() const {
   std::vector<ProgramPlace> places;
   for (unsigned s = 0; s < systems_; ++s) {
     const Stops& stops = stops_[s];
-    if (stops.any_power && !(stops.any && stops.power == stops.last)) places.push_back(stops.power);
-    if (stops.any) places.push_back(stops.last);
+    const bool goes_on = stops.runs && !restart_[s].in_hand();
+    const auto outdated = [&](const ProgramPlace& place) { return goes_on && place.program == stops.now.program; };
+    if (stops.any_power && !outdated(stops.power) && !(stops.any && stops.power == stops.last)) places.push_back(stops.power);
+    if (!stops.any) continue;
+    places.push_back(stops.last);
+    if (outdated(stops.last)) places.back().cause = kOutdated;
   }
   return encode_places(places);
 }
@@ -199,7 +210,7 @@ void Feeder::set_stops(const std::vector<ProgramPlace>& places) {
     Stops& stops = stops_[place.system];
     stops.last = place;
     stops.any = true;
-    if (place.cause == "reset" || place.cause == "alarm") continue;
+    if (place.cause == "reset" || place.cause == "alarm" || place.cause == kOutdated) continue;
     stops.power = place;
     stops.any_power = true;
   }

@@ -45,7 +45,7 @@ PROGRAM
 begin
 expect 0 "$ncctl" select part.nc
 expect 2 "$ncctl" restart find --last-stop
-said err "no program has been stopped"
+said err "no stop of a program before its end is known"
 expect 1 "$ncctl" restart find
 expect 1 "$ncctl" restart find --line 3 --block 4
 expect 1 "$ncctl" restart find --block 4 --passing 2
@@ -109,6 +109,21 @@ expect 0 "$ncctl" select part.nc
 expect 0 "$ncctl" restart find --last-stop
 until_true phase_is found
 expect 0 "$ncctl" restart cancel
+
+# A later run is killed without a word: the stop that is kept is not that of this run.
+expect 0 "$ncctl" start
+until_true line_is 5
+until_true grep -q '^cause outdated' "$work/place.stops"
+killed
+begin
+expect 0 "$ncctl" select part.nc
+expect 2 "$ncctl" restart find --last-stop
+said err "it is not known: the control has ended in a later run of part.nc"
+expect 2 "$ncctl" restart find --power-off
+expect 0 "$ncctl" start
+until_true line_is 5
+expect 0 "$ncctl" reset
+until_true grep -q '^cause reset' "$work/place.stops"
 sed -i 's/Y2\./Y3./' "$work/programs/part.nc"
 expect 0 "$ncctl" select part.nc
 expect 2 "$ncctl" restart find --last-stop
