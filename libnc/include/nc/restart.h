@@ -70,8 +70,9 @@ typedef struct nc_restart_found {
   uint32_t m_count;     /**< number of M codes that have come, each counted once while it is in `m`; when there are more than NC_RESTART_CODES the oldest but for the tool change are not told */
   uint32_t m[NC_RESTART_CODES]; /**< each of them once, in the order in which they have come last: the newest is the last */
   uint32_t output[NC_WORDS], output_written[NC_WORDS]; /**< macro outputs: words of #1132 to #1135, and bit by bit whether the program has written it */
-  bool change_t_given;  /**< a T has come in front of the newest tool change (NC_CODE_TOOL_CHANGE), which means the tool in the spindle */
-  uint32_t change_t;    /**< the last such T. Where it is the last T at all, change_t_order is t_order; else `t` was called ahead, for the next change */
+  uint64_t change_t;    /**< the last T that has come in front of the newest tool change (NC_CODE_TOOL_CHANGE), which means the tool in the spindle. Where it is the last T
+                             at all, change_t_order is t_order; else `t` was called ahead, for the next change */
+  bool change_t_given;  /**< there is such a T */
   uint32_t m_order[NC_RESTART_CODES], s_order, t_order, b_order, change_t_order; /**< for each code its place among all of them, from 1 on: what came later has the higher one */
 } nc_restart_found;
 /**
