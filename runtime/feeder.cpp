@@ -85,6 +85,7 @@ void Feeder::step() {
   tell_changes();
   take_alarm();
   take_modal();
+  if (!seen_.program_active() && !scan_->reset_waits() && !seen_.stopped_by_alarm()) put_back_searched();
   tell_restart();
   tell_what_is_loaded();
   // The answers come last: a client that is told that its program is selected may start it at once, and by then the scan must know of the program.
@@ -383,6 +384,7 @@ Answer Feeder::look(const Command& command) {
 Answer Feeder::change(const Command& command) {
   scan_->set_loaded(Scan::kNothingLoaded);
   if (read_again() == NC_E_STATE) return Answer::kNotWhileRunning;
+  put_back_searched();
   const Answer answer = look(command);
   (void)read_again();  // cannot be refused now: nothing could be started since the first time
   return answer;
@@ -406,6 +408,7 @@ void Feeder::complete_reset() {
     if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }
+  put_back_searched();
   take_events();  // events from before the reset must be taken before it is reported as done
   scan_->reset_finished();
   const std::lock_guard lock(mutex_);

@@ -161,6 +161,7 @@ class Feeder {
   bool restart_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
   bool stopped_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
   void follow_restart();
+  void put_back_searched();
   void tell_restart();
   void follow_stops();
   ProgramPlace place_of(unsigned system, const Snapshot& now) const;

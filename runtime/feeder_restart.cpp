@@ -44,6 +44,7 @@ Answer Feeder::find_restart(const Command& command) {
   std::string what;
   const bool known = wish.by < RestartBy::kPowerOff ? restart_place(s, wish, &place, &what) : stopped_place(s, wish, &place, &what);
   if (!known) return refuse(Answer::kNoPlace, what);
+  if (gate_ != nullptr && !gate_->may_begin(s, system_[s].file)) return Answer::kNotChecked;  // the search executes what the program writes
   place.mirror = seen_.system[s].mirror;
   nc_world world;
   nc_world_init(&world);
@@ -52,6 +53,8 @@ Answer Feeder::find_restart(const Command& command) {
   std::copy(std::begin(seen_.system[s].tool_angle), std::end(seen_.system[s].tool_angle), world.tool_angle);
   if (!claim(command.ticket)) return Answer::kNoAnswer;
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step: by then the scan knows of the search
+  restart_[s].lose("another place is looked for");
+  put_back_searched();
   const nc_status status = restart_[s].begin(nc_, s, place, world, what);
   if (status < 0) return refuse(Answer::kRefusedByControl, std::string("the place cannot be looked for: ") + nc_status_text(status));
   follow_restart();
@@ -139,6 +142,14 @@ void Feeder::follow_restart() {
     }
   }
   tell_restart();
+}
+
+// What searches have written whose programs do not go on from their places. Programs that are ready to start are read again, because that are other values.
+void Feeder::put_back_searched() {
+  const auto owes = [](const RestartDesk& desk) { return desk.owes(); };
+  if (std::none_of(restart_, restart_ + systems_, owes) || read_again() == NC_E_STATE) return;
+  for (RestartDesk* desk = restart_; desk != restart_ + systems_; ++desk) desk->put_back(nc_);
+  (void)read_again();  // cannot be refused now: nothing could be started since the first time
 }
 
 // To the scan, before it may begin what this step has loaded, and to who shows it.

@@ -51,6 +51,11 @@ std::string LibNc::variables() {
 std::string LibNc::tables() {
   return table_text(executed_tables(control_, config_));
 }
+void LibNc::put_back(const KeptValues& before, const KeptValues& after) {
+  TableRows was, left;
+  if (parse_tables(before.tables, &was) && parse_tables(after.tables, &left)) (void)restore_changes(control_, config_, executed_tables(control_, config_), encode_changes(was, left));
+  put_back_variables(control_, before.variables, after.variables);
+}
 nc_status LibNc::text(unsigned system, std::uint32_t id, nc_text* text) {
   const nc_status status = nc_text_get(control_, api_system(system), id, text);
   if (status == NC_OK && text->size == 0) make_valid(text->s, sizeof text->s);  // size != 0: bytes of BPRNT, which stay as they are

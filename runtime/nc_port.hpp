@@ -12,6 +12,11 @@
 
 namespace nc::rt {
 
+// Copies of NcPort::variables() and NcPort::tables().
+struct KeptValues {
+  std::string variables, tables;
+};
+
 class NcPort {
  public:
   virtual ~NcPort() = default;
@@ -43,6 +48,8 @@ class NcPort {
   // (runtime/retain/variables.hpp); offsets and parameters (runtime/retain/tables.hpp).
   virtual std::string variables() { return {}; }
   virtual std::string tables() { return {}; }
+  // Values that have changed from `before` to `after` become those of `before` again where they are still those of `after`. Only while no program is in execution.
+  virtual void put_back(const KeptValues& before, const KeptValues& after) { (void)before, (void)after; }
   // Letters of the axes, and the name of a program in the store; "" when they are not known.
   virtual std::string axis_letters(unsigned /*system*/) { return {}; }
   virtual std::string program_name(unsigned /*file*/) { return {}; }
@@ -81,6 +88,7 @@ class LibNc final : public NcPort {
   void shown(unsigned system, nc_axes* machine, nc_axes* work) override;
   std::string variables() override;
   std::string tables() override;
+  void put_back(const KeptValues& before, const KeptValues& after) override;
   std::string axis_letters(unsigned system) override;
   std::string program_name(unsigned file) override;
   nc_dialect dialect() const override { return static_cast<nc_dialect>(config_.dialect); }

@@ -47,6 +47,9 @@ const char* restart_phase_text(RestartPhase phase) {
 nc_status RestartDesk::begin(NcPort* nc, unsigned system, const nc_restart_place& place, const nc_world& world, std::string what) {
   const nc_status status = nc->restart_begin(system, place, world);
   if (status < 0) return status;
+  before_ = {nc->variables(), nc->tables()};
+  written_ = true;
+  after_known_ = false;
   place_ = place;
   status_ = {};
   status_.phase = RestartPhase::kSearching;
@@ -81,6 +84,17 @@ void RestartDesk::found(NcPort* nc, unsigned system, const nc_restart_found& pla
   nc_modal_init(&status_.modal);
   status_.modal_known = place.modal != 0 && nc->modal(system, place.modal, &status_.modal) == NC_OK;
   status_.list.begin(place, nc->dialect());
+  after_ = {nc->variables(), nc->tables()};
+  after_known_ = true;
+}
+
+// A search that has ended on its way has left what is there now.
+void RestartDesk::put_back(NcPort* nc) {
+  if (!owes()) return;
+  if (!after_known_) after_ = {nc->variables(), nc->tables()};
+  nc->put_back(before_, after_);
+  written_ = false;
+  before_ = after_ = {};
 }
 
 void RestartDesk::follow(const Snapshot& now, unsigned system) {
@@ -96,7 +110,9 @@ void RestartDesk::follow(const Snapshot& now, unsigned system) {
   if (out.state == NC_STATE_IDLE) return end("the program has been given up");
   // Blocks of MDI run in their own mode, and do not count.
   const bool runs = out.state == NC_STATE_RUNNING && now.mode == Mode::kAuto;
-  if (runs || out.blocks > status_.found.blocks) end("the program has gone on");
+  if (!runs && out.blocks <= status_.found.blocks) return;
+  written_ = false;
+  end("the program has gone on");
 }
 
 void RestartDesk::end(const std::string& why) {

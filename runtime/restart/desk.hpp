@@ -15,6 +15,7 @@
 
 namespace nc::rt {
 
+// The search writes variables, offsets and parameters as the program does. They stay when the program goes on from its place; else put_back() gives them back.
 class RestartDesk {
  public:
   // Begins the search. `what` is the place in words.
@@ -31,6 +32,11 @@ class RestartDesk {
   // Where something was in hand it is lost.
   void lose(const std::string& why);
 
+  // The search has written what the program does not go on with.
+  bool owes() const { return written_ && !in_hand(); }
+  // To be called while no program is in execution. What somebody else has changed since stays.
+  void put_back(NcPort* nc);
+
   bool searching() const { return status_.phase == RestartPhase::kSearching; }
   // A place is looked for or found, and the program does not go on from there yet.
   bool in_hand() const { return searching() || status_.phase == RestartPhase::kFound || status_.phase == RestartPhase::kStands; }
@@ -45,6 +51,9 @@ class RestartDesk {
  private:
   void found(NcPort* nc, unsigned system, const nc_restart_found& found);
   nc_restart_place place_{};
+  bool written_ = false;       // a search has been begun whose writes nobody goes on with
+  bool after_known_ = false;
+  KeptValues before_, after_;  // what the search has found, and what it has left
   RestartStatus status_;
 };
 

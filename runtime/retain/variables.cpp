@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "runtime/nc_system.hpp"
@@ -67,6 +68,38 @@ bool decode(const std::string& bytes, std::vector<Variable>* variables, std::vec
   return at == bytes.size();
 }
 
+// Values and names by their numbers.
+struct ByNumber {
+  std::map<std::uint32_t, double> value;
+  std::map<std::uint32_t, std::string> name;
+};
+
+bool decode(const std::string& bytes, ByNumber* all) {
+  std::vector<Variable> variables;
+  std::vector<Name> names;
+  if (!decode(bytes, &variables, &names)) return false;
+  for (const Variable& variable : variables) all->value[variable.number] = variable.value;
+  for (const Name& name : names) all->name[name.number] = name.text;
+  return true;
+}
+
+// Calls put_back(number, what it was, nullptr = nothing) for what has changed from `before` to `after` and is now as in `after`.
+template <class Value, class PutBack>
+void each_changed(const std::map<std::uint32_t, Value>& before, const std::map<std::uint32_t, Value>& after, const std::map<std::uint32_t, Value>& now, PutBack put_back) {
+  const auto in = [](const std::map<std::uint32_t, Value>& all, std::uint32_t number) {
+    const auto found = all.find(number);
+    return found == all.end() ? nullptr : &found->second;
+  };
+  const auto same = [](const Value* a, const Value* b) { return a == nullptr || b == nullptr ? a == b : *a == *b; };
+  std::map<std::uint32_t, Value> all = before;  // becomes the set of the numbers of both
+  all.insert(after.begin(), after.end());
+  for (const auto& [number, ignored] : all) {
+    const Value* const was = in(before, number);
+    const Value* const left = in(after, number);
+    if (!same(was, left) && same(left, in(now, number))) put_back(number, was);
+  }
+}
+
 }  // namespace
 
 std::string encode_variables(const nc_control* control) {
@@ -114,6 +147,16 @@ void set_variables(nc_control* control, const std::string& bytes) {
   for (const Variable& variable : variables)
     if (!is_local_variable(control, variable.number & kNumber)) (void)nc_variable_set(control, api_system(variable.number >> kSystemShift), variable.number & kNumber, variable.value, false);
   for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);
+}
+
+void put_back_variables(nc_control* control, const std::string& before, const std::string& after) {
+  ByNumber was, left, now;
+  if (!decode(before, &was) || !decode(after, &left) || !decode(executed_variables(control), &now)) return;
+  each_changed(was.value, left.value, now.value, [&](std::uint32_t number, const double* value) {
+    if (!is_local_variable(control, number & kNumber))
+      (void)nc_variable_set(control, api_system(number >> kSystemShift), number & kNumber, value != nullptr ? *value : 0, value == nullptr);
+  });
+  each_changed(was.name, left.name, now.name, [&](std::uint32_t number, const std::string* name) { (void)nc_variable_name_set(control, number, name != nullptr ? name->c_str() : ""); });
 }
 
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {

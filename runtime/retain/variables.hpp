@@ -24,6 +24,8 @@ std::string executed_variables(nc_control* control);
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
 // Sets all of them but the local ones, also those that would not be kept over power off.
 void set_variables(nc_control* control, const std::string& bytes);
+// What has changed from `before` to `after`, local variables left out, becomes what it was where it is still that of `after`.
+void put_back_variables(nc_control* control, const std::string& before, const std::string& after);
 
 // M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
 bool is_local_variable(const nc_control* control, std::uint32_t number);

@@ -473,6 +473,97 @@ TEST_F(Restart, WhatIsNotThereIsSaidAndNothingStartsBeforeItIsCancelled) {
   EXPECT_FALSE(runtime->snapshot().alarmed()) << "nothing has run";
 }
 
+// A search reads the program with what it writes. Where the program does not go on from its place, nothing of that stays.
+class SearchedWrites : public Restart {
+ protected:
+  void begin(const std::string& more = "") {
+    build(more);
+    ASSERT_EQ(runtime->change([](nc_control* control) {
+      (void)nc_work_offset_set(control, 0, 1, 0, -3);
+      (void)nc_variable_set(control, 0, 500, 7, false);
+      (void)nc_variable_set(control, 0, 501, 0, true);
+    }), Answer::kDone);
+    select("G90 G54\nG91 G10 L2 P1 X1.\n#500=#500+1\n#501=5\nG90 G0 X5.\nX6.\nM30\n");
+  }
+  void search(unsigned line = 6, RestartPhase phase = RestartPhase::kFound) {
+    ASSERT_EQ(find(RestartBy::kLine, line), Answer::kDone);
+    ASSERT_TRUE(until([&] { return restart().phase == phase; })) << restart().text;
+  }
+  // Offset, the variable that is counted, and whether the other one is vacant.
+  std::string values() {
+    double offset = 0, counted = 0, other = 0;
+    bool vacant = false, other_vacant = false;
+    EXPECT_EQ(runtime->look([&](nc_control* control) {
+      (void)nc_work_offset_get(control, 0, 1, 0, &offset);
+      (void)nc_variable_get(control, 0, 500, &counted, &vacant);
+      (void)nc_variable_get(control, 0, 501, &other, &other_vacant);
+    }), Answer::kDone);
+    char text[64];
+    std::snprintf(text, sizeof text, "%g %g %s", offset, counted, other_vacant ? "vacant" : "set");
+    return text;
+  }
+};
+
+TEST_F(SearchedWrites, ArePutBackWhenThePlaceIsGivenUp) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  const std::string before = "-3 7 vacant";
+  ASSERT_EQ(values(), before);
+  ASSERT_NO_FATAL_FAILURE(search());
+  EXPECT_EQ(values(), "-2 8 set");
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+  EXPECT_EQ(values(), before) << "cancelled";
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_EQ(values(), before) << "a reset";
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_EQ(runtime->select_program(0), Answer::kDone);
+  EXPECT_EQ(values(), before) << "another program";
+  ASSERT_NO_FATAL_FAILURE(search(99, RestartPhase::kLost));
+  EXPECT_EQ(values(), before) << "not found";
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_NO_FATAL_FAILURE(search(5));
+  EXPECT_EQ(values(), "-2 8 set") << "another search begins with what was there before the first one";
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kStands; }));
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_EQ(values(), before) << "a reset at the place";
+}
+
+// The search executes what the program writes, so it needs what a start needs.
+TEST_F(SearchedWrites, AProgramThatMayNotBeginIsNotSearched) {
+  struct Refuses : StartGate {
+    bool may_begin(unsigned, unsigned) override { return false; }
+    bool waits(unsigned) override { return false; }
+    std::string remark(unsigned) override { return "line 3: the axis is not there"; }
+  } gate;
+  ASSERT_NO_FATAL_FAILURE(begin());
+  runtime->set_start_gate(&gate);
+  EXPECT_EQ(find(RestartBy::kLine, 6), Answer::kNotChecked);
+  EXPECT_EQ(runtime->explain(Answer::kNotChecked), "line 3: the axis is not there");
+  steps(20);
+  EXPECT_EQ(restart().phase, RestartPhase::kNone);
+  EXPECT_EQ(values(), "-3 7 vacant");
+  runtime->set_start_gate(nullptr);
+}
+
+TEST_F(SearchedWrites, StayWhereTheProgramGoesOnOrSomebodyElseHasWritten) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_EQ(runtime->change([](nc_control* control) { (void)nc_work_offset_set(control, 0, 1, 0, -8); }), Answer::kDone);
+  steps(3);
+  EXPECT_EQ(restart().phase, RestartPhase::kLost);
+  EXPECT_EQ(values(), "-8 7 vacant");
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+  ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+  for (const unsigned axis : {2u, 1u, 0u}) ASSERT_NO_FATAL_FAILURE(approach(axis));
+  ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  EXPECT_EQ(values(), "-7 8 set");
+}
+
 TEST_F(Restart, AChangedProgramAndAnotherOneAreRefused) {
   build();
   runtime->set_program_hash([&](unsigned file) { return std::to_string(std::hash<std::string>()(texts.at(file))); });

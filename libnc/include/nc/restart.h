@@ -96,7 +96,8 @@ static inline void nc_restart_found_init(nc_restart_found* found) {
 NC_API nc_status nc_restart_begin(nc_control* control, unsigned system, const nc_restart_place* place, const nc_world* world);
 
 /**
- * Go on to look for the place. The program is executed up to it but for the machine: its writes of variables and offsets are done. Feeder thread.
+ * Go on to look for the place. The program is executed up to it but for the machine: its writes of variables and offsets are done, and a host that gives the
+ * place up puts them back. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param budget blocks that may be read before the call returns NC_BUDGET
