@@ -31,7 +31,7 @@ struct Joint {
 };
 
 struct Transition {
-  Piece piece[kTurnPieces];
+  Piece piece[2 * kTurnKnots];
   unsigned count = 0;
 };
 
