@@ -357,7 +357,7 @@ class SignalInfo(IdlStruct, typename="nc.SignalInfo"):
 class SignalTable(IdlStruct, typename="nc.SignalTable"):
     machine: types.bounded_str[63]
     annotate.key("machine")
-    signals: types.sequence[SignalInfo, 2304]
+    signals: types.sequence[SignalInfo, 2560]
 
 
 @dataclass
@@ -387,7 +387,7 @@ class SignalImage(IdlStruct, typename="nc.SignalImage"):
     scan: types.uint64
     signals: types.sequence[Signal, 1024]
     control_scan: types.uint64
-    control: types.sequence[ControlSignal, 1280]
+    control: types.sequence[ControlSignal, 1536]
 
 
 @dataclass

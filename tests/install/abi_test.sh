@@ -41,7 +41,7 @@ breaks 'a member in the padding of a struct that begins with its size' vendor.h 
 breaks 'a struct that grows inside of one with a size' config.h 's/^(  double in_position; .*)$/\1\n  double later;/'
 breaks 'a struct that grows at its end, of which another has an array' inputs.h 's/^(  double distance; .*)$/\1\n  double later;/'
 breaks 'a member in the padding of a struct without size' inputs.h 's/^(  bool unmeasured; .*)$/\1\n  bool later;/'
-breaks 'a reserved member that becomes shorter' config.h 's/^  double reserved\[7\];/  double later, reserved[6];/'
+breaks 'a reserved member that becomes shorter' config.h 's/^  double reserved\[6\];/  double later, reserved[5];/'
 breaks 'a member of a union has another type' item.h 's/^    nc_gate gate;/    nc_mark gate;/'
 breaks 'a struct in a union grows' item.h 's/^(\} nc_move;)/  double later[40];\n\1/'
 breaks 'a struct in a union grows within its room' item.h 's/^(\} nc_gate;)/  double later;\n\1/'

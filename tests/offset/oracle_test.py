@@ -328,12 +328,23 @@ def along_offset(element, start, end):
     return [(element.center[0] + radius * math.cos(angles[0] + turn * i / 32), element.center[1] + radius * math.sin(angles[0] + turn * i / 32)) for i in range(33)]
 
 
+def crosses_at_a_turn(before, behind):
+    """Do two blocks cross beside the point in which the path turns back? Their tangents tell another side than their curvatures do: what lies there has no side."""
+    bend = sum((1 if e.ccw else -1) / e.radius() for e in (before, behind) if e.center)
+    (ux, uy), (vx, vy) = before.at(1)[1], behind.at(0)[1]
+    sine = ux * vy - uy * vx
+    return ux * vx + uy * vy < 0 and abs(sine) < 0.1 and sine * bend > 1e-12
+
+
 def reaches_every_block(contour):
     """Does the tool touch each block of the contour, as it goes round it in one piece? Then no block is in the way of another one, and all that the control has to get right is the corners."""
     if isinstance(contour, Profile) and (contour.cross is not None or len(contour.cuts) > 1):
         return False
     if not contour.wall().is_simple:
         return False  # blocks that cross each other have no side on which nothing is in the way
+    solid = [e for e in contour.elements if e.length() >= NO_DIRECTION]
+    if any(crosses_at_a_turn(e, solid[(i + 1) % len(solid)]) for i, e in enumerate(solid)):
+        return False
     curve = None if contour.other else reached(contour, contour.radius, contour.inside, 0, lengthened_arcs(contour, contour.radius, contour.inside))
     if curve is None or isinstance(curve, str) or curve.is_empty:
         return False
