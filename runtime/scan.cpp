@@ -207,7 +207,7 @@ Answer Scan::apply(const Command& command) noexcept {
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;
-      if (mode_ == Mode::kManual) request_reset();  // manual motion is stopped by a reset, but not by a feed hold
+      if (mode_ == Mode::kManual) request_reset();  // behind a feed hold a handle that is turned, or a button that is pressed anew, would move its axis again
       else hold(all_systems());
       return Answer::kDone;
     case CommandKind::kReset:

@@ -235,6 +235,35 @@ TEST_P(Restart, OffsetsThatBlocksOfMdiChangeAtThePlaceEndTheRun) {
   }
 }
 
+// What a search has read has not been executed: the tool in the spindle is the one that was there, by which `iso` finds a length without H.
+TEST(RestartSearches, AreNoToolChange) {
+  for (unsigned given_up = 0; given_up < 4; ++given_up) {
+    SCOPED_TRACE(given_up);
+    Bench bench(NC_DIALECT_ISO);
+    bench.tool(1, 10).tool(3, 30);
+    const auto ends = [&](const std::string& text) { return bench.run(text).moves().back().machine.v[2]; };
+    EXPECT_NEAR(ends("T1 M6\nG43\nG1 Z5 F600\nM30\n"), 15, 1e-9);
+    const std::string searched = "T3 M6\nG0 X1\nX2\nM30\n";
+    unsigned file = 0;
+    ASSERT_EQ(nc_program_add_text(bench.control(), "searched", searched.data(), searched.size(), &file), NC_OK);
+    ASSERT_EQ(nc_program_select(bench.control(), 0, file), NC_OK);
+    nc_restart_place place = at_line(given_up == 0 ? 99 : 3);
+    nc_restart_found found;
+    nc_restart_found_init(&found);
+    ASSERT_EQ(nc_restart_begin(bench.control(), 0, &place, nullptr), NC_OK);
+    nc_status status = NC_BUDGET;
+    while (status == NC_BUDGET) status = nc_restart_find(bench.control(), 0, 10, &found);
+    ASSERT_EQ(status, given_up == 0 ? NC_ENDED : NC_OK);
+    if (given_up == 1) {
+      ASSERT_EQ(nc_restart_cancel(bench.control(), 0), NC_OK);
+    }
+    if (given_up == 2) {
+      ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);
+    }
+    EXPECT_NEAR(ends("G43\nG1 Z6 F600\nM30\n"), 16, 1e-9) << "and so it is where another program is selected";
+  }
+}
+
 // In a block stop of a program that was begun inside blocks of MDI keep what they change, as in every other one (12.4.4).
 TEST_P(Restart, BlocksOfMdiBehindThePlaceKeepTheirModes) {
   RestartMachine m(GetParam(), "G90 G0 X10.\nN50 G1 X20. F6000\nM0\nX3.\nM30");

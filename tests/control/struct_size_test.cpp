@@ -492,6 +492,27 @@ TEST(StructSize, EventsOfAnOlderCaller) {
   EXPECT_GE(seen, 4u);
 }
 
+TEST(StructSize, TheOrderOfTheCodesInFrontOfAPlaceIsForThoseWhoKnowOfIt) {
+  for (const bool old : {true, false}) {
+    Control c(small());
+    c.program("T1 M6\nT2\nG0 X1.\nX2.\nM30\n");
+    nc_restart_place place;
+    nc_restart_place_init(&place);
+    place.by = NC_RESTART_LINE;
+    place.number = 4;
+    ASSERT_EQ(nc_restart_begin(c.control, 0, &place, nullptr), NC_OK);
+    nc_restart_found found;
+    std::memset(static_cast<void*>(&found), 0x55, sizeof found);
+    found.struct_size = old ? offsetof(nc_restart_found, change_t) : sizeof found;
+    nc_status status = NC_BUDGET;
+    while (status == NC_BUDGET) status = nc_restart_find(c.control, 0, 10, &found);
+    ASSERT_EQ(status, NC_OK);
+    EXPECT_EQ(found.t, 2u);
+    EXPECT_EQ(found.change_t, old ? 0x5555555555555555u : 1u);
+    EXPECT_EQ(found.t_order, old ? 0x55555555u : 3u);
+  }
+}
+
 TEST(StructSize, TheLengthAlongTheToolIsForThoseWhoKnowOfIt) {
   static_assert(offsetof(nc_inputs, tool_length_handle) == offsetof(nc_inputs, spindle_age_s) + sizeof(nc_inputs::spindle_age_s));
   static_assert(offsetof(nc_inputs, tool_angle) == offsetof(nc_inputs, tool_length_handle) + sizeof(double));

@@ -585,7 +585,7 @@ nc_status PartSystem::rewind(Serial serial) {
 
 void PartSystem::restart(const AxisVec& machine, bool keep_modal) {
   forget_mdi();
-  search_.forget();
+  forget_search();
   stop_ = Stop::none;
   interpreter.set_feeding(run_.active());
   publish_all();

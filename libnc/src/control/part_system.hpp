@@ -154,6 +154,7 @@ class PartSystem {
   nc_status find_sequence();
   void answer_search();
   nc_status give_up_search(nc_status status);
+  void forget_search();
   bool begin_found();
   void follow_run();
   void read_on(int64_t* left);

@@ -22,6 +22,7 @@ nc_status PartSystem::restart_begin(const nc_restart_place& place, const nc_worl
   for (unsigned i = 0; place.start_given && i < axis_count_; ++i) start[i] = place.start.v[i];
   restart(start);
   commit_.restart();
+  interpreter.begin_search();
   search_.begin(place, place.in_file ? place.file : interpreter.selected().file, world);
   return NC_OK;
 }
@@ -80,8 +81,15 @@ void PartSystem::answer_search() {
 
 /// The search does not go on, unless it only waits for another call.
 nc_status PartSystem::give_up_search(nc_status status) {
-  if (status != NC_BUDGET) search_.forget();
+  if (status != NC_BUDGET) forget_search();
   return status;
+}
+
+/// Nothing of what was read on the way has come to the machine: the tool in the spindle is still that of before.
+void PartSystem::forget_search() {
+  if (search_.phase() == RestartSearch::Phase::none) return;
+  search_.forget();
+  interpreter.give_up_search();
 }
 
 nc_status PartSystem::restart_cancel() {

@@ -110,6 +110,10 @@ struct Interpreter : BlockContext {
   void enter_mdi(const ProgramRef& blocks);
   /// The blocks of MDI that interrupt a program have ended: the program, in which they were entered, goes on with the next start.
   Execution leave_mdi();
+  /// A place in the program is looked for, and nothing of what is read comes to the machine; given up, what neither a program nor a reset ends, as the tool in the
+  /// spindle, is again what it was.
+  void begin_search() { before_search_ = state; }
+  void give_up_search() { static_cast<UntilPowerOff&>(state) = before_search_; }
   /// The program is begun inside, behind block `seq` (nc/restart.h): what blocks of MDI change of its modes there is put back behind them.
   void begin_inside(BlockSeq seq);
   /// The next block goes on where it was cut (State::repeat).
@@ -282,6 +286,7 @@ struct Interpreter : BlockContext {
   BlockSeq block_seq_ = 0;     ///< number of the block before it
   InterruptReturn interrupted_;
   BegunInside begun_inside_;
+  UntilPowerOff before_search_;
   Place place_;
   VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for

@@ -154,6 +154,8 @@ bool PartInterpreter::interrupt(const AxisVec& machine, unsigned taken_back, boo
 bool PartInterpreter::interrupt_inside(const AxisVec& machine, unsigned items) { return in_->interrupt_inside(machine, items); }
 bool PartInterpreter::takes_mdi(uint64_t seq) const { return in_->takes_mdi(seq); }
 void PartInterpreter::enter_mdi(const ProgramRef& blocks) { in_->enter_mdi(blocks); }
+void PartInterpreter::begin_search() { in_->begin_search(); }
+void PartInterpreter::give_up_search() { in_->give_up_search(); }
 void PartInterpreter::begin_inside(BlockSeq seq) { in_->begin_inside(seq); }
 void PartInterpreter::go_on_inside(unsigned items) { in_->go_on_inside(items); }
 const Repeat& PartInterpreter::repeat() const { return in_->state.repeat; }

@@ -190,7 +190,10 @@ class PartInterpreter {
   bool takes_mdi(uint64_t seq) const;
   /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
   void enter_mdi(const ProgramRef& blocks);
-  /// The program is begun inside, behind block `seq` (nc/restart.h).
+  /// A place in the program is looked for (nc/restart.h), or is not any more.
+  void begin_search();
+  void give_up_search();
+  /// The program is begun inside, behind block `seq`.
   void begin_inside(BlockSeq seq);
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
