@@ -14,6 +14,8 @@
 
 namespace nc::rt {
 
+inline constexpr auto kScanPatience = std::chrono::milliseconds(500);  // a service waits so long for a scan that answers it
+
 class LadderLook {
  public:
   struct Source {

@@ -12,16 +12,11 @@
 #include <tuple>
 #include <utility>
 
+#include "hal/gpio/chip_refusal.hpp"
 #include "hal/gpio/line_chip.hpp"
 
 namespace nc::hal::gpio {
 namespace {
-
-// What a failed call means for the lines.
-Opening opening_of(int problem) {
-  if (problem == ENOENT || problem == ENODEV || problem == ENXIO) return Opening::kNoChip;
-  return problem == EBUSY ? Opening::kTaken : Opening::kRefused;
-}
 
 // What the kernel says of a line that has no interrupt. The chip is there, since it has just been opened.
 bool gives_no_interrupt(int problem) { return problem == ENODEV || problem == ENXIO; }
@@ -86,7 +81,7 @@ class GpiodChip final : public LineChip {
     for (Bulk& bulk : bulks_) {
       if (bulk.output) continue;
       Levels levels{};
-      if (gpiod_line_get_value_bulk(&bulk.lines, levels.data()) != 0) return failed("cannot be read", error);
+      if (gpiod_line_get_value_bulk(&bulk.lines, levels.data()) != 0) return failed(name_, "cannot be read", error);
       for (std::size_t i = 0; i < bulk.places.size(); ++i) (*values)[bulk.places[i]] = levels[i] != 0 ? 1 : 0;
     }
     return true;
@@ -96,7 +91,7 @@ class GpiodChip final : public LineChip {
     for (Bulk& bulk : bulks_) {
       if (!bulk.output) continue;
       const Levels levels = levels_of(bulk, values);
-      if (gpiod_line_set_value_bulk(&bulk.lines, levels.data()) != 0) return failed("cannot be written", error);
+      if (gpiod_line_set_value_bulk(&bulk.lines, levels.data()) != 0) return failed(name_, "cannot be written", error);
     }
     return true;
   }
@@ -106,9 +101,9 @@ class GpiodChip final : public LineChip {
       if (!bulk.edges) continue;
       const timespec at_once{};
       gpiod_line_bulk ready = GPIOD_LINE_BULK_INITIALIZER;
-      if (gpiod_line_event_wait_bulk(&bulk.lines, &at_once, &ready) < 0) return failed("cannot be asked for edges", error);
+      if (gpiod_line_event_wait_bulk(&bulk.lines, &at_once, &ready) < 0) return failed(name_, "cannot be asked for edges", error);
       for (unsigned i = 0; i < gpiod_line_bulk_num_lines(&ready); ++i)
-        if (!read_edges(bulk, gpiod_line_bulk_get_line(&ready, i), edges)) return failed("cannot be asked for edges", error);
+        if (!read_edges(bulk, gpiod_line_bulk_get_line(&ready, i), edges)) return failed(name_, "cannot be asked for edges", error);
     }
     return true;
   }
@@ -181,13 +176,10 @@ class GpiodChip final : public LineChip {
       unsigned offset = 0;
       if (const Opening opening = offset_of(lines[i], &offset, error); opening != Opening::kOpen) return opening;
       const auto [other, fresh] = owner.emplace(offset, i);
-      if (!fresh) {
-        *error = "lines " + lines[other->second].text() + " and " + lines[i].text() + " of chip \"" + name_ + "\" are the same";
-        return Opening::kRefused;
-      }
+      if (!fresh) return twice(name_, lines[other->second], lines[i], error);
       gpiod_line* line = gpiod_chip_get_line(chip_, offset);
-      if (line == nullptr) return refused(lines[i], errno, error);
-      if (gpiod_line_is_used(line)) return taken(lines[i], gpiod_line_consumer(line), error);
+      if (line == nullptr) return refused(name_, lines[i], errno, error);
+      if (gpiod_line_is_used(line)) return taken(name_, lines[i], gpiod_line_consumer(line), error);
       const std::tuple<bool, bool, int> kind(lines[i].output, lines[i].edges, flags_of(lines[i]));
       const auto place = filling.find(kind);
       if (place == filling.end() || bulks_[place->second].places.size() == GPIOD_LINE_BULK_MAX_LINES) {
@@ -210,8 +202,8 @@ class GpiodChip final : public LineChip {
       if (bulk.output) result = gpiod_line_request_bulk_output_flags(&bulk.lines, consumer.c_str(), flags_of(first), levels.data());
       else if (bulk.edges) result = gpiod_line_request_bulk_both_edges_events_flags(&bulk.lines, consumer.c_str(), flags_of(first));
       else result = gpiod_line_request_bulk_input_flags(&bulk.lines, consumer.c_str(), flags_of(first));
-      if (result != 0 && bulk.edges && gives_no_interrupt(errno)) return without_edges(first, error);
-      if (result != 0) return errno == EBUSY ? taken(first, nullptr, error) : refused(first, errno, error);
+      if (result != 0 && bulk.edges && gives_no_interrupt(errno)) return without_edges(name_, first, error);
+      if (result != 0) return errno == EBUSY ? taken(name_, first, nullptr, error) : refused(name_, first, errno, error);
       ++requested_;
     }
     return Opening::kOpen;
@@ -221,28 +213,6 @@ class GpiodChip final : public LineChip {
     Levels levels{};
     for (std::size_t i = 0; i < bulk.places.size(); ++i) levels[i] = values[bulk.places[i]];
     return levels;
-  }
-
-  Opening taken(const LineSetup& line, const char* owner, std::string* error) const {
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" is taken" + (owner != nullptr ? std::string(" by \"") + owner + "\"" : " by another");
-    return Opening::kTaken;
-  }
-
-  Opening without_edges(const LineSetup& line, std::string* error) const {
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" gives no edges: " + std::strerror(errno);
-    return Opening::kRefused;
-  }
-
-  Opening refused(const LineSetup& line, int problem, std::string* error) const {
-    const Opening opening = opening_of(problem);
-    const bool setting = problem == EINVAL || problem == ENOTSUP || problem == ENOTTY;
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" cannot be had" + (setting ? " with its direction, bias and drive: " : ": ") + std::strerror(problem);
-    return opening;
-  }
-
-  bool failed(const char* what, std::string* error) const {
-    *error = "chip \"" + name_ + "\" " + what + ": " + std::strerror(errno);
-    return false;
   }
 
   std::string name_;

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <utility>
 
+#include "hal/gpio/chip_refusal.hpp"
 #include "hal/gpio/line_chip.hpp"
 
 namespace nc::hal::gpio {
@@ -37,12 +38,6 @@ using LineConfig = std::unique_ptr<gpiod_line_config, Freer<gpiod_line_config_fr
 using RequestConfig = std::unique_ptr<gpiod_request_config, Freer<gpiod_request_config_free>>;
 using Request = std::unique_ptr<gpiod_line_request, Freer<gpiod_line_request_release>>;
 using EdgeBuffer = std::unique_ptr<gpiod_edge_event_buffer, Freer<gpiod_edge_event_buffer_free>>;
-
-// What a failed call means for the lines.
-Opening opening_of(int problem) {
-  if (problem == ENOENT || problem == ENODEV || problem == ENXIO) return Opening::kNoChip;
-  return problem == EBUSY ? Opening::kTaken : Opening::kRefused;
-}
 
 gpiod_line_value value_of(std::uint8_t value) { return value != 0 ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE; }
 
@@ -120,7 +115,7 @@ class Gpiod2Chip final : public LineChip {
     for (const Bulk& bulk : bulks_) {
       if (bulk.output) continue;
       Levels levels{};
-      if (gpiod_line_request_get_values(bulk.request.get(), levels.data()) != 0) return failed("cannot be read", error);
+      if (gpiod_line_request_get_values(bulk.request.get(), levels.data()) != 0) return failed(name_, "cannot be read", error);
       for (std::size_t i = 0; i < bulk.places.size(); ++i) (*values)[bulk.places[i]] = levels[i] == GPIOD_LINE_VALUE_ACTIVE ? 1 : 0;
     }
     return true;
@@ -131,7 +126,7 @@ class Gpiod2Chip final : public LineChip {
       if (!bulk.output) continue;
       Levels levels{};
       for (std::size_t i = 0; i < bulk.places.size(); ++i) levels[i] = value_of(values[bulk.places[i]]);
-      if (gpiod_line_request_set_values(bulk.request.get(), levels.data()) != 0) return failed("cannot be written", error);
+      if (gpiod_line_request_set_values(bulk.request.get(), levels.data()) != 0) return failed(name_, "cannot be written", error);
     }
     return true;
   }
@@ -142,7 +137,7 @@ class Gpiod2Chip final : public LineChip {
       if (!bulk.edges) continue;
       const int ready = gpiod_line_request_wait_edge_events(bulk.request.get(), 0);
       const int count = ready > 0 ? gpiod_line_request_read_edge_events(bulk.request.get(), buffer_.get(), kKept) : ready;
-      if (count < 0) return failed("cannot be asked for edges", error);
+      if (count < 0) return failed(name_, "cannot be asked for edges", error);
       for (int i = 0; i < count; ++i) {
         gpiod_edge_event* event = gpiod_edge_event_buffer_get_event(buffer_.get(), static_cast<unsigned long>(i));
         const auto at = std::find(bulk.offsets.begin(), bulk.offsets.end(), gpiod_edge_event_get_line_offset(event));
@@ -212,13 +207,10 @@ class Gpiod2Chip final : public LineChip {
       unsigned offset = 0;
       if (const Opening opening = offset_of(lines[i], &offset, error); opening != Opening::kOpen) return opening;
       const auto [other, fresh] = owner.emplace(offset, i);
-      if (!fresh) {
-        *error = "lines " + lines[other->second].text() + " and " + lines[i].text() + " of chip \"" + name_ + "\" are the same";
-        return Opening::kRefused;
-      }
+      if (!fresh) return twice(name_, lines[other->second], lines[i], error);
       const LineInfo info(gpiod_chip_get_line_info(chip_.get(), offset));
-      if (!info) return refused(lines[i], errno, error);
-      if (gpiod_line_info_is_used(info.get())) return taken(lines[i], gpiod_line_info_get_consumer(info.get()), error);
+      if (!info) return refused(name_, lines[i], errno, error);
+      if (gpiod_line_info_is_used(info.get())) return taken(name_, lines[i], gpiod_line_info_get_consumer(info.get()), error);
       const Kind kind = kind_of(lines[i]);
       const auto place = filling.find(kind);
       if (place == filling.end() || bulks_[place->second].places.size() == kMostLines) {
@@ -239,12 +231,12 @@ class Gpiod2Chip final : public LineChip {
       const LineSetup& first = lines[bulk.places.front()];
       const RequestConfig request(gpiod_request_config_new());
       const LineConfig config = config_of(bulk, first, values);
-      if (!request || !config) return refused(first, errno, error);
+      if (!request || !config) return refused(name_, first, errno, error);
       gpiod_request_config_set_consumer(request.get(), consumer.c_str());
       bulk.request.reset(gpiod_chip_request_lines(chip_.get(), request.get(), config.get()));
       if (bulk.request) continue;
-      if (first.edges && (errno == ENODEV || errno == ENXIO)) return without_edges(first, error);
-      return errno == EBUSY ? taken(first, nullptr, error) : refused(first, errno, error);
+      if (first.edges && (errno == ENODEV || errno == ENXIO)) return without_edges(name_, first, error);
+      return errno == EBUSY ? taken(name_, first, nullptr, error) : refused(name_, first, errno, error);
     }
     return Opening::kOpen;
   }
@@ -268,32 +260,10 @@ class Gpiod2Chip final : public LineChip {
     return config;
   }
 
-  Opening taken(const LineSetup& line, const char* owner, std::string* error) const {
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" is taken" + (owner != nullptr ? std::string(" by \"") + owner + "\"" : " by another");
-    return Opening::kTaken;
-  }
-
-  Opening without_edges(const LineSetup& line, std::string* error) const {
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" gives no edges: " + std::strerror(errno);
-    return Opening::kRefused;
-  }
-
-  Opening refused(const LineSetup& line, int problem, std::string* error) const {
-    const Opening opening = opening_of(problem);
-    const bool setting = problem == EINVAL || problem == ENOTSUP || problem == ENOTTY;
-    *error = "line " + line.text() + " of chip \"" + name_ + "\" cannot be had" + (setting ? " with its direction, bias and drive: " : ": ") + std::strerror(problem);
-    return opening;
-  }
-
   Opening refused_chip(std::string* error) const {
     const int problem = errno;
     *error = "chip \"" + name_ + "\" cannot be asked for its lines: " + std::strerror(problem);
     return opening_of(problem);
-  }
-
-  bool failed(const char* what, std::string* error) const {
-    *error = "chip \"" + name_ + "\" " + what + ": " + std::strerror(errno);
-    return false;
   }
 
   std::string name_;

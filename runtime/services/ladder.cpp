@@ -12,7 +12,6 @@
 namespace nc::rt::services {
 namespace {
 
-constexpr auto kScanPatience = std::chrono::milliseconds(500);  // within which the scan answers
 // At 1 ms one scan in two hundred at most notes its power flow, so the 99th percentile of the scan does not feel it.
 constexpr auto kFlowPause = std::chrono::milliseconds(200);
 

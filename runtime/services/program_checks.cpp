@@ -100,8 +100,8 @@ void ProgramChecks::forget_changed(bool all) {
   std::map<Key, CheckReport> kept;
   {
     const std::lock_guard lock(mutex_);
-    for (const auto& [key, report] : reports_)
-      if (all || std::any_of(head_.begin(), head_.end(), [&](const Head& head) { return head.key == key; })) kept.emplace(key, report);
+    for (const auto& found : reports_)
+      if (all || std::any_of(head_.begin(), head_.end(), [&](const Head& head) { return head.key == found.first; })) kept.insert(found);
   }
   for (const auto& [key, report] : kept) {
     if (std::all_of(report.files.begin(), report.files.end(), is_unchanged)) continue;

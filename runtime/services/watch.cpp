@@ -12,7 +12,6 @@ namespace {
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kTickNs = kShortestInterval * kMs;
 constexpr std::int64_t kRestNs = 1000 * kMs;                   // until the next try when no scan runs
-constexpr auto kScanPatience = std::chrono::milliseconds(500);  // within which the scan answers
 constexpr double kDefaultIntervalMs = 200;
 
 std::int64_t tick_from(std::int64_t time_ns) { return (time_ns + kTickNs - 1) / kTickNs * kTickNs; }
