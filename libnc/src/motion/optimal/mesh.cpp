@@ -33,6 +33,9 @@ constexpr double kGentleLevel = 10;  ///< the guess comes to a steady speed with
 constexpr unsigned kFewestLevel = 8;  ///< a steady speed is looked for where at least so many cells in a row allow the same
 constexpr double kSteep = 0.5;         ///< an estimate from rest that is flatter, speed times period by length, makes cells that grow by some percent each
 constexpr double kSlowest = 1e-3;  ///< mm/s: the speed that a cell has at least in the estimate, where nothing else bounds it from below
+/// The same by the speed that the path allows. A corner between turns of a rotary axis has so little of the linear axes, by which the length goes, that kSlowest is
+/// far above all that it allows, and a step with that would leave it at once.
+constexpr double kSlowestShare = 0.04;
 // Instructions: of a piece or a knot for each axis, on a polynomial and on another curve, of a step of the estimate, and of a cell.
 constexpr int64_t kPieceCost = 200, kCurveCost = 1500, kNodeCost = 60, kCellCost = 400, kLevelCost = 60;
 constexpr unsigned kNodesAtOnce = 256, kCellsAtOnce = 32, kKnotsAtOnce = 8;  ///< how many are made before others may have their turn
@@ -101,6 +104,11 @@ double Mesher::step_time(double v, double a, const Bound& bound, double period) 
   return std::min(period, (std::sqrt(a * a + 2 * bound.jerk * kPart * bound.speed) - a) / bound.jerk);
 }
 
+/// mm: the way of a step of an estimate.
+double Mesher::step_way(double v, double a, double t, const Bound& bound) {
+  return t * std::max(v + t * (a / 2 + t * bound.jerk / 6), std::min(kSlowest, kSlowestShare * bound.speed));
+}
+
 /// Speeds that can be reached from the start, with the acceleration growing by the jerk from 0 wherever the
 /// speed is bounded.
 Task<bool> Mesher::forward(Work& work) {
@@ -122,7 +130,7 @@ Task<bool> Mesher::forward(Work& work) {
       forward_.node[forward_.count++] = {u, v};
       if (forward_.count % kNodesAtOnce == 0) co_await work.pause(kNodesAtOnce * kNodeCost);
       const double t = step_time(v, a, bound, in.period);
-      const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
+      const double du = step_way(v, a, t, bound);
       if (u + du >= edge) {
         const double share = std::max(0.0, (edge - u) / du);
         v = std::min(bound.speed, v + share * t * (a + bound.jerk * t / 2));
@@ -131,7 +139,7 @@ Task<bool> Mesher::forward(Work& work) {
         break;
       }
       u += du;
-      v = std::max(v + t * (a + bound.jerk * t / 2), kSlowest);
+      v = std::max(v + t * (a + bound.jerk * t / 2), std::min(kSlowest, bound.speed));
       a = std::min(bound.acceleration, a + bound.jerk * t);
       if (v >= bound.speed) v = bound.speed, a = 0;
     }
@@ -159,7 +167,7 @@ Task<bool> Mesher::backward(Work& work, unsigned end_piece, double end) {
       backward_.node[backward_.count++] = {u, v};
       if (backward_.count % kNodesAtOnce == 0) co_await work.pause(kNodesAtOnce * kNodeCost);
       const double t = step_time(v, a, bound, in.period);
-      const double du = std::max(t * (v + t * (a / 2 + t * bound.jerk / 6)), kSlowest * t);
+      const double du = step_way(v, a, t, bound);
       if (u - du <= stop) {
         const double share = (u - stop) / du;
         v = std::min(bound.speed, v + share * t * (a + bound.jerk * t / 2));
@@ -467,8 +475,12 @@ Task<PathPlace> Mesher::build(Work& work, const MeshRequest& request, const Limi
     const PathPlace& at = place_[k];
     end_u_ = -request.from.x + at.x;
     for (unsigned p = request.from.piece; p < at.piece; ++p) end_u_ += request.at(p).length;
+    if (!(end_u_ > 0)) {
+      mesh->cells = 0;
+      co_return request.from;
+    }
     end_piece_ = at.piece;
-    if (at.x <= 0) --end_piece_;
+    if (at.x <= 0) --end_piece_;  // there is a piece before, as the window is longer than nothing
     whole_ = false;
   }
   co_await fill_knots(work);

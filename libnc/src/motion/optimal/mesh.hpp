@@ -98,6 +98,7 @@ class Mesher {
   void cells(Walk* walk, unsigned count);
   Task<bool> cells(Work& work, double end, bool fine);
   static double step_time(double v, double a, const Bound& bound, double period);
+  static double step_way(double v, double a, double t, const Bound& bound);
   double cap_of(const Piece& p, const CurvePoint& q, double u) const;
   void fill_knot(unsigned k, double u, CurvePoint* q);
   Task<bool> fill_knots(Work& work);
