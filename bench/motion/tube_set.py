@@ -7,6 +7,7 @@ usage: bench/motion/tube [--markdown] [--say] [--ncsim PATH] [--option TEXT ...]
 PROGRAM: names of the pieces, or files that run for some seconds. Every motion between two rests is optimized by itself. Exit status: 0, 1 when
 a program does not run or rests at a place that is not programmed.
 """
+import math
 import os
 import subprocess
 import sys
@@ -43,8 +44,17 @@ def surface_rows(noise):
     return of_shop("surface_005" + ("_noise" if noise else ""), 2 * 801 - 1)
 
 
+def corner(degrees):
+    """Two lines of 12 mm, the second one turned by so much."""
+    turn = math.radians(degrees)
+    return polyline([(0.0, 0.0, 0.0), (12.0, 0.0, 0.0), (12.0 + 12.0 * math.cos(turn), 12.0 * math.sin(turn), 0.0)], 6000)
+
+
 PROGRAMS = {
-    "corner": lambda: polyline([(0.0, 0.0, 0.0), (12.0, 0.0, 0.0), (12.0, 12.0, 0.0)], 6000),
+    "corner": lambda: corner(90),
+    "corner_45": lambda: corner(45),
+    "corner_135": lambda: corner(135),
+    "corner_165": lambda: corner(165),
     "hatch_rows": lambda: of_shop("hatch", 5),
     "trochoid_loops": lambda: of_shop("trochoid", 360),
     "trochoid_arc_loops": lambda: of_shop("trochoid_arcs", 6),

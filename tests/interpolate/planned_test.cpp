@@ -352,7 +352,7 @@ TEST(Planned, ASquareIsCutWithinItsTolerance) {
   Machine m(config);
   ASSERT_TRUE(m.run_to_end(p, 20000)) << m.out.cause << " " << m.out.command.v[0];
   EXPECT_TRUE(m.checker.ok()) << m.checker.report();
-  EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.225, 0.02);
+  EXPECT_NEAR(static_cast<double>(m.cycles) * 0.001, 4.203, 0.005);  // with chords of the corner's curvature it was 4.225
   EXPECT_EQ(m.command(), at(0, 0));
 }
 

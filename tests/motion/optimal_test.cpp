@@ -3,6 +3,7 @@
 // every 1 ms and not on the solver's own numbers, and take little more time than the known optimum.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -416,6 +417,39 @@ TEST(OptimalSmooth, ASquareIsCutByItsToleranceAndStraightBetween) {
   const CurvePoint middle = evaluate(path.pieces.front(), 25, 3);
   EXPECT_NEAR(middle.position[0], 25, 1e-12);
   EXPECT_NEAR(middle.position[1], 0, 1e-12);
+}
+
+/// Where one direction stops while the other one starts, each with constant jerk, in the time t from 0 to 1: the curvature at u = t^3 - (1 - t)^3.
+double curvature_of_corner(double u) {
+  double low = 0, high = 1;
+  for (unsigned n = 0; n < 60; ++n) {
+    const double t = 0.5 * (low + high);
+    (t * t * t - (1 - t) * (1 - t) * (1 - t) < u ? low : high) = t;
+  }
+  const double even = low * low + (1 - low) * (1 - low);
+  return 2 * low * (1 - low) / (3 * even * even * even);
+}
+
+TEST(OptimalSmooth, ASharpCornerIsTheCurveOfConstantJerk) {
+  Path path;
+  path.to(0, 0);
+  path.to(12, 0);
+  path.to(12, 12);
+  ASSERT_TRUE(path.smooth(0.01, 0.5));
+  const auto bent = [](const optimal::Piece& p) { return p.c[3][1] != 0; };
+  const auto first = std::find_if(path.pieces.begin(), path.pieces.end(), bent);
+  ASSERT_NE(first, path.pieces.end());
+  double start = 0;
+  for (auto p = path.pieces.begin(); p != first; ++p) start += p->length;
+  const double reach = 12 - start;
+  double u = start, worst = 0;
+  for (auto p = first; p != path.pieces.end() && u < 12 + 0.999 * reach; u += p++->length)
+    for (unsigned n = 0; n <= 8; ++n) {
+      const double x = p->length * n / 8;
+      worst = std::max(worst, std::fabs(reach * evaluate(*p, x, 3).d2[1] - curvature_of_corner((u + x - 12) / reach)));
+    }
+  EXPECT_LE(worst, 0.005 * curvature_of_corner(0));
+  EXPECT_NEAR(evaluate(*first, 0, 3).d3[1] * reach * reach, 2.0 / 9, 0.01);  // entered with no more jerk than the curve has
 }
 
 TEST(OptimalSmooth, APathMayTurnRound) {

@@ -17,10 +17,13 @@ constexpr int64_t kBendCost = 70, kWayCost = 40;  ///< instructions that a piece
 /// What the bends of one piece allow: the largest derivatives are at its ends.
 PieceSpeed bend_speed(const Piece& p, const Limits& limits, double turns) {
   PieceSpeed out{std::min(p.feed * turns, kFastest), HUGE_VAL, HUGE_VAL};
+  CurvePoint from, to;
+  derivatives(p, 0, limits.axis_count, &from);
+  derivatives(p, p.length, limits.axis_count, &to);
   for (unsigned i = 0; i < limits.axis_count; ++i) {
-    const double a = p.c[2][i], b = a + 3 * p.length * p.c[3][i];
-    const double d1 = std::max(std::fabs(p.c[1][i]), std::fabs(p.c[1][i] + p.length * (a + b))) + kNothing;
-    const double d2 = 2 * std::max(std::fabs(a), std::fabs(b)) + kNothing, d3 = 6 * std::fabs(p.c[3][i]) + kNothing;
+    const double d1 = std::max(std::fabs(from.d1[i]), std::fabs(to.d1[i])) + kNothing;
+    const double d2 = std::max(std::fabs(from.d2[i]), std::fabs(to.d2[i])) + kNothing;
+    const double d3 = std::max(std::fabs(from.d3[i]), std::fabs(to.d3[i])) + kNothing;
     if (limits.velocity[i] > 0) out.speed = std::min(out.speed, limits.velocity[i] / d1);
     if (limits.acceleration[i] > 0) {
       out.speed = std::min(out.speed, std::sqrt(limits.acceleration[i] / d2));

@@ -139,14 +139,17 @@ inline double unseen(const Piece& p, const Limits& limits, double way) NC_RT {
   return std::fmax(least, kRounding * way);
 }
 
+/// Position of one axis of a polynomial.
+inline double place_on(const Piece& p, double x, unsigned i) NC_RT {
+  const double high = p.quintic ? x * (p.c[4][i] + x * p.c[5][i]) : 0;
+  return p.c[0][i] + x * (p.c[1][i] + x * (p.c[2][i] + x * (p.c[3][i] + high)));
+}
+
 /// Position and derivatives at x in [0, length].
 inline CurvePoint evaluate(const Piece& p, double x, unsigned axis_count) NC_RT {
   if (p.curve != nullptr) return curve_evaluate(*p.curve, p.curve_from + x, axis_count);
   CurvePoint q;
-  for (unsigned i = 0; i < axis_count; ++i) {
-    const double high = p.quintic ? x * (p.c[4][i] + x * p.c[5][i]) : 0;
-    q.position[i] = p.c[0][i] + x * (p.c[1][i] + x * (p.c[2][i] + x * (p.c[3][i] + high)));
-  }
+  for (unsigned i = 0; i < axis_count; ++i) q.position[i] = place_on(p, x, i);
   derivatives(p, x, axis_count, &q);
   return q;
 }

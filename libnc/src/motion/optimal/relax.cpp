@@ -29,7 +29,7 @@ bool Smoother::moves(unsigned j) const {
   if (j < 3 || j >= last_) return false;
   const SmoothCell* const cell = room_.cell + (j - 3);
   for (unsigned k = j - 3; k <= j; ++k)
-    if (room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]) return false;
+    if (in_turn(k)) return false;
   const bool straight = cell[0].first_edge == cell[3].last_edge;
   if (straight && room_.knot[j + 1] - room_.knot[j - 3] > kLongEdge * spacing_of(in_, room_, cell[0].first_edge)) return false;
   const double least = std::min({cell[0].least_feed, cell[1].least_feed, cell[2].least_feed, cell[3].least_feed});

@@ -22,7 +22,7 @@ constexpr double kStraight = 1e-9;  ///< where |t2 - t1| is no larger than this,
 constexpr unsigned kFine = 8;       ///< more of them, where they leave it open
 constexpr double kRounding = 1e-11;  ///< a difference of q' that is smaller is rounding
 constexpr double kStraightEnd = 0.2;  ///< the first knot lies no farther than this part of the first edge from its end
-constexpr double kCornerCell = 0.55;  ///< of a cell of a sharp corner: there the speed changes much, so a law has two cells in it
+constexpr double kCornerCell = 0.26;  ///< of a piece of a sharp corner: its third derivative changes much, and that in a law is the same all along a cell
 constexpr unsigned kRounds = 40;
 constexpr unsigned kHangsOn = 3;    ///< cells on either side, whose knots make what a cell is
 constexpr double kGrown = 2;        ///< times as long as the last cell that is known the next one may be to begin with
@@ -89,9 +89,8 @@ void Smoother::set_corner(double u, double apart) {
 
 void Smoother::set_turn(unsigned vertex, double reach) {
   const double u = room_.u[vertex];
-  for (unsigned n = 0; n <= 2 * kTurnKnots; ++n) {
-    const double at = n < kTurnKnots ? -kTurnAt[kTurnKnots - n] : kTurnAt[n - kTurnKnots];
-    set_corner(u + at * reach, 0);
+  for (unsigned n = 0; n <= kTurnPieces; ++n) {
+    set_corner(n < kTurnPieces ? u + kTurn.piece[n].at * reach : u + reach, 0);
     room_.corner[last_] = vertex;
   }
 }
@@ -271,10 +270,10 @@ Task<bool> Smoother::controls(Work& work) {
     controls(j, std::min(last_ + 3, j + kAtOnce), &edge);
     co_await work.pause(kAtOnce * in_.axis_count * kControlCost);
   }
-  for (unsigned k = 1; k + 2 * kTurnKnots <= last_; ++k) {
-    if (room_.corner[k] == 0 || room_.corner[k + 2 * kTurnKnots] != room_.corner[k]) continue;
+  for (unsigned k = 1; k + kTurnPieces <= last_; ++k) {
+    if (room_.corner[k] == 0 || room_.corner[k + kTurnPieces] != room_.corner[k]) continue;
     turn_controls(k);
-    co_await work.pause(2 * kTurnKnots * in_.axis_count * kPieceCost);
+    co_await work.pause(kTurnPieces * in_.axis_count * kPieceCost);
   }
   room_.control[0] = in_.line.vertex[0];
   if (in_.from != nullptr) start_controls();
@@ -338,17 +337,12 @@ void Smoother::turn_controls(unsigned first) {
   const Polyline& l = in_.line;
   const unsigned vertex = room_.corner[first];
   const int a = static_cast<int>(first);
-  const double u = room_.u[vertex], reach = u - t(a), scale = kTurnScale / reach;
+  const double u = room_.u[vertex], reach = u - t(a);
   const double pa = 1 / l.length[vertex - 1], pb = 1 / l.length[vertex];
   double e = 0, d = 0;
-  for (int n = 1; n <= 2 * static_cast<int>(kTurnKnots); ++n) {
+  for (int n = 1; n <= static_cast<int>(kTurnPieces); ++n) {
     const int j = a + 2 + n;  // control value a + 2 is the last one before the turn
-    if (n < 2 * static_cast<int>(kTurnKnots)) {
-      const unsigned side =
-          static_cast<unsigned>(n < static_cast<int>(kTurnKnots) ? static_cast<int>(kTurnKnots) - n
-                                                                 : n - static_cast<int>(kTurnKnots));
-      e += kTurnK[side] * scale * (t(a + n + 1) - t(a + n - 1)) / 2;
-    }
+    e += kTurn.chord[n] / reach * (t(a + n + 1) - t(a + n - 1)) / 2;  // nothing at the last one
     d += e * (t(j) - t(j - 3)) / 3;
     const double along = (t(j - 2) + t(j - 1) + t(j)) / 3 - u;
     for (unsigned i = 0; i < in_.axis_count; ++i) {
@@ -356,6 +350,20 @@ void Smoother::turn_controls(unsigned first) {
                    t2 = (l.vertex[vertex + 1][i] - l.vertex[vertex][i]) * pb;
       room_.control[static_cast<unsigned>(j)][i] = l.vertex[vertex][i] + along * t1 + d * (t2 - t1);
     }
+  }
+}
+
+/// What the curve of a sharp corner has beyond the cubic of its cell k, by axis.
+void Smoother::turn_rest(unsigned k, AxisVec* out) const {
+  const Polyline& l = in_.line;
+  const unsigned vertex = room_.corner[k];
+  unsigned first = k;
+  while (room_.corner[first - 1] == vertex) --first;
+  const double reach = room_.u[vertex] - room_.knot[first], pa = 1 / l.length[vertex - 1], pb = 1 / l.length[vertex];
+  for (unsigned i = 0; i < in_.axis_count; ++i) {
+    const double t1 = (l.vertex[vertex][i] - l.vertex[vertex - 1][i]) * pa, t2 = (l.vertex[vertex + 1][i] - l.vertex[vertex][i]) * pb;
+    double scale = reach * (t2 - t1);
+    for (unsigned j = 0; j < 6; ++j, scale /= reach) out[j][i] = scale * kTurn.rest[k - first][j];
   }
 }
 
@@ -370,8 +378,15 @@ void Smoother::pieces(unsigned from, unsigned to, unsigned* first_edge) {
     p.length = h;
     p.curve = nullptr;
     p.rapid = p.quintic = false;
-    p.cell = room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1] ? kCornerCell * h : 0;
+    p.cell = 0;
     p.feed = HUGE_VAL;
+    const bool turn = in_turn(k);
+    AxisVec rest[6];
+    if (turn) {
+      turn_rest(k, rest);
+      p.quintic = true;
+      p.cell = kCornerCell * h;
+    }
     // Differences: e_j = 3 (d_j - d_(j-1)) / (t_j - t_(j-3)), f_j = 2 (e_j - e_(j-1)) / (t_(j-1) - t_(j-3));
     // q'' at knot k is f_(k+2).
     const double w1 = 3 / (t(c + 1) - t(c - 2)), w2 = 3 / (t(c + 2) - t(c - 1)), w3 = 3 / (t(c + 3) - t(c));
@@ -387,7 +402,8 @@ void Smoother::pieces(unsigned from, unsigned to, unsigned* first_edge) {
         p.c[0][i] = d[0][i];
       } else {
         const Piece& b = out_[k - 1];
-        p.c[0][i] = b.c[0][i] + b.length * (b.c[1][i] + b.length * (b.c[2][i] + b.length * b.c[3][i]));
+        p.c[0][i] = place_on(b, b.length, i);
+        if (turn) p.c[0][i] -= rest[0][i];
       }
       p.c[2][i] = f2 / 2;
       p.c[3][i] = (f3 - f2) / (6 * h);
@@ -397,6 +413,10 @@ void Smoother::pieces(unsigned from, unsigned to, unsigned* first_edge) {
                    behind = d[k + 2][i] + w3 / 3 * h * (d[k + 3][i] - d[k + 2][i]);
       const double missed = before + (behind - before) * h / g1 - (p.c[0][i] + h * (slope + h * (p.c[2][i] + h * p.c[3][i])));
       p.c[1][i] = slope + std::clamp(missed / h, -kRounding, kRounding);
+      if (!turn) continue;
+      for (unsigned j = 0; j < 4; ++j) p.c[j][i] += rest[j][i];
+      p.c[4][i] = rest[4][i];
+      p.c[5][i] = rest[5][i];
     }
     if (in_.line.feed == nullptr) continue;
     if (one_feed_) {
@@ -426,7 +446,7 @@ double Smoother::distance2(unsigned cell, double u, const AxisVec& p) const {
   const double x = u - room_.knot[cell];
   double sum = 0;
   for (unsigned i = 0; i < in_.axis_count; ++i) {
-    const double off = q.c[0][i] + x * (q.c[1][i] + x * (q.c[2][i] + x * q.c[3][i])) - p[i];
+    const double off = place_on(q, x, i) - p[i];
     sum += off * off;
   }
   return sum;
@@ -448,8 +468,10 @@ bool Smoother::far(unsigned k, double most, unsigned* vertex, unsigned* edge) co
   if (worst > most) return true;
   const Piece& p = out_[k];
   double bend2 = 0;
-  for (unsigned i = 0; i < in_.axis_count; ++i) {
-    const double bend = 2 * std::max(std::fabs(p.c[2][i]), std::fabs(p.c[2][i] + 3 * h * p.c[3][i]));
+  CurvePoint end;
+  derivatives(p, h, in_.axis_count, &end);
+  for (unsigned i = 0; i < in_.axis_count; ++i) {  // the largest one is at an end: also in a sharp corner the second derivative grows up to its middle
+    const double bend = std::max(std::fabs(2 * p.c[2][i]), std::fabs(end.d2[i]));
     bend2 += bend * bend;
   }
   const double between = h / kLooks * h / kLooks / 8 * std::sqrt(bend2);
@@ -581,9 +603,9 @@ Border find_border(const SmoothRequest& request, const SmoothRoom& room, const P
   Border best;
   if (cut_straight(request, room, pieces, cells, most, &best)) return best;
   // The last three knots belong to the end, and cell k - 1 hangs on knots up to k + 2. Two places of kinds that are left out never follow one
-  // another but inside of a turn, which has 2 kTurnKnots cells: so there is a border wherever there are more cells than that.
+  // another but inside of a sharp corner, which has kTurnPieces cells: so there is a border wherever there are more cells than that.
   for (unsigned k = cells < kFinal + 1 ? 0 : std::min(cells - kFinal, most), n = 0; k > 0 && (n < kBorders || best.cells == 0); --k, ++n) {
-    if (room.corner[k] != 0 && room.corner[k] == room.corner[k + 1]) continue;  // a turn is made as a whole
+    if (room.corner[k] != 0 && room.corner[k] == room.corner[k + 1]) continue;  // a sharp corner is made as a whole
     const double u = room.knot[k];
     while (edge > 0 && room.u[edge] > u) --edge;
     if (room.u[edge + 1] - u < kShortRest) continue;

@@ -42,6 +42,7 @@ class Smoother {
   bool fits(unsigned j) const;
   void set_turn(unsigned vertex, double reach);
   void turn_controls(unsigned first);
+  void turn_rest(unsigned k, AxisVec* out) const;
   double corner(unsigned k) const;
   Task<bool> first_knots(Work& work);
   void begin_knots();
@@ -62,9 +63,8 @@ class Smoother {
   };
   int64_t look_on(Look* look);
   Task<bool> near_enough(Work& work);
-  bool halved(unsigned k) const {  // those of a sharp corner are not: they have their shape
-    return room_.cell[k].split && !(room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]);
-  }
+  bool in_turn(unsigned k) const { return room_.corner[k] != 0 && room_.corner[k] == room_.corner[k + 1]; }
+  bool halved(unsigned k) const { return room_.cell[k].split && !in_turn(k); }  // cells of a sharp corner have their shape
   Task<bool> split(Work& work);
   AxisVec on_line(double u, unsigned* edge) const;
   double distance2(unsigned cell, double u, const AxisVec& p) const;

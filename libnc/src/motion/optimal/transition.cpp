@@ -18,6 +18,7 @@ constexpr unsigned kLooks = 16;  ///< places on either side of the joint that ar
 constexpr unsigned kLooksTurn = 3;  ///< the same in each piece of a sharp corner
 constexpr double kBowOfTurn = 0.1;  ///< of the tolerance, that the step of curvature may take at a sharp corner
 constexpr double kShortest = 2e-6;  ///< mm: a transition is no shorter
+constexpr double kTurnCell = 0.26;  ///< and one on a sharp corner this part of a piece
 constexpr double kCell = 0.125;  ///< a cell of the time law has at most this part of the length
 
 double distance(const AxisVec& a, const AxisVec& b, unsigned axis_count) {
@@ -83,29 +84,22 @@ Piece between(const CurvePoint& from, const CurvePoint& to, double l, unsigned a
 
 /// Cuts the polynomial at the knots of the sharp corner and adds step times T to each part, T'' = K, T = max(u, 0) outside.
 void add_turn(const Piece& whole, const AxisVec& step, double reach, unsigned axis_count, Transition* out) {
-  constexpr unsigned kCount = 2 * kTurnKnots;
-  const auto at = [](unsigned n) { return n < kTurnKnots ? -kTurnAt[kTurnKnots - n] : kTurnAt[n - kTurnKnots]; };
-  const auto bend_at = [&](unsigned n) { return kTurnK[n < kTurnKnots ? kTurnKnots - n : n - kTurnKnots] * kTurnScale / reach; };
-  double value = 0, slope = 0;  // T and T'
-  out->count = kCount;
-  for (unsigned n = 0; n < kCount; ++n) {
-    const double h = (at(n + 1) - at(n)) * reach, x = (at(n) + 1) * reach, k0 = bend_at(n), k1 = bend_at(n + 1);
+  out->count = kTurnPieces;
+  for (unsigned n = 0; n < kTurnPieces; ++n) {
+    const TurnPiece& turn = kTurn.piece[n];
+    const double x = (turn.at + 1) * reach;
     Piece& p = out->piece[n];
     p = whole;
-    p.length = h;
+    p.length = turn.length * reach;
+    p.cell = kTurnCell * p.length;
     for (unsigned i = 0; i < axis_count; ++i) {
       double c[6];
       for (unsigned j = 0; j < 6; ++j) c[j] = whole.c[j][i];
       for (unsigned j = 0; j < 5; ++j)
         for (unsigned k = 5; k-- > j;) c[k] += x * c[k + 1];  // Horner's scheme, shifted to x
-      for (unsigned j = 0; j < 6; ++j) p.c[j][i] = c[j];
-      p.c[0][i] += step[i] * value;
-      p.c[1][i] += step[i] * slope;
-      p.c[2][i] += step[i] * k0 / 2;
-      p.c[3][i] += step[i] * (k1 - k0) / (6 * h);
+      double scale = reach * step[i];
+      for (unsigned j = 0; j < 6; ++j, scale /= reach) p.c[j][i] = c[j] + scale * turn.c[j];
     }
-    value += h * (slope + h * (2 * k0 + k1) / 6);
-    slope += h * (k0 + k1) / 2;
   }
 }
 

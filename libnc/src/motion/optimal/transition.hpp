@@ -31,7 +31,7 @@ struct Joint {
 };
 
 struct Transition {
-  Piece piece[2 * kTurnKnots];
+  Piece piece[kTurnPieces];
   unsigned count = 0;
 };
 
