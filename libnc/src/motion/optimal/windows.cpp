@@ -27,7 +27,7 @@ constexpr double kLongestPhases = 2;  ///< s: a law in phases is no longer
 constexpr unsigned kPhaseLooks = 8;  ///< at a phase, for every 5 ms and piece
 constexpr unsigned kAtOnce = 8;  ///< cells that are looked at before others may have their turn
 // Instructions: of the look at a cell for each axis, on a cubic and on another curve, of a look at a phase for each axis, and of a speed.
-constexpr int64_t kCubicCost = 800, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
+constexpr int64_t kCubicCost = 800, kQuinticCost = 2000, kCurveCost = 20000, kPhaseCost = 60, kPhaseCurveCost = 500, kSpeedCost = 500;
 
 }  // namespace
 
@@ -221,8 +221,39 @@ class Windows::AccelerationPeaks {
   return peaks.worst();
 }
 
+/// The looks at a cell on a piece of degree 5. `seconds`: between two of them, at most. Where the acceleration cannot come to its limit in that time
+/// nothing more is to be known about it. False where it may.
+inline bool Windows::looks_on_quintic(unsigned k, const Moments& m, double seconds, Excess* out) const {
+  const Piece& p = piece_of(k);
+  Four velocity{}, acceleration{}, jerk{};
+  double least = HUGE_VAL;  // by a jerk within its limit, of the share of an acceleration
+  for (unsigned i = 0; i < limits_.axis_count; ++i) {
+    const double most = velocity_of(p, limits_, i);
+    const Four per_v = all(most > 0 ? 1 / most : 0), per_a = all(per_acceleration_[i]), per_j = all(per_jerk_[i]);
+    const Four c1 = all(p.c[1][i]), c2 = all(p.c[2][i]), c3 = all(p.c[3][i]), c4 = all(p.c[4][i]), c5 = all(p.c[5][i]);
+    for (unsigned n = 0; n < kFours; ++n) {
+      const Four x = all(place(k).x) + m.x[n];
+      const Four d1 = c1 + x * (all(2) * c2 + x * (all(3) * c3 + x * (all(4) * c4 + x * all(5) * c5)));
+      const Four d2 = all(2) * c2 + x * (all(6) * c3 + x * (all(12) * c4 + x * all(20) * c5));
+      const Four d3 = all(6) * c3 + x * (all(24) * c4 + x * all(60) * c5);
+      velocity = larger(velocity, size_of(d1 * m.v[n]) * per_v);
+      acceleration = larger(acceleration, size_of(d1 * m.a[n] + d2 * m.v2[n]) * per_a);
+      jerk = larger(jerk, size_of(d1 * m.j[n] + d2 * m.va[n] + d3 * m.v3[n]) * per_j);
+    }
+    if (per_acceleration_[i] > 0) least = std::min(least, per_jerk_[i] / per_acceleration_[i]);
+  }
+  *out = {largest(acceleration), largest(jerk), largest(velocity)};
+  return least > 0 && out->acceleration + out->jerk * seconds / least <= 1;
+}
+
 [[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
   const Piece& p = piece_of(k);
+  if (p.quintic && !(k == 0 && mesh_.from_rest) && k + 1 != law_.cells) {
+    double slowest = HUGE_VAL;
+    for (const Four& v : m.v) slowest = std::min({slowest, v[0], v[1], v[2], v[3]});
+    Excess looks;
+    if (looks_on_quintic(k, m, mesh_.h[k] / ((kLooks - 1) * slowest), &looks)) return looks;
+  }
   Excess worst;
   AccelerationPeaks peaks(*this, k, m);
   CurvePoint q;
@@ -264,7 +295,8 @@ NC_FOR_WIDE_VECTORS double Windows::tighten(unsigned from, unsigned to) {
 }
 
 int64_t Windows::look_cost(unsigned k) const {
-  return limits_.axis_count * (piece_of(k).curve != nullptr ? kCurveCost : kCubicCost);
+  const Piece& p = piece_of(k);
+  return limits_.axis_count * (p.curve != nullptr ? kCurveCost : p.quintic ? kQuinticCost : kCubicCost);
 }
 
 Task<double> Windows::tighten(Work& work) {

@@ -96,6 +96,7 @@ class Windows {
   class AccelerationPeaks;
   bool moments(unsigned cell, Moments* m) const;
   Excess excess(unsigned cell) const;
+  bool looks_on_quintic(unsigned cell, const Moments& m, double seconds, Excess* out) const;
   Excess excess_on_curve(unsigned cell, const Moments& m) const;
   double peak_acceleration(unsigned cell, const Moments& m) const;
   int64_t look_cost(unsigned cell) const;
