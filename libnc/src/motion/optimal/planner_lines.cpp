@@ -14,7 +14,6 @@ constexpr double kMostSeconds = 2;  ///< s that one law lasts at most, where a p
 constexpr unsigned kMostCells = 1024;  ///< cells that one law has at most; where it takes longer, they do
 constexpr unsigned kMostPieces = 512;
 constexpr double kSame = 1e-9;  ///< directions and speeds that differ by no more are the same
-constexpr double kEdge = 1e-9;  ///< mm: a line that is no longer than this is none
 constexpr unsigned kHalvings = 60;
 constexpr unsigned kSamples = kMaxCells / LineLaw::kPhases;  ///< places of each phase that are looked at
 constexpr unsigned kBends = 32;         ///< places of a piece where its bends are looked at
@@ -92,7 +91,7 @@ bool OptimalPlanner::find_line_stop(const Start& start, double most) {
 Task<bool> OptimalPlanner::find_creep(Work& work, const Start& start, double reach) {
   const Piece& p = store_.piece_at(start.piece);
   const double length = std::min(p.length - start.x, reach);
-  if (!start.from_rest || !(length > kEdge) || stands(p, limits_)) co_return false;
+  if (!start.from_rest || !(length > unseen(p, limits_, p.length)) || stands(p, limits_)) co_return false;
   LineLimits most{feed_of(p, limits_), HUGE_VAL, HUGE_VAL};
   co_await work.pause(kCreepCost * limits_.axis_count);
   for (unsigned n = 0; n < kBends; ++n) bound_creep(p, start.x + length * (n + 0.5) / kBends, &most);
