@@ -13,6 +13,7 @@
 #include "alarm/condition.hpp"
 #include "path_builder.hpp"
 #include "support/pull.hpp"
+#include "support/seeds.hpp"
 
 namespace nc::test {
 namespace {
@@ -516,6 +517,50 @@ TEST(ContourMemory, ASecondRoundIsNoWayOut) {
   };
   for (const char* const round : {"", "G2 J-8.329 Z-0.5\n", "G2 J-8.329\n", "G2 J-8.329\nG2 J-8.329\n"})
     EXPECT_EQ(alarm_of_program(hole(round), 6.947, {{"CONTOUR_CHECK", "1"}}), "P153") << round;
+}
+
+// M700 12.4.6: in a block with another offset number the amount changes evenly, from that of the block in front to its own. So its path has less than its own amount where its
+// end is led round a corner, and its wall at an inner corner has the amount of the block in front.
+TEST(ContourCheck, AnAmountThatChangesAlongABlockIsAskedForAsItIsThere) {
+  const std::map<std::string, std::string> check = {{"CONTOUR_CHECK", "1"}};
+  const auto with = [](const char* second, const char* contour) {
+    return std::string("G10 L10 P2 R") + second + "\nG0 X0 Y20.\nG41 D1 G1 X0 Y0 F1000\nX20.\nX40.\nX60.\n" + contour + "X240. Y-60.\nG40 Y-30.\nM30\n";
+  };
+  for (const char* const second : {"1.5", "2.2", "3."}) {
+    EXPECT_EQ(alarm_of_program(with(second, "D2 X100.\nY-60.\n"), 2, check), "") << second;                    // an outer corner behind the block
+    EXPECT_EQ(alarm_of_program(with(second, "X100.\nD2 Y60.\nX160.\nY-60.\n"), 2, check), "") << second;      // an inner one in front of it
+    EXPECT_EQ(alarm_of_program(with(second, "X100.\nD2 G3 X120. Y20. J20.\nG1 Y60.\nX160.\nY-60.\n"), 2, check), "") << second;
+    EXPECT_EQ(alarm_of_program(with(second, "D2 G2 X100. Y-40. J-40.\nG1 X160.\nY-60.\n"), 2, check), "") << second;
+  }
+  // The other wall of a slot of 4.5 mm stands beside the middle of the block: there the amount is half way to the second one.
+  const auto slot = [](const char* second, const char* width) {
+    return std::string("G10 L10 P2 R") + second + "\nG0 X-20. Y-20.\nG41 D1 G1 X0 Y0 F1000\nX20.\nD2 X120.\nY" + width + "\nD1 X70.\nY60.\nX0\nG40 Y30.\nM30\n";
+  };
+  EXPECT_EQ(alarm_of_program(slot("2.", "4.5"), 2, check), "");
+  EXPECT_EQ(alarm_of_program(slot("2.2", "4.5"), 2, check), "");
+  EXPECT_EQ(alarm_of_program(slot("2.4", "4.5"), 2, check), "P153");
+}
+
+// Random contours whose blocks are far longer than the tool: whatever the amounts are, the tool has room at every corner.
+TEST(ContourCheck, RandomAmountsHaveRoomAtWideCorners) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(300, 30);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    std::string text = "G10 L10 P2 R" + std::to_string(number(1, 4)) + "\nG10 L10 P3 R" + std::to_string(number(1, 4)) + "\nG0 X-200. Y-40.\n";
+    const bool left = random() % 2 == 0;
+    text += std::string(left ? "G41" : "G42") + " D1 G1 X-160. Y0 F1000\nX-120.\nX-80.\nX-40.\n";
+    double x = -40, y = 0, heading = 0;
+    for (unsigned n = 0; n < 5; ++n) {
+      const double length = number(60, 90);
+      if (n > 0) heading = std::clamp(heading + number(-1.9, 1.9), -1.2, 1.2);  // it never comes back
+      x += length * std::cos(heading);
+      y += length * std::sin(heading);
+      text += "D" + std::to_string(1 + random() % 3) + " X" + std::to_string(x) + " Y" + std::to_string(y) + "\n";
+    }
+    text += "X" + std::to_string(x + 80) + "\nX" + std::to_string(x + 120) + "\nX" + std::to_string(x + 160) + "\nG40 X" + std::to_string(x + 200) + "\nM30\n";
+    ASSERT_EQ(alarm_of_program(text, number(1, 4), {{"CONTOUR_CHECK", "1"}}), "") << "seed " << seed << "\n" << text;
+  }
 }
 
 }  // namespace

@@ -127,7 +127,13 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
     if (open.from && open.to && !wall.piece.round) return false;
   }
-  return comes_nearer(path.piece, wall.piece, std::min(std::abs(path.offset), std::abs(wall.offset)) - kEnters_mm - path.slop - wall.slop, open);
+  const Amount of_path{std::abs(path.before), std::abs(path.offset)}, of_wall{std::abs(wall.before), std::abs(wall.offset)};
+  return comes_nearer(path.piece, of_path, wall.piece, of_wall, kEnters_mm + path.slop + wall.slop, open);
+}
+
+/// The offset at the start of a block that has been read (M700 12.4.6); that of the block itself where it is not reached from another amount on the same side.
+double ContourMemory::amount_before(const Section& section) const {
+  return section.start || !(state_.offset * section.offset > 0) ? section.offset : state_.offset;
 }
 
 Clearance ContourMemory::read(Section* section) {
@@ -147,6 +153,7 @@ Clearance ContourMemory::read(Section* section) {
   state_.steps = 0;
   Wall wall;
   wall.piece = wall_of(*section, start);
+  wall.before = amount_before(*section);
   if (std::abs(section->level - state_.level) > kLevel_mm || section->level_end > section->level + kLevel_mm) ++state_.descent;  // by a plunge, or up
   state_.level = section->level_end;
   section->descent = wall.descent = state_.descent;
@@ -158,7 +165,7 @@ Clearance ContourMemory::read(Section* section) {
   const Box box = box_of(wall.piece);
   walls_.push(wall, box);
   if (wall.offset == 0) return Clearance::fits;
-  const bool near = paths_.any(state_.first_path, box.grown(std::abs(wall.offset)), [&](uint64_t, const Path& path) { return enters(path, section->number, wall); });
+  const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) { return enters(path, section->number, wall); });
   return near && blame(section->number) ? Clearance::enters : Clearance::fits;
 }
 
@@ -166,6 +173,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   Path path;
   path.number = section.number;
   path.offset = section.cancel ? state_.offset : section.offset;
+  path.before = section.cancel ? path.offset : walls_[section.number].before;
   path.low = std::min(section.level, section.level_end);
   path.high = std::max(section.level, section.level_end);
   path.descent = section.descent;
@@ -195,12 +203,14 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     ahead.starts = ahead.from_contour = section.led_from == Vec2{};
     ahead.contour = start;
     ahead.crosses_own = section.led_turns;
+    ahead.offset = ahead.before;
     ahead.to_contour = from_given;
     add(ahead, lead);
   }
   path.crosses_own = (from_given && !path.from_contour) || (to_given && !path.to_contour) || section.oblique;
   add(path, path_of(section, start, from, section.joint.v[0]));
   path.from_contour = path.crosses_own = false;
+  path.before = path.offset;
   path.bends = section.joint.corner_arc;
   for (unsigned k = 1; k < section.joint.n; ++k) {
     path.of_joint = true;
@@ -219,7 +229,7 @@ Clearance ContourMemory::step(const Step& step) {
   if (state_.overlong || !walls_.keeps(state_.first)) return Clearance::full;
   Path path;
   path.number = state_.end;
-  path.offset = step.offset;
+  path.offset = path.before = step.offset;
   path.low = path.high = state_.level;
   path.descent = state_.descent;
   path.contour = state_.at + step.approach;
@@ -239,7 +249,7 @@ Clearance ContourMemory::take(const Path& path) {
   const Box box = box_of(path.piece);
   if (path.offset == 0) return Clearance::fits;
   paths_.push(path, box);
-  const bool near = walls_.any(state_.first, box.grown(std::abs(path.offset)), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && (at_its_own_corner(path, number) || blame(number)); });
+  const bool near = walls_.any(state_.first, box.grown(std::max(std::abs(path.offset), std::abs(path.before))), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && (at_its_own_corner(path, number) || blame(number)); });
   return near ? Clearance::enters : Clearance::fits;
 }
 

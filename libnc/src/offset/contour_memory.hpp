@@ -12,6 +12,9 @@
 // the contour all are on one level), and beside a change of
 // side, or where the tool stands on the contour without a vector, the block before and the block behind, each with the path of the other.
 //
+// How near a path may come. By the smaller one of the two amounts where they differ, and in a block with another amount, in which it changes evenly (M700 12.4.6), by what it is there:
+// at a joint that of the block in front holds for both.
+//
 // Blocks and paths lie in two rows (box_row.hpp) of a fixed size. A contour that is longer is an alarm where it leaves the memory, never a block that
 // is not looked at.
 #pragma once
@@ -90,6 +93,7 @@ class ContourMemory {
   struct Wall {
     Piece piece;
     double offset = 0;  ///< 0: it is none
+    double before = 0;  ///< that at its start: of the block in front of it
     double slop = 0;
     double low = 0, high = 0;
     uint32_t descent = 0;
@@ -98,6 +102,7 @@ class ContourMemory {
     Piece piece;
     uint64_t number = 0;  ///< of its block
     double offset = 0, slop = 0;
+    double before = 0;    ///< the offset at its start
     double low = 0, high = 0;
     uint32_t descent = 0;
     bool goes_down = false;
@@ -116,6 +121,7 @@ class ContourMemory {
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
+  double amount_before(const Section& section) const;
   static bool at_its_own_corner(const Path& path, uint64_t number);
   bool blame(uint64_t number);
   bool no_way(uint64_t cancel) const;

@@ -16,6 +16,8 @@ constexpr double kFull = 2 * kPi;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Radii that differ by less count as one.
 constexpr double kOneRadius_mm = 1e-4;
+/// So do amounts.
+constexpr double kOneAmount_mm = 1e-4;
 /// Vectors whose lengths differ by less end on one circle about the corner.
 constexpr double kBends_mm = 1e-6;
 /// Which way a turn of 180 degrees goes is decided by rounding, from this near on.
@@ -105,8 +107,13 @@ void arc_of(const Section& section, Vec2 start, Piece* piece) {
   piece->sweep = section.sweep;
 }
 
-/// The two halves of an arc.
+/// The two halves of a line or of an arc.
 void halve(const Piece& arc, Piece half[2]) {
+  if (!arc.round) {
+    half[0] = half[1] = arc;
+    half[0].to = half[1].from = 0.5 * (arc.from + arc.to);
+    return;
+  }
   const double c = std::cos(arc.sweep / 2), s = std::sin(arc.sweep / 2), middle = mean_radius(arc);
   const Vec2 out = unit(arc.from - arc.center);
   const Vec2 point = arc.center + middle * Vec2{c * out.h - s * out.v, s * out.h + c * out.v};
@@ -211,6 +218,27 @@ bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds o
   }
   halve(wall, half);
   return comes_nearer(path, half[0], least, {open.from, false}) || comes_nearer(path, half[1], least, {false, open.to});
+}
+
+// Where all of the two is farther apart than the larger amounts, or somewhere nearer than the smallest one, that says it. Between the two it is asked of the halves
+// of what changes more, which ends as soon as the amounts of two pieces are one.
+bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount of_wall, double margin, OpenEnds open) {
+  const double most = std::min(std::max(of_path.start, of_path.end), std::max(of_wall.start, of_wall.end));
+  const double least = std::min({of_path.start, of_path.end, of_wall.start, of_wall.end});
+  if (!comes_nearer(path, wall, most - margin, open)) return false;
+  if (most - least <= kOneAmount_mm || comes_nearer(path, wall, least - margin, open)) return true;
+  const double path_changes = std::abs(of_path.end - of_path.start), wall_changes = std::abs(of_wall.end - of_wall.start);
+  if (std::max(path_changes, wall_changes) <= kOneAmount_mm) return false;
+  Piece half[2];
+  if (path_changes >= wall_changes) {
+    const double middle = 0.5 * (of_path.start + of_path.end);
+    halve(path, half);
+    return comes_nearer(half[0], {of_path.start, middle}, wall, of_wall, margin, open) || comes_nearer(half[1], {middle, of_path.end}, wall, of_wall, margin, open);
+  }
+  const double middle = 0.5 * (of_wall.start + of_wall.end);
+  halve(wall, half);
+  return comes_nearer(path, of_path, half[0], {of_wall.start, middle}, margin, {open.from, false}) ||
+         comes_nearer(path, of_path, half[1], {middle, of_wall.end}, margin, {false, open.to});
 }
 
 }  // namespace nc

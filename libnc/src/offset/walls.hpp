@@ -43,6 +43,13 @@ double distance(const Piece& path, const Piece& wall, OpenEnds open = {});
 /// Whether they come nearer to each other than `least`, also where radii change, to a tenth of a micrometre.
 bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds open = {});
 
+/// The amount along a block, at its start and at its end: it changes evenly in a block with another offset number (M700 12.4.6).
+struct Amount {
+  double start = 0, end = 0;
+};
+/// Whether they come nearer to each other than the smaller one of the two amounts less `margin`, each at its place, to a tenth of a micrometre.
+bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount of_wall, double margin, OpenEnds open = {});
+
 /// Between the two radii of an arc (#1084) it is not said where its circle is. The path between them may lie by so much nearer than the radius.
 inline double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
 
