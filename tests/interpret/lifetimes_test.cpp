@@ -81,6 +81,7 @@ NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
 NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)
 NC_PARTS(SpaceVector, on, turns, axis, v)
+NC_PARTS(InHand, called, selected, in_spindle, spindle_on, spindle_reverse)
 NC_PARTS(LeftByEnd, feed, motion, feed_mode, any)
 
 template <class... Member>
@@ -119,7 +120,7 @@ std::map<std::string, Fields> groups_of_state() {
   NC_FIELDS(ProgramLife, end_seen, percent_seen, unit_used, interrupt_on, interrupt_moved, interrupt_depth, suppressed, disabled)
   NC_FIELDS(UntilReset, spindle_on, spindle_reverse, spindle_clamped, length_handle_number, length_by_handle, length_changed_by_handle, tool_angles_old, tool_angle)
   NC_FIELDS(UntilOperatorReset, left_by_end)
-  NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open, selected_tool, spindle_tool)
+  NC_FIELDS(UntilPowerOff, clock_base, clock_shift_s, port_open, selected_tool, spindle_tool, reads_beside_machine, machine_has)
   NC_FIELDS(Derived, special, high_accuracy, modal_call, mapped, work_turned, work_turn_pending)
   return groups;
 }

@@ -645,7 +645,7 @@ void PartSystem::forget_mdi() {
 }
 
 void PartSystem::set_position(const AxisVec& machine) {
-  search_.forget();
+  forget_search();
   interpreter.set_machine(machine);
   commit_.set_machine(machine);
   executor.set_position(machine);
@@ -730,6 +730,7 @@ void PartSystem::follow_run() {
   publish_all();
   online_ = true;
   run_ = now;
+  if (executor.gone_on_inside()) interpreter.machine_has_followed();
   if (now.epoch() != before.epoch()) {
     nc_source calls[NC_MAX_CALLS];
     const unsigned count = stop_calls(calls);

@@ -106,13 +106,13 @@ bool PartSystem::begin_found() {
   publish_all();
   published_ = 0;
   interpreter.set_feeding(true);
+  executor.restart_at(commit_.machine(), search_.blocks());
   if (!same) {
     Fault fault;
     fault.condition = Condition::restart_void;
     stop_on(fault, interpreter.source());
     return true;
   }
-  executor.restart_at(commit_.machine(), search_.blocks());
   const MarkPoint* const before = commit_.newest();
   interpreter.begin_inside(before != nullptr ? before->seq : 0);
   Record record;

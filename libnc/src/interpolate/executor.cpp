@@ -270,7 +270,10 @@ void Executor::reread_done() {
 void Executor::restart_at(const AxisVec& machine, uint64_t blocks) {
   state_->shared.restart_at = machine;
   state_->shared.restart_blocks = blocks;
+  state_->shared.gone_on_inside.store(false, std::memory_order_relaxed);
 }
+
+bool Executor::gone_on_inside() const { return state_->shared.gone_on_inside.load(std::memory_order_acquire); }
 
 bool Executor::poll_event(nc_event* event, uint64_t* dropped) {
   return state_->shared.events.pop(event, dropped);

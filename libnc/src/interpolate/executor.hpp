@@ -121,6 +121,7 @@ class Executor {
   void reread_done();
   /// Where the axes have to be for the program that is begun inside by the gate pushed next (Gate::begins_again), and how many blocks come before.
   void restart_at(const AxisVec& machine, uint64_t blocks);
+  bool gone_on_inside() const;
   /// Next executed record for the host; *dropped: how many have been dropped in all.
   bool poll_event(nc_event* event, uint64_t* dropped);
   /// Mark at the end of the newest block that has been executed in this run, 0: none. Right after run() has changed it is still that of the program

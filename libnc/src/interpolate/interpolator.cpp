@@ -357,7 +357,10 @@ void Interpolator::start(const nc_inputs& in) {
       follower_.give_up();  // path lengths are counted from 0 again, so that they do not grow with the years
       [[fallthrough]];
     case NC_STATE_STOPPED:
-      if (!in_mdi_) begins_again_ = false;
+      if (begins_again_ && !in_mdi_) {
+        begins_again_ = false;
+        shared_->gone_on_inside.store(true, std::memory_order_release);
+      }
       [[fallthrough]];
     case NC_STATE_HOLD:
       state_ = NC_STATE_RUNNING;

@@ -86,6 +86,7 @@ struct ScanShared {
   LengthAlongTool along_tool;               ///< ... and the length with which reading goes on
   AxisVec restart_at;                       ///< by the feeder, before it pushes the gate of a program that is begun inside: Executor::restart_at()
   uint64_t restart_blocks = 0;              ///< ... and with it
+  std::atomic<bool> gone_on_inside{false};  ///< by the scan: the program that was begun inside has gone on; false again with restart_at
   std::atomic<uint32_t> reread_done{0};     ///< by the feeder: number of the request that is done
   Latest<ScanStatus> status;
   Latest<ScanWorld> world;

@@ -167,6 +167,7 @@ void Interpreter::refresh_derived() {
 /// (program_restart.cpp), that program goes on there in its modes.
 void Interpreter::reset(bool keep_modal) {
   begun_inside_.kept = false;
+  take_machine_truth();
   keep_modal = keep_modal || place_.kept;
   SpaceVector along_tool = state.moved_space;
   for (unsigned i = 0; state.space.on && i < 3; ++i) along_tool.v[i] -= state.space.v[i];

@@ -112,10 +112,12 @@ struct Interpreter : BlockContext {
   Execution leave_mdi();
   /// A place in the program is looked for, and nothing of what is read comes to the machine; given up, what neither a program nor a reset ends, as the tool in the
   /// spindle, is again what it was.
-  void begin_search() { before_search_ = state; }
+  void begin_search();
   void give_up_search() { static_cast<UntilPowerOff&>(state) = before_search_; }
   /// The program is begun inside, behind block `seq` (nc/restart.h): what blocks of MDI change of its modes there is put back behind them.
   void begin_inside(BlockSeq seq);
+  /// The machine has gone on from that place, and the operator has confirmed it: it has what the program has given out on the way.
+  void machine_has_followed() { machine_followed_ = true; }
   /// The next block goes on where it was cut (State::repeat).
   void go_on_inside(unsigned items) {
     note_world();
@@ -226,6 +228,7 @@ struct Interpreter : BlockContext {
     uint64_t tables = 0;     ///< tables_hash()
   };
   void put_back_modes();
+  void take_machine_truth();
   /// Where a reset goes back to, in place of the head of the program.
   struct Place {
     bool kept = false;
@@ -287,6 +290,7 @@ struct Interpreter : BlockContext {
   InterruptReturn interrupted_;
   BegunInside begun_inside_;
   UntilPowerOff before_search_;
+  bool machine_followed_ = false;  ///< State::machine_has is outdated
   Place place_;
   VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for

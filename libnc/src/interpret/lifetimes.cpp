@@ -91,4 +91,16 @@ void go_on_behind_interrupt(State& state, const StateValues& before) {
   state.life_input = before.life_input;
 }
 
+InHand in_hand(const StateValues& state) {
+  return {state.modal.tool, state.selected_tool, state.spindle_tool, state.spindle_on, state.spindle_reverse};
+}
+
+void take_in_hand(State& state, const InHand& hand) {
+  state.modal.tool = hand.called;
+  state.selected_tool = hand.selected;
+  state.spindle_tool = hand.in_spindle;
+  state.spindle_on = hand.spindle_on;
+  state.spindle_reverse = hand.spindle_reverse;
+}
+
 }  // namespace nc

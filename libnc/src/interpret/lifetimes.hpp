@@ -41,4 +41,8 @@ void return_from_interrupt(State& state, const StateValues& before, bool inside_
 /// The return from an interrupt program that restores no modes: M99 P, and M99 where the rest of the interrupted block is not executed.
 void go_on_behind_interrupt(State& state, const StateValues& before);
 
+/// The tools and the spindle as the blocks know them that have been read.
+InHand in_hand(const StateValues& state);
+void take_in_hand(State& state, const InHand& hand);
+
 }  // namespace nc

@@ -7,6 +7,9 @@
 //
 // At a place where a program is begun inside (nc/restart.h) they bring tool, spindle and coolant there, and the program comes to it in its own modes: what they
 // change of these is put back behind them. Offsets and parameters cannot be: the place was found with those that were there, and another one ends the run.
+// What the program has given out on the way has not come to the machine: these blocks begin with the tools and the spindle that the machine has, so a family that
+// passes over the tool that is held, or the spindle that turns (DGSHAPE M06, M03), passes over what is there in truth. They stay known (State::machine_has) until
+// the program goes on: what it has given out is there then, because the operator has worked through it.
 //
 // They are a call without a block that makes it (CallOrigin::mdi), and count as one level of calls (M700 13.3.1 (3) (5)).
 #include "interpret/calls.hpp"
@@ -43,7 +46,22 @@ bool Interpreter::takes_mdi(BlockSeq seq) const {
   return true;
 }
 
+void Interpreter::begin_search() {
+  before_search_ = state;
+  state.machine_has = in_hand(state);
+  state.reads_beside_machine = true;
+  keep_state();
+}
+
+/// The program does not go on from where it was begun inside, or has gone on: which tools and which spindle are known from now on.
+void Interpreter::take_machine_truth() {
+  if (state.reads_beside_machine && !machine_followed_) take_in_hand(state, state.machine_has);
+  state.reads_beside_machine = machine_followed_ = false;
+  state.machine_has = {};
+}
+
 void Interpreter::begin_inside(BlockSeq seq) {
+  machine_followed_ = false;
   begun_inside_.kept = checkpoints_.holds(seq);
   if (!begun_inside_.kept) return;
   begun_inside_.seq = seq;
@@ -54,10 +72,13 @@ void Interpreter::begin_inside(BlockSeq seq) {
   look_back(seq, false);
 }
 
-/// As behind an interrupt program (M700 13.12), and the length that the moves have applied, too: the axes go back to the place before the program goes on.
+/// As behind an interrupt program (M700 13.12), the tools and the spindle of the program, and the length that the moves have applied, too: the axes go back to the place before the program goes on.
 void Interpreter::put_back_modes() {
   const Function cutting = state.modal.of(Mode::cutting);
   const SpindleControl spindle = state.spindle;
+  state.machine_has = in_hand(state);
+  state.reads_beside_machine = true;
+  take_in_hand(state, in_hand(begun_inside_.state));
   return_from_interrupt(state, begun_inside_.state, false);
   take<AppliedLength>(state, begun_inside_.state);
   change_cutting_mode(*this, cutting);
@@ -83,6 +104,10 @@ void Interpreter::enter_mdi(const ProgramRef& blocks) {
   }
   state.frame[state.depth].modal_call = 0;  // no macro is called behind the moves of blocks that do not belong to the program
   state.frame[state.depth].puts_back = puts_back;
+  if (puts_back) {
+    take_in_hand(state, state.machine_has);
+    state.reads_beside_machine = false;
+  }
   state.spline_way = {};                    // the curve of fine segments begins again
   show_modal_call(*this);
   keep_state();

@@ -157,6 +157,7 @@ void PartInterpreter::enter_mdi(const ProgramRef& blocks) { in_->enter_mdi(block
 void PartInterpreter::begin_search() { in_->begin_search(); }
 void PartInterpreter::give_up_search() { in_->give_up_search(); }
 void PartInterpreter::begin_inside(BlockSeq seq) { in_->begin_inside(seq); }
+void PartInterpreter::machine_has_followed() { in_->machine_has_followed(); }
 void PartInterpreter::go_on_inside(unsigned items) { in_->go_on_inside(items); }
 const Repeat& PartInterpreter::repeat() const { return in_->state.repeat; }
 const AxisVec& PartInterpreter::interrupted_at() const { return in_->interrupted_state().machine; }

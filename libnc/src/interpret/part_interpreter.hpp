@@ -195,6 +195,8 @@ class PartInterpreter {
   void give_up_search();
   /// The program is begun inside, behind block `seq`.
   void begin_inside(BlockSeq seq);
+  /// The machine has gone on from there.
+  void machine_has_followed();
   /// The next block goes on where it was cut.
   void go_on_inside(unsigned items);
   /// Tells whether the next block was cut by an interrupt, and how many of its items have been executed.

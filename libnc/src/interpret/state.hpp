@@ -292,6 +292,14 @@ struct UntilOperatorReset {
 
 inline constexpr uint32_t kNoTool = ~0u;
 
+/// The tools that the machine has, and how its spindle turns, as far as the codes tell that have gone out to it.
+struct InHand {
+  uint32_t called = 0;              ///< ModalState::tool
+  uint32_t selected = 0;            ///< UntilPowerOff::selected_tool
+  uint32_t in_spindle = kNoTool;    ///< UntilPowerOff::spindle_tool
+  bool spindle_on = false, spindle_reverse = false;
+};
+
 /// What neither a program nor a reset ends.
 struct UntilPowerOff {
   double clock_base[2] = {0, 0};  ///< time of the machine, ms, at which #3001 and #3002 are 0 (M700 13.5.5: only writing to them changes them)
@@ -299,6 +307,8 @@ struct UntilPowerOff {
   bool port_open = false;         ///< POPEN has been executed (M700 13.5.8)
   uint32_t selected_tool = 0;     ///< of the last T
   uint32_t spindle_tool = kNoTool;  ///< of the last tool change; kNoTool = there was none yet
+  bool reads_beside_machine = false;  ///< a place to begin inside is looked for, or stood at (nc/restart.h): the codes that were read have not gone out, and the machine has ...
+  InHand machine_has;                 ///< ... this
 };
 
 /// Follows from the other groups, the records and the parameters, and is kept because every block or move needs it (refresh_special, refresh_accuracy,

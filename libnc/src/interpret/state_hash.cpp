@@ -244,8 +244,11 @@ void add_values(Hash& hash, const Interpreter& in, const StateValues& values) {
     hash.add(left_by_end);
   }
   {
-    const auto& [clock_base, clock_shift_s, port_open, selected_tool, spindle_tool] = static_cast<const UntilPowerOff&>(values);
+    const auto& [clock_base, clock_shift_s, port_open, selected_tool, spindle_tool, reads_beside_machine, machine_has] = static_cast<const UntilPowerOff&>(values);
     hash.add(clock_base, clock_shift_s, port_open, selected_tool, spindle_tool);
+    // What the machine has beside it decides nothing of what the program does from here on.
+    static_cast<void>(reads_beside_machine);
+    static_cast<void>(machine_has);
   }
   // The group Derived follows from the other groups, the records and the parameters.
 }
