@@ -67,6 +67,7 @@ void Feeder::step() {
   rewind_ended();
   restore_parts();
   follow_restart();
+  follow_search();
   follow_mdi();
   follow_ladder();
   follow_outputs();
@@ -96,6 +97,7 @@ Scan::Loaded Feeder::at_head(unsigned system) const {
   const System& head = system_[system];
   if (!head.selected) return Scan::kNothingLoaded;
   if (head.mdi) return Scan::kMdiLoaded;
+  if (search_[system].step == Search::kChecks && search_[system].sequence != 0) return Scan::kPartNotChecked;  // it is to begin inside, and not at its head
   return gate_ == nullptr || gate_->may_begin(system, head.file) ? Scan::kPartLoaded : Scan::kPartNotChecked;
 }
 
@@ -246,6 +248,14 @@ Answer Feeder::refuse(Answer answer, std::string why) {
   return answer;
 }
 
+// What bars a selection, blocks of MDI and the search for a place.
+Answer Feeder::hindrance() const {
+  if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
+  if (seen_.program_active()) return Answer::kNotWhileRunning;
+  if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
+  return seen_.alarms.waits_for_reset() ? Answer::kWarningActive : Answer::kDone;
+}
+
 Answer Feeder::apply(const Command& command) {
   (void)refuse(Answer::kDone, "");
   if (command.system >= systems_) return Answer::kAxisUnknown;
@@ -256,12 +266,12 @@ Answer Feeder::apply(const Command& command) {
   }
   if (command.kind == CommandKind::kLook) return look(command);
   if (command.kind == CommandKind::kConfirmRestart) return confirm_restart(command);
-  if (seen_.resetting || scan_->reset_waits()) return seen_.reset_held ? Answer::kResetHeld : Answer::kResetting;
-  if (seen_.program_active()) return command.kind == CommandKind::kLoadMdi ? interrupt_by_mdi(command) : Answer::kNotWhileRunning;
+  const Answer why = hindrance();
+  if (why == Answer::kResetHeld || why == Answer::kResetting) return why;
+  if (why == Answer::kNotWhileRunning) return command.kind == CommandKind::kLoadMdi ? interrupt_by_mdi(command) : why;
   if (command.kind == CommandKind::kChange) return change(command);
   if (command.kind == CommandKind::kCancelRestart) return cancel_restart(command);
-  if (seen_.stopped_by_alarm()) return Answer::kAlarmActive;
-  if (seen_.alarms.waits_for_reset()) return Answer::kWarningActive;
+  if (why != Answer::kDone) return why;
   if (command.kind == CommandKind::kSelectProgram) return select(command);
   if (command.kind == CommandKind::kLoadMdi) return load_mdi(command);
   if (command.kind == CommandKind::kFindRestart) return find_restart(command);
@@ -271,6 +281,7 @@ Answer Feeder::apply(const Command& command) {
 // The feeder claims a command before it executes it, and the operator's thread claims a command before it gives it up. Only the first claim succeeds, so
 // a command is either executed or given up.
 bool Feeder::claim(std::uint64_t ticket) {
+  if (ticket == kOfMachine) return true;
   std::uint64_t last = claimed_.load(std::memory_order_acquire);
   return last < ticket && claimed_.compare_exchange_strong(last, ticket, std::memory_order_acq_rel);
 }
@@ -287,10 +298,8 @@ Answer Feeder::select(const Command& command) {
       const std::lock_guard lock(mutex_);
       name = program_name_;
     }
-    unsigned loaded = 0;
-    std::string error = "there is no folder of programs";
-    if (!loader_ || !loader_(name, &loaded, &error)) return refuse(Answer::kNotLoaded, error);
-    file = loaded;
+    std::string error;
+    if (!load(name, &file, &error)) return refuse(Answer::kNotLoaded, error);
   }
   if (!claim(command.ticket)) return Answer::kNoAnswer;
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step, because the program in the control changes now
@@ -301,6 +310,14 @@ Answer Feeder::select(const Command& command) {
   stops_[system].hash = hash_ ? hash_(file) : std::string();
   nothing_has_run(system);
   return Answer::kDone;
+}
+
+bool Feeder::load(const std::string& name, std::uint32_t* file, std::string* error) {
+  unsigned loaded = 0;
+  *error = "there is no folder of programs";
+  if (!loader_ || !loader_(name, &loaded, error)) return false;
+  *file = loaded;
+  return true;
 }
 
 Answer Feeder::load_mdi(const Command& command) {

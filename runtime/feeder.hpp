@@ -151,16 +151,23 @@ class Feeder {
 
  private:
   Answer apply(const Command& command);
+  Answer hindrance() const;
   Answer select(const Command& command);
+  bool load(const std::string& name, std::uint32_t* file, std::string* error);
   Answer load_mdi(const Command& command);
   Answer interrupt_by_mdi(const Command& command);
   void follow_mdi();
   Answer find_restart(const Command& command);
+  Answer look_for(const Command& command, const RestartWish& wish);
   Answer confirm_restart(const Command& command);
   Answer cancel_restart(const Command& command);
   bool restart_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
   bool stopped_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
   void follow_restart();
+  void follow_search();
+  void begin_search(unsigned system, const SearchAsked& asked);
+  void go_on_searching(unsigned system);
+  void answer_search(unsigned system, SearchResult result, const std::string& why);
   void put_back_searched();
   void tell_restart();
   void follow_stops();
@@ -215,6 +222,21 @@ class Feeder {
   void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
   RestartDesk restart_[NC_MAX_SYSTEMS];
+  // An external search that is under way.
+  struct Search {
+    enum Step : std::uint8_t { kNothing, kChecks, kLooks } step = kNothing;
+    std::uint32_t file = 0, sequence = 0;
+  };
+  Search search_[NC_MAX_SYSTEMS];
+  // A command for which nobody waits who could give it up.
+  static constexpr std::uint64_t kOfMachine = 0;
+  static Command of_machine(CommandKind kind, unsigned system) {
+    Command command;
+    command.kind = kind;
+    command.system = static_cast<std::uint8_t>(system);
+    command.ticket = kOfMachine;
+    return command;
+  }
   // Where the program of a part system was stopped last, and where it was when the power failed.
   struct Stops {
     bool runs = false, any = false, any_power = false;

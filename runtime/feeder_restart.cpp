@@ -31,14 +31,18 @@ void Feeder::set_restart_wish(const RestartWish& wish) {
 
 // The answer comes when the search has begun.
 Answer Feeder::find_restart(const Command& command) {
-  const unsigned s = command.system;
-  if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
-  if (!system_[s].selected || system_[s].mdi) return Answer::kNoProgram;
   RestartWish wish;
   {
     const std::lock_guard lock(mutex_);
     wish = wish_;
   }
+  return look_for(command, wish);
+}
+
+Answer Feeder::look_for(const Command& command, const RestartWish& wish) {
+  const unsigned s = command.system;
+  if (seen_.mode != Mode::kAuto) return Answer::kNotInThisMode;
+  if (!system_[s].selected || system_[s].mdi) return Answer::kNoProgram;
   nc_restart_place place;
   nc_restart_place_init(&place);
   std::string what;

@@ -6,6 +6,7 @@
 #include "hal/hal.hpp"
 #include "runtime/axes/equipment.hpp"
 #include "runtime/command.hpp"
+#include "runtime/restart/external_search.hpp"
 #include "runtime/snapshot.hpp"
 
 namespace nc::rt {
@@ -24,6 +25,7 @@ struct LadderStatus {
   bool power_failed = false, power_done = false;  // runtime/power/power_watch.hpp
   std::int64_t time_ns = 0;  // clock of the scan, at its start
   std::uint32_t restart_stands = 0, restart_bars = 0;  // one bit per part system: Scan::set_restart()
+  const SearchDoor* search = nullptr;                  // of each part system
 };
 
 inline constexpr unsigned kLadderAlarms = 8;
@@ -56,6 +58,8 @@ struct LadderRequests {
     std::uint32_t axis_lock = 0;        // bit n: axis n is to be locked
     std::uint8_t feed_code = 0;         // feed override as a code of five bits, inverted
     std::uint32_t approach = 0;         // bit n: axis n goes back to where its program goes on
+    bool search = false;                // the external search
+    SearchAsked search_for;
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan
   };
   System system[NC_MAX_SYSTEMS];

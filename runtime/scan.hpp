@@ -127,6 +127,8 @@ class Scan {
     restart_bars_.store(bars, std::memory_order_release);
     restart_stands_.store(stands, std::memory_order_release);
   }
+  // The external search that the machine asks for.
+  SearchDoor& search(unsigned system) noexcept { return search_[system]; }
   // The codes that the machine has got, in their order.
   bool poll_given(GivenCode* code) noexcept { return given_.pop(code); }
 
@@ -421,6 +423,7 @@ class Scan {
   history::ScanTap* history_ = nullptr;
   SpscQueue<PositionSample, 4096> positions_;
   std::atomic<std::uint32_t> loaded_{kNothingLoaded};
+  SearchDoor search_[NC_MAX_SYSTEMS];
   std::atomic<std::uint32_t> skip_switches_[NC_MAX_SYSTEMS] = {}, recalculations_[NC_MAX_SYSTEMS] = {};
   std::atomic<std::uint32_t> print_trouble_{0};   // bit per part system: a printed line was lost since the last scan
   std::atomic<std::uint32_t> retain_trouble_{0};  // bit per retain_detail(): the trouble was reported since the last scan

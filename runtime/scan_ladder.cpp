@@ -24,7 +24,8 @@ void Scan::run_ladder() noexcept {
   const LadderStatus status{mode_,       stopped, !stopped && alarms_.count != 0, reset_phase_ != ResetPhase::kNone,
                             !drives_off_, scan_,   macro_.output(),                           flags_,
                             all_homed(),  power_.failed(),  power_.phase() == PowerWatch::Phase::kDone, scan_time_ns_,
-                            restart_stands_.load(std::memory_order_acquire), restart_bars_.load(std::memory_order_acquire)};
+                            restart_stands_.load(std::memory_order_acquire), restart_bars_.load(std::memory_order_acquire),
+                            search_};
   LadderRequests requests;
   LadderImage image{&config_.points, &points_, &feedback_, out_, in_, systems_, &status, &requests, &config_.nc};
   for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;
@@ -76,6 +77,7 @@ void Scan::follow_ladder(const LadderRequests& requests) noexcept {
     const LadderRequests::System &now = requests.system[s], &before = last_requests_.system[s];
     skip_switches_[s].store(now.skip_switches, std::memory_order_relaxed);
     if (now.recalculate && !before.recalculate) recalculations_[s].fetch_add(1, std::memory_order_release);
+    search_[s].follow(now.search, now.search_for);
     in_[s].recalculate = now.recalculate;  // for a program that runs; when it is stopped, the feeder recalculates
   }
   last_requests_ = requests;

@@ -452,7 +452,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kOptionalStop, "optional", Right::kOperate, Lane::kCommand, RequestKind::kOptionalStop, kOnArguments, kDoneReply, "optional stop"},
     {Service::kJog, "jog", Right::kOperate, Lane::kCommand, RequestKind::kJog, kJogArguments, kDoneReply, "moves an axis by hand, in mode manual"},
     {Service::kMdi, "mdi", Right::kOperate, Lane::kCommand, RequestKind::kMdi, kMdiArguments, kDoneReply, "loads blocks, in mode mdi; a start executes them"},
-    {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto; the reply comes when it has been checked, or after 10 s"},
+    {Service::kSelect, "select", Right::kOperate, Lane::kCommand, RequestKind::kSelectProgram, kSelectArguments, kDoneReply, "selects a program, in mode auto; a name such as O1000 of which there is no file is the program of this number, found as for a call. The reply comes when it has been checked, or after 10 s"},
     {Service::kProgramRecheck, "programs.recheck", Right::kOperate, Lane::kData, kNo, kRecheckArguments, kDoneReply,
      "checks a program once more, before those that wait, with what the tables of the machine hold now; programs.check shows the result"},
     {Service::kRestartFind, "restart.find", Right::kOperate, Lane::kCommand, RequestKind::kRestartFind, kFindArguments, kDoneReply,

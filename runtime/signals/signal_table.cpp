@@ -48,6 +48,9 @@ AxisFlags axes(Image image, unsigned system) {
 bool flag(std::uint32_t bits, unsigned axis) {
   return (bits >> axis & 1u) != 0;
 }
+SearchResult search_result(Image image, unsigned system) {
+  return image.status->search != nullptr ? image.status->search[system].shown() : SearchResult::kNone;
+}
 void complete(std::int32_t value, LadderImage* image, unsigned system, std::uint8_t group) {
   if (value != 0) image->nc_in[system].fin_groups = static_cast<std::uint8_t>(image->nc_in[system].fin_groups | group);
 }
@@ -349,6 +352,16 @@ const SignalRow kSignals[] = {
     {"restart_approach", kBit, kTo, kAxis, 0, 0, "in a block stop the axis goes back to where the program goes on, at the speed of jogs; one axis at a time",
      "level, in manual mode; one that was refused or stopped acts when it was let go", nullptr,
      NC_WRITE { image->requests->system[s].approach |= static_cast<std::uint32_t>(value != 0) << i; }},
+    {"search", kBit, kTo, kSystem, 0, 0, "external search: the program plc.search_program is selected, and its place plc.search_sequence looked for, at which the next cycle start begins",
+     "acts when it rises; on until nc.search_finished", nullptr, NC_WRITE { image->requests->system[s].search = value != 0; }},
+    {"search_program", kWord32, kTo, kSystem, 0, 0, "O number of the program; 0: the one that is selected", "when plc.search rises", nullptr,
+     NC_WRITE { image->requests->system[s].search_for.program = value; }},
+    {"search_sequence", kWord32, kTo, kSystem, 0, 0, "sequence number of the block; 0: the head of the program", "when plc.search rises", nullptr,
+     NC_WRITE { image->requests->system[s].search_for.sequence = value; }},
+    {"search_finished", kBit, kFrom, kSystem, 0, 0, "the external search has come to its end: nc.search_result says how", "until plc.search goes off",
+     NC_READ { return search_result(image, s) != SearchResult::kNone; }, nullptr},
+    {"search_result", kWord16, kFrom, kSystem, 0, 0, "0 none yet, 1 found, 2 bad number, 3 refused (mode, program in execution, alarm, reset), 4 no such program, 5 not passed its check, 6 no such place", "with nc.search_finished",
+     NC_READ { return static_cast<std::int32_t>(search_result(image, s)); }, nullptr},
     {"tool_broken", kBit, kTo, kSystem, 0, 0, "the tool in the spindle is not to be used any more (tool life management)", "acts when it rises", nullptr,
      NC_WRITE { image->nc_in[s].tool_broken |= value != 0; }},
     {"tool_length_by_handle", kBit, kTo, kSystem, 0, 0,

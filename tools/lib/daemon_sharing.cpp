@@ -11,6 +11,19 @@
 
 namespace nc::tools {
 
+namespace {
+
+// The file of this name; where there is none, `O1000` is the program with this number, as for a call.
+std::string path_of_program(const std::string& folder, const std::string& name) {
+  const std::string path = folder + "/" + name;
+  const bool number = name.size() > 1 && (name[0] == 'O' || name[0] == 'o') && name.find_first_not_of("0123456789", 1) == std::string::npos;
+  if (!number || access(path.c_str(), F_OK) == 0) return path;
+  const std::string found = ProgramFiles(folder).find(name);
+  return found.empty() ? path : found;
+}
+
+}  // namespace
+
 DaemonSharing::DaemonSharing(const DaemonOptions& options, const rt::Config& config, hal::Hal* machine)
     : config_(config),
       asked_(config.share.enabled || !options.share.empty()),
@@ -31,7 +44,7 @@ bool DaemonSharing::prepare(rt::Runtime* runtime, ProgramFiles* files, const std
   files_ = files;
   runtime->set_sink(this);
   runtime->set_program_loader([this, runtime, folder](const std::string& name, unsigned* file, std::string* why) {
-    const std::string path = folder + "/" + name;
+    const std::string path = path_of_program(folder, name);
     if (files_->add(runtime->control(), path, file, why) != NC_OK) {
       // The folder is removed from the text, because the client has given only a name in it.
       if (why->rfind(folder + "/", 0) == 0) why->erase(0, folder.size() + 1);
