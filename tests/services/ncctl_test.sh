@@ -151,6 +151,12 @@ expect 2 "$ncctl" start
 said err "refused by its check"
 expect 2 "$ncctl" programs check none.nc
 expect 0 "$ncctl" programs recheck flange.nc --seconds 5
+printf 'G0 X1.\nM30\n' >"$work/programs/o0777.NC"
+expect 0 "$ncctl" select O777
+until_true says '^state +passed' "$ncctl" programs check o0777.NC
+expect 0 "$ncctl" programs list
+grep -qE '^o0777.NC .* yes +passed' "$work/out" || { fail "the program is not selected by its number"; cat "$work/out"; }
+expect 2 "$ncctl" select O778
 printf 'G54 G90 G1 X-50. F3000.\nG4 X60.\nM30\n' >"$work/long.nc"
 expect 0 "$ncctl" programs put "$work/long.nc"
 expect 0 "$ncctl" select long.nc
