@@ -76,7 +76,7 @@ constexpr bool is_warning(AlarmId id) { return !alarm_row(id).stops; }
 
 // What has gone wrong with retained data (R19, R20). The `detail` of the alarm holds it together with the number of the data.
 enum class RetainTrouble : std::uint8_t { kLost, kOlder, kNotKept, kUnwritable };
-inline constexpr unsigned kRetainedData = 5;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters, 3 places in programs, 4 where programs have stopped
+inline constexpr unsigned kRetainedData = 6;  // 0 devices of the ladder, 1 common variables, 2 offsets and parameters, 3 places in programs, 4 where programs have stopped, 5 names and pockets of tools
 // The troubles of R19: something was lost in the past. The others are of R20, which describes a condition that lasts.
 constexpr bool is_lost(RetainTrouble trouble) { return trouble == RetainTrouble::kLost || trouble == RetainTrouble::kOlder; }
 constexpr unsigned retain_detail(unsigned data, RetainTrouble trouble) {

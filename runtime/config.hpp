@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,8 @@ struct ToolOffsetSetting {
   unsigned number = 0;
   std::array<double, 4> column = {};  // indexed by nc_tool_column
   std::array<bool, 4> given = {};
+  std::optional<std::string> name;  // as in ToolLabel
+  std::optional<unsigned> pocket;
   ConfigPlace place;
 };
 

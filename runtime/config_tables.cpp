@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "runtime/config_sections.hpp"
+#include "runtime/tools/tool_labels.hpp"
 #include "runtime/work_offset_name.hpp"
 
 namespace nc::rt {
@@ -13,6 +14,21 @@ constexpr std::string_view kColumns[] = {"length", "length_wear", "radius", "rad
 
 std::string no_axis(std::string_view name) {
   return "no axis \"" + std::string(name) + "\" is configured";
+}
+
+// Name and pocket of a tool. The pocket is one in which none of the tools before it is.
+void read_label(TableReader* columns, const Config& config, ToolOffsetSetting* setting) {
+  std::string name;
+  if (columns->string("name", &name)) {
+    const std::string trouble = tool_name_trouble(name);
+    if (trouble.empty()) setting->name = name;
+    else columns->error("name", trouble);
+  }
+  unsigned pocket = 0;
+  if (!columns->integer("pocket", &pocket, 0, kMostPocket)) return;
+  setting->pocket = pocket;
+  for (const ToolOffsetSetting& other : config.tool_offsets)
+    if (pocket != 0 && other.pocket == pocket) columns->error("pocket", "pocket " + std::to_string(pocket) + " has tool " + std::to_string(other.number) + (other.name.value_or("").empty() ? "" : " (" + *other.name + ")"));
 }
 
 }  // namespace
@@ -99,6 +115,7 @@ void read_tool_offsets(TableReader* root, Config* config) {
         TableReader columns(*table, reader.path(name), reader.errors());
         for (unsigned c = 0; c < 4; ++c)
           setting.given[c] = columns.number(kColumns[c], &setting.column[c], -kMaxOffset, kMaxOffset);
+        read_label(&columns, *config, &setting);
         columns.finish();
       } else {
         setting.given[NC_TOOL_LENGTH] =

@@ -19,6 +19,7 @@
 #include "runtime/retain/ladder_data.hpp"
 #include "runtime/retain/place.hpp"
 #include "runtime/retain/tables.hpp"
+#include "runtime/retain/tool_label_data.hpp"
 #include "runtime/retain/variables.hpp"
 
 namespace nc::rt {
@@ -78,6 +79,7 @@ void Runtime::FreeMemory::operator()(void* memory) const {
 
 Runtime::Runtime(const Config& config, const RuntimeParts& parts) : config_(config), parts_(parts) {
   if (parts_.ladder == nullptr) parts_.ladder = &empty_ladder_;
+  tool_labels_.replace(configured_labels(config));
 }
 
 std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimeParts& parts,
@@ -207,6 +209,8 @@ bool Runtime::start(std::string* error) {
     keeper_->add(1, std::make_unique<VariableData>(control_, feeder_.get(), config_.not_kept), config_.variables_path());
   if (control_ != nullptr && !config_.offsets_path().empty())
     keeper_->add(2, std::make_unique<TableData>(control_, config_.nc, feeder_.get()), config_.offsets_path());
+  if (!config_.offsets_path().empty())
+    keeper_->add(5, std::make_unique<ToolLabelData>(&tool_labels_, config_.nc.tool_offsets, configured_labels(config_)), config_.offsets_path() + ".tools");
   PlaceData* places = nullptr;
   if (control_ != nullptr && !config_.place_path().empty()) {
     auto data = std::make_unique<PlaceData>(feeder_.get(), scan_.get());

@@ -21,6 +21,7 @@
 #include "runtime/rt_thread.hpp"
 #include "runtime/scan.hpp"
 #include "runtime/signals/signal_board.hpp"
+#include "runtime/tools/tool_labels.hpp"
 #include "runtime/trace/trace_tap.hpp"
 
 namespace nc::rt {
@@ -53,6 +54,8 @@ class Runtime {
   SignalBoard* signals() { return board_.get(); }
   // Records signals in the scan, for a single owner.
   trace::TraceTap* trace() { return trace_.get(); }
+  // Names and pockets of tools, which the control does not have. They are changed in jobs of the feeder thread.
+  ToolLabelTable* tool_labels() { return &tool_labels_; }
   // To be set before the start.
   void set_sink(EventSink* sink) { feeder_->set_sink(sink); }
   // Code of an alarm: of the table of the runtime, or of the family. Not for kProgram, whose code comes with it.
@@ -146,6 +149,7 @@ class Runtime {
   std::unique_ptr<LadderTask> own_ladder_;
   std::unique_ptr<SignalBoard> board_;
   std::unique_ptr<trace::TraceTap> trace_;
+  ToolLabelTable tool_labels_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
   std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of
   std::string found_place_;               // where the power failed before this start; "" = nowhere

@@ -50,11 +50,12 @@ void RetainKeeper::restore(Entry* entry, std::vector<std::string>* warnings) {
     const bool sense = entry->data->restore(bytes);
     entry->unseen |= !sense;
     if (!sense)
-      tell(entry, RetainTrouble::kLost, lost + entry->store->path() + " makes no sense", warnings);
+      tell(entry, RetainTrouble::kLost, lost + entry->store->path() + entry->data->why_refused(bytes), warnings);
     else if (loaded == RetainStore::Loaded::kOlder)
       tell(entry, RetainTrouble::kOlder, name + " are those of the last time but one: " + error, warnings);
   }
   if (entry->unseen) return;
+  for (const std::string& remark : entry->data->remarks()) warnings->push_back("retained data: " + remark);
   entry->saved = entry->data->now();
   entry->failed = !entry->store->save(entry->saved, &error);  // shows at the start whether writing works
   if (entry->failed) tell(entry, RetainTrouble::kUnwritable, name + " cannot be written: " + error, warnings);

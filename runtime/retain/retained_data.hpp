@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace nc::rt {
 
@@ -15,11 +16,19 @@ class RetainedData {
   // ---- before the first scan and after the last one ----
   // False when the bytes make no sense; nothing has changed then.
   virtual bool restore(const std::string& bytes) = 0;
+  // Why restore() has refused the bytes, as the rest of a sentence behind the name of their file.
+  virtual std::string why_refused(const std::string&) const { return " makes no sense"; }
+  // Sentences about what restore() had to leave out.
+  virtual std::vector<std::string> remarks() const { return {}; }
   virtual std::string now() = 0;
 
   // ---- in between, from one thread: want() asks for a copy, and take() fetches it and is false until it is there ----
   virtual void want() = 0;
   virtual bool take(std::string* bytes) = 0;
+
+ protected:
+  // Of why_refused().
+  static constexpr char kOtherVersion[] = " is of another version of the control";
 };
 
 }  // namespace nc::rt

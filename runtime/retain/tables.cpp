@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Offsets and parameters as text. See tables.hpp.
-//
-// The first line is "nc tables 1" and the last one is "end". Each change has three lines: its key, the value in the configuration ("" = none), the value.
 #include "runtime/retain/tables.hpp"
 
 #include <charconv>
@@ -10,11 +8,12 @@
 #include <vector>
 
 #include "runtime/nc_system.hpp"
+#include "runtime/retain/changed_rows.hpp"
 
 namespace nc::rt {
 namespace {
 
-constexpr char kHead[] = "nc tables 1", kEnd[] = "end";
+constexpr char kHead[] = "nc tables 1";
 constexpr unsigned kColumns = 4, kLifeColumns = NC_LIFE_AUXILIARY + 1;
 constexpr unsigned kTapNumbers = 5;  // axis, entry, turns per mm, speed, acceleration
 constexpr unsigned kPlainSets = 6, kExtended = 100;  // indices as nc_work_offset_set() counts: G54 to G59 are 1 to 6, G54.1P<n> is 100 + n
@@ -105,32 +104,21 @@ void apply(nc_control* control, const nc_config& config, const std::string& key,
   }
 }
 
-struct Change {
-  std::string key, configured, value;
-};
-
-bool decode(const std::string& bytes, std::vector<Change>* changes) {
-  std::istringstream lines(bytes);
-  std::string line;
-  if (bytes.empty() || bytes.back() != '\n' || !std::getline(lines, line) || line != kHead) return false;
-  while (std::getline(lines, line)) {
-    if (line == kEnd) return !std::getline(lines, line);
-    Change& change = changes->emplace_back();
-    change.key = line;
+bool decode(const std::string& bytes, std::vector<ChangedRow>* changes) {
+  if (!decode_rows_of(kHead, bytes, changes)) return false;
+  for (const ChangedRow& change : *changes) {
+    const auto begins = [&change](const char* kind) { return change.key.rfind(kind, 0) == 0; };
     double number = 0;
-    if (!std::getline(lines, change.configured) || !std::getline(lines, change.value)) return false;
-    const bool parameter = line.rfind("parameter ", 0) == 0;
-    if (!parameter && (line.rfind("work ", 0) != 0 && line.rfind("tool ", 0) != 0 && line.rfind("life ", 0) != 0 && line.rfind("tap ", 0) != 0)) return false;
-    if (!parameter && !parse(change.value, &number)) return false;
+    if (!begins("parameter ") && !((begins("work ") || begins("tool ") || begins("life ") || begins("tap ")) && parse(change.value, &number))) return false;
   }
-  return false;
+  return true;
 }
 
 // Gives back the taps, whose numbers belong together.
-void apply_taps(nc_control* control, const nc_config& config, const std::vector<Change>& changes) {
+void apply_taps(nc_control* control, const nc_config& config, const std::vector<ChangedRow>& changes) {
   for (unsigned s = 0; s < config.system_count; ++s) {
     double numbers[kTapNumbers] = {};
-    for (const Change& change : changes)
+    for (const ChangedRow& change : changes)
       for (unsigned n = 0; n < kTapNumbers; ++n)
         if (change.key == "tap " + std::to_string(s) + " " + std::to_string(n)) (void)parse(change.value, &numbers[n]);
     if (!(numbers[0] >= 1 && numbers[0] <= NC_MAX_AXES)) continue;
@@ -190,18 +178,18 @@ bool parse_tables(const std::string& text, TableRows* rows) {
 std::string encode_changes(const TableRows& now, const TableRows& configured) {
   TableRows all = configured;  // becomes the set of the keys of both tables
   all.insert(now.begin(), now.end());
-  std::string text = std::string(kHead) + "\n";
+  std::vector<ChangedRow> rows;
   for (const auto& [key, ignored] : all) {
     const std::string before = value_of(configured, key), value = value_of(now, key);
-    if (value != before) text.append(key).append("\n").append(before).append("\n").append(value).append("\n");
+    if (value != before) rows.push_back({key, before, value});
   }
-  return text + kEnd + "\n";
+  return encode_rows_of(kHead, rows);
 }
 
 bool restore_changes(nc_control* control, const nc_config& config, const TableRows& configured, const std::string& bytes) {
-  std::vector<Change> changes;
+  std::vector<ChangedRow> changes;
   if (!decode(bytes, &changes)) return false;
-  for (const Change& change : changes)
+  for (const ChangedRow& change : changes)
     if (change.configured == value_of(configured, change.key)) apply(control, config, change.key, change.value);
   apply_taps(control, config, changes);
   return true;
@@ -214,5 +202,7 @@ bool TableData::take(std::string* bytes) {
   *bytes = encode_changes(now, configured_);
   return true;
 }
+
+std::string TableData::why_refused(const std::string& bytes) const { return is_of_other_version(kHead, bytes) ? kOtherVersion : RetainedData::why_refused(bytes); }
 
 }  // namespace nc::rt

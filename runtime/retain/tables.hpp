@@ -41,6 +41,7 @@ class TableData final : public RetainedData {
   const char* name() const override { return "offsets and parameters"; }
   const char* start() const override { return "are those of the configuration"; }
   bool restore(const std::string& bytes) override { return restore_changes(control_, config_, configured_, bytes); }
+  std::string why_refused(const std::string& bytes) const override;
   std::string now() override { return encode_changes(executed_tables(control_, config_), configured_); }
   void want() override { feeder_.want(Feeder::kTables); }
   bool take(std::string* bytes) override;

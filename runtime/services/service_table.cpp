@@ -5,6 +5,7 @@
 #include <array>
 
 #include "runtime/share/intake.hpp"
+#include "runtime/tools/tool_labels.hpp"
 #include "runtime/trace/recording.hpp"
 
 namespace nc::rt::services {
@@ -98,6 +99,8 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kLifeAuxiliary, "auxiliary", Kind::kNumber, -1e9, 1e9, "", "for the machine's own use"},
     {Field::kParameterToml, "toml", Kind::kText, 1, kMostToml, "", "the section [parameters], of further part systems [parameters2] ..., as parameters.export gives them"},
     {Field::kOf, "of", Kind::kText, 4, 64, "", "only changes of this row or value of a table: `tool 3`, `tool 3 radius_wear`, `life 3`, `offset 1 102`, `offset 1 102 X`, `variable 1 501`, `name 501`, `parameter 1 X 2001`, `parameter 1 - 1078`; the number before that of offsets, variables and parameters is the part system, - all axes"},
+    {Field::kToolName, "name", Kind::kText, 0, kLongestToolName, "", "name of the tool for people; an empty one takes it away"},
+    {Field::kPocket, "pocket", Kind::kWhole, 0, kMostPocket, "", "its pocket in the magazine, in which no other tool is; 0 = in none"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -124,7 +127,7 @@ constexpr Wanted kConfirmArguments[] = {may(Field::kEntry), may(Field::kSystem),
 constexpr Wanted kApproachArguments[] = {must(Field::kAxis), may(Field::kSpeed), may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kSystemOnly[] = {may(Field::kSystem)};
 constexpr Wanted kSelectArguments[] = {must(Field::kFile), may(Field::kSystem), may(Field::kLifespan)};
-constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear)};
+constexpr Wanted kToolArguments[] = {must(Field::kTool), may(Field::kLength), may(Field::kLengthWear), may(Field::kRadius), may(Field::kRadiusWear), may(Field::kToolName), may(Field::kPocket)};
 constexpr Wanted kLifeArguments[] = {must(Field::kLifeRow), may(Field::kLifeGroup), may(Field::kLifeTool), may(Field::kLifeFlags), may(Field::kLifeStatus), may(Field::kLife),
                                      may(Field::kLifeUsed), may(Field::kLifeLength), may(Field::kLifeRadius), may(Field::kLifeAuxiliary)};
 constexpr Wanted kOffsetArguments[] = {must(Field::kOffset), must(Field::kAxis), must(Field::kValue), may(Field::kSystem)};
@@ -317,6 +320,8 @@ constexpr ReplyRow kToolsReply[] = {{"tools[].number", "whole", "number of the s
                                     {"tools[].length_wear", "number", "mm"},
                                     {"tools[].radius", "number", "mm"},
                                     {"tools[].radius_wear", "number", "mm"},
+                                    {"tools[].pocket", "whole", "pocket of the magazine, 0 = in none"},
+                                    {"tools[].name", "text", "its name, empty = none"},
                                     {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kLivesReply[] = {{"lives[].number", "whole", "row of the table; the tools of a group are used in this order"},
                                     {"lives[].group", "number", "group of tools, 0 = no tool is registered here"},
@@ -416,7 +421,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kCounters, "history.counters", Right::kView, Lane::kData, kNo, {}, kCountersReply, "hours of the machine and of its spindles, runs, alarms, over all starts"},
     {Service::kProgramTimes, "history.programs", Right::kView, Lane::kData, kNo, kPage, kProgramTimesReply, "how often each program ran to its end, and how long"},
     {Service::kChanges, "changes", Right::kView, Lane::kData, kNo, kChangesArguments, kChangesReply, "who has changed what through the services, the newest first; `of` one row, with a `count` of 1: who has changed it last"},
-    {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them"},
+    {Service::kTools, "tools.list", Right::kView, Lane::kData, kNo, kPage, kToolsReply, "tool offsets as the executed blocks have left them, with the names of the tools and their pockets in the magazine"},
     {Service::kLives, "life.list", Right::kView, Lane::kData, kNo, kPage, kLivesReply, "the table of tool life as the executed blocks have left it"},
     {Service::kOffsets, "offsets.list", Right::kView, Lane::kData, kNo, kSystemPage, kOffsetsReply, "work offsets as the executed blocks have left them"},
     {Service::kVariables, "variables.list", Right::kView, Lane::kData, kNo, kSystemPage, kVariablesReply, "common variables as the executed blocks have left them"},
@@ -464,7 +469,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kRestartCancel, "restart.cancel", Right::kOperate, Lane::kCommand, RequestKind::kRestartCancel, kCommandOnly, kDoneReply,
      "the place is no longer looked for, or forgotten: the next cycle start begins at the head of the program"},
 
-    {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool offset set"},
+    {Service::kSetTool, "tools.set", Right::kSetUp, Lane::kData, kNo, kToolArguments, kDoneReply, "sets the given columns of a tool: its offset set, its name, its pocket in the magazine. Name and pocket can be set while a program is in execution"},
     {Service::kSetLife, "life.set", Right::kSetUp, Lane::kData, kNo, kLifeArguments, kDoneReply, "sets the given columns of a row of the table of tool life"},
     {Service::kSetOffset, "offsets.set", Right::kSetUp, Lane::kData, kNo, kOffsetArguments, kDoneReply, "sets one work offset"},
     {Service::kSetVariable, "variables.set", Right::kSetUp, Lane::kData, kNo, kVariableArguments, kDoneReply, "sets a common variable or makes it vacant, and gives it a name"},

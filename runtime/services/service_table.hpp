@@ -19,7 +19,7 @@ enum class Field : std::uint8_t {
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
   kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch,
   kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kCheckSeconds, kVariableName, kAll,
-  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kParameterToml, kOf, kFields
+  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kParameterToml, kOf, kToolName, kPocket, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 

@@ -2,6 +2,7 @@
 // See table_changes.hpp.
 #include "runtime/services/table_changes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -25,20 +26,35 @@ struct ValueJob {
   std::vector<TableValue> wanted;
   std::vector<std::string> expected;  // the values that must be there now; empty = any
   const nc_config* config = nullptr;
+  ToolLabelTable* labels = nullptr;
   std::vector<ValueChange> done;
   Outcome outcome = Outcome::refused(Refused::kFailed, "?");
+};
+
+// The tables that a change reads and writes. The labels are a copy, which takes the place of all when the change is whole.
+struct Tables {
+  nc_control* control;
+  const nc_config& config;
+  ToolLabels labels;
+
+  Outcome read(const TablePlace& place, std::string* value) const {
+    return place.table == Table::kToolLabel ? read_label(labels, config, place, value) : read_value(control, config, place, value);
+  }
+  Outcome write(const TablePlace& place, const std::string& value) {
+    return place.table == Table::kToolLabel ? write_label(&labels, config, place, value) : write_value(control, config, place, value);
+  }
 };
 
 std::string shown(const std::string& value) { return value.empty() ? "nothing" : value; }
 
 // Values of one row may bind one another (9000 mounts cannot become minutes before they are 100), so that no order of them is right for every change: what is refused
 // is tried again behind the others, as long as that helps.
-Refusals write_in_any_order(nc_control* control, const nc_config& config, std::vector<TableValue> pending) {
+Refusals write_in_any_order(Tables* tables, std::vector<TableValue> pending) {
   for (;;) {
     std::vector<TableValue> rest;
     Refusals refusals;
     for (const TableValue& value : pending) {
-      const Outcome written = write_value(control, config, value.place, value.value);
+      const Outcome written = tables->write(value.place, value.value);
       if (written.ok) continue;
       refusals.add(value, written);
       rest.push_back(value);
@@ -49,21 +65,21 @@ Refusals write_in_any_order(nc_control* control, const nc_config& config, std::v
 }
 
 // Writes the values that were there before.
-void give_back(nc_control* control, const nc_config& config, const std::vector<ValueChange>& all) {
+void give_back(Tables* tables, const std::vector<ValueChange>& all) {
   std::vector<TableValue> before;
   for (auto value = all.rbegin(); value != all.rend(); ++value) before.push_back({value->place, value->before});
-  (void)write_in_any_order(control, config, std::move(before));
+  (void)write_in_any_order(tables, std::move(before));
 }
 
 // What is there now, in the order of what is wanted. False when a place does not exist, or is not as it is expected.
-bool read_all(const nc_control* control, ValueJob* job, std::vector<ValueChange>* all) {
+bool read_all(const Tables& tables, ValueJob* job, std::vector<ValueChange>* all) {
   Refusals refusals;
   for (std::size_t i = 0; i < job->wanted.size(); ++i) {
     const TableValue& wanted = job->wanted[i];
     ValueChange change{wanted.place, "", wanted.value};
-    if (const Outcome read = read_value(control, *job->config, wanted.place, &change.before); !read.ok) {
+    if (const Outcome read = tables.read(wanted.place, &change.before); !read.ok) {
       refusals.add(wanted, read);
-    } else if (!job->expected.empty() && !same_value(change.before, job->expected[i])) {
+    } else if (!job->expected.empty() && !same_value(wanted.place, change.before, job->expected[i])) {
       job->outcome = Outcome::refused(Refused::kState, place_text(wanted.place) + " was changed since: it is " + shown(change.before) + ", and not " + shown(job->expected[i]));
       return false;
     }
@@ -73,38 +89,55 @@ bool read_all(const nc_control* control, ValueJob* job, std::vector<ValueChange>
   return refusals.empty();
 }
 
+// Those of the values that have brought a tool into the pocket of another one. They are looked at when all are written, so that two tools can change places.
+Refusals taken_pockets(const ToolLabels& labels, const std::vector<TableValue>& wanted) {
+  Refusals refusals;
+  for (const TableValue& value : wanted) {
+    if (value.place.table != Table::kToolLabel || value.place.column != kPocketColumn) continue;
+    if (const unsigned other = other_in_pocket(labels, value.place.number); other != 0)
+      refusals.add(value, Outcome::refused(Refused::kState, "pocket " + value.value + " has " + tool_text(labels, other)));
+  }
+  return refusals;
+}
+
 // In the feeder thread.
 void write_all(nc_control* control, ValueJob* job) {
-  const nc_config& config = *job->config;
+  Tables tables{control, *job->config, job->labels->read()};
   std::vector<ValueChange> all;
-  if (!read_all(control, job, &all)) return;
-  if (const Refusals refusals = write_in_any_order(control, config, job->wanted); !refusals.empty()) {
-    give_back(control, config, all);
+  if (!read_all(tables, job, &all)) return;
+  Refusals refusals = write_in_any_order(&tables, job->wanted);
+  if (refusals.empty()) refusals = taken_pockets(tables.labels, job->wanted);
+  if (!refusals.empty()) {
+    give_back(&tables, all);
     job->outcome = refusals.outcome();
     return;
   }
   for (ValueChange& change : all) {
     std::string now;
-    (void)read_value(control, config, change.place, &now);
+    (void)tables.read(change.place, &now);
     if (change.place.table == Table::kParameter) {
       if (!now.empty()) change.after = now;  // as the control writes it: "1" for "1.0"
-    } else if (!same_value(now, change.after)) {
+    } else if (!same_value(change.place, now, change.after)) {
       job->outcome = Outcome::refused(Refused::kMalformed, place_text(change.place) + " is shared by part systems, and is given twice with different values");
-      give_back(control, config, all);
+      give_back(&tables, all);
       return;
     }
   }
+  job->labels->replace(std::move(tables.labels));
   job->done = std::move(all);
   job->outcome = Outcome::done();
 }
 
-// Executes a change of these values; *done gets what it has done.
+// Executes a change of these values; *done gets what it has done. Names and pockets of tools hurt no program, so they can be set while one is in execution.
 Outcome change_values(Runtime* runtime, std::vector<TableValue> wanted, std::vector<std::string> expected, std::vector<ValueChange>* done) {
   auto job = std::make_shared<ValueJob>();
   job->wanted = std::move(wanted);
   job->expected = std::move(expected);
   job->config = &runtime->config().nc;
-  const Answer answer = runtime->change([job](nc_control* control) { write_all(control, job.get()); });
+  job->labels = runtime->tool_labels();
+  const bool labels_only = std::all_of(job->wanted.begin(), job->wanted.end(), [](const TableValue& value) { return value.place.table == Table::kToolLabel; });
+  ControlJob write = [job](nc_control* control) { write_all(control, job.get()); };
+  const Answer answer = labels_only ? runtime->look(std::move(write)) : runtime->change(std::move(write));
   if (answer != Answer::kDone) return refused_by(*runtime, answer);
   *done = std::move(job->done);
   return std::move(job->outcome);
@@ -118,8 +151,8 @@ std::string joined(const std::vector<ValueChange>& values, std::string (*text)(c
 
 // "12 tool offsets, 1 work offset"
 std::string counts(const std::vector<ValueChange>& values) {
-  constexpr const char* kNames[] = {"tool offset", "work offset", "common variable", "name of a variable", "parameter", "entry of tool life"};  // in the order of Table
-  constexpr const char* kMany[] = {"tool offsets", "work offsets", "common variables", "names of variables", "parameters", "entries of tool life"};
+  constexpr const char* kNames[] = {"tool offset", "work offset", "common variable", "name of a variable", "parameter", "entry of tool life", "name or pocket of a tool"};  // in the order of Table
+  constexpr const char* kMany[] = {"tool offsets", "work offsets", "common variables", "names of variables", "parameters", "entries of tool life", "names and pockets of tools"};
   std::array<unsigned, std::size(kNames)> count{};
   for (const ValueChange& value : values) ++count[static_cast<unsigned>(value.place.table)];
   std::string text;
@@ -157,37 +190,53 @@ Outcome import_values(Runtime* runtime, std::vector<TableValue> wanted, Change* 
   Outcome outcome = change_values(runtime, std::move(wanted), {}, &done);
   if (!outcome.ok) return outcome;
   const std::size_t all = done.size();
-  std::erase_if(done, [](const ValueChange& value) { return same_value(value.before, value.after); });
+  std::erase_if(done, [](const ValueChange& value) { return same_value(value.place, value.before, value.after); });
   outcome = Outcome::done(std::to_string(all) + (all == 1 ? " value" : " values") + " as in the file, " + (done.empty() ? "none of them another one than before" : "changed: " + counts(done)));
   if (!done.empty()) describe(std::move(done), change);
   return outcome;
 }
 
-// Those columns of a row that the request has.
-Outcome set_columns(Runtime* runtime, const Call& call, Table table, Field number, std::span<const Field> columns, Change* change) {
-  std::vector<TableValue> wanted;
-  std::string names;
-  for (unsigned c = 0; c < columns.size(); ++c) {
-    names += (names.empty() ? "" : ", ") + std::string(row_of(columns[c]).name);
-    if (!call.has(columns[c])) continue;
-    TableValue& value = wanted.emplace_back();
-    value.place.table = table;
-    value.place.number = static_cast<std::uint32_t>(call.value(number));
-    value.place.column = c;
-    value.value = number_text(call.value(columns[c]));
+// Those columns of a row that a request has.
+class ColumnsOf {
+ public:
+  ColumnsOf(const Call& call, Field number) : call_(call), number_(static_cast<std::uint32_t>(call.value(number))) {}
+  void take(Table table, std::span<const Field> columns) {
+    for (unsigned c = 0; c < columns.size(); ++c) {
+      const FieldInfo& field = row_of(columns[c]);
+      names_ += (names_.empty() ? "" : ", ") + std::string(field.name);
+      if (!call_.has(columns[c])) continue;
+      TableValue& value = wanted_.emplace_back();
+      value.place.table = table;
+      value.place.number = number_;
+      value.place.column = c;
+      value.value = field.kind == Kind::kText ? call_.words(columns[c]) : number_text(call_.value(columns[c]));
+    }
   }
-  if (wanted.empty()) return Outcome::refused(Refused::kMalformed, call.row->name + std::string(" needs at least one of ") + names);
-  return set(runtime, std::move(wanted), change);
-}
+  Outcome set_in(Runtime* runtime, Change* change) {
+    if (wanted_.empty()) return Outcome::refused(Refused::kMalformed, call_.row->name + std::string(" needs at least one of ") + names_);
+    return set(runtime, std::move(wanted_), change);
+  }
+
+ private:
+  const Call& call_;
+  const std::uint32_t number_;
+  std::vector<TableValue> wanted_;
+  std::string names_;
+};
 
 }  // namespace
 
 Outcome set_tool(Runtime* runtime, const Call& call, Change* change) {
-  return set_columns(runtime, call, Table::kTool, Field::kTool, kToolColumns, change);
+  ColumnsOf columns(call, Field::kTool);
+  columns.take(Table::kTool, kToolColumns);
+  columns.take(Table::kToolLabel, kLabelColumns);
+  return columns.set_in(runtime, change);
 }
 
 Outcome set_life(Runtime* runtime, const Call& call, Change* change) {
-  return set_columns(runtime, call, Table::kToolLife, Field::kLifeRow, kLifeColumns, change);
+  ColumnsOf columns(call, Field::kLifeRow);
+  columns.take(Table::kToolLife, kLifeColumns);
+  return columns.set_in(runtime, change);
 }
 
 Outcome set_offset(Runtime* runtime, const Call& call, Change* change) {

@@ -28,7 +28,14 @@ std::string suffix(unsigned system) { return system == 0 ? "" : std::to_string(s
 
 // ---- export ----
 
-void write_tools(const nc_control* control, const nc_config& config, std::string* text) {
+// As a key or a text of TOML.
+std::string quoted(const std::string& text) {
+  std::string safe = "\"";
+  for (const char c : text) safe += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return safe + "\"";
+}
+
+void write_tools(const nc_control* control, const nc_config& config, const ToolLabels& labels, std::string* text) {
   *text += "[tool_offsets]\n";
   double value = 0;
   for (unsigned number = 1; number <= config.tool_offsets; ++number) {
@@ -36,6 +43,8 @@ void write_tools(const nc_control* control, const nc_config& config, std::string
     for (unsigned c = 0; c < std::size(kToolColumns); ++c)
       if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK)
         row += std::string(row.empty() ? "" : ", ") + row_of(kToolColumns[c]).name + " = " + number_text(value);
+    const ToolLabel& label = label_of(labels, number);
+    row += std::string(", ") + row_of(Field::kToolName).name + " = " + quoted(label.name) + ", " + row_of(Field::kPocket).name + " = " + std::to_string(label.pocket);
     *text += std::to_string(number) + " = { " + row + " }\n";
   }
 }
@@ -81,13 +90,6 @@ void write_variables(const nc_control* control, const nc_config& config, std::st
   char name[8] = "";
   for (std::uint32_t number = named.first; number != 0 && number <= named.last; ++number)
     if (nc_variable_name_get(control, number, name) == NC_OK && name[0] != '\0') *text += std::to_string(number) + " = \"" + name + "\"\n";
-}
-
-// As a key or a text of TOML.
-std::string quoted(const std::string& text) {
-  std::string safe = "\"";
-  for (const char c : text) safe += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return safe + "\"";
 }
 
 // A number as one, another value as a text.
@@ -211,20 +213,31 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
   read->nc = machine.nc;
   read_tool_offsets(root, read.get());
   read_work_offsets(root, read.get());
-  for (const ToolOffsetSetting& setting : read->tool_offsets)
+  const auto add = [&](const TablePlace& place, std::string value, const ConfigPlace& at) {
+    if (!values->add(place, std::move(value), at.line)) errors->add(at.line, at.key, "stands twice");
+  };
+  for (const ToolOffsetSetting& setting : read->tool_offsets) {
     for (unsigned c = 0; c < std::size(kToolColumns); ++c) {
       TablePlace place;
       place.number = setting.number;
       place.column = c;
-      if (setting.given[c] && !values->add(place, number_text(setting.column[c]), setting.place.line)) errors->add(setting.place.line, setting.place.key, "stands twice");
+      if (setting.given[c]) add(place, number_text(setting.column[c]), setting.place);
     }
+    TablePlace label;
+    label.table = Table::kToolLabel;
+    label.number = setting.number;
+    label.column = kNameColumn;
+    if (setting.name) add(label, *setting.name, setting.place);
+    label.column = kPocketColumn;
+    if (setting.pocket) add(label, std::to_string(*setting.pocket), setting.place);
+  }
   for (const WorkOffsetSetting& setting : read->work_offsets) {
     TablePlace place;
     place.table = Table::kOffset;
     place.system = setting.system;
     place.number = setting.index;
     place.axis = machine.nc.system[setting.system].axis[setting.axis].name;
-    if (!values->add(place, number_text(setting.value), setting.place.line)) errors->add(setting.place.line, setting.place.key, "stands twice");
+    add(place, number_text(setting.value), setting.place);
   }
 }
 
@@ -285,9 +298,9 @@ std::string parse_sections(std::string_view text, std::vector<TableValue>* value
 
 }  // namespace
 
-std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables) {
+std::string tables_toml(const nc_control* control, const nc_config& config, const ToolLabels& labels, const TomlTables& tables) {
   std::string text;
-  if (tables.tools) write_tools(control, config, &text);
+  if (tables.tools) write_tools(control, config, labels, &text);
   if (tables.offsets) write_offsets(control, config, &text);
   if (tables.lives) write_lives(control, &text);
   if (tables.variables) write_variables(control, config, &text);

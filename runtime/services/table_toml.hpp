@@ -18,7 +18,7 @@ struct TomlTables {
   bool tools = true, lives = true, offsets = true, variables = true;
 };
 // The tables as the control has them. In its thread. The same tables give the same bytes.
-std::string tables_toml(const nc_control* control, const nc_config& config, const TomlTables& tables);
+std::string tables_toml(const nc_control* control, const nc_config& config, const ToolLabels& labels, const TomlTables& tables);
 
 // Reads such a text. "" = it is good and *values has what it gives, else what is wrong with it, with lines. Whether the control has a variable is not asked here.
 std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values);

@@ -20,6 +20,7 @@ using Table = TablePlace::Table;
 
 constexpr char kAllAxes = '-';
 
+Outcome no_tool() { return Outcome::refused(Refused::kNotFound, "there is no such tool offset set"); }
 Outcome no_variable() { return Outcome::refused(Refused::kNotFound, "there is no such common variable"); }
 
 // The index of an axis in its part system. False when there is none.
@@ -79,8 +80,9 @@ bool parse_number(const std::string& text, double* value) {
   return result.ec == std::errc{} && result.ptr == end && std::isfinite(*value);
 }
 
-bool same_value(const std::string& one, const std::string& other) {
+bool same_value(const TablePlace& place, const std::string& one, const std::string& other) {
   double a = 0, b = 0;
+  if (place.table == Table::kToolLabel) return one == other;  // a name may look like a number
   return one == other || (parse_number(one, &a) && parse_number(other, &b) && a == b);
 }
 
@@ -90,6 +92,7 @@ std::string place_key(const TablePlace& place) {
   const std::string number = std::to_string(place.number), system = std::to_string(place.system + 1);
   switch (place.table) {
     case Table::kTool: return "tool " + number + " " + row_of(kToolColumns[place.column]).name;
+    case Table::kToolLabel: return "tool " + number + " " + row_of(kLabelColumns[place.column]).name;
     case Table::kOffset: return "offset " + system + " " + number + " " + place.axis;
     case Table::kVariable: return "variable " + system + " " + number;
     case Table::kVariableName: return "name " + number;
@@ -119,7 +122,11 @@ bool parse_place(const std::string& text, TablePlace* place) {
   if (kind == "tool") {
     words >> place->number >> column;
     place->column = column_named(kToolColumns, column);
-    if (place->column == std::size(kToolColumns)) return false;
+    if (place->column == std::size(kToolColumns)) {
+      place->table = Table::kToolLabel;
+      place->column = column_named(kLabelColumns, column);
+      if (place->column == std::size(kLabelColumns)) return false;
+    }
   } else if (kind == "life") {
     place->table = Table::kToolLife;
     words >> place->number >> column;
@@ -150,7 +157,8 @@ std::string place_text(const TablePlace& place) {
   const std::string number = std::to_string(place.number), system = " of part system " + std::to_string(place.system + 1);
   const std::string axis = place.axis != 0 ? std::string(" ") + place.axis : "";
   switch (place.table) {
-    case Table::kTool: return place_key(place);
+    case Table::kTool:
+    case Table::kToolLabel: return place_key(place);
     case Table::kOffset: return "offset " + number + axis + system;
     case Table::kVariable: return "#" + number + system;
     case Table::kVariableName: return "name of #" + number;
@@ -181,7 +189,7 @@ Outcome read_value(const nc_control* control, const nc_config& config, const Tab
   switch (place.table) {
     case Table::kTool:
       if (nc_tool_offset_get(control, place.number, static_cast<nc_tool_column>(place.column), &number) != NC_OK)
-        return Outcome::refused(Refused::kNotFound, "there is no such tool offset set");
+        return no_tool();
       *value = number_text(number);
       return Outcome::done();
     case Table::kOffset:
@@ -206,6 +214,7 @@ Outcome read_value(const nc_control* control, const nc_config& config, const Tab
     case Table::kParameter:
       *value = parameter_now(control, place);
       return Outcome::done();
+    case Table::kToolLabel: break;
   }
   return Outcome::refused(Refused::kNotFound, "there is no such table");
 }
@@ -225,12 +234,37 @@ Outcome write_value(nc_control* control, const nc_config& config, const TablePla
     case Table::kVariable: status = nc_variable_set(control, api_system(place.system), place.number, number, empty); break;
     case Table::kVariableName: status = nc_variable_name_set(control, place.number, value.c_str()); break;
     case Table::kToolLife: status = nc_tool_life_set(control, place.number, static_cast<nc_life_column>(place.column), number); break;
-    case Table::kParameter: break;
+    case Table::kParameter:
+    case Table::kToolLabel: break;
   }
   if (status == NC_OK) return Outcome::done();
   if (place.table == Table::kVariableName) return Outcome::refused(Refused::kState, "the variable can have no name, or not this one: at most 7 capital letters and digits, a letter first");
   if (place.table == Table::kToolLife) return Outcome::refused(Refused::kState, "out of the range of the column: a life and what is used of it have at most 4000 minutes or 9999 times");
   return Outcome::refused(Refused::kState, "refused by the control");
+}
+
+Outcome read_label(const ToolLabels& labels, const nc_config& config, const TablePlace& place, std::string* value) {
+  if (place.number < 1 || place.number > config.tool_offsets) return no_tool();
+  const ToolLabel& label = label_of(labels, place.number);
+  *value = place.column == kNameColumn ? label.name : std::to_string(label.pocket);
+  return Outcome::done();
+}
+
+Outcome write_label(ToolLabels* labels, const nc_config& config, const TablePlace& place, const std::string& value) {
+  if (place.number < 1 || place.number > config.tool_offsets) return no_tool();
+  ToolLabel label = label_of(*labels, place.number);
+  double pocket = 0;
+  if (place.column == kNameColumn) {
+    if (const std::string trouble = tool_name_trouble(value); !trouble.empty()) return Outcome::refused(Refused::kMalformed, trouble);
+    label.name = value;
+  } else if (parse_number(value, &pocket) && pocket >= 0 && pocket <= kMostPocket && pocket == std::floor(pocket)) {
+    label.pocket = static_cast<unsigned>(pocket);
+  } else {
+    return Outcome::refused(Refused::kMalformed, "must be a whole number from 0 to " + std::to_string(kMostPocket));
+  }
+  if (label == ToolLabel()) labels->erase(place.number);
+  else (*labels)[place.number] = std::move(label);
+  return Outcome::done();
 }
 
 }  // namespace nc::rt::services

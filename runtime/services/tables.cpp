@@ -72,7 +72,8 @@ Outcome refused_by(const Runtime& runtime, Answer answer) {
 }
 
 Outcome list_tools(Runtime* runtime, const Call& call) {
-  return look(runtime, [page = page_of(call), last = runtime->config().nc.tool_offsets](const nc_control* control) {
+  return look(runtime, [page = page_of(call), last = runtime->config().nc.tool_offsets, table = runtime->tool_labels()](const nc_control* control) {
+    const ToolLabels labels = table->read();
     Json tools = Json::array();
     unsigned number = page.from == 0 ? 1 : page.from;
     for (; number <= last && tools.size() < page.count; ++number) {
@@ -80,6 +81,9 @@ Outcome list_tools(Runtime* runtime, const Call& call) {
       double value = 0;
       for (unsigned c = 0; c < std::size(kToolColumns); ++c)
         if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK) tool[row_of(kToolColumns[c]).name] = value;
+      const ToolLabel& label = label_of(labels, number);
+      tool[row_of(Field::kToolName).name] = label.name;
+      tool[row_of(Field::kPocket).name] = label.pocket;
       tools.push_back(std::move(tool));
     }
     return Json{{"tools", std::move(tools)}, {"next", number <= last ? number : 0}};
@@ -205,7 +209,9 @@ Outcome export_tables(Runtime* runtime, const Call& call) {
     if (found == std::end(kTables)) return Outcome::refused(Refused::kMalformed, "table must be tools, life, offsets or variables");
     tables = {found == kTables, found == kTables + 1, found == kTables + 2, found == kTables + 3};
   }
-  return look(runtime, [tables, &config = runtime->config().nc](const nc_control* control) { return Json{{"toml", tables_toml(control, config, tables)}}; });
+  return look(runtime, [tables, &config = runtime->config().nc, labels = runtime->tool_labels()](const nc_control* control) {
+    return Json{{"toml", tables_toml(control, config, labels->read(), tables)}};
+  });
 }
 
 }  // namespace nc::rt::services

@@ -261,6 +261,28 @@ TEST_F(RetainedControl, BytesOfAnotherKindAreKeptForALook) {
   ASSERT_TRUE(until([&] { return std::filesystem::exists(file("offsets.damaged")); }));
 }
 
+// A file that a later version has written is named as one, and it is there still behind the reset that acknowledges its loss. Names and pockets of tools have a file of their own, so
+// that a program without them leaves it as it is.
+TEST_F(RetainedControl, AFileOfAnotherVersionIsNamedAndKeptForALook) {
+  configure();
+  for (const char* name : {"offsets", "offsets.tools"}) {
+    RetainStore later(file(name));
+    std::string error;
+    ASSERT_TRUE(later.save(std::string("nc ") + (name[7] == 0 ? "tables" : "tools") + " 2\nwhat is not known yet\n", &error)) << error;
+  }
+  up();
+  ASSERT_TRUE(until([&] { return runtime->snapshot().alarms.count == 2; })) << alarms();
+  EXPECT_NE(alarms().find("offsets and parameters are lost and are those of the configuration: " + file("offsets") + " is of another version of the control\n"), std::string::npos) << alarms();
+  EXPECT_NE(alarms().find("names and pockets of tools are lost and are those of the configuration: " + file("offsets.tools") + " is of another version of the control\n"), std::string::npos) << alarms();
+  ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+  for (const char* name : {"offsets.damaged", "offsets.tools.damaged"}) {
+    std::string bytes;
+    ASSERT_TRUE(until([&] { return std::filesystem::exists(file(name)); })) << name;
+    EXPECT_TRUE(saved(name, &bytes));
+    EXPECT_NE(bytes.find("what is not known yet"), std::string::npos) << name;
+  }
+}
+
 TEST_F(RetainedControl, OneGenerationBackIsSaid) {
   configure();
   up();

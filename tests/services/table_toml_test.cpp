@@ -28,7 +28,7 @@ TEST_F(TableToml, WhatIsExportedIsImportedAgain) {
   ASSERT_EQ(client.outcome("variables.set", {{"number", 100}, {"value", 1e15}}), "");
   ASSERT_EQ(client.outcome("tables.import", {{"toml", "[variable_names]\n501 = \"DEPTH1\"\n"}}), "");
   const std::string full = exported(&client);
-  for (const char* row : {"3 = { length = 81.25, length_wear = 0.1, radius = 0, radius_wear = -0.02 }\n", "\"EXT\" = { X = 1e-07, Y = 0, Z = 0 }\n", "\"G54\" = { X = 0, Y = -7.5, Z = 0 }\n",
+  for (const char* row : {"3 = { length = 81.25, length_wear = 0.1, radius = 0, radius_wear = -0.02, name = \"\", pocket = 0 }\n", "\"EXT\" = { X = 1e-07, Y = 0, Z = 0 }\n", "\"G54\" = { X = 0, Y = -7.5, Z = 0 }\n",
                           "\"G54.1P2\" = { X = 0, Y = 0, Z = 123.456789 }\n", "501 = 0.3333333333333333\n", "100 = 1e+15\n", "501 = \"DEPTH1\"\n"})
     EXPECT_NE(full.find(row), std::string::npos) << row;
   // Back to where it was, but for variables: those that the file does not name keep their values.
@@ -71,7 +71,7 @@ TEST_F(TableToml, AllOfItOrNothing) {
   } cases[] = {
       {"901 = 1", "malformed", "line 3: tool_offsets.901: must be an offset number from 1 to 200"},
       {"02 = 1\n2 = 1", "malformed", "already there"},
-      {"2 = { size = 3 }", "malformed", "unknown key (known here: length, length_wear, radius, radius_wear)"},
+      {"2 = { size = 3 }", "malformed", "unknown key (known here: length, length_wear, name, pocket, radius, radius_wear)"},
       {"2 = { length = nan }", "malformed", "must be a finite number, not nan"},
       {"2 = { length = 1e7 }", "malformed", "line 3"},
       {"2 = \"long\"", "malformed", "line 3"},

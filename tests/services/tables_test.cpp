@@ -40,7 +40,7 @@ TEST_F(TableServices, WhatIsSetIsReadAndWrittenDown) {
   ServiceClient client(path_);
   EXPECT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 81.25}, {"radius_wear", -0.02}}), "");
   const Json tool = client.call("tools.list", {{"from", 3}, {"count", 1}})["reply"];
-  EXPECT_EQ(tool["tools"][0], (Json{{"number", 3}, {"length", 81.25}, {"length_wear", 0.0}, {"radius", 0.0}, {"radius_wear", -0.02}}));
+  EXPECT_EQ(tool["tools"][0], (Json{{"number", 3}, {"length", 81.25}, {"length_wear", 0.0}, {"radius", 0.0}, {"radius_wear", -0.02}, {"name", ""}, {"pocket", 0}}));
   EXPECT_EQ(tool["next"], 4);
   EXPECT_EQ(client.outcome("offsets.set", {{"index", 1}, {"axis", "Y"}, {"value", -7.5}}), "");
   EXPECT_EQ(client.outcome("offsets.set", {{"index", 102}, {"axis", "Z"}, {"value", 1}}), "");

@@ -167,7 +167,7 @@ TEST(ChangeLogBounds, TheOldestCannotBeTakenBack) {
 }
 
 TEST(TablePlaces, TheirKeysAreReadBack) {
-  for (const char* key : {"tool 3 length", "tool 999 radius_wear", "offset 1 0 X", "offset 4 102 C", "variable 2 501", "name 500", "parameter 1 - 8012", "parameter 2 X 1267/bit0"}) {
+  for (const char* key : {"tool 3 length", "tool 999 radius_wear", "tool 3 name", "tool 7 pocket", "offset 1 0 X", "offset 4 102 C", "variable 2 501", "name 500", "parameter 1 - 8012", "parameter 2 X 1267/bit0"}) {
     TablePlace place;
     EXPECT_TRUE(parse_place(key, &place)) << key;
     EXPECT_EQ(place_key(place), key);
