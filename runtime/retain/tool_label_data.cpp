@@ -10,7 +10,7 @@
 namespace nc::rt {
 namespace {
 
-constexpr char kHead[] = "nc tools 1";
+constexpr char kLabelsHead[] = "nc tools 1";
 constexpr std::string_view kTool = "tool ", kName = " name", kPocket = " pocket";
 
 bool parse(std::string_view text, unsigned most, unsigned* number) {
@@ -52,12 +52,12 @@ std::string encode_tool_labels(const ToolLabels& now, const ToolLabels& configur
     for (const auto& [tool, label] : *labels) tools.insert(tool);
   std::vector<ChangedRow> rows;
   for (const unsigned tool : tools) add_changes(tool, label_of(configured, tool), label_of(now, tool), &rows);
-  return encode_rows_of(kHead, rows);
+  return encode_rows_of(kLabelsHead, rows);
 }
 
 bool restore_tool_labels(const std::string& bytes, unsigned most, ToolLabels* labels, std::vector<std::string>* remarks) {
   std::vector<ChangedRow> rows;
-  if (!decode_rows_of(kHead, bytes, &rows)) return false;
+  if (!decode_rows_of(kLabelsHead, bytes, &rows)) return false;
   ToolLabels read = *labels;
   std::set<unsigned> kept;  // tools whose pocket is that of the file
   std::set<std::string> keys, pockets;
@@ -94,7 +94,7 @@ bool ToolLabelData::restore(const std::string& bytes) {
 }
 
 std::string ToolLabelData::why_refused(const std::string& bytes) const {
-  return is_of_other_version(kHead, bytes) ? kOtherVersion : RetainedData::why_refused(bytes);
+  return is_of_other_version(kLabelsHead, bytes) ? kOtherVersion : RetainedData::why_refused(bytes);
 }
 
 }  // namespace nc::rt
