@@ -75,17 +75,38 @@ void read_probe(TableReader* axis, AxisMap* map) {
   });
 }
 
-// Computes the increments per mm or degree from encoder, gear and pitch.
-void read_scale(TableReader* reader, AxisMap* map) {
+// `mode = "velocity"`: the drive is given a speed. The gain is bounded by the SYNCs that a correction takes to act.
+void read_mode(TableReader* reader, const BusMap& bus, double encoder, AxisMap* map) {
+  constexpr double kMostTurn = 0.1;  // of an error that may be corrected in a SYNC: what is on its way for three of them must not be corrected twice
+  unsigned mode = 0;
+  double scale = encoder / 60;  // 60FFh in increments/s
+  reader->choice("mode", {"position", "velocity"}, &mode);
+  if (mode == 0) {
+    for (const char* key : {"velocity_gain", "velocity_scale", "velocity_delay"})
+      if (reader->find(key) != nullptr) reader->error(key, "belongs to mode = \"velocity\"");
+    return;
+  }
+  map->mode = hal::canopen::kModeCyclicVelocity;
+  if (reader->number("velocity_gain", &map->velocity_gain, 0.1, 1000) && map->velocity_gain * bus.sync_us * 1e-6 > kMostTurn)
+    reader->error("velocity_gain", "is too large for a SYNC of " + std::to_string(bus.sync_us) + " us: the axis would swing; at most " + number_text(kMostTurn / (bus.sync_us * 1e-6)));
+  reader->number("velocity_delay", &map->velocity_delay, 0, hal::canopen::kMostVelocityDelay);
+  reader->number("velocity_scale", &scale, 1e-6, 1e6);
+  if (encoder > 0) map->velocity_per_increment = scale * 60 / encoder;
+  if (!(map->following_limit > 0)) reader->error("following_error_limit", "is needed with mode = \"velocity\": the drive does not check the position");
+}
+
+// Computes the increments per mm or degree from encoder, gear and pitch. @return increments per turn of the motor, 0 when that is not known
+double read_scale(TableReader* reader, AxisMap* map) {
   double encoder = 0, pitch = 0;
   bool reverse = false;
   std::vector<double> gear{1, 1};
   for (const char* key : {"encoder", "pitch"}) reader->require(key);
   const bool turns = reader->number("encoder", &encoder, 1, 4294967296.0), way = reader->number("pitch", &pitch, 1e-6, 1e6);
   if (reader->numbers("gear", &gear, 2, 2) && !(gear[0] > 0 && gear[1] > 0 && gear[0] <= 1e6 && gear[1] <= 1e6))
-    return reader->error("gear", "is [turns of the motor, turns of the screw], both above 0");
+    reader->error("gear", "is [turns of the motor, turns of the screw], both above 0");
   reader->boolean("reverse", &reverse);
-  if (turns && way) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
+  if (turns && way && gear.size() == 2 && gear[1] > 0) map->increments_per_unit = (reverse ? -1 : 1) * encoder * gear[0] / gear[1] / pitch;
+  return turns ? encoder : 0;
 }
 
 // Every position inside the soft limits must be a number that the drive can represent.
@@ -98,6 +119,13 @@ void check_range(TableReader* reader, const Config& config, const AxisMap& map) 
                                         " is beyond the 32 bits of a drive's position");
 }
 
+// Every speed that the axis may have must be a number that the drive can be given.
+void check_speed(TableReader* reader, const AxisMap& map) {
+  const double most = map.max_velocity * std::abs(map.increments_per_unit * map.velocity_per_increment);
+  if (map.holds_position() && most > kMaxIncrements)
+    reader->error("velocity_scale", "makes " + number_text(most) + " of the largest velocity, which is beyond the 32 bits of 60FFh");
+}
+
 void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   AxisMap map;
   reader->require("name");
@@ -105,9 +133,10 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   const bool found = named && find_axis(config, map.name, &map.system, &map.axis);
   if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
   read_drive_place(reader, *node, &map);
-  read_scale(reader, &map);
+  const double encoder = read_scale(reader, &map);
   reader->number("zero", &map.zero, -1e6, 1e6);
   reader->number("following_error_limit", &map.following_limit, 0, 1e6);
+  read_mode(reader, config.canopen, encoder, &map);
   read_homing(reader, config, &map);
   read_probe(reader, &map);
   if (!found) return;
@@ -118,6 +147,7 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   for (const AxisMap& taken : node->axes)
     if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on this drive already");
   check_range(reader, config, map);
+  check_speed(reader, map);
   node->axes.push_back(map);
 }
 

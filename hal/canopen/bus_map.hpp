@@ -27,6 +27,8 @@ struct ObjectValue {
   std::uint32_t value = 0;
 };
 
+inline constexpr unsigned kMostVelocityDelay = 8;
+
 // Modes of operation (6060h) of an axis.
 inline constexpr std::int8_t kModeProfileVelocity = 3, kModeHoming = 6, kModeCyclicPosition = 8, kModeCyclicVelocity = 9;
 
@@ -59,11 +61,17 @@ struct AxisMap {
   double homing_timeout_s = 120;
   int homing_request = -1, homed = -1;  // points: the output whose rising edge starts homing; the input that is on when it is done
   std::int8_t mode = kModeCyclicPosition;
+  // Of an axis in kModeCyclicVelocity: its drive has a loop of its speed only, and the position is held here.
+  double velocity_gain = 30;         // 1/s
+  double velocity_delay = 3;         // SYNCs from the one whose cycle gives a set-point to the one whose cycle knows the place measured where the axis has come to it
+  double velocity_per_increment = 1; // value of 60FFh at one increment/s
   std::optional<SpindleMap> spindle;  // `axis` is NC_MAX_AXES + its number then, and no axis of the control
   // The skip signal, 1 to 8, that touch probe 1 of the drive (60B8h) gives; 0 = the probe is not used.
   unsigned skip_signal = 0;
   bool skip_falling = false;
 
+  bool holds_position() const { return !spindle && mode == kModeCyclicVelocity; }
+  bool takes_speed() const { return spindle.has_value() || holds_position(); }  // 60FFh in place of 607Ah
   bool has_homing() const { return homing_method != 0; }
   bool has_probe() const { return skip_signal != 0; }
   unsigned object(unsigned index) const { return index + 0x800 * slot; }

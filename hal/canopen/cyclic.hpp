@@ -118,6 +118,7 @@ class Cyclic {
   bool is_enabled(unsigned index) const noexcept { return enabled_[index].load(std::memory_order_relaxed); }
 
  private:
+  static constexpr unsigned kTargets = kMostVelocityDelay + 2;
   enum class Homing : std::uint8_t { kNo, kMode, kRuns, kBack };
   struct Axis {
     const AxisMap* map = nullptr;
@@ -133,7 +134,8 @@ class Cyclic {
     unsigned missed = 0;         // SYNCs in a row without a position
     bool set_up_again = false;   // its node was, because positions did not come; none has come since
     int ahead = 0;               // positions received minus SYNCs sent
-    std::int64_t target[3] = {};  // set-points of the last SYNC and of the two before it, the newest first
+    std::int64_t target[kTargets] = {};  // set-points of the last SYNCs, the newest first; of a spindle the value of 60FFh
+    std::int32_t speed = 0;              // value of 60FFh of an axis whose position is held here
     unsigned on_syncs = 0;       // SYNCs since the axis was to be switched on
     bool was_on = false;         // the drive has followed since then
     DriveTrouble trouble = DriveTrouble::kNone;
@@ -177,6 +179,7 @@ class Cyclic {
   void move_axis(unsigned index, bool commanded) noexcept;
   DriveWish wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept;
   std::int64_t target_of(Axis* axis, const AxisWanted& wanted) noexcept;
+  std::int32_t speed_of(const Axis& axis) const noexcept;
   void check_following(Axis* axis) noexcept;
   std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
   bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;

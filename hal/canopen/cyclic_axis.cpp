@@ -15,6 +15,7 @@ constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which 
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
 constexpr double kProbeSlack = 0.1;       // mm or deg beside its way at which an axis may have been when its drive latched the place
 constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
+constexpr double kSpeedReserve = 1.25;     // an axis whose position is held here is given at most this multiple of its largest velocity
 constexpr double kJumpSlack = 0.02;       // mm or deg in addition
 constexpr unsigned kResetMs = 500;        // time that a drive may take to leave its fault
 constexpr std::uint16_t kProbeEnable = 0x0001, kProbeRising = 0x0010, kProbeFalling = 0x0020;  // 60B8h
@@ -56,7 +57,7 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   if (axis.ahead >= kAheadLimit) fault(&axis, DriveTrouble::kTwice);
   const DriveState state = drive_state(axis.status);
   if ((state == DriveState::kFault || state == DriveState::kFaultReaction) && axis.reset_left == 0) {
-    axis.following_fault |= axis.was_on && !axis.map->spindle && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
+    axis.following_fault |= axis.was_on && !axis.map->takes_speed() && (axis.status & kStatusError) != 0 && axis.homing == Homing::kNo;
     fault(&axis, DriveTrouble::kNone);
   }
 }
@@ -122,14 +123,13 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
     axis.was_on = false;
     axis.on_syncs = 0;
   }
-  axis.target[2] = axis.target[1];
-  axis.target[1] = axis.target[0];
+  std::copy_backward(axis.target, axis.target + kTargets - 1, axis.target + kTargets);
   const bool led = followed && wish == DriveWish::kOn;
   if (axis.map->spindle) axis.target[0] = led ? wanted.target : 0;  // a command that is missing: the speed stays
   else axis.target[0] = led ? target_of(&axis, wanted) : axis.position;
-  if (axis.map->spindle) axis.target[1] = axis.target[2] = axis.target[0];
-  else if (!followed) axis.target[1] = axis.target[2] = axis.target[0];
+  if (axis.map->spindle || !followed) std::fill(axis.target, axis.target + kTargets, axis.target[0]);
   else check_following(&axis);
+  axis.speed = led ? speed_of(axis) : 0;
   const DriveWish now = axis.faulty && wish == DriveWish::kOn ? DriveWish::kOff : wish;
   axis.control = now == DriveWish::kOn && !in_mode && !homing ? kShutdown : axis.way.next(axis.status, now);
   if (axis.homing == Homing::kRuns && axis.control == kEnableOperation) axis.control |= kStartHoming;
@@ -148,15 +148,27 @@ std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
   return last;
 }
 
+// The speed of an axis whose position is held here: that of the set-points, and what brings the axis to the one that it should have been at when it was measured. While
+// positions are missing that of the set-points is all that is known.
+std::int32_t Cyclic::speed_of(const Axis& axis) const noexcept {
+  const double sync_s = bus_.sync_us * 1e-6, most = axis.map->max_velocity > 0 ? axis.map->max_velocity * kSpeedReserve * std::abs(axis.map->increments_per_unit) : HUGE_VAL;
+  const auto back = static_cast<unsigned>(axis.map->velocity_delay);
+  const double share = axis.map->velocity_delay - back;
+  const double place = static_cast<double>(axis.target[back]) + share * static_cast<double>(axis.target[back + 1] - axis.target[back]);
+  const double away = axis.missed == 0 ? place - static_cast<double>(axis.position) : 0;
+  const double speed = std::clamp(static_cast<double>(axis.target[0] - axis.target[1]) / sync_s + axis.map->velocity_gain * away, -most, most);
+  return static_cast<std::int32_t>(std::lround(std::clamp(speed * axis.map->velocity_per_increment, -2147483647.0, 2147483647.0)));
+}
+
 // The following error is the distance of the axis from the range between the set-points of this SYNC and of the two before, because on its way the axis may be
-// anywhere in it. A place of before says nothing about this SYNC: while positions are missing, lost_after bounds the time.
+// anywhere in it; where the position is held here it lies as far back as that takes. A place of before says nothing about this SYNC: while positions are missing, lost_after bounds the time.
 void Cyclic::check_following(Axis* axis) noexcept {
   if (axis->missed != 0) return;
-  const auto [least, most] = std::minmax({axis->target[0], axis->target[1], axis->target[2]});
-  const std::int64_t away = std::max({std::int64_t{0}, least - axis->position, axis->position - most});
+  const auto [least, most] = std::minmax_element(axis->target, axis->target + (axis->map->holds_position() ? static_cast<unsigned>(axis->map->velocity_delay) + 2 : 3));
+  const std::int64_t away = std::max({std::int64_t{0}, *least - axis->position, axis->position - *most});
   const double limit = axis->map->following_limit * std::abs(axis->map->increments_per_unit);
   const bool own = limit > 0 && static_cast<double>(away) > limit;
-  if (own || (axis->status & kStatusError) != 0) axis->following_fault = true;
+  if (own || (!axis->map->takes_speed() && (axis->status & kStatusError) != 0)) axis->following_fault = true;  // bit 13 says something else in that mode
 }
 
 // Homing by the drive itself: the drive moves the axis, and the commanded position follows meanwhile. True while homing is under way.
@@ -185,9 +197,9 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   if (done || axis->faulty || !wanted.on) {
     if (axis->homing != Homing::kBack) axis->homing_syncs = 0;
     axis->homing = Homing::kBack;
-    wanted_mode_[index].store(kModeCyclicPosition, std::memory_order_release);
+    wanted_mode_[index].store(axis->map->mode, std::memory_order_release);
   }
-  if (axis->homing == Homing::kBack && mode == kModeCyclicPosition) axis->homing = Homing::kNo;
+  if (axis->homing == Homing::kBack && mode == axis->map->mode) axis->homing = Homing::kNo;
   return axis->homing != Homing::kNo;
 }
 
@@ -246,7 +258,7 @@ void Cyclic::send_rpdo(const Axis& axis) noexcept {
   frame.id = axis.rpdo_id;
   frame.length = axis.map->has_probe() ? 8 : 6;
   put_le(frame.data, 2, axis.control);
-  put_le(frame.data + 2, 4, static_cast<std::uint32_t>(axis.target[0]));
+  put_le(frame.data + 2, 4, static_cast<std::uint32_t>(axis.map->holds_position() ? axis.speed : axis.target[0]));
   if (axis.map->has_probe()) put_le(frame.data + 6, 2, axis.probe_function);
   send(frame);
 }

@@ -23,7 +23,7 @@ const char* drive_state_name(DriveState state) noexcept;
 
 // Bits of the status word that this control looks at.
 inline constexpr std::uint16_t kStatusRemote = 1u << 9, kStatusReached = 1u << 10, kStatusLimit = 1u << 11,
-                               kStatusFollows = 1u << 12,  // cyclic position: the drive follows the command; homing: attained
+                               kStatusFollows = 1u << 12,  // cyclic position and velocity: the drive follows the command; homing: attained
     kStatusError = 1u << 13;    // cyclic position: following error; homing: error
 
 // Control words (CiA 402-2, "command coding").

@@ -98,7 +98,7 @@ InterpolationTime interpolation_time_of(unsigned us) {
 }
 
 std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis) {
-  std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, axis.spindle ? 0x60FF : 0x607A, 32)};
+  std::vector<std::uint32_t> objects{map_entry(axis, 0x6040, 16), map_entry(axis, axis.takes_speed() ? 0x60FF : 0x607A, 32)};
   if (axis.has_probe()) objects.push_back(map_entry(axis, 0x60B8, 16));
   return objects;
 }

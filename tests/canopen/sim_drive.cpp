@@ -400,7 +400,7 @@ void SimDrive::move(Axis& axis, unsigned number) {
   } else if (axis.state == State::kEnabled && (mode == 9 || mode == 3)) {
     plant.velocity += std::clamp(axis.pending_velocity - plant.velocity, -velocity_ramp, velocity_ramp);
     plant.coast = plant.velocity * sync_s;
-    plant.position += plant.coast;
+    if (!plant.blocked) plant.position += plant.coast;
   } else if (axis.state == State::kEnabled && mode == 6) {
     home(axis, number);
   } else {  // the drive's own ramp, or friction
