@@ -100,6 +100,7 @@ enum class Answer : std::uint8_t {
   kResetHeld,         // a reset is done, and plc.reset is still on
   kDrivesOff,         // a drive does not follow (yet)
   kHandleTooFar,      // more than the axis follows
+  kTwoWheels,         // two handwheels on one axis, or two axes on one
   kNotHomed,          // an axis does not know yet where it stands
   kNoHoming,          // there is no homing for it
   kHoming,            // the axis is being homed
@@ -183,6 +184,8 @@ constexpr const char* answer_text(Answer answer) {
       return "the drives are off, come on or move by themselves: wait until they follow";
     case Answer::kHandleTooFar:
       return "more than the axis follows: it does not end where the wheel says";
+    case Answer::kTwoWheels:
+      return "two handwheels have chosen this axis, or the wheel has chosen two axes: choose one";
     case Answer::kNotHomed:
       return "an axis is not homed: home it first";
     case Answer::kNoHoming:

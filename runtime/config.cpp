@@ -89,6 +89,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   read_signals(&reader, &read);
   read_power(&reader, &read);
   read_handwheels(&reader, &read);
+  read_joysticks(&reader, &read);
   resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);

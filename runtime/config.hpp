@@ -22,6 +22,7 @@
 #include "nc/control.h"
 #include "runtime/axes/equipment.hpp"
 #include "runtime/axes/handwheel.hpp"
+#include "runtime/axes/joystick.hpp"
 #include "runtime/power/power_watch.hpp"
 #include "runtime/programs/program_text.hpp"
 
@@ -240,6 +241,7 @@ struct Config {
   LadderConfig ladder;
   PowerConfig power;
   std::vector<HandwheelConfig> handwheels;
+  std::vector<JoystickConfig> joysticks;
   std::string place;           // file of the places in the programs when the power failed, relative like `print`; empty = see place_path()
   ConfigPlace place_place;
   std::vector<SignalWire> wires;

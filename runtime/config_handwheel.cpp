@@ -6,15 +6,16 @@
 namespace nc::rt {
 namespace {
 
-// The input that `key` names. -1 when the key is not there or names none.
-int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config) {
-  std::string name;
-  if (!reader->string(key, &name)) return -1;
-  const int index = config.points.find(name);
-  const bool fits = index >= 0 && config.points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kInput && config.points.at(static_cast<unsigned>(index)).type == type;
-  if (index < 0) reader->error(key, "no point is named \"" + name + "\"");
-  else if (!fits) reader->error(key, std::string("must be an input that is a ") + (type == hal::PointType::kWord ? "word" : "bit"));
-  return fits ? index : -1;
+// Why this input can never choose: it would choose another axis of the wheel, or two wheels on the axis, at the same time. "" = it can.
+std::string chosen_twice(const Config& config, const HandwheelConfig& wheel, unsigned system, unsigned axis, int point) {
+  const std::string input = "\"" + config.points.at(static_cast<unsigned>(point)).name + "\"";
+  for (const HandwheelConfig::Choice& other : wheel.axes)
+    if (other.point == point) return input + " chooses another axis of this wheel, too: neither would ever turn";
+  for (std::size_t n = 0; n < config.handwheels.size(); ++n)
+    for (const HandwheelConfig::Choice& other : config.handwheels[n].axes)
+      if (other.point == point && other.system == system && other.axis == axis)
+        return input + " chooses this axis for handwheel[" + std::to_string(n + 1) + "], too: it would be turned by neither";
+  return "";
 }
 
 void read_axes_of(TableReader* wheel, const Config& config, HandwheelConfig* entry) {
@@ -24,7 +25,10 @@ void read_axes_of(TableReader* wheel, const Config& config, HandwheelConfig* ent
       unsigned system = 0, axis = 0;
       if (!find_axis(config, key, &system, &axis)) return reader.error(key, "no axis has this name");
       const int point = read_input(&reader, key, hal::PointType::kBit, config);
-      if (point >= 0) entry->axes.push_back({static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point});
+      if (point < 0) return;
+      const std::string twice = chosen_twice(config, *entry, system, axis, point);
+      if (!twice.empty()) return reader.error(key, twice);
+      entry->axes.push_back({static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point});
     });
   });
 }
@@ -47,6 +51,16 @@ void read_wheel(TableReader* reader, Config* config) {
 }
 
 }  // namespace
+
+int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config) {
+  std::string name;
+  if (!reader->string(key, &name)) return -1;
+  const int index = config.points.find(name);
+  const bool fits = index >= 0 && config.points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kInput && config.points.at(static_cast<unsigned>(index)).type == type;
+  if (index < 0) reader->error(key, "no point is named \"" + name + "\"");
+  else if (!fits) reader->error(key, std::string("must be an input that is a ") + (type == hal::PointType::kWord ? "word" : "bit"));
+  return fits ? index : -1;
+}
 
 void read_handwheels(TableReader* root, Config* config) {
   root->tables("handwheel", [&](TableReader& reader, std::size_t) { read_wheel(&reader, config); });

@@ -30,6 +30,9 @@ void read_signals(TableReader* root, Config* config);  // after points, macro in
 // Connects the point that `key` names with a signal, which the family of the machine calls by this key. After the points.
 void connect_signal(TableReader* reader, const std::string& key, const std::string& signal, Config* config);
 void read_handwheels(TableReader* root, Config* config);  // after axes and points
+void read_joysticks(TableReader* root, Config* config);   // the same
+// The input of this type that `key` names. -1 when the key is not there or names none.
+int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config);
 void read_power(TableReader* root, Config* config);  // after the signals
 void read_sim(TableReader* root, Config* config);
 void read_spindle_feedback(TableReader* root, Config* config);  // after [sim] and the points; in runtime/config_spindles.cpp

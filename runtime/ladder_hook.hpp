@@ -58,6 +58,7 @@ struct LadderRequests {
     std::uint32_t axis_lock = 0;        // bit n: axis n is to be locked
     std::uint8_t feed_code = 0;         // feed override as a code of five bits, inverted
     std::uint32_t approach = 0;         // bit n: axis n goes back to where its program goes on
+    double stick_feed[NC_MAX_AXES] = {};  // mm/s or deg/s at which a joystick jogs the axis, in place of jog_feed; 0 = none does
     bool search = false;                // the external search
     SearchAsked search_for;
     std::int16_t handle[NC_MAX_AXES] = {};              // increments in this scan

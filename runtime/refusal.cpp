@@ -53,6 +53,7 @@ RefusalCause refusal_cause(Answer why) {
     case Answer::kWarningActive: return RefusalCause::kWarning;
     case Answer::kMachineSwitch: return RefusalCause::kMachineSwitch;
     case Answer::kOutOfRange: return RefusalCause::kRange;
+    case Answer::kTwoWheels:
     case Answer::kAxisUnknown: return RefusalCause::kAxis;
     case Answer::kRefusedByControl: return RefusalCause::kControl;
     case Answer::kNotChecked:

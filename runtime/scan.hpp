@@ -318,8 +318,10 @@ class Scan {
   void watch_manual() noexcept;
   void watch_jog(unsigned system, unsigned axis) noexcept;
   void watch_way(unsigned system, unsigned axis) noexcept;
+  bool is_held(int point) const noexcept;
   void turn_handwheels(LadderRequests* requests) noexcept;
-  int chosen_axis(const HandwheelConfig& wheel) const noexcept;
+  int chosen_axis(const HandwheelConfig& wheel, bool* alone) const noexcept;
+  void move_joysticks(LadderRequests* requests) noexcept;
   void watch_handle(unsigned system, unsigned axis) noexcept;
   bool handle_changes_length(const LadderRequests::System& now, unsigned axis) const noexcept;
   void watch_length_handle(unsigned system) noexcept;
@@ -393,6 +395,8 @@ class Scan {
   std::uint32_t button_refused_[NC_MAX_SYSTEMS] = {};        // bit per axis: its jog button was refused or stopped and has been on since
   std::uint32_t pulses_lost_[NC_MAX_SYSTEMS] = {};           // bit per axis: pulses of its handle do not go to the NC in this scan
   Handwheel handwheel_[kMostHandwheels];
+  std::uint32_t wheels_clash_[NC_MAX_SYSTEMS] = {};          // bit per axis: a wheel is turned whose axis another one has chosen, or that has chosen two
+  Joystick joystick_[NC_MAX_SYSTEMS][NC_MAX_AXES];
   Answer handle_noted_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};    // reason for lost pulses that was noted last
   bool length_handle_noted_[NC_MAX_SYSTEMS] = {};            // that its pulses did not change the length along the tool axis was noted
   Asked on_its_way_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};       // a step or a reference return that has not ended

@@ -31,6 +31,7 @@ void Scan::run_ladder() noexcept {
   for (unsigned s = 0; s < systems_; ++s) in_[s].feed_hold = false;
   ladder_->scan(&image);
   turn_handwheels(&requests);
+  move_joysticks(&requests);
   for (unsigned s = 0; s < systems_; ++s) {
     in_[s].feed_hold |= (hands_held_ >> s & 1u) != 0;
     machine_holds_[s] = in_[s].feed_hold;

@@ -133,48 +133,6 @@ void Scan::give_commands_by_hand(unsigned s) noexcept {
   }
 }
 
-// ---- handwheels of the configuration ----
-
-// The place in wheel.axes of the one axis that is chosen; -1 = none, or several.
-int Scan::chosen_axis(const HandwheelConfig& wheel) const noexcept {
-  int chosen = -1;
-  for (std::size_t i = 0; i < wheel.axes.size(); ++i) {
-    const int point = wheel.axes[i].point;
-    if (points_.value[point] == 0 || !readable(point)) continue;
-    if (chosen >= 0) return -1;
-    chosen = static_cast<int>(i);
-  }
-  return chosen;
-}
-
-// What the wheels have gone on is added to what the ladder asks of the axis. An axis that two wheels have chosen goes by neither, because none of the two hands
-// expects the way of the other.
-void Scan::turn_handwheels(LadderRequests* requests) noexcept {
-  constexpr std::int64_t kMost = INT16_MAX;
-  std::uint32_t chosen[NC_MAX_SYSTEMS] = {}, twice[NC_MAX_SYSTEMS] = {};
-  std::int32_t way[kMostHandwheels] = {};
-  int choice[kMostHandwheels];
-  for (std::size_t n = 0; n < config_.handwheels.size(); ++n) {
-    const HandwheelConfig& wheel = config_.handwheels[n];
-    choice[n] = chosen_axis(wheel);
-    way[n] = handwheel_[n].step(points_.value[wheel.counter], readable(static_cast<int>(wheel.counter)), wheel.bits, wheel.counts, choice[n]);
-    if (choice[n] < 0) continue;
-    const HandwheelConfig::Choice& axis = wheel.axes[static_cast<std::size_t>(choice[n])];
-    twice[axis.system] |= chosen[axis.system] & 1u << axis.axis;
-    chosen[axis.system] |= 1u << axis.axis;
-  }
-  for (std::size_t n = 0; n < config_.handwheels.size(); ++n) {
-    if (choice[n] < 0 || way[n] == 0) continue;
-    const HandwheelConfig& wheel = config_.handwheels[n];
-    const HandwheelConfig::Choice& axis = wheel.axes[static_cast<std::size_t>(choice[n])];
-    if ((twice[axis.system] >> axis.axis & 1u) != 0) continue;
-    const auto is_on = [this](int point) { return point >= 0 && points_.value[point] != 0 && readable(point); };
-    const int times = is_on(wheel.times_100) ? 100 : is_on(wheel.times_10) ? 10 : 1;
-    std::int16_t& increments = requests->system[axis.system].handle[axis.axis];
-    increments = static_cast<std::int16_t>(std::clamp(increments + std::int64_t{way[n]} * times, -kMost, kMost));
-  }
-}
-
 // ---- buttons and handles of the machine, in manual mode; they have priority over the operator's jogs ----
 
 // M700 12.3: in "MDI, memory or tape operation mode". Whether the program is where the length may be changed is for the NC to say.
@@ -199,7 +157,7 @@ void Scan::follow_ladder_manual(const LadderRequests& requests) noexcept {
       const int direction = static_cast<int>(now.jog_p >> a & 1u) - static_cast<int>(now.jog_m >> a & 1u);
       const bool reference = ((now.reference & ~before.reference) >> a & 1u) != 0;
       const bool jogs = acts && direction != 0 && (button_refused_[s] >> a & 1u) == 0;
-      const double asked = button_feed(axis, now);
+      const double asked = now.stick_feed[a] > 0 ? now.stick_feed[a] : button_feed(axis, now);
       if (direction != 0) {
         jog_asked_[s][a] = static_cast<std::int8_t>(direction);
         jog_without_feed_[s] = static_cast<std::uint8_t>(jog_without_feed_[s] | (asked > 0 ? 0u : 1u << a));
@@ -287,6 +245,11 @@ void Scan::give_up_way(unsigned s, unsigned a, Answer why) noexcept {
 // Of pulses that do not become motion each reason once, until pulses act again.
 void Scan::watch_handle(unsigned s, unsigned a) noexcept {
   Answer& noted = handle_noted_[s][a];
+  if ((wheels_clash_[s] >> a & 1u) != 0) {
+    if (noted != Answer::kTwoWheels) refuse(s, Asked::kHandle, Answer::kTwoWheels, static_cast<int>(a));
+    noted = Answer::kTwoWheels;
+    return;
+  }
   const nc_manual& given = in_[s].manual[a];
   const bool ignored = (pulses_lost_[s] >> a & 1u) != 0;
   if (!ignored && (out_[s].handle_dropped >> a & 1u) == 0) {

@@ -53,6 +53,7 @@ class HandwheelMachine : public nc::test::SwitchMachine {
     ASSERT_EQ(mode(Mode::kManual), nc::rt::Answer::kDone);
     steps(3);
   }
+  std::string refused() const { return nc::rt::refusal_text(config, 0, runtime->snapshot().system[0].refusal); }
   void at_rest(double x, double y) {
     ASSERT_GE(until([&] { return out().distance_zero && std::abs(counted(0) - x) < 1e-9 && std::abs(counted(1) - y) < 1e-9; }, 2000), 0) << counted(0) << " " << counted(1);
     steps(20);
@@ -80,8 +81,10 @@ TEST_F(HandwheelMachine, TurnsTheAxisThatIsChosenByTheFactorThatIs) {
   at_rest(-0.015, 0.3);
   turn("sel_x", 1);  // both: neither
   steps(2);
+  EXPECT_EQ(refused(), "") << "nobody turns it";
   turn("wheel", 20);
   at_rest(-0.015, 0.3);
+  EXPECT_NE(refused(), "");
 }
 
 TEST_F(HandwheelMachine, TwoWheelsOnOneAxisTurnItByNeither) {
@@ -93,11 +96,34 @@ TEST_F(HandwheelMachine, TwoWheelsOnOneAxisTurnItByNeither) {
   turn("wheel2", 8);
   steps(50);
   at_rest(0, 0);
+  EXPECT_EQ(refused(), "handle X refused: two handwheels have chosen this axis, or the wheel has chosen two axes: choose one");
+  const std::uint32_t told = runtime->snapshot().system[0].refusal.count;
+  turn("wheel", 6);
+  steps(20);
+  EXPECT_EQ(runtime->snapshot().system[0].refusal.count, told) << "once";
   turn("sel_x", 0);
   steps(3);
   turn("wheel", 9);
   turn("wheel2", 12);
   at_rest(0.002, 0);
+  EXPECT_EQ(refused(), "");
+  turn("sel_x", 1);
+  steps(3);
+  turn("wheel", 12);
+  steps(20);
+  EXPECT_NE(refused(), "") << "again";
+}
+
+TEST_F(HandwheelMachine, ThreeWheelsWithFactorsOfTheirOwn) {
+  by_hand(point("wheel3", true) + point("sel3_z") + kWheel + "[[handwheel]]\ncounter = \"wheel2\"\naxes = { Y = \"sel2_x\" }\ntimes_10 = \"hundred\"\n[[handwheel]]\ncounter = \"wheel3\"\naxes = { Z = \"sel3_z\" }\n");
+  for (const char* chosen : {"sel_x", "sel2_x", "sel3_z", "hundred"}) turn(chosen, 1);
+  steps(3);
+  turn("wheel", 2);
+  turn("wheel2", 3);
+  turn("wheel3", 4);
+  at_rest(0.2, 0.03);
+  EXPECT_NEAR(counted(2), 0.004, 1e-9);
+  EXPECT_EQ(refused(), "");
 }
 
 TEST_F(HandwheelMachine, DoesNothingInAutomatic) {
@@ -126,6 +152,8 @@ TEST(HandwheelConfigErrors, AreNamedWithTheirKeys) {
       {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"out0\" }\n", "handwheel[1].axes.X", "an input that is a bit", 3},
       {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\ntimes_10 = \"wheel\"\n", "handwheel[1].times_10", "an input that is a bit", 4},
       {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\ncounts = 0\n", "handwheel[1].counts", "from 1", 4},
+      {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\", Y = \"sel_x\" }\n", "handwheel[1].axes.Y", "chooses another axis of this wheel", 3},
+      {kWheel + "[[handwheel]]\ncounter = \"wheel2\"\naxes = { X = \"sel_x\" }\n", "handwheel[2].axes.X", "\"sel_x\" chooses this axis for handwheel[1], too", 8},
       {kWheel + "[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel2_x\" }\n", "handwheel[2].counter", "of another handwheel", 7},
   };
   for (const auto& mistake : mistakes) {
