@@ -13,7 +13,7 @@ void read_counts(TableReader* reader, JoystickConfig* entry) {
   bool whole = reader->integer("low", &entry->low, INT32_MIN, INT32_MAX);
   whole = reader->integer("middle", &entry->middle, INT32_MIN, INT32_MAX) && whole;
   whole = reader->integer("high", &entry->high, INT32_MIN, INT32_MAX) && whole;
-  const bool rises = entry->low < entry->middle && entry->middle < entry->high, falls = entry->low > entry->middle && entry->middle > entry->high;
+  const bool rises = entry->low < entry->middle && entry->middle<entry->high, falls = entry->low> entry->middle && entry->middle > entry->high;
   if (whole && !rises && !falls) reader->error("middle", "must lie between low and high");
 }
 
