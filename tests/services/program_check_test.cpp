@@ -216,6 +216,11 @@ TEST_F(ProgramCheckServices, BehindAQuestionToTheMachineAnAlarmDoesNotRefuse) {
 
 TEST_F(ProgramCheckServices, EndlessProgramsEndTheirCheck) {
   ServiceClient client(path_);
+  const Json again = put_and_check(&client, "turns.nc", "N1 GOTO1\n");
+  EXPECT_EQ(again["state"], "passed");
+  const std::string text = again["text"].get<std::string>();
+  EXPECT_EQ(text.rfind("it goes on until a reset: line 1: 1", 0), 0u) << text;
+  EXPECT_EQ(text.find("--"), std::string::npos) << "an operator has no options: " << text;
   EXPECT_EQ(put_and_check(&client, "silent.nc", "N1 #100=#100+1\nGOTO1\n")["state"], "unchecked");
   EXPECT_EQ(put_and_check(&client, "warm.nc", "WHILE[1EQ1]DO1\nG0 X1.\nG0 X0.\nEND1\n")["state"], "passed");
   EXPECT_EQ(put_and_check(&client, "again.nc", "G0 X1.\nG0 X0.\nM99\n")["state"], "passed");

@@ -16,7 +16,6 @@
 namespace nc::tools {
 namespace {
 
-constexpr char kOption[] = " (--max-passes)";
 constexpr uint64_t kLongestPeriod = 16;  // a loop is found when it repeats a state within at most this number of passes
 
 std::string program_of(const nc_source& source) { return source.program != 0 ? " of O" + std::to_string(source.program) : ""; }
@@ -61,14 +60,14 @@ bool LoopWatch::block_goes_on(const nc_source& source, const Look& look) {
 
 std::string LoopWatch::too_often(Loop* loop, const Look& look) const {
   const uint64_t passes = ++loop->passes;
-  if (limits_.any != 0 && passes >= limits_.any) return std::string(" without an end") + kOption;
+  if (limits_.any != 0 && passes >= limits_.any) return " without an end";
   if (limits_.same == 0 || passes + 1 < limits_.same) return {};
   const uint64_t since = passes - loop->kept_at;
   if (loop->kept_at == 0 || passes + 1 == 2 * (loop->kept_at + 1)) {
     *loop = {passes, passes, look(), questions_};
   } else if (since <= std::min(kLongestPeriod, 2 * (loop->kept_at + 1) / limits_.same) && loop->questions == questions_ && look() == loop->state) {
     const std::string last = since == 1 ? ", the last one without any change" : ", the last " + std::to_string(since) + " of them back to where they began";
-    return last + ": an endless loop" + kOption;
+    return last + ": an endless loop";
   }
   return {};
 }

@@ -38,6 +38,8 @@ class LoopWatch {
 
   /** The loop that exceeded its limit, such as "line 7: 100 passes of the loop back to line 3 ...". */
   const std::string& verdict() const { return verdict_; }
+  /** The same for who may set the limit by an option of ncsim. */
+  std::string verdict_and_option() const { return verdict_ + " (--max-passes)"; }
 
  private:
   struct Loop {

@@ -93,6 +93,11 @@ class OfflineRun {
                    "(--max-silent-blocks)");
   }
 
+  void give_up_loop() {
+    result_.loop = loops_.verdict();
+    give_up(loops_.verdict_and_option());
+  }
+
   RunResult stopped() {
     result_.how = RunResult::How::kStopped;
     return finish();
@@ -130,14 +135,14 @@ class OfflineRun {
         }
         // Series 8 G06 goes to and fro until the machine answers otherwise.
         if ((item.u.sync.what & NC_SYNC_INPUT) != 0 && !result_.one_pass && loops_.block_goes_on(item.source, [this] { return items_.program_state(); })) {
-          give_up(loops_.verdict());
+          give_up_loop();
           return false;
         }
         break;
       case NC_ITEM_MARK:
         mark(item);
         if (item.u.mark.report && !result_.one_pass && endless_loop(item)) {
-          give_up(loops_.verdict());
+          give_up_loop();
           return false;
         }
         break;

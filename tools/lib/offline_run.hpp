@@ -43,6 +43,7 @@ struct RunResult {
   How how = How::kFailed;
   nc_alarm alarm = {};  // for kAlarmed
   std::string error;    // for kFailed; for kEndless the loop that was given up
+  std::string loop;     // that loop, without an option of ncsim; "" where it is no loop that comes back to itself
   uint64_t blocks = 0, moves = 0;
   bool silent = false;    // with kEndless: so many blocks in a row did nothing that the machine would notice
   bool one_pass = false;  // with kEnded: the run ended where M99 would begin the main program again

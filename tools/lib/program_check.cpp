@@ -300,7 +300,7 @@ class Check {
           report_.text = "line " + std::to_string(sink_->last().line) + ": an endless loop, " + std::to_string(kMostSilentBlocks) + " blocks in which nothing happens";
         } else {
           report_.state = CheckState::kPassed;
-          report_.text = "it goes on until a reset: " + result.error;
+          report_.text = "it goes on until a reset: " + result.loop;
         }
         return;
       case RunResult::How::kStopped:

@@ -50,7 +50,7 @@ class VirtualMachine {
       if (out.state == NC_STATE_ALARM) return alarmed();
       take_events();
       if (result_.one_pass) return take(MachineResult::How::kEnded);
-      if (given_up_ && executed_ == committed_) return give_up(loops_.verdict());
+      if (given_up_ && executed_ == committed_) return give_up(loops_.verdict_and_option());
       if (started_ && out.state == NC_STATE_IDLE) return take(MachineResult::How::kEnded);
       // Nothing here will change a stopped spindle, a feed of 0 or a thread that is too fast, so such a program is stuck.
       const bool stuck = out.cause == NC_CAUSE_SPINDLE_STOPPED || out.cause == NC_CAUSE_FEED_ZERO || out.cause == NC_CAUSE_SPINDLE_FAST;
