@@ -264,6 +264,36 @@ TEST(RestartSearches, AreNoToolChange) {
   }
 }
 
+// What the operator moves and turns in the stop is no hole of the program, and no word of its tap (P186).
+TEST_P(Restart, BlocksOfMdiAtAPlaceWithinACycleAreNoHoles) {
+  const std::string program = "M3 S500\nG90 G54 G0 X0 Y0\nG81 X10. Z-8. R2. F600\nX20.\nN50 X30.\nG80 X5.\nM30";
+  RestartMachine whole(GetParam(), program);
+  ASSERT_TRUE(whole.to_end()) << whole.drive->alarm();
+  RestartMachine m(GetParam(), program);
+  ASSERT_EQ(m.find(at_sequence(50)), NC_OK);
+  m.enter();
+  const std::string blocks = "M3 S500\nX-5. Y-5.\nX-6.";
+  const size_t before = m.drive->ends().size();
+  ASSERT_EQ(nc_mdi_load(m.bench.control(), 0, blocks.data(), blocks.size()), NC_OK);
+  m.press();
+  ASSERT_TRUE(m.until_stop());
+  ASSERT_EQ(m.drive->out.cause, NC_CAUSE_MDI_ENDED) << m.drive->alarm();
+  for (size_t i = before; i < m.drive->ends().size(); ++i) EXPECT_EQ(m.drive->ends()[i].v[2], 0) << "no hole";
+  m.bring_axes();
+  ASSERT_TRUE(m.to_end()) << m.drive->alarm();
+  const auto expected = whole.drive->ends(), ends = m.drive->ends();
+  for (unsigned back = 1; back <= 4; ++back)
+    for (unsigned i = 0; i < kAxes; ++i) EXPECT_NEAR(ends[ends.size() - back].v[i], expected[expected.size() - back].v[i], 1e-9) << back << ' ' << i;
+
+  RestartMachine tap(GetParam(), "M3 S500\nG90 G54 G0 X0 Y0\nG84 X10. Z-8. R2. F1. S500 ,R1\nN50 X30.\nG80 X5.\nM30");
+  ASSERT_EQ(tap.find(at_sequence(50)), NC_OK);
+  tap.enter();
+  ASSERT_EQ(nc_mdi_load(tap.bench.control(), 0, "M3 S500", 7), NC_OK);
+  tap.press();
+  ASSERT_TRUE(tap.until_stop());
+  EXPECT_EQ(tap.drive->out.cause, NC_CAUSE_MDI_ENDED) << tap.drive->alarm();
+}
+
 // In a block stop of a program that was begun inside blocks of MDI keep what they change, as in every other one (12.4.4).
 TEST_P(Restart, BlocksOfMdiBehindThePlaceKeepTheirModes) {
   RestartMachine m(GetParam(), "G90 G0 X10.\nN50 G1 X20. F6000\nM0\nX3.\nM30");

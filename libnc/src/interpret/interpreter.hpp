@@ -227,6 +227,7 @@ struct Interpreter : BlockContext {
     ProgramMaps maps;        ///< centres and factors of the maps that are in force in `state`
     uint64_t tables = 0;     ///< tables_hash()
   };
+  void bring_there();
   void put_back_modes();
   void take_machine_truth();
   /// Where a reset goes back to, in place of the head of the program.

@@ -87,6 +87,15 @@ void Interpreter::put_back_modes() {
   change(&ProgramRecords::maps, begun_inside_.maps);
 }
 
+/// What blocks of MDI do at the place where a program is begun inside is none of its holes, and no word of its tap, which would be P186.
+void Interpreter::bring_there() {
+  take_in_hand(state, state.machine_has);
+  state.reads_beside_machine = false;
+  state.modal.set(initial_modal(*dialect).of(Mode::cycle));
+  state.cycle = {};
+  state.tap_code = false;
+}
+
 void Interpreter::enter_mdi(const ProgramRef& blocks) {
   const bool puts_back = begun_inside_.kept && state.seq == begun_inside_.seq;
   place_at_next_block();
@@ -104,10 +113,7 @@ void Interpreter::enter_mdi(const ProgramRef& blocks) {
   }
   state.frame[state.depth].modal_call = 0;  // no macro is called behind the moves of blocks that do not belong to the program
   state.frame[state.depth].puts_back = puts_back;
-  if (puts_back) {
-    take_in_hand(state, state.machine_has);
-    state.reads_beside_machine = false;
-  }
+  if (puts_back) bring_there();
   state.spline_way = {};                    // the curve of fine segments begins again
   show_modal_call(*this);
   keep_state();
