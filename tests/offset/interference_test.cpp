@@ -167,6 +167,52 @@ TEST(Interference, AMouthThatIsTooNarrowWithVectorsThatDoNotCross) {
   }
 }
 
+/// P153 in this line, in front of the groove, with the avoidance and without.
+void expect_too_narrow(const char* radius, const std::string& contour, unsigned line) {
+  for (const char* const avoid : {"0", "1"}) {
+    Bench bench;
+    bench.tool(1, std::strtod(radius, nullptr)).param("8102", avoid);
+    const Outcome run = bench.run("G90 G17 G94\n" + contour + "M30");
+    EXPECT_EQ(run.alarm, "P153") << contour << avoid;
+    EXPECT_EQ(run.alarm_line, line) << contour << avoid;
+  }
+}
+
+// One wall of the groove is lower than the radius: the vectors at its two ends do not cross, the contour ends or goes on along the other one, and the tool, at the corner
+// of the mouth, is in that wall.
+TEST(Interference, AMouthOfALowWallAndAHighOne) {
+  expect_too_narrow("1", "G0 X.336778 Y2.477212\nG1 G42 D1 X0 Y0 F500\nX-5.275072 Y.717149\nX-5.166765 Y.229571\nX-8.289435 Y-.464076\nX-5.44051 Y6.05345\nG40 X-3.149795 Y5.052138\n", 4);
+  expect_too_narrow("1", "G0 X-3.149795 Y5.052138\nG1 G41 D1 X-5.44051 Y6.05345 F500\nX-8.289435 Y-.464076\nX-5.166765 Y.229571\nX-5.275072 Y.717149\nX0 Y0\nG40 X.336778 Y2.477212\n", 3);
+  expect_too_narrow("0.5", "G0 X0 Y1.25\nG1 G42 D1 X0 Y0 F500\nX-1.841143\nY-.176743\nG2 X-3.471519 I-.815188 J1.109274\nG1 X-1.917884 Y1.8191\nG40 X-.931508 Y1.05127\n", 4);
+  expect_too_narrow("0.5", "G0 X-.931508 Y1.05127\nG1 G41 D1 X-1.917884 Y1.8191 F500\nX-3.471519 Y-.176743\nG3 X-1.841143 I.815188 J1.109274\nG1 Y0\nX0\nG40 Y1.25\n", 3);
+  // two arcs between the corner of the mouth and an arc that bends over it
+  expect_too_narrow("1", "G0 X-2. Y-3.\nG1 G41 D1 X-4.7701 Y-4.50948 F500\nX-7.44678 Y-6.2512\nG2 X-7.69518 Y-5.34137 I1.29426 J.84218\nG3 X-10.6738 Y-7.9481 I.26454 J-3.30743\nG3 X-4.15898 Y-7.46838 I2.52576 J10.17611\nG40 G1 X-5.11013 Y-5.15639\n", 4);
+}
+
+// Arcs all round, which bend towards each other: no vectors cross.
+TEST(Interference, AMouthBetweenArcs) {
+  expect_too_narrow("3.604",
+                    "G0 X-8.277572 Y-14.487777\nG42 D1 G1 X-8.381396 Y-19.892780 F1000\nG3 X-13.950034 Y-21.157255 I-0.228363 J-11.888450\n"
+                    "G2 X-23.239758 Y11.541996 I7.348999 J19.757033\nG3 X-16.597511 Y-2.045697 I37.317 J9.824795\nG3 X16.336102 Y-17.155704 I30.674753 J23.412488\n"
+                    "G2 X2.258907 Y-25.980627 I-15.993774 J9.87251\nG3 X-2.865426 Y-21.370177 I-3.538078 J1.220538\nG3 X-8.381396 Y-19.89278 I-5.744333 J-10.411053\n"
+                    "G1 G40 X-8.277572 Y-14.487777\n",
+                    6);
+}
+
+// As wide as the tool, above the tip of the tool, or a way in or out, it is no such mouth.
+TEST(Interference, AMouthOfALowWallAndAHighOneThatIsWideEnough) {
+  const auto expect_none = [](const std::string& contour) {
+    for (const char* const avoid : {"0", "1"}) {
+      Bench bench;
+      bench.tool(1, 1).param("8102", avoid);
+      EXPECT_EQ(bench.run("G90 G17 G94\n" + contour + "M30").alarm, "") << contour << avoid;
+    }
+  };
+  expect_none("G0 X-10. Y3. Z0\nG1 G41 D1 X-10. Y0 F500\nX0\nY-.5\nX3.\nX2. Y5.\nG40 X0 Y4.6\n");          // 2.1 mm at the height of the corner
+  expect_none("G0 X-10. Y3. Z0\nG1 G41 D1 X-10. Y0 F500\nX0\nY-.5\nX3. Z5.\nX.5 Y5.\nG40 X-1. Y4.6\n");      // the wall stands above the tool
+  expect_none("G0 X3. Y-10. Z0\nG41 D1 G1 X4. Y-4. F500\nG3 X0 Y0 R4.\nG1 X-4.\nY-8.\nX4.\nY0\nX0\nG3 X-1. Y1. I0 J1.\nG40 G1 X-1. Y3.\n");
+}
+
 // Below the mouth a wall, the greater part of a circle, a wall. The contour turns away from the tool at each of its corners, and comes back along the arc.
 TEST(Interference, AMouthThatIsTooNarrowInFrontOfARoundChamber) {
   for (const char* const mouth : {"8.", "10.", "12.2"}) {  // see above: 12.07 mm are needed

@@ -65,11 +65,11 @@ std::string alarm_of(const std::string& text, double radius, const char* check) 
   return run.alarm + " L" + std::to_string(run.alarm_line);
 }
 
-// A pocket whose walls come near each other beside a short block: the vectors at its ends do not cross.
+// A pocket whose walls come near each other, with four blocks between them: five are read ahead, so the vectors at the ends of four of them are compared.
 constexpr char kNarrow[] =
     "G0 X-8.277572 Y-14.487777\nG42 D1 G1 X-8.381396 Y-19.892780 F1000\nG3 X-13.950034 Y-21.157255 I-0.228363 J-11.888450\n"
     "G2 X-23.239758 Y11.541996 I7.348999 J19.757033\nG3 X-16.597511 Y-2.045697 I37.317 J9.824795\nG3 X16.336102 Y-17.155704 I30.674753 J23.412488\n"
-    "G2 X2.258907 Y-25.980627 I-15.993774 J9.87251\nG3 X-2.865426 Y-21.370177 I-3.538078 J1.220538\nG3 X-8.381396 Y-19.89278 I-5.744333 J-10.411053\n"
+    "G2 X8.28561 Y-24.317616 I-15.993774 J9.87251\nG2 X2.258907 Y-25.980627 I-7.943282 J17.034422\nG3 X-2.865426 Y-21.370177 I-3.538078 J1.220538\nG3 X-8.381396 Y-19.89278 I-5.744333 J-10.411053\n"
     "G1 G40 X-8.277572 Y-14.487777\nM30\n";
 
 TEST(ContourCheck, FindsTheWallThatTheVectorsDoNotShow) {

@@ -296,30 +296,40 @@ bool too_far_to_cross(double longest_before, double longest_behind, Vec2 d) { re
 // Does the contour turn away from the tool behind section i?
 bool turns_away(const Chain& chain, unsigned i) { return cross(chain[i].end.u, chain[i + 1].begin.u) * chain[i].offset < 0; }
 
+// Do the blocks between the joints of sections i and j, all of them walls on one side, come back towards the tool: at a corner, or along an arc? Not where the program
+// gives a vector, which may lie anywhere (12.4.3).
+bool comes_back(const Chain& chain, unsigned i, unsigned j) {
+  if (chain[i].dead || chain[i].vanished || chain[i].commanded || changes_side(chain, i)) return false;
+  bool back = false;
+  for (unsigned k = i + 1; k <= j; ++k) {
+    const Section& section = chain[k];
+    if (section.dead || section.vanished || section.commanded || !is_wall(section) || changes_side(chain, k)) return false;
+    back = back || (k < j && !turns_away(chain, k)) || section.begin.curvature * section.offset > 0;
+  }
+  return back;
+}
+
 // Is the mouth of a groove of three blocks narrower than the tool? The vectors on its walls tell where the walls are about parallel. Where they go apart below
-// the mouth these vectors point down and need not cross, so here it is asked whether the tool, at the corner on one side of the mouth and along the wall below,
-// comes nearer than the amount to the corner on the other side.
+// the mouth these vectors point down and need not cross, nor do they where one wall is lower than the tool; so here it is asked whether the tool, at the corner on one
+// side of the mouth and along the wall below, comes nearer than the amount to the wall on the other side. Where the contour closes they may be ways in and out.
 bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
-  if (j + 1 >= chain.size() || !turns_away(chain, i) || !turns_away(chain, j)) return false;
-  bool comes_back = false;  // towards the tool: at a corner, or along an arc
-  for (unsigned k = i + 1; k <= j; ++k) comes_back = comes_back || (k < j && !turns_away(chain, k)) || chain[k].begin.curvature * chain[k].offset > 0;
-  if (!comes_back) return false;
-  for (unsigned k = i; k <= j; ++k)
-    if (chain[k].dead || chain[k].vanished || changes_side(chain, k)) return false;
+  if (j + 1 >= chain.size()) return false;
+  const bool in_front = turns_away(chain, i), behind = turns_away(chain, j);
+  if ((!in_front && !behind) || !comes_back(chain, i, j)) return false;
   const Vec2 d = joint_distance(chain, i, j);
   const Section& into = chain[i + 1];
   const Section& out = chain[j];
-  Piece corners[2];
-  corners[1].from = corners[1].to = d;
-  const double least = std::abs(chain[i].offset) - kEnters_mm;
-  const auto enters = [&](const ContourJoint& joint, Vec2 at, const Piece& corner) {
+  if (!on_one_level(into, out)) return false;
+  const Piece first = wall_of(into, into.approach), last = wall_of(out, d - out.delta);
+  const double least = std::min(std::abs(into.offset), std::abs(out.offset)) - kEnters_mm - slop_of(first) - slop_of(last);
+  const auto enters = [&](const ContourJoint& joint, Vec2 at, const Piece& wall) {
     for (unsigned k = 0; k + 1 < joint.n; ++k)
-      if (comes_nearer(way_at(at, joint.v[k], joint.v[k + 1], joint.corner_arc, chain[i].offset), corner, least)) return true;
+      if (comes_nearer(way_at(at, joint.v[k], joint.v[k + 1], joint.corner_arc, into.offset), wall, least)) return true;
     return false;
   };
-  return enters(chain[i].joint, {}, corners[1]) || enters(out.joint, d, corners[0]) ||
-         comes_nearer(path_of(into, into.approach, start_vector(chain, i + 1, {}), into.joint.v[0]), corners[1], least) ||
-         comes_nearer(path_of(out, d - out.delta, start_vector(chain, j, {}), out.joint.v[0]), corners[0], least);
+  const bool into_last = in_front && (enters(chain[i].joint, {}, last) || comes_nearer(path_of(into, first.from, start_vector(chain, i + 1, {}), into.joint.v[0]), last, least));
+  const bool into_first = behind && !into_last && (enters(out.joint, d, first) || comes_nearer(path_of(out, last.from, start_vector(chain, j, {}), out.joint.v[0]), first, least));
+  return (into_last || into_first) && !closes(chain, i, chain.size() - 1);
 }
 
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
@@ -476,13 +486,14 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
       const Section& behind = *next;
       next = &(*chain)[i];
       d = d + behind.approach + behind.delta;
-      if (!crosses && too_far_to_cross(longest_square(next->joint), longest, d)) continue;
+      const bool far = !crosses && too_far_to_cross(longest_square(next->joint), longest, d);
+      if (far && span < kMaxSpan) continue;
       if (span > 1 && behind.dead) continue;  // seen from the section left out already
       const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
       const bool may_wait = live >= last_call;
       bool pair_crosses = false;
-      if (check_pair(chain, live, i, j, may_wait, first_vector, at, &pair_crosses) == Finding::alarm) return Finding::alarm;
+      if (!far && check_pair(chain, live, i, j, may_wait, first_vector, at, &pair_crosses) == Finding::alarm) return Finding::alarm;
       crosses = crosses || pair_crosses;
       if (section.dead) break;
       if (span == kMaxSpan && !pair_crosses && mouth_too_narrow(*chain, i, j)) {

@@ -16,8 +16,6 @@ struct Way {
   unsigned count = 0;
 };
 
-bool is_wall(const Section& section) { return !section.start && !section.cancel && section.cuts && section.offset != 0; }
-
 /// Has it a path with two vectors that are computed? Where the program gives one of them it is not checked (12.4.3).
 bool has_path(const Chain& chain, unsigned i, const ChainStart& start) {
   const Section& section = chain[i];
@@ -36,9 +34,7 @@ Way way_of(const Chain& chain, unsigned i, Vec2 from_joint, const ChainStart& st
 
 /// The two blocks, on one level: of a path and of the wall.
 bool enters(const Way& way, const Section& of_way, const Piece& wall, const Section& of_wall) {
-  const double low = std::max(std::min(of_way.level, of_way.level_end), std::min(of_wall.level, of_wall.level_end));
-  const double high = std::min(std::max(of_way.level, of_way.level_end), std::max(of_wall.level, of_wall.level_end));
-  if (low > high + kLevel_mm) return false;
+  if (!on_one_level(of_way, of_wall)) return false;
   const double least = std::min(std::abs(of_way.offset), std::abs(of_wall.offset)) - kEnters_mm - slop_of(wall) - slop_of(wall_of(of_way, {}));
   return std::any_of(way.pieces, way.pieces + way.count, [&](const Piece& piece) { return comes_nearer(piece, wall, least); });
 }
@@ -46,21 +42,6 @@ bool enters(const Way& way, const Section& of_way, const Piece& wall, const Sect
 bool is_low_step(const Section& section) {
   const double length = section.begin.curvature != 0 ? std::abs(section.sweep / section.begin.curvature) : norm(section.delta);
   return length < std::abs(section.offset);
-}
-
-/// Does the contour, from the start of section `front` on, come back to one of its joints before section `last` ends?
-bool closes(const Chain& chain, unsigned front, unsigned last) {
-  for (unsigned from = front; from <= last; ++from) {
-    Vec2 at;
-    bool away = false;
-    for (unsigned i = from; i <= last; ++i) {
-      const Section& section = chain[i];
-      at = at + section.delta + (i == from ? Vec2{} : section.approach);
-      away = away || norm(at) > kAway_mm || (std::abs(section.sweep) > kPi && std::abs(section.begin.curvature) * kAway_mm < 1);
-      if (away && norm(at) <= kCloses_mm) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace

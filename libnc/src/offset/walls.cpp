@@ -241,4 +241,24 @@ bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount o
          comes_nearer(path, of_path, half[1], {middle, of_wall.end}, margin, {false, open.to});
 }
 
+bool on_one_level(const Section& a, const Section& b) {
+  const double low = std::max(std::min(a.level, a.level_end), std::min(b.level, b.level_end));
+  const double high = std::min(std::max(a.level, a.level_end), std::max(b.level, b.level_end));
+  return low <= high + kLevel_mm;
+}
+
+bool closes(const Chain& chain, unsigned first, unsigned last) {
+  for (unsigned from = first; from <= last; ++from) {
+    Vec2 at;
+    bool away = false;
+    for (unsigned i = from; i <= last; ++i) {
+      const Section& section = chain[i];
+      at = at + section.delta + (i == from ? Vec2{} : section.approach);
+      away = away || norm(at) > kAway_mm || (std::abs(section.sweep) > kPi && std::abs(section.begin.curvature) * kAway_mm < 1);
+      if (away && norm(at) <= kCloses_mm) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace nc

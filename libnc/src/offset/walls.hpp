@@ -60,6 +60,13 @@ inline constexpr double kAway_mm = 0.01;
 /// Levels that differ by less are one; so are distances from a wall.
 inline constexpr double kLevel_mm = 1e-3;
 
+/// Does it cut along its offset curve?
+inline bool is_wall(const Section& section) { return !section.start && !section.cancel && section.cuts && section.offset != 0; }
+/// Is some of the one as deep as some of the other?
+bool on_one_level(const Section& a, const Section& b);
+/// Does the contour, from the start of section `first` on, come back to one of its joints before section `last` ends?
+bool closes(const Chain& chain, unsigned first, unsigned last);
+
 /// By how much a path may come nearer than the radius: rounding, and the micrometre that a vector may be off where an arc ends beside its circle.
 inline constexpr double kEnters_mm = 1e-3;
 
