@@ -3,8 +3,11 @@
 // last digit has made the arc smaller by more than that digit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <random>
+#include <vector>
 
 #include "base/units.hpp"
 #include "path_builder.hpp"
@@ -49,9 +52,10 @@ Fillet fillet(uint64_t seed, double digit, bool by_radius) {
   return made;
 }
 
-void expect_the_tool_in_it(const Fillet& made, const std::vector<Item>& out, uint64_t seed) {
+/// At the ends of these blocks, and its path has no gap.
+void expect_the_tool_in_it(const Fillet& made, const std::vector<Item>& out, std::initializer_list<unsigned> blocks, uint64_t seed) {
   ASSERT_EQ(alarm_of(out), nullptr) << "seed " << seed << ", off " << made.off;
-  for (const unsigned block : {3u, 4u}) {  // in front of the arc, and behind it
+  for (const unsigned block : blocks) {
     const AxisVec place = at_block(out, made.path.start(), block);
     ASSERT_NEAR(std::hypot(place[0] - made.center.h, place[1] - made.center.v), 0, 2e-3) << "seed " << seed << ", block " << block;
   }
@@ -75,11 +79,92 @@ TEST(Fillet, OfTheToolsRadiusAtAnyAngleIsGoneInto) {
       ASSERT_TRUE(alarm != nullptr || made.off > -9.1e-4) << "seed " << seed << ", off " << made.off;
       ASSERT_TRUE(alarm == nullptr || alarm->alarm.condition == Condition::comp_interference) << "seed " << seed;
     } else {
-      expect_the_tool_in_it(made, out, seed);
+      expect_the_tool_in_it(made, out, {3, 4}, seed);  // in front of the arc, and behind it
     }
     if (HasFatalFailure()) return;
   }
   EXPECT_LT(smaller, count / 50);
+}
+
+/// The same fillet in two arcs with a line between them, a chord of this length; `digit` is that of all words.
+Fillet with_a_line_inside(uint64_t seed, double digit, double length) {
+  std::mt19937_64 random(seed);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Fillet made;
+  const double r = made.radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3), turned = between(-kPi, kPi), mirrored = seed % 2 == 0 ? 1 : -1;
+  const auto at = [&](double h, double v) {
+    v *= mirrored;
+    return Point{rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
+  };
+  const double angle = kPi + between(0.1, 1.4), chord = length / r;
+  const auto on_arc = [&](double a) { return at(r * std::cos(a), r * std::sin(a)); };
+  const Point start = at(-7 * r, 2 * r), begin = at(-5 * r, 2 * r), corner = at(-r, 2 * r), from = at(-r, 0), first = on_arc(angle), second = on_arc(angle + chord), to = at(0, -r), far = at(4 * r, -r), end = at(4 * r, r);
+  made.center = at(0, 0);
+  made.path = PathBuilder(start.h, start.v);
+  made.path.side(mirrored > 0 ? 1 : -1, r);
+  made.path.line(begin.h, begin.v).line(corner.h, corner.v).line(from.h, from.v);
+  made.path.arc(mirrored > 0, first.h, first.v, made.center.h - from.h, made.center.v - from.v);
+  made.path.line(second.h, second.v);
+  made.path.arc(mirrored > 0, to.h, to.v, made.center.h - second.h, made.center.v - second.v);
+  made.path.line(far.h, far.v).cancel().line(end.h, end.v).end();
+  return made;
+}
+
+// Its two ends lead to one place, wherever the digits of its words lead.
+TEST(Fillet, OfTheToolsRadiusMayHaveALineOfAMicrometreInside) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(20000, 1000);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    const double digit = seed % 3 == 0 ? 1e-3 : seed % 3 == 1 ? 1e-4 : 1e-6;
+    const Fillet made = with_a_line_inside(seed, digit, std::pow(10, -3.5 + 0.15 * static_cast<double>(seed % 13)));
+    expect_the_tool_in_it(made, run_stage(made.path), {3, 4, 5, 6}, seed);
+    if (HasFatalFailure()) return;
+  }
+}
+
+// A longer line lies inside of the circle of the arc, so the tool does not fit.
+TEST(Fillet, OfTheToolsRadiusWithALongerLineInsideIsAnAlarm) {
+  for (uint64_t seed = 1; seed <= 200; ++seed) EXPECT_NE(alarm_of(run_stage(with_a_line_inside(seed, 1e-6, 0.4).path)), nullptr) << "seed " << seed;
+}
+
+/// A wall with a notch in front of a fillet of the tool's radius.
+Fillet behind_a_notch(uint64_t seed, double digit, bool reversed) {
+  std::mt19937_64 random(seed);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Fillet made;
+  const double r = made.radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3), turned = between(-kPi, kPi), mirrored = seed % 2 == 0 ? 1 : -1;
+  const auto at = [&](double h, double v) {
+    if (reversed) h = -h;
+    v *= mirrored;
+    return Point{rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
+  };
+  std::vector<Point> way = {at(-9 * r, r), at(-8 * r, -r), at(-0.4 * r, -r), at(-0.2 * r, -1.1 * r), at(0, -r), at(r, 0), at(r, 4 * r), at(-r, 5 * r)};
+  made.center = at(0, 0);
+  const unsigned arc_at = reversed ? 3 : 5;
+  if (reversed) std::reverse(way.begin(), way.end());
+  made.path = PathBuilder(way[0].h, way[0].v);
+  made.path.side(mirrored > 0 ? 1 : -1, r);
+  made.path.comp.check = made.path.comp.avoid = true;
+  for (unsigned i = 1; i < way.size(); ++i) {
+    if (i + 1 == way.size()) made.path.cancel();
+    if (i == arc_at) {
+      made.path.arc(mirrored > 0, way[i].h, way[i].v, made.center.h - way[i - 1].h, made.center.v - way[i - 1].v);
+    } else {
+      made.path.line(way[i].h, way[i].v);
+    }
+  }
+  made.path.end();
+  return made;
+}
+
+// #8102 joins the wall in front of the notch to the arc, in its centre.
+TEST(Fillet, OfTheToolsRadiusIsJoinedByTheAvoidance) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(10000, 500);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    const bool reversed = seed % 4 < 2;
+    const Fillet made = behind_a_notch(seed, seed % 3 == 0 ? 1e-6 : 1e-4, reversed);
+    expect_the_tool_in_it(made, run_stage(made.path), {reversed ? 3u : 5u}, seed);
+    if (HasFatalFailure()) return;
+  }
 }
 
 TEST(Fillet, OfASmallerRadiusIsAnAlarm) {

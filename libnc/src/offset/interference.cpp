@@ -86,6 +86,27 @@ unsigned curves_meet(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
   return 1;
 }
 
+// How far a point is from the whole of a curve.
+double distance_from(const OffsetCurve& curve, Vec2 point) {
+  return std::abs(curve.circle ? norm(point - curve.center) - curve.radius : cross(curve.u, point - curve.point));
+}
+
+// Where the offset curves of two sections meet that begin and end there, nearest to `middle`; of one that is a point, in the centre of its arc. False: they do not.
+bool meeting_of(const Section& before, const Section& behind, Vec2 from_joint, Vec2 middle, Vec2* x) {
+  if (!tool_fits(before.end, before.offset) || !tool_fits(behind.begin, behind.offset)) return false;
+  const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, from_joint, behind.offset);
+  const bool at_a = is_point(before.end, before.offset);
+  if (at_a || is_point(behind.begin, behind.offset)) {
+    *x = at_a ? a.center : b.center;
+    return distance_from(at_a ? b : a, *x) < kLastDigit_mm;
+  }
+  Vec2 hit[2];
+  const unsigned hits = curves_meet(a, b, hit);
+  if (hits == 0) return false;
+  *x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
+  return true;
+}
+
 // From the joint of section i to that of section j, programmed.
 Vec2 joint_distance(const Chain& chain, unsigned i, unsigned j) {
   Vec2 d;
@@ -224,14 +245,9 @@ bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first
   if (before.start || before.dead || before.vanished || behind.dead || behind.vanished || behind.cancel) return false;
   for (unsigned k = i; k < j; ++k)
     if ((*chain)[k].commanded) return false;  // 12.4.3 precaution (2): never erased
-  if (!offset_exists(before.end, before.offset) || !offset_exists(behind.begin, behind.offset)) return false;
   const Vec2 d = joint_distance(*chain, i, j - 1) + behind.approach;
-  const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, d, behind.offset);
-  Vec2 hit[2];
-  const unsigned hits = curves_meet(a, b, hit);
-  if (hits == 0) return false;
-  const Vec2 middle = 0.5 * d;
-  const Vec2 x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
+  Vec2 x;
+  if (!meeting_of(before, behind, d, 0.5 * d, &x)) return false;
   // Blocks that run all but back beside each other meet far from both: no avoidance vector (12.4.8 alarm (2)(b)).
   if (norm(x) > kExtremelyLarge * std::abs(before.offset) + norm(d)) return false;
   const Vec2 from = start_vector(*chain, i, first_vector), leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
@@ -332,6 +348,20 @@ bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
   return (into_last || into_first) && !closes(chain, i, chain.size() - 1);
 }
 
+// Does the tool stay in one place between the joints of sections i and j, as far as the last digit tells? That is so where nothing but points is left of arcs, and of lines
+// between them that lead from one to the other.
+bool stays_in_place(const Chain& chain, unsigned i, unsigned j) {
+  const auto point = [&](unsigned k) { return is_point(chain[k].begin, chain[k].offset) && is_point(chain[k].end, chain[k].offset); };
+  for (unsigned k = i + 1; k <= j; ++k) {
+    if (point(k)) continue;
+    const Section& line = chain[k];
+    if (line.begin.curvature != 0 || !point(k - 1) || k + 1 >= chain.size() || !point(k + 1) || chain[k - 1].joint.n == 0 || line.joint.n == 0) return false;
+    const Vec2 way = line.delta + line.joint.v[0] - start_vector(chain, k, {});
+    if (norm(way) >= 2 * kLastDigit_mm) return false;  // each of the two places is known to one
+  }
+  return true;
+}
+
 // Checks the joint of section i against that of j. `live` is i, or where i is left out already the section
 // that has taken its place. `*crosses`: they do not go as they were.
 Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may_wait, Vec2 first_vector,
@@ -339,7 +369,7 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
   const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j), j - i == kMaxSpan);
-  if (!crossing.found) return Finding::none;
+  if (!crossing.found || stays_in_place(*chain, i, j)) return Finding::none;
   *crosses = true;
   *at = live;
   const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
@@ -397,7 +427,7 @@ Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsig
   if (!along_contour || !section.check || section.commanded) return Finding::none;
   if (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
   const Vec2 from = start_vector(*chain, i, start.vector), to = section.joint.v[0];
-  if (!leads_astray(section, from, to)) return Finding::none;
+  if (!leads_astray(section, from, to) || (i > 0 && stays_in_place(*chain, i - 1, i))) return Finding::none;
   *at = i;
   if (!section.avoid || i == 0) return Finding::alarm;
   for (unsigned target = i + 1; target <= i + kReach && target < chain->size(); ++target)
