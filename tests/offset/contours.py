@@ -156,6 +156,22 @@ def turned(rng, elements):
     return [Element(place(e.start), place(e.end), e.center and place(e.center), e.ccw) for e in elements]
 
 
+def fillets(rng, r):
+    """A plate turned by any angle, its corners rounded by exactly the radius of the tool, or by the last digit less or more: of three digits, and of their centres, at that angle."""
+    a, b, angle = rng.uniform(3, 30) + 2 * r, rng.uniform(3, 20) + 2 * r, rng.uniform(0, 2 * math.pi)
+    radius = r + rng.choice([0, 0, 0, 0.0005, -0.0005, 0.003])
+
+    def at(x, y):
+        return rounded((x * math.cos(angle) - y * math.sin(angle), x * math.sin(angle) + y * math.cos(angle)))
+    sides = [((a, radius - b), (a, b - radius)), ((a - radius, b), (radius - a, b)), ((-a, b - radius), (-a, radius - b)), ((radius - a, -b), (a - radius, -b))]
+    centers = [(a - radius, b - radius), (radius - a, b - radius), (radius - a, radius - b), (a - radius, radius - b)]
+    elements = []
+    for i, (start, end) in enumerate(sides):
+        elements.append(Element(at(*start), at(*end)))
+        elements.append(Element(at(*end), at(*sides[(i + 1) % 4][0]), at(*centers[i]), True))
+    return elements
+
+
 def nearly_round(rng, r):
     """359.999 degrees and the chord that closes them."""
     radius = r * rng.choice([0.5, 1, 1.5, 4])
@@ -326,8 +342,8 @@ class Contour:
         """Radius of the tool, shape of the part, side; gives the elements of the part."""
         self.radius = round(rng.choice([0.5, 1, 2, 3, 5, 8]) * rng.uniform(0.5, 1.2), 3)
         while True:
-            kind = self.only or rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared", "noses"])
-            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "noses": lambda: noses(rng, self.radius), "flared": lambda: flared(rng, self.radius)}[kind]()
+            kind = self.only or rng.choice(["star", "star", "star", "slot", "plate", "round", "star", "circle", "scallops", "flared", "noses", "fillets"])
+            elements = {"star": lambda: star(rng), "slot": lambda: slot(rng, self.radius), "plate": lambda: rounded_plate(rng, self.radius), "round": lambda: nearly_round(rng, self.radius), "circle": lambda: circle(rng, self.radius), "scallops": lambda: scallops(rng, self.radius), "noses": lambda: noses(rng, self.radius), "flared": lambda: flared(rng, self.radius), "fillets": lambda: fillets(rng, self.radius)}[kind]()
             if any(e.start == e.end and e.center is None for e in elements):
                 continue
             ring = ring_of(elements)

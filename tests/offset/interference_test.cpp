@@ -210,6 +210,8 @@ TEST(Interference, AMouthOfALowWallAndAHighOneThatIsWideEnough) {
   };
   expect_none("G0 X-10. Y3. Z0\nG1 G41 D1 X-10. Y0 F500\nX0\nY-.5\nX3.\nX2. Y5.\nG40 X0 Y4.6\n");          // 2.1 mm at the height of the corner
   expect_none("G0 X-10. Y3. Z0\nG1 G41 D1 X-10. Y0 F500\nX0\nY-.5\nX3. Z5.\nX.5 Y5.\nG40 X-1. Y4.6\n");      // the wall stands above the tool
+  // of the corner in front of a line of 11 um the vector at right angles to that line is not gone to
+  expect_none("G0 X-1.185087 Y2.201265\nG1 G41 D1 X0 Y0 F500\nX4.856908 Y2.614795\nX5.412441 Y1.520836\nX11.816698 Y5.43921\nX11.813184 Y5.428859\nX11.891265 Y5.332326\nX11.889561 Y5.332782\nX9.882647 Y-2.16674\nG40 X12.297669 Y-2.813013\n");
   expect_none("G0 X3. Y-10. Z0\nG41 D1 G1 X4. Y-4. F500\nG3 X0 Y0 R4.\nG1 X-4.\nY-8.\nX4.\nY0\nX0\nG3 X-1. Y1. I0 J1.\nG40 G1 X-1. Y3.\n");
 }
 

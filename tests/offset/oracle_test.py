@@ -40,8 +40,8 @@ from cam_profiles import Profile  # noqa: E402
 from contours import NO_DIRECTION, SAGITTA, Contour, Element, cut_at, tangent_at  # noqa: E402
 
 TOLERANCE = 0.001 + 3 * SAGITTA
-MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.45, "round": 0.5, "circle": 0.5, "scallops": 0.5, "flared": 0.45, "noses": 0.6, "cam star": 0.65, "cam slot": 0.8,
-               "cam plate": 0.65, "cam round": 0.65, "cam circle": 0.7, "cam scallops": 0.65, "cam flared": 0.65, "cam noses": 0.7}  # shares of each kind
+MOST_ALARMS = {"star": 0.5, "slot": 0.65, "plate": 0.45, "round": 0.5, "circle": 0.5, "scallops": 0.5, "flared": 0.45, "noses": 0.6, "fillets": 0.5, "cam star": 0.65, "cam slot": 0.8,
+               "cam plate": 0.65, "cam round": 0.65, "cam circle": 0.7, "cam scallops": 0.65, "cam flared": 0.65, "cam noses": 0.7, "cam fillets": 0.65}  # shares of each kind
 
 # ---- transformed contours
 

@@ -325,10 +325,21 @@ bool comes_back(const Chain& chain, unsigned i, unsigned j) {
   return back;
 }
 
+// Of a lengthened corner the vectors at right angles to its lines are passed, and not gone to where the lines are short (OffsetStage::release()).
+unsigned first_driven(const Section& section, Vec2 start) { return section.joint.lengthened && section.merge_first && runs_beside(section, start) ? 1 : 0; }
+unsigned last_driven(const Section& section) { return section.joint.n - (section.joint.lengthened && section.merge_last ? 2u : 1u); }
+
+// The way along section k, which starts at `start`, between the corners at its two ends.
+Piece driven_path(const Chain& chain, unsigned k, Vec2 start) {
+  const Section& section = chain[k];
+  const Vec2 last = start_vector(chain, k, {});
+  return path_of(section, start, chain[k - 1].joint.v[last_driven(chain[k - 1])], section.joint.v[first_driven(section, last)]);
+}
+
 // Is the mouth of a groove of three blocks narrower than the tool? The vectors on its walls tell where the walls are about parallel. Where they go apart below
 // the mouth these vectors point down and need not cross, nor do they where one wall is lower than the tool; so here it is asked whether the tool, at the corner on one
 // side of the mouth and along the wall below, comes nearer than the amount to the wall on the other side. Where the contour closes they may be ways in and out.
-bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
+bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j, Vec2 first_vector) {
   if (j + 1 >= chain.size()) return false;
   const bool in_front = turns_away(chain, i), behind = turns_away(chain, j);
   if ((!in_front && !behind) || !comes_back(chain, i, j)) return false;
@@ -338,13 +349,14 @@ bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j) {
   if (!on_one_level(into, out)) return false;
   const Piece first = wall_of(into, into.approach), last = wall_of(out, d - out.delta);
   const double least = std::min(std::abs(into.offset), std::abs(out.offset)) - kEnters_mm - slop_of(first) - slop_of(last);
-  const auto enters = [&](const ContourJoint& joint, Vec2 at, const Piece& wall) {
-    for (unsigned k = 0; k + 1 < joint.n; ++k)
-      if (comes_nearer(way_at(at, joint.v[k], joint.v[k + 1], joint.corner_arc, into.offset), wall, least)) return true;
+  const auto enters = [&](unsigned k, Vec2 at, const Piece& wall) {
+    const ContourJoint& joint = chain[k].joint;
+    for (unsigned n = first_driven(chain[k], start_vector(chain, k, first_vector)); n < last_driven(chain[k]); ++n)
+      if (comes_nearer(way_at(at, joint.v[n], joint.v[n + 1], joint.corner_arc, into.offset), wall, least)) return true;
     return false;
   };
-  const bool into_last = in_front && (enters(chain[i].joint, {}, last) || comes_nearer(path_of(into, first.from, start_vector(chain, i + 1, {}), into.joint.v[0]), last, least));
-  const bool into_first = behind && !into_last && (enters(out.joint, d, first) || comes_nearer(path_of(out, last.from, start_vector(chain, j, {}), out.joint.v[0]), first, least));
+  const bool into_last = in_front && (enters(i, {}, last) || comes_nearer(driven_path(chain, i + 1, first.from), last, least));
+  const bool into_first = behind && !into_last && (enters(j, d, first) || comes_nearer(driven_path(chain, j, last.from), first, least));
   return (into_last || into_first) && !closes(chain, i, chain.size() - 1);
 }
 
@@ -526,7 +538,7 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
       if (!far && check_pair(chain, live, i, j, may_wait, first_vector, at, &pair_crosses) == Finding::alarm) return Finding::alarm;
       crosses = crosses || pair_crosses;
       if (section.dead) break;
-      if (span == kMaxSpan && !pair_crosses && mouth_too_narrow(*chain, i, j)) {
+      if (span == kMaxSpan && !pair_crosses && mouth_too_narrow(*chain, i, j, first_vector)) {
         *at = live;
         return Finding::alarm;
       }
