@@ -14,6 +14,7 @@ import sys
 import time
 import traceback
 
+from edges import Edges
 from faults import Faults
 from machine import HERE, INTERFACE, MACHINE, PROGRAMS, Control, Drives, Failed, Gpio, run, until
 from path import Recorder, compare
@@ -61,6 +62,7 @@ class Checks:
         self.control = Control()
         self.gpio, self.drives = prepare()
         self.faults = Faults(self.control, self.gpio, self.drives, kills)
+        self.edges = Edges(self.control, self.gpio, self.drives, self.faults)
 
     def taken_line(self):
         """A line that has another owner: ncrtd does not start, and names chip, line and owner."""
@@ -154,10 +156,12 @@ class Checks:
             raise Failed(f"{self.control.shown('Result')}: {self.control.log(6)}")
         if not until(lambda: "enabled" not in self.drives.states(), 5) or self.gpio.level("LAMP"):
             raise Failed(f"drives {self.drives.states()}, lamp {self.gpio.level('LAMP')}")
+        if any(self.gpio.level("WATCHDOG") for _ in range(50) if time.sleep(0.01) is None):
+            raise Failed("the watchdog's line is on, and no control is there")
         return "end: at rest, drives " + ", ".join(self.drives.states())
 
     def all(self):
-        return [self.taken_line, self.kernel, self.part, self.lines, *self.faults.all(), self.latency, self.ends]
+        return [self.taken_line, self.kernel, self.part, self.lines, *self.edges.all(), *self.faults.all(), self.latency, self.ends]
 
 
 def main():

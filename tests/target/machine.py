@@ -43,7 +43,9 @@ def until(what, seconds, every=0.1):
 class Gpio:
     """A chip of gpio-sim (configfs) with named lines."""
     FOLDER = pathlib.Path("/sys/kernel/config/gpio-sim/nc")
-    LINES = {0: "PART", 1: "CHAIN", 2: "SUPPLY", 4: "CLAMP", 5: "LAMP", 6: "WATCHDOG", 7: "SAVED"}
+    LINES = {0: "PART", 1: "CHAIN", 2: "SUPPLY", 4: "CLAMP", 5: "LAMP", 6: "WATCHDOG", 7: "SAVED", 8: "PROBE", 9: "PROBE_SLOW",
+             10: "WHEEL_A", 11: "WHEEL_B", 12: "WHEEL_X", 13: "WHEEL_Y", 14: "WHEEL_100"}
+    INPUTS = {"CHAIN", "SUPPLY", "PART", "PROBE", "PROBE_SLOW", "WHEEL_A", "WHEEL_B", "WHEEL_X", "WHEEL_Y", "WHEEL_100"}
 
     def __init__(self):
         run("modprobe", "gpio-sim")
@@ -56,7 +58,7 @@ class Gpio:
         for offset, name in self.LINES.items():
             (bank / f"line{offset}").mkdir()
             (bank / f"line{offset}" / "name").write_text(name)
-        self.levels = {"PART": False, "CHAIN": True, "SUPPLY": True}
+        self.levels = {line: line in ("CHAIN", "SUPPLY") for line in self.INPUTS}
         self.plug()
 
     def plug(self):
@@ -76,7 +78,7 @@ class Gpio:
 
     def mend(self):
         """The chip is there, and its inputs are those of a machine that is ready."""
-        self.levels.update(PART=False, CHAIN=True, SUPPLY=True)
+        self.levels.update(PART=False, CHAIN=True, SUPPLY=True, PROBE=False, PROBE_SLOW=False)
         if (self.FOLDER / "live").read_text().strip() != "1":
             return self.plug()
         for line, level in self.levels.items():
@@ -97,6 +99,7 @@ class Gpio:
 class Drive:
     """A node of the bus, a process of its own (plant.py), and the gauge at its axis."""
     PLACE = struct.Struct("<dddB")
+    PASSED = struct.Struct("<dd")  # behind it, of the last SYNCs: the kernel's time of the frame, place
     STATES = ["disabled", "ready", "on", "enabled", "stop", "reaction", "fault"]
 
     def __init__(self, axis, node, per_mm, zero):
@@ -122,11 +125,20 @@ class Drive:
         self.process.send_signal(signal.SIGUSR1)
 
     def gauge(self):
-        place, speed, _, state = self.PLACE.unpack((GAUGES / str(self.node)).read_bytes())
+        place, speed, _, state = self.PLACE.unpack((GAUGES / str(self.node)).read_bytes()[:self.PLACE.size])
         return place / self.per_mm + self.zero, speed / self.per_mm, self.STATES[state]
 
     def place(self):
         return self.gauge()[0]
+
+    def place_at(self, when):
+        """The place at a time of the wall clock, on the straight line between those at the SYNCs before and behind it."""
+        passed = sorted(self.PASSED.iter_unpack((GAUGES / str(self.node)).read_bytes()[self.PLACE.size:]))
+        behind = next((n for n, (at, _) in enumerate(passed) if at >= when), 0)
+        if behind == 0:
+            raise Failed(f"drive {self.node} had no SYNC before and behind {when}: {len(passed)} from {passed[0][0]} to {passed[-1][0]}")
+        (begin, from_), (end, to) = passed[behind - 1:behind + 1]
+        return (from_ + (to - from_) * (when - begin) / (end - begin)) / self.per_mm + self.zero
 
 
 class Drives(list):

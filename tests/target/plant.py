@@ -25,6 +25,7 @@ from peer_drives import Drive  # noqa: E402
 BRAKING = 400.0 * 131072 / 10  # increments/s^2: of quick stop, fault and brake
 NO_SYNC_S = 1.0  # behind so long without a SYNC it goes by the clock: there is no control any more, and not only a computer that is busy
 PLACE = struct.Struct("<dddB")  # increments, increments/s, time of CLOCK_MONOTONIC, state
+PASSED, KEPT = struct.Struct("<dd"), 128  # behind it, of so many SYNCs: the kernel's time of the frame (wall clock), increments
 STATES = ["disabled", "ready", "on", "enabled", "stop", "reaction", "fault"]
 OVER_VOLTAGE, POWER_SECTION, NO_HEARTBEAT = 0x3210, 0x5400, 0x8130
 
@@ -41,6 +42,7 @@ class Plant(Drive):
         self.synced = self.heard = time.monotonic()
         self.silence = 0.0  # s: 1016h
         self.said_silent = False
+        self.syncs = 0
         self.note()
 
     def note(self):
@@ -93,9 +95,11 @@ class Plant(Drive):
         if self.speed == 0.0 and self.state in ("stop", "reaction"):
             self.state = "disabled" if self.state == "stop" else "fault"
 
-    def sync(self):
+    def sync(self, at):
         self.synced = time.monotonic()
         self.move(self.period)
+        os.pwrite(self.gauge, PASSED.pack(at, self.place), PLACE.size + PASSED.size * (self.syncs % KEPT))
+        self.syncs += 1
         if not self.running:
             return self.note()
         if self.received is not None:
@@ -138,7 +142,7 @@ def main():
     def on_heartbeat(_id, _data, _time):
         drive.heard = time.monotonic()
 
-    network.subscribe(0x80, lambda _id, _data, _time: drive.sync())
+    network.subscribe(0x80, lambda _id, _data, at: drive.sync(at))
     network.subscribe(0, on_nmt)
     network.subscribe(0x77F, on_heartbeat)
     print("ready", flush=True)
