@@ -348,7 +348,7 @@ bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j, Vec2 first_vec
   const Section& out = chain[j];
   if (!on_one_level(into, out)) return false;
   const Piece first = wall_of(into, into.approach), last = wall_of(out, d - out.delta);
-  const double least = std::min(std::abs(into.offset), std::abs(out.offset)) - kEnters_mm - slop_of(first) - slop_of(last);
+  const double least = std::min({std::abs(chain[i].offset), std::abs(into.offset), std::abs(out.offset)}) - kEnters_mm - slop_of(first) - slop_of(last);  // at the first joint that of the block in front
   const auto enters = [&](unsigned k, Vec2 at, const Piece& wall) {
     const ContourJoint& joint = chain[k].joint;
     for (unsigned n = first_driven(chain[k], start_vector(chain, k, first_vector)); n < last_driven(chain[k]); ++n)
