@@ -336,13 +336,38 @@ Piece driven_path(const Chain& chain, unsigned k, Vec2 start) {
   return path_of(section, start, chain[k - 1].joint.v[last_driven(chain[k - 1])], section.joint.v[first_driven(section, last)]);
 }
 
+// Could the tool at a corner, whose longest vector this is the square of, come to the line that ends at `end`? Places count from the corner.
+bool in_reach(const Section& line, Vec2 end, double longest) {
+  const double reach = 2 * (longest + line.offset * line.offset);  // (a + b)^2 <= 2 (a^2 + b^2)
+  const Vec2 u = line.begin.u;
+  const double beside = cross(u, end), ahead = dot(u, end), behind = dot(u, line.delta) - ahead;
+  return beside * beside <= reach && (ahead >= 0 || ahead * ahead <= reach) && (behind >= 0 || behind * behind <= reach);
+}
+
+// The same of two blocks that may bend, whose middles are so far apart: what turns by no more than half a circle lies within that of its chord.
+bool in_reach(const Section& a, const Section& b, Vec2 apart, double longest) {
+  if (std::abs(a.sweep) > kPi || std::abs(b.sweep) > kPi) return true;
+  return norm(apart) <= 0.5 * (norm(a.delta) + norm(b.delta)) + std::sqrt(longest) + std::abs(a.offset);
+}
+
+// Three blocks between two joints, at one of which the contour turns away, and the tool there, or along the wall behind it where walls bend, could come to the wall on the
+// other side. `d` leads from the one to the other, and the squares are those of the longest vectors at the two.
+bool may_have_mouth(const Chain& chain, unsigned i, unsigned j, Vec2 d, double longest_before, double longest_behind) {
+  if (j + 1 >= chain.size()) return false;
+  const Section& into = chain[i + 1];
+  const Section& out = chain[j];
+  if (into.begin.curvature == 0 && out.begin.curvature == 0)
+    return (in_reach(out, d, longest_before) && turns_away(chain, i)) || (in_reach(into, into.approach + into.delta - d, longest_behind) && turns_away(chain, j));
+  const Vec2 apart = d - 0.5 * out.delta - into.approach - 0.5 * into.delta;
+  return (turns_away(chain, i) || turns_away(chain, j)) && in_reach(into, out, apart, std::max(longest_before, longest_behind));
+}
+
 // Is the mouth of a groove of three blocks narrower than the tool? The vectors on its walls tell where the walls are about parallel. Where they go apart below
 // the mouth these vectors point down and need not cross, nor do they where one wall is lower than the tool; so here it is asked whether the tool, at the corner on one
 // side of the mouth and along the wall below, comes nearer than the amount to the wall on the other side. Where the contour closes they may be ways in and out.
 bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j, Vec2 first_vector) {
-  if (j + 1 >= chain.size()) return false;
+  if (!comes_back(chain, i, j)) return false;
   const bool in_front = turns_away(chain, i), behind = turns_away(chain, j);
-  if ((!in_front && !behind) || !comes_back(chain, i, j)) return false;
   const Vec2 d = joint_distance(chain, i, j);
   const Section& into = chain[i + 1];
   const Section& out = chain[j];
@@ -528,8 +553,10 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
       const Section& behind = *next;
       next = &(*chain)[i];
       d = d + behind.approach + behind.delta;
-      const bool far = !crosses && too_far_to_cross(longest_square(next->joint), longest, d);
-      if (far && span < kMaxSpan) continue;
+      const double longest_before = longest_square(next->joint);
+      const bool far = !crosses && too_far_to_cross(longest_before, longest, d);
+      const bool mouth = span == kMaxSpan && may_have_mouth(*chain, i, j, d, longest_before, longest);
+      if (far && !mouth) continue;
       if (span > 1 && behind.dead) continue;  // seen from the section left out already
       const unsigned live = live_at(*chain, i);
       if (!may_be_erased((*chain)[i]) || !may_be_erased((*chain)[live]) || (*chain)[live].dead) continue;
@@ -538,7 +565,7 @@ Finding check_interference(Chain* chain, unsigned last_call, const ChainStart& s
       if (!far && check_pair(chain, live, i, j, may_wait, first_vector, at, &pair_crosses) == Finding::alarm) return Finding::alarm;
       crosses = crosses || pair_crosses;
       if (section.dead) break;
-      if (span == kMaxSpan && !pair_crosses && mouth_too_narrow(*chain, i, j, first_vector)) {
+      if (mouth && !pair_crosses && mouth_too_narrow(*chain, i, j, first_vector)) {
         *at = live;
         return Finding::alarm;
       }
