@@ -86,10 +86,17 @@ class TraceSink final : public RunSink {
   ItemSource* items_;
 };
 
+/** Only the result of the run counts. */
+class ResultSink final : public RunSink {
+ public:
+  bool takes_moves() const override { return false; }
+};
+
 /** Passes everything on to the next sink, and writes the output for an external port into a file. */
 class PrintSink final : public RunSink {
  public:
   PrintSink(RunSink* next, PrintFile* file) : next_(*next), file_(*file) {}
+  bool takes_moves() const override { return next_.takes_moves(); }
   void move(const nc_source& s, const nc_move& m) override { next_.move(s, m); }
   void skip_move(const nc_source& s, const nc_move& m, bool skipped) override { next_.skip_move(s, m, skipped); }
   void block(const nc_source& s, const nc_axes& work, const nc_axes& machine) override {
@@ -265,7 +272,7 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
   std::string error;
   if (!open_session(&session, options, &error)) return complain(err, error);
   ControlSource items(session.control(), session.dialect());
-  RunSink nothing;
+  ResultSink nothing;
   RunResult result;
   if (!run_printing(&session, &nothing, &items, limits, true, options.print, &result, &error, err))
     return complain(err, error);

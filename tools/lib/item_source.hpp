@@ -16,6 +16,8 @@ class ItemSource {
  public:
   virtual ~ItemSource() = default;
   virtual nc_status pull(uint32_t budget, nc_item* item) = 0;
+  /** As pull(), but passes over moves (nc_pull_past). A source that has none of it gives every item. */
+  virtual nc_status pull_past(uint32_t budget, nc_passed* /*passed*/, nc_item* item) { return pull(budget, item); }
   virtual nc_status answer(const nc_world& world) = 0;
   virtual nc_status reset() = 0;
   /** Drops what was read beyond this mark; 0 = drops everything. */
@@ -49,6 +51,9 @@ class ControlSource final : public ItemSource {
   ControlSource(nc_control* control, nc_dialect dialect, unsigned system = kPartSystem) : control_(control), dialect_(dialect), system_(system) {}
   nc_status pull(uint32_t budget, nc_item* item) override {
     return nc_pull(control_, system_, budget, item);
+  }
+  nc_status pull_past(uint32_t budget, nc_passed* passed, nc_item* item) override {
+    return nc_pull_past(control_, system_, budget, passed, item);
   }
   nc_status answer(const nc_world& world) override { return nc_answer(control_, system_, &world); }
   bool interrupt(bool on) override {

@@ -18,10 +18,12 @@ class OfflineRun {
       : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops) {}
 
   RunResult run(uint64_t max_silent_blocks) {
+    passes_moves_ = !sink_.takes_moves() && world_.waits_for_nothing();
     passes_.begin([this](uint32_t from, uint32_t* number, double* value) { return items_.next_common(from, number, value); });
     for (;;) {
       if (max_silent_blocks && silent_ >= max_silent_blocks) return endless();
-      const nc_status status = items_.pull(kBudget, &item_);
+      const nc_status status = passes_moves_ ? pull_past() : items_.pull(kBudget, &item_);
+      if (moves_in_block_ >= kMostMovesInBlock) return too_many_moves(past_.source);
       if (status == NC_BUDGET) {
         // There may be many lines without a block, so a thousand of them count as one block. A loop of a program always has blocks, and so
         // marks.
@@ -55,6 +57,26 @@ class OfflineRun {
   // Where the last item comes from; all 0 before there is one.
   const nc_source& last() const { return item_.source; }
 
+  // The next item but moves, which are executed and counted.
+  nc_status pull_past() {
+    world_.prepare(&past_);
+    past_.most_in_row = kMostMovesInBlock;
+    past_.moves_in_row = moves_in_block_;
+    past_.moves = result_.moves;
+    past_.length = result_.length;
+    const nc_status status = items_.pull_past(kBudget, &past_, &item_);
+    if (past_.moves == result_.moves) return status;
+    world_.execute(past_);
+    work_ = past_.work;
+    result_.moves = past_.moves;
+    result_.length = past_.length;
+    moves_in_block_ = past_.moves_in_row;
+    silent_ = empty_lines_ = 0;
+    for (uint64_t i = 0; i < past_.marks; ++i) count_mark(past_.source);
+    if (status != NC_OK) item_.source = past_.source;
+    return status;
+  }
+
   // Counts blocks that only calculate and jump. The count begins anew with every item that the machine notices or that lets time pass, and with a block of
   // the main program beyond all that were executed before, because a program that goes forward comes to its
   // end.
@@ -62,16 +84,20 @@ class OfflineRun {
     if (item.kind == NC_ITEM_MOVE) {  // most items are
       silent_ = 0;
     } else if (item.kind == NC_ITEM_MARK) {
-      ++silent_;
-      tell_progress(item.source);
-      if (item.source.depth == 0 && item.source.line > furthest_line_) {
-        furthest_line_ = item.source.line;
-        silent_ = 0;
-      }
+      count_mark(item.source);
     } else if (item.kind == NC_ITEM_SYNC) {
       if (item.u.sync.what & NC_SYNC_CLOCK) silent_ = 0;
     } else if (item.kind != NC_ITEM_ACTION || item.u.action.kind != NC_ACTION_CONTROL ||
                item.u.action.index != NC_CONTROL_INTERRUPT) {
+      silent_ = 0;
+    }
+  }
+
+  void count_mark(const nc_source& source) {
+    ++silent_;
+    tell_progress(source);
+    if (source.depth == 0 && source.line > furthest_line_) {
+      furthest_line_ = source.line;
       silent_ = 0;
     }
   }
@@ -98,6 +124,11 @@ class OfflineRun {
     give_up(loops_.verdict_and_option());
   }
 
+  RunResult too_many_moves(const nc_source& source) {
+    return give_up("line " + std::to_string(source.line) + ": " + std::to_string(kMostMovesInBlock) +
+                   " moves of this block alone, and it goes on: is a decimal point missing in its words?");
+  }
+
   RunResult stopped() {
     result_.how = RunResult::How::kStopped;
     return finish();
@@ -115,8 +146,7 @@ class OfflineRun {
     if (item.kind == NC_ITEM_MOVE) {  // most items are, and a jump by a table is foreseen less often than this one
       move(item);
       if (++moves_in_block_ < kMostMovesInBlock) return true;
-      give_up("line " + std::to_string(item.source.line) + ": " + std::to_string(kMostMovesInBlock) +
-              " moves of this block alone, and it goes on: is a decimal point missing in its words?");
+      too_many_moves(item.source);
       return false;
     }
     switch (item.kind) {
@@ -266,6 +296,8 @@ class OfflineRun {
   LoopWatch loops_;
   RunResult result_;
   nc_item item_ = NC_INIT(nc_item);  // the last one
+  nc_passed past_ = NC_INIT(nc_passed);
+  bool passes_moves_ = false;
   nc_axes work_ = {};
   uint64_t silent_ = 0;         // number of blocks since something happened
   uint64_t empty_lines_ = 0;    // number of lines without a block since the last item

@@ -22,6 +22,8 @@ namespace nc::tools {
 class RunSink {
  public:
   virtual ~RunSink() = default;
+  /** False: it needs no move(), and moves are only counted, which takes less time. */
+  virtual bool takes_moves() const { return true; }
   virtual void move(const nc_source&, const nc_move&) {}
   /** A skip move as it was executed; `skipped`: its signal ended it. */
   virtual void skip_move(const nc_source& source, const nc_move& done, bool /*skipped*/) { move(source, done); }

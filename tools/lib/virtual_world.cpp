@@ -16,7 +16,6 @@ namespace nc::tools {
 namespace {
 
 constexpr double kTouch = 1e-9;           // mm
-constexpr double kRapidMmMin = 10'000.0;  // the clock of the trace assumes rapids of 10 m/min
 constexpr double kClockReadSeconds = 0.001;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -218,35 +217,24 @@ double VirtualWorld::first_exit(const nc_move& move) const {
   return touched && length > 0.0 ? std::max(next, kTouch / length) : next;  // it has moved
 }
 
-double VirtualWorld::duration(const nc_move& move) const {
-  double feed = move.feed_mm_min;
-  if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
-  if (move.feed_mm_rev > 0.0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * spindle_rev_min_;
-  return feed > 0.0 ? move.length / feed * 60.0 : 0.0;
-}
-
-bool VirtualWorld::execute(nc_move* move) {
-  double part = 1.0;
-  const SetupEvent* switched_on = nullptr;
-  if (move->kind == NC_MOVE_SKIP) {
-    const Touch hit = take_hit(now_, *move);
-    double entry = !move->skip_away ? std::min(first_entry(*move), hit.part) : hit.hit != SIZE_MAX ? hit.part : first_exit(*move);
-    const double all = duration(*move);
-    switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask, move->skip_away);
-    if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
-    skipped_ = entry <= 1.0;
-    if (skipped_) {
-      part = entry;
-      for (unsigned a = 0; a < axis_count_; ++a) {
-        const double end = move->machine.v[a];
-        const double at = move->machine_start.v[a] + entry * (end - move->machine_start.v[a]);
-        move->work.v[a] -= end - at;
-        move->machine.v[a] = at;
-      }
-      skip_machine_ = move->machine;
+bool VirtualWorld::execute_skip(nc_move* move) {
+  const Touch hit = take_hit(now_, *move);
+  double entry = !move->skip_away ? std::min(first_entry(*move), hit.part) : hit.hit != SIZE_MAX ? hit.part : first_exit(*move);
+  const double all = duration(*move);
+  const SetupEvent* const switched_on = signal_within(all * std::min(entry, 1.0), move->skip_mask, move->skip_away);
+  if (switched_on) entry = std::clamp((*switched_on->seconds - seconds_) / all, 0.0, 1.0);
+  skipped_ = entry <= 1.0;
+  const double part = skipped_ ? entry : 1.0;
+  if (skipped_) {
+    for (unsigned a = 0; a < axis_count_; ++a) {
+      const double end = move->machine.v[a];
+      const double at = move->machine_start.v[a] + entry * (end - move->machine_start.v[a]);
+      move->work.v[a] -= end - at;
+      move->machine.v[a] = at;
     }
-    move->length *= part;
+    skip_machine_ = move->machine;
   }
+  move->length *= part;
   machine_ = move->machine;
   work_ = move->work;
   seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + duration(*move);

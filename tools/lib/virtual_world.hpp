@@ -18,6 +18,8 @@ namespace nc::tools {
 /// Time of the simulated clock in whole milliseconds. The small addition keeps rounding from turning a whole number into the one below.
 inline int64_t whole_ms(double seconds) { return static_cast<int64_t>(std::floor(seconds * 1000.0 + 1e-6)); }
 
+inline constexpr double kRapidMmMin = 10'000.0;  // the clock of the trace assumes rapids of 10 m/min
+
 /** Inputs from outside: those of the macro interface, and skip signals that events have switched on (bit n = signal n+1). */
 struct OutsideSignals {
   uint32_t input[NC_WORDS] = {};
@@ -62,7 +64,27 @@ class VirtualWorld {
    * it; then *move is changed to what was really executed. @return false when there was no motion at all, because the
    * signal was on at the start.
    */
-  bool execute(nc_move* move);
+  bool execute(nc_move* move) {
+    if (move->kind == NC_MOVE_SKIP) [[unlikely]] return execute_skip(move);
+    machine_ = move->machine;
+    work_ = move->work;
+    seconds_ += duration(*move);
+    return true;
+  }
+
+  /** Nothing but the program itself changes anything: no event is waited for, so moves need not be seen one by one. */
+  bool waits_for_nothing() const { return !schedule_.any() && time_events_.empty() && !reset_; }
+  /** What nc_pull_past() has to know; afterwards what it has passed over has been executed. */
+  void prepare(nc_passed* passed) const {
+    passed->rapid_mm_min = kRapidMmMin;
+    passed->spindle_rev_min = spindle_rev_min_;
+    passed->seconds = seconds_;
+  }
+  void execute(const nc_passed& passed) {
+    machine_ = passed.machine;
+    work_ = passed.work;
+    seconds_ = passed.seconds;
+  }
 
   /** Executes a dwell in seconds or spindle turns; it is skipped while one of the skip signals is on. // M700 15.3 (2) */
   void dwell(bool turns, double value, uint32_t skip_mask = 0);
@@ -112,7 +134,14 @@ class VirtualWorld {
     bool taken = false, missed = false;  // missed: the move that took it does not pass the place or listens to other signals
     uint32_t line = 0;                   // line of that move
   };
-  double duration(const nc_move& move) const;
+  bool execute_skip(nc_move* move);
+  /** Of the whole move, in seconds. It stands here because it is asked for every move. */
+  double duration(const nc_move& move) const {
+    double feed = move.feed_mm_min;
+    if (move.kind == NC_MOVE_RAPID) feed = kRapidMmMin;
+    if (move.feed_mm_rev > 0.0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * spindle_rev_min_;
+    return feed > 0.0 ? move.length / feed * 60.0 : 0.0;
+  }
   double first_box(const nc_move& move, const SkipSolid& solid, double length) const;
   double first_probe(const nc_move& move, const SkipSolid& solid) const;
   const SetupEvent* signal_within(double seconds, uint32_t mask, bool off = false) const;

@@ -32,6 +32,43 @@ extern "C" {
  */
 NC_API nc_status nc_pull(nc_control* control, unsigned system, uint32_t budget, nc_item* item);
 
+/** What nc_pull_past() passes over. The first members are given by the caller, the others are counted on from what stands in them. */
+typedef struct nc_passed {
+  NC_STRUCT_SIZE(nc_passed); /**< see NC_STRUCT_SIZE */
+  double rapid_mm_min;       /**< given: the speed that rapid traverse has in `seconds` */
+  double spindle_rev_min;    /**< given: what feeds per revolution are multiplied by */
+  uint64_t most_in_row;      /**< given: the most moves without a mark between them; 0 = any number */
+  uint64_t moves_in_row;     /**< moves since the last mark that was passed: the caller clears it where a block begins */
+  uint64_t moves;            /**< number of moves */
+  uint64_t marks;            /**< number of marks inside a block since the last move; a move clears it */
+  double length;             /**< of the paths, mm or deg, as nc_move::length */
+  double seconds;            /**< the time that the moves take at their programmed feeds, without acceleration */
+  nc_axes machine;           /**< end of the last move, machine coordinates */
+  nc_axes work;              /**< the same in the active workpiece coordinates */
+  nc_source source;          /**< of the last item that was passed */
+} nc_passed;
+/**
+ * Clear it and set its size. Any thread.
+ * @param passed what is to be cleared; not NULL
+ */
+static inline void nc_passed_init(nc_passed* passed) {
+  const nc_passed cleared = NC_INIT(nc_passed);
+  *passed = cleared;
+}
+
+/**
+ * Offline: as nc_pull(), for whoever only wants to know whether a program runs to its end, how far and how long: moves are passed over and counted, and so
+ * are the marks inside a block behind such a move. Every other item is given, and a skip move, whose end only the world knows. Where a macro interrupt is
+ * enabled no move is passed. The two functions may be called in turn. Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param budget blocks that may be read before the call returns NC_BUDGET without an item
+ * @param passed what has been passed over, also where no item is given
+ * @param item receives the item
+ * @return as nc_pull(); NC_BUDGET also where `most_in_row` moves have been passed without a mark between them
+ */
+NC_API nc_status nc_pull_past(nc_control* control, unsigned system, uint32_t budget, nc_passed* passed, nc_item* item);
+
 /**
  * Offline: a point of the move that nc_pull() gave last. Feeder thread.
  * @param control the control

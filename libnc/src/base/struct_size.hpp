@@ -37,6 +37,8 @@ template <>
 inline constexpr uint32_t kFirstSize<nc_item> =
     padded<nc_item>(offsetof(nc_item, u) + NC_END_OF(nc_move, index_axes));  // its longest payload
 template <>
+inline constexpr uint32_t kFirstSize<nc_passed> = padded<nc_passed>(NC_END_OF(nc_passed, source));
+template <>
 inline constexpr uint32_t kFirstSize<nc_event> = padded<nc_event>(NC_END_OF(nc_event, machine));
 template <>
 inline constexpr uint32_t kFirstSize<nc_alarm> = padded<nc_alarm>(NC_END_OF(nc_alarm, source));

@@ -53,6 +53,17 @@ nc_status cycle_of_another_version(nc_control* c, const nc_inputs* in, nc_output
   return status;
 }
 
+/// nc_pull_past() for such a caller.
+[[gnu::noinline, gnu::cold]] nc_status pull_past_for_another_version(nc::PartSystem& system, uint32_t budget, nc_passed* passed, nc_item* item) {
+  nc_passed known = NC_INIT(nc_passed);
+  if (nc::caller_bytes(item) == 0 || !nc::take_struct(passed, &known)) return NC_E_ARGUMENT;
+  nc_item given;
+  const nc_status status = system.pull_past(budget, &known, &given);
+  nc::give_struct(known, passed);
+  if (status == NC_OK) nc::give_struct(given, item);
+  return status;
+}
+
 }  // namespace
 
 nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item) {
@@ -63,6 +74,16 @@ nc_status nc_pull(nc_control* c, unsigned system, uint32_t budget, nc_item* item
   part.publish_all();
   if (item->struct_size != sizeof(nc_item)) [[unlikely]] return pull_for_another_version(part, budget, item);
   return part.pull(budget, item);
+}
+
+nc_status nc_pull_past(nc_control* c, unsigned system, uint32_t budget, nc_passed* passed, nc_item* item) {
+  if (!has_system(c, system) || passed == nullptr || item == nullptr) return NC_E_ARGUMENT;
+  nc::PartSystem& part = c->system[system];
+  if (part.busy()) return NC_E_STATE;
+  part.forget_restart();
+  part.publish_all();
+  if (item->struct_size != sizeof(nc_item) || passed->struct_size != sizeof(nc_passed)) [[unlikely]] return pull_past_for_another_version(part, budget, passed, item);
+  return part.pull_past(budget, passed, item);
 }
 
 nc_status nc_move_point(const nc_control* c, unsigned system, double share, nc_axes* machine) {

@@ -3,6 +3,8 @@
 // that has been committed never changes.
 #pragma once
 
+#include <cstring>
+
 #include "base/intern_pool.hpp"
 #include "control/stages.hpp"
 #include "dialect/rules.hpp"
@@ -10,6 +12,7 @@
 #include "frame/affine.hpp"
 #include "frame/stroke_box.hpp"
 #include "nc/control.h"
+#include "nc/run.h"
 #include "path/shape_ahead.hpp"
 #include "ring/record.hpp"
 
@@ -131,6 +134,17 @@ class Commit {
 
   /// The item just committed, as a sink sees it.
   void to_public(const Item& item, nc_item* out) const;
+  /// Adds the move just committed, which is `move`, to what has been passed over.
+  void count_move(const Move& move, nc_passed* passed) const {
+    double feed = move.feed_mm_min;
+    if (move.kind == NC_MOVE_RAPID) feed = passed->rapid_mm_min;
+    if (move.feed_mm_rev > 0 && move.kind != NC_MOVE_TAP) feed = move.feed_mm_rev * passed->spindle_rev_min;
+    if (feed > 0) passed->seconds += curve_.length / feed * 60;
+    passed->length += curve_.length;
+    static_assert(sizeof passed->machine == sizeof machine_);
+    std::memcpy(&passed->machine, &machine_, sizeof machine_);
+    std::memcpy(&passed->work, &move.work, sizeof move.work);
+  }
   /// Short forms of commit() and to_public() for a mark, to which commit() gives only its serial.
   void commit_mark() { ++last_serial_; }
   void mark_to_public(const Item& item, nc_item* out) const;

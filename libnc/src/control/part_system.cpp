@@ -414,40 +414,88 @@ void PartSystem::note_interrupt_mode(const Item& item) {
   pulled_ = ItemKind::sync;
 }
 
+/// A macro interrupt that has been asked for begins in front of the next item, where it may.
+[[gnu::always_inline]] inline void PartSystem::begin_wanted_interrupt() {
+  if (!watched_) [[likely]] return;
+  if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
+  const bool wanted = uit_pending_ || (uit_ && interpreter.interrupts().by_level && uit_rest_.over());
+  if (wanted && pulled_ == ItemKind::mark && !beside_ && interruptible()) begin_interrupt();
+}
+
+[[gnu::always_inline]] inline void PartSystem::give(const Item& item, nc_item* out) {
+  pulled_ = item.kind;
+  pulled_in_hole_ = item.in_hole;
+  if (item.kind == ItemKind::mark) {
+    commit_.mark_to_public(item, out);
+    if (watched_ && item.mark.report) [[unlikely]] uit_rest_.block_ended();
+    beside_ = item.mark.beside;
+    note_mark(item);
+  } else {
+    commit_.to_public(item, out);
+    if (item.kind == ItemKind::move) [[likely]] {
+      const Move& move = item.move;
+      move_transform_ = move.transform;
+      move_offset_ = move.comp.side * move.comp.radius;
+      move_plane_axis_[0] = move.comp.axis[0];
+      move_plane_axis_[1] = move.comp.axis[1];
+      move_in_space_ = move.space.on;
+    } else {
+      note_given(item);
+      note_interrupt_mode(item);
+    }
+  }
+  take();
+}
+
 nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
   for (;;) {
-    if (watched_) [[unlikely]] {
-      if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
-      const bool wanted = uit_pending_ || (uit_ && interpreter.interrupts().by_level && uit_rest_.over());
-      if (wanted && pulled_ == ItemKind::mark && !beside_ && interruptible()) begin_interrupt();
-    }
+    begin_wanted_interrupt();
     const Item* item = nullptr;
     const nc_status status = pump(budget, &item);
     if (status != NC_OK) return status;
     if (item == nullptr) continue;
-    pulled_ = item->kind;
-    pulled_in_hole_ = item->in_hole;
-    if (item->kind == ItemKind::mark) {
-      commit_.mark_to_public(*item, out);
-      if (watched_ && item->mark.report) [[unlikely]] uit_rest_.block_ended();
-      beside_ = item->mark.beside;
-      note_mark(*item);
-    } else {
-      commit_.to_public(*item, out);
-      if (item->kind == ItemKind::move) [[likely]] {
-        const Move& move = item->move;
-        move_transform_ = move.transform;
-        move_offset_ = move.comp.side * move.comp.radius;
-        move_plane_axis_[0] = move.comp.axis[0];
-        move_plane_axis_[1] = move.comp.axis[1];
-        move_in_space_ = move.space.on;
-      } else {
-        note_given(*item);
-        note_interrupt_mode(*item);
-      }
-    }
-    take();
+    give(*item, out);
     return NC_OK;
+  }
+}
+
+/// Counts an item instead of giving it out; `before`: number of moves that had been passed before this call. False: it has to be given.
+[[gnu::always_inline]] inline bool PartSystem::pass(const Item& item, uint64_t before, nc_passed* passed) {
+  if (watched_) [[unlikely]] return false;
+  if (item.kind == ItemKind::move) {
+    const Move& move = item.move;
+    if (move.kind == NC_MOVE_SKIP) [[unlikely]] return false;
+    ++passed->moves;
+    ++passed->moves_in_row;
+    passed->marks = 0;
+    commit_.count_move(move, passed);
+  } else {
+    if (item.kind != ItemKind::mark || item.mark.report || passed->moves == before) return false;
+    ++passed->marks;
+    passed->moves_in_row = 0;
+    beside_ = item.mark.beside;
+    note_mark(item);
+  }
+  pulled_ = ItemKind::mark;  // nothing that was given out last: nc_move_point() has no move
+  pulled_in_hole_ = item.in_hole;
+  passed->source = item.source;
+  take();
+  return true;
+}
+
+nc_status PartSystem::pull_past(uint32_t budget, nc_passed* passed, nc_item* out) {
+  const uint64_t before = passed->moves;
+  for (;;) {
+    begin_wanted_interrupt();
+    const Item* item = nullptr;
+    const nc_status status = pump(budget, &item);
+    if (status != NC_OK) return status;
+    if (item == nullptr) continue;
+    if (!pass(*item, before, passed)) {
+      give(*item, out);
+      return NC_OK;
+    }
+    if (passed->moves_in_row >= passed->most_in_row && passed->most_in_row != 0) [[unlikely]] return NC_BUDGET;
   }
 }
 

@@ -40,6 +40,8 @@ class PartSystem {
   void take_mdi(const ProgramRef& blocks);
   nc_status reset();
   nc_status pull(uint32_t budget, nc_item* item);
+  /// The same, but passes over moves and the marks behind them inside a block (nc_pull_past()).
+  nc_status pull_past(uint32_t budget, nc_passed* passed, nc_item* item);
   nc_status move_point(double share, nc_axes* machine) const;
   nc_status move_zero(nc_axes* zero) const;
   nc_status move_side(nc_side* side, uint8_t plane_axis[2]) const;
@@ -102,6 +104,9 @@ class PartSystem {
   /// Takes the next item, commits it and gives it to the caller, nc_pull() or nc_feed(). NC_OK with nullptr: work was done but gave no item; call again.
   nc_status pump(uint32_t& budget, const Item** item);
   void take();
+  void begin_wanted_interrupt();
+  void give(const Item& item, nc_item* out);
+  bool pass(const Item& item, uint64_t before, nc_passed* passed);
   bool pop_held(Item& out) { return stages_.pop(out); }
   // What follows after an item has been given out.
   void note_mark(const Item& mark);
