@@ -58,8 +58,9 @@ static inline void nc_passed_init(nc_passed* passed) {
 
 /**
  * Offline: as nc_pull(), for whoever only wants to know whether a program runs to its end, how far and how long: moves are passed over and counted, and so
- * are the marks inside a block behind such a move. Every other item is given, and a skip move, whose end only the world knows. Where a macro interrupt is
- * enabled no move is passed. The two functions may be called in turn. Feeder thread.
+ * are the marks inside a block behind such a move. Every other item is given, and a skip move, whose end only the world knows. While the signal of
+ * a macro interrupt is on, no move is passed; one that comes on behind such a move acts at the end of its block. The two functions may be called in turn, but
+ * nc_move_point() and its like have no move behind one that was passed. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param budget blocks that may be read before the call returns NC_BUDGET without an item
