@@ -208,6 +208,8 @@ bool RetainStore::save(const std::string& payload, std::string* error) {
   bool good = file >= 0 && write_all(file, bytes) && fsync(file) == 0;
   const int problem = errno;
   if (file >= 0 && close(file) != 0) good = false;
+  // Half of a file would take room that others need.
+  if (!good && file >= 0) (void)unlink(next.c_str());
   if (!good && problem != 0) errno = problem;
   // PATH becomes PATH.old only after the new file is on the disk.
   good = good && put_in_place();

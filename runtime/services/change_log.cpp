@@ -89,6 +89,8 @@ std::string user_name(uid_t user) {
 }
 
 ChangeLog::~ChangeLog() {
+  std::string error;
+  (void)settle(&error);  // what has no room even now is lost, as its answer has said
   if (file_ >= 0) close(file_);
 }
 
@@ -97,6 +99,7 @@ void ChangeLog::read_back(const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     Change change;
     if (!from_line(line, &change)) continue;
+    if (const Change* same = change.number == 0 || change.number > last_ ? nullptr : find(change.number); same != nullptr && same->time_ns == change.time_ns && same->what == change.what && same->user == change.user) continue;
     if (change.number <= last_) change.number = last_ + 1;  // it was written before changes had numbers
     remember(std::move(change));
   }
@@ -137,24 +140,33 @@ bool ChangeLog::open(std::string* error) {
   if (path_.empty()) return true;
   read_back(path_ + ".1");
   read_back(path_);
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0640);
-  struct stat info {};
-  if (file_ >= 0 && fstat(file_, &info) == 0 && S_ISREG(info.st_mode)) {
-    // A line that a power cut has cut off must not run into the next one.
-    if (info.st_size == 0 || write(file_, "\n", 1) == 1) return true;
-  }
-  *error = system_error(path_);
-  return false;
+  return open_file(error) && settle(error);
 }
 
+bool ChangeLog::open_file(std::string* error) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0640);
+  struct stat info {};
+  if (file_ < 0 || fstat(file_, &info) != 0 || !S_ISREG(info.st_mode)) {
+    *error = file_ < 0 ? system_error(path_) : path_ + " is no file";
+    if (file_ >= 0) close(file_);
+    file_ = -1;
+    return false;
+  }
+  // A line that a power cut has cut off must not run into the next one.
+  if (info.st_size != 0) waiting_.insert(0, "\n");
+  return true;
+}
+
+// A file that has its size becomes PATH.1. When there can be no new one, it keeps its name.
 bool ChangeLog::turn(std::string* error) {
   struct stat info {};
   if (fstat(file_, &info) != 0 || info.st_size < kMostBytes) return true;
-  const int next = rename(path_.c_str(), (path_ + ".1").c_str()) == 0
-                       ? ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0640)
-                       : -1;
+  const std::string old = path_ + ".1";
+  const bool renamed = rename(path_.c_str(), old.c_str()) == 0;
+  const int next = renamed ? ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0640) : -1;
   if (next < 0) {
     *error = system_error(path_);
+    if (renamed) (void)rename(old.c_str(), path_.c_str());
     return false;
   }
   close(file_);
@@ -167,19 +179,35 @@ bool ChangeLog::add(Change change, std::string* error) {
   const std::string line = to_line(change);
   remember(std::move(change));
   if (path_.empty()) return true;
-  if (file_ < 0) {
-    *error = path_ + " is not open";
-    return false;
+  bool dropped = false;
+  while (!waiting_.empty() && waiting_.size() + line.size() > kMostWaiting) {
+    const std::size_t first = waiting_[0] == '\n' ? 1 : 0;  // the end of a line that was cut off stays
+    waiting_.erase(first, waiting_.find('\n', first) + 1 - first);
+    dropped = true;
   }
+  waiting_ += line;
+  if (settle(error)) return true;
+  *error += dropped ? "; it waits for room, and older ones are lost" : "; it waits for room";
+  return false;
+}
+
+bool ChangeLog::settle(std::string* error) {
+  if (path_.empty() || (file_ >= 0 && waiting_.empty())) return true;
+  if (file_ < 0 && !open_file(error)) return false;
   if (!turn(error)) return false;
   struct stat before {};
   const bool known = fstat(file_, &before) == 0;
-  const ssize_t count = write(file_, line.data(), line.size());
-  if (count == static_cast<ssize_t>(line.size()) && fdatasync(file_) == 0) return true;
-  // Half of a line would run into the next one, and both would be lost.
-  const bool half = count >= 0 && count < static_cast<ssize_t>(line.size());
-  *error = half ? path_ + ": the disk is full" : system_error(path_);
-  if (half && (!known || ftruncate(file_, before.st_size) != 0)) *error += ", and half of a line is left";
+  const ssize_t count = write(file_, waiting_.data(), waiting_.size());
+  const bool whole = count == static_cast<ssize_t>(waiting_.size());
+  if (whole && fdatasync(file_) == 0) {
+    waiting_.clear();
+    return true;
+  }
+  *error = count >= 0 && !whole ? path_ + ": the disk is full" : system_error(path_);
+  if (count <= 0 || (known && ftruncate(file_, before.st_size) == 0)) return false;
+  // What is left of it must not run into the next line; a line that is written twice counts once (read_back()).
+  *error += ", and half of a line is left";
+  if (waiting_[0] != '\n') waiting_.insert(0, "\n");
   return false;
 }
 

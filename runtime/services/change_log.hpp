@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who has changed what through the services, and when: a file with one line of JSON for each change. It is bounded: a file of kMostBytes becomes PATH.1, which
-// replaces the one before. Each line is brought to the disk before the change is answered, so a power cut loses none that was answered.
+// replaces the one before. Each line is brought to the disk before the change is answered, so a power cut loses none that was answered as written down. A line for which there is no room
+// waits for it, and is written with the next one, when the changes are listed, or at the end.
 #pragma once
 
 #include <sys/types.h>
@@ -36,8 +37,10 @@ class ChangeLog {
 
   // Opens the file and reads the last changes from it. False with a sentence in *error when it cannot be written.
   bool open(std::string* error);
-  // Gives the change its number. False with a sentence in *error when it could not be written; it is remembered all the same.
+  // Gives the change its number. False with a sentence in *error when it could not be written; it is remembered all the same, and its line waits for room.
   bool add(Change change, std::string* error);
+  // Writes the lines that wait. False with a sentence in *error when there is still no room for them.
+  bool settle(std::string* error);
   // Entries behind the `from` newest ones, the newest first.
   // `of`: only those that have changed this row or value of a table (is_of()), "" = all.
   Json newest(std::uint64_t from, std::uint64_t count, const std::string& of = "") const;
@@ -50,15 +53,18 @@ class ChangeLog {
   static constexpr std::size_t kRemembered = 1000;
   static constexpr std::size_t kRememberedValues = 50'000;  // of all changes together; the oldest ones lose theirs
   static constexpr off_t kMostBytes = 4 << 20;
+  static constexpr std::size_t kMostWaiting = 1 << 20;  // bytes of lines that wait for room; the oldest ones go
 
  private:
   void read_back(const std::string& file);
   void remember(Change change);
+  bool open_file(std::string* error);
   bool turn(std::string* error);
   const std::string path_;
   std::deque<Change> changes_;
   std::uint64_t last_ = 0;   // number of the newest change
   std::size_t values_ = 0;   // of all changes that are remembered
+  std::string waiting_;      // lines that are not in the file yet
   int file_ = -1;
 };
 

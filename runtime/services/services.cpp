@@ -226,9 +226,11 @@ ProgramStore::Use Services::use() const {
   return use;
 }
 
-Outcome Services::list_changes(const Call& call) const {
+Outcome Services::list_changes(const Call& call) {
   const std::string of = call.has(Field::kOf) ? call.words(Field::kOf) : "";
   if (!of.empty() && !names_table(of)) return Outcome::refused(Refused::kMalformed, "of must begin with tool, life, offset, variable, name or parameter, such as \"tool 3\"");
+  std::string error;
+  (void)log_.settle(&error);  // lines that have had no room: the changes are remembered in any case
   return Outcome::with(log_.newest(static_cast<std::uint64_t>(call.value_or(Field::kFrom, 0)), static_cast<std::uint64_t>(call.value_or(Field::kCount, 500)), of));
 }
 
@@ -374,7 +376,7 @@ void Services::note(const Session& session, const Call& call, Change change, Out
   change.service = call.row->name;
   notes_.changed(change);
   std::string error;
-  if (!log_.add(std::move(change), &error) && outcome->ok) outcome->reply["text"] = "done, but not written down: " + error;
+  if (!log_.add(std::move(change), &error) && outcome->ok) outcome->reply["text"] = "done, but not written down yet: " + error;
 }
 
 }  // namespace nc::rt::services

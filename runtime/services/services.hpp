@@ -72,7 +72,7 @@ class Services {
   Outcome undo(const Session& session, const Call& call);
   Outcome renamed(const Call& call);
   Outcome removed(const Call& call);
-  Outcome list_changes(const Call& call) const;
+  Outcome list_changes(const Call& call);
   Outcome list_programs(const Call& call) const;
   Outcome program(const Session& session, const Call& call);
   void note(const Session& session, const Call& call, Change change, Outcome* outcome);

@@ -2,6 +2,7 @@
 // Retained devices: their file survives a power cut at any moment; what happens when it is damaged, and what comes back from it.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -217,6 +218,33 @@ TEST_F(Retain, ASaveThatFailsLeavesWhatWasThere) {
   EXPECT_FALSE(store.save("two", &error_));
   EXPECT_EQ(found(&payload), Loaded::kWhole);
   EXPECT_EQ(payload, "one");
+}
+
+// A disk that is full: the process may not make a file larger than this. What was begun takes no room from others.
+TEST_F(Retain, AFullDiskLeavesWhatWasThereAndNothingHalf) {
+  save("one");
+  save("two");
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    (void)signal(SIGXFSZ, SIG_IGN);
+    rlimit limit{10'000, RLIM_INFINITY};
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
+    RetainStore store(path_);
+    std::string payload, error;
+    if (store.load(&payload, &error) != Loaded::kWhole) _exit(2);
+    if (store.save(std::string(100'000, 'x'), &error) || error.empty()) _exit(3);
+    if (std::filesystem::exists(path_ + ".new")) _exit(4);
+    limit.rlim_cur = RLIM_INFINITY;
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(5);
+    _exit(store.save("three", &error) ? 0 : 6);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  std::string payload;
+  EXPECT_EQ(found(&payload), Loaded::kWhole);
+  EXPECT_EQ(payload, "three");
 }
 
 TEST(RetainRows, AreReadBackAndNothingElseIs) {

@@ -25,8 +25,9 @@ Change change(const std::string& what) {
   return made;
 }
 
-// A disk that is full: the process may not make a file larger than this. What a write has begun there is no half of a line that swallows the next one.
-TEST(ChangeLogFile, AFullDiskLosesOnlyWhatHadNoRoom) {
+// A disk that is full: the process may not make a file larger than this. What a write has begun there is no half of a line that swallows the next one, and what had no room is written
+// when there is some.
+TEST(ChangeLogFile, WhatHasNoRoomOnAFullDiskIsWrittenLater) {
   char pattern[] = "/tmp/nc-changes-XXXXXX";
   ASSERT_NE(mkdtemp(pattern), nullptr);
   const std::string path = std::string(pattern) + "/changes";
@@ -44,18 +45,101 @@ TEST(ChangeLogFile, AFullDiskLosesOnlyWhatHadNoRoom) {
     if (written == 0 || written == 100 || error.empty() || error.find("Success") != std::string::npos) _exit(3);
     if (log.add(change("no room either"), &error)) _exit(4);
     if (log.newest(0, 1)["changes"][0]["what"] != "no room either") _exit(5);  // it is remembered
+    ChangeLog meanwhile(path);
+    if (!meanwhile.open(&error) || meanwhile.newest(0, 500)["changes"].size() != written) _exit(10);  // whole lines alone
     limit.rlim_cur = RLIM_INFINITY;
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(6);
     if (!log.add(change("with room again"), &error)) _exit(7);
     ChangeLog again(path);
     if (!again.open(&error)) _exit(8);
     const Json changes = again.newest(0, 500)["changes"];
-    if (changes.size() != written + 1 || changes[0]["what"] != "with room again") _exit(9);
+    if (changes.size() != written + 3 || changes[0]["what"] != "with room again" || changes[1]["what"] != "no room either") _exit(9);
+    for (std::size_t i = 0; i < changes.size(); ++i)
+      if (changes[i]["number"] != changes.size() - i) _exit(11);
     _exit(0);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(WEXITSTATUS(status), 0);
+  std::filesystem::remove_all(pattern);
+}
+
+// What waits is written without another change, too: when the changes are listed, and at the end.
+TEST(ChangeLogFile, WhatWaitsIsWrittenWithoutAnotherChange) {
+  char pattern[] = "/tmp/nc-changes-XXXXXX";
+  ASSERT_NE(mkdtemp(pattern), nullptr);
+  const std::string path = std::string(pattern) + "/changes";
+  std::string error;
+  {
+    ChangeLog log(path);
+    std::filesystem::create_directory(path);  // no file can be made there, as where a file system has no room for one more
+    EXPECT_FALSE(log.open(&error));
+    EXPECT_FALSE(log.add(change("one"), &error));
+    EXPECT_EQ(error.find(path), 0u) << error;
+    std::filesystem::remove(path);
+    EXPECT_TRUE(log.settle(&error)) << error;
+    std::filesystem::rename(path, path + "-kept");
+    std::filesystem::create_directory(path);
+    EXPECT_TRUE(log.add(change("two"), &error)) << "the file is open";
+    std::filesystem::remove(path);
+    std::filesystem::rename(path + "-kept", path);
+    ChangeLog other(path);
+    ASSERT_TRUE(other.open(&error));
+    EXPECT_EQ(other.newest(0, 9)["changes"].size(), 2u);
+  }
+  std::filesystem::remove(path);
+  {
+    ChangeLog log(path);
+    std::filesystem::create_directory(path);
+    EXPECT_FALSE(log.open(&error));
+    EXPECT_FALSE(log.add(change("three"), &error));
+    std::filesystem::remove(path);
+  }
+  ChangeLog again(path);
+  ASSERT_TRUE(again.open(&error));
+  EXPECT_EQ(again.newest(0, 9)["changes"].size(), 1u) << "written at the end";
+  std::filesystem::remove_all(pattern);
+}
+
+// What waits is bounded: the oldest lines go, and that is said.
+TEST(ChangeLogFile, WhatWaitsIsBounded) {
+  char pattern[] = "/tmp/nc-changes-XXXXXX";
+  ASSERT_NE(mkdtemp(pattern), nullptr);
+  const std::string path = std::string(pattern) + "/changes";
+  std::string error;
+  ChangeLog log(path);
+  std::filesystem::create_directory(path);
+  EXPECT_FALSE(log.open(&error));
+  const std::string large(100'000, 'x');
+  const unsigned count = static_cast<unsigned>(ChangeLog::kMostWaiting / large.size()) + 5;
+  for (unsigned n = 0; n < count; ++n) EXPECT_FALSE(log.add(change(std::to_string(n) + large), &error));
+  EXPECT_NE(error.find("older ones are lost"), std::string::npos) << error;
+  std::filesystem::remove(path);
+  EXPECT_TRUE(log.settle(&error)) << error;
+  EXPECT_LE(std::filesystem::file_size(path), ChangeLog::kMostWaiting);
+  ChangeLog again(path);
+  ASSERT_TRUE(again.open(&error));
+  EXPECT_EQ(again.newest(0, 1)["changes"][0]["number"], count);
+  std::filesystem::remove_all(pattern);
+}
+
+// A file that has reached its size becomes PATH.1; where that cannot be, it keeps its name and its size, and what comes waits.
+TEST(ChangeLogFile, WhatComesWaitsForAFileThatCannotBeTurned) {
+  char pattern[] = "/tmp/nc-changes-XXXXXX";
+  ASSERT_NE(mkdtemp(pattern), nullptr);
+  const std::string path = std::string(pattern) + "/changes";
+  std::string error;
+  std::ofstream(path) << std::string(static_cast<std::size_t>(ChangeLog::kMostBytes), 'x') << "\n";
+  std::filesystem::create_directories(path + ".1/in-the-way");
+  ChangeLog log(path);
+  EXPECT_FALSE(log.open(&error));
+  EXPECT_FALSE(log.add(change("one"), &error));
+  EXPECT_EQ(std::filesystem::file_size(path), static_cast<std::uintmax_t>(ChangeLog::kMostBytes) + 1);
+  std::filesystem::remove_all(path + ".1");
+  EXPECT_TRUE(log.add(change("two"), &error)) << error;
+  ChangeLog again(path);
+  ASSERT_TRUE(again.open(&error));
+  EXPECT_EQ(again.newest(0, 9)["changes"].size(), 2u);
   std::filesystem::remove_all(pattern);
 }
 

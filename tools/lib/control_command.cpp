@@ -18,6 +18,7 @@
 #include "tools/lib/control_print.hpp"
 #include "tools/lib/control_words.hpp"
 #include "tools/lib/trace_csv.hpp"
+#include "tools/lib/whole_file.hpp"
 
 namespace nc::tools {
 namespace {
@@ -265,8 +266,6 @@ class Command {
   }
 
   int get() {
-    File file;
-    const bool named = !command_.file.empty() && command_.file != "-";
     std::uint64_t at = 0;
     Json modified;
     for (;;) {
@@ -275,13 +274,11 @@ class Command {
       if (!call("programs.read", {{"name", command_.args["name"]}, {"begin", at}, {"bytes", kChunk}}, &reply)) return status_;
       if (at != 0 && reply["modified_ns"] != modified) return failed(kControlFailed, "the program was changed meanwhile: what was read is half of the old one");
       modified = reply["modified_ns"];
-      if (named && file == nullptr) file.reset(std::fopen(command_.file.c_str(), "wbe"));
-      if (named && file == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
-      std::FILE* to = named ? file.get() : out_;
+      if (at == 0 && !open_output()) return status_;
       if (!rt::services::from_base64(reply.value("data", ""), &bytes)) return failed(kControlFailed, "the control sends what are no bytes");
       at += bytes.size();
-      if (std::fwrite(bytes.data(), 1, bytes.size(), to) != bytes.size() || std::fflush(to) != 0) return failed(kControlFailed, std::string("the output cannot be written: ") + std::strerror(errno));
-      if (bytes.empty() || at >= reply.value("size", std::uint64_t{0})) return 0;
+      if (!write_out(bytes)) return status_;
+      if (bytes.empty() || at >= reply.value("size", std::uint64_t{0})) return close_output() ? 0 : status_;
     }
   }
 
@@ -291,10 +288,16 @@ class Command {
   bool open_output() {
     to_ = out_;
     if (command_.file.empty() || command_.file == "-") return true;
-    own_.reset(std::fopen(command_.file.c_str(), "wbe"));
-    if (own_ == nullptr) return failed(kControlUsage, command_.file + ": " + std::strerror(errno)) == 0;
-    to_ = own_.get();
+    std::string why;
+    own_ = std::make_unique<WholeFile>();
+    if (!own_->open(command_.file, &why)) return failed(kControlUsage, why) == 0;
+    to_ = own_->stream();
     return true;
+  }
+  // Behind the last write: only then the file is in its place.
+  bool close_output() {
+    std::string why;
+    return own_ == nullptr || own_->commit(&why) || failed(kControlFailed, "the output cannot be written: " + why) == 0;
   }
   bool write_out(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), to_) == text.size() && std::fflush(to_) == 0) return true;
@@ -307,7 +310,7 @@ class Command {
     if (!call(command_.service, command_.args, &reply) || !open_output()) return status_;
     const Json toml = reply.value("toml", Json());
     if (!toml.is_string()) return failed(kControlFailed, "the control sends what is no text");
-    return write_out(command_.json ? json_line(reply) : toml.get<std::string>()) ? 0 : status_;
+    return write_out(command_.json ? json_line(reply) : toml.get<std::string>()) && close_output() ? 0 : status_;
   }
 
   // The whole file of this side, or standard input. False when it cannot be sent.
@@ -380,7 +383,7 @@ class Command {
       if (from == 0) break;
     }
     whole.erase("next");
-    return !command_.json || write_out(json_line(whole)) ? 0 : status_;
+    return (!command_.json || write_out(json_line(whole))) && close_output() ? 0 : status_;
   }
 
   // One request in a line, one reply in a line. The exit status is that of the first refusal.
@@ -425,7 +428,7 @@ class Command {
   const ControlCommand& command_;
   std::FILE *in_, *out_, *err_;
   ServiceClient client_;
-  File own_;                    // of open_output()
+  std::unique_ptr<WholeFile> own_;  // of open_output()
   std::FILE* to_ = nullptr;
   int status_ = 0;
 };

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "tools/lib/number_text.hpp"
+#include "tools/lib/whole_file.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
 #define NC_ADDRESS_SANITIZER 1
@@ -71,11 +72,13 @@ void put_text(cairo_t* c, double x, double y, const std::string& text, double si
 
 bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)>& paint,
                    std::string* error) {
-  std::FILE* file = std::fopen(target.path.c_str(), "wbe");
-  if (!file) {
+  WholeFile whole;
+  std::string why;
+  if (!whole.open(target.path, &why)) {
     if (error) *error = target.path + ": cannot be created";
     return false;
   }
+  std::FILE* const file = whole.stream();
   cairo_surface_t* surface =
       target.svg ? cairo_svg_surface_create_for_stream(write_stream, file, target.width, target.height)
                  : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(target.width),
@@ -92,8 +95,7 @@ bool write_drawing(const DrawingFile& target, const std::function<void(cairo_t*)
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  const bool closed = std::fclose(file) == 0;
-  if (status == CAIRO_STATUS_SUCCESS && closed) return true;
+  if (status == CAIRO_STATUS_SUCCESS && whole.commit(&why)) return true;
   if (error)
     *error = target.path + ": " +
              (status == CAIRO_STATUS_SUCCESS ? "write error" : cairo_status_to_string(status));

@@ -2,8 +2,6 @@
 // Writes the external output of programs (POPEN, DPRNT, PCLOS; M700 13.5.8) into a file: what a printer or a punch at the port would get.
 #pragma once
 
-#include <cstdio>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -14,12 +12,16 @@ namespace nc::tools {
 
 class PrintFile {
  public:
+  PrintFile() = default;
+  ~PrintFile();
+  PrintFile(const PrintFile&) = delete;
+  PrintFile& operator=(const PrintFile&) = delete;
   /** Opens `path` for appending. @return false with the reason in *error. */
   bool open(const std::string& path, std::string* error);
-  bool is_open() const { return file_ != nullptr; }
+  bool is_open() const { return file_ >= 0; }
   /**
    * Writes one output as a line, without the codes that switch a punch on and off; bytes of BPRNT are written unchanged. When this returns true, the
-   * output is in the file.
+   * output is in the file, when it returns false nothing of it is.
    */
   bool write(const nc_text& text);
   /** @return false when something could not be written. */
@@ -28,10 +30,7 @@ class PrintFile {
   const std::string& error() const { return error_; }
 
  private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Close> file_;
+  int file_ = -1;
   std::string error_;
 };
 
