@@ -230,7 +230,7 @@ Outcome ProgramChecks::show(const Call& call) const {
   CheckReport report;
   if (now != CheckState::kChecking && found != reports_.end()) report = found->second;
   Json alarms = Json::array(), axes = Json::array();
-  for (const CheckAlarm& alarm : report.alarms) alarms.push_back({{"code", alarm.code}, {"text", alarm.text}, {"program", alarm.program}, {"line", alarm.line}});
+  for (const CheckAlarm& alarm : report.alarms) alarms.push_back({{"code", alarm.code}, {"text", alarm.text}, {"program", alarm.program}, {"line", alarm.line}, {"behind", alarm.behind}});
   for (const CheckReport::Axis& axis : report.axes) axes.push_back({{"name", std::string(1, axis.name)}, {"least", axis.least}, {"most", axis.most}});
   return Outcome::with({{"state", check_state_name(now)},
                         {"text", report.text},

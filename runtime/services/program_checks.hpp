@@ -39,6 +39,7 @@ struct CheckAlarm {
   std::string code, text;  // the code of the family; empty = an axis beyond its limit
   std::string program;     // file of the program store
   std::uint32_t line = 0;
+  bool behind = false;     // found without the lines of the alarms before it: it may come of their absence
 };
 
 struct CheckReport {

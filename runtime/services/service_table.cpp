@@ -394,6 +394,7 @@ constexpr ReplyRow kCheckReply[] = {{"state", "text", "unchecked, checking, pass
                                     {"alarms[].text", "text", "what is wrong"},
                                     {"alarms[].program", "text", "file in which it is"},
                                     {"alarms[].line", "whole", "its line"},
+                                    {"alarms[].behind", "flag", "found without the lines of the alarms before it, whose absence may be the reason"},
                                     {"asks_line", "whole", "line of the first block that asks the machine: an input, a skip signal, the clock, a device; 0 = none does"},
                                     {"asks_program", "text", "file of that line"},
                                     {"seconds", "number", "estimated time at 100 %, without what M, S and T take"},

@@ -70,6 +70,33 @@ TEST_F(ProgramCheckServices, SaysWhatAProgramDoes) {
   EXPECT_EQ(client.call("programs.list")["reply"]["programs"][0]["check"], "passed");
 }
 
+// Who mends a program wants to see more than its first alarm: it is read again without the lines that have given one.
+TEST_F(ProgramCheckServices, LooksBehindTheFirstAlarm) {
+  ServiceClient client(path_);
+  const auto lines = [](const Json& report) {
+    std::string text;
+    for (const Json& alarm : report["alarms"]) text += std::to_string(alarm["line"].get<int>()) + (alarm["behind"] == true ? "b " : " ");
+    return text;
+  };
+  const Json report = put_and_check(&client, "many.nc", "G0 X1.\nG7.7\nG1 X2. F100.\n(\xc3\x98) G8.88\r\nM98 P999\nG1 X3.\nM30\n");
+  EXPECT_EQ(report["state"], "refused") << report;
+  EXPECT_EQ(lines(report), "2 4b 5b ") << report;
+  EXPECT_NE(report["text"].get<std::string>().find("many.nc line 2: "), std::string::npos) << report;
+  EXPECT_LT(report["axes"][0]["most"].get<double>(), 1.5) << "what it does is told up to the first alarm";
+  std::string much;
+  for (unsigned n = 0; n < 40; ++n) much += "G7.7\n";
+  const Json most = put_and_check(&client, "much.nc", much + "M30\n");
+  EXPECT_EQ(most["alarms"].size(), 20u);
+  EXPECT_EQ(most["alarms"][19]["line"], 20);
+  // A line of a called program is not left out: what comes behind it is not looked for.
+  ASSERT_EQ(put(&client, "O77", "G0 X1.\nG7.7\nM99\n"), "");
+  EXPECT_EQ(lines(put_and_check(&client, "calls.nc", "G7.7\nM98 P77\nG8.88\nM30\n")), "1 2b ");
+  // No end is looked for where there is none without the line.
+  const Json endless = put_and_check(&client, "endless.nc", "#1=1\nN1 #1=#1+1\nIF [#1 LT 100] GOTO 1\nG7.7\nM30\n");
+  EXPECT_EQ(lines(endless), "4 ") << endless;
+  EXPECT_EQ(put_and_check(&client, "one.nc", "G7.7\nG0 X1.\nM30\n")["alarms"].size(), 1u);
+}
+
 TEST_F(ProgramCheckServices, AnAlarmRefusesAProgramAndItsStart) {
   ServiceClient client(path_);
   take_control(&client);

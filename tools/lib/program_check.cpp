@@ -2,13 +2,17 @@
 // See program_check.hpp.
 #include "tools/lib/program_check.hpp"
 
+#include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -34,6 +38,8 @@ constexpr std::size_t kAlignment = 64;
 constexpr uint32_t kLookAhead = 1024;          // records of the ring, which nothing is planned in here
 constexpr uint64_t kMostSilentBlocks = 1'000'000;
 constexpr unsigned kPlacesOfCurve = 64;        // places of a curve at which its extents are taken
+constexpr std::size_t kMostLookedBehind = 1u << 20;  // bytes of a program that is read again without the lines of its alarms
+constexpr double kBehindSeconds = 5;           // processor time for that
 constexpr unsigned kItemsPerLook = 256;        // between two looks at the clock
 constexpr double kRoom = 1e-6;                 // mm, deg: so far an axis may be beyond its limit by rounding
 constexpr uint32_t kAsks = NC_SYNC_INPUT | NC_SYNC_CLOCK | NC_SYNC_SKIP;  // what only the machine knows
@@ -81,7 +87,8 @@ class CheckSink final : public RunSink {
     if ((what & kAsks) != 0) asks(source);
   }
   void alarm(const nc_alarm& alarm) override {
-    add({alarm.code, rt::alarm_message(alarm), program_of(alarm.source), alarm.source.line});
+    ended_by_ = alarm.source;
+    add({alarm.code, rt::alarm_message(alarm), program_of(alarm.source), alarm.source.line, false});
   }
   bool stop() const override {
     if (++looks_ % kItemsPerLook != 0) return stopped_;
@@ -97,6 +104,8 @@ class CheckSink final : public RunSink {
   }
   bool asked() const { return asked_; }
   bool refused() const { return refused_; }
+  // The line of the main program whose alarm has ended it; 0 = none.
+  std::uint32_t alarm_line() const { return ended_by_.depth == 0 ? ended_by_.line : 0; }
   const nc_source& last() const { return last_; }
   double extra_seconds() const { return extra_s_; }
   void finish() const {
@@ -127,7 +136,7 @@ class CheckSink final : public RunSink {
       told_[a][low ? 0 : 1] = true;
       char text[96];
       std::snprintf(text, sizeof text, "axis %c goes to %.3f, beyond its limit %.3f", axis.name, at, low ? axis.soft_min : axis.soft_max);
-      add({"", text, program_of(source), source.line});
+      add({"", text, program_of(source), source.line, false});
     }
   }
 
@@ -184,7 +193,7 @@ class CheckSink final : public RunSink {
   mutable unsigned looks_ = 0;
   mutable bool stopped_ = false;
   bool asked_ = false, refused_ = false, moved_ = false;
-  nc_source last_{};
+  nc_source last_{}, ended_by_{};
   double least_[NC_MAX_AXES], most_[NC_MAX_AXES], extra_s_ = 0;
   bool told_[NC_MAX_AXES][2] = {};
 };
@@ -196,6 +205,17 @@ std::string head_of(rt::ProgramText* text) {
   const long count = text->read(0, head.data(), head.size());
   head.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   return head;
+}
+
+// Takes the contents of a line away, from 1; its end stays, so that the other lines keep their numbers. False when there is nothing to be taken away.
+bool blank_line(std::string* text, std::uint32_t line) {
+  std::size_t begin = 0;
+  for (std::uint32_t n = 1; n < line && begin != std::string::npos; ++n) begin = text->find('\n', begin) == std::string::npos ? std::string::npos : text->find('\n', begin) + 1;
+  if (line == 0 || begin == std::string::npos) return false;
+  const std::size_t end = std::min(text->find('\n', begin), text->size());
+  if (begin == end) return false;
+  text->erase(begin, end - begin);
+  return true;
 }
 
 class Check {
@@ -228,7 +248,43 @@ class Check {
     return report_;
   }
 
+  // Behind run(), and not in it, because the stack of its thread is small: reads the program again without the lines of its alarms, as long as that shows
+  // others. What is found there may come of the absence of those lines.
+  CheckReport look_behind() {
+    if (sink_ == nullptr || !sink_->refused()) return report_;
+    std::ifstream file(order_.path, std::ios::binary);
+    std::string text(kMostLookedBehind + 1, '\0');
+    text.resize(static_cast<std::size_t>(file.read(text.data(), static_cast<std::streamsize>(text.size())).gcount()));
+    if (text.size() > kMostLookedBehind) return report_;
+    const double end = thread_seconds() + std::min(kBehindSeconds, order_.limit_s);
+    CheckOrder order = order_;
+    for (std::uint32_t line = sink_->alarm_line(); report_.alarms.size() < CheckReport::kMostAlarms && !given_up_ && blank_line(&text, line);) {
+      order.limit_s = end - thread_seconds();
+      if (order.limit_s <= 0) break;
+      const auto next = std::make_unique<Check>(config_, machine_, order, given_up_);
+      next->text_ = &text;
+      for (CheckAlarm& alarm : next->run().alarms) add_behind(std::move(alarm));
+      line = next->sink_ != nullptr ? next->sink_->alarm_line() : 0;
+    }
+    return report_;
+  }
+
  private:
+  void add_behind(CheckAlarm alarm) {
+    for (const CheckAlarm& other : report_.alarms)
+      if (other.line == alarm.line && other.program == alarm.program && other.code == alarm.code) return;
+    alarm.behind = true;
+    if (report_.alarms.size() < CheckReport::kMostAlarms) report_.alarms.push_back(std::move(alarm));
+  }
+  nc_status add_text(std::string* why) {
+    const int file = memfd_create("program", MFD_CLOEXEC);
+    const bool good = file >= 0 && ::write(file, text_->data(), text_->size()) == static_cast<ssize_t>(text_->size());
+    if (good) return files_.add_descriptor(control_, file, order_.name, &file_, why);
+    if (file >= 0) ::close(file);
+    *why = "there is no memory for it";
+    return NC_E_READ;
+  }
+
   CheckReport unchecked(std::string text) {
     report_.text = std::move(text);
     return report_;
@@ -257,7 +313,7 @@ class Check {
     files_.set_external(config_.external_folder());
     files_.attach(control_);
     std::string why;
-    if (files_.add(control_, order_.path, &file_, &why) != NC_OK) {
+    if ((text_ != nullptr ? add_text(&why) : files_.add(control_, order_.path, &file_, &why)) != NC_OK) {
       if (why.rfind(order_.path + ": ", 0) == 0) why.erase(0, order_.path.size() + 2);
       report_.text = rt::valid_utf8(why);
       return false;
@@ -322,6 +378,7 @@ class Check {
   const MachineTables& machine_;
   const CheckOrder& order_;
   const std::atomic<bool>& given_up_;
+  const std::string* text_ = nullptr;  // that is checked in place of the file; null = the file
   ProgramFiles files_;
   std::vector<CheckReport::File> folders_;  // in which called programs are looked for, as they were before that
   CheckReport report_;
@@ -354,7 +411,9 @@ MachineTables machine_tables(rt::Runtime* runtime) {
 }
 
 rt::services::CheckReport check_program(const rt::Config& config, const MachineTables& machine, const CheckOrder& order, const std::atomic<bool>& given_up) {
-  return Check(config, machine, order, given_up).run();
+  Check check(config, machine, order, given_up);
+  (void)check.run();
+  return check.look_behind();
 }
 
 }  // namespace nc::tools
