@@ -48,7 +48,7 @@ Gateway::~Gateway() {
 }
 
 bool Gateway::open(std::string* error) {
-  if (!participant_.open(options_.domain, error)) return false;
+  if (!participant_.open(options_.access, error)) return false;
   const double period_s = 1.0 / options_.rate_hz;
   const struct {
     dds_entity_t* writer;
@@ -114,7 +114,7 @@ bool Gateway::attach() {
   table->fill(segment_.get()->machine, partition_.c_str());
   write(signal_table_, &table->table);
   say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
-      " in domain " + std::to_string(options_.domain) + (may_command_ ? ", takes commands" : ""));
+      " in domain " + std::to_string(options_.access.domain) + (may_command_ ? ", takes commands" : ""));
   return true;
 }
 

@@ -22,7 +22,7 @@ namespace nc::dds {
 
 struct GatewayOptions {
   std::string share;    // name of the segment and of the DDS partition
-  unsigned domain = kDefaultDomain;
+  Access access;
   double rate_hz = kDefaultRateHz;
   bool commands = false;
 };

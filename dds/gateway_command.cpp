@@ -41,8 +41,9 @@ int gateway_command(const GatewayCommand& command) {
   GatewayOptions options = command.gateway;
   if (!command.config.empty() && !read_config(command.config, &options)) return 1;
   if (options.share.empty()) return failed("which control? --machine FILE or --share NAME");
-  Gateway gateway(options);
   std::string error;
+  if (!may_access(options.access, options.commands, &error)) return failed(error);
+  Gateway gateway(options);
   if (!gateway.open(&error)) return failed(error);
   g_gateway = &gateway;
   std::signal(SIGTERM, stop_gateway);

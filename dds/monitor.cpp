@@ -206,7 +206,7 @@ StatusView view_of(const nc_Status& s) {
 }  // namespace
 
 bool Monitor::open(std::string* error) {
-  if (!participant_.open(domain_, error)) return false;
+  if (!participant_.open(access_, error)) return false;
   const std::string partition = machine_.empty() ? "*" : machine_;
   status_ = make_reader(participant_.get(), Topic::kStatus, partition, error);
   if (status_ <= 0) return false;

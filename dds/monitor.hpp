@@ -14,7 +14,7 @@ namespace nc::dds {
 class Monitor {
  public:
   // `machine`: the partition, "" = the first control that is received.
-  Monitor(unsigned domain, std::string machine) : domain_(domain), machine_(std::move(machine)) {}
+  Monitor(Access access, std::string machine) : access_(std::move(access)), machine_(std::move(machine)) {}
   bool open(std::string* error);
   // Switches the subscription to the table of signals and their values on or off.
   bool watch_signals(bool on, std::string* error);
@@ -37,7 +37,7 @@ class Monitor {
   void show_signals(const nc_SignalImage& image);
   bool wait_for(dds_entity_t reader);
 
-  const unsigned domain_;
+  const Access access_;
   std::string machine_;
   Participant participant_;
   dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0, signals_ = 0, signal_table_ = 0;

@@ -33,7 +33,7 @@ int nobody(const Monitor& monitor, const MonitorOptions& options) {
   std::fprintf(stderr,
                "ncmon: nobody publishes the status of %s in DDS domain %u (waited %g s): is ncdds running, with the same "
                "--domain?\n",
-               options.machine.empty() ? "a control" : ("\"" + options.machine + "\"").c_str(), options.domain,
+               options.machine.empty() ? "a control" : ("\"" + options.machine + "\"").c_str(), options.access.domain,
                options.wait_s);
   return kExitNobody;
 }
@@ -176,7 +176,7 @@ int full_screen(Monitor* monitor, const MonitorOptions& options) {
     monitor->wait(100 * kMs);
     if (now() < next && key == '\0') continue;
     next = now() + 100 * kMs;
-    std::string text = "ncmon   domain " + std::to_string(options.domain) +
+    std::string text = "ncmon   domain " + std::to_string(options.access.domain) +
                        (signals ? "   q ends, s status, space next page\n\n" : "   q ends, s signals\n\n");
     if (!monitor->heard()) text += "nobody publishes yet ...\n";
     else text += signals ? from_line(signal_page(monitor->view(), size.ws_col), &first_line)
@@ -210,8 +210,9 @@ std::string latency_text(std::vector<std::int64_t> times_ns) {
 
 int monitor_command(const MonitorOptions& options) {
   rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP});
-  Monitor monitor(options.domain, options.machine);
+  Monitor monitor(options.access, options.machine);
   std::string error;
+  if (!may_access(options.access, false, &error)) return failed(error);
   if (!monitor.open(&error) || (options.signals && !monitor.watch_signals(true, &error))) return failed(error);
   const int status = show(&monitor, options);
   if (std::fflush(stdout) != 0) return kExitUsage;

@@ -12,7 +12,7 @@ namespace nc::dds {
 
 struct MonitorOptions {
   std::string machine;  // name of the control; "" = the first one that is received
-  unsigned domain = kDefaultDomain;
+  Access access;
   bool once = false, json = false, progress = false;
   bool signals = false;  // show signals instead of the status
   double wait_s = 5;     // time to wait for the first status

@@ -4,9 +4,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <memory>
 
 #include "dds/loopback_bind.hpp"
+#include "runtime/share/text.hpp"
 
 namespace nc::dds {
 namespace {
@@ -118,34 +120,91 @@ std::string loopback_config() {
          "</Domain></CycloneDDS>";
 }
 
-namespace {
+std::string network_config(const std::string& interface) {
+  std::string name;
+  for (const char c : interface) {  // in an attribute of XML
+    if (c == '&') name += "&amp;";
+    else if (c == '<') name += "&lt;";
+    else if (c == '"') name += "&quot;";
+    else name += c;
+  }
+  return "<CycloneDDS><Domain id=\"any\">"
+         "<General><Interfaces><NetworkInterface name=\"" + name + "\"/></Interfaces></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex></Discovery>"
+         "</Domain></CycloneDDS>";
+}
 
-// True when the user has set a configuration. A program that imports nc_dds.py sets loopback_config() in its environment, and the programs that it starts
-// inherit that; such a setting is not the user's.
+// A program that imports nc_dds.py sets loopback_config() in its environment, and the programs that it starts inherit that; such a setting is not the user's.
 bool user_configures() {
   const char* uri = std::getenv("CYCLONEDDS_URI");
   return uri != nullptr && uri[0] != 0 && uri != loopback_config();
+}
+
+bool may_access(const Access& access, bool commands, std::string* error) {
+  if (!access.network.empty() && access.security.empty())
+    *error = "--network needs --security FOLDER: without DDS Security everybody in the network would be heard";
+  else if (!access.network.empty() && user_configures())
+    *error = "--network and CYCLONEDDS_URI both say which network: one of them";
+  else if (commands && access.security.empty() && user_configures())
+    *error = "--commands with the network of CYCLONEDDS_URI needs --security FOLDER: without DDS Security commands stay on this computer";
+  else
+    return true;
+  return false;
+}
+
+namespace {
+
+// The domain with its configuration. The participants of this process share it, because a domain is made once and is deleted with all its participants.
+std::shared_ptr<dds_entity_t> domain_of(const Access& access, std::string* error) {
+  static std::map<unsigned, std::weak_ptr<dds_entity_t>> domains;
+  std::shared_ptr<dds_entity_t> domain = domains[access.domain].lock();
+  if (domain) return domain;
+  if (access.network.empty()) bind_to_loopback_only();
+  const std::string config = access.network.empty() ? loopback_config() : network_config(access.network);
+  const dds_entity_t made = dds_create_domain(access.domain, config.c_str());
+  if (made < 0) {
+    *error = "DDS domain " + std::to_string(access.domain) + ": " + dds_strretcode(made);
+    return nullptr;
+  }
+  domain = std::shared_ptr<dds_entity_t>(new dds_entity_t(made), [](dds_entity_t* entity) {
+    dds_delete(*entity);
+    delete entity;
+  });
+  domains[access.domain] = domain;
+  return domain;
+}
+
+// Sets the identity in the QoS of a participant.
+bool secure(const std::string& folder, dds_qos_t* qos, std::string* error) {
+  Identity identity;
+  SecurityPlugins plugins;
+  if (!read_identity(folder, &identity, error) || !find_plugins(&plugins, error)) return false;
+  const std::int64_t now_s = rt::share::wall_ns() / 1'000'000'000;
+  switch (validity_of(identity, now_s)) {
+    case Validity::kNotYet: *error = "the identity of " + identity.subject + " (" + folder + ") begins at " + utc_text(identity.begins_s); return false;
+    case Validity::kEnded: *error = "the identity of " + identity.subject + " (" + folder + ") has expired at " + utc_text(identity.ends_s); return false;
+    case Validity::kValid: break;
+  }
+  set_security(qos, identity, plugins);
+  return true;
 }
 
 }  // namespace
 
 Participant::~Participant() {
   if (participant_ > 0) dds_delete(participant_);
-  if (domain_ > 0) dds_delete(domain_);
 }
 
-bool Participant::open(unsigned domain, std::string* error) {
-  if (!user_configures()) {
-    bind_to_loopback_only();
-    domain_ = dds_create_domain(domain, loopback_config().c_str());
-    if (domain_ < 0) {
-      *error = "DDS domain " + std::to_string(domain) + ": " + dds_strretcode(domain_);
-      return false;
-    }
+bool Participant::open(const Access& access, std::string* error) {
+  if (!access.network.empty() || !user_configures()) {
+    domain_ = domain_of(access, error);
+    if (!domain_) return false;
   }
-  participant_ = dds_create_participant(domain, nullptr, nullptr);
+  const Qos qos(dds_create_qos());
+  if (!access.security.empty() && !secure(access.security, qos.get(), error)) return false;
+  participant_ = dds_create_participant(access.domain, qos.get(), nullptr);
   if (participant_ > 0) return true;
-  *error = "no participant in DDS domain " + std::to_string(domain) + ": " + dds_strretcode(participant_);
+  *error = "no participant in DDS domain " + std::to_string(access.domain) + ": " + dds_strretcode(participant_);
   return false;
 }
 

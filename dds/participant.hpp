@@ -2,9 +2,11 @@
 // The entry to DDS: the network that it may use, the topics and their QoS. docs/dds.md has the same table.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "dds/dds.h"
+#include "dds/security.hpp"
 #include "nc_dds.h"
 
 namespace nc::dds {
@@ -15,18 +17,36 @@ inline constexpr double kDefaultRateHz = 50;
 // A configuration of Cyclone DDS with which it communicates only on this computer: interface lo, no multicast, peer 127.0.0.1.
 std::string loopback_config();
 
-// A participant of a domain. If CYCLONEDDS_URI is set, it determines the network that is used; otherwise DDS stays on this computer.
+// A configuration of Cyclone DDS with which it communicates over one interface of the network.
+std::string network_config(const std::string& interface);
+
+// True when CYCLONEDDS_URI has a configuration of the user, and not the one with which DDS stays on this computer.
+bool user_configures();
+
+struct Access {
+  unsigned domain = kDefaultDomain;
+  std::string network;   // interface ("eth0"); "" = that of CYCLONEDDS_URI, and where there is none, this computer only
+  std::string security;  // folder of the identity; "" = without DDS Security
+};
+
+// False with a sentence in *error when the access is not one that may be had: over a network there are no commands without DDS Security, and an interface
+// is used with it only.
+bool may_access(const Access& access, bool commands, std::string* error);
+
+// A participant of a domain. All participants of a domain of this process must have the same network.
 class Participant {
  public:
   Participant() = default;
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
-  bool open(unsigned domain, std::string* error);
+  // The identity is that of access.security. False with a sentence in *error.
+  bool open(const Access& access, std::string* error);
   dds_entity_t get() const { return participant_; }
 
  private:
-  dds_entity_t domain_ = 0, participant_ = 0;
+  std::shared_ptr<dds_entity_t> domain_;
+  dds_entity_t participant_ = 0;
 };
 
 enum class Topic {

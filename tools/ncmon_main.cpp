@@ -29,7 +29,9 @@ int main(int argc, char** argv) try {
     app.add_option_function<std::string>(option, [option](const std::string&) {
          throw CLI::ValidationError(option, "is the file of a machine, which ncmon does not read: the name of a control is --control NAME");
        })->group("");
-  app.add_option("--domain", options.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
+  app.add_option("--domain", options.access.domain, "DDS domain")->transform(nc::tools::whole(0, 230));
+  app.add_option("--security", options.access.security, "DDS Security: folder of an identity that nc-keys has made")->check(nc::tools::given());
+  app.add_option("--network", options.access.network, "interface of the network, with --security; default: this computer only")->check(nc::tools::given());
   CLI::Option* once_flag = app.add_flag("--once", options.once, "one status, then end");
   app.add_flag("--json", options.json, "as JSON, one object in a line");
   app.add_option("--view", view, "status, or the signals between NC, ladder and machine")
