@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <set>
@@ -21,6 +22,8 @@ constexpr std::int64_t kLookEveryNs = 50 * kMs;  // interval of looking at the s
 constexpr std::int64_t kSignalsNs = 100 * kMs;   // shortest interval between two signal images
 constexpr std::int64_t kSignalsForcedNs = 1000 * kMs;
 constexpr std::int64_t kClaimEveryNs = 500 * kMs;
+constexpr std::int64_t kMissEveryNs = 200 * kMs;
+constexpr std::chrono::milliseconds kBothReceive{20};  // far longer than one sample takes from one reader of this process to the next
 constexpr int kTaken = 16;
 constexpr std::size_t kAnswersWaiting = 256;  // when so many answers wait, no further command is taken
 
@@ -102,7 +105,8 @@ bool Gateway::attach() {
     segment_.close();
     return false;
   }
-  if (options_.commands && !claim_commands(&error))
+  if (options_.commands && stands_by_) another_commands_ = segment_.get()->identity.commands != 0;
+  else if (options_.commands && !claim_commands(&error))
     std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
   heart_.restart();
   written_any_ = false;
@@ -163,7 +167,7 @@ bool Gateway::look() {
       segment_.get()->life.load(std::memory_order_acquire) == static_cast<std::uint32_t>(share::Life::kEnded);
   const bool beats = heart_.alive(segment_.get()->heartbeat.load(std::memory_order_acquire), at);
   publish_acks();
-  if (another_commands_ && at >= next_claim_ns_) {
+  if (another_commands_ && !stands_by_ && at >= next_claim_ns_) {
     const std::lock_guard lock(segment_mutex_);
     std::string error;
     if (claim_commands(&error)) say("takes the commands now: the other gateway is gone");
@@ -325,6 +329,7 @@ bool Gateway::answers_wait() {
 }
 
 void Gateway::publish_acks() {
+  const std::lock_guard passing(passing_mutex_);
   if (!may_command_) return;
   share::Ack one;
   while (!answers_wait() && segment_.get()->acks.pop(&one)) answer(one);
@@ -352,14 +357,28 @@ void Gateway::put(const share::Request& request) {
   share::wake(&segment_.get()->wake_intake);
 }
 
+void Gateway::client_gone(const share::Text<32>& name, std::uint64_t writer) {
+  share::Request gone{};
+  gone.kind = static_cast<std::uint32_t>(share::RequestKind::kClientGone);
+  gone.client = name;
+  gone.writer = writer;
+  if (segment_.is_open() && may_command_) put(gone);
+}
+
 void Gateway::take_commands() {
+  const std::lock_guard passing(passing_mutex_);
+  take_samples();
+}
+
+// False when there is nothing more to take.
+bool Gateway::take_samples() {
   // The samples are read into this memory, which is set to zero each time, so that the bytes after the end of a text are known.
   std::fill(received_.begin(), received_.end(), nc_Command{});
   void* samples[kTaken];
   for (int i = 0; i < kTaken; ++i) samples[i] = &received_[static_cast<std::size_t>(i)];
   dds_sample_info_t infos[kTaken];
   const int count = dds_take(command_, samples, infos, kTaken, kTaken);
-  if (count <= 0) return;
+  if (count <= 0) return false;
   const std::lock_guard lock(segment_mutex_);
   std::set<dds_instance_handle_t> left;  // clients that have left; they are removed after their commands have been taken
   for (int i = 0; i < count; ++i) {
@@ -374,7 +393,14 @@ void Gateway::take_commands() {
       Client& client = clients_[info.instance_handle];
       client.name = wanted.client;
       client.writer = info.publication_handle;
-      if (another_commands_) continue;  // the other gateway receives this command, too, and answers it
+      const auto known = inherited_.find(std::string(share::text_of(wanted.client)));
+      if (known != inherited_.end() && !stands_by_) {
+        const bool taken = known->second.writer == client.writer && info.source_timestamp <= known->second.last_ns;
+        if (taken) continue;  // the gateway before this one has received it, too, and has passed it on
+        inherited_.erase(known);
+      }
+      client.last_ns = info.source_timestamp;
+      if (another_commands_ || stands_by_) continue;  // the other gateway receives this command, too, and answers it
       if (has_hidden_text(command)) refuse(wanted, share::AckReason::kMalformed, "a text has a NUL in its middle");
       else if (open) put(wanted);
       else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");
@@ -383,13 +409,66 @@ void Gateway::take_commands() {
   for (const dds_instance_handle_t handle : left) {
     const auto found = clients_.find(handle);
     if (found == clients_.end()) continue;
-    share::Request gone{};
-    gone.kind = static_cast<std::uint32_t>(share::RequestKind::kClientGone);
-    gone.client = found->second.name;
-    gone.writer = found->second.writer;
+    client_gone(found->second.name, found->second.writer);
+    inherited_.erase(std::string(share::text_of(found->second.name)));
     clients_.erase(found);
-    if (segment_.is_open() && may_command_) put(gone);
   }
+  return true;
+}
+
+// A client of the gateway before this one that has sent nothing since has no instance here whose end could be seen; its writer is looked for instead.
+void Gateway::miss_inherited() {
+  const std::lock_guard passing(passing_mutex_);
+  if (inherited_.empty() || now() < next_miss_ns_) return;
+  next_miss_ns_ = now() + kMissEveryNs;
+  std::vector<dds_instance_handle_t> writers(256);
+  const dds_return_t count = dds_get_matched_publications(command_, writers.data(), writers.size());
+  if (count < 0) return;
+  writers.resize(std::min<std::size_t>(static_cast<std::size_t>(count), writers.size()));
+  const std::lock_guard lock(segment_mutex_);
+  for (auto it = inherited_.begin(); it != inherited_.end();) {
+    if (std::find(writers.begin(), writers.end(), it->second.writer) != writers.end()) {
+      ++it;
+      continue;
+    }
+    client_gone(it->second.name, it->second.writer);
+    it = inherited_.erase(it);
+  }
+}
+
+void Gateway::take_over(Gateway* other) {
+  if (!options_.commands) return;
+  const std::scoped_lock passing(passing_mutex_, other->passing_mutex_);
+  // What this gateway has received is dropped, because the other one has received it, too, or does so in a moment; then the other one passes on what it has.
+  // What comes after that is in this gateway's reader, perhaps in both; inherited_ says up to where the other one has taken it.
+  while (take_samples()) continue;
+  std::this_thread::sleep_for(kBothReceive);
+  while (other->take_samples()) continue;
+  const std::scoped_lock segments(segment_mutex_, other->segment_mutex_);
+  for (const auto& [handle, client] : other->clients_) inherited_[std::string(share::text_of(client.name))] = client;
+  for (const auto& [name, client] : other->inherited_) inherited_.emplace(name, client);
+  const bool both = segment_.is_open() && other->segment_.is_open();
+  if (both && other->may_command_) {
+    segment_.take_claim_of(&other->segment_);
+    may_command_ = true;
+    another_commands_ = false;
+  }
+  other->stands_by_ = true;
+  other->another_commands_ = other->may_command_ || other->another_commands_;
+  other->may_command_ = false;
+  stands_by_ = false;
+  const std::scoped_lock answers(answers_mutex_, other->answers_mutex_);
+  answers_.insert(answers_.begin(), other->answers_.begin(), other->answers_.end());
+  other->answers_.clear();
+}
+
+unsigned Gateway::partners() const {
+  dds_publication_matched_status_t readers{};
+  dds_subscription_matched_status_t writers{};
+  unsigned count = 0;
+  if (status_ > 0 && dds_get_publication_matched_status(status_, &readers) >= 0) count += readers.current_count;
+  if (command_ > 0 && dds_get_subscription_matched_status(command_, &writers) >= 0) count += writers.current_count;
+  return count;
 }
 
 void Gateway::command_thread() {
@@ -401,6 +480,7 @@ void Gateway::command_thread() {
       take_commands();
       (void)answers_wait();
     }
+    if (!stands_by_) miss_inherited();
   }
 }
 

@@ -3,6 +3,9 @@
 // that nothing from the network can stop the machine. It waits for ncrtd, and finds it again after a restart.
 //
 // There are two threads: run() publishes and is woken by each update of the segment; the command thread is woken by DDS.
+//
+// A gateway with new keys takes the place of another one of this process (gateway_keeper.hpp): it stands by first, which means that it publishes and
+// takes no commands, and then takes over.
 #pragma once
 
 #include <atomic>
@@ -33,6 +36,12 @@ class Gateway {
   ~Gateway();
   // False with a sentence in *error.
   bool open(std::string* error);
+  // To be called before open().
+  void stand_by() { stands_by_ = true; }
+  // From here on this gateway takes the commands in place of another one, which stands by. No command is lost or taken twice, and clients keep control.
+  void take_over(Gateway* other);
+  // Number of readers and writers of others that this gateway talks with.
+  unsigned partners() const;
   // Publishes until stop() is called.
   void run();
   // May also be called from a signal handler.
@@ -56,6 +65,9 @@ class Gateway {
   void answer(const share::Ack& ack);
   bool answers_wait();
   void take_commands();
+  bool take_samples();
+  void miss_inherited();
+  void client_gone(const share::Text<32>& name, std::uint64_t writer);
   void command_thread();
   void put(const share::Request& request);
   void refuse(const share::Request& request, share::AckReason reason, const char* text);
@@ -73,8 +85,9 @@ class Gateway {
 
   std::mutex segment_mutex_;  // the command thread must not write commands while run() closes the segment
   share::SegmentReader segment_;
-  bool may_command_ = false;
-  bool another_commands_ = false;  // another gateway passes the commands to this control
+  std::atomic<bool> stands_by_{false};
+  std::atomic<bool> may_command_{false};
+  std::atomic<bool> another_commands_{false};  // another gateway passes the commands to this control
   std::int64_t next_claim_ns_ = 0;
   share::HeartbeatWatch heart_{300'000'000};
   std::string said_;
@@ -91,14 +104,18 @@ class Gateway {
   std::unique_ptr<SignalSample> signal_sample_;
   std::vector<nc_Command> received_;
 
+  std::mutex passing_mutex_;  // held by who passes commands or answers between DDS and the segment
   std::mutex answers_mutex_;
   std::deque<share::Ack> answers_;  // answers that are not published yet, in their order
 
   struct Client {
     share::Text<32> name{};
     std::uint64_t writer = 0;
+    std::int64_t last_ns = 0;  // source time stamp of the last command that was taken
   };
-  std::map<dds_instance_handle_t, Client> clients_;  // used only by the command thread
+  std::map<dds_instance_handle_t, Client> clients_;  // of the commands that this gateway has received
+  std::map<std::string, Client> inherited_;  // clients of the gateway before this one, from which nothing has come here yet; by their names
+  std::int64_t next_miss_ns_ = 0;
   std::thread commands_;
 };
 

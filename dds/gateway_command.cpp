@@ -9,6 +9,7 @@
 #include <fstream>
 #include <vector>
 
+#include "dds/gateway_keeper.hpp"
 #include "runtime/config.hpp"
 #include "runtime/share/text.hpp"
 
@@ -16,8 +17,13 @@ namespace nc::dds {
 namespace {
 
 Gateway* g_gateway = nullptr;
+GatewayKeeper* g_keeper = nullptr;
 extern "C" void stop_gateway(int) {
   if (g_gateway != nullptr) g_gateway->stop();
+  if (g_keeper != nullptr) g_keeper->stop();
+}
+extern "C" void look_at_files(int) {
+  if (g_keeper != nullptr) g_keeper->look_now();
 }
 
 int failed(const std::string& text) {
@@ -35,6 +41,27 @@ bool read_config(const std::string& path, GatewayOptions* options) {
   return true;
 }
 
+void catch_end() {
+  std::signal(SIGTERM, stop_gateway);
+  std::signal(SIGINT, stop_gateway);
+}
+
+bool write_ready(const std::string& file) {
+  return file.empty() || (std::ofstream(file) << getpid() << '\n').flush();
+}
+
+int run_secured(const GatewayOptions& options, const std::string& ready_file) {
+  GatewayKeeper keeper(options);
+  std::string error;
+  if (!keeper.open(&error)) return failed(error);
+  g_keeper = &keeper;
+  catch_end();
+  if (!write_ready(ready_file)) return failed("cannot write " + ready_file);
+  keeper.run();
+  g_keeper = nullptr;
+  return 0;
+}
+
 }  // namespace
 
 int gateway_command(const GatewayCommand& command) {
@@ -43,13 +70,13 @@ int gateway_command(const GatewayCommand& command) {
   if (options.share.empty()) return failed("which control? --machine FILE or --share NAME");
   std::string error;
   if (!may_access(options.access, options.commands, &error)) return failed(error);
+  std::signal(SIGHUP, look_at_files);
+  if (!options.access.security.empty()) return run_secured(options, command.ready_file);
   Gateway gateway(options);
   if (!gateway.open(&error)) return failed(error);
   g_gateway = &gateway;
-  std::signal(SIGTERM, stop_gateway);
-  std::signal(SIGINT, stop_gateway);
-  if (!command.ready_file.empty() && !(std::ofstream(command.ready_file) << getpid() << '\n').flush())
-    return failed("cannot write " + command.ready_file);
+  catch_end();
+  if (!write_ready(command.ready_file)) return failed("cannot write " + command.ready_file);
   gateway.run();
   g_gateway = nullptr;  // from here on a second signal has no effect
   return 0;

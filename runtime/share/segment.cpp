@@ -282,19 +282,25 @@ bool SegmentReader::claim_commands(std::string* error) {
   const std::int32_t mine = getpid();
   std::int32_t holder = segment_->command_pid.load();
   for (;;) {
-    if (holder == mine) return true;
+    if (holder == mine) return claimed_ = true;
     if (holder != 0 && process_start(holder) != 0) {
       *error = "process " + std::to_string(holder) + " already gives the commands to this control";
       return false;
     }
-    if (segment_->command_pid.compare_exchange_strong(holder, mine)) return true;
+    if (segment_->command_pid.compare_exchange_strong(holder, mine)) return claimed_ = true;
   }
 }
 
 void SegmentReader::release_commands() {
-  if (segment_ == nullptr) return;
+  if (segment_ == nullptr || !claimed_) return;
+  claimed_ = false;
   std::int32_t mine = getpid();
   segment_->command_pid.compare_exchange_strong(mine, 0);
+}
+
+void SegmentReader::take_claim_of(SegmentReader* other) {
+  claimed_ = other->claimed_;
+  other->claimed_ = false;
 }
 
 // ---- futex ----

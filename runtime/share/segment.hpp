@@ -72,9 +72,12 @@ class SegmentReader {
   // Takes the right to write commands. Only one process has it at a time, and it loses it when it ends.
   bool claim_commands(std::string* error);
   void release_commands();
+  // The right of another reader of this process goes over to this one, without a moment in which nobody has it.
+  void take_claim_of(SegmentReader* other);
 
  private:
   Segment* segment_ = nullptr;
+  bool claimed_ = false;
 };
 
 // Detects a writer that has stopped: it is alive as long as its heartbeat changes.
