@@ -31,6 +31,12 @@ std::int64_t now() {
   return nc::rt::RealClock().now_ns();
 }
 
+// Who may write nc_Command may operate, and DDS does not tell whether he may do more. Devices of the ladder need the right to maintain.
+bool needs_maintain(const share::Request& request) {
+  const auto kind = static_cast<share::RequestKind>(request.kind);
+  return kind == share::RequestKind::kForce || kind == share::RequestKind::kReleaseForce || kind == share::RequestKind::kWriteDevice;
+}
+
 }  // namespace
 
 Gateway::Gateway(const GatewayOptions& options)
@@ -402,6 +408,8 @@ bool Gateway::take_samples() {
       client.last_ns = info.source_timestamp;
       if (another_commands_ || stands_by_) continue;  // the other gateway receives this command, too, and answers it
       if (has_hidden_text(command)) refuse(wanted, share::AckReason::kMalformed, "a text has a NUL in its middle");
+      else if (!options_.access.security.empty() && needs_maintain(wanted))
+        refuse(wanted, share::AckReason::kRefused, "devices of the ladder are for who may maintain: nc_ServiceMaintain");
       else if (open) put(wanted);
       else refuse(wanted, share::AckReason::kRefused, "there is no control that takes commands");
     }

@@ -18,8 +18,8 @@ PATIENCE = 30.0  # s for anything to come; only a failure takes so long
 SILENCE = 4.0  # s in which nothing may come to somebody who may not have it; an allowed peer has it within 1 s
 root = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 build = os.environ.get("NC_BINARY_DIR") or os.path.join(root, "build/release")
-TAKE_CONTROL, FEED_OVERRIDE = 0, 6
-DONE, REJECTED = 1, 2
+TAKE_CONTROL, FEED_OVERRIDE, WRITE_DEVICE = 0, 6, 15  # CommandKind
+DONE, REJECTED = 1, 2  # AckState
 MACHINE = """
 [machine]
 name = "Secured"
@@ -45,6 +45,10 @@ def program(name):
     return os.path.join(build, "bin", name)
 
 
+def library(name):
+    return os.path.join(build, "tests", f"lib{name}.so")
+
+
 class Process:
     """A program whose output goes into a file."""
 
@@ -63,6 +67,10 @@ class Process:
         with open(self.log, encoding="utf-8", errors="replace") as file:
             return file.read()
 
+    def last(self, count):
+        """The last lines without those that come all the time."""
+        return [line for line in self.text().splitlines() if not re.match("status scan|[0-9.]+ .* fsm: ", line)][-count:]
+
     def lines(self, pattern):
         return [match for line in self.text().splitlines() if (match := re.search(pattern, line))]
 
@@ -73,7 +81,7 @@ class Process:
                 print("ok:", text, flush=True)
                 return found[-1]
             time.sleep(0.02)
-        raise AssertionError(f"not within {patience} s: {text}\n" + "\n".join(self.text().splitlines()[-15:]))
+        raise AssertionError(f"not within {patience} s: {text}\n" + "\n".join(self.last(15)))
 
     def say(self, line):
         self.process.stdin.write(line + "\n")
@@ -93,8 +101,14 @@ class Process:
 class Peer(Process):
     """secure_peer with an identity; None = without security."""
 
-    def __init__(self, plant, identity, *roles, environment=None):
-        super().__init__(plant.folder, program("secure_peer"), plant.domain, plant.share, plant.plugins, identity or "-", *roles, environment=environment)
+    def __init__(self, plant, identity, *roles, hostile=False, trusting=False, clock_behind=0):
+        environment = {"SECURE_PEER_AC": os.path.join(plant.plugins, "libdds_security_ac.so")}
+        if trusting or clock_behind:
+            environment["LD_PRELOAD"] = library("trusting")
+            environment["SECURE_PEER_TRUSTS"] = str(int(trusting))
+            environment["SECURE_PEER_BEHIND"] = str(clock_behind)
+        super().__init__(plant.folder, program("secure_peer"), plant.domain, plant.share, plant.hostile if hostile or trusting else plant.plugins,
+                         identity or "-", *roles, environment=environment)
         self.sent = 0
 
     def command(self, kind, number=0, value=0.0):
@@ -123,6 +137,11 @@ class Plant:
         self.share = f"secured-{os.getpid()}"
         self.domain = str(1 + os.getpid() % 100)
         self.keys = os.path.join(folder, "keys")
+        self.hostile = os.path.join(folder, "hostile")
+        os.mkdir(self.hostile)
+        for name in ("auth", "crypto"):
+            os.symlink(os.path.join(plugins, f"libdds_security_{name}.so"), os.path.join(self.hostile, f"libdds_security_{name}.so"))
+        os.symlink(library("hostile_ac"), os.path.join(self.hostile, "libdds_security_ac.so"))
         with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
             file.write(MACHINE)
 
@@ -139,11 +158,6 @@ class Plant:
     def gateway(self, identity, *options, environment=None):
         return Process(self.folder, program("ncdds"), "--share", self.share, "--domain", self.domain, "--commands", "--security", identity, *options,
                        environment=environment)
-
-
-def hears_nothing(peer, text):
-    time.sleep(SILENCE)
-    check(not peer.statuses(), text)
 
 
 def feed_override(viewer):
@@ -174,29 +188,209 @@ def allowed(plant):
 
 
 def not_allowed(plant, viewer):
-    """Who may see and not command, who is of another authority, who has no security at all."""
+    """Who may see and not command, who is of another authority, who has no security at all, and who has signed his permissions himself."""
     curious = Peer(plant, plant.identity("viewer"), "read", "command")
     curious.wait_for("^refused nc_Command Not Allowed By Security", "a viewer's own DDS refuses the writer of commands")
+    curious.wait_for("^refused nc_CommandAck Not Allowed By Security", "and the reader of their answers")
     for right in ("setup", "maintain"):
         other = Peer(plant, plant.identity(right), "command")
         other.wait_for("^refused nc_Command Not Allowed By Security", f"neither does the right {right} command by this topic")
-        check(other.leave() == 0, "the peer ends in order")
+        other.leave()
     foreign_keys = os.path.join(plant.folder, "foreign")
     plant.make("init", "--name", "nc", keys=foreign_keys)
     plant.make("identity", "operator", "--right", "operate", keys=foreign_keys)
-    strangers = {"of another authority": Peer(plant, plant.identity("operator", foreign_keys), "read", "command"),
-                 "without security": Peer(plant, None, "read", "command")}
-    for who, stranger in strangers.items():
-        stranger.wait_for("^made nc_Command$", f"somebody {who} makes a writer of commands")
-        stranger.command(TAKE_CONTROL)
-        stranger.command(FEED_OVERRIDE, value=0.1)
+    peers = {"of another authority": Peer(plant, plant.identity("operator", foreign_keys), "read", "command"),
+             "without security": Peer(plant, None, "read", "command"),
+             "who is revoked": Peer(plant, plant.identity("revoked"), "read", "command"),
+             "expired, whose clock is behind,": Peer(plant, plant.identity("expired"), "read", "command", clock_behind=150),
+             "with permissions that he has signed himself": Peer(plant, forged(plant), "read", "command", trusting=True),
+             "who may only view, and whose DDS does not obey,": Peer(plant, plant.identity("viewer"), "read", "command", hostile=True)}
+    for who, peer in peers.items():
+        peer.wait_for("^made nc_Command$", f"somebody {who} makes a writer of commands")
+        peer.command(TAKE_CONTROL)
+        peer.command(FEED_OVERRIDE, value=0.1)
     time.sleep(SILENCE)
-    for who, stranger in strangers.items():
-        check(not stranger.statuses(), f"somebody {who} sees no status")
-        check(not stranger.lines("^answer") and not stranger.lines("^heard by [1-9]"), f"somebody {who} is not heard and gets no answer")
+    for who, peer in peers.items():
+        check(bool(peer.statuses()) == ("may only view" in who), f"somebody {who} sees {'the' if peer.statuses() else 'no'} status")
+        check(not peer.lines("^answer") and not peer.lines("^heard by [1-9]"), f"somebody {who} is not heard and gets no answer")
     check(feed_override(viewer) == 0.5, "and the feed override is as it was")
-    for peer in (curious, *strangers.values()):
-        check(peer.leave() == 0, "the peer ends in order")
+    for peer in (curious, *peers.values()):
+        peer.end()
+
+
+def forged(plant):
+    """The folder of a viewer who has written himself the permissions of an operator, and signed them with his own key."""
+    home = os.path.join(plant.folder, "forged")
+    subprocess.run(["cp", "-r", plant.identity("viewer"), home], check=True)
+    text = os.path.join(plant.folder, "permissions.xml")
+    with open(os.path.join(plant.identity("operator"), "permissions.p7s"), encoding="utf-8") as file:
+        xml = re.search(r"<\?xml.*?</dds>", file.read(), re.DOTALL)[0].replace("CN=operator", "CN=viewer")
+    with open(text, "w", encoding="utf-8") as file:
+        file.write(xml)
+    subprocess.run(["openssl", "smime", "-sign", "-text", "-in", text, "-out", os.path.join(home, "permissions.p7s"),
+                    "-signer", os.path.join(home, "identity.pem"), "-inkey", os.path.join(home, "key.pem")], check=True)
+    return home
+
+
+def operate_only(operator):
+    """By nc_Command nobody does what needs the right to maintain."""
+    answer = operator.answered(operator.command(WRITE_DEVICE, value=1.0), REJECTED, "an operator does not write devices of the ladder")
+    check("nc_ServiceMaintain" in answer.string, "and is told where that is done")
+
+
+def in_time(seconds):
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(time.time() + seconds))
+
+
+def longest_gap(viewer, since_ms):
+    """Longest time in ms between two statuses of a viewer, from a moment on."""
+    times = [t for _, _, t, _ in viewer.statuses() if t >= since_ms]
+    return max(b - a for a, b in zip(times, times[1:]))
+
+
+def renewal(plant, viewer, operator, gateway):
+    """The gateway gets a new certificate while the status is read and commands come: nothing is missed, answered twice or lost."""
+    for round_ in (1, 2):
+        since = viewer.statuses()[-1][2]
+        writers = {writer for *_, writer in viewer.statuses()}
+        used = len(gateway.lines("the new identity is in use"))
+        plant.make("renew", "gateway", "--days", "2")
+        first = operator.sent + 1
+        end = time.monotonic() + PATIENCE
+        while len(gateway.lines("the new identity is in use")) == used:
+            operator.command(FEED_OVERRIDE, value=0.5)
+            check_time(end, "the new identity is not taken\n" + gateway.text())
+            time.sleep(0.01)
+        for _ in range(50):
+            operator.command(FEED_OVERRIDE, value=0.5)
+            time.sleep(0.01)
+        operator.answered(operator.sent, DONE, f"renewal {round_}: the operator commands and has control all the time")
+        answers = [int(m[1]) for m in operator.lines(r"^answer \S+ (\d+) state 1 reason 0 repeated 0 ")]
+        sent = list(range(first, operator.sent + 1))
+        check([n for n in answers if n >= first] == sent, f"each of {len(sent)} commands has one answer, in their order")
+        check({writer for *_, writer in viewer.statuses()} > writers, "the status has a new writer")
+        gap = longest_gap(viewer, since)
+        check(gap < 1000, f"the viewer has a status at least each second; the longest gap was {gap:.0f} ms")
+    check(not operator.lines("repeated 1"), "no command came twice")
+
+
+def silent_client(plant, gateway):
+    """A client that has control and leaves after a renewal, without a command since: its control ends with it."""
+    quiet = Peer(plant, plant.identity("operator"), "command")
+    quiet.wait_for("^heard by 1", "the gateway hears another client")
+    quiet.answered(quiet.command(TAKE_CONTROL), DONE, "it takes control for 30 s")
+    used = len(gateway.lines("the new identity is in use"))
+    plant.make("renew", "gateway", "--days", "3")
+    until(lambda: len(gateway.lines("the new identity is in use")) > used, "the gateway has a new certificate")
+    quiet.leave()
+    after = Peer(plant, plant.identity("operator"), "command")
+    after.wait_for("^heard by 1", "the gateway hears the next one")
+    end = time.monotonic() + 15
+    while not (done := after.lines("^answer .* has control$")) or "state 1" not in done[-1].string:
+        check_time(end, "control is still with a client that is gone")
+        after.command(TAKE_CONTROL)
+        time.sleep(0.3)
+    print("ok: and has control, long before the lease of the other one ends")
+    after.leave()
+
+
+def until(condition, text):
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        check_time(end, f"not within {PATIENCE} s: {text}")
+        time.sleep(0.02)
+    print("ok:", text, flush=True)
+
+
+def revoked_live(plant, viewer):
+    """A viewer whose certificate is revoked while he looks."""
+    guest = Peer(plant, plant.identity("guest"), "read")
+    guest.wait_for("^status scan", "a guest sees the status")
+    plant.make("revoke", "guest")
+
+    def silent():
+        before = len(guest.statuses())
+        time.sleep(1.0)
+        return len(guest.statuses()) == before
+
+    until(silent, "he sees none any more when he is revoked")
+    check(longest_gap(viewer, guest.statuses()[-1][2] - 2000) < 1000, "and the others see it as before")
+
+
+def ends_while_he_looks(plant):
+    """A viewer whose certificate ends."""
+    plant.make("identity", "short", "--right", "view", "--until", in_time(8))
+    short = Peer(plant, plant.identity("short"), "read")
+    short.wait_for("^status scan", "a viewer with a short time sees the status")
+    time.sleep(9)
+    before = len(short.statuses())
+    time.sleep(1.5)
+    check(len(short.statuses()) == before, "and none any more after it")
+
+
+def damaged(plant, viewer, gateway):
+    """Files that cannot be used change nothing."""
+    path = os.path.join(plant.identity("gateway"), "identity.pem")
+    with open(path, encoding="ascii") as file:
+        whole = file.read()
+    for text, said in ((whole[:100], "is no certificate; goes on with the identity that it has"),
+                       (open(os.path.join(plant.identity("viewer"), "identity.pem"), encoding="ascii").read(), "key.pem: is not the key of identity.pem")):
+        with open(path + ".new", "w", encoding="ascii") as file:
+            file.write(text)
+        os.replace(path + ".new", path)
+        gateway.process.send_signal(signal.SIGHUP)
+        gateway.wait_for(said, f"a damaged certificate is named: {said}")
+    check(feed_override(viewer) == 0.5, "and the status comes as before")
+    with open(path + ".new", "w", encoding="ascii") as file:
+        file.write(whole)
+    os.replace(path + ".new", path)
+
+
+def expired_gateway(plant, viewer, operator, gateway, control):
+    """The certificate of the gateway ends: it says so and is silent, the control goes on, and the next certificate brings all of it back."""
+    plant.make("renew", "gateway", "--until", in_time(7))
+    gateway.wait_for(r"the identity of CN=gateway \(.*\) has expired at .*; publishes nothing until", "the gateway says that its certificate has ended")
+    time.sleep(0.5)
+    before = viewer.statuses()
+    time.sleep(2)
+    check(len(viewer.statuses()) == len(before), "and is silent")
+    check(control.process.poll() is None and gateway.process.poll() is None, "the control and the gateway live")
+    plant.make("renew", "gateway", "--days", "1")
+    until(lambda: len(viewer.statuses()) > len(before), "with the next certificate the status comes again")
+    scan = viewer.statuses()[-1][0]
+    check(scan - before[-1][0] > 1000, f"the control has gone on, {scan - before[-1][0]} scans")
+    until(lambda: operator.lines("^heard by")[-1].string == "heard by 1", "the operator is heard again")
+    operator.answered(operator.command(TAKE_CONTROL), DONE, "and has control again")
+
+
+def monitor(plant):
+    def run(*options):
+        return subprocess.run([program("ncmon"), "--domain", plant.domain, "--once", "--wait", "20" if options else "4", *options], capture_output=True, text=True)
+
+    shown = run("--security", plant.identity("viewer"))
+    check(shown.returncode == 0 and "part system 1" in shown.stdout, "ncmon with an identity shows the control")
+    check(run().returncode == 2, "without one it hears nobody")
+    for options, text in ((("--security", plant.folder), "identity-ca.pem: No such file"), (("--security", plant.identity("expired")), "has expired at"),
+                          (("--network", "lo"), "--network needs --security")):
+        done = run(*options)
+        check(done.returncode == 1 and text in done.stderr, f"ncmon {options[0]}: {done.stderr.strip()}")
+
+
+def refused(plant):
+    """What ncdds does not begin with."""
+    network = "<CycloneDDS><Domain id='any'><General><Interfaces><NetworkInterface name='lo'/></Interfaces></General></Domain></CycloneDDS>"
+    readable = os.path.join(plant.folder, "readable")
+    subprocess.run(["cp", "-r", plant.identity("gateway"), readable], check=True)
+    os.chmod(os.path.join(readable, "key.pem"), 0o644)
+    for options, uri, text in (((), network, "--commands with the network of CYCLONEDDS_URI needs --security"),
+                               (("--network", "lo"), "", "--network needs --security"),
+                               (("--network", "lo", "--security", plant.identity("gateway")), network, "both say which network"),
+                               (("--security", readable), "", "every user of this computer may read this key"),
+                               (("--security", plant.identity("viewer")), "", "writer of nc_MachineInfo: Not Allowed By Security"),
+                               (("--security", plant.identity("revoked")), "", "the certificate of CN=revoked is revoked")):
+        done = subprocess.run([program("ncdds"), "--share", plant.share, "--domain", plant.domain, "--commands", *options], capture_output=True, text=True,
+                              env={**os.environ, "CYCLONEDDS_URI": uri}, timeout=20)
+        check(done.returncode == 1 and text in done.stderr, f"ncdds does not begin: {text}")
 
 
 def main():
@@ -219,17 +413,30 @@ def main():
         try:
             plant.make("init")
             plant.make("identity", "gateway", "--gateway")
-            for name, right in (("viewer", "view"), ("operator", "operate"), ("setup", "setup"), ("maintain", "maintain")):
+            for name, right in (("viewer", "view"), ("operator", "operate"), ("setup", "setup"), ("maintain", "maintain"), ("revoked", "operate"), ("guest", "view")):
                 plant.make("identity", name, "--right", right)
-            plant.control()
+            plant.make("identity", "expired", "--right", "operate", "--until", in_time(2))
+            plant.make("revoke", "revoked")
+            refused(plant)
+            control = plant.control()
             gateway = plant.gateway(plant.identity("gateway"))
             gateway.wait_for("publishes .*takes commands", "the secured gateway publishes and takes commands")
-            viewer, _ = allowed(plant)
+            viewer, operator = allowed(plant)
+            operate_only(operator)
             not_allowed(plant, viewer)
+            monitor(plant)
+            renewal(plant, viewer, operator, gateway)
+            damaged(plant, viewer, gateway)
+            revoked_live(plant, viewer)
+            ends_while_he_looks(plant)
+            expired_gateway(plant, viewer, operator, gateway, control)
+            operator.leave()
+            silent_client(plant, gateway)
+            check(viewer.leave() == 0 and gateway.end() == 0, "a peer and the gateway end in order")
         except AssertionError as error:
             print("FAILED:", error)
             for process in Process.all:
-                print(process.log, *process.text().splitlines()[-8:], sep="\n  ")
+                print(process.log, *process.last(12), sep="\n  ")
             return 1
         finally:
             for process in Process.all:

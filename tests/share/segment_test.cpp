@@ -438,6 +438,24 @@ TEST_F(Share, OneProcessGivesCommands) {
   EXPECT_EQ(owner.get()->command_pid, 0);
 }
 
+// A gateway with new keys takes the place of another one of its process.
+TEST_F(Share, ARightToCommandGoesOverWithinAProcess) {
+  SegmentOwner owner;
+  ASSERT_TRUE(create(&owner)) << error_;
+  SegmentReader first, second;
+  ASSERT_TRUE(first.open(name_, &error_)) << error_;
+  ASSERT_TRUE(second.open(name_, &error_)) << error_;
+  ASSERT_TRUE(first.claim_commands(&error_)) << error_;
+  second.close();  // has no right, and takes none away
+  EXPECT_EQ(owner.get()->command_pid, getpid());
+  ASSERT_TRUE(second.open(name_, &error_)) << error_;
+  second.take_claim_of(&first);
+  first.close();
+  EXPECT_EQ(owner.get()->command_pid, getpid());
+  second.close();
+  EXPECT_EQ(owner.get()->command_pid, 0);
+}
+
 TEST_F(Share, CommandsAreOffUnlessTheControlTakesThem) {
   SegmentOwner owner;
   ASSERT_TRUE(owner.create(name_, false, false, machine(), &error_)) << error_;
