@@ -4,6 +4,7 @@
 the network that they have is bound to 127.0.0.1, and another address of this computer answers that nobody is there. The same where an
 HMI in Python has started them, which leaves the text of nc_dds.py in their environment."""
 import ast
+import glob
 import os
 import re
 import socket
@@ -103,6 +104,22 @@ def run(command, environment):
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
+def secured():
+    """Options of an ncdds with DDS Security on this computer, and the folder that has its keys; None where there are no keys or plug-ins."""
+    folder = tempfile.TemporaryDirectory()
+    keys = [os.path.join(build, "bin", "nc-keys"), "--folder", os.path.join(folder.name, "keys")]
+    for arguments in (["init"], ["identity", "gateway", "--gateway"]):
+        try:
+            done = subprocess.run([*keys, *arguments], capture_output=True)
+        except FileNotFoundError:
+            return None, folder
+        if done.returncode != 0:
+            return None, folder
+    if not glob.glob("/usr/lib/*/libddsc0debian/libdds_security_auth.so"):
+        return None, folder
+    return ["--security", os.path.join(folder.name, "keys", "identities", "gateway")], folder
+
+
 def main():
     for program in ("ncdds", "ncmon"):
         if not os.path.exists(os.path.join(build, "bin", program)):
@@ -113,9 +130,15 @@ def main():
         return 77
     bare = {key: value for key, value in os.environ.items() if key != "CYCLONEDDS_URI"}
     own = other_address()
+    security, keys = secured()
+    if security is None:
+        print("no keys or no plug-ins of DDS Security: not tried with them")
+    programs = [["ncdds", "--share", f"nobody-{os.getpid()}", "--domain", DOMAIN, "--commands"],
+                ["ncmon", "--json", "--wait", "600", "--domain", DOMAIN]]
+    if security is not None:
+        programs.append([*programs[0], *security])
     for environment in (bare, {**bare, "CYCLONEDDS_URI": ""}, {**bare, "CYCLONEDDS_URI": text_of_python()}):
-        for command in (["ncdds", "--share", f"nobody-{os.getpid()}", "--domain", DOMAIN, "--commands"],
-                        ["ncmon", "--json", "--wait", "600", "--domain", DOMAIN]):
+        for command in programs:
             child = run(command, environment)
             try:
                 found = bound(child.pid)
@@ -141,6 +164,7 @@ def main():
         finally:
             child.terminate()
             child.wait()
+    keys.cleanup()
     return 1 if failures else 0
 
 

@@ -74,7 +74,7 @@ holds nc-tools -rwxr-xr-x usr/bin/ncsim
 holds nc-tools -rw-r--r-- 'usr/share/man/man1/ncsim.1.gz'
 
 field ncrtd Depends 'adduser, .*libc6 \(.*'
-field ncrtd Recommends nc-tools
+field ncrtd Recommends 'nc-tools, openssl'
 holds ncrtd -rwxr-xr-x usr/bin/ncrtd
 holds ncrtd -rwxr-xr-x usr/bin/ncctl
 holds ncrtd -rw-r--r-- usr/share/man/man1/ncctl.1.gz usr/share/bash-completion/completions/ncctl
@@ -83,6 +83,8 @@ for name in packaging ladder signals modbus gpio dds macros parameters system-va
 if [ -x "$NC_BINARY_DIR/bin/ncdds" ]; then
   holds ncrtd -rwxr-xr-x usr/bin/ncdds
   holds ncrtd -rw-r--r-- lib/systemd/system/ncdds.service usr/share/man/man8/ncdds.8.gz
+  holds ncrtd -rwxr-xr-x usr/bin/nc-keys
+  holds ncrtd -rw-r--r-- usr/share/man/man8/nc-keys.8.gz usr/share/bash-completion/completions/nc-keys usr/share/nc/dds/secured.conf
   holds nc-tools -rwxr-xr-x usr/bin/ncmon
   holds nc-tools -rw-r--r-- usr/share/man/man1/ncmon.1.gz
 fi
@@ -119,6 +121,10 @@ binaries=("$work"/all/usr/bin/* "$work/all/$lib/libnc.so.$version")
 [ ${#binaries[@]} -ge 3 ] || fail "only ${#binaries[@]} binaries"
 for binary in "${binaries[@]}"; do
   name=$(basename "$binary")
+  if [ "$name" = nc-keys ]; then    # a script
+    [ "$("$binary" --version)" = "nc-keys $version" ] || fail "nc-keys has no version"
+    continue
+  fi
   grep -qE 'Type: +DYN' <<<"$(readelf -hW "$binary")" || fail "$name: not position-independent"
   readelf -lW "$binary" >"$work/segments"
   grep -q GNU_RELRO "$work/segments" || fail "$name: no relro"
