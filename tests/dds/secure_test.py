@@ -8,9 +8,11 @@ import glob
 import os
 import re
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 SKIPPED = 77
@@ -363,6 +365,25 @@ def expired_gateway(plant, viewer, operator, gateway, control):
     operator.answered(operator.command(TAKE_CONTROL), DONE, "and has control again")
 
 
+def systemd(path):
+    """Listens as systemd does; returns the list of what it is told, which grows."""
+    told, listener = [], socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
+    listener.bind(path)
+
+    def listen():
+        while True:
+            told.append(listener.recv(4096).decode())
+
+    threading.Thread(target=listen, daemon=True).start()
+    return told
+
+
+def states(told):
+    """What systemctl status has shown: until when the identity is valid, and why nothing was published."""
+    check(any(re.fullmatch(r"STATUS=the identity of CN=gateway is valid until \S+Z", text) for text in told), "systemd has been told until when the identity is valid")
+    check(any("has expired at" in text for text in told) and "valid until" in told[-1], f"that it had expired, and that it is valid again: {told[-3:]}")
+
+
 def monitor(plant):
     def run(*options):
         return subprocess.run([program("ncmon"), "--domain", plant.domain, "--once", "--wait", "20" if options else "4", *options], capture_output=True, text=True)
@@ -419,7 +440,8 @@ def main():
             plant.make("revoke", "revoked")
             refused(plant)
             control = plant.control()
-            gateway = plant.gateway(plant.identity("gateway"))
+            told = systemd(os.path.join(folder, "notify"))
+            gateway = plant.gateway(plant.identity("gateway"), environment={"NOTIFY_SOCKET": os.path.join(folder, "notify")})
             gateway.wait_for("publishes .*takes commands", "the secured gateway publishes and takes commands")
             viewer, operator = allowed(plant)
             operate_only(operator)
@@ -430,6 +452,7 @@ def main():
             revoked_live(plant, viewer)
             ends_while_he_looks(plant)
             expired_gateway(plant, viewer, operator, gateway, control)
+            states(told)
             operator.leave()
             silent_client(plant, gateway)
             check(viewer.leave() == 0 and gateway.end() == 0, "a peer and the gateway end in order")
