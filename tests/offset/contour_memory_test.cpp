@@ -563,5 +563,32 @@ TEST(ContourCheck, RandomAmountsHaveRoomAtWideCorners) {
   }
 }
 
+// A vector of the program may lie anywhere, and an arc from it or to it is a spiral about its centre. But a G2 is never driven the other way round for it: where the amount is more than the
+// radius and the vector on the other side of the centre there is no way along the arc. Which way half a turn goes is nobody's choice.
+TEST(GivenVector, TurnsNoArcTheOtherWayRound) {
+  const auto corner = [](bool mirrored, const std::string& vector) {
+    const std::string x = mirrored ? "" : "-";
+    return std::string("G0 X0 Y-20.\n") + (mirrored ? "G42" : "G41") + " D1 G1 F1000 X0 Y0 " + vector + "\n" + (mirrored ? "G3" : "G2") + " X" + x + "3. Y3. I0 J3.\nG1 Y40.\nG40 X" + x + "20.\nM30\n";
+  };
+  for (const char* const vector : {"I1. J0.3", "I1. J0.6", "I1. J0.9", "I1. J0"}) {
+    EXPECT_EQ(alarm_of_program(corner(false, vector), 5, {}), "P153") << vector;
+    EXPECT_EQ(alarm_of_program(corner(false, vector), 5, {{"8102", "1"}}), "P153") << vector;
+    EXPECT_EQ(alarm_of_program(corner(true, std::string("I-") + (vector + 1)), 5, {}), "P153") << vector;
+  }
+  EXPECT_EQ(alarm_of_program(corner(false, "I-1. J1."), 2, {}), "");
+  EXPECT_EQ(alarm_of_program(corner(true, "I1. J1."), 2, {}), "");
+}
+
+// Behind M00 the vector is at right angles to the line in front: at a cusp it points away from the arc's own.
+TEST(GivenVector, NorBehindAStopOfThePreRead) {
+  const auto cusp = [](const char* stop) {
+    return std::string("G0 X60. Y-20.\nG41 D1 G1 X60. Y0 F1000\nX30.\nX0\n") + stop + "\nG2 X1.016 Y-1.016 I0 J-1.016\nG1 Y-20.\nY-50.\nG40 Y-70.\nM30\n";
+  };
+  for (const double radius : {1.5, 1.524, 1.6}) {
+    EXPECT_EQ(alarm_of_program(cusp("M0"), radius, {}), "P153") << radius;
+    EXPECT_EQ(alarm_of_program(cusp("M10\nM11\nM12\nM13"), radius, {}), "P153") << radius;
+  }
+}
+
 }  // namespace
 }  // namespace nc::test

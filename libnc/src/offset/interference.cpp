@@ -20,6 +20,7 @@ constexpr unsigned kReach = 2;
 constexpr double kCosineNoise = 1e-9;
 constexpr double kBackwards_mm = 1e-6;
 constexpr double kHalfTurn = kPi + 1e-9;
+constexpr double kNearHalfTurn_rad = 1e-6;  ///< so near to half a turn rounding decides which way it goes
 
 // Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not, nor do those that touch but for the last digit: at the centre of an arc of the
 // tool's radius. They cross in s a = d + t b, s and t compared without a division.
@@ -137,8 +138,12 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   if (along_start > 0 && along_end > 0 &&
       std::abs(section.sweep) > std::abs(cross(radius_start, now_start)) / along_start + std::abs(cross(radius_end, now_end)) / along_end)
     return false;
-  const auto turned = [](Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); };
-  const double sweep = section.sweep + turned(radius_end, now_end) - turned(radius_start, now_start);
+  // Which way a radius turns by half a turn is decided by rounding. It is the way against the arc.
+  const auto turned = [](Vec2 a, Vec2 b, double way) {
+    const double by = std::atan2(cross(a, b), dot(a, b));
+    return kPi - std::abs(by) < kNearHalfTurn_rad ? way * kPi : by;
+  };
+  const double sweep = section.sweep + turned(radius_end, now_end, -sense) - turned(radius_start, now_start, sense);
   return sweep * sense * norm(now_start) < -kBackwards_mm;
 }
 
@@ -461,9 +466,13 @@ Finding leave_out_vanished(Chain* chain, unsigned last_call, Vec2 first_vector, 
 Finding check_direction(Chain* chain, unsigned i, const ChainStart& start, unsigned* at) {
   Section& section = (*chain)[i];
   const bool along_contour = !section.start && !section.cancel && !section.dead && !section.vanished && section.jointed && section.joint.n > 0;
-  if (!along_contour || !section.check || section.commanded) return Finding::none;
-  if (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1])) return Finding::none;  // a vector that is commanded may lie anywhere
+  if (!along_contour || !section.check) return Finding::none;
   const Vec2 from = start_vector(*chain, i, start.vector), to = section.joint.v[0];
+  const bool given = section.commanded || (i == 0 ? start.commanded : !may_be_erased((*chain)[i - 1]));
+  if (given) {  // such a vector may lie anywhere; but no arc turns the other way round for it
+    *at = i;
+    return arc_runs_backwards(section, from, to) ? Finding::alarm : Finding::none;
+  }
   if (!leads_astray(section, from, to) || (i > 0 && stays_in_place(*chain, i - 1, i))) return Finding::none;
   *at = i;
   if (!section.avoid || i == 0) return Finding::alarm;

@@ -590,12 +590,12 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
 // Interference check of what is held; sections below `last_call` are about to be released. False: the program
 // stops.
 bool OffsetStage::check_joints(unsigned last_call) {
-  if (chain_.size() < 2) return look_at_left_out(last_call) && look_at_walls(last_call);
   unsigned at = 0;
-  if (check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
+  if (chain_.size() > 0 && check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
+  if (chain_.size() < 2) return look_at_left_out(last_call) && look_at_walls(last_call);
   if (!look_at_left_out(last_call)) return false;
   if (chain_.may_have_walls() && !look_at_walls(last_call)) return false;
   const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
