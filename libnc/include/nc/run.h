@@ -35,14 +35,14 @@ NC_API nc_status nc_pull(nc_control* control, unsigned system, uint32_t budget, 
 /** What nc_pull_past() passes over. The first members are given by the caller, the others are counted on from what stands in them. */
 typedef struct nc_passed {
   NC_STRUCT_SIZE(nc_passed); /**< see NC_STRUCT_SIZE */
-  double rapid_mm_min;       /**< given: the speed that rapid traverse has in `seconds` */
-  double spindle_rev_min;    /**< given: what feeds per revolution are multiplied by */
+  double rapid_mm_min;       /**< given: mm/min that rapid traverse has in `seconds` */
+  double spindle_rev_min;    /**< given: r/min, what feeds per revolution are multiplied by */
   uint64_t most_in_row;      /**< given: the most moves without a mark between them; 0 = any number */
   uint64_t moves_in_row;     /**< moves since the last mark that was passed: the caller clears it where a block begins */
   uint64_t moves;            /**< number of moves */
   uint64_t marks;            /**< number of marks inside a block since the last move; a move clears it */
   double length;             /**< of the paths, mm or deg, as nc_move::length */
-  double seconds;            /**< the time that the moves take at their programmed feeds, without acceleration */
+  double seconds;            /**< s: what the moves take at their programmed feeds, without acceleration */
   nc_axes machine;           /**< end of the last move, machine coordinates */
   nc_axes work;              /**< the same in the active workpiece coordinates */
   nc_source source;          /**< of the last item that was passed */
