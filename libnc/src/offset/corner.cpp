@@ -104,22 +104,12 @@ bool meet_behind_cusp(const Leg& before, const Leg& behind, double offset, Vec2*
   return a < 0 && std::isfinite(w->h) && std::isfinite(w->v);
 }
 
-// How near a line from the joint to this place comes to the center.
-double nearest_to(Vec2 center, Vec2 place) {
-  const double squares = dot(place, place), foot = dot(center, place);
-  if (foot <= 0) return norm(center);
-  return foot >= squares ? norm(center - place) : std::abs(cross(place, center)) / std::sqrt(squares);
-}
-
 // Of an arc whose radius is the amount there is no more than a point, its centre, and rounding decides whether that lies on the other curve. It does as far as the
-// words can tell. The vector leads to the centre, from which the tool touches all of the arc, and all of a line whose other end, at `far`, lies on the arc as well: the
-// words of a line of micrometres do not tell where it leads.
-bool meets_in_a_point(const Leg& arc, const Leg& other, Vec2 far, double offset, Vec2* w) {
+// words can tell. The vector leads to the centre, from which the tool touches all of the arc.
+bool meets_in_a_point(const Leg& arc, const Leg& other, double offset, Vec2* w) {
   if (!is_point(arc, offset)) return false;
   *w = (1 / arc.curvature) * left_of(arc.u);
-  if (norm(nearest_on_curve(other, offset, *w) - *w) < kLastDigit_mm) return true;
-  const double radius = std::abs(offset);
-  return other.curvature == 0 && std::abs(norm(far - *w) - radius) < kLastDigit_mm && nearest_to(*w, far) > radius - kLastDigit_mm;
+  return norm(nearest_on_curve(other, offset, *w) - *w) < kLastDigit_mm;
 }
 
 // Two blocks with lines between them that have no direction, in which the amount changes: the first half of the corner that the amount in front of them makes, the
@@ -241,7 +231,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     joint->set(w);
     return true;
   }
-  if (meets_in_a_point(before, behind, delta_behind, o, &w) || meets_in_a_point(behind, before, -1 * delta_before, o, &w)) {
+  if (meets_in_a_point(before, behind, o, &w) || meets_in_a_point(behind, before, o, &w)) {
     joint->set(w);
     return true;
   }
