@@ -30,7 +30,8 @@ Json entry_json(const Entry& e) {
           {"client", e.client},   {"service", e.service}, {"outcome", e.outcome}, {"seconds", e.seconds}};
 }
 
-std::string number_text(double value) {
+// For who reads it; nc::rt::number_text() has all digits. It has a name of its own, as sources are joined.
+std::string rounded_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.10g", value);
   return text;
@@ -43,15 +44,15 @@ std::string words_of(const share::Request& r) {
   switch (static_cast<share::RequestKind>(r.kind)) {
     case share::RequestKind::kSetMode: return mode_name(r.number);
     case share::RequestKind::kFeedOverride:
-    case share::RequestKind::kRapidOverride: return number_text(100 * r.value) + " %" + system;
+    case share::RequestKind::kRapidOverride: return rounded_text(100 * r.value) + " %" + system;
     case share::RequestKind::kSingleBlock:
     case share::RequestKind::kOptionalStop: return (r.number != 0 ? "on" : "off") + system;
-    case share::RequestKind::kJog: return "axis " + std::to_string(r.axis + 1) + " at " + number_text(r.value) + system;
+    case share::RequestKind::kJog: return "axis " + std::to_string(r.axis + 1) + " at " + rounded_text(r.value) + system;
     case share::RequestKind::kRestartApproach: return "axis " + std::to_string(r.axis + 1) + system;
     case share::RequestKind::kMdi:
     case share::RequestKind::kSelectProgram: return text + system;
     case share::RequestKind::kForce:
-    case share::RequestKind::kWriteDevice: return text + " = " + number_text(r.value);
+    case share::RequestKind::kWriteDevice: return text + " = " + rounded_text(r.value);
     case share::RequestKind::kRestartFind: return restart_words(r) + system;
     case share::RequestKind::kRestartConfirm: return (r.number == kEveryEntry ? "all entries" : "entry " + std::to_string(r.number + 1)) + system;
     case share::RequestKind::kReleaseForce: return text.empty() ? "all devices" : text;
