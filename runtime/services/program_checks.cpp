@@ -34,7 +34,7 @@ ProgramChecks::ProgramChecks(const Config& config, const share::ProgramTable* pr
     : policy_(config.services.check), limit_s_(config.services.check_seconds), systems_(config.nc.system_count), folder_(config.programs_folder()), programs_(*programs), run_(std::move(run)) {}
 
 bool ProgramChecks::start(std::string* error) {
-  return thread_.start([this] { work(); }, error);
+  return work_thread_.start([this] { work(); }, error) && watch_thread_.start([this] { watch(); }, error);
 }
 
 void ProgramChecks::stop() {
@@ -44,21 +44,19 @@ void ProgramChecks::stop() {
     given_up_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  stopped_.notify_all();
+  work_thread_.join();
+  watch_thread_.join();
 }
 
-// ---- the thread ----
+// ---- the threads ----
 
 void ProgramChecks::work() {
   (void)setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
   std::unique_lock lock(mutex_);
-  for (unsigned looks = 0; !stop_;) {
+  while (!stop_) {
     if (waiting_.empty()) {
-      wake_.wait_for(lock, kLookPeriod);
-      lock.unlock();
-      look_at_heads();
-      forget_changed(looks++ % kLooksOfAll == 0);
-      lock.lock();
+      wake_.wait(lock);
       continue;
     }
     const CheckOrder order = waiting_.front();
@@ -74,6 +72,18 @@ void ProgramChecks::work() {
     if (given_up_) continue;
     if (reports_.size() >= kMostKept) reports_.erase(reports_.begin());
     reports_[in_work_] = std::move(report);
+  }
+}
+
+// The files are looked at in a thread of their own: a check may take a minute, and a start meanwhile must not miss a change.
+void ProgramChecks::watch() {
+  std::unique_lock lock(mutex_);
+  for (unsigned looks = 0; !stop_; ++looks) {
+    lock.unlock();
+    look_at_heads();
+    forget_changed(looks % kLooksOfAll == 0);
+    lock.lock();
+    stopped_.wait_for(lock, kLookPeriod, [this] { return stop_; });
   }
 }
 

@@ -111,6 +111,7 @@ class ProgramChecks final : public StartGate {
     std::vector<CheckReport::File> called;  // with which it has passed, besides its own file
   };
   void work();
+  void watch();
   bool enqueue(const CheckOrder& order, bool first);
   bool is_waiting(const Key& key) const;
   void forget_changed(bool all);
@@ -126,14 +127,14 @@ class ProgramChecks final : public StartGate {
   const share::ProgramTable& programs_;
   const CheckRun run_;
   mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable wake_;
+  std::condition_variable wake_, stopped_;
   std::deque<CheckOrder> waiting_;
   std::map<Key, CheckReport> reports_;
   std::array<Head, NC_MAX_SYSTEMS> head_;
   Key in_work_;
   bool working_ = false, stop_ = false;
   std::atomic<bool> given_up_{false};
-  RtThread thread_;
+  RtThread work_thread_, watch_thread_;
 };
 
 }  // namespace nc::rt::services
