@@ -24,16 +24,28 @@ struct Fillet {
 
 double rounded(double value, double digit) { return std::round(value / digit) * digit; }
 
+/// What the seed decides: the tool's radius, and how the places of a contour are turned and mirrored. `digit`: the last one of their words.
+struct Setting {
+  Setting(uint64_t seed, double last_digit) : random(seed), digit(last_digit), mirrored(seed % 2 == 0 ? 1 : -1) {
+    radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3);
+    turned = between(-kPi, kPi);
+  }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+  Point at(double h, double v) const {
+    v *= mirrored;
+    return {rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
+  }
+
+  std::mt19937_64 random;
+  double digit, mirrored, radius = 0, turned = 0;
+};
+
 /// Between two walls at right angles; `by_radius`: the arc is commanded by its radius, which it has exactly.
 Fillet fillet(uint64_t seed, double digit, bool by_radius) {
-  std::mt19937_64 random(seed);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Setting setting(seed, digit);
   Fillet made;
-  const double r = made.radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3), turned = between(-kPi, kPi), mirrored = seed % 2 == 0 ? 1 : -1;
-  const auto at = [&](double h, double v) {
-    v *= mirrored;
-    return Point{rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
-  };
+  const double r = made.radius = setting.radius, mirrored = setting.mirrored;
+  const auto at = [&](double h, double v) { return setting.at(h, v); };
   const Point start = at(-2 * r, 0), begin = at(0, 0), corner = at(4 * r, 0), from = at(4 * r, -2 * r), to = at(5 * r, -3 * r), far = at(9 * r, -3 * r), end = at(9 * r, -r);
   made.center = at(5 * r, -2 * r);
   if (by_radius) {  // on the side of the chord on which it lies, at the distance that the radius makes
@@ -88,15 +100,11 @@ TEST(Fillet, OfTheToolsRadiusAtAnyAngleIsGoneInto) {
 
 /// The same fillet in two arcs with a line between them, a chord of this length; `digit` is that of all words.
 Fillet with_a_line_inside(uint64_t seed, double digit, double length) {
-  std::mt19937_64 random(seed);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Setting setting(seed, digit);
   Fillet made;
-  const double r = made.radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3), turned = between(-kPi, kPi), mirrored = seed % 2 == 0 ? 1 : -1;
-  const auto at = [&](double h, double v) {
-    v *= mirrored;
-    return Point{rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
-  };
-  const double angle = kPi + between(0.1, 1.4), chord = length / r;
+  const double r = made.radius = setting.radius, mirrored = setting.mirrored;
+  const auto at = [&](double h, double v) { return setting.at(h, v); };
+  const double angle = kPi + setting.between(0.1, 1.4), chord = length / r;
   const auto on_arc = [&](double a) { return at(r * std::cos(a), r * std::sin(a)); };
   const Point start = at(-7 * r, 2 * r), begin = at(-5 * r, 2 * r), corner = at(-r, 2 * r), from = at(-r, 0), first = on_arc(angle), second = on_arc(angle + chord), to = at(0, -r), far = at(4 * r, -r), end = at(4 * r, r);
   made.center = at(0, 0);
@@ -145,15 +153,10 @@ TEST(Fillet, OfTheToolsRadiusWithALongerLineInsideIsAnAlarm) {
 
 /// A wall with a notch in front of a fillet of the tool's radius.
 Fillet behind_a_notch(uint64_t seed, double digit, bool reversed) {
-  std::mt19937_64 random(seed);
-  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  Setting setting(seed, digit);
   Fillet made;
-  const double r = made.radius = rounded(std::exp(between(std::log(0.4), std::log(12))), 1e-3), turned = between(-kPi, kPi), mirrored = seed % 2 == 0 ? 1 : -1;
-  const auto at = [&](double h, double v) {
-    if (reversed) h = -h;
-    v *= mirrored;
-    return Point{rounded(std::cos(turned) * h - std::sin(turned) * v, digit), rounded(std::sin(turned) * h + std::cos(turned) * v, digit)};
-  };
+  const double r = made.radius = setting.radius, mirrored = setting.mirrored;
+  const auto at = [&](double h, double v) { return setting.at(reversed ? -h : h, v); };
   std::vector<Point> way = {at(-9 * r, r), at(-8 * r, -r), at(-0.4 * r, -r), at(-0.2 * r, -1.1 * r), at(0, -r), at(r, 0), at(r, 4 * r), at(-r, 5 * r)};
   made.center = at(0, 0);
   const unsigned arc_at = reversed ? 3 : 5;
