@@ -55,7 +55,7 @@ if(TARGET ncdds)
   nc_package_file(ncrtd /lib/systemd/system ${nc_packaging}/systemd/ncdds.service)
   list(PREPEND nc_units ncdds.service)    # stopped before ncrtd
   nc_package_file(ncrtd share/man/man8 ${nc_packaging}/man/ncdds.8)
-  nc_package_file(ncrtd share/nc/dds ${CMAKE_SOURCE_DIR}/dds/nc_dds.idl ${CMAKE_SOURCE_DIR}/dds/nc_dds.py)
+  nc_package_file(ncrtd share/nc/dds ${CMAKE_SOURCE_DIR}/dds/nc_dds.idl ${CMAKE_SOURCE_DIR}/dds/nc_dds.py ${CMAKE_SOURCE_DIR}/dds/nc_trace.py)
   nc_package_file(ncrtd share/man/man8 ${nc_packaging}/man/nc-keys.8)
   nc_package_file(ncrtd share/bash-completion/completions ${nc_packaging}/completion/nc-keys)
   configure_file(${nc_packaging}/systemd/ncdds-secured.conf ${nc_staged}/dds/secured.conf COPYONLY)

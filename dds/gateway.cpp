@@ -72,6 +72,12 @@ bool Gateway::open(std::string* error) {
     *entry.writer = make_writer(participant_.get(), entry.topic, partition_, period_s, error);
     if (*entry.writer <= 0) return false;
   }
+  if (options_.services) {
+    services_ = std::make_unique<ServiceGateway>(partition_, options_.socket);
+    services_->set_gate(service_gate());
+    if (stands_by_) services_->stand_by();
+    if (!services_->open(participant_.get(), error)) return false;
+  }
   if (!options_.commands) return true;
   command_ = make_reader(participant_.get(), Topic::kCommand, partition_, error);
   if (command_ <= 0) return false;
@@ -114,6 +120,7 @@ bool Gateway::attach() {
   if (options_.commands && stands_by_) another_commands_ = segment_.get()->identity.commands != 0;
   else if (options_.commands && !claim_commands(&error))
     std::fprintf(stderr, "ncdds: warning: no commands: %s\n", error.c_str());
+  if (services_) services_->set_gate(service_gate());
   heart_.restart();
   written_any_ = false;
   history_sequence_ = 0;
@@ -126,6 +133,23 @@ bool Gateway::attach() {
   say("publishes \"" + std::string(share::text_of(segment_.get()->machine.machine)) + "\" as " + partition_ +
       " in domain " + std::to_string(options_.access.domain) + (may_command_ ? ", takes commands" : ""));
   return true;
+}
+
+// What clients of the services may do: see all that the services show, and more where commands are on at both ends; with DDS Security each client only what
+// its permissions let it write. Without it DDS does not know who asks, so over a network nobody may do anything.
+ServiceGate Gateway::service_gate() {
+  ServiceGate gate;
+  if (options_.access.security.empty() && user_configures()) {
+    gate.why = "over a network the services need DDS Security";
+    return gate;
+  }
+  gate.rights.add(Right::kView);
+  gate.most = options_.commands ? RightSet::all() : gate.rights;  // not by the control of this moment: a connection may be begun before it is seen here
+  gate.by_permissions = !options_.access.security.empty();
+  const bool control = segment_.is_open() && segment_.get()->identity.commands != 0;
+  gate.why = !options_.commands ? "this gateway lets clients view only: ncdds --commands" : "there is no control that takes commands: commands = true in [share]";
+  if (options_.commands && control) gate.rights = RightSet::all();
+  return gate;
 }
 
 // Tries to become the gateway that passes commands to the control. Only one gateway does that; a second one waits until the first one is gone.
@@ -164,6 +188,7 @@ void Gateway::detach(const char* why) {
   const std::lock_guard lock(segment_mutex_);
   may_command_ = another_commands_ = false;
   segment_.close();
+  if (services_) services_->set_gate(service_gate());
 }
 
 // Looks at the segment once and publishes what is new. False when the control is gone.
@@ -445,6 +470,7 @@ void Gateway::miss_inherited() {
 }
 
 void Gateway::take_over(Gateway* other) {
+  if (services_ && other->services_) services_->take_over(other->services_.get());
   if (!options_.commands) return;
   const std::scoped_lock passing(passing_mutex_, other->passing_mutex_);
   // What this gateway has received is dropped, because the other one has received it, too, or does so in a moment; then the other one passes on what it has.
@@ -476,6 +502,7 @@ unsigned Gateway::partners() const {
   unsigned count = 0;
   if (status_ > 0 && dds_get_publication_matched_status(status_, &readers) >= 0) count += readers.current_count;
   if (command_ > 0 && dds_get_subscription_matched_status(command_, &writers) >= 0) count += writers.current_count;
+  if (services_) count += services_->partners();
   return count;
 }
 

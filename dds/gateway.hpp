@@ -4,7 +4,7 @@
 //
 // There are two threads: run() publishes and is woken by each update of the segment; the command thread is woken by DDS.
 //
-// A gateway with new keys takes the place of another one of this process (gateway_keeper.hpp): it stands by first, which means that it publishes and
+// A gateway with new keys takes the place of another one of this process (identity_keeper.hpp): it stands by first, which means that it publishes and
 // takes no commands, and then takes over.
 #pragma once
 
@@ -19,6 +19,7 @@
 
 #include "dds/convert.hpp"
 #include "dds/participant.hpp"
+#include "dds/service_gateway.hpp"
 #include "runtime/share/segment.hpp"
 
 namespace nc::dds {
@@ -28,6 +29,8 @@ struct GatewayOptions {
   Access access;
   double rate_hz = kDefaultRateHz;
   bool commands = false;
+  bool services = true;      // the services over DDS
+  std::string socket;        // of the local services, "" = where they usually are
 };
 
 class Gateway {
@@ -38,7 +41,8 @@ class Gateway {
   bool open(std::string* error);
   // To be called before open().
   void stand_by() { stands_by_ = true; }
-  // From here on this gateway takes the commands in place of another one, which stands by. No command is lost or taken twice, and clients keep control.
+  // From here on this gateway takes the commands and the requests for services in place of another one, which stands by. None is lost or taken twice, and clients
+  // keep control and all that they have begun.
   void take_over(Gateway* other);
   // Number of readers and writers of others that this gateway talks with.
   unsigned partners() const;
@@ -54,6 +58,7 @@ class Gateway {
   };
   bool attach();
   bool claim_commands(std::string* error);
+  ServiceGate service_gate();
   void detach(const char* why);
   bool look();
   bool publish_status(std::int64_t now_ns);
@@ -117,6 +122,7 @@ class Gateway {
   std::map<std::string, Client> inherited_;  // clients of the gateway before this one, from which nothing has come here yet; by their names
   std::int64_t next_miss_ns_ = 0;
   std::thread commands_;
+  std::unique_ptr<ServiceGateway> services_;  // ends before the participant does
 };
 
 }  // namespace nc::dds

@@ -38,6 +38,7 @@ bool read_config(const std::string& path, GatewayOptions* options) {
   for (const rt::ConfigError& error : errors) std::fprintf(stderr, "%s\n", error.text().c_str());
   if (!errors.empty()) return false;
   if (options->share.empty()) options->share = config.share.name.empty() ? config.name : config.share.name;
+  if (options->socket.empty()) options->socket = config.services.socket;
   return true;
 }
 

@@ -2,7 +2,9 @@
 // Subscriber of status and alarms. See monitor.hpp.
 #include "dds/monitor.hpp"
 
+#include <chrono>
 #include <ctime>
+#include <thread>
 
 #include "runtime/share/text.hpp"
 
@@ -205,55 +207,78 @@ StatusView view_of(const nc_Status& s) {
 
 }  // namespace
 
-bool Monitor::open(std::string* error) {
-  if (!participant_.open(access_, error)) return false;
-  const std::string partition = machine_.empty() ? "*" : machine_;
-  status_ = make_reader(participant_.get(), Topic::kStatus, partition, error);
-  if (status_ <= 0) return false;
-  alarm_ = make_reader(participant_.get(), Topic::kAlarm, partition, error);
-  if (alarm_ <= 0) return false;
-  waitset_ = dds_create_waitset(participant_.get());
-  if (wait_for(status_) && wait_for(alarm_)) return true;
-  *error = "the status cannot be waited for";
-  return false;
+Monitor::Monitor(Access access, std::string machine, std::function<void(const std::string&)> tell)
+    : access_(std::move(access)),
+      partition_(machine.empty() ? "*" : machine),
+      machine_(std::move(machine)),
+      tell_(std::move(tell)),
+      keeper_({access_.security, "shows nothing", [this](bool, std::string* error) { return make(error); },
+               [this](SecuredPart* from, SecuredPart* to) { change(static_cast<MonitorLink*>(from), static_cast<MonitorLink*>(to)); },
+               [this](const std::string& text, bool) {
+                 if (opened_) tell_(text);
+               }}) {}
+
+std::unique_ptr<SecuredPart> Monitor::make(std::string* error) const {
+  auto made = std::make_unique<MonitorLink>(partition_);
+  if (!made->open(access_, signals_, error)) return nullptr;
+  return made;
 }
 
-bool Monitor::wait_for(dds_entity_t reader) {
-  const dds_entity_t condition = dds_create_readcondition(reader, DDS_ANY_STATE);
-  return waitset_ > 0 && condition > 0 && dds_waitset_attach(waitset_, condition, 0) >= 0;
+bool Monitor::open(std::string* error) {
+  if (!access_.security.empty()) {
+    opened_ = keeper_.open(false, error);
+    return opened_;
+  }
+  open_link_ = std::make_unique<MonitorLink>(partition_);
+  return open_link_->open(access_, signals_, error);
+}
+
+const MonitorLink* Monitor::link() const {
+  return access_.security.empty() ? open_link_.get() : static_cast<const MonitorLink*>(keeper_.current());
 }
 
 bool Monitor::watch_signals(bool on, std::string* error) {
-  if (on == (signals_ > 0)) return true;
-  if (!on) {  // without a reader the gateway stops publishing signals
-    for (const dds_entity_t reader : {signals_, signal_table_}) (void)dds_delete(dds_get_parent(reader));
-    signals_ = signal_table_ = 0;
-    view_.signals.clear();
-    return true;
-  }
-  const std::string partition = machine_.empty() ? "*" : machine_;
-  signal_table_ = make_reader(participant_.get(), Topic::kSignalTable, partition, error);
-  if (signal_table_ <= 0) return false;
-  signals_ = make_reader(participant_.get(), Topic::kSignalImage, partition, error);
-  if (signals_ <= 0) return false;
-  if (wait_for(signal_table_) && wait_for(signals_)) return true;
-  *error = "the signals cannot be waited for";
-  return false;
-}
-
-bool Monitor::wait(std::int64_t timeout_ns) {
-  dds_attach_t triggered[4];
-  if (dds_waitset_wait(waitset_, triggered, 4, timeout_ns) <= 0) return false;
-  take_status();
-  take_alarms();
-  if (signals_ > 0) take_signals();
+  signals_ = on;
+  if (!on) view_.signals.clear();
+  for (MonitorLink* one : {open_link_.get(), static_cast<MonitorLink*>(keeper_.current()), static_cast<MonitorLink*>(keeper_.next())})
+    if (one != nullptr && !one->watch_signals(on, error)) return false;
   return true;
 }
 
-void Monitor::take_status() {
+// What the readers of the new link have is all that is so now. The end of an alarm that came before they were there is not in it, and neither is the end of
+// the status.
+void Monitor::change(const MonitorLink* from, const MonitorLink* to) {
+  if (from != nullptr) take(*from);
+  alarms_of_.clear();
+  view_.alarms.clear();
+  if (to != nullptr) take(*to);
+  if (!heard_ || (to != nullptr && MonitorLink::partners_of(to->status()) != 0)) return;
+  view_.alive = false;
+  ++changes_;
+}
+
+bool Monitor::wait(std::int64_t timeout_ns) {
+  if (!access_.security.empty()) keeper_.look();
+  const std::uint64_t before = changes_;
+  if (const MonitorLink* current = link(); current != nullptr) {
+    if (!current->wait(timeout_ns)) return changes_ != before;
+    take(*current);
+    return true;
+  }
+  std::this_thread::sleep_for(std::chrono::nanoseconds(timeout_ns));
+  return false;
+}
+
+void Monitor::take(const MonitorLink& link) {
+  while (take_status(link.status()) == kTaken) {}
+  while (take_alarms(link.alarm()) == kTaken) {}
+  if (link.signals() > 0) take_signals(link);
+}
+
+int Monitor::take_status(dds_entity_t reader) {
   void* samples[kTaken] = {};
   dds_sample_info_t infos[kTaken];
-  const int count = dds_take(status_, samples, infos, kTaken, kTaken);
+  const int count = dds_take(reader, samples, infos, kTaken, kTaken);
   for (int i = 0; i < count; ++i) {
     const auto& status = *static_cast<const nc_Status*>(samples[i]);
     const bool alive = infos[i].valid_data && infos[i].instance_state == DDS_IST_ALIVE;
@@ -279,18 +304,19 @@ void Monitor::take_status() {
       ++changes_;
     }
   }
-  if (count > 0) (void)dds_return_loan(status_, samples, count);
+  if (count > 0) (void)dds_return_loan(reader, samples, count);
+  return count;
 }
 
 bool Monitor::gateway_there() const {
-  dds_subscription_matched_status_t matched{};
-  return dds_get_subscription_matched_status(status_, &matched) >= 0 && matched.current_count > 0;
+  const MonitorLink* current = link();
+  return current != nullptr && MonitorLink::partners_of(current->status()) > 0;
 }
 
-void Monitor::take_alarms() {
+int Monitor::take_alarms(dds_entity_t reader) {
   void* samples[kTaken] = {};
   dds_sample_info_t infos[kTaken];
-  const int count = dds_take(alarm_, samples, infos, kTaken, kTaken);
+  const int count = dds_take(reader, samples, infos, kTaken, kTaken);
   for (int i = 0; i < count; ++i) {
     const auto& alarm = *static_cast<const nc_Alarm*>(samples[i]);
     if (!machine_.empty() && machine_ != alarm.machine) continue;
@@ -303,14 +329,15 @@ void Monitor::take_alarms() {
     }
   }
   if (!machine_.empty()) view_.alarms = alarms_of_[machine_];
-  if (count > 0) (void)dds_return_loan(alarm_, samples, count);
+  if (count > 0) (void)dds_return_loan(reader, samples, count);
+  return count;
 }
 
 // The image has the values of the signals, and the table has their meanings. Until the table has come, only names and values are shown.
-void Monitor::take_signals() {
+void Monitor::take_signals(const MonitorLink& link) {
   void* samples[1] = {};
   dds_sample_info_t infos[1];
-  while (dds_take(signal_table_, samples, infos, 1, 1) > 0) {
+  while (dds_take(link.signal_table(), samples, infos, 1, 1) > 0) {
     const auto& table = *static_cast<const nc_SignalTable*>(samples[0]);
     if (infos[0].valid_data && (machine_.empty() || machine_ == table.machine)) {
       signal_rows_.clear();
@@ -319,13 +346,13 @@ void Monitor::take_signals() {
         signal_rows_[row.name] = {row.name, "", "", 0, row.safe, true, row.meaning, row.timing};
       }
     }
-    (void)dds_return_loan(signal_table_, samples, 1);
+    (void)dds_return_loan(link.signal_table(), samples, 1);
     samples[0] = nullptr;
   }
-  while (dds_take(signals_, samples, infos, 1, 1) > 0) {
+  while (dds_take(link.signals(), samples, infos, 1, 1) > 0) {
     const auto& image = *static_cast<const nc_SignalImage*>(samples[0]);
     if (infos[0].valid_data && (machine_.empty() || machine_ == image.machine)) show_signals(image);
-    (void)dds_return_loan(signals_, samples, 1);
+    (void)dds_return_loan(link.signals(), samples, 1);
     samples[0] = nullptr;
   }
 }

@@ -3,18 +3,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
+#include "dds/identity_keeper.hpp"
+#include "dds/monitor_link.hpp"
 #include "dds/monitor_view.hpp"
-#include "dds/participant.hpp"
 
 namespace nc::dds {
 
 class Monitor {
  public:
-  // `machine`: the partition, "" = the first control that is received.
-  Monitor(Access access, std::string machine) : access_(std::move(access)), machine_(std::move(machine)) {}
+  // `machine`: the partition, "" = the first control that is received. `tell`: prints a sentence about the identity, when its files change or it ends.
+  Monitor(Access access, std::string machine, std::function<void(const std::string&)> tell);
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
   bool open(std::string* error);
   // Switches the subscription to the table of signals and their values on or off.
   bool watch_signals(bool on, std::string* error);
@@ -31,16 +36,23 @@ class Monitor {
   std::int64_t last_latency_ns() const { return latency_ns_; }  // time from the scan of the last status to its arrival here
 
  private:
-  void take_status();
-  void take_alarms();
-  void take_signals();
+  std::unique_ptr<SecuredPart> make(std::string* error) const;
+  void change(const MonitorLink* from, const MonitorLink* to);
+  const MonitorLink* link() const;
+  void take(const MonitorLink& link);
+  int take_status(dds_entity_t reader);
+  int take_alarms(dds_entity_t reader);
+  void take_signals(const MonitorLink& link);
   void show_signals(const nc_SignalImage& image);
-  bool wait_for(dds_entity_t reader);
 
   const Access access_;
+  const std::string partition_;
   std::string machine_;
-  Participant participant_;
-  dds_entity_t status_ = 0, alarm_ = 0, waitset_ = 0, signals_ = 0, signal_table_ = 0;
+  const std::function<void(const std::string&)> tell_;
+  bool signals_ = false;  // they are watched
+  bool opened_ = false;
+  std::unique_ptr<MonitorLink> open_link_;  // without DDS Security
+  IdentityKeeper keeper_;                   // with it
   std::map<std::string, SignalView> signal_rows_;  // the rows of the table, keyed by the name of the signal
   std::map<std::string, std::map<unsigned, AlarmView>> alarms_of_;  // keyed by control and slot; only one control once that is known
   MonitorView view_;

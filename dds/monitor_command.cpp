@@ -153,11 +153,8 @@ int failed(const std::string& text) {
   return kExitUsage;
 }
 
-int full_screen(Monitor* monitor, const MonitorOptions& options) {
-  if (isatty(STDOUT_FILENO) == 0) {
-    std::fprintf(stderr, "ncmon: this is not a terminal: --once, --json or --progress\n");
-    return kExitUsage;
-  }
+int full_screen(Monitor* monitor, const MonitorOptions& options, const std::string& notice) {
+  if (isatty(STDOUT_FILENO) == 0) return failed("this is not a terminal: --once, --json or --progress");
   Screen screen;
   std::int64_t next = 0;
   bool signals = options.signals;
@@ -178,6 +175,7 @@ int full_screen(Monitor* monitor, const MonitorOptions& options) {
     next = now() + 100 * kMs;
     std::string text = "ncmon   domain " + std::to_string(options.access.domain) +
                        (signals ? "   q ends, s status, space next page\n\n" : "   q ends, s signals\n\n");
+    if (!notice.empty()) text += printable(notice) + "\n\n";
     if (!monitor->heard()) text += "nobody publishes yet ...\n";
     else text += signals ? from_line(signal_page(monitor->view(), size.ws_col), &first_line)
                          : page(monitor->view());
@@ -186,9 +184,13 @@ int full_screen(Monitor* monitor, const MonitorOptions& options) {
   return 0;
 }
 
-// Does what the options ask for, once DDS is running.
-int show(Monitor* monitor, const MonitorOptions& options) {
-  if (!options.once && !options.json && !options.progress && options.latency == 0) return full_screen(monitor, options);
+bool on_full_screen(const MonitorOptions& options) {
+  return !options.once && !options.json && !options.progress && options.latency == 0;
+}
+
+// Does what the options ask for, once DDS is running. `notice`: the last sentence about the identity.
+int show(Monitor* monitor, const MonitorOptions& options, const std::string& notice) {
+  if (on_full_screen(options)) return full_screen(monitor, options, notice);
   if (!wait_for_status(monitor, options.wait_s)) return rt::end_signal() != 0 ? 0 : nobody(*monitor, options);
   if (options.latency != 0) return latency(monitor, options.latency, options.wait_s);
   if (options.progress) return progress(monitor);
@@ -210,11 +212,14 @@ std::string latency_text(std::vector<std::int64_t> times_ns) {
 
 int monitor_command(const MonitorOptions& options) {
   rt::catch_end_signals({SIGINT, SIGTERM, SIGHUP});
-  Monitor monitor(options.access, options.machine);
-  std::string error;
+  std::string error, notice;
+  Monitor monitor(options.access, options.machine, [&](const std::string& text) {
+    notice = text;
+    if (!on_full_screen(options)) std::fprintf(stderr, "ncmon: %s\n", text.c_str());
+  });
   if (!may_access(options.access, false, &error)) return failed(error);
   if (!monitor.open(&error) || (options.signals && !monitor.watch_signals(true, &error))) return failed(error);
-  const int status = show(&monitor, options);
+  const int status = show(&monitor, options, notice);
   if (std::fflush(stdout) != 0) return kExitUsage;
   return rt::end_signal() != 0 ? rt::exit_status_of_signal(rt::end_signal()) : status;
 }

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The types of nc_dds.idl for the Python binding of Cyclone DDS (PyPI `cyclonedds`), readers with the right QoS, and a client for commands.
+"""The types of nc_dds.idl for the Python binding of Cyclone DDS (PyPI `cyclonedds`), readers with the right QoS, a client for commands, and one for the services.
 
 The generator of the binding does not work with Debian's IDL compiler, so the classes are written by hand. tests/dds/idl_test.py compares
-them with the IDL, because with a difference reader and writer would not match.
+them with the IDL, because with a difference reader and writer would not match. What lies between the marks of the services is made by scripts/service-tables.
 """
+import base64
+import hashlib
+import json
 import os
+import time
 from dataclasses import dataclass, field
 
 # The configuration that ncdds uses unless CYCLONEDDS_URI is set: only this computer, no multicast. It must be set before the first import of
@@ -424,6 +428,113 @@ class CommandAck(IdlStruct, typename="nc.CommandAck"):
     refusal: RefusalCause
 
 
+# services: begin, made by scripts/service-tables
+@annotate.appendable
+class ServiceStatus(IdlEnum, typename="nc.ServiceStatus", default="SERVICE_DONE"):
+    SERVICE_DONE = 0
+    SERVICE_REFUSED = 1
+    SERVICE_UPDATE = 2
+
+
+@dataclass
+@annotate.appendable
+class ServiceRequest(IdlStruct, typename="nc.ServiceRequest"):
+    client: types.bounded_str[27]
+    annotate.key("client")
+    number: types.uint64
+    service: types.bounded_str[31]
+    args: types.bounded_str[524032]
+
+
+@dataclass
+@annotate.appendable
+class ServiceReply(IdlStruct, typename="nc.ServiceReply"):
+    client: types.bounded_str[27]
+    annotate.key("client")
+    number: types.uint64
+    status: ServiceStatus
+    refusal: types.bounded_str[31]
+    session: types.uint64
+    part: types.uint32
+    last: bool
+    body: types.bounded_str[60000]
+
+
+# The topic of the requests for each service, by the right that it needs.
+SERVICE_TOPICS = {
+    "rights": "nc_ServiceView",
+    "rights.limit": "nc_ServiceView",
+    "services": "nc_ServiceView",
+    "machine": "nc_ServiceView",
+    "status": "nc_ServiceView",
+    "alarms": "nc_ServiceView",
+    "history.list": "nc_ServiceView",
+    "history.counters": "nc_ServiceView",
+    "history.programs": "nc_ServiceView",
+    "changes": "nc_ServiceView",
+    "tools.list": "nc_ServiceView",
+    "life.list": "nc_ServiceView",
+    "offsets.list": "nc_ServiceView",
+    "variables.list": "nc_ServiceView",
+    "parameters.list": "nc_ServiceView",
+    "parameters.export": "nc_ServiceView",
+    "tables.export": "nc_ServiceView",
+    "programs.list": "nc_ServiceView",
+    "programs.read": "nc_ServiceView",
+    "programs.check": "nc_ServiceView",
+    "trace.signals": "nc_ServiceView",
+    "trace.status": "nc_ServiceView",
+    "trace.read": "nc_ServiceView",
+    "ladder.rungs": "nc_ServiceView",
+    "ladder.devices": "nc_ServiceView",
+    "watch.begin": "nc_ServiceView",
+    "watch.end": "nc_ServiceView",
+    "restart.status": "nc_ServiceView",
+    "control.take": "nc_ServiceOperate",
+    "control.release": "nc_ServiceOperate",
+    "start": "nc_ServiceOperate",
+    "hold": "nc_ServiceOperate",
+    "reset": "nc_ServiceOperate",
+    "mode": "nc_ServiceOperate",
+    "override.feed": "nc_ServiceOperate",
+    "override.rapid": "nc_ServiceOperate",
+    "single": "nc_ServiceOperate",
+    "optional": "nc_ServiceOperate",
+    "jog": "nc_ServiceOperate",
+    "mdi": "nc_ServiceOperate",
+    "select": "nc_ServiceOperate",
+    "programs.recheck": "nc_ServiceOperate",
+    "restart.find": "nc_ServiceOperate",
+    "restart.confirm": "nc_ServiceOperate",
+    "restart.approach": "nc_ServiceOperate",
+    "restart.cancel": "nc_ServiceOperate",
+    "tools.set": "nc_ServiceSetUp",
+    "life.set": "nc_ServiceSetUp",
+    "offsets.set": "nc_ServiceSetUp",
+    "variables.set": "nc_ServiceSetUp",
+    "tables.import": "nc_ServiceSetUp",
+    "undo": "nc_ServiceSetUp",
+    "programs.begin": "nc_ServiceSetUp",
+    "programs.data": "nc_ServiceSetUp",
+    "programs.finish": "nc_ServiceSetUp",
+    "programs.abandon": "nc_ServiceSetUp",
+    "programs.rename": "nc_ServiceSetUp",
+    "programs.delete": "nc_ServiceSetUp",
+    "force": "nc_ServiceMaintain",
+    "release": "nc_ServiceMaintain",
+    "ladder.write": "nc_ServiceMaintain",
+    "parameters.set": "nc_ServiceMaintain",
+    "parameters.import": "nc_ServiceMaintain",
+    "parameters.undo": "nc_ServiceMaintain",
+    "programs.protect": "nc_ServiceMaintain",
+    "trace.arm": "nc_ServiceMaintain",
+    "trace.stop": "nc_ServiceMaintain",
+    "ladder.swap": "nc_ServiceMaintain",
+}
+CHUNK_BYTES = 262144  # of a program, in one request or reply, at most
+# services: end
+
+
 @dataclass
 @annotate.final
 class Status_v1(IdlStruct, typename="nc.Status_v1"):
@@ -521,3 +632,140 @@ class Client:
             seq = self.seq
         self.writer.write(Command(client=self.name, seq=seq, kind=kind, **fields))
         return seq
+
+
+class ServiceRefused(Exception):
+    """A service was refused: `error` is the name of the refusal, such as "busy", and the text is for people."""
+
+    def __init__(self, service, error, text):
+        super().__init__(f"{service}: {error}: {text}")
+        self.error = error
+        self.text = text
+
+
+class Services:
+    """The services of one machine (docs/services.md) over DDS. Each running client must have a different `name`: letters, digits, '.', '-', '_', '@'.
+
+    One thread uses it. `patience`: seconds for an answer. `updates` holds the updates of watch lists that have come; look() fetches more.
+    """
+
+    def __init__(self, participant, machine, name, patience=30.0):
+        self.name = name
+        self.patience = patience
+        self.updates = []
+        self.session = 0  # of the newest reply: with another one everything that this client had begun has ended
+        self._participant = participant
+        self._answers = {}
+        self._parts = {}
+        self._number = 0
+        self._writers = {}
+        self._publisher = Publisher(participant, qos=Qos(Policy.Partition([machine])))
+        replies = Qos(Policy.Reliability.Reliable(duration(milliseconds=100)), Policy.Durability.Volatile, Policy.History.KeepAll)
+        where = Subscriber(participant, qos=Qos(Policy.Partition([f"{machine}/{name}"])))
+        self._reader = DataReader(where, Topic(participant, "nc_ServiceReply", ServiceReply), qos=replies)
+
+    def _writer(self, topic):
+        if topic not in self._writers:
+            policies = [Policy.Reliability.Reliable(duration(seconds=5)), Policy.Durability.Volatile, Policy.History.KeepAll, Policy.Liveliness.Automatic(duration(seconds=2))]
+            if topic != "nc_ServiceView":  # what is late is not to happen any more; nor is a gateway that comes later to have it
+                policies.append(Policy.Lifespan(duration(seconds=5)))
+            self._writers[topic] = DataWriter(self._publisher, Topic(self._participant, topic, ServiceRequest), qos=Qos(*policies))
+        writer = self._writers[topic]
+        end = time.monotonic() + self.patience
+        while not writer.get_matched_subscriptions():
+            if time.monotonic() > end:
+                raise ServiceRefused(topic, "no connection", "no gateway takes requests")
+            time.sleep(0.01)
+        return writer
+
+    def send(self, service, topic=None, args="", **arguments):
+        """Sends a request and returns its number. `args`: the arguments as a text, in place of `arguments`."""
+        writer = self._writer(topic or SERVICE_TOPICS.get(service, "nc_ServiceView"))
+        self._number += 1
+        writer.write(ServiceRequest(client=self.name, number=self._number, service=service, args=args or json.dumps(arguments)))
+        return self._number
+
+    def look(self):
+        """Fetches the replies and updates that have come."""
+        for sample in self._reader.take(N=64):
+            if not sample.sample_info.valid_data or sample.client != self.name:
+                continue
+            self.session = sample.session
+            # A gateway that takes over from another one begins a reply again that the other one has not written to its end, with a writer of its own.
+            writer, parts = self._parts.get(sample.number, (0, []))
+            if sample.part == 1 or writer != sample.sample_info.publication_handle:
+                if sample.part != 1:
+                    continue  # the rest of what has begun again
+                parts = []
+                self._parts[sample.number] = (sample.sample_info.publication_handle, parts)
+            parts.append(sample.body)
+            if not sample.last:
+                continue
+            whole = len(parts) == sample.part
+            del self._parts[sample.number]
+            body = json.loads("".join(parts)) if whole else {"text": "a part of the reply was lost"}
+            if sample.status == ServiceStatus.SERVICE_UPDATE:
+                if whole:
+                    self.updates.append(body)
+            else:
+                self._answers[sample.number] = (sample.refusal if whole else "failed", body)
+
+    def answer(self, number, service="request"):
+        """Waits for the reply to a request."""
+        end = time.monotonic() + self.patience
+        while number not in self._answers:
+            if time.monotonic() > end:
+                raise ServiceRefused(service, "no connection", f"no answer within {self.patience:g} s")
+            self.look()
+            if number not in self._answers:
+                time.sleep(0.002)
+        refusal, body = self._answers.pop(number)
+        if refusal:
+            raise ServiceRefused(service, refusal, body.get("text", ""))
+        return body
+
+    def call(self, service, **arguments):
+        """Uses a service and returns its reply: call("tools.set", number=3, length=81.25)."""
+        return self.answer(self.send(service, **arguments), service)
+
+    def pages(self, service, member, **arguments):
+        """The elements of a list that has several pages: pages("programs.list", "programs")."""
+        start = 0
+        while True:
+            reply = self.call(service, **{**arguments, "from": start})
+            yield from reply[member]
+            start = reply["next"]
+            if start == 0:
+                return
+
+    def watch_update(self, watch):
+        """Waits for the next update of a watch list, which watch.begin has begun: {"watch", "scan", "values", "left_out"}."""
+        end = time.monotonic() + self.patience
+        while True:
+            for i, update in enumerate(self.updates):
+                if update["watch"] == watch:
+                    return self.updates.pop(i)
+            if time.monotonic() > end:
+                raise ServiceRefused("watch", "no connection", f"no update within {self.patience:g} s")
+            time.sleep(0.002)
+            self.look()
+
+    def upload(self, name, data, replace=False):
+        """Writes a program; `data`: its bytes."""
+        begun = self.call("programs.begin", name=name, size=len(data), sha256=hashlib.sha256(data).hexdigest(), replace=replace)
+        for at in range(0, len(data), CHUNK_BYTES):
+            piece = base64.b64encode(data[at : at + CHUNK_BYTES]).decode("ascii")
+            self.call("programs.data", upload=begun["upload"], begin=at, data=piece)
+        return self.call("programs.finish", upload=begun["upload"])
+
+    def download(self, name):
+        """The bytes of a program."""
+        data, changed = b"", None
+        while True:
+            reply = self.call("programs.read", name=name, begin=len(data), bytes=CHUNK_BYTES)
+            if changed not in (None, reply["modified_ns"]):
+                raise ServiceRefused("programs.read", "failed", f"{name} was changed meanwhile")
+            changed = reply["modified_ns"]
+            data += base64.b64decode(reply["data"])
+            if len(data) >= reply["size"]:
+                return data

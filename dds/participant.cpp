@@ -2,6 +2,7 @@
 // Topics and QoS. See participant.hpp.
 #include "dds/participant.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -16,6 +17,9 @@ namespace {
 constexpr dds_duration_t kBlocking = DDS_MSECS(100);  // longest time for which a writer waits for a slow reader
 constexpr dds_duration_t kLiveliness = DDS_SECS(1);
 constexpr dds_duration_t kAckLifespan = DDS_SECS(10);
+constexpr dds_duration_t kRequestBlocking = DDS_SECS(5);
+constexpr dds_duration_t kRequesterLiveliness = DDS_SECS(2);  // what a client has begun ends so long after its process stands still
+constexpr dds_duration_t kRequestLifespan = DDS_SECS(5);
 constexpr dds_duration_t kAckBlocking = DDS_MSECS(5);  // short, because an answer that is not taken is kept and tried again
 
 struct Row {
@@ -36,6 +40,11 @@ const Row kTopics[] = {
     {Topic::kCommandAck, "nc_CommandAck", &nc_CommandAck_desc, false, 0},
     {Topic::kStatusCore, "nc_Status_v1", &nc_Status_v1_desc, true, 1},
     {Topic::kAlarmCore, "nc_Alarm_v1", &nc_Alarm_v1_desc, true, 1},
+    {Topic::kServiceView, "nc_ServiceView", &nc_ServiceRequest_desc, false, 0},
+    {Topic::kServiceOperate, "nc_ServiceOperate", &nc_ServiceRequest_desc, false, 0},
+    {Topic::kServiceSetUp, "nc_ServiceSetUp", &nc_ServiceRequest_desc, false, 0},
+    {Topic::kServiceMaintain, "nc_ServiceMaintain", &nc_ServiceRequest_desc, false, 0},
+    {Topic::kServiceReply, "nc_ServiceReply", &nc_ServiceReply_desc, false, 0},
 };
 
 const Row& row_of(Topic topic) {
@@ -220,7 +229,7 @@ dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::strin
                          std::string* error) {
   const Row& row = row_of(topic);
   dds_entity_t type = 0, group = 0;
-  if (!prepare(participant, row, partition, true, &type, &group, error)) return -1;
+  if (!prepare(participant, row, partition, true, &type, &group, error)) return std::min(type, group);
   const Qos qos = common_qos(row);
   if (topic == Topic::kStatus) {
     dds_qset_deadline(qos.get(), static_cast<dds_duration_t>(3e9 * period_s));
@@ -229,6 +238,11 @@ dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::strin
   if (topic == Topic::kCommandAck) {
     dds_qset_lifespan(qos.get(), kAckLifespan);
     dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kAckBlocking);
+  }
+  if (topic >= Topic::kServiceView && topic <= Topic::kServiceMaintain) {
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kRequestBlocking);
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kRequesterLiveliness);
+    if (topic != Topic::kServiceView) dds_qset_lifespan(qos.get(), kRequestLifespan);  // what is late is not to happen any more
   }
   // A disposed instance means that the control has removed it. When only the gateway ends, instances must not be disposed; they just lose their writer.
   dds_qset_writer_data_lifecycle(qos.get(), false);
@@ -242,11 +256,15 @@ dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::strin
 dds_entity_t make_reader(dds_entity_t participant, Topic topic, const std::string& partition, std::string* error) {
   const Row& row = row_of(topic);
   dds_entity_t type = 0, group = 0;
-  if (!prepare(participant, row, partition, false, &type, &group, error)) return -1;
+  if (!prepare(participant, row, partition, false, &type, &group, error)) return std::min(type, group);
   const Qos qos = common_qos(row);
   if (topic == Topic::kStatus) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, kLiveliness);
   if (topic == Topic::kCommand) {
     dds_qset_resource_limits(qos.get(), 256, 64, 64);
+    dds_qset_reader_data_lifecycle(qos.get(), DDS_SECS(10), DDS_SECS(10));
+  }
+  if (topic >= Topic::kServiceView && topic <= Topic::kServiceMaintain) {
+    dds_qset_resource_limits(qos.get(), 64, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
     dds_qset_reader_data_lifecycle(qos.get(), DDS_SECS(10), DDS_SECS(10));
   }
   const Listener listener(dds_create_listener(const_cast<char*>(row.name)));

@@ -60,6 +60,11 @@ enum class Topic {
   kCommandAck,
   kStatusCore,
   kAlarmCore,
+  kServiceView,  // the four of the requests in the order of the rights
+  kServiceOperate,
+  kServiceSetUp,
+  kServiceMaintain,
+  kServiceReply,
 };
 
 const char* topic_name(Topic topic);

@@ -103,6 +103,7 @@ bool narrow(const X509* certificate, const std::string& path, Identity* identity
   return true;
 }
 
+// The whole subject, "OU=2f8a,CN=anna".
 std::string subject_of(const X509* certificate) {
   const Owned<BIO> out(BIO_new(BIO_s_mem()));
   X509_NAME_print_ex(out.get(), X509_get_subject_name(certificate), 0, XN_FLAG_RFC2253);
@@ -145,6 +146,12 @@ std::string element(const std::string& xml, const std::string& name) {
   return to == std::string::npos ? std::string() : xml.substr(from + begin.size(), to - from - begin.size());
 }
 
+// "CN=anna" of "OU=2f8a,CN=anna".
+std::string name_of(const std::string& subject) {
+  const std::size_t from = subject.rfind("CN=");
+  return from == std::string::npos ? subject : subject.substr(from, subject.find(',', from) - from);
+}
+
 std::optional<std::int64_t> time_of(const std::string& text) {
   std::tm parts{};
   const char* rest = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
@@ -152,11 +159,11 @@ std::optional<std::int64_t> time_of(const std::string& text) {
   return timegm(&parts);
 }
 
-bool check_permissions(const std::string& path, X509* authority, Identity* identity, std::string* error) {
+bool check_permissions(const std::string& path, X509* authority, const std::string& subject, Identity* identity, std::string* error) {
   std::string xml;
   if (!signed_text(path, authority, &xml, error)) return false;
-  if (xml.find("<subject_name>" + identity->subject + "</subject_name>") == std::string::npos) {
-    *error = path + ": is for " + element(xml, "subject_name") + ", but the certificate is that of " + identity->subject;
+  if (xml.find("<subject_name>" + subject + "</subject_name>") == std::string::npos) {
+    *error = path + ": is for " + element(xml, "subject_name") + ", but the certificate is that of " + subject;
     return false;
   }
   const std::optional<std::int64_t> begins = time_of(element(xml, "not_before")), ends = time_of(element(xml, "not_after"));
@@ -207,7 +214,8 @@ bool read_identity(const std::string& folder, Identity* identity, std::string* e
   if (!permissions_authority || !narrow(permissions_authority.get(), base + kPermissionsCa, identity, error)) return false;
   const Owned<X509> certificate = read_certificate(base + kCertificate, error);
   if (!certificate || !narrow(certificate.get(), base + kCertificate, identity, error)) return false;
-  identity->subject = subject_of(certificate.get());
+  const std::string subject = subject_of(certificate.get());
+  identity->subject = name_of(subject);
   if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1) {
     *error = base + kCertificate + ": is not signed by " + kIdentityCa;
     return false;
@@ -219,9 +227,14 @@ bool read_identity(const std::string& folder, Identity* identity, std::string* e
     return false;
   }
   std::string governance;
+  for (const char* file : {kPermissions, kGovernance, kPermissionsCa}) {
+    std::string text;
+    if (!read_file(base + file, &text, error)) return false;
+    identity->rules += text;
+  }
   return check_revoked(base + kRevoked, authority.get(), certificate.get(), identity, error) &&
          signed_text(base + kGovernance, permissions_authority.get(), &governance, error) &&
-         check_permissions(base + kPermissions, permissions_authority.get(), identity, error);
+         check_permissions(base + kPermissions, permissions_authority.get(), subject, identity, error);
 }
 
 std::string stamp_of(const std::string& folder) {

@@ -14,7 +14,8 @@ namespace nc::dds {
 
 struct Identity {
   std::string folder;
-  std::string subject;         // "CN=anna"
+  std::string subject;         // "CN=anna"; the certificate and the permissions may say more
+  std::string rules;           // the permissions, the governance and their authority, as they are in the files
   bool has_revoked = false;    // there is a list of revoked certificates
   std::int64_t begins_s = 0;   // seconds since 1970; it is valid from here
   std::int64_t ends_s = 0;     // up to here, exclusive: the earliest end of certificate, authorities and permissions

@@ -72,7 +72,7 @@ enum class Answer : std::uint8_t {
   kQueueFull,
   kNotInThisMode,
   kNotWhileRunning,  // a program is in execution or interrupted: reset first
-  kMiddleOfBlock,    // the program was stopped in the middle of a block: manual motion is possible only at the end of a block
+  kMiddleOfBlock,    // the program was stopped in the middle of a block, where this is not possible
   kNoProgram,        // nothing selected
   kAlarmActive,      // reset first
   kResetting,        // a reset is still going on
@@ -111,7 +111,7 @@ enum class Answer : std::uint8_t {
   kRestartSearch,     // a place in the program is being looked for
   kRestartLost,       // the place in the program was not found, or was forgotten
   kRestartOpen,       // entries of the recovery list are open
-  kRestartAxes,       // an axis is not where a program that begins inside goes on
+  kRestartAxes,       // an axis is not where a program goes on that begins inside, or that stands in a feed hold
   kNoPlace,           // there is nothing to which the axis could go back
   kNotChecked,        // the program has not passed its check (StartGate)
   kNoAnswer           // the runtime does not run
@@ -129,7 +129,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kNotWhileRunning:
       return "a program is in execution or interrupted: reset first";
     case Answer::kMiddleOfBlock:
-      return "the program stands in the middle of a block: go on to its end (single block), or reset";
+      return "the program is amid a block, or a tap lets its spindle go: wait, go on to the end of it (single block), or reset";
     case Answer::kNoProgram:
       return "no program is selected";
     case Answer::kAlarmActive:
@@ -209,7 +209,7 @@ constexpr const char* answer_text(Answer answer) {
     case Answer::kRestartAxes:
       return "an axis is not where the program goes on: bring it there by hand first";
     case Answer::kNoPlace:
-      return "no program in a block stop has left the axis anywhere";
+      return "no program that is stopped has left the axis anywhere";
     case Answer::kNotChecked:
       return "the program has not passed its check";
     case Answer::kNoAnswer:

@@ -162,6 +162,7 @@ struct CanIoConfig {
   std::string name, eds;
   ConfigPlace place;     // of its node number
   ConfigPlace eds_place;
+  std::vector<ConfigPlace> objects;  // of each of its own objects
 };
 
 // The shared-memory segment for readers in other processes (runtime/share/).

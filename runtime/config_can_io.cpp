@@ -58,7 +58,7 @@ void read_module(TableReader* reader, Config* config) {
   entry.place = {reader->line("node"), reader->path("node")};
   reader->integer("every", &node.module->every, 1, kMostEvery);
   reader->boolean("alarm", &bus.alarm);
-  read_identity(reader, &node);
+  read_identity(reader, &node, &entry.objects);
   if (reader->string("eds", &entry.eds)) entry.eds_place = {reader->line("eds"), reader->path("eds")};
   if (config->machine_kind == nullptr || config->machine_kind->name != "canopen")
     return reader->error("name", "an I/O module is on the bus of the drives: it needs machine.hal = \"canopen\"");
@@ -150,10 +150,11 @@ PlaceOnBus read_point_can_io(TableReader* point_reader, const hal::Point& point,
   return result;
 }
 
-// The data sheet can be compared only when all points are known.
+// Its PDOs, and so the objects that the control sets and those of the data sheet, are known only behind all points.
 void check_can_io(TableReader* root, const Config& config) {
   for (const CanIoConfig& entry : config.can_io) {
     if (!entry.named) root->errors()->add(entry.place.line, entry.place.key, "no point uses the module \"" + entry.name + "\"");
+    check_objects(root->errors(), config.canopen, config.canopen.nodes[entry.node], entry.objects);
     if (entry.eds.empty()) continue;
     for (const std::string& error : eds_errors(entry.eds, config, config.canopen.nodes[entry.node])) root->errors()->add(entry.eds_place.line, entry.eds_place.key, error);
   }

@@ -43,18 +43,28 @@ void read_gear_select(TableReader* reader, const Config& config, SpindleMap* spi
   if (spindle->gears.size() == 1 && given) reader->error("gear_select", "is for several gears");
 }
 
+// A point asks for one thing only: a spindle that is to turn both ways, or a way and to its angle, would stand.
+void check_ways(TableReader* reader, const char* key, int point, const SpindleMap& spindle, const Config& config) {
+  if (point < 0) return;
+  const std::string name = "point \"" + config.points.at(static_cast<unsigned>(point)).name + "\" turns it ";
+  if (point == spindle.forward) reader->error(key, name + "forward already");
+  else if (point == spindle.backward) reader->error(key, name + "backward already");
+}
+
 void read_orient(TableReader* spindle_reader, const Config& config, SpindleMap* spindle) {
   spindle_reader->table("orient", [&](TableReader& reader) {
     double rpm = 60, angle = 0, window = 1;
     reader.number("speed", &rpm, 0.1, kMostRpm);
     reader.number("angle", &angle, 0, 359.999);
     reader.number("window", &window, 0.01, 90);
+    if (spindle->law.most > 0 && rpm / 60 > spindle->law.most) reader.error("speed", "is above max_rpm (" + number_text(spindle->law.most * 60) + ")");
     spindle->law.orient_speed = rpm / 60;
     spindle->law.orient_angle = angle / 360;
     spindle->law.orient_window = window / 360;
     for (const char* key : {"request", "done"}) reader.require(key);
     read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle->orient);
     read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, config, &spindle->oriented);
+    check_ways(&reader, "request", spindle->orient, *spindle, config);
     if (spindle->gears.size() > 1) reader.error("request", "a spindle with gear steps cannot be oriented by its motor: behind a change nobody knows its angle");
   });
 }
@@ -84,14 +94,17 @@ void read_drive_spindle(TableReader* reader, const Config& config, NodeMap* node
   reader->boolean("reverse", &reverse);
   if (reader->number("max_rpm", &rpm, 1, kMostRpm)) spindle.law.most = rpm / 60;
   if (reader->number("acceleration", &acceleration, 1, 1e9)) spindle.law.acceleration = acceleration / 60;
-  reader->number("gain", &spindle.law.gain, 1, 200);
+  read_loop_gain(reader, "gain", 1, 200, config.canopen.sync_us, "the spindle", &spindle.law.gain);
   if (reader->choice("mode", {"cyclic", "profile"}, &mode) && mode == 1) map.mode = hal::canopen::kModeProfileVelocity;
   else map.mode = hal::canopen::kModeCyclicVelocity;
   if (double lag_ms = 0; reader->number("tap_axis_lag_ms", &lag_ms, 0, kMostLag_ms)) spindle.tap_axis_lag_s = lag_ms / 1000;
   read_gears(reader, &spindle);
   read_gear_select(reader, config, &spindle);
   read_drive_point(reader, "forward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle.forward);
-  read_drive_point(reader, "backward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle.backward);
+  int backward = -1;
+  read_drive_point(reader, "backward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &backward);
+  check_ways(reader, "backward", backward, spindle, config);
+  spindle.backward = backward;
   read_orient(reader, config, &spindle);
   check_velocity(reader, spindle);
   if (reverse)

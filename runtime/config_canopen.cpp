@@ -2,6 +2,7 @@
 // Configuration section [canopen]: the bus, its drives and their axes. docs/canopen.md.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -75,9 +76,8 @@ void read_probe(TableReader* axis, AxisMap* map) {
   });
 }
 
-// `mode = "velocity"`: the drive is given a speed. The gain is bounded by the SYNCs that a correction takes to act.
+// `mode = "velocity"`: the drive is given a speed.
 void read_mode(TableReader* reader, const BusMap& bus, double encoder, AxisMap* map) {
-  constexpr double kMostTurn = 0.1;  // of an error that may be corrected in a SYNC: what is on its way for three of them must not be corrected twice
   unsigned mode = 0;
   double scale = encoder / 60;  // 60FFh in increments/s
   reader->choice("mode", {"position", "velocity"}, &mode);
@@ -87,8 +87,7 @@ void read_mode(TableReader* reader, const BusMap& bus, double encoder, AxisMap* 
     return;
   }
   map->mode = hal::canopen::kModeCyclicVelocity;
-  if (reader->number("velocity_gain", &map->velocity_gain, 0.1, 1000) && map->velocity_gain * bus.sync_us * 1e-6 > kMostTurn)
-    reader->error("velocity_gain", "is too large for a SYNC of " + std::to_string(bus.sync_us) + " us: the axis would swing; at most " + number_text(kMostTurn / (bus.sync_us * 1e-6)));
+  read_loop_gain(reader, "velocity_gain", 0.1, 1000, bus.sync_us, "the axis", &map->velocity_gain);
   reader->number("velocity_delay", &map->velocity_delay, 0, hal::canopen::kMostVelocityDelay);
   reader->number("velocity_scale", &scale, 1e-6, 1e6);
   if (encoder > 0) map->velocity_per_increment = scale * 60 / encoder;
@@ -151,7 +150,7 @@ void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
   node->axes.push_back(map);
 }
 
-void read_object(TableReader* reader, NodeMap* node) {
+void read_object(TableReader* reader, NodeMap* node, std::vector<ConfigPlace>* places) {
   ObjectValue object;
   std::int64_t value = 0;
   for (const char* key : {"index", "value"}) reader->require(key);
@@ -162,9 +161,18 @@ void read_object(TableReader* reader, NodeMap* node) {
   const std::int64_t span = std::int64_t{1} << 8 * object.bytes;
   if (reader->integer("value", &value, -span / 2, span - 1)) object.value = static_cast<std::uint32_t>(value);
   node->objects.push_back(object);
+  places->push_back({reader->line("index"), reader->path("index")});
 }
 
 }  // namespace
+
+// The gain is bounded by the SYNCs that a correction takes to act.
+void read_loop_gain(TableReader* reader, const char* key, double least, double most, unsigned sync_us, const char* moves, double* gain) {
+  constexpr double kMostTurn = 0.1;  // of an error that may be corrected in a SYNC: what is on its way for three of them must not be corrected twice
+  const double bound = kMostTurn / (sync_us * 1e-6);
+  if (!reader->number(key, gain, least, most)) *gain = std::min(*gain, bound);
+  else if (*gain > bound) reader->error(key, "is too large for a SYNC of " + std::to_string(sync_us) + " us: " + moves + " would swing; at most " + number_text(bound));
+}
 
 void read_drive_place(TableReader* reader, const NodeMap& node, AxisMap* map) {
   map->slot = static_cast<unsigned>(node.axes.size());
@@ -189,10 +197,21 @@ void read_drive_point(TableReader* reader, const char* key, hal::PointType type,
     reader->error(key, "point \"" + name + "\" is on another bus");
 }
 
-void read_identity(TableReader* reader, NodeMap* node) {
+void read_identity(TableReader* reader, NodeMap* node, std::vector<ConfigPlace>* objects) {
   reader->integer("vendor", &node->vendor, 0, 0xFFFFFFFFll);
   reader->integer("product", &node->product, 0, 0xFFFFFFFFll);
-  reader->tables("objects", [&](TableReader& object, std::size_t) { read_object(&object, node); });
+  reader->tables("objects", [&](TableReader& object, std::size_t) { read_object(&object, node, objects); });
+}
+
+void check_objects(ErrorList* errors, const BusMap& bus, const NodeMap& node, const std::vector<ConfigPlace>& objects) {
+  const std::vector<ObjectValue> own = hal::canopen::own_objects(bus, node);
+  for (std::size_t n = 0; n < objects.size(); ++n) {
+    const ObjectValue& given = node.objects[n];
+    if (std::none_of(own.begin(), own.end(), [&](const ObjectValue& each) { return each.index == given.index && each.sub == given.sub; })) continue;
+    char name[16];
+    std::snprintf(name, sizeof name, "%04Xh:%u", given.index, given.sub);
+    errors->add(objects[n].line, objects[n].key, std::string(name) + " is set by the control itself, and would be taken back behind it");
+  }
 }
 
 std::vector<std::string> eds_errors(const std::string& name, const Config& config, const NodeMap& node) {
@@ -222,9 +241,13 @@ void read_drive(TableReader* reader, Config* config) {
   const bool numbered = reader->integer("node", &node.id, hal::canopen::kFirstNode, hal::canopen::kLastNode);
   node.name = "drive " + std::to_string(node.id);
   reader->string("name", &node.name);
+  for (const NodeMap& other : bus.nodes)
+    if (other.name == node.name) reader->error("name", (other.module ? "module \"" : "drive \"") + other.name + "\" is node " + std::to_string(other.id) + " already");
   reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, *config, &node); });
   reader->tables("spindle", [&](TableReader& spindle, std::size_t) { read_drive_spindle(&spindle, *config, &node); });
-  read_identity(reader, &node);
+  std::vector<ConfigPlace> objects;
+  read_identity(reader, &node, &objects);
+  check_objects(reader->errors(), bus, node, objects);
   std::string eds;
   if (reader->string("eds", &eds))
     for (const std::string& error : eds_errors(eds, *config, node)) reader->error("eds", error);

@@ -41,17 +41,15 @@ void read_limits(TableReader* reader, AxisEntry* entry) {
     axis.soft_max = numbers[1];
     if (numbers[0] >= numbers[1]) reader->error("soft_limits", "the first number must be below the second");
   }
-  if (reader->numbers("reference", &numbers, 1, 4)) {
-    std::copy(numbers.begin(), numbers.end(), axis.reference);
-    for (const double position : numbers)  // outside the soft limits every G28 would be an alarm
-      if (axis.soft_limited && (position < axis.soft_min || position > axis.soft_max)) {
-        reader->error("reference", "must be inside soft_limits");
-        break;
-      }
-  }
-  if (reader->number("start", &entry->start, -kMaxLength, kMaxLength) && axis.soft_limited &&
-      (entry->start < axis.soft_min || entry->start > axis.soft_max))
-    reader->error("start", "must be inside soft_limits");
+  const bool referenced = reader->numbers("reference", &numbers, 1, 4);
+  if (referenced) std::copy(numbers.begin(), numbers.end(), axis.reference);
+  const auto outside = [&axis](double position) { return axis.soft_limited && axis.soft_min < axis.soft_max && (position < axis.soft_min || position > axis.soft_max); };
+  // Outside the soft limits every G28 would be an alarm.
+  if (!referenced) numbers = {axis.reference[0]};
+  if (std::any_of(numbers.begin(), numbers.end(), outside))
+    reader->error(referenced ? "reference" : "soft_limits", referenced ? "must be inside soft_limits" : "do not have the axis' reference position (0 where it is not given) inside: reference");
+  const bool started = reader->number("start", &entry->start, -kMaxLength, kMaxLength);
+  if (outside(entry->start)) reader->error(started ? "start" : "soft_limits", started ? "must be inside soft_limits" : "do not have the axis' start (0 where it is not given) inside: start");
 }
 
 // Returns the letter of the axis, or 0 when the key is missing or wrong, which is reported.

@@ -110,7 +110,7 @@ void read_tool_offsets(TableReader* root, Config* config) {
       setting.place = {line_of(node), reader.path(name)};
       for (const ToolOffsetSetting& other : config->tool_offsets)
         if (other.number == *number)
-          reader.error(name, "offset " + std::to_string(*number) + " is already there");
+          reader.errors()->add_twice(setting.place, other.place, "offset " + std::to_string(*number) + " is already there");
       if (const toml::table* table = node.as_table()) {
         TableReader columns(*table, reader.path(name), reader.errors());
         for (unsigned c = 0; c < 4; ++c)

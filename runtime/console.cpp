@@ -185,6 +185,7 @@ std::string state_alone(const nc_outputs& outputs) {
 
 std::string state_text(const nc_outputs& outputs) {
   std::string text = state_alone(outputs);
+  if (outputs.restart_axes != 0 && outputs.cause != NC_CAUSE_RESTART) text += ", axes away from the path";
   if (outputs.moved_by_hand != 0) text += outputs.manual_absolute ? ", moved by hand" : ", by hand: coordinates shift";
   return text;
 }

@@ -166,15 +166,16 @@ void Feeder::follow_outputs() {
 }
 
 // Programs that are ready to start are read again from their heads, because they may have been read ahead with values that are no longer those of the
-// control. Nothing can be started until the end of this step. A program that stands in an alarm is left: a reset comes first, which reads it again.
-nc_status Feeder::read_again() {
+// control. Nothing can be started until the end of this step. A program that stands in an alarm is left: a reset comes first, which reads it again. `but`: so are
+// these part systems.
+nc_status Feeder::read_again(std::uint32_t but, const char* why) {
   for (unsigned s = 0; s < systems_; ++s) {
     System& system = system_[s];
-    if (!system.selected || system.ended || seen_.system[s].nc.state == NC_STATE_ALARM) continue;
+    if ((but >> s & 1u) != 0 || !system.selected || system.ended || seen_.system[s].nc.state == NC_STATE_ALARM) continue;
     scan_->set_loaded(Scan::kNothingLoaded);  // until tell_what_is_loaded() at the end of this step
     const nc_status status = system.mdi ? nc_->load_mdi(s, system.blocks.data(), system.blocks.size()) : nc_->select(s, system.file);
     if (status == NC_E_STATE) return status;
-    restart_[s].lose("tables or outputs were changed");
+    restart_[s].lose(why);
     if (status < 0) system = {};
   }
   return NC_OK;
@@ -185,12 +186,24 @@ nc_status Feeder::read_again() {
 void Feeder::leave_kept() {
   for (KeptCopy& copy : kept_) {
     if (!copy.wanted.load(std::memory_order_acquire)) continue;
-    std::string bytes = &copy == &kept_[kVariables] ? nc_->variables() : &copy == &kept_[kTables] ? nc_->tables() : &copy == &kept_[kStops] ? stop_bytes() : place_bytes();
+    std::string bytes = &copy == &kept_[kVariables] ? kept_variables() : &copy == &kept_[kTables] ? kept_tables() : &copy == &kept_[kStops] ? stop_bytes() : place_bytes();
     copy.wanted.store(false, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     copy.bytes = std::move(bytes);
     copy.ready = true;
   }
+}
+
+std::string Feeder::kept_variables() {
+  std::string bytes = nc_->variables();
+  for (const unsigned s : newest_search_first()) bytes = restart_[s].kept_variables(bytes);
+  return bytes;
+}
+
+std::string Feeder::kept_tables() {
+  std::string text = nc_->tables();
+  for (unsigned s = 0; s < systems_; ++s) text = restart_[s].kept_tables(text);
+  return text;
 }
 
 std::string Feeder::place_bytes() {
@@ -222,6 +235,7 @@ ProgramPlace Feeder::place_of(unsigned s, const Snapshot& now) const {
   place.size = nc_->program_size(system_[s].file);
   place.hash = stops_[s].hash;
   for (unsigned a = 0; a < letters.size(); ++a) place.begun.emplace_back(letters[a], stops_[s].begun.v[a]);
+  place.coordinates = stops_[s].coordinates;
   place.cause = "power";
   return place;
 }
@@ -421,7 +435,7 @@ void Feeder::complete_reset() {
   if (!scan_->reset_waits()) return;
   for (unsigned s = 0; s < systems_; ++s) {
     if (nc_->reset(s) == NC_E_STATE) return;  // not yet: the next step tries again
-    restart_[s].end("a reset has ended it");
+    restart_[s].reset();
     if (system_[s].mdi) system_[s].clear();
     system_[s].ended = system_[s].alarmed = false;
   }
@@ -456,6 +470,7 @@ void Feeder::rewind_ended() {
     info.ended = true;
     info.ended_ok = ok;
     ++info.runs;
+    if (ok) ++info.good_runs;
   }
 }
 

@@ -47,7 +47,8 @@ struct FeederInfo {
     Selected selected;            // program that is at its head or running
     bool ended = false;           // the last run came to its end (M02, M30); false again after a reset or when a program is selected
     bool ended_ok = false;        // the last run that ended did so without an alarm
-    std::uint64_t runs = 0;       // number of runs that ended
+    std::uint64_t runs = 0;       // number of runs that ended, with an alarm or without
+    std::uint64_t good_runs = 0;  // those without one, which is what counts parts
     std::uint32_t main_line = 0;  // line of the main program that was finished last
     std::uint64_t begun_again = 0;  // number of times that M99 of the main program has begun it again, since it was selected or loaded
     std::uint32_t again_line = 0;   // line in which that M99 stands
@@ -129,6 +130,9 @@ class Feeder {
   enum Kept { kVariables, kTables, kPlace, kStops, kKeptCount };
   void want(Kept what) { kept_[what].wanted.store(true, std::memory_order_release); }
   bool take(Kept what, std::string* bytes);
+  // What is kept over power off: without what a search for a restart has written whose program has not gone on. Feeder thread, or when it has ended.
+  std::string kept_variables();
+  std::string kept_tables();
   // The places in the programs while a failure of the power is not acknowledged, else "" (runtime/retain/place.hpp). Feeder thread, or when it has ended.
   std::string place_bytes();
   // Where programs have stopped that did not come to their end. Feeder thread, or when it has ended.
@@ -162,19 +166,21 @@ class Feeder {
   Answer confirm_restart(const Command& command);
   Answer cancel_restart(const Command& command);
   bool restart_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
-  bool stopped_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what);
+  bool stopped_place(unsigned system, const RestartWish& wish, nc_restart_place* place, std::string* what, CoordinatesBegun* with);
   void follow_restart();
   void follow_search();
   void begin_search(unsigned system, const SearchAsked& asked);
   void go_on_searching(unsigned system);
   void answer_search(unsigned system, SearchResult result, const std::string& why);
+  void bar_start(unsigned system, SearchResult result, const std::string& why);
   void put_back_searched();
   void tell_restart();
   void follow_stops();
   ProgramPlace place_of(unsigned system, const Snapshot& now) const;
   Answer look(const Command& command);
   Answer change(const Command& command);
-  nc_status read_again();
+  nc_status read_again(std::uint32_t but = 0, const char* why = "tables or outputs were changed");
+  std::uint32_t places_that_stay() const;
   bool claim(std::uint64_t ticket);
   Answer refuse(Answer answer, std::string why);
   void leave_kept();
@@ -221,7 +227,10 @@ class Feeder {
   void restore_parts();
   void tell_what_is_loaded();
   System system_[NC_MAX_SYSTEMS];
+  std::vector<unsigned> newest_search_first() const;
+  bool may_search(unsigned system) const;
   RestartDesk restart_[NC_MAX_SYSTEMS];
+  std::uint64_t searches_ = 0;  // that were begun
   // An external search that is under way.
   struct Search {
     enum Step : std::uint8_t { kNothing, kChecks, kLooks } step = kNothing;
@@ -241,6 +250,7 @@ class Feeder {
   struct Stops {
     bool runs = false, any = false, any_power = false;
     nc_axes begun{};        // where the axes stood when the program in execution was begun
+    CoordinatesBegun coordinates;  // what it was begun with
     std::string hash;       // of the part program that is selected
     ProgramPlace now, last, power;
   };

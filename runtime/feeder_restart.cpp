@@ -2,6 +2,7 @@
 // A program that is begun inside, in the feeder: the place that the operator names, the search beside the other work, and where programs have stopped.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "runtime/feeder.hpp"
 #include "runtime/retain/place.hpp"
@@ -46,7 +47,8 @@ Answer Feeder::look_for(const Command& command, const RestartWish& wish) {
   nc_restart_place place;
   nc_restart_place_init(&place);
   std::string what;
-  const bool known = wish.by < RestartBy::kPowerOff ? restart_place(s, wish, &place, &what) : stopped_place(s, wish, &place, &what);
+  CoordinatesBegun with;
+  const bool known = wish.by < RestartBy::kPowerOff ? restart_place(s, wish, &place, &what) : stopped_place(s, wish, &place, &what, &with);
   if (!known) return refuse(Answer::kNoPlace, what);
   if (gate_ != nullptr && !gate_->may_begin(s, system_[s].file)) return Answer::kNotChecked;  // the search executes what the program writes
   place.mirror = seen_.system[s].mirror;
@@ -59,7 +61,7 @@ Answer Feeder::look_for(const Command& command, const RestartWish& wish) {
   scan_->set_loaded(Scan::kNothingLoaded);  // until the end of this step: by then the scan knows of the search
   restart_[s].lose("another place is looked for");
   put_back_searched();
-  const nc_status status = restart_[s].begin(nc_, s, place, world, what);
+  const nc_status status = restart_[s].begin(nc_, s, place, world, what, with, ++searches_);
   if (status < 0) return refuse(Answer::kRefusedByControl, std::string("the place cannot be looked for: ") + nc_status_text(status));
   follow_restart();
   return Answer::kDone;
@@ -78,7 +80,7 @@ bool Feeder::restart_place(unsigned s, const RestartWish& wish, nc_restart_place
 }
 
 // Where the program was stopped, by whatever, or where it was when the power failed. It must be the same program still.
-bool Feeder::stopped_place(unsigned s, const RestartWish& wish, nc_restart_place* place, std::string* what) {
+bool Feeder::stopped_place(unsigned s, const RestartWish& wish, nc_restart_place* place, std::string* what, CoordinatesBegun* with) {
   const bool power = wish.by == RestartBy::kPowerOff;
   const Stops& stops = stops_[s];
   const ProgramPlace& at = power ? stops.power : stops.last;
@@ -95,12 +97,16 @@ bool Feeder::stopped_place(unsigned s, const RestartWish& wish, nc_restart_place
   if (name != at.program) return refused(std::string(when) + " the program was " + at.program + ", and " + name + " is selected");
   if (nc_->program_size(system_[s].file) != at.size || (!at.hash.empty() && at.hash != stops.hash))
     return refused("the program has been changed since: the place " + std::string(when) + " is another one in it. Name a line or a sequence number");
+  const std::string letters = nc_->axis_letters(s), mirrored = mirrored_axes(seen_.system[s].mirror, letters);
+  if (at.coordinates.mirror_known && at.coordinates.mirrored != mirrored)
+    return refused("the machine's switches (plc.mirror) mirror " + axes_words(mirrored) + ", and the run that was stopped was begun with " + axes_words(at.coordinates.mirrored) +
+                   ": set them as they were, or name a line or a sequence number");
   place->by = NC_RESTART_BLOCK;
   place->number = at.blocks;
   place->start_given = true;
-  const std::string letters = nc_->axis_letters(s);
   for (const auto& [axis, value] : at.begun)
     if (const std::size_t index = letters.find(axis); index != std::string::npos) place->start.v[index] = value;
+  *with = at.coordinates;
   *what = "behind block " + std::to_string(at.blocks) + ", " + when;
   return true;
 }
@@ -136,9 +142,10 @@ void Feeder::follow_restart() {
   for (unsigned s = 0; s < systems_; ++s) {
     RestartDesk& desk = restart_[s];
     const bool searched = desk.searching();
+    if (searched && (seen_.resetting || scan_->reset_waits())) desk.reset();  // the control gives the search up, which is no place that was not found
     desk.follow(seen_, s);
     bool again = searched && !desk.searching();
-    if (desk.searching()) again = desk.search(nc_, s);
+    if (desk.searching() && may_search(s)) again = desk.search(nc_, s);
     // What was read on the way is not what a start should find: that begins at the head of the program.
     if (again && system_[s].selected && !system_[s].mdi) {
       scan_->set_loaded(Scan::kNothingLoaded);
@@ -148,12 +155,42 @@ void Feeder::follow_restart() {
   tell_restart();
 }
 
+// One search after the other, and none before what an earlier one has written is put back.
+bool Feeder::may_search(unsigned s) const {
+  for (unsigned other = 0; other < systems_; ++other) {
+    const RestartDesk& desk = restart_[other];
+    if (other != s && (desk.owes() || (desk.searching() && desk.order() < restart_[s].order()))) return false;
+  }
+  return true;
+}
+
+std::vector<unsigned> Feeder::newest_search_first() const {
+  std::vector<unsigned> order(systems_);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [this](unsigned a, unsigned b) { return restart_[a].order() > restart_[b].order(); });
+  return order;
+}
+
+// Several part systems that are begun inside are as if each had come to its place behind those that were looked for before, and in front of the others. So a place stays
+// when the values are put back that a later search has written, or an earlier one that has written nothing; it is lost with those that it was found with.
+std::uint32_t Feeder::places_that_stay() const {
+  std::uint32_t stay = 0;
+  for (unsigned s = 0; s < systems_; ++s) {
+    const auto was_read_with = [&](const RestartDesk& other) { return other.order() < restart_[s].order() && other.owes_values(nc_); };
+    if (restart_[s].in_hand() && std::none_of(restart_, restart_ + systems_, was_read_with)) stay |= 1u << s;
+  }
+  return stay;
+}
+
 // What searches have written whose programs do not go on from their places. Programs that are ready to start are read again, because that are other values.
 void Feeder::put_back_searched() {
-  const auto owes = [](const RestartDesk& desk) { return desk.owes(); };
-  if (std::none_of(restart_, restart_ + systems_, owes) || read_again() == NC_E_STATE) return;
-  for (RestartDesk* desk = restart_; desk != restart_ + systems_; ++desk) desk->put_back(nc_);
-  (void)read_again();  // cannot be refused now: nothing could be started since the first time
+  if (std::none_of(restart_, restart_ + systems_, [](const RestartDesk& desk) { return desk.owes(); })) return;
+  const std::uint32_t stay = places_that_stay();
+  const RestartDesk* const with = std::find_if(restart_, restart_ + systems_, [this](const RestartDesk& desk) { return desk.owes_values(nc_); });
+  const std::string why = "what the search in part system " + std::to_string(with - restart_ + 1) + " had written was put back, and this place was found with it";
+  if (read_again(stay, why.c_str()) == NC_E_STATE) return;
+  for (const unsigned s : newest_search_first()) restart_[s].put_back(nc_);
+  (void)read_again(stay);  // cannot be refused now: nothing could be started since the first time
 }
 
 // To the scan, before it may begin what this step has loaded, and to who shows it.
@@ -184,6 +221,9 @@ void Feeder::follow_stops() {
     if (runs && !stops.runs) {
       const RestartPhase phase = restart_[s].status().phase;
       stops.begun = phase == RestartPhase::kFound || phase == RestartPhase::kStands ? restart_[s].start() : seen_.system[s].begun;
+      stops.coordinates = coordinate_rows(nc_->coordinates(s, true), nc_->axis_letters(s));
+      stops.coordinates.mirror_known = true;
+      stops.coordinates.mirrored = mirrored_axes(seen_.system[s].mirror, nc_->axis_letters(s));
     }
     const bool stopped = stops.runs && !runs;
     if (runs || (stopped && state == NC_STATE_ALARM)) stops.now = place_of(s, seen_);

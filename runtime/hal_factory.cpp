@@ -27,7 +27,8 @@ constexpr MachineKind kMachines[] = {
      .read = read_canopen,
      .make = make_canopen,
      .resources = canopen_resources,
-     .no_virtual_time = "the drives of a bus run in real time"},
+     .no_virtual_time = "the drives of a bus run in real time",
+     .load = canopen_load},
 };
 
 constexpr PointBusKind kPointBuses[] = {

@@ -45,6 +45,8 @@ struct MachineKind {
   void (*resources)(const Config& config, std::vector<MachineResource>* resources);
   // Why it cannot run on virtual time; empty = it can.
   std::string_view no_virtual_time;
+  // How full the bus of its axes is, with the arithmetic, for whoever checks the configuration. Null = it has no bus.
+  std::string (*load)(const Config& config) = nullptr;
 };
 
 // A bus that carries points: each [[<name>]] is one, and the table `<name>` of a [[point]] puts the point on it.

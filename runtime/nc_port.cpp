@@ -80,6 +80,24 @@ std::uint64_t LibNc::program_size(unsigned file) {
   return nc_program_get(control_, file, &info) == NC_OK ? info.size : 0;
 }
 
+nc_restart_coordinates LibNc::coordinates(unsigned system, bool begun) {
+  struct Look {
+    unsigned system;
+    bool begun;
+    nc_restart_coordinates seen;
+  } look{api_system(system), begun, {}};
+  nc_look_executed(
+      control_,
+      [](void* user, const nc_control* seen) {
+        Look& to = *static_cast<Look*>(user);
+        (void)nc_restart_coordinates_get(seen, to.system, to.begun, &to.seen);
+      },
+      &look);
+  return look.seen;
+}
+nc_status LibNc::set_coordinates(unsigned system, const nc_restart_coordinates& coordinates) {
+  return nc_restart_coordinates_set(control_, api_system(system), &coordinates);
+}
 nc_status LibNc::restart_begin(unsigned system, const nc_restart_place& place, const nc_world& world) {
   return nc_restart_begin(control_, api_system(system), &place, &world);
 }

@@ -57,7 +57,9 @@ class NcPort {
   // The program in the store that has this name; -1 = there is none. Below, the bytes of a program.
   virtual int program_of(const std::string& /*name*/) { return -1; }
   virtual std::uint64_t program_size(unsigned /*file*/) { return 0; }
-  // nc/restart.h
+  // nc/restart.h; the coordinates are those of the executed blocks, or, with `begun`, those with which the program in execution, or the last one, was begun.
+  virtual nc_restart_coordinates coordinates(unsigned /*system*/, bool /*begun*/) { return {}; }
+  virtual nc_status set_coordinates(unsigned /*system*/, const nc_restart_coordinates& /*coordinates*/) { return NC_OK; }
   virtual nc_status restart_begin(unsigned /*system*/, const nc_restart_place& /*place*/, const nc_world& /*world*/) { return NC_E_NOT_FOUND; }
   virtual nc_status restart_find(unsigned /*system*/, std::uint32_t /*budget*/, nc_restart_found* /*found*/) { return NC_E_STATE; }
   virtual nc_status restart_cancel(unsigned /*system*/) { return NC_OK; }
@@ -94,6 +96,8 @@ class LibNc final : public NcPort {
   nc_dialect dialect() const override { return static_cast<nc_dialect>(config_.dialect); }
   int program_of(const std::string& name) override;
   std::uint64_t program_size(unsigned file) override;
+  nc_restart_coordinates coordinates(unsigned system, bool begun) override;
+  nc_status set_coordinates(unsigned system, const nc_restart_coordinates& coordinates) override;
   nc_status restart_begin(unsigned system, const nc_restart_place& place, const nc_world& world) override;
   nc_status restart_find(unsigned system, std::uint32_t budget, nc_restart_found* found) override;
   nc_status restart_cancel(unsigned system) override;

@@ -99,10 +99,14 @@ std::string asker_text(const Config& config, Asker by) {
 std::string refusal_text(const Config& config, unsigned system, const Refusal& refusal) {
   if (refusal.asked == Asked::kNothing) return "";
   std::string text = asked_text(refusal.asked);
-  const nc_system_config& axes = config.nc.system[system];
-  if (refusal.axis >= 0 && refusal.axis < static_cast<int>(axes.axis_count)) text += std::string(" ") + axes.axis[refusal.axis].name;
+  const nc_system_config& axes = config.nc.system[refusal.of >= 0 ? static_cast<unsigned>(refusal.of) : system];
+  const bool named = refusal.axis >= 0 && refusal.axis < static_cast<int>(axes.axis_count), start = refusal.asked == Asked::kCycleStart;
+  const std::string axis(named ? 1 : 0, named ? axes.axis[refusal.axis].name : ' ');
+  if (named && !start) text += " " + axis;
   const bool waits = refusal.why == Answer::kNoJogFeed;  // the jog begins as soon as the feed is turned up
-  return text + (waits ? " waits: " : refusal.stopped ? " stopped: " : " refused: ") + answer_text(refusal.why);
+  text += std::string(waits ? " waits: " : refusal.stopped ? " stopped: " : " refused: ") + answer_text(refusal.why);
+  if (!named || !start) return text;
+  return text + " (" + axis + (refusal.of >= 0 ? " of part system " + std::to_string(refusal.of + 1) : "") + ")";
 }
 
 }  // namespace nc::rt

@@ -22,6 +22,7 @@ struct Refusal {
   bool stopped = false;            // the motion had begun and was stopped
   std::int8_t axis = -1;           // index, -1 = none
   Asker by = Asker::kConsole;      // who asked for a cycle start or a mode
+  std::int8_t of = -1;             // part system of the axis, where it is another one
 };
 
 // The reason as a number for monitors. Numbers never change; new ones are added at the end. The names are those of RefusalCause in dds/nc_dds.idl.

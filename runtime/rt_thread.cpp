@@ -19,7 +19,7 @@ namespace {
 #if defined(NC_UNDER_SANITIZER)
 constexpr std::size_t kStackBytes = 8 << 20;  // a sanitizer keeps data of its own on the stack
 #else
-constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kStackBytes = 512 * 1024;  // nc_create, for the check of a program and an import of parameters, takes 240 KB
 #endif
 constexpr std::size_t kPrefaultBytes = 128 * 1024;
 

@@ -187,6 +187,19 @@ void Runtime::save_when_asked() {
   else scan_->save_finished(asked, SaveResult::kNothingKept);
 }
 
+// A tap that goes into a hole is written at once: a power cut within the interval would leave it in the work, and the next start would tear it out.
+void Runtime::save_new_taps() {
+  if (control_ == nullptr || keeper_ == nullptr) return;
+  for (unsigned s = 0; s < config_.nc.system_count; ++s) {
+    nc_tap tap = NC_INIT(nc_tap);
+    if (nc_tap_get(control_, api_system(s), &tap) != NC_OK) continue;
+    nc_tap& told = tap_told_[s];
+    const bool same = tap.axis == told.axis && tap.entry == told.entry && tap.turns_per_mm == told.turns_per_mm && tap.speed == told.speed && tap.acceleration == told.acceleration;
+    told = tap;
+    if (!same && tap.axis != 0) keeper_->wake();
+  }
+}
+
 // ---- real time ----
 
 bool Runtime::start(std::string* error) {
@@ -276,6 +289,7 @@ void Runtime::feeder_thread() {
   while (!stop_feeder_.load(std::memory_order_relaxed)) {
     feeder_->step();
     save_when_asked();
+    save_new_taps();
     pollfd wake{wake_fd_, POLLIN, 0};
     const timespec timeout{0, period_ns};
     if (ppoll(&wake, 1, &timeout, nullptr) <= 0) continue;
@@ -309,7 +323,17 @@ bool Runtime::find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer
   return false;
 }
 
+// What a start begins is looked at before it: the files that its program calls may have been changed a moment ago. Without operator_, because the disk may take its time.
+bool Runtime::is_still_checked() {
+  if (gate_ == nullptr) return true;
+  const StartGate::Looked looked = gate_->look_again();
+  if (looked == StartGate::Looked::kNoAnswer) return false;
+  if (looked == StartGate::Looked::kDoubtful) (void)look([](nc_control*) {});  // behind this step of the feeder the scan knows of it
+  return true;
+}
+
 Answer Runtime::execute(Command command) {
+  if (command.kind == CommandKind::kCycleStart && !is_still_checked()) return Answer::kNotChecked;
   const std::lock_guard lock(operator_);
   return execute_alone(command);
 }

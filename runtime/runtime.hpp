@@ -142,6 +142,7 @@ class Runtime {
   bool find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer);
   void wake_feeder();
   void save_when_asked();
+  void save_new_taps();
 
   const Config& config_;
   RuntimeParts parts_;
@@ -151,8 +152,10 @@ class Runtime {
   std::unique_ptr<trace::TraceTap> trace_;
   ToolLabelTable tool_labels_;
   std::unique_ptr<RetainKeeper> keeper_;  // in real time only
+  nc_tap tap_told_[NC_MAX_SYSTEMS] = {};  // that the keeper has been told of
   std::uint32_t save_told_ = 0;           // request to write at once that the keeper has been told of
   std::string found_place_;               // where the power failed before this start; "" = nowhere
+  bool is_still_checked();
   StartGate* gate_ = nullptr;
   std::string refused_;                   // why a force was refused; guarded by operator_
   struct FreeMemory {

@@ -264,8 +264,8 @@ void Scan::hold(std::uint32_t systems) noexcept {
   held_now_ |= systems;
 }
 
-// A program that is stopped at the end of a block may be interrupted by manual motion, and one that was started in AUTO by blocks of MDI. To go on, each needs
-// the mode in which it was started.
+// A program that is stopped at the end of a block may be interrupted by manual motion, and one that was started in AUTO by blocks of MDI. In a feed hold there is
+// manual motion only, and the axes come back before the program goes on. To go on, each needs the mode in which it was started.
 Answer Scan::set_mode(Mode mode) noexcept {
   if (mode == mode_) return Answer::kDone;
   const bool active = program_active();
@@ -277,7 +277,8 @@ Answer Scan::set_mode(Mode mode) noexcept {
     if (!active) continue;
     if (mode == mode_to_go_on()) continue;
     if (mode == Mode::kAuto || (mode == Mode::kMdi && mode_to_go_on() != Mode::kAuto)) return Answer::kNotWhileRunning;
-    if ((state == NC_STATE_HOLD || state == NC_STATE_STOPPED) && !out_[s].manual_allowed) return Answer::kMiddleOfBlock;
+    const bool held = state == NC_STATE_HOLD;
+    if ((held || state == NC_STATE_STOPPED) && (!out_[s].manual_allowed || (held && mode == Mode::kMdi))) return Answer::kMiddleOfBlock;
   }
   mode_ = mode;
   return Answer::kDone;
@@ -359,6 +360,8 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
   if (at_limit_switch(ready)) return Answer::kLimitSwitch;
   for (unsigned s = 0; s < systems_; ++s)
     if ((ready >> s & 1u) != 0 && axis_not_homed(s) >= 0) return Answer::kNotHomed;
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((ready >> s & 1u) != 0 && out_[s].tap_holds != 0) return Answer::kTapInHole;  // the NC would refuse it without a word
   if (const Answer why = restart_hindrance(ready); why != Answer::kDone) return why;
   // Who commands a start behind his hold wants it. Whoever presses a button in that scan does not know of the hold.
   const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;

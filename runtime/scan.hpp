@@ -216,6 +216,7 @@ class Scan {
   void watch_approach(unsigned system, unsigned axis) noexcept;
   bool others_move(unsigned system, unsigned axis) const noexcept;
   Answer restart_hindrance(std::uint32_t ready) const noexcept;
+  bool goes_on_from_path(unsigned system) const noexcept;
   void note_given() noexcept;
   void give_commands_by_hand(unsigned system) noexcept;
   void build_nc_inputs() noexcept;
@@ -309,6 +310,7 @@ class Scan {
   bool at_rest() const noexcept;
   void refuse(unsigned system, Asked asked, Answer why, int axis = -1, bool stopped = false, Asker by = Asker::kConsole) noexcept;
   void settle(Asked asked, Answer answer, Asker by) noexcept;
+  void name_axis_away(unsigned system) noexcept;
   Asker machine_asker() const noexcept { return config_.ladder.program.empty() ? Asker::kPanel : Asker::kLadder; }
   void happened(unsigned system, Asked asked) noexcept;
   Answer in_reset() const noexcept { return reset_phase_ == ResetPhase::kHeld ? Answer::kResetHeld : Answer::kResetting; }

@@ -156,7 +156,8 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
   manual = {NC_MANUAL_JOG, 0, 0};
 }
 
-// M700 M01 0004: an axis that a program moves in a direction that is interlocked brings the whole path to rest, until it is not any more.
+// M700 M01 0004: an axis that a program moves in a direction that is interlocked brings the whole path to rest, until it is not any more. A start behind a feed hold
+// goes on with the same block, so that what has waited there goes on to wait.
 void Scan::hold_at_interlock(unsigned s) noexcept {
   std::uint32_t& waits = interlock_waits_[s];
   for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
@@ -165,7 +166,7 @@ void Scan::hold_at_interlock(unsigned s) noexcept {
     for (unsigned side = 0; side < 2; ++side)
       if ((last_requests_.system[s].interlocked[side] >> a & 1u) == 0) waits &= ~(1u << (2 * a + side));
   }
-  if (out_[s].state != NC_STATE_RUNNING) waits = 0;
+  if (out_[s].state != NC_STATE_RUNNING && out_[s].state != NC_STATE_HOLD) waits = 0;
   in_[s].interlock |= waits != 0;
 }
 
@@ -200,8 +201,10 @@ std::uint32_t Scan::power_axes(unsigned s) noexcept {
     // A drive that goes off in a program would take the axis from its path.
     seen.off = asked && (!power.free() || (!active && out_[s].distance_zero));
     seen.off |= drives_off_ && power.has_brake();
-    seen.dead = feedback_.lost || (feedback_.system[s].drive_fault >> a & 1u) != 0;
-    seen.follows = (feedback_.system[s].not_following >> a & 1u) == 0;
+    const hal::SystemFeedback& machine = feedback_.system[s];
+    const std::uint32_t let_go = machine.following_fault & machine.not_following;  // by a drive whose position loop is lost
+    seen.dead = feedback_.lost || ((machine.drive_fault | let_go) >> a & 1u) != 0;
+    seen.follows = (machine.not_following >> a & 1u) == 0;
     seen.stands = out_[s].distance_zero;
     seen.cycle_s = config_.nc.cycle_s;
     power.step(seen);

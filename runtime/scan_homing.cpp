@@ -67,7 +67,7 @@ Answer Scan::homing_hindrance(unsigned s, unsigned a) const noexcept {
   if (!config_.equipment[s][a].homing.present()) return Answer::kNoHoming;
   if (const Answer why = hand_hindrance(s, a); why != Answer::kDone) return why;
   if (axes_[s][a].locked) return Answer::kLocked;
-  if (active_systems() != 0) return Answer::kNotWhileRunning;
+  if (active_systems() != 0 || out_[s].restart_axes != 0) return Answer::kNotWhileRunning;
   if (axes_[s][a].homing.active()) return Answer::kHoming;
   return out_[s].velocity.v[a] != 0 ? Answer::kAxesMove : Answer::kDone;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program that is begun inside, in the scan (runtime/restart/): which start is refused, what the machine has got, and the return of an axis to where its
-// program goes on. The return is of any block stop in which an axis was moved by hand.
+// program goes on. The return is of any block stop and of any feed hold in which an axis was moved by hand.
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/axes/direction.hpp"
 #include "runtime/scan.hpp"
 
 namespace nc::rt {
@@ -15,8 +16,14 @@ Answer Scan::restart_hindrance(std::uint32_t ready) const noexcept {
   const std::uint32_t goes_on = mode_ == Mode::kAuto ? ready & in_state(NC_STATE_STOPPED) : 0;
   if ((goes_on & restart_bars_.load(std::memory_order_acquire)) != 0) return Answer::kRestartOpen;
   for (unsigned s = 0; s < systems_; ++s)
-    if ((goes_on >> s & 1u) != 0 && out_[s].restart_axes != 0) return Answer::kRestartAxes;
+    if ((ready >> s & 1u) != 0 && goes_on_from_path(s) && out_[s].restart_axes != 0) return Answer::kRestartAxes;
   return Answer::kDone;
+}
+
+// Behind a feed hold the path goes on from where it has stopped, also that of MDI, and so it does from the block stop that a hold is behind a thread.
+bool Scan::goes_on_from_path(unsigned s) const noexcept {
+  if (out_[s].state != NC_STATE_STOPPED) return out_[s].state == NC_STATE_HOLD;
+  return mode_ == program_mode_ || (out_[s].cause == NC_CAUSE_FEED_HOLD && (mdi_waiting() >> s & 1u) == 0);
 }
 
 // Each code with the scan in which its strobe comes on, the M code of a scan behind the others: a tool change takes the T that stands in its block. A full queue loses codes: the feeder has not run for hundreds of them, and their entries
@@ -46,8 +53,11 @@ Answer Scan::approach_hindrance(unsigned system, unsigned axis) const noexcept {
   if (const Answer why = hand_hindrance(system, axis); why != Answer::kDone) return why;
   if (others_move(system, axis)) return Answer::kAxesMove;
   const bool goes = out_[system].state == NC_STATE_MANUAL && (approach_asked_[system] >> axis & 1u) != 0;  // by hand, in the stop
-  if (out_[system].state != NC_STATE_STOPPED && !goes) return Answer::kNoPlace;
+  if (out_[system].state != NC_STATE_STOPPED && out_[system].state != NC_STATE_HOLD && !goes) return Answer::kNoPlace;
   if (axes_[system][axis].homing.active()) return Answer::kHoming;
+  const int direction = direction_of(out_[system].return_place.v[axis] - out_[system].command.v[axis]);
+  if (const Answer why = way_hindrance(system, axis, direction); why != Answer::kDone) return why;
+  if (at_soft_limit(system, axis, direction)) return Answer::kSoftLimit;
   return hindered_[system][axis];
 }
 

@@ -8,6 +8,12 @@
 
 namespace nc::rt {
 
+void ErrorList::add_twice(const ConfigPlace& one, const ConfigPlace& other, const std::string& what) {
+  const bool lower = one.line > other.line || (one.line == other.line && one.key > other.key);
+  const ConfigPlace &first = lower ? other : one, &second = lower ? one : other;
+  add(second.line, second.key, what + (first.line == second.line ? ", also in this line" : ", first in line " + std::to_string(first.line)) + (first.key == second.key ? "" : " as " + first.key));
+}
+
 std::vector<ConfigError> ErrorList::take() {
   std::stable_sort(errors_.begin(), errors_.end(),
                    [](const ConfigError& a, const ConfigError& b) { return a.line < b.line; });

@@ -25,6 +25,9 @@ class ErrorList {
   void add(unsigned line, std::string key, std::string message) {
     errors_.push_back({file_, line, std::move(key), std::move(message)});
   }
+  // Two keys that mean the same. The one that stands lower in the file is wrong, and the sentence names the line of the other one: keys are not read in the order
+  // of the file.
+  void add_twice(const ConfigPlace& one, const ConfigPlace& other, const std::string& what);
   std::vector<ConfigError> take();  // sorted by line
   bool empty() const { return errors_.empty(); }
 

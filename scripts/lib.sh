@@ -86,6 +86,22 @@ run_ctest() {
   )
 }
 
+# told NAME COMMAND...: runs a long part of a script, a function mostly; its output is in $logs/NAME.log, and is shown when it fails. The command is no
+# condition of the shell here, in which "set -e" would not count.
+told() {
+  local begin=$SECONDS name=$1 log=$logs/$1.log status
+  shift
+  set +e
+  (set -e; "$@") >"$log" 2>&1 </dev/null
+  status=$?
+  set -e
+  if [ $status -ne 0 ]; then
+    tail -n 25 "$log" >&2
+    die "$(basename "$0"): $name failed (whole log: $log)"
+  fi
+  say "--- $name: $((SECONDS - begin)) s"
+}
+
 # build_failed LOG: prints the errors, then the end of the log.
 build_failed() {
   { grep -nE 'error:|CMake Error|undefined reference' "$1" | head -n 20; say "--- end of $1"; tail -n 25 "$1"; say "The build failed."; } >&2

@@ -2,7 +2,7 @@
 // ncdds: the DDS gateway of a control. It reads the shared memory of ncrtd and publishes it, and passes on commands
 // if it is told to. It waits for ncrtd, and finds it again after a restart.
 //
-//   ncdds --machine FILE | --share NAME [--domain N] [--rate HZ] [--commands]
+//   ncdds --machine FILE | --share NAME [--domain N] [--rate HZ] [--commands] [--services SOCKET | --no-services]
 //         [--security FOLDER [--network INTERFACE]] [--ready-file FILE]
 //
 // It communicates only on this computer (interface lo, no multicast) unless CYCLONEDDS_URI is set,
@@ -29,12 +29,16 @@ int main(int argc, char** argv) try {
   app.add_option("--network", options.access.network, "interface of the network, with --security; default: this computer only")->check(nc::tools::given());
   app.add_option("--rate", options.rate_hz, "status per second")->transform(nc::tools::whole(1, 100));
   app.add_flag("--commands", options.commands, "bring commands in (ncrtd must take them, too)");
+  bool off = false;
+  auto* socket = app.add_option("--services", options.socket, "socket of the services of ncrtd, when it is not where it usually is")->check(nc::tools::given());
+  app.add_flag("--no-services", off, "no services over DDS")->excludes(socket);
   app.add_option("--ready-file", command.ready_file, "written when DDS is up")->check(nc::tools::given());
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 1;
   }
+  options.services = !off;
   return nc::dds::gateway_command(command);
 } catch (const std::exception& error) {  // mainly out of memory
   std::fprintf(stderr, "ncdds: %s\n", error.what());

@@ -31,12 +31,30 @@ class Hold:
         with open(name, encoding="ascii") as lines:
             self.velocity, self.acceleration, self.jerk, self.cycle_s = (float(v) for v in next(lines).split())
             self.took_ms, self.ideal_ms = (float(v) for v in next(lines).split())
-            place = np.array([[float(v) for v in line.split()] for line in lines])
+            rest = list(lines)
+        split = rest.index("held\n")
+        place, held = (np.array([[float(v) for v in line.split()] for line in part]) for part in (rest[:split], rest[split + 1:]))
         self.name = name.rsplit("/", 1)[-1].rsplit("_", 1)[0]
         self.last = len(place) - 3  # the tau of the last known position; 0 is the cycle of the hold
         self.path = interpolate.CubicSpline(np.arange(-2, self.last + 1), place)
         self.tangent = self.path.derivative()
         self.took = round(self.took_ms * 1e-3 / self.cycle_s)
+        self.held = self.taus_of(held[1:])  # of the machine's own stop, without the cycle of the hold
+
+    def taus_of(self, place):
+        """Where on the path these places lie, one behind the other: the nearest of many taus, and some steps of Newton's method from there."""
+        tau, found = 0.0, []
+        for q in place:
+            many = tau + np.linspace(0, 2, 401)
+            tau = many[np.argmin(np.sum((self.path(np.minimum(many, self.last)) - q) ** 2, axis=1))]
+            for _ in range(3):
+                slope = self.tangent(tau)
+                size = slope @ slope
+                if size > 0:
+                    tau += np.clip((q - self.path(tau)) @ slope / size, -0.01, 0.01)
+            tau = float(np.clip(tau, found[-1] if found else 0, self.last))
+            found.append(tau)
+        return np.array(found)
 
     def limits(self):
         return [most * self.cycle_s ** order for order, most in ((1, self.velocity), (2, self.acceleration), (3, self.jerk))]
@@ -104,9 +122,12 @@ class Stop:
 
 
 def guesses(hold, count, last):
-    """Ways to rest in `count` cycles: that of the last stop gone through faster, and speeds that go down evenly and with a smooth end."""
+    """Ways to rest in `count` cycles: that of the last stop gone through faster, or its second part, and speeds that go down evenly and with a smooth end."""
     at = np.arange(1, count + 1) / count
     if last is not None:
+        same = count // 2
+        rest = np.interp(np.arange(1, count - same + 1) / (count - same) * (len(last) - same), np.arange(len(last) - same + 1), last[same - 1:])
+        yield np.append(last[:same], last[same - 1] + SHRINKS[1] * (rest - last[same - 1]))
         for shrink in SHRINKS:
             yield np.interp(at * len(last), np.arange(len(last) + 1), np.append(0, last)) * shrink
     for speed in (lambda x: x - x ** 3 + x ** 4 / 2, lambda x: x - x ** 2 / 2):
@@ -114,8 +135,8 @@ def guesses(hold, count, last):
 
 
 def shortest(hold):
-    """The number of cycles of the shortest stop that is found, at most that of the machine. None where none is found."""
-    step, count, last, best = max(1, hold.took // 8), hold.took, None, None
+    """The number of cycles of the shortest stop that is found, beginning with that of the machine. None where none is found."""
+    step, count, last, best = max(1, hold.took // 8), len(hold.held), hold.held, None
     while count > 1:
         found = next((s for s in (Stop(hold, count).find(g) for g in guesses(hold, count, last)) if s is not None), None)
         if found is not None:

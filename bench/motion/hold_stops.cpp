@@ -3,16 +3,16 @@
 // along the tangent of the path, and to stop there as fast as the limits of the axes allow, from the speed and the acceleration that it has.
 // No stop along a bent path is shorter than that. The difference is what the path and the control add to a hold.
 //
-//   hold_stops [--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...
+//   hold_stops [--every CYCLES] [--at CYCLE] [--at CYCLE] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...
 //
 // Each program runs once, with a call of nc_feed in each cycle. In every tenth cycle (--every) in which it moves the process forks, and the
-// copy presses feed hold and counts the cycles until the axes stand. So each hold begins from the motion of an undisturbed program.
+// copy presses feed hold and counts the cycles until the axes stand (--at: in that cycle alone). So each hold begins from the motion of an undisturbed program.
 // Standard output: for each program the number of holds, then of the difference in ms the median, the value that 95 % do not exceed, the worst
 // and the share above 20 ms; then median, 95 % and worst once more, of the time beyond what the slowest axis alone needs; then the worst hold.
 // The last row is for all programs. Exit status: 0; 1 after a message.
 // --write: for best_stop.py, of each hold that is later than 20 ms a file of that directory, PROGRAM_CYCLE.hold: a line with the limits and the time of
 // a cycle, one with the time in ms that the stop took and that of the ideal one, and then the positions of each cycle without a hold, from the two
-// in front of the hold on.
+// in front of the hold on; behind a line "held" those of the stop, from the cycle of the hold on.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,7 +38,7 @@ constexpr long kWritten = 600;          // cycles of the motion without the hold
 constexpr double kMoves = 1e-3;         // mm/s: below that the axes as good as stand, and a hold says nothing
 
 struct Options {
-  long every = 10;
+  long every = 10, at = 0;  // at: the only cycle of a hold
   uint32_t look_ahead = 4096;
   double velocity = 250, acceleration = 2000, jerk = 50000, tolerance = 0.01;
   size_t worst = 0;
@@ -197,24 +197,36 @@ bool hold_in_a_copy(Machine& m, long* cycles) {
   return waitpid(copy, &status, 0) == copy && got;
 }
 
-// What the machine does without the hold, by a copy of the process: its positions, up to the end of the program.
-bool write_in_a_copy(Machine& m, const Options& options, const Hold& h) {
+void write_place(std::FILE* out, const double* place) { std::fprintf(out, "%.12f %.12f %.12f\n", place[0], place[1], place[2]); }
+
+// Goes on with a copy of the machine for up to `cycles` and writes where it is in each of them.
+bool write_motion(Machine& m, std::FILE* out, bool held, long cycles) {
+  std::fflush(out);
   const pid_t copy = fork();
   if (copy < 0) return false;
   if (copy == 0) {
-    std::FILE* out = std::fopen((options.write + "/" + h.program + "_" + std::to_string(h.cycle) + ".hold").c_str(), "w");
-    if (out == nullptr) _exit(1);
-    std::fprintf(out, "%.9g %.9g %.9g %.9g\n%.9g %.9g\n", options.velocity, options.acceleration, options.jerk, m.cycle_s(), 1e3 * h.took_s, 1e3 * h.ideal_s);
-    for (unsigned ago = 2; ago > 0; --ago) std::fprintf(out, "%.12f %.12f %.12f\n", m.place(ago)[0], m.place(ago)[1], m.place(ago)[2]);
+    if (held) m.hold();
     bool goes_on = true;
-    for (long n = 0; n < kWritten && goes_on; ++n) {
-      std::fprintf(out, "%.12f %.12f %.12f\n", m.place(0)[0], m.place(0)[1], m.place(0)[2]);
+    for (long n = 0; n < cycles && goes_on; ++n) {
+      write_place(out, m.place(0));
       goes_on = !m.ended() && m.cycle() && !m.alarmed();
     }
-    _exit(std::fclose(out) == 0 ? 0 : 1);
+    _exit(std::fflush(out) == 0 ? 0 : 1);
   }
   int status = 0;
   return waitpid(copy, &status, 0) == copy && status == 0;
+}
+
+// What the machine does without the hold, up to the end of the program, and with it, up to rest.
+bool write_hold(Machine& m, const Options& options, const Hold& h) {
+  std::FILE* out = std::fopen((options.write + "/" + h.program + "_" + std::to_string(h.cycle) + ".hold").c_str(), "w");
+  if (out == nullptr) return false;
+  std::fprintf(out, "%.9g %.9g %.9g %.9g\n%.9g %.9g\n", options.velocity, options.acceleration, options.jerk, m.cycle_s(), 1e3 * h.took_s, 1e3 * h.ideal_s);
+  for (unsigned ago = 2; ago > 0; --ago) write_place(out, m.place(ago));
+  bool written = write_motion(m, out, false, kWritten);
+  std::fprintf(out, "held\n");
+  written = written && write_motion(m, out, true, std::lround(h.took_s / m.cycle_s()) + 1);
+  return std::fclose(out) == 0 && written;
 }
 
 std::string short_name(const std::string& path) {
@@ -229,7 +241,8 @@ bool measure(const Options& options, const std::string& program, std::vector<Hol
   if (!m.select(text)) return complain(program + ": the control does not take it") == 0;
   for (long n = 1; !m.ended(); ++n) {
     if (!m.cycle() || m.alarmed() || n > kMostProgram) return complain(program + ": does not come to its end, cycle " + std::to_string(n)) == 0;
-    if (n % options.every != 0 || !m.cuts()) continue;
+    if (options.at != 0 ? n != options.at : n % options.every != 0) continue;
+    if (!m.cuts()) continue;
     Hold h;
     h.program = short_name(program);
     h.cycle = n;
@@ -239,7 +252,7 @@ bool measure(const Options& options, const std::string& program, std::vector<Hol
     if (!hold_in_a_copy(m, &cycles)) return complain("a copy of the process could not be made") == 0;
     h.stood = cycles >= 0;
     h.took_s = static_cast<double>(cycles) * m.cycle_s();
-    if (!options.write.empty() && h.late_ms() > kLate && !write_in_a_copy(m, options, h)) return complain("cannot write to " + options.write) == 0;
+    if (!options.write.empty() && h.late_ms() > kLate && !write_hold(m, options, h)) return complain("cannot write to " + options.write) == 0;
     holds->push_back(h);
   }
   return true;
@@ -289,7 +302,8 @@ bool read_options(int argc, char** argv, Options* o) {
       ++k;
     } else if (word.rfind("--", 0) == 0) {
       if (!number(value, &x)) return false;
-      if (word == "--every") o->every = std::max(1L, static_cast<long>(x));
+      if (word == "--at") o->at = static_cast<long>(x);
+      else if (word == "--every") o->every = std::max(1L, static_cast<long>(x));
       else if (word == "--look-ahead") o->look_ahead = static_cast<uint32_t>(x);
       else if (word == "--tolerance") o->tolerance = x;
       else if (word == "--worst") o->worst = static_cast<size_t>(x);
@@ -307,7 +321,7 @@ bool read_options(int argc, char** argv, Options* o) {
 int main(int argc, char** argv) {
   Options options;
   if (!read_options(argc, argv, &options))
-    return complain("[--every CYCLES] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...");
+    return complain("[--every CYCLES] [--at CYCLE] [--look-ahead RECORDS] [--limits V,A,J] [--tolerance MM] [--worst N] [--list] [--write DIR] PROGRAM.nc ...");
   std::vector<Hold> all;
   std::printf("%-18s %6s %7s %6s %6s %8s %8s %6s %6s  the worst\n", "program", "holds", "median", "95 %", "worst", "> 20 ms", "median", "95 %", "worst");
   for (const std::string& program : options.programs) {

@@ -61,7 +61,7 @@ bool make_thread(void* (*body)(void*), void* self, int priority, const char* nam
 }  // namespace
 
 CanMachine::CanMachine(const BusMap& bus, std::unique_ptr<CanPort> port, Report report)
-    : bus_(bus), port_(std::move(port)), cyclic_(bus_, port_.get()), service_(bus_, &cyclic_, std::move(report)) {
+    : bus_(bus), report_(std::move(report)), port_(std::move(port)), cyclic_(bus_, port_.get()), service_(bus_, &cyclic_, report_) {
   for (unsigned i = 0; i < cyclic_.axis_count(); ++i)
     if (cyclic_.axis(i).spindle) spindle_[i].loop = SpindleLoop(cyclic_.axis(i).spindle->law);
 }
@@ -96,6 +96,7 @@ bool CanMachine::start_stepping(std::string* error) {
 void CanMachine::step_bus(std::int64_t now_ns) {
   cyclic_.cycle(now_ns);
   service_.step(now_ns);
+  say_what_waits();
 }
 
 bool CanMachine::make_threads(std::string* error) {
@@ -135,7 +136,17 @@ void CanMachine::bus_thread() {
 void CanMachine::service_thread() {
   while (!ending_.load(std::memory_order_acquire)) {
     service_.step(monotonic_ns());
+    say_what_waits();
     sleep_until(monotonic_ns() + kServiceNs);
+  }
+}
+
+// A spindle that stands although its points are on is a line of the log, once.
+void CanMachine::say_what_waits() {
+  for (unsigned i = 0; i < cyclic_.axis_count(); ++i) {
+    const bool waits = waits_[i].load(std::memory_order_relaxed);
+    if (waits && !waits_said_[i] && report_) report_(cyclic_.axis(i).name + " stands: its points are on from a time when its drive was off, and must be let go first");
+    waits_said_[i] = waits;
   }
 }
 
@@ -272,19 +283,38 @@ void CanMachine::read_spindle(unsigned index, const AxisMap& map, const BusShown
 std::int64_t CanMachine::spindle_target(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept {
   const SpindleMap& spindle = *map.spindle;
   Spindle& now = spindle_[index];
+  const SpindleAsked asked = asked_of(index, map, system, image);
+  const double speed = now.loop.step(asked, now.turns, bus_.cycle_us * 1e-6);
+  return std::llround(speed * 60 * spindle.gears[now.gear] * spindle.velocity_scale);
+}
+
+// Behind a time in which its drive was off, a point that is still on must be let go first; for the ways also a new S command counts. A synchronous tap needs no such rule:
+// the spindle stands first, and then goes by what the axis is led.
+SpindleAsked CanMachine::asked_of(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept {
+  constexpr unsigned kSpeedStrobe = 2;  // of SystemCommand::strobe
+  const SpindleMap& spindle = *map.spindle;
+  Spindle& now = spindle_[index];
+  const AxisShown& axis = cyclic_.shown().axis[index];
   const auto is_on = [&image](int point) { return point >= 0 && image.value[point] != 0; };
   const unsigned step = spindle.gear_select >= 0 ? image.value[spindle.gear_select] : 1;
   const bool in_gear = step >= 1 && step <= spindle.gears.size();
   if (in_gear) now.gear = step - 1;
-  const int way = static_cast<int>(is_on(spindle.forward)) - static_cast<int>(is_on(spindle.backward));
+  const bool on = system.enable && (axis.fault & kFaulty) == 0 && cyclic_.is_enabled(index);
+  const bool speed_given = (system.strobe & kSpeedStrobe) != 0 && (system.spindle_selected >> spindle.number & 1u) != 0;
+  const bool anew = speed_given && !now.speed_given;
+  now.speed_given = speed_given;
+  const bool forward = now.forward.step(is_on(spindle.forward), on, anew), backward = now.backward.step(is_on(spindle.backward), on, anew);
+  const bool orient = now.orient.step(is_on(spindle.orient), on);
+  const bool way_held = now.forward.is_held() || now.backward.is_held();
+  waits_[index].store(on && (way_held || now.orient.is_held()), std::memory_order_relaxed);
+  const int way = way_held ? 0 : static_cast<int>(forward) - static_cast<int>(backward);
   SpindleAsked asked;
-  asked.enabled = system.enable && cyclic_.shown().axis[index].follows;
+  asked.enabled = system.enable && axis.follows;
   asked.speed = in_gear ? way * std::abs(system.spindle_rev_min[spindle.number]) / 60 : 0;
-  asked.orient = in_gear && is_on(spindle.orient);
+  asked.orient = in_gear && orient && !way_held;
   asked.synchronous = in_gear && (system.spindle_synchronous >> spindle.number & 1u) != 0;
   asked.turns = system.spindle_turns;
-  const double speed = now.loop.step(asked, now.turns, bus_.cycle_us * 1e-6);
-  return std::llround(speed * 60 * spindle.gears[now.gear] * spindle.velocity_scale);
+  return asked;
 }
 
 // True when the request point has risen and the drive has not begun homing since. While a program runs the request waits for its end.

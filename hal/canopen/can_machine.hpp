@@ -18,6 +18,7 @@
 #include "hal/canopen/bus_map.hpp"
 #include "hal/canopen/can_port.hpp"
 #include "hal/canopen/cyclic.hpp"
+#include "hal/canopen/let_go.hpp"
 #include "hal/canopen/service.hpp"
 #include "hal/hal.hpp"
 
@@ -55,9 +56,12 @@ class CanMachine final : public Hal {
   void end_modules();
   void read_spindle(unsigned index, const AxisMap& map, const BusShown& shown, Feedback* feedback, PointImage* image) noexcept;
   std::int64_t spindle_target(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept;
+  SpindleAsked asked_of(unsigned index, const AxisMap& map, const SystemCommand& system, const PointImage& image) noexcept;
+  void say_what_waits();
   bool asks_for_homing(unsigned index, const AxisMap& map, const PointImage& image) noexcept;
 
   const BusMap bus_;
+  const Report report_;
   std::unique_ptr<CanPort> port_;
   Cyclic cyclic_;
   Service service_;
@@ -73,6 +77,8 @@ class CanMachine final : public Hal {
   static constexpr unsigned kSpeedScans = 8;  // over which the speed of a spindle is measured
   struct Spindle {
     SpindleLoop loop;
+    LetGoFirst forward, backward, orient;
+    bool speed_given = false;  // an S command was there in the last scan
     std::int64_t position = 0;
     double turns = 0;
     std::array<double, kSpeedScans> before{};  // turns in the last scans
@@ -80,6 +86,10 @@ class CanMachine final : public Hal {
     bool known = false;
   };
   std::array<Spindle, kMaxAxes> spindle_{};
+  std::array<std::atomic<bool>, kMaxAxes> waits_{};  // its drive is on, and its points must be let go first
+
+  // ---- service thread ----
+  std::array<bool, kMaxAxes> waits_said_{};
 
   pthread_t bus_pthread_{}, service_pthread_{};
   bool has_bus_thread_ = false, has_service_thread_ = false, open_ = false;

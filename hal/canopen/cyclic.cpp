@@ -3,6 +3,7 @@
 #include "hal/canopen/cyclic.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hal/canopen/bus_load.hpp"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr unsigned kFramesPerCycle = 256;  // more than a bus carries in a cycle of 1 ms
 constexpr double kSilences = 2.5;          // a node is lost after this number of heartbeat periods without a heartbeat
+constexpr double kStandstill = 0.005;      // mm or deg: more than the noise of an encoder
 constexpr std::uint8_t kStateBootUp = 0, kStateOperational = 5;
 
 }  // namespace
@@ -36,6 +38,9 @@ Cyclic::Cyclic(const BusMap& bus, CanPort* port)
       Axis axis;
       axis.map = &map;
       axis.node = n;
+      const double per_unit = std::abs(map.increments_per_unit);
+      axis.loop = LostLoop(std::max<std::int64_t>(1, std::llround(kStandstill * per_unit)));
+      if (map.holds_position()) axis.watch = WayWatch(map.velocity_gain, bus.sync_us * 1e-6, map.following_limit * per_unit, map.velocity_delay);
       axis.way = DriveWay(static_cast<unsigned>(syncs_of(bus.stop_timeout_ms)));
       axis.rpdo_id = static_cast<std::uint16_t>(kRpdoId + kPdoStep * takes++ + node.id);
       axis.tpdo_id = static_cast<std::uint16_t>(kTpdoId + kPdoStep * sends++ + node.id);
@@ -224,6 +229,11 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
 
 // ---- to the scan ----
 
+bool Cyclic::has_torque(const Axis& axis) const noexcept {
+  const DriveState state = drive_state(axis.status);
+  return nodes_[axis.node].operational && (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive);
+}
+
 // What the alarm of a faulty axis says. That its node was refused when it came back is worth more than the reason for which it had stopped, because
 // a reset alone does not help then.
 std::uint32_t Cyclic::fault_code(const Axis& axis) const noexcept {
@@ -246,10 +256,8 @@ void Cyclic::publish() noexcept {
   shown.latched = latched_;
   for (unsigned i = 0; i < axes_.size(); ++i) {
     const Axis& axis = axes_[i];
-    const Node& node = nodes_[axis.node];
     AxisShown& out = shown.axis[i];
-    const DriveState state = drive_state(axis.status);
-    enabled_[i].store(node.operational && (state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive), std::memory_order_relaxed);
+    enabled_[i].store(has_torque(axis), std::memory_order_relaxed);
     out.position = axis.position;
     out.measured_at = axis.measured_at;
     out.measured_ns = axis.measured_ns;
@@ -258,7 +266,7 @@ void Cyclic::publish() noexcept {
     out.follows = follows(i);
     out.homed = axis.homed;
     out.homing = axis.homing != Homing::kNo;
-    out.following_fault = axis.following_fault;
+    out.following_fault = axis.following_fault || axis.loop.waits_for_reset();
     out.fault = axis.faulty ? kFaulty | fault_code(axis) : 0;
     out.edge = axis.edge;
     out.probe_on = axis.probe_on;

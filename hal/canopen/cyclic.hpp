@@ -19,8 +19,10 @@
 #include "hal/canopen/bus_map.hpp"
 #include "hal/canopen/can_port.hpp"
 #include "hal/canopen/drive_state.hpp"
+#include "hal/canopen/lost_loop.hpp"
 #include "hal/canopen/module_io.hpp"
 #include "hal/canopen/position_track.hpp"
+#include "hal/canopen/way_watch.hpp"
 #include "hal/drive_fault.hpp"
 #include "hal/spsc.hpp"
 #include "hal/triple_buffer.hpp"
@@ -125,6 +127,8 @@ class Cyclic {
     unsigned node = 0;
     std::uint16_t rpdo_id = 0, tpdo_id = 0, probe_id = 0;
     DriveWay way;
+    LostLoop loop;  // of an axis whose position is held here
+    WayWatch watch;  // the same
     std::uint16_t status = 0, control = 0;
     std::int32_t raw = 0;
     std::int64_t position = 0;
@@ -181,6 +185,7 @@ class Cyclic {
   std::int64_t target_of(Axis* axis, const AxisWanted& wanted) noexcept;
   std::int32_t speed_of(const Axis& axis) const noexcept;
   void check_following(Axis* axis) noexcept;
+  void check_way(Axis* axis, bool led) noexcept;
   std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
   bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;
   void work_probe(Axis* axis) noexcept;
@@ -192,6 +197,7 @@ class Cyclic {
   std::uint32_t fault_code(const Axis& axis) const noexcept;
   void publish() noexcept;
   bool follows(unsigned index) const noexcept;
+  bool has_torque(const Axis& axis) const noexcept;
 
   const BusMap bus_;
   CanPort* port_;

@@ -75,7 +75,7 @@ bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
   return serial_ != 0 && now_ns - command_ns_ <= command_limit_ns_;
 }
 
-// What the drive is to do now. An axis with a fault stays off until a reset.
+// What the drive is to do now. An axis with a fault stays off until a reset, one whose loop is lost until it may be held again (lost_loop.hpp).
 DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) noexcept {
   const DriveWish wish = wanted.on ? DriveWish::kOn : DriveWish::kOff;
   if (wanted.reset && commanded && silent_for_good(*axis)) {
@@ -97,12 +97,13 @@ DriveWish Cyclic::wish_of(Axis* axis, const AxisWanted& wanted, bool commanded) 
     if (!there) return DriveWish::kReset;
   }
   if (!commanded && serial_ != 0 && wanted.on) fault(axis, DriveTrouble::kNoCommand);
-  return axis->faulty || !commanded ? DriveWish::kOff : wish;
+  return axis->faulty || axis->loop.is_lost() || !commanded ? DriveWish::kOff : wish;
 }
 
 void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   Axis& axis = axes_[index];
   const AxisWanted& wanted = wanted_.front().axis[index];
+  axis.loop.step({wanted.reset, has_torque(axis) || axis.missed != 0, axis.position, wanted.target});
   if (!nodes_[axis.node].operational || !axis.known) {
     if (commanded && wanted.reset && nodes_[axis.node].operational) (void)wish_of(&axis, wanted, commanded);
     if (axis.homing != Homing::kNo) wanted_mode_[index].store(axis.map->mode, std::memory_order_release);
@@ -129,8 +130,10 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   else axis.target[0] = led ? target_of(&axis, wanted) : axis.position;
   if (axis.map->spindle || !followed) std::fill(axis.target, axis.target + kTargets, axis.target[0]);
   else check_following(&axis);
-  axis.speed = led ? speed_of(axis) : 0;
-  const DriveWish now = axis.faulty && wish == DriveWish::kOn ? DriveWish::kOff : wish;
+  if (axis.map->holds_position()) check_way(&axis, led);
+  const DriveWish now = (axis.faulty || axis.loop.is_lost()) && wish == DriveWish::kOn ? DriveWish::kOff : wish;  // what this SYNC has found acts at once
+  axis.speed = led && now == DriveWish::kOn ? speed_of(axis) : 0;
+  axis.watch.give(axis.speed / axis.map->velocity_per_increment * bus_.sync_us * 1e-6);
   axis.control = now == DriveWish::kOn && !in_mode && !homing ? kShutdown : axis.way.next(axis.status, now);
   if (axis.homing == Homing::kRuns && axis.control == kEnableOperation) axis.control |= kStartHoming;
   if (axis.map->has_probe()) work_probe(&axis);
@@ -161,14 +164,21 @@ std::int32_t Cyclic::speed_of(const Axis& axis) const noexcept {
 }
 
 // The following error is the distance of the axis from the range between the set-points of this SYNC and of the two before, because on its way the axis may be
-// anywhere in it; where the position is held here it lies as far back as that takes. A place of before says nothing about this SYNC: while positions are missing, lost_after bounds the time.
+// anywhere in it; where the position is held here it lies as far back as that takes, and beyond the limit the loop is lost. A place of before says nothing about this SYNC: while positions are missing, lost_after bounds the time.
 void Cyclic::check_following(Axis* axis) noexcept {
   if (axis->missed != 0) return;
   const auto [least, most] = std::minmax_element(axis->target, axis->target + (axis->map->holds_position() ? static_cast<unsigned>(axis->map->velocity_delay) + 2 : 3));
   const std::int64_t away = std::max({std::int64_t{0}, *least - axis->position, axis->position - *most});
   const double limit = axis->map->following_limit * std::abs(axis->map->increments_per_unit);
   const bool own = limit > 0 && static_cast<double>(away) > limit;
+  if (own && axis->map->holds_position()) return axis->loop.lose();
   if (own || (!axis->map->takes_speed() && (axis->status & kStatusError) != 0)) axis->following_fault = true;  // bit 13 says something else in that mode
+}
+
+// Far less is measured of an axis whose position is held here than it was given: its encoder does not count. A place of before is none that says so.
+void Cyclic::check_way(Axis* axis, bool led) noexcept {
+  if (!led) return axis->watch.rest(axis->position);
+  if (axis->watch.step(axis->position) && axis->missed == 0) axis->loop.lose();
 }
 
 // Homing by the drive itself: the drive moves the axis, and the commanded position follows meanwhile. True while homing is under way.

@@ -29,6 +29,16 @@ std::string lower(std::string_view text) {
   return result;
 }
 
+// A control character besides the tab; none stands in a text.
+bool is_control(char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f; }
+
+// The beginning of what a line has, for a message: in which encoding the file is nobody says, so only ASCII is shown as it is.
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text.substr(0, 40)) result += is_control(c) || static_cast<unsigned char>(c) >= 0x80 ? std::string("\xEF\xBF\xBD") : std::string(1, c);
+  return result + "\"";
+}
+
 // A number such as 0x1A or 26.
 std::optional<std::uint32_t> number_of(std::string_view text) {
   const bool hex = text.size() > 2 && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
@@ -132,13 +142,13 @@ void Reader::finish_object() {
 void Reader::take_key(const std::string& key, std::string_view value) {
   if (section_.kind == Section::Kind::kDeviceInfo && (key == "vendornumber" || key == "productnumber")) {
     const auto number = number_of(value);
-    if (!number && !value.empty()) return error(key + " is no number: \"" + std::string(value.substr(0, 40)) + "\"");
+    if (!number && !value.empty()) return error(key + " is no number: " + quoted(value));
     (key == "vendornumber" ? eds_->vendor : eds_->product) = number.value_or(0);
   }
   if (section_.kind != Section::Kind::kObject) return;
   const bool counted = key == "datatype" || key == "pdomapping" || key == "objecttype" || key == "compactsubobj" || key == "subnumber";
   const auto number = counted ? number_of(value) : std::optional<std::uint32_t>(0);
-  if (!number && !value.empty()) return error(key + " is no number: \"" + std::string(value.substr(0, 40)) + "\"");
+  if (!number && !value.empty()) return error(key + " is no number: " + quoted(value));
   if (key == "datatype") object_.type = number.value_or(0);
   if (key == "pdomapping") object_.mappable = number.value_or(0) != 0;
   if (key == "accesstype") object_.access = lower(value);
@@ -155,6 +165,7 @@ void Reader::take_key(const std::string& key, std::string_view value) {
 void Reader::take_line(std::string_view raw) {
   const std::string_view line = trimmed(raw);
   if (line.empty() || line[0] == ';' || line[0] == '#') return;
+  if (std::any_of(line.begin(), line.end(), is_control)) return error("is no text: an EDS has lines [section] and key=value");
   if (line[0] == '[') {
     finish_object();
     object_ = {};
@@ -168,7 +179,7 @@ void Reader::take_line(std::string_view raw) {
     return;
   }
   const std::size_t equal = line.find('=');
-  if (equal == std::string_view::npos) return error("neither [section] nor key=value: \"" + std::string(line.substr(0, 40)) + "\"");
+  if (equal == std::string_view::npos) return error("neither [section] nor key=value: " + quoted(line));
   if (!any_) return error("a key in front of the first [section]");
   take_key(lower(trimmed(line.substr(0, equal))), trimmed(line.substr(equal + 1)));
 }

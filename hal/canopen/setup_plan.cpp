@@ -136,4 +136,21 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
   return plan.steps;
 }
 
+std::vector<ObjectValue> own_objects(const BusMap& bus, NodeMap node) {
+  constexpr unsigned kModeOfOperation = 0x6060;  // written by the service (service.cpp)
+  node.objects.clear();
+  std::vector<ObjectValue> own;
+  for (const SetupStep& step : setup_plan(bus, node))
+    if (step.kind != Kind::kCheck) own.push_back(step.object);
+  const auto add = [&own](std::uint32_t entry) { own.push_back({static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8), 0, 0}); };
+  for (const AxisMap& axis : node.axes) {
+    add(axis.object(kModeOfOperation) << 16);
+    for (const std::uint32_t entry : rpdo_mapping(axis)) add(entry);
+  }
+  if (node.module)
+    for (const ModulePdo& pdo : module_pdos(*node.module, true))
+      for (const std::uint32_t entry : pdo.mapping) add(entry);
+  return own;
+}
+
 }  // namespace nc::hal::canopen

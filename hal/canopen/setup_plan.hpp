@@ -34,4 +34,7 @@ std::vector<std::uint32_t> rpdo_mapping(const AxisMap& axis);
 std::vector<std::uint32_t> tpdo_mapping(const AxisMap& axis);
 std::vector<std::uint32_t> probe_mapping(const AxisMap& axis);
 
+// What the control sets in a node by itself, in its set-up, with its command PDOs and by the service, whatever `objects` of the node says: only index and sub count.
+std::vector<ObjectValue> own_objects(const BusMap& bus, NodeMap node);
+
 }  // namespace nc::hal::canopen

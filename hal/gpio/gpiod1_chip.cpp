@@ -31,25 +31,30 @@ int flags_of(const LineSetup& line) {
   return flags;
 }
 
-// The chip with this label; *found gets the number of such chips. Null when there is not exactly one, or, with errno, when some chip cannot be opened by this
-// user, because then no labels can be read.
+constexpr unsigned kMostChips = 256;  // of the kernel (its GPIO_DEV_MAX); they have the numbers below
+
+// The chip with this label; *found gets the number of such chips. Null when there is not exactly one, with the errno of a chip that cannot be opened by this user,
+// because then its label cannot be read. The library's own way through all chips ends where one cannot be opened, whatever chip is looked for.
 gpiod_chip* chip_by_label(const std::string& label, unsigned* found) {
   *found = 0;
-  gpiod_chip_iter* chips = gpiod_chip_iter_new();
-  if (chips == nullptr) return nullptr;
+  int problem = ENOENT;
   gpiod_chip* match = nullptr;
-  while (gpiod_chip* chip = gpiod_chip_iter_next_noclose(chips)) {
+  for (unsigned number = 0; number < kMostChips; ++number) {
+    gpiod_chip* chip = gpiod_chip_open_by_number(number);
+    if (chip == nullptr) {
+      if (errno != ENOENT) problem = errno;
+      continue;
+    }
     const bool same = label == gpiod_chip_label(chip);
     if (same) ++*found;
     if (same && match == nullptr) match = chip;
     else gpiod_chip_close(chip);
   }
-  gpiod_chip_iter_free_noclose(chips);
   if (*found > 1) {
     gpiod_chip_close(match);
     match = nullptr;
   }
-  errno = ENOENT;
+  errno = problem;
   return match;
 }
 

@@ -114,7 +114,7 @@ std::shared_ptr<ProgramText> ProgramText::open(int descriptor, const std::string
     }
     error->clear();
     const bool small = static_cast<std::uint64_t>(text->info_.st_size) <= options.copy_bytes;
-    if (small ? text->copy(error) : text->divide()) return text;
+    if (small ? text->copy(writer == OpenForWriting::kNotTold || unrest(text->info_, kCoarse) > nanoseconds(0), error) : text->divide()) return text;
     if (!error->empty()) return nullptr;
   }
   *error = "is being written: select it when that is done";
@@ -128,8 +128,9 @@ std::shared_ptr<ProgramText> ProgramText::open_file(const std::string& path, con
   return nullptr;
 }
 
-// Reads a small file whole, twice. False with an empty *error when the file was written meanwhile.
-bool ProgramText::copy(std::string* error) {
+// Reads a small file whole, where it is `doubtful` twice. False with an empty *error when the file was written meanwhile. It is doubtful where a write since its times
+// were looked at may have left them as they were: they are so new that a coarse clock still shows the same, or they come late from another computer.
+bool ProgramText::copy(bool doubtful, std::string* error) {
   std::string bytes, again;
   const auto size = static_cast<std::size_t>(info_.st_size);
   bytes.reserve(size + 1);
@@ -137,7 +138,7 @@ bool ProgramText::copy(std::string* error) {
   const bool whole = read_file(descriptor_, 0, size + 1, &bytes);
   if (!whole) *error = std::generic_category().message(errno);
   if (!whole || bytes.size() != size) return false;
-  for (std::size_t at = 0; at < size; at += kPart) {
+  for (std::size_t at = 0; doubtful && at < size; at += kPart) {
     const std::size_t length = std::min(kPart, size - at);
     if (!read_file(descriptor_, at, length, &again) || bytes.compare(at, length, again) != 0) return false;
   }

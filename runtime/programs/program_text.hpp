@@ -8,8 +8,9 @@
 // truncating a mapped file would end the process.
 //
 // A file that is being written is not a complete program. It is taken only when no process has it open for writing, it has been unchanged for
-// kQuiet, and, if it is small, two readings of it are the same. Where the system does not tell whether it is open for writing (a file of another user, unless
-// the process has CAP_LEASE, as the service has; some network file systems) it must have been unchanged for kQuietNotTold. A writer that pauses longer than
+// kQuiet, and its times are the same behind the reading. Of a small one that has been unchanged for less than kCoarse two readings must be the same as well, because
+// some file systems have times of two seconds. Where the system does not tell whether it is open for writing (a file of another user, unless
+// the process has CAP_LEASE, as the service has; some network file systems) it must have been unchanged for kQuietNotTold, and a small one is read twice in any case. A writer that pauses longer than
 // that in the middle of the file cannot be distinguished from one that has finished.
 #pragma once
 
@@ -39,7 +40,7 @@ class ProgramText {
     bool as_it_is = false;                        // the file is the image of a tape, not a text, and is not converted
     std::chrono::milliseconds patience{2000};     // how long open() waits for a file that is being written
   };
-  static constexpr std::chrono::milliseconds kQuiet{20}, kQuietNotTold{1000};
+  static constexpr std::chrono::milliseconds kQuiet{20}, kQuietNotTold{1000}, kCoarse{3000};
   static constexpr std::size_t kPart = 65536;     // bytes of the file that are read and hashed together
 
   // Takes over the descriptor and closes it even on failure. `path`: where the file was found; "" = it has no path at which it could be compared later
@@ -71,7 +72,7 @@ class ProgramText {
     bool hashed = false;
   };
   ProgramText(int descriptor, std::string path, const Options& options);
-  bool copy(std::string* error);
+  bool copy(bool doubtful, std::string* error);
   bool divide();
   void look_at_head(const std::string& head);
   bool is_unchanged() const;

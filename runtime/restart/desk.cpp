@@ -2,7 +2,12 @@
 // See desk.hpp.
 #include "runtime/restart/desk.hpp"
 
+#include <cstdio>
+
 #include "runtime/alarm_message.hpp"
+#include "runtime/restart/skipped_writes.hpp"
+#include "runtime/retain/tables.hpp"
+#include "runtime/retain/variables.hpp"
 
 namespace nc::rt {
 namespace {
@@ -30,6 +35,20 @@ std::string why_not(NcPort* nc, unsigned system, nc_status status) {
   }
 }
 
+// The program is mirrored about where the axes stand when it is begun.
+std::string mirror_sentence(const nc_restart_place& place, const std::string& letters) {
+  std::string places;
+  unsigned count = 0;
+  for (unsigned a = 0; a < letters.size() && a < NC_MAX_AXES; ++a) {
+    if ((place.mirror >> a & 1u) == 0) continue;
+    char text[40];
+    std::snprintf(text, sizeof text, "%s%c%.10g", count++ == 0 ? "" : " ", letters[a], place.start.v[a]);
+    places += text;
+  }
+  if (place.start_given) return "mirror image by the machine about " + places + ": whether the run that was stopped had it is not known";
+  return "mirror image by the machine about " + places + (count == 1 ? ", where the axis stands now" : ", where the axes stand now");
+}
+
 }  // namespace
 
 const char* restart_phase_text(RestartPhase phase) {
@@ -44,12 +63,26 @@ const char* restart_phase_text(RestartPhase phase) {
   return "?";
 }
 
-nc_status RestartDesk::begin(NcPort* nc, unsigned system, const nc_restart_place& place, const nc_world& world, std::string what) {
-  const nc_status status = nc->restart_begin(system, place, world);
-  if (status < 0) return status;
-  before_ = {nc->variables(), nc->tables()};
+nc_status RestartDesk::begin(NcPort* nc, unsigned system, const nc_restart_place& place, const nc_world& world, std::string what, const CoordinatesBegun& with, std::uint64_t order) {
+  const std::string letters = nc->axis_letters(system);
+  const nc_restart_coordinates present = nc->coordinates(system, false);
+  nc_status status = with.known ? nc->set_coordinates(system, coordinates_of(with, letters)) : NC_OK;
+  if (status >= 0) status = nc->restart_begin(system, place, world);
+  if (status < 0) {
+    if (with.known) (void)nc->set_coordinates(system, present);
+    return status;
+  }
+  system_ = system;
+  coordinates_before_ = present;
+  order_ = order;
+  to_confirm_.clear();
+  const std::string begins_with = coordinates_text(coordinate_rows(nc->coordinates(system, true), letters));
+  if (!begins_with.empty() && with.known) what += ", begun with " + begins_with;
+  if (!begins_with.empty() && !with.known) to_confirm_.push_back(begins_with + " in force at the beginning");
+  if (place.mirror != 0 && !(place.start_given && with.mirror_known)) to_confirm_.push_back(mirror_sentence(place, letters));
+  before_ = after_ = {};
   written_ = true;
-  after_known_ = false;
+  before_known_ = after_known_ = false;
   place_ = place;
   status_ = {};
   status_.phase = RestartPhase::kSearching;
@@ -58,6 +91,7 @@ nc_status RestartDesk::begin(NcPort* nc, unsigned system, const nc_restart_place
 }
 
 bool RestartDesk::search(NcPort* nc, unsigned system) {
+  if (!before_known_) before_ = {nc->variables(), nc->tables()}, before_known_ = true;
   for (unsigned call = 0; call < kSearchCalls; ++call) {
     nc_restart_found place;
     nc_restart_found_init(&place);
@@ -85,16 +119,37 @@ void RestartDesk::found(NcPort* nc, unsigned system, const nc_restart_found& pla
   status_.modal_known = place.modal != 0 && nc->modal(system, place.modal, &status_.modal) == NC_OK;
   status_.list.begin(place, nc->dialect());
   after_ = {nc->variables(), nc->tables()};
+  nc_variable_range local{};
+  (void)nc_variable_kind_get(nc->dialect(), NC_VARIABLES_LOCAL, &local);
+  if (const std::string writes = skipped_writes(before_, after_, system, local); !writes.empty()) status_.list.begin_with("written in front of the place: " + writes);
+  for (auto text = to_confirm_.rbegin(); text != to_confirm_.rend(); ++text) status_.list.begin_with(*text);
+  coordinates_after_ = nc->coordinates(system, false);
   after_known_ = true;
+}
+
+bool RestartDesk::owes_values(NcPort* nc) const {
+  if (!owes() || !before_known_) return false;
+  const KeptValues left = after_known_ ? after_ : KeptValues{nc->variables(), nc->tables()};
+  return left.variables != before_.variables || left.tables != before_.tables;
 }
 
 // A search that has ended on its way has left what is there now.
 void RestartDesk::put_back(NcPort* nc) {
   if (!owes()) return;
-  if (!after_known_) after_ = {nc->variables(), nc->tables()};
-  nc->put_back(before_, after_);
+  const nc_restart_coordinates now = nc->coordinates(system_, false);
+  if (!after_known_) after_ = {nc->variables(), nc->tables()}, coordinates_after_ = now;
+  if (before_known_) nc->put_back(before_, after_);
+  (void)nc->set_coordinates(system_, coordinates_without(coordinates_before_, coordinates_after_, now));
   written_ = false;
   before_ = after_ = {};
+}
+
+std::string RestartDesk::kept_variables(const std::string& now) const {
+  return written_ && before_known_ ? variables_without(before_.variables, after_known_ ? after_.variables : now, now) : now;
+}
+
+std::string RestartDesk::kept_tables(const std::string& now) const {
+  return written_ && before_known_ ? tables_without(before_.tables, after_known_ ? after_.tables : now, now) : now;
 }
 
 void RestartDesk::follow(const Snapshot& now, unsigned system) {
@@ -122,7 +177,10 @@ void RestartDesk::end(const std::string& why) {
 }
 
 void RestartDesk::lose(const std::string& why) {
-  if (!in_hand()) return;
+  if (in_hand()) bar_start(why);
+}
+
+void RestartDesk::bar_start(const std::string& why) {
   status_.phase = RestartPhase::kLost;
   status_.text = why;
 }

@@ -44,7 +44,7 @@ void RecoveryList::begin(const nc_restart_found& found, nc_dialect dialect) {
   called_known_ = called_since_ = false;
   begin_codes(found);
   for (std::uint32_t w = 0; w < NC_WORDS; ++w)
-    if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, false, w, found.output_written[w], found.output[w] & found.output_written[w]});
+    if (found.output_written[w] != 0) entries_.push_back({Kind::kOutputs, State::kOpen, 0, false, w, found.output_written[w], found.output[w] & found.output_written[w], {}});
 }
 
 void RecoveryList::begin_codes(const nc_restart_found& found) {
@@ -53,7 +53,7 @@ void RecoveryList::begin_codes(const nc_restart_found& found) {
     RecoveryEntry entry;
   };
   std::vector<Given> given;
-  const auto add = [&](std::uint32_t order, Kind kind, double value, bool of_change = false) { given.push_back({order, {kind, State::kOpen, value, of_change, 0, 0, 0}}); };
+  const auto add = [&](std::uint32_t order, Kind kind, double value, bool of_change = false) { given.push_back({order, {kind, State::kOpen, value, of_change, 0, 0, 0, {}}}); };
   const bool ahead = found.t_given && (!found.change_t_given || found.t_order != found.change_t_order);
   if (found.change_t_given) add(found.change_t_order, Kind::kTool, found.change_t, true);
   if (ahead) add(found.t_order, Kind::kTool, found.t);
@@ -156,6 +156,7 @@ unsigned RecoveryList::open() const {
 }
 
 std::string RecoveryList::text(const RecoveryEntry& entry) const {
+  if (entry.kind == Kind::kInForce) return entry.in_force;
   char text[64];
   constexpr const char* kLetters = "TBSM";  // in the order of Kind; the letter of the second auxiliary function depends on the machine
   if (entry.kind == Kind::kOutputs) std::snprintf(text, sizeof text, " bits %X = %X", entry.mask, entry.bits);

@@ -21,11 +21,12 @@ struct GivenCode {
 };
 
 struct RecoveryEntry {
-  enum class Kind : std::uint8_t { kTool, kSecond, kSpeed, kM, kOutputs } kind = Kind::kM;
+  enum class Kind : std::uint8_t { kTool, kSecond, kSpeed, kM, kOutputs, kInForce } kind = Kind::kM;
   enum class State : std::uint8_t { kOpen, kDone, kConfirmed } state = State::kOpen;
   double value = 0;                          // the code
   bool of_change = false;                    // kTool: the tool that the newest tool change has brought into the spindle
   std::uint32_t word = 0, mask = 0, bits = 0;  // kOutputs: the word, the bits that the program has written, and their values
+  std::string in_force = {};                   // kInForce: what the search has begun with or written; only the operator knows whether that is right for the part
 };
 const char* recovery_state_text(RecoveryEntry::State state);
 
@@ -34,6 +35,8 @@ class RecoveryList {
   // In the order of the program. Stops and the end of a program are not in it, and of the codes that turn and stop the spindle only the newest. The tool of the
   // newest tool change stands in it beside one that was called ahead, for the next change.
   void begin(const nc_restart_found& found, nc_dialect dialect);
+  // The first entry is a sentence that has to be confirmed. Behind begin().
+  void begin_with(const std::string& in_force) { entries_.insert(entries_.begin(), {RecoveryEntry::Kind::kInForce, RecoveryEntry::State::kOpen, 0, false, 0, 0, 0, in_force}); }
   // The machine has got a code since. An M code that is given out behind others of the list, and does not stand behind them there, opens those again: a tool
   // change behind the start of the spindle. A code that only turns or stops the spindle opens only that of the spindle. A tool change that is given out while
   // another tool than that of the list is called opens both.

@@ -94,8 +94,17 @@ bool RetainKeeper::pause_ms(unsigned time) {
 
 bool RetainKeeper::wait_for_turn() {
   std::unique_lock lock(mutex_);
-  wake_.wait_for(lock, std::chrono::milliseconds(every_ms_), [this] { return stopping_ || request_ != answered_; });
+  wake_.wait_for(lock, std::chrono::milliseconds(every_ms_), [this] { return stopping_ || soon_ || request_ != answered_; });
   return !stopping_;
+}
+
+void RetainKeeper::wake() {
+  if (!running_) return;
+  {
+    const std::lock_guard lock(mutex_);
+    soon_ = true;
+  }
+  wake_.notify_all();
 }
 
 void RetainKeeper::hurry(std::uint32_t request) {
@@ -116,6 +125,7 @@ void RetainKeeper::run() {
       const std::lock_guard lock(mutex_);
       request = request_;
       hurried = request_ != answered_;
+      soon_ = false;
     }
     if (!save_all()) return;
     if (!hurried) continue;

@@ -48,6 +48,8 @@ class RetainKeeper {
   // Everything is written at once that has changed; `request` is a number that rises. The answer comes in the keeper's thread, or, when there is nothing to
   // keep, from here. Any thread.
   void hurry(std::uint32_t request);
+  // The same for what nobody waits for: a change that must not be as late as the interval. Any thread.
+  void wake();
   // Ends the thread and writes the data once more; to be called after the last scan.
   void stop();
   // The last trouble with these data as a sentence, "" = none. Any thread.
@@ -82,6 +84,7 @@ class RetainKeeper {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::uint32_t request_ = 0, answered_ = 0;  // guarded by mutex_
+  bool soon_ = false;                         // guarded by mutex_: there is what cannot wait for the interval
   bool running_ = false, stopping_ = false;
 };
 

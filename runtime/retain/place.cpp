@@ -8,6 +8,9 @@
 //   at X 1.5
 //   restart 14 812 (SHA-256, or -)        blocks, bytes of the program, its hash; with all that follows only where it is known
 //   begun X 0
+//   coordinates 0          of the coordinate systems what it was begun with: 1 where G16 was in force; without this line it is not known
+//   coordinate 0 X 30      CoordinateRow: what, axis, value
+//   mirrored XZ            axes that the machine's switches had mirrored, "-" = none; without this line it is not known
 //   cause power
 //   end
 #include "runtime/retain/place.hpp"
@@ -20,6 +23,7 @@ namespace nc::rt {
 namespace {
 
 constexpr const char* kPlaceHead = "ncplace 1";
+constexpr const char* kNone = "-";
 
 // A name without what would end its line.
 std::string one_line(std::string text) {
@@ -39,6 +43,16 @@ bool read_axis(std::istringstream* words, std::vector<std::pair<char, double>>* 
   double value = 0;
   if (!(*words >> axis >> value) || axis.size() != 1 || !std::isfinite(value) || axes->size() >= NC_MAX_AXES) return false;
   axes->emplace_back(axis[0], value);
+  return true;
+}
+
+bool read_coordinate(std::istringstream* words, CoordinatesBegun* begun) {
+  std::string axis;
+  CoordinateRow row;
+  if (!(*words >> row.of >> axis >> row.value) || row.of >= kCoordinateKinds || axis.size() != 1 || !std::isfinite(row.value)) return false;
+  if (!begun->known || begun->rows.size() >= std::size_t{kCoordinateKinds} * NC_MAX_AXES) return false;
+  row.axis = axis[0];
+  begun->rows.push_back(row);
   return true;
 }
 
@@ -67,6 +81,14 @@ bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
   if (key == "block") return static_cast<bool>(words >> place.line >> place.number >> place.depth >> place.main_line);
   if (key == "restart") return place.restartable = read_restart(&words, &place);
   if (key == "cause") return static_cast<bool>(words >> place.cause);
+  if (key == "coordinates") return place.coordinates.known = static_cast<bool>(words >> place.coordinates.polar);
+  if (key == "mirrored") {
+    CoordinatesBegun& begun = place.coordinates;
+    begun.mirror_known = static_cast<bool>(words >> begun.mirrored) && begun.mirrored.size() <= NC_MAX_AXES;
+    if (begun.mirrored == kNone) begun.mirrored.clear();
+    return begun.mirror_known;
+  }
+  if (key == "coordinate") return read_coordinate(&words, &place.coordinates);
   if (key == "at") return read_axis(&words, &place.at);
   return key == "begun" && read_axis(&words, &place.begun);
 }
@@ -81,8 +103,11 @@ std::string encode_places(const std::vector<ProgramPlace>& places) {
     text << "system " << place.system << "\nprogram " << one_line(place.program) << "\nblock " << place.line << ' ' << place.number << ' '
          << place.depth << ' ' << place.main_line << '\n';
     for (const auto& [axis, value] : place.at) text << "at " << axis << ' ' << number("%.9g", value) << '\n';
-    if (place.restartable) text << "restart " << place.blocks << ' ' << place.size << ' ' << (place.hash.empty() ? "-" : place.hash) << '\n';
+    if (place.restartable) text << "restart " << place.blocks << ' ' << place.size << ' ' << (place.hash.empty() ? kNone : place.hash) << '\n';
     for (const auto& [axis, value] : place.begun) text << "begun " << axis << ' ' << number("%.17g", value) << '\n';
+    if (place.coordinates.known) text << "coordinates " << place.coordinates.polar << '\n';
+    for (const CoordinateRow& row : place.coordinates.rows) text << "coordinate " << row.of << ' ' << row.axis << ' ' << number("%.17g", row.value) << '\n';
+    if (place.coordinates.mirror_known) text << "mirrored " << (place.coordinates.mirrored.empty() ? kNone : place.coordinates.mirrored) << '\n';
     if (!place.cause.empty()) text << "cause " << place.cause << '\n';
   }
   text << "end\n";

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/restart/coordinates.hpp"
+
 namespace nc::rt {
 
 // Of one part system whose program was in execution or interrupted.
@@ -23,6 +25,7 @@ struct ProgramPlace {
   std::uint64_t size = 0;      // bytes of the program ...
   std::string hash = {};       // ... and their SHA-256, "" = not known
   std::vector<std::pair<char, double>> begun = {};  // where the axes stood when the program was begun
+  CoordinatesBegun coordinates = {};  // and with what of the coordinate systems
   std::string cause = {};      // "power", "reset" or "alarm"
   bool operator==(const ProgramPlace&) const = default;
 };

@@ -84,7 +84,19 @@ std::string value_of(const TableRows& rows, const std::string& key) {
   return key.rfind("parameter ", 0) == 0 ? "" : "0";
 }
 
-// Writes one value into the control. A value that this control does not have is skipped.
+// What is counted of a tool decides which lives it may have, so that it changes while the tool has none; a life that the new one may have stays.
+void apply_life_flags(nc_control* control, unsigned number, double flags) {
+  double life = 0, used = 0;
+  (void)nc_tool_life_get(control, number, NC_LIFE_LIFE, &life);
+  (void)nc_tool_life_get(control, number, NC_LIFE_USED, &used);
+  (void)nc_tool_life_set(control, number, NC_LIFE_LIFE, 0);
+  (void)nc_tool_life_set(control, number, NC_LIFE_USED, 0);
+  (void)nc_tool_life_set(control, number, NC_LIFE_FLAGS, flags);
+  (void)nc_tool_life_set(control, number, NC_LIFE_LIFE, life);
+  (void)nc_tool_life_set(control, number, NC_LIFE_USED, used);
+}
+
+// Writes one value into the control. A value that this control does not have is skipped. The flags of a life come before the life, as in the order of its columns.
 void apply(nc_control* control, const nc_config& config, const std::string& key, const std::string& text) {
   std::istringstream words(key);
   std::string kind, number;
@@ -98,7 +110,8 @@ void apply(nc_control* control, const nc_config& config, const std::string& key,
   } else if (kind == "tool" && words >> second && second < kColumns && parse(text, &value)) {
     (void)nc_tool_offset_set(control, first, static_cast<nc_tool_column>(second), value);
   } else if (kind == "life" && words >> second && second < kLifeColumns && parse(text, &value)) {
-    (void)nc_tool_life_set(control, first, static_cast<nc_life_column>(second), value);
+    if (second == NC_LIFE_FLAGS) apply_life_flags(control, first, value);
+    else (void)nc_tool_life_set(control, first, static_cast<nc_life_column>(second), value);
   } else if (kind == "parameter" && words >> axis >> number) {
     (void)nc_parameter_set(control, api_system(first), number.c_str(), axis == kAllAxes ? '\0' : axis, text.c_str());
   }
@@ -193,6 +206,30 @@ bool restore_changes(nc_control* control, const nc_config& config, const TableRo
     if (change.configured == value_of(configured, change.key)) apply(control, config, change.key, change.value);
   apply_taps(control, config, changes);
   return true;
+}
+
+std::string tables_without(const std::string& before, const std::string& after, const std::string& now) {
+  TableRows was, left, rows;
+  if (!parse_tables(before, &was) || !parse_tables(after, &left) || !parse_tables(now, &rows)) return now;
+  TableRows all = was;  // becomes the set of the keys of both tables
+  all.insert(left.begin(), left.end());
+  for (const auto& [key, ignored] : all) {
+    if (value_of(was, key) == value_of(left, key) || value_of(rows, key) != value_of(left, key)) continue;
+    if (const auto old = was.find(key); old != was.end()) rows[key] = old->second;
+    else rows.erase(key);
+  }
+  return table_text(rows);
+}
+
+std::vector<TableChange> changed_tables(const std::string& before, const std::string& after) {
+  TableRows was, left;
+  std::vector<TableChange> changes;
+  if (!parse_tables(before, &was) || !parse_tables(after, &left)) return changes;
+  TableRows all = was;  // becomes the set of the keys of both tables
+  all.insert(left.begin(), left.end());
+  for (const auto& [key, ignored] : all)
+    if (value_of(was, key) != value_of(left, key)) changes.push_back({key, value_of(was, key), value_of(left, key)});
+  return changes;
 }
 
 bool TableData::take(std::string* bytes) {

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "nc/nc.h"
 #include "runtime/feeder.hpp"
@@ -32,6 +33,15 @@ std::string encode_changes(const TableRows& now, const TableRows& configured);
 // Writes the changes into a control that has the tables `configured`. False when the bytes are not such changes; nothing has changed then. Values that the
 // control does not have (any more) are skipped, and so are those for which the configuration has another value than when the file was written.
 bool restore_changes(nc_control* control, const nc_config& config, const TableRows& configured, const std::string& bytes);
+
+// `now` with the values of `before` where they have changed from `before` to `after` and are still those of `after`; each is a table_text().
+std::string tables_without(const std::string& before, const std::string& after, const std::string& now);
+
+// A row that has changed from `before` to `after`, each a table_text(): its key and the two values.
+struct TableChange {
+  std::string key, was, is;
+};
+std::vector<TableChange> changed_tables(const std::string& before, const std::string& after);
 
 class TableData final : public RetainedData {
  public:

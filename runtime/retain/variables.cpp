@@ -74,6 +74,33 @@ struct ByNumber {
   std::map<std::uint32_t, std::string> name;
 };
 
+std::string encode(const std::vector<Variable>& variables, const std::vector<Name>& names) {
+  std::string bytes;
+  put(&bytes, static_cast<std::uint32_t>(variables.size()));
+  for (const Variable& variable : variables) {
+    put(&bytes, variable.number);
+    put(&bytes, variable.value);
+  }
+  put(&bytes, static_cast<std::uint32_t>(names.size()));
+  for (const Name& name : names) {
+    put(&bytes, name.number);
+    put(&bytes, name.text);
+  }
+  return bytes;
+}
+
+std::string encode(const ByNumber& all) {
+  std::vector<Variable> variables;
+  for (const auto& [number, value] : all.value) variables.push_back({number, value});
+  std::vector<Name> names;
+  for (const auto& [number, text] : all.name) {
+    Name& name = names.emplace_back();
+    name.number = number;
+    std::strncpy(name.text, text.c_str(), sizeof name.text - 1);
+  }
+  return encode(variables, names);
+}
+
 bool decode(const std::string& bytes, ByNumber* all) {
   std::vector<Variable> variables;
   std::vector<Name> names;
@@ -117,18 +144,7 @@ std::string encode_variables(const nc_control* control) {
     Name name{number, {}};
     if (nc_variable_name_get(control, number, name.text) == NC_OK && name.text[0] != 0) names.push_back(name);
   }
-  std::string bytes;
-  put(&bytes, static_cast<std::uint32_t>(variables.size()));
-  for (const Variable& variable : variables) {
-    put(&bytes, variable.number);
-    put(&bytes, variable.value);
-  }
-  put(&bytes, static_cast<std::uint32_t>(names.size()));
-  for (const Name& name : names) {
-    put(&bytes, name.number);
-    put(&bytes, name.text);
-  }
-  return bytes;
+  return encode(variables, names);
 }
 
 std::string executed_variables(nc_control* control) {
@@ -157,6 +173,33 @@ void put_back_variables(nc_control* control, const std::string& before, const st
       (void)nc_variable_set(control, api_system(number >> kSystemShift), number & kNumber, value != nullptr ? *value : 0, value == nullptr);
   });
   each_changed(was.name, left.name, now.name, [&](std::uint32_t number, const std::string* name) { (void)nc_variable_name_set(control, number, name != nullptr ? name->c_str() : ""); });
+}
+
+std::string variables_without(const std::string& before, const std::string& after, const std::string& now) {
+  ByNumber was, left, all;
+  if (!decode(before, &was) || !decode(after, &left) || !decode(now, &all)) return now;
+  const ByNumber seen = all;
+  each_changed(was.value, left.value, seen.value, [&](std::uint32_t number, const double* value) {
+    if (value != nullptr) all.value[number] = *value;
+    else all.value.erase(number);
+  });
+  each_changed(was.name, left.name, seen.name, [&](std::uint32_t number, const std::string* name) {
+    if (name != nullptr) all.name[number] = *name;
+    else all.name.erase(number);
+  });
+  return encode(all);
+}
+
+std::vector<VariableChange> changed_variables(const std::string& before, const std::string& after, unsigned system) {
+  ByNumber was, left;
+  std::vector<VariableChange> changes;
+  if (!decode(before, &was) || !decode(after, &left)) return changes;
+  for (const auto& [number, value] : was.value) {
+    const auto now = left.value.find(number);
+    const bool vacant = now == left.value.end();
+    if (number >> kSystemShift == system && (vacant || now->second != value)) changes.push_back({number & kNumber, value, vacant ? 0 : now->second, vacant});
+  }
+  return changes;
 }
 
 bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {

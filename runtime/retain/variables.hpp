@@ -26,6 +26,16 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
 void set_variables(nc_control* control, const std::string& bytes);
 // What has changed from `before` to `after`, local variables left out, becomes what it was where it is still that of `after`.
 void put_back_variables(nc_control* control, const std::string& before, const std::string& after);
+// The bytes `now` with those changes taken back.
+std::string variables_without(const std::string& before, const std::string& after, const std::string& now);
+
+// A variable of one part system that has changed from `before` to `after`, without the names. One that was vacant is left out.
+struct VariableChange {
+  std::uint32_t number = 0;
+  double was = 0, is = 0;
+  bool vacant = false;  // now
+};
+std::vector<VariableChange> changed_variables(const std::string& before, const std::string& after, unsigned system);
 
 // M700 13.5.5: local variables belong to the program that is being read, and are kept nowhere.
 bool is_local_variable(const nc_control* control, std::uint32_t number);

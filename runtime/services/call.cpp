@@ -15,27 +15,36 @@ constexpr Field kOfLines[] = {Field::kBlocks, Field::kToml, Field::kParameterTom
 
 constexpr int kDeepest = 4;  // of a request: itself, its arguments, and what could be wrong in them
 constexpr double kMostId = 9007199254740991.0;
+constexpr double kMostAgeMs = 86'400'000;
 constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-// Parses without exceptions, and refuses a key that stands twice in one object: of two values nobody knows which one is meant.
-bool parse(std::string_view text, Json* out, std::string* why) {
-  std::vector<std::vector<std::string>> keys;
-  bool deep = false, twice = false;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > kDeepest) deep = true;
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.empty()) {
-      const std::string& key = value.get_ref<const std::string&>();
-      for (const std::string& other : keys.back()) twice = twice || other == key;
-      if (keys.back().size() < kFields) keys.back().push_back(key);
-      else deep = true;
-    }
-    return !deep;
-  };
-  *out = Json::parse(text.begin(), text.end(), watch, false);
-  *why = deep ? "has too many members, or is nested too deep" : twice ? "has a member twice" : out->is_discarded() ? "is no JSON in UTF-8" : "";
-  return why->empty();
+// Whether a text that is no JSON fails by a number beyond those of the computer.
+class NumberWatch final : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+    constexpr int kNumberOverflow = 406;
+    too_large = error.id == kNumberOverflow;
+    return false;
+  }
+  bool too_large = false;
+};
+
+const char* what_is_no_json(std::string_view text) {
+  NumberWatch watch;
+  (void)Json::sax_parse(text.begin(), text.end(), &watch);
+  return watch.too_large ? "has a number that is too large" : "is no JSON in UTF-8";
 }
 
 std::string range_text(const FieldInfo& row) {
@@ -94,6 +103,20 @@ std::string take(const FieldInfo& row, const Json& value, Call* call) {
   return "?";
 }
 
+// With which right the request has come, and how long it was on its way. "" = good.
+std::string take_origin(const Json& message, Call* call) {
+  if (const auto right = message.find("right"); right != message.end()) {
+    if (!right->is_string()) return "right must be the name of a right";
+    call->right = find_right(right->get_ref<const std::string&>());
+    if (!call->right) return "right must be view, operate, set up or maintain";
+  }
+  if (const auto age = message.find("age_ms"); age != message.end()) {
+    if (!age->is_number_unsigned() || age->get<double>() > kMostAgeMs) return "age_ms must be a whole number from 0 to a day";
+    call->age_ns = age->get<std::int64_t>() * 1'000'000;
+  }
+  return "";
+}
+
 const FieldInfo* field_of(const ServiceRow& row, std::string_view name) {
   for (const Wanted& wanted : row.request)
     if (name == row_of(wanted.field).name) return &row_of(wanted.field);
@@ -127,6 +150,27 @@ bool is_program_name(std::string_view name) {
   return is_printable(name, false) && valid_utf8(name) == name;
 }
 
+// Parses without exceptions, and refuses a key that stands twice in one object: of two values nobody knows which one is meant.
+bool read_json(std::string_view text, Json* out, std::string* why) {
+  std::vector<std::vector<std::string>> keys;
+  bool deep = false, twice = false;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > kDeepest) deep = true;
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end && !keys.empty()) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.empty()) {
+      const std::string& key = value.get_ref<const std::string&>();
+      for (const std::string& other : keys.back()) twice = twice || other == key;
+      if (keys.back().size() < kFields) keys.back().push_back(key);
+      else deep = true;
+    }
+    return !deep;
+  };
+  *out = Json::parse(text.begin(), text.end(), watch, false);
+  *why = deep ? "has too many members, or is nested too deep" : twice ? "has a member twice" : out->is_discarded() ? what_is_no_json(text) : "";
+  return why->empty();
+}
+
 bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
   const auto bad = [&](Refused why, std::string text) {
     *outcome = Outcome::refused(why, std::move(text));
@@ -134,17 +178,18 @@ bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
   };
   Json message;
   std::string why;
-  if (!parse(frame, &message, &why)) return bad(Refused::kMalformed, "the request " + why);
+  if (!read_json(frame, &message, &why)) return bad(Refused::kMalformed, "the request " + why);
   if (!message.is_object()) return bad(Refused::kMalformed, "the request is no object");
   const auto id = message.find("id");
   if (id == message.end() || !id->is_number_unsigned() || id->get<double>() > kMostId) return bad(Refused::kMalformed, "id must be a whole number from 0");
   call->id = id->get<std::uint64_t>();
   for (const auto& [key, value] : message.items())
-    if (key != "id" && key != "service" && key != "args") return bad(Refused::kMalformed, "the request has no member \"" + key + "\"");
+    if (key != "id" && key != "service" && key != "args" && key != "right" && key != "age_ms") return bad(Refused::kMalformed, "the request has no member \"" + key + "\"");
   const auto name = message.find("service");
   if (name == message.end() || !name->is_string()) return bad(Refused::kMalformed, "service must be the name of a service");
   call->row = find_service(name->get_ref<const std::string&>());
   if (call->row == nullptr) return bad(Refused::kUnknownService, "there is no such service");
+  if (const std::string wrong = take_origin(message, call); !wrong.empty()) return bad(Refused::kMalformed, wrong);
   const auto args = message.find("args");
   if (args != message.end() && !args->is_object()) return bad(Refused::kMalformed, "args must be an object");
   if (args != message.end()) {

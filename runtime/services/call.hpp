@@ -2,6 +2,7 @@
 // One request with its values checked against the table of services, and the replies to it, as JSON.
 //
 //   request  {"id": 7, "service": "mode", "args": {"mode": "auto"}}
+//            may have "right": "operate" (it may use services of this right and of view only) and "age_ms": 12 (it has been on its way for so long)
 //   reply    {"id": 7, "ok": true, "reply": {"text": ""}}
 //   refusal  {"id": 7, "ok": false, "error": "no right", "text": "tools.set needs the right to set up"}
 //
@@ -13,6 +14,7 @@
 #include <bitset>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +50,8 @@ struct Call {
   std::array<double, kFields> number{};     // numbers, and flags as 0 or 1
   std::array<std::string, kFields> text{};  // texts, names, and data as bytes
   std::vector<std::string> texts = {};      // of the list, of which no request has two
+  std::optional<Right> right = {};          // the only one besides view with which the request has come
+  std::int64_t age_ns = 0;                  // it was on its way for so long before it came here
 
   bool has(Field field) const { return given[static_cast<unsigned>(field)]; }
   double value(Field field) const { return number[static_cast<unsigned>(field)]; }
@@ -76,6 +80,9 @@ struct Outcome {
   }
   static Outcome refused(Refused why, std::string text) { return {false, why, std::move(text), Json()}; }
 };
+
+// Reads JSON from another process. False with what is wrong in *why, as the end of a sentence: no JSON, a member twice, nested too deep.
+bool read_json(std::string_view text, Json* out, std::string* why);
 
 // Reads a request. False with the refusal in *outcome; call->id is the number of the request as far as it could be read, else 0.
 bool decode_call(std::string_view frame, Call* call, Outcome* outcome);

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <vector>
 
 #include "runtime/services/system_error.hpp"
@@ -21,13 +22,14 @@ namespace {
 // As it is shown.
 Json to_json(const Change& change) {
   return {{"number", change.number}, {"time_ns", change.time_ns}, {"user", change.user},   {"client", change.client}, {"service", change.service},
-          {"what", change.what},     {"before", change.before},   {"after", change.after}, {"undone_by", change.undone_by}};
+          {"what", change.what},     {"before", change.before},   {"after", change.after}, {"undone_by", change.undone_by}, {"lost", is_lost(change)}};
 }
 
 // As it stands in the file.
 std::string to_line(const Change& change) {
   Json json = to_json(change);
   json.erase("undone_by");  // it comes later: the undo says what it has taken back
+  json.erase("lost");       // so does this: it is found at each start
   if (change.undoes != 0) json["undoes"] = change.undoes;
   if (!change.values.empty()) {
     Json values = Json::array();
@@ -80,6 +82,10 @@ bool from_line(const std::string& line, Change* change) {
 
 }  // namespace
 
+bool is_lost(const Change& change) {
+  return !change.values.empty() && std::all_of(change.values.begin(), change.values.end(), [](const ValueChange& value) { return value.lost; });
+}
+
 std::string user_name(uid_t user) {
   std::vector<char> buffer(16384);
   passwd entry{};
@@ -128,12 +134,27 @@ const Change* ChangeLog::find(std::uint64_t number) const {
   return nullptr;
 }
 
-const Change* ChangeLog::last_of(const std::string& user, Right right) const {
-  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) {
+const Change* ChangeLog::last_of(const std::string& user, Right right, std::vector<const Change*>* lost) const {
+  std::vector<const Change*> left_out;
+  const Change* found = nullptr;
+  for (auto change = changes_.rbegin(); change != changes_.rend() && found == nullptr; ++change) {
     const ServiceRow* row = find_service(change->service);
-    if (change->user == user && !change->values.empty() && change->undoes == 0 && change->undone_by == 0 && row != nullptr && row->right == right) return &*change;
+    if (change->user != user || change->values.empty() || change->undoes != 0 || row == nullptr || row->right != right) continue;
+    if (change->undone_by != 0) left_out.clear();  // the undo has named them
+    else if (is_lost(*change)) left_out.push_back(&*change);
+    else found = &*change;
   }
-  return nullptr;
+  if (lost != nullptr) *lost = std::move(left_out);
+  return found;
+}
+
+std::vector<TablePlace> ChangeLog::places() const {
+  std::map<std::string, TablePlace> all;
+  for (const Change& change : changes_)
+    for (const ValueChange& value : change.values) all.emplace(place_key(value.place), value.place);
+  std::vector<TablePlace> places;
+  for (auto& [key, place] : all) places.push_back(std::move(place));
+  return places;
 }
 
 bool ChangeLog::open(std::string* error) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "runtime/services/call.hpp"
+#include "runtime/services/lost_changes.hpp"
 #include "runtime/services/table_values.hpp"
 
 namespace nc::rt::services {
@@ -25,6 +26,9 @@ struct Change {
   std::uint64_t undoes = 0;      // number of the change that this one has taken back, 0 = none
   std::uint64_t undone_by = 0;   // number of the change that has taken this one back
 };
+
+// Whether nothing of it is there any more.
+bool is_lost(const Change& change);
 
 // To be used by one thread.
 class ChangeLog {
@@ -47,8 +51,13 @@ class ChangeLog {
 
   // The change with this number; null when it is not remembered.
   const Change* find(std::uint64_t number) const;
-  // The newest change of the user that can be taken back and has not been, by a service with this right; null = there is none.
-  const Change* last_of(const std::string& user, Right right) const;
+  // The newest change of the user that can be taken back and has not been, by a service with this right; null = there is none. *lost gets those that stand in front
+  // of it and are lost, which nobody has been told of by an undo yet.
+  const Change* last_of(const std::string& user, Right right, std::vector<const Change*>* lost = nullptr) const;
+  // The places of all changes that are remembered, each of them once.
+  std::vector<TablePlace> places() const;
+  // Marks what was lost before this start.
+  void compare(const ValueOf& value_of) { mark_lost(&changes_, value_of); }
 
   static constexpr std::size_t kRemembered = 1000;
   static constexpr std::size_t kRememberedValues = 50'000;  // of all changes together; the oldest ones lose theirs

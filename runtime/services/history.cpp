@@ -142,9 +142,11 @@ Outcome list_program_times(history::Recorder* history, const Call& call) {
 
 // ---- what operators do ----
 
-void ActionNotes::came(std::uint64_t writer, uid_t user) {
+std::string user_of_behalf(const std::string& behalf) { return behalf.substr(0, behalf.find('@')); }
+
+void ActionNotes::came(std::uint64_t writer, uid_t user, const std::string& behalf) {
   const std::lock_guard lock(mutex_);
-  users_[writer] = user;
+  users_[writer] = {user, behalf};
 }
 
 void ActionNotes::gone(std::uint64_t writer) {
@@ -179,15 +181,15 @@ void ActionNotes::answered(const share::Request* request, const share::Ack& ack)
   if (request != nullptr) entry.text = words_of(*request);
   entry.outcome = outcome_of(ack);
   if (static_cast<share::Way>(ack.way) == share::Way::kLocal) {
-    uid_t user = 0;
+    Actor actor;
     bool known = false;
     {
       const std::lock_guard lock(mutex_);
       const auto found = users_.find(ack.writer);
       known = found != users_.end();
-      if (known) user = found->second;
+      if (known) actor = found->second;
     }
-    if (known) entry.user = name_of(user);
+    if (known) entry.user = actor.behalf.empty() ? name_of(actor.user) : user_of_behalf(actor.behalf);
   }
   if (refused || kind == share::RequestKind::kJog || kind == share::RequestKind::kRestartApproach) {
     const std::int64_t now = RealClock().now_ns();
@@ -215,11 +217,11 @@ void ActionNotes::changed(const Change& change) {
   history_->add(std::move(entry));
 }
 
-void ActionNotes::denied(uid_t user, const std::string& client, const std::string& service, unsigned more) {
+void ActionNotes::denied(uid_t user, const std::string& behalf, const std::string& client, const std::string& service, unsigned more) {
   if (history_ == nullptr) return;
   Entry entry;
   entry.kind = EntryKind::kAction;
-  entry.user = name_of(user);
+  entry.user = behalf.empty() ? name_of(user) : user_of_behalf(behalf);
   entry.client = client;
   entry.service = service;
   entry.text = service.empty() ? "connected without any right" : "";

@@ -183,6 +183,7 @@ void LocalServer::greet() {
   session.number = next_session_++;
   session.user = peer.user;
   session.client = "uid" + std::to_string(peer.user) + "/" + std::to_string(peer.process) + "." + std::to_string(session.number % 1'000'000);
+  session.may_speak = peer.user == 0 || peer.user == geteuid();
   if (why.empty()) session.rights = judge_(peer);
   if (why.empty() && session.rights.none()) why = "this user has none of the rights to view, operate, set up and maintain";
   unsigned same = 0;
@@ -260,16 +261,30 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   Outcome outcome;
   if (!decode_call(frame, &job.call, &outcome)) return put(connection, encode_reply(job.call.id, outcome));
   const Session& session = *connection->session;
-  if (const std::string lacks = Services::lack(session, *job.call.row); !lacks.empty()) {
+  if (const std::string lacks = Services::lack(session, job.call); !lacks.empty()) {
     deny(connection->session, job.call);
     return put(connection, encode_reply(job.call.id, Outcome::refused(Refused::kNoRight, lacks)));
   }
+  if (job.call.row->service == Service::kLimit) return put(connection, encode_reply(job.call.id, limit(connection, job.call)));
   if (job.call.row->lane == Lane::kNow) return put(connection, encode_reply(job.call.id, services_.show(session, job.call)));
   ++connection->outstanding;
   job.session = connection->session;
-  job.came_ns = now_ns();
+  job.came_ns = now_ns() - job.call.age_ns;
   const Lane lane = job.call.row->lane;
   post(lane, std::move(job));
+}
+
+// The session is replaced and not changed, because other threads may still look at it.
+Outcome LocalServer::limit(Connection* connection, const Call& call) {
+  if (connection->outstanding != 0) return Outcome::refused(Refused::kBusy, "requests of this connection are open");
+  auto after = std::make_shared<Session>();
+  Outcome outcome = Services::limit(*connection->session, call, after.get());
+  if (!outcome.ok) return outcome;
+  for (const auto& other : connections_)
+    if (other.get() != connection && other->socket >= 0 && !after->behalf.empty() && other->session->behalf == after->behalf)
+      return Outcome::refused(Refused::kBusy, "another connection asks for " + after->behalf);
+  connection->session = std::move(after);
+  return outcome;
 }
 
 // Has it written down who was refused, in a thread that may look up his name.
@@ -375,6 +390,7 @@ void LocalServer::post(Lane lane, Job job) {
 }
 
 void LocalServer::work(Worker* worker, Lane lane) {
+  if (lane == Lane::kData) services_.find_lost_changes();
   for (;;) {
     Job job;
     {
@@ -409,7 +425,7 @@ void LocalServer::post_updates() {
 
 void LocalServer::execute(const Job& job, Lane lane) {
   if (job.gone) return lane == Lane::kCommand ? services_.command_gone(*job.session) : services_.data_gone(*job.session);
-  if (job.denied) return services_.notes()->denied(job.session->user, job.session->client, job.call.row == nullptr ? "" : job.call.row->name, job.more);
+  if (job.denied) return services_.notes()->denied(job.session->user, job.session->behalf, job.session->client, job.call.row == nullptr ? "" : job.call.row->name, job.more);
   if (!job.session->open) return;  // its client has gone before its turn came
   if (lane == Lane::kCommand) return execute_command(job);
   answer(job.session->number, job.call.id, services_.data(*job.session, job.call));

@@ -98,6 +98,7 @@ class LocalServer {
   void take_frames(Connection* connection);
   bool take_while_room(Connection* connection);
   void take(Connection* connection, const std::string& frame);
+  Outcome limit(Connection* connection, const Call& call);
   void send_out(Connection* connection);
   void deny(const std::shared_ptr<Session>& session, const Call& call);
   void put(Connection* connection, const std::string& text);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr auto kLookPeriod = std::chrono::milliseconds(50);  // how often the files of the programs that may be started are looked at ...
 constexpr unsigned kLooksOfAll = 10;                           // ... and, each so many times, those of all that was found
+constexpr auto kPatience = std::chrono::milliseconds(250);     // with the disk, at a start: a feed hold of the same client waits behind it
 constexpr int kNiceness = 10;  // below the feeder, which is an ordinary thread, and high enough to come to an end on a busy computer
 
 bool is_unchanged(const CheckReport::File& file) {
@@ -34,7 +35,10 @@ ProgramChecks::ProgramChecks(const Config& config, const share::ProgramTable* pr
     : policy_(config.services.check), limit_s_(config.services.check_seconds), systems_(config.nc.system_count), folder_(config.programs_folder()), programs_(*programs), run_(std::move(run)) {}
 
 bool ProgramChecks::start(std::string* error) {
-  return work_thread_.start([this] { work(); }, error) && watch_thread_.start([this] { watch(); }, error);
+  if (!work_thread_.start([this] { work(); }, error) || !watch_thread_.start([this] { watch(); }, error)) return false;
+  const std::lock_guard lock(mutex_);
+  watching_ = true;
+  return true;
 }
 
 void ProgramChecks::stop() {
@@ -44,7 +48,8 @@ void ProgramChecks::stop() {
     given_up_ = true;
   }
   wake_.notify_all();
-  stopped_.notify_all();
+  asked_.notify_all();
+  looked_.notify_all();
   work_thread_.join();
   watch_thread_.join();
 }
@@ -79,11 +84,21 @@ void ProgramChecks::work() {
 void ProgramChecks::watch() {
   std::unique_lock lock(mutex_);
   for (unsigned looks = 0; !stop_; ++looks) {
+    ask_ = false;
+    ++looks_begun_;
     lock.unlock();
+    // In this order: what was found must be gone before a head is taken as one that has not passed, or the next step of the feeder finds it again.
+    forget_changed(false);
     look_at_heads();
-    forget_changed(looks % kLooksOfAll == 0);
     lock.lock();
-    stopped_.wait_for(lock, kLookPeriod, [this] { return stop_; });
+    looks_ended_ = looks_begun_;
+    looked_.notify_all();
+    if (looks % kLooksOfAll == 0) {
+      lock.unlock();
+      forget_changed(true);
+      lock.lock();
+    }
+    asked_.wait_for(lock, kLookPeriod, [this] { return stop_ || ask_; });
   }
 }
 
@@ -203,6 +218,20 @@ bool ProgramChecks::may_begin(unsigned system, unsigned file) {
     head.called.assign(found->second.files.begin() + 1, found->second.files.end());
   }
   return head.passed || policy_ == ProgramCheck::kWarn;
+}
+
+// The thread that watches looks, so that a disk that does not answer keeps nobody for longer than kPatience.
+StartGate::Looked ProgramChecks::look_again() {
+  std::unique_lock lock(mutex_);
+  const bool calls = std::any_of(head_.begin(), head_.end(), [](const Head& head) { return !head.called.empty(); });
+  if (watching_ && calls) {
+    const std::uint64_t wanted = looks_begun_ + 1;  // one that is under way may have seen the files before they were changed
+    ask_ = true;
+    asked_.notify_all();
+    if (!looked_.wait_for(lock, kPatience, [&] { return stop_ || looks_ended_ >= wanted; })) return Looked::kNoAnswer;
+  }
+  const bool same = std::all_of(head_.begin(), head_.end(), [](const Head& head) { return head.key.first.empty() || head.passed; });
+  return same ? Looked::kSame : Looked::kDoubtful;
 }
 
 bool ProgramChecks::waits(unsigned system) {

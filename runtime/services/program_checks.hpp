@@ -96,6 +96,7 @@ class ProgramChecks final : public StartGate {
   Outcome again(const Call& call);
 
   bool may_begin(unsigned system, unsigned file) override;
+  Looked look_again() override;
   bool waits(unsigned system) override;
   std::string remark(unsigned system) override;
 
@@ -127,12 +128,13 @@ class ProgramChecks final : public StartGate {
   const share::ProgramTable& programs_;
   const CheckRun run_;
   mutable std::mutex mutex_;  // guards what follows
-  std::condition_variable wake_, stopped_;
+  std::condition_variable wake_, asked_, looked_;
   std::deque<CheckOrder> waiting_;
   std::map<Key, CheckReport> reports_;
   std::array<Head, NC_MAX_SYSTEMS> head_;
   Key in_work_;
-  bool working_ = false, stop_ = false;
+  bool working_ = false, watching_ = false, ask_ = false, stop_ = false;
+  std::uint64_t looks_begun_ = 0, looks_ended_ = 0;  // of watch(), at the heads
   std::atomic<bool> given_up_{false};
   RtThread work_thread_, watch_thread_;
 };

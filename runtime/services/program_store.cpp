@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 namespace nc::rt::services {
 namespace {
@@ -21,6 +22,18 @@ constexpr std::uint64_t kDefaultCount = 500;
 
 std::uint64_t whole(const Call& call, Field field, std::uint64_t other = 0) {
   return call.has(field) ? static_cast<std::uint64_t>(call.value(field)) : other;
+}
+
+// 64 hexadecimal digits in any case, made those in which the sum is written here.
+bool read_digest(const std::string& text, std::string* digest) {
+  constexpr std::size_t kHashDigits = 64;
+  digest->clear();
+  for (const char c : text) {
+    if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'f')) digest->push_back(c);
+    else if (c >= 'A' && c <= 'F') digest->push_back(static_cast<char>(c - 'A' + 'a'));
+    else return false;
+  }
+  return digest->size() == kHashDigits;
 }
 
 Outcome failed(const std::string& what) {
@@ -115,8 +128,10 @@ std::uint64_t ProgramStore::used_bytes(int folder) const {
 Outcome ProgramStore::list(const Call& call) const {
   const Held folder(open_folder());
   if (folder.number < 0) return failed("the folder of programs");
-  const Use use = use_();
   const auto files = files_in(folder.number);
+  Names names;
+  for (const auto& [name, info] : files) names.push_back(name);
+  const Use use = use_(names);
   const std::uint64_t from = whole(call, Field::kFrom), count = whole(call, Field::kCount, kDefaultCount);
   Json programs = Json::array();
   std::uint64_t bytes = 0;
@@ -150,13 +165,24 @@ Outcome ProgramStore::read(const Call& call) const {
   return Outcome::with({{"data", to_base64(bytes)}, {"size", info.st_size}, {"modified_ns", modified_ns(info)}});
 }
 
+// Whether a program may be written, or get this name. The range of numbers that a parameter protects is closed as a whole: a new program with such a number
+// would be called in place of one with another ending.
+bool ProgramStore::may_name(const std::string& name, Outcome* outcome) const {
+  const Use use = use_({name});
+  if (use.known && !contains(use.locked, name)) return true;
+  if (!use.known) *outcome = Outcome::refused(Refused::kFailed, "the control does not say which programs its parameters protect");
+  else *outcome = Outcome::refused(Refused::kProtected, name + " is protected: a parameter protects its number");
+  return false;
+}
+
 // Whether an existing program may be changed now. True also when there is none.
 bool ProgramStore::may_change(int folder, const std::string& name, Outcome* outcome) const {
+  if (!may_name(name, outcome)) return false;
   struct stat info {};
   if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return true;
-  const Use use = use_();
+  const Use use = use_({});
   if (!S_ISREG(info.st_mode)) *outcome = Outcome::refused(Refused::kProtected, name + " is no program");
-  else if (is_protected(info) || contains(use.locked, name)) *outcome = Outcome::refused(Refused::kProtected, name + " is protected");
+  else if (is_protected(info)) *outcome = Outcome::refused(Refused::kProtected, name + " is protected");
   else if (use.active && contains(use.selected, name)) *outcome = Outcome::refused(Refused::kProtected, name + " is in execution: reset first");
   else if (use.active && static_cast<std::uint64_t>(info.st_size) > limits_.copy_bytes)
     *outcome = Outcome::refused(Refused::kProtected, name + " is so large that a program in execution reads it from its file: reset first");
@@ -167,6 +193,8 @@ bool ProgramStore::may_change(int folder, const std::string& name, Outcome* outc
 Outcome ProgramStore::begin(std::uint64_t session, const Call& call) {
   const std::string& name = call.words(Field::kFile);
   const std::uint64_t size = whole(call, Field::kSize);
+  std::string digest;
+  if (!read_digest(call.words(Field::kHash), &digest)) return Outcome::refused(Refused::kMalformed, "the SHA-256 is not 64 hexadecimal digits");
   if (size > limits_.program_bytes)
     return Outcome::refused(Refused::kNoSpace, "a program may have " + std::to_string(limits_.program_bytes) + " bytes, not " + std::to_string(size));
   if (uploads_.size() >= kUploads) return Outcome::refused(Refused::kBusy, std::to_string(kUploads) + " programs are being written already");
@@ -183,7 +211,7 @@ Outcome ProgramStore::begin(std::uint64_t session, const Call& call) {
   upload.session = session;
   upload.name = name;
   upload.hidden = kHidden + std::to_string(getpid()) + "-" + std::to_string(next_);
-  upload.hash = call.words(Field::kHash);
+  upload.hash = std::move(digest);
   upload.size = size;
   upload.replace = replace;
   upload.file = openat(folder.number, upload.hidden.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, kPermissions);
@@ -275,7 +303,7 @@ Outcome ProgramStore::rename(const Call& call) {
   const Held folder(open_folder());
   if (folder.number < 0) return failed("the folder of programs");
   Outcome outcome;
-  if (!may_change(folder.number, name, &outcome)) return outcome;
+  if (!may_change(folder.number, name, &outcome) || !may_name(to, &outcome)) return outcome;
   if (renameat2(folder.number, name.c_str(), folder.number, to.c_str(), RENAME_NOREPLACE) != 0)
     return errno == EEXIST ? Outcome::refused(Refused::kProtected, to + " is there already") : failed(name);
   return sync_folder(folder.number) ? Outcome::done() : failed(name);

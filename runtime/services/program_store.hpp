@@ -29,10 +29,13 @@ class ProgramStore {
   struct Use {
     std::vector<std::string> selected;  // names
     bool active = false;                // a program is in execution or interrupted
-    std::vector<std::string> locked;    // names that parameters of the control protect
+    bool known = true;                  // false: the control has not said what its parameters protect
+    std::vector<std::string> locked;    // those of the names asked about that parameters of the control protect
   };
+  using Names = std::vector<std::string>;
 
-  ProgramStore(std::string folder, const StoreLimits& limits, std::function<Use()> use) : folder_(std::move(folder)), limits_(limits), use_(std::move(use)) {}
+  // `use`: says so of these names, whether or not there are such programs.
+  ProgramStore(std::string folder, const StoreLimits& limits, std::function<Use(const Names&)> use) : folder_(std::move(folder)), limits_(limits), use_(std::move(use)) {}
   ~ProgramStore();
   ProgramStore(const ProgramStore&) = delete;
   ProgramStore& operator=(const ProgramStore&) = delete;
@@ -65,13 +68,14 @@ class ProgramStore {
   };
   int open_folder() const;
   bool may_change(int folder, const std::string& name, Outcome* outcome) const;
+  bool may_name(const std::string& name, Outcome* outcome) const;
   Upload* find(std::uint64_t session, const Call& call);
   void drop(std::uint32_t number);
   std::uint64_t used_bytes(int folder) const;
 
   const std::string folder_;
   const StoreLimits limits_;
-  const std::function<Use()> use_;
+  const std::function<Use(const Names&)> use_;
   std::map<std::uint32_t, Upload> uploads_;
   std::uint32_t next_ = 1;
 };

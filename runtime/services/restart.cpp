@@ -31,12 +31,14 @@ Json codes_json(const RecoveryList& list) {
 
 Json axes_json(const nc_system_config& axes, const nc_outputs& out, const RestartStatus& status) {
   const bool known = status.phase == RestartPhase::kFound || status.phase == RestartPhase::kStands;
-  const std::uint32_t away = known ? out.restart_axes : out.moved_by_hand;
+  const bool held = !known && (out.state == NC_STATE_HOLD || out.restart_axes != 0);
+  const std::uint32_t away = known || held ? out.restart_axes : out.moved_by_hand;
+  const nc_axes& place = held ? out.return_place : status.found.machine;
   Json list = Json::array();
   for (unsigned a = 0; a < axes.axis_count; ++a) {
     Json axis = {{"name", std::string(1, axes.axis[a].name)}, {"machine", out.command.v[a]}, {"away", (away >> a & 1u) != 0}};
-    if (known) axis["place"] = status.found.machine.v[a];
-    if (known) axis["to_go"] = status.found.machine.v[a] - out.command.v[a];
+    if (known || held) axis["place"] = place.v[a];
+    if (known || held) axis["to_go"] = place.v[a] - out.command.v[a];
     list.push_back(std::move(axis));
   }
   return list;

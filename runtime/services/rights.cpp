@@ -33,6 +33,12 @@ const char* right_name(Right right) {
   return "?";
 }
 
+std::optional<Right> find_right(std::string_view name) {
+  for (unsigned right = 0; right < kRightCount; ++right)
+    if (name == right_name(static_cast<Right>(right))) return static_cast<Right>(right);
+  return std::nullopt;
+}
+
 bool credentials_of(int socket, Credentials* peer) {
   ucred who{};
   socklen_t size = sizeof who;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ inline constexpr unsigned kRightCount = 4;
 
 // "view", "operate", "set up", "maintain"
 const char* right_name(Right right);
+std::optional<Right> find_right(std::string_view name);
 
 class RightSet {
  public:
@@ -31,6 +33,8 @@ class RightSet {
   constexpr bool none() const { return bits_ == 0; }
   // Every other right includes the right to view.
   constexpr void add(Right right) { bits_ |= 1u << static_cast<unsigned>(right) | 1u << static_cast<unsigned>(Right::kView); }
+  // What both have.
+  constexpr RightSet both(RightSet other) const { return RightSet(bits_ & other.bits_); }
   constexpr bool operator==(const RightSet&) const = default;
 
  private:

@@ -52,7 +52,7 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kBegin, "begin", Kind::kWhole, 0, kMostSize, "bytes", "place of the first byte, from 0"},
     {Field::kBytes, "bytes", Kind::kWhole, 1, kChunkBytes, "bytes", "number of bytes at most"},
     {Field::kSize, "size", Kind::kWhole, 0, kMostSize, "bytes", "bytes of the whole program"},
-    {Field::kHash, "sha256", Kind::kText, 64, 64, "", "SHA-256 of the whole program, 64 hexadecimal digits"},
+    {Field::kHash, "sha256", Kind::kText, 64, 64, "", "SHA-256 of the whole program, 64 hexadecimal digits in any case"},
     {Field::kReplace, "replace", Kind::kFlag, 0, 1, "", "true: a program of this name is replaced; otherwise it is refused"},
     {Field::kUpload, "upload", Kind::kWhole, 1, kMost32, "", "number that programs.begin gave"},
     {Field::kData, "data", Kind::kData, 1, kChunkBytes, "bytes", "bytes in base64"},
@@ -101,6 +101,8 @@ constexpr FieldInfo kFieldTable[] = {
     {Field::kOf, "of", Kind::kText, 4, 64, "", "only changes of this row or value of a table: `tool 3`, `tool 3 radius_wear`, `life 3`, `offset 1 102`, `offset 1 102 X`, `variable 1 501`, `name 501`, `parameter 1 X 2001`, `parameter 1 - 1078`; the number before that of offsets, variables and parameters is the part system, - all axes"},
     {Field::kToolName, "name", Kind::kText, 0, kLongestToolName, "", "name of the tool for people; an empty one takes it away"},
     {Field::kPocket, "pocket", Kind::kWhole, 0, kMostPocket, "", "its pocket in the magazine, in which no other tool is; 0 = in none"},
+    {Field::kKeptRights, "rights", Kind::kList, 1, kRightCount, "", "the rights that the connection keeps: view, operate, set up, maintain"},
+    {Field::kBehalf, "behalf", Kind::kText, 3, kMostBehalf, "", "for whom the connection asks from now on, such as dds:screen-1: printable ASCII with a colon, as no user of the computer is called"},
 };
 static_assert(std::size(kFieldTable) == kFields);
 
@@ -114,6 +116,7 @@ constexpr Wanted kChangesArguments[] = {may(Field::kOf), may(Field::kFrom), may(
 constexpr Wanted kSystemPage[] = {may(Field::kSystem), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kParametersArguments[] = {may(Field::kSystem), may(Field::kAll), may(Field::kFrom), may(Field::kCount)};
 constexpr Wanted kReadArguments[] = {must(Field::kFile), must(Field::kBegin), must(Field::kBytes)};
+constexpr Wanted kLimitArguments[] = {must(Field::kKeptRights), may(Field::kBehalf)};
 constexpr Wanted kLeaseOnly[] = {may(Field::kLease)};
 constexpr Wanted kCommandOnly[] = {may(Field::kSystem), may(Field::kLifespan)};
 constexpr Wanted kLifespanOnly[] = {may(Field::kLifespan)};
@@ -159,6 +162,7 @@ constexpr ReplyRow kDoneReply[] = {{"text", "text", "what there is to say about 
 constexpr ReplyRow kRightsReply[] = {{"client", "text", "the name under which this connection may have control"},
                                      {"rights[]", "text", "view, operate, set up, maintain"},
                                      {"control", "text", "the client that has control, empty = nobody"}};
+constexpr ReplyRow kLimitReply[] = {{"client", "text", "the name under which this connection may have control from now on"}, {"rights[]", "text", "what it still has"}};
 constexpr ReplyRow kServicesReply[] = {{"services[].name", "text", "name of the service"},
                                        {"services[].right", "text", "the right that it needs"},
                                        {"services[].meaning", "text", "what it does"},
@@ -194,7 +198,7 @@ constexpr ReplyRow kStatusReply[] = {{"scan", "whole", "number of the scan that 
                                      {"systems[].main_line", "whole", "line of the main program that is in execution or was finished last"},
                                      {"systems[].lines", "whole", "lines of the main program, 0 = not known"},
                                      {"systems[].percent", "whole", "part of the main program that is done"},
-                                     {"systems[].runs", "whole", "number of programs that came to their end"},
+                                     {"systems[].runs", "whole", "number of programs that came to their end without an alarm"},
                                      {"systems[].run_s", "number", "time in execution since the start, s"},
                                      {"systems[].modal", "text", "codes in force after the last finished block"},
                                      {"systems[].m", "whole", "last M code"},
@@ -266,7 +270,8 @@ constexpr ReplyRow kChangesReply[] = {{"changes[].number", "whole", "number of t
                                       {"changes[].what", "text", "what was changed"},
                                       {"changes[].before", "text", "its value before, empty = none"},
                                       {"changes[].after", "text", "its value after it, empty = none"},
-                                      {"changes[].undone_by", "whole", "number of the change that has taken it back, 0 = none"}};
+                                      {"changes[].undone_by", "whole", "number of the change that has taken it back, 0 = none"},
+                                      {"changes[].lost", "flag", "a power cut has taken it: at the start of ncrtd its values were those from before it"}};
 constexpr ReplyRow kExportReply[] = {{"toml", "text", "the sections [tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]; of further part systems [variables2] ..."}};
 constexpr ReplyRow kParameterExportReply[] = {{"toml", "text", "the section [parameters], of further part systems [parameters2] ..."}};
 constexpr ReplyRow kTraceSignalsReply[] = {{"signals[].name", "text", "name of the signal or of the point"},
@@ -368,7 +373,7 @@ constexpr ReplyRow kReadReply[] = {{"data", "data", "bytes in base64"},
                                    {"size", "whole", "bytes of the whole program"},
                                    {"modified_ns", "whole", "time of its last change; when it differs between two pieces, the program was changed meanwhile"}};
 constexpr ReplyRow kRestartReply[] = {{"system", "whole", "part system, from 1"},
-                                      {"phase", "text", "none; searching; found: the next cycle start comes to the place; stands: the program stands there, and cycle start goes on; lost: it was not found or was forgotten, and nothing starts before it is found, cancelled, or a reset or a select says that the program begins at its head; ended"},
+                                      {"phase", "text", "none; searching; found: the next cycle start comes to the place; stands: the program stands there, and cycle start goes on; lost: it was not found or was forgotten, and nothing starts before it is found or cancelled, or a select says that the program begins at its head; ended"},
                                       {"text", "text", "what is looked for, or why it has ended"},
                                       {"read", "whole", "blocks that have been read, in steps"},
                                       {"file", "text", "name of the program in which the place is"},
@@ -379,7 +384,7 @@ constexpr ReplyRow kRestartReply[] = {{"system", "whole", "part system, from 1"}
                                       {"modal", "text", "codes in force there"},
                                       {"asked[]", "text", "what the program has asked the machine on the way, and what was answered with the present state: with another answer it may come there otherwise"},
                                       {"axes[].name", "text", "name of the axis"},
-                                      {"axes[].place", "number", "where the program goes on, in machine coordinates, mm or deg"},
+                                      {"axes[].place", "number", "where the program goes on, in machine coordinates, mm or deg; in a feed hold where its path has stopped"},
                                       {"axes[].machine", "number", "where the axis is"},
                                       {"axes[].to_go", "number", "the difference"},
                                       {"axes[].away", "flag", "cycle start waits for it; or, in another block stop, it was moved by hand"},
@@ -413,6 +418,8 @@ constexpr RequestKind kNo = RequestKind::kCount;
 // In the order of Service.
 constexpr ServiceRow kRows[] = {
     {Service::kRights, "rights", Right::kView, Lane::kNow, kNo, {}, kRightsReply, "who the client is, and what it may do"},
+    {Service::kLimit, "rights.limit", Right::kView, Lane::kNow, kNo, kLimitArguments, kLimitReply,
+     "the connection gives up its other rights for good; `view` stays. It has no request open then. `behalf` is for root and the user of ncrtd, for one connection at a time: changes, history and control have that name, and not the user's"},
     {Service::kServices, "services", Right::kView, Lane::kNow, kNo, {}, kServicesReply, "this table"},
     {Service::kMachine, "machine", Right::kView, Lane::kNow, kNo, {}, kMachineReply, "what does not change while ncrtd runs: axes, limits, period"},
     {Service::kStatus, "status", Right::kView, Lane::kNow, kNo, {}, kStatusReply, "one consistent picture of the machine, at most 10 ms old"},
@@ -466,7 +473,7 @@ constexpr ServiceRow kRows[] = {
     {Service::kRestartConfirm, "restart.confirm", Right::kOperate, Lane::kCommand, RequestKind::kRestartConfirm, kConfirmArguments, kDoneReply,
      "the operator says that an entry of the recovery list, or all of them, need not be given out"},
     {Service::kRestartApproach, "restart.approach", Right::kOperate, Lane::kCommand, RequestKind::kRestartApproach, kApproachArguments, kDoneReply,
-     "an axis goes to where the program goes on, in any block stop in which it was moved by hand; in mode manual, one axis at a time"},
+     "an axis goes to where the program goes on, in any block stop and any feed hold in which it was moved by hand; in mode manual, one axis at a time"},
     {Service::kRestartCancel, "restart.cancel", Right::kOperate, Lane::kCommand, RequestKind::kRestartCancel, kCommandOnly, kDoneReply,
      "the place is no longer looked for, or forgotten: the next cycle start begins at the head of the program"},
 
@@ -522,6 +529,16 @@ const char* kind_name(Kind kind) {
     case Kind::kName: return "name";
     case Kind::kData: return "data";
     case Kind::kList: return "list";
+  }
+  return "?";
+}
+
+const char* topic_of(Right right) {
+  switch (right) {
+    case Right::kView: return "nc_ServiceView";
+    case Right::kOperate: return "nc_ServiceOperate";
+    case Right::kSetUp: return "nc_ServiceSetUp";
+    case Right::kMaintain: return "nc_ServiceMaintain";
   }
   return "?";
 }

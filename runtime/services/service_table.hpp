@@ -19,7 +19,7 @@ enum class Field : std::uint8_t {
   kRadius, kRadiusWear, kOffset, kValue, kVariable, kVariableValue, kVacant, kParameter, kText, kNewName, kBegin, kBytes, kSize, kHash, kReplace, kUpload, kData, kSince, kUntil, kEntryKind, kUser,
   kTable, kToml, kChange, kSignals, kTrigger, kWhen, kLevel, kSamples, kBefore, kRecording, kDevices, kLadderText, kLadderName, kInterval, kWatch,
   kBlock, kSequence, kLine, kPassing, kInFile, kPowerOff, kLastStop, kEntry, kSpeed, kCheckSeconds, kVariableName, kAll,
-  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kParameterToml, kOf, kToolName, kPocket, kFields
+  kLifeRow, kLifeGroup, kLifeTool, kLifeFlags, kLifeStatus, kLife, kLifeUsed, kLifeLength, kLifeRadius, kLifeAuxiliary, kParameterToml, kOf, kToolName, kPocket, kKeptRights, kBehalf, kFields
 };
 inline constexpr unsigned kFields = static_cast<unsigned>(Field::kFields);
 
@@ -48,7 +48,7 @@ struct ReplyRow {
 };
 
 enum class Service : std::uint8_t {
-  kRights, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kLives, kOffsets, kVariables, kParameters, kParameterExport, kExport, kPrograms, kProgramRead, kProgramCheck,
+  kRights, kLimit, kServices, kMachine, kStatus, kAlarms, kHistory, kCounters, kProgramTimes, kChanges, kTools, kLives, kOffsets, kVariables, kParameters, kParameterExport, kExport, kPrograms, kProgramRead, kProgramCheck,
   kTraceSignals, kTraceStatus, kTraceRead, kLadderRungs, kLadderDevices, kWatchBegin, kWatchEnd, kRestartStatus,
   kTakeControl, kReleaseControl, kStart, kHold, kReset, kSetMode, kFeedOverride, kRapidOverride, kSingleBlock, kOptionalStop, kJog, kMdi, kSelect, kProgramRecheck, kRestartFind, kRestartConfirm, kRestartApproach, kRestartCancel,
   kSetTool, kSetLife, kSetOffset, kSetVariable, kImport, kUndo, kProgramBegin, kProgramData, kProgramFinish, kProgramAbandon, kProgramRename, kProgramDelete,
@@ -71,6 +71,9 @@ struct ServiceRow {
   const char* meaning;
 };
 
+// The topic on which a request may use the services of this right, and those of view.
+const char* topic_of(Right right);
+
 std::span<const ServiceRow> service_table();
 const ServiceRow* find_service(std::string_view name);
 const ServiceRow& row_of(Service service);
@@ -86,5 +89,11 @@ inline constexpr unsigned kShortestInterval = 20, kLongestInterval = 60000;  // 
 inline constexpr std::size_t kLongestText = 64;                    // bytes of one text of a list
 inline constexpr unsigned kWholePage = 500;                        // elements of a list in one reply, unless `count` asks for fewer
 inline constexpr std::uint32_t kProtocol = 1;
+// Of the services over DDS (dds/nc_dds.idl).
+inline constexpr unsigned kMostRemoteClient = 27;                   // bytes of the name of a client
+inline constexpr unsigned kMostServiceName = 31;
+inline constexpr std::size_t kMostArguments = kMostFrameBytes - 256;  // bytes of the arguments of a request, in JSON
+inline constexpr std::size_t kPartBytes = 60000;                    // of a reply; a longer one comes in several parts
+inline constexpr unsigned kMostBehalf = 31;                        // bytes of the name of another for whom a connection asks
 
 }  // namespace nc::rt::services

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/programs/called_number.hpp"
 #include "runtime/services/restart.hpp"
 #include "runtime/services/shown.hpp"
 #include "runtime/services/table_changes.hpp"
@@ -47,6 +48,13 @@ bool is_of_restart(share::RequestKind kind) {
   return kind == RequestKind::kRestartFind || kind == RequestKind::kRestartConfirm || kind == RequestKind::kRestartApproach || kind == RequestKind::kRestartCancel;
 }
 
+Json rights_json(const Session& session) {
+  Json rights = Json::array();
+  for (unsigned right = 0; right < kRightCount; ++right)
+    if (session.rights.has(static_cast<Right>(right))) rights.push_back(right_name(static_cast<Right>(right)));
+  return {{"client", session.client}, {"rights", std::move(rights)}};
+}
+
 // The one way in which a place is named.
 bool fill_place(const Call& call, share::Request* request, Outcome* outcome) {
   struct Row {
@@ -80,7 +88,7 @@ Services::Services(Runtime* runtime, const share::ProgramTable* programs, share:
       programs_(*programs),
       desk_(*desk),
       segment_(*segment),
-      store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this] { return use(); }),
+      store_(runtime->config().programs_folder(), limits_of(runtime->config()), [this](const ProgramStore::Names& names) { return use(names); }),
       log_(runtime->config().changes_path()),
       trace_(runtime),
       ladder_(runtime),
@@ -96,19 +104,48 @@ void Services::open(std::string* warning) {
   if (!log_.open(&error)) *warning = "changes through the services are not written down: " + error;
 }
 
-std::string Services::lack(const Session& session, const ServiceRow& row) {
-  return session.rights.has(row.right) ? "" : std::string(row.name) + " needs the right to " + right_name(row.right);
+std::string Services::lack(const Session& session, const Call& call) {
+  const ServiceRow& row = *call.row;
+  const std::string needs = std::string(row.name) + " needs the right to " + right_name(row.right);
+  if (!session.rights.has(row.right)) return needs;
+  RightSet came;
+  if (call.right) came.add(*call.right);
+  return !call.right || came.has(row.right) ? "" : needs + ", and this request has come with that to " + right_name(*call.right);
+}
+
+Outcome Services::limit(const Session& session, const Call& call, Session* after) {
+  RightSet kept;
+  kept.add(Right::kView);
+  for (const std::string& name : call.list(Field::kKeptRights)) {
+    const std::optional<Right> right = find_right(name);
+    if (!right) return Outcome::refused(Refused::kMalformed, "rights must hold view, operate, set up, maintain");
+    kept.add(*right);
+  }
+  after->number = session.number;
+  after->client = session.client;
+  after->user = session.user;
+  after->behalf = session.behalf;
+  after->sequence = session.sequence;
+  after->rights = session.rights.both(kept);
+  after->may_speak = session.may_speak && session.behalf.empty();
+  if (!call.has(Field::kBehalf)) return Outcome::with(rights_json(*after));
+  const std::string& behalf = call.words(Field::kBehalf);
+  const bool ascii = std::all_of(behalf.begin(), behalf.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (!ascii || behalf.find(':') == std::string::npos) return Outcome::refused(Refused::kMalformed, "behalf must be printable ASCII with a colon, such as dds:screen-1");
+  if (!session.may_speak || session.sequence != 0) return Outcome::refused(Refused::kNoRight, "only root and the user of ncrtd ask for others, for one of them, and before the first command");
+  after->client = after->behalf = behalf;
+  after->may_speak = false;
+  return Outcome::with(rights_json(*after));
 }
 
 Outcome Services::show(const Session& session, const Call& call) const {
-  if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
+  if (const std::string lacks = lack(session, call); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
   auto hung = Outcome::refused(Refused::kFailed, "the state cannot be read");
   switch (call.row->service) {
     case Service::kRights: {
-      Json rights = Json::array();
-      for (unsigned right = 0; right < kRightCount; ++right)
-        if (session.rights.has(static_cast<Right>(right))) rights.push_back(right_name(static_cast<Right>(right)));
-      return Outcome::with({{"client", session.client}, {"rights", std::move(rights)}, {"control", desk_.controlling()}});
+      Json rights = rights_json(session);
+      rights["control"] = desk_.controlling();
+      return Outcome::with(std::move(rights));
     }
     case Service::kServices:
       return Outcome::with(services_json());
@@ -161,7 +198,7 @@ bool Services::fill(const Call& call, share::Request* request, Outcome* outcome)
 }
 
 bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome) {
-  if (const std::string lacks = lack(*session, *call.row); !lacks.empty()) {
+  if (const std::string lacks = lack(*session, call); !lacks.empty()) {
     *outcome = Outcome::refused(Refused::kNoRight, lacks);
     return true;
   }
@@ -173,7 +210,7 @@ bool Services::command(Session* session, const Call& call, std::int64_t came_ns,
   const share::Now now{share::wall_ns(), RealClock().now_ns()};
   request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
   expect(request->sequence);
-  notes_.came(session->number, session->user);
+  notes_.came(session->number, session->user, session->behalf);
   std::vector<share::Ack> acks;
   desk_.take(*request, now, share::Way::kLocal, &acks);
   if (acks.empty()) {
@@ -203,7 +240,17 @@ void Services::command_gone(const Session& session) {
 
 // ---- data ----
 
-ProgramStore::Use Services::use() const {
+// The number of the name itself, and the one by which a call finds the file: "O9003.a.nc" has none, and M98 P9003 runs it.
+static bool has_protected_number(const nc_control* control, const std::string& name) {
+  const auto is_protected = [control](const std::string& asked) {
+    bool answer = false;
+    return nc_program_name_protected(control, asked.c_str(), &answer) == NC_OK && answer;
+  };
+  const auto called = called_number(name);
+  return is_protected(name) || (called && is_protected(std::to_string(*called)));
+}
+
+ProgramStore::Use Services::use(const ProgramStore::Names& names) const {
   ProgramStore::Use use;
   const FeederInfo info = runtime_.info();
   use.active = runtime_.snapshot().program_active();
@@ -211,18 +258,14 @@ ProgramStore::Use Services::use() const {
     const FeederInfo::Selected& selected = info.system[s].selected;
     if (selected.any && !selected.mdi) use.selected.push_back(share::file_name(programs_.at(selected.file).path));
   }
-  struct Found {
-    std::vector<std::string> locked;
-  };
-  const auto found = std::make_shared<Found>();
-  const Answer answer = runtime_.look([found, count = runtime_.config().nc.programs](nc_control* control) {
-    for (unsigned file = 0; file < count; ++file) {
-      nc_program_info entry;
-      nc_program_info_init(&entry);
-      if (nc_program_get(control, file, &entry) == NC_OK && entry.is_protected) found->locked.emplace_back(entry.name);
-    }
+  if (names.empty()) return use;
+  const auto locked = std::make_shared<ProgramStore::Names>();
+  const Answer answer = runtime_.look([locked, names](nc_control* control) {
+    for (const std::string& name : names)
+      if (has_protected_number(control, name)) locked->push_back(name);
   });
-  if (answer == Answer::kDone) use.locked = std::move(found->locked);
+  use.known = answer == Answer::kDone;
+  if (use.known) use.locked = std::move(*locked);
   return use;
 }
 
@@ -235,7 +278,7 @@ Outcome Services::list_changes(const Call& call) {
 }
 
 Outcome Services::data(const Session& session, const Call& call) {
-  if (const std::string lacks = lack(session, *call.row); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
+  if (const std::string lacks = lack(session, call); !lacks.empty()) return Outcome::refused(Refused::kNoRight, lacks);
   switch (call.row->service) {
     case Service::kChanges: return list_changes(call);
     case Service::kHistory: return list_history(history_, call);
@@ -256,7 +299,7 @@ Outcome Services::data(const Session& session, const Call& call) {
     case Service::kWatchBegin: return watch_.begin(session.number, call, RealClock().now_ns());
     case Service::kWatchEnd: return watch_.end(session.number, call);
     case Service::kRestartStatus: return show_restart(&runtime_, call);
-    case Service::kTraceArm: return trace_.arm(call, notes_.name_of(session.user), session.client);
+    case Service::kTraceArm: return trace_.arm(call, actor(session), session.client);
     case Service::kTraceStop: return trace_.stop();
     case Service::kSetTool:
     case Service::kSetLife:
@@ -295,20 +338,32 @@ Outcome Services::change(const Session& session, const Call& call) {
   return outcome;
 }
 
+void Services::find_lost_changes() { find_lost(&runtime_, &log_); }
+
 // Takes a change back that a service with the right of this one has made: so nobody undoes what he may not do.
 Outcome Services::undo(const Session& session, const Call& call) {
   const bool named = call.has(Field::kChange);
-  const Change* done = named ? log_.find(static_cast<std::uint64_t>(call.value(Field::kChange))) : log_.last_of(notes_.name_of(session.user), call.row->right);
-  if (done == nullptr) return Outcome::refused(Refused::kNotFound, named ? "there is no such change, or it is too old" : "there is nothing of this user to be taken back");
+  std::vector<const Change*> lost;
+  const Change* done = named ? log_.find(static_cast<std::uint64_t>(call.value(Field::kChange))) : log_.last_of(actor(session), call.row->right, &lost);
+  std::string left_out;
+  for (const Change* change : lost) left_out += (left_out.empty() ? "; lost before the last start, and so left out: " : ", ") + std::to_string(change->number) + " (" + change->what + ")";
+  if (done == nullptr) return Outcome::refused(Refused::kNotFound, named ? "there is no such change, or it is too old" : "there is nothing of this user to be taken back" + left_out);
   const ServiceRow* row = find_service(done->service);
   if (row == nullptr || row->right != call.row->right || done->undoes != 0)
     return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " is none that " + call.row->name + " takes back: " + done->service);
   if (done->undone_by != 0) return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " was taken back by change " + std::to_string(done->undone_by));
   if (done->values.empty()) return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " is too old, or is no change of tables");
+  if (is_lost(*done)) return Outcome::refused(Refused::kState, "change " + std::to_string(done->number) + " was lost before the last start: " + done->what + " is as it was before it");
   Change change;
   Outcome outcome = take_back(&runtime_, *done, &change);
+  if (outcome.ok) outcome.reply["text"] = change.what + left_out;
   if (outcome.ok) note(session, call, std::move(change), &outcome);
   return outcome;
+}
+
+// Who is told that a program is there, or gone, may press a button of the machine at once: by then the scan knows that what calls it has to be checked.
+void Services::look_at_heads() {
+  if (checks_->look_again() != StartGate::Looked::kSame) (void)runtime_.look([](nc_control*) {});
 }
 
 Outcome Services::renamed(const Call& call) {
@@ -316,13 +371,17 @@ Outcome Services::renamed(const Call& call) {
   if (outcome.ok && checks_ != nullptr) {
     checks_->gone(call.words(Field::kFile));
     checks_->arrived(call.words(Field::kNewName));
+    look_at_heads();
   }
   return outcome;
 }
 
 Outcome Services::removed(const Call& call) {
   const Outcome outcome = store_.remove(call);
-  if (outcome.ok && checks_ != nullptr) checks_->gone(call.words(Field::kFile));
+  if (outcome.ok && checks_ != nullptr) {
+    checks_->gone(call.words(Field::kFile));
+    look_at_heads();
+  }
   return outcome;
 }
 
@@ -353,7 +412,10 @@ Outcome Services::program(const Session& session, const Call& call) {
       std::string name;
       const Outcome outcome = store_.finish(session.number, call, &name);
       done.what = "program " + name;
-      if (outcome.ok && checks_ != nullptr) checks_->arrived(name);
+      if (outcome.ok && checks_ != nullptr) {
+        checks_->arrived(name);
+        look_at_heads();
+      }
       return noted(outcome);
     }
     case Service::kProgramRename:
@@ -371,7 +433,7 @@ Outcome Services::program(const Session& session, const Call& call) {
 // Writes down who has changed what. A change that cannot be written down is done all the same, and its answer says that.
 void Services::note(const Session& session, const Call& call, Change change, Outcome* outcome) {
   change.time_ns = share::wall_ns();
-  change.user = notes_.name_of(session.user);
+  change.user = actor(session);
   change.client = session.client;
   change.service = call.row->name;
   notes_.changed(change);

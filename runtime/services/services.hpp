@@ -27,6 +27,8 @@ struct Session {
   std::uint64_t number = 0;  // no other session of this process has it
   std::string client;        // name in the intake: printable ASCII, at most 31 characters
   uid_t user = 0;
+  std::string behalf;        // for whom it asks; empty = for its user
+  bool may_speak = false;    // it may ask for others
   RightSet rights;
   std::atomic<bool> open{true};
   std::uint64_t sequence = 0;  // of its commands; in the thread of Lane::kCommand
@@ -41,12 +43,16 @@ class Services {
   // Prepares the files of the services. A sentence in *warning when changes cannot be written down.
   void open(std::string* warning);
 
-  // "" = the client may use the service, else what it lacks. Any thread.
-  static std::string lack(const Session& session, const ServiceRow& row);
+  // "" = the client may use the service with this request, else what it lacks. Any thread.
+  static std::string lack(const Session& session, const Call& call);
+  // Service rights.limit: what the session is from now on, in *after. Whether another one asks for the same is the caller's.
+  static Outcome limit(const Session& session, const Call& call, Session* after);
 
   // One function for each lane, each to be called in one thread of its own.
   Outcome show(const Session& session, const Call& call) const;
   Outcome data(const Session& session, const Call& call);
+  // Looks which changes a power cut has taken. Once, in the thread of Lane::kData, when the control runs and before anything is asked of it.
+  void find_lost_changes();
   // `came_ns`: when the request came, on RealClock: its lifespan counts from there. False: the answer comes later, to IntakeDesk::set_local(), with the session's number as writer and the sequence *sequence. `expect` is called with the sequence
   // before the command is given, because that answer may come before this function returns.
   bool command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome);
@@ -66,10 +72,12 @@ class Services {
   ActionNotes* notes() { return &notes_; }
 
  private:
+  std::string actor(const Session& session) { return session.behalf.empty() ? notes_.name_of(session.user) : user_of_behalf(session.behalf); }
   bool fill(const Call& call, share::Request* request, Outcome* outcome) const;
-  ProgramStore::Use use() const;
+  ProgramStore::Use use(const ProgramStore::Names& names) const;
   Outcome change(const Session& session, const Call& call);
   Outcome undo(const Session& session, const Call& call);
+  void look_at_heads();
   Outcome renamed(const Call& call);
   Outcome removed(const Call& call);
   Outcome list_changes(const Call& call);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -291,10 +292,38 @@ Outcome import_parameters(Runtime* runtime, const Call& call, Change* change) {
   return import_values(runtime, std::move(wanted), change);
 }
 
+void find_lost(Runtime* runtime, ChangeLog* log) {
+  struct Look {
+    std::vector<TablePlace> places;
+    const nc_config* config = nullptr;
+    ToolLabelTable* labels = nullptr;
+    std::map<std::string, std::string> values;
+  };
+  auto look = std::make_shared<Look>();  // the job may outlive the one who waits for it
+  look->places = log->places();
+  look->config = &runtime->config().nc;
+  look->labels = runtime->tool_labels();
+  if (look->places.empty()) return;
+  const Answer answer = runtime->look([look](nc_control* control) {
+    const Tables tables{control, *look->config, look->labels->read()};
+    std::string value;
+    for (const TablePlace& place : look->places)
+      if (tables.read(place, &value).ok) look->values[place_key(place)] = value;
+  });
+  if (answer != Answer::kDone) return;
+  log->compare([&](const TablePlace& place, std::string* value) {
+    const auto found = look->values.find(place_key(place));
+    if (found == look->values.end()) return false;
+    *value = found->second;
+    return true;
+  });
+}
+
 Outcome take_back(Runtime* runtime, const Change& before, Change* change) {
   std::vector<TableValue> wanted;
   std::vector<std::string> expected;
   for (auto value = before.values.rbegin(); value != before.values.rend(); ++value) {
+    if (value->lost) continue;
     // The control has no way to take the setting of a parameter away.
     if (value->place.table == Table::kParameter && value->before.empty())
       return Outcome::refused(Refused::kState, place_text(value->place) + " was not set before, and what is set stays set: give it the value that is wanted");

@@ -22,7 +22,10 @@ Outcome set_variable(Runtime* runtime, const Call& call, Change* change);
 Outcome set_parameter(Runtime* runtime, const Call& call, Change* change);
 Outcome import_parameters(Runtime* runtime, const Call& call, Change* change);
 Outcome import_tables(Runtime* runtime, const Call& call, Change* change);
-// Gives the values back that `done` has changed. Refused when one of them is not any more as `done` has left it.
+// Gives the values back that `done` has changed and that are not lost. Refused when one of them is not any more as `done` has left it.
 Outcome take_back(Runtime* runtime, const Change& done, Change* change);
+
+// Compares the changes with what the tables hold now (lost_changes.hpp). Nothing is marked when they cannot be read.
+void find_lost(Runtime* runtime, ChangeLog* log);
 
 }  // namespace nc::rt::services

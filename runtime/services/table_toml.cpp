@@ -103,20 +103,21 @@ std::string quoted_value(const std::string& value) {
 // The values of one import, each of them once.
 class Values {
  public:
-  explicit Values(std::vector<TableValue>* values) : values_(*values) {}
-  // False when the place has been given already.
-  bool add(const TablePlace& place, std::string value, unsigned line) {
-    if (!places_.insert(place_key(place)).second) return false;
-    values_.push_back({place, std::move(value), line});
-    return true;
+  Values(std::vector<TableValue>* values, ErrorList* errors) : values_(*values), errors_(*errors) {}
+  void add(const TablePlace& place, std::string value, const ConfigPlace& at) {
+    const auto [there, first] = places_.emplace(place_key(place), at);
+    if (first) values_.push_back({place, std::move(value), at.line});
+    else errors_.add_twice(at, there->second, "stands twice");
   }
 
  private:
   std::vector<TableValue>& values_;
-  std::set<std::string> places_;
+  ErrorList& errors_;
+  std::map<std::string, ConfigPlace> places_;
 };
 
 void read_variables(TableReader* root, unsigned system, Values* values) {
+  const FieldInfo& range = row_of(Field::kVariableValue);
   root->table("variables" + suffix(system), [&](TableReader& reader) {
     reader.each([&](const std::string& key, const toml::node& node) {
       TablePlace place;
@@ -129,7 +130,8 @@ void read_variables(TableReader* root, unsigned system, Values* values) {
       const auto* word = node.as_string();
       const bool vacant = word != nullptr && word->get() == kVacant;
       if (!vacant && !node_number(node, &value)) return reader.error(key, std::string("must be a finite number, or \"vacant\", not ") + shown_type(node));
-      if (!values->add(place, vacant ? "" : number_text(value), line_of(node))) reader.error(key, "stands twice");
+      if (value < range.least || value > range.most) return reader.error(key, "must be " + number_text(range.least) + " to " + number_text(range.most) + ", as with variables.set");
+      values->add(place, vacant ? "" : number_text(value), {line_of(node), reader.path(key)});
     });
   });
 }
@@ -148,7 +150,7 @@ void read_lives(TableReader* root, Values* values) {
       for (place.column = 0; place.column < std::size(kLifeColumns); ++place.column) {
         const FieldInfo& field = row_of(kLifeColumns[place.column]);
         double value = 0;
-        if (columns.number(field.name, &value, -kLargestNumber, kLargestNumber) && !values->add(place, number_text(value), columns.line(field.name))) columns.error(field.name, "stands twice");
+        if (columns.number(field.name, &value, -kLargestNumber, kLargestNumber)) values->add(place, number_text(value), {columns.line(field.name), columns.path(field.name)});
       }
       columns.finish();
     });
@@ -160,7 +162,7 @@ void read_parameter(TableReader* reader, const std::string& name, const toml::no
   const auto text = parameter_text(node);
   if (!text) return reader->error(name, std::string("must be a number or a word, not ") + shown_type(node));
   if (text->empty() || text->size() > kLongestValue) return reader->error(name, "must have 1 to " + std::to_string(kLongestValue) + " bytes");
-  if (!values->add(place, *text, line_of(node))) reader->error(name, "stands twice");
+  values->add(place, *text, {line_of(node), reader->path(name)});
 }
 
 void read_parameters_of(TableReader* root, const nc_system_config& system, unsigned index, Values* values) {
@@ -202,34 +204,31 @@ void read_names(TableReader* root, const nc_variable_range& named, Values* value
       bool good = name.size() < sizeof(char[8]);
       for (std::size_t i = 0; i < name.size(); ++i) good = good && ((name[i] >= 'A' && name[i] <= 'Z') || (i > 0 && name[i] >= '0' && name[i] <= '9'));
       if (!good) return reader.error(key, "must be a name of at most 7 capital letters and digits, a letter first, or \"\"");
-      if (!values->add(place, name, line_of(node))) reader.error(key, "stands twice");
+      values->add(place, name, {line_of(node), reader.path(key)});
     });
   });
 }
 
 // The sections that the configuration has as well.
-void read_offsets(TableReader* root, const Config& machine, Values* values, ErrorList* errors) {
+void read_offsets(TableReader* root, const Config& machine, Values* values) {
   const auto read = std::make_unique<Config>();  // larger than what a thread's stack is for
   read->nc = machine.nc;
   read_tool_offsets(root, read.get());
   read_work_offsets(root, read.get());
-  const auto add = [&](const TablePlace& place, std::string value, const ConfigPlace& at) {
-    if (!values->add(place, std::move(value), at.line)) errors->add(at.line, at.key, "stands twice");
-  };
   for (const ToolOffsetSetting& setting : read->tool_offsets) {
     for (unsigned c = 0; c < std::size(kToolColumns); ++c) {
       TablePlace place;
       place.number = setting.number;
       place.column = c;
-      if (setting.given[c]) add(place, number_text(setting.column[c]), setting.place);
+      if (setting.given[c]) values->add(place, number_text(setting.column[c]), setting.place);
     }
     TablePlace label;
     label.table = Table::kToolLabel;
     label.number = setting.number;
     label.column = kNameColumn;
-    if (setting.name) add(label, *setting.name, setting.place);
+    if (setting.name) values->add(label, *setting.name, setting.place);
     label.column = kPocketColumn;
-    if (setting.pocket) add(label, std::to_string(*setting.pocket), setting.place);
+    if (setting.pocket) values->add(label, std::to_string(*setting.pocket), setting.place);
   }
   for (const WorkOffsetSetting& setting : read->work_offsets) {
     TablePlace place;
@@ -237,7 +236,7 @@ void read_offsets(TableReader* root, const Config& machine, Values* values, Erro
     place.system = setting.system;
     place.number = setting.index;
     place.axis = machine.nc.system[setting.system].axis[setting.axis].name;
-    add(place, number_text(setting.value), setting.place);
+    values->add(place, number_text(setting.value), setting.place);
   }
 }
 
@@ -263,6 +262,32 @@ unsigned line_of_nesting(std::string_view text) {
   return 0;
 }
 
+bool is_twice(const toml::parse_error& error) { return error.description().find("cannot redefine") != std::string_view::npos; }
+
+// The line of the key or table that the parser has found a second time, 0 = none. The parser names the second line alone, so lines above it are taken away from the top
+// until it finds nothing twice any more. Headers of tables stay where a key stands twice, because they say where it belongs.
+unsigned first_of_twice(std::string_view text, const toml::parse_error& error) {
+  if (!is_twice(error)) return 0;
+  std::vector<std::string_view> lines;
+  for (std::size_t at = 0; at < text.size() && lines.size() < error.source().begin.line; at += lines.back().size() + 1) lines.push_back(text.substr(at, text.find('\n', at) - at));
+  const auto is_header = [](std::string_view line) { return line.find_first_not_of(" \t") != std::string_view::npos && line[line.find_first_not_of(" \t")] == '['; };
+  const bool header = is_header(lines.back());
+  const auto stays_twice = [&](std::size_t without) {
+    std::string rest;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (i >= without || (!header && is_header(lines[i]))) rest.append(lines[i]).push_back('\n');
+    try {
+      (void)toml::parse(rest);
+    } catch (const toml::parse_error& left) {
+      return is_twice(left);
+    }
+    return false;
+  };
+  std::size_t good = 0, bad = lines.size();  // so many lines can be taken away, so many cannot
+  while (bad - good > 1) (stays_twice((good + bad) / 2) ? good : bad) = (good + bad) / 2;
+  return static_cast<unsigned>(good + 1);
+}
+
 std::string sentence(const std::vector<ConfigError>& errors) {
   std::string text;
   for (std::size_t i = 0; i < errors.size() && i < kMostErrors; ++i) {
@@ -286,11 +311,12 @@ std::string parse_sections(std::string_view text, std::vector<TableValue>* value
   try {
     root = toml::parse(text);
   } catch (const toml::parse_error& error) {
-    return "line " + std::to_string(error.source().begin.line) + ": " + std::string(error.description());
+    const unsigned first = first_of_twice(text, error);
+    return "line " + std::to_string(error.source().begin.line) + ": " + std::string(error.description()) + (first != 0 ? ", first in line " + std::to_string(first) : "");
   }
-  Values all(values);
+  Values all(values, &errors);
   TableReader reader(root, "", &errors);
-  read(&reader, &all, &errors);
+  read(&reader, &all);
   reader.finish();
   if (!errors.empty()) return sentence(errors.take());
   return values->empty() ? std::string("holds none of ") + sections : "";
@@ -324,10 +350,10 @@ std::string parameters_toml(const std::vector<TableValue>& values) {
 }
 
 std::string parse_tables_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
-  return parse_sections(text, values, "[tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]", [&](TableReader* reader, Values* all, ErrorList* errors) {
+  return parse_sections(text, values, "[tool_offsets], [work_offsets], [tool_life], [variables], [variable_names]", [&](TableReader* reader, Values* all) {
     nc_variable_range named{};
     (void)nc_variable_kind_get(static_cast<nc_dialect>(machine.nc.dialect), NC_VARIABLES_NAMED, &named);
-    read_offsets(reader, machine, all, errors);
+    read_offsets(reader, machine, all);
     for (unsigned s = 0; s < machine.nc.system_count; ++s) read_variables(reader, s, all);
     read_lives(reader, all);
     read_names(reader, named, all);
@@ -335,7 +361,7 @@ std::string parse_tables_toml(const Config& machine, std::string_view text, std:
 }
 
 std::string parse_parameters_toml(const Config& machine, std::string_view text, std::vector<TableValue>* values) {
-  return parse_sections(text, values, "[parameters]", [&](TableReader* reader, Values* all, ErrorList*) {
+  return parse_sections(text, values, "[parameters]", [&](TableReader* reader, Values* all) {
     for (unsigned s = 0; s < machine.nc.system_count; ++s) read_parameters_of(reader, machine.nc.system[s], s, all);
   });
 }

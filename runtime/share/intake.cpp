@@ -220,14 +220,37 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
 
 // ---- clients ----
 
-// The client that a command comes from. A new client takes a free place, or that of a client that has been silent for a long time. Null = there is no place.
-Intake::Client* Intake::client_of(const Request& request, Way way, std::int64_t now_ns) {
-  Client* place = nullptr;
-  for (Client& client : client_) {
-    if (client.used && client.way == way && text_of(client.name) == text_of(request.client)) return &client;
-    if (!client.used) place = place == nullptr || place->used ? &client : place;
-    else if (&client != control_ && now_ns - client.heard_ns > kForgetNs && place == nullptr) place = &client;
+// Whether a client may lose its place: then nothing of it is executed again when it comes once more.
+bool Intake::may_displace(const Client& client, std::int64_t now_ns) const {
+  if (&client == control_) return false;
+  return client.way == Way::kLocal || !client.executed || now_ns - client.heard_ns > kForgetNs;
+}
+
+// A free place, or that of the longest silent client that may lose it. Null = there is none for this participant; never for a local one, because the gateway
+// leaves kKeptForLocal places, and only one client has control.
+Intake::Client* Intake::place_for(std::uint64_t writer, Way way, std::int64_t now_ns) {
+  const auto is_own = [&](const Client& client) { return client.way == way && client.writer == writer; };
+  unsigned of_gateway = 0, own = 0;
+  for (const Client& client : client_) {
+    of_gateway += client.used && client.way == Way::kGateway;
+    own += client.used && is_own(client);
   }
+  const bool gateway = way == Way::kGateway, own_full = gateway && own >= kPerWriter, way_full = gateway && of_gateway >= kClients - kKeptForLocal;
+  Client* longest = nullptr;
+  for (Client& client : client_) {
+    if (!client.used && !own_full && !way_full) return &client;
+    if (!client.used || !may_displace(client, now_ns)) continue;
+    if ((own_full && !is_own(client)) || (way_full && client.way != way)) continue;
+    if (longest == nullptr || client.heard_ns < longest->heard_ns) longest = &client;
+  }
+  return longest;
+}
+
+// The client that a command comes from, which may be a new one. Null = there is no place.
+Intake::Client* Intake::client_of(const Request& request, Way way, std::int64_t now_ns) {
+  for (Client& client : client_)
+    if (client.used && client.way == way && text_of(client.name) == text_of(request.client)) return &client;
+  Client* place = place_for(request.writer, way, now_ns);
   if (place == nullptr) return nullptr;
   *place = {};
   place->used = true;
@@ -343,8 +366,8 @@ Intake::Verdict Intake::execute(const Request& request) {
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
 }
 
-Intake::Verdict Intake::decide(Client* client, const Request& request, const Machine::State& state,
-                               const Now& now) {
+// `client`: null for a hold without a place.
+Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now) {
   const auto kind = static_cast<RequestKind>(request.kind);
   const std::int64_t lifespan_ns = std::int64_t{request.lifespan_ms} * 1'000'000;
   // The lifespan is subtracted from our own time and not from issued_ns: that comes from outside, so the subtraction could overflow.
@@ -353,7 +376,7 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
   if (request.issued_ns > now.wall_ns + kClockSkewNs)
     return {AckState::kRejected, AckReason::kLate, "from the future: the clocks of client and control differ"};
   if (kind == RequestKind::kTakeControl) return take_control(client, request, now.steady_ns);
-  const bool has_control = control_ == client;
+  const bool has_control = client != nullptr && control_ == client;
   if (kind == RequestKind::kReleaseControl) {
     if (!has_control) return {AckState::kRejected, AckReason::kNoControl, "this client has no control"};
     lose_control();
@@ -367,11 +390,17 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, const Mac
   if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
   Verdict verdict = execute(request);
   if (verdict.state != AckState::kRejected && verdict.text.empty()) verdict.text = scope_text(request, state.system_count);
-  if (verdict.state == AckState::kAccepted && !wait_for(request, client->way, now.steady_ns, state)) verdict.state = AckState::kDone;
+  if (verdict.state == AckState::kAccepted && !wait_for(request, way, now.steady_ns, state)) verdict.state = AckState::kDone;
   return verdict;
 }
 
 // ---- one command ----
+
+Intake::Verdict Intake::hold_without_place(const Request& request, Way way, const Now& now) {
+  const Machine::State state = machine_.state();
+  Verdict form = check_form(request, state);
+  return form.state == AckState::kDone ? decide(nullptr, request, way, state, now) : form;
+}
 
 void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way) {
   const auto kind = static_cast<RequestKind>(request.kind);
@@ -390,6 +419,10 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     acks->push_back(ack);
   };
   Client* client = client_of(request, way, now.steady_ns);
+  if (kind == RequestKind::kFeedHold && (client == nullptr || client->writer != request.writer)) {
+    answer(hold_without_place(request, way, now));
+    return;
+  }
   if (client == nullptr) {
     answer({AckState::kRejected, AckReason::kTooManyClients, "too many clients"});
     return;
@@ -423,7 +456,9 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     return;
   }
   client->last_sequence = request.sequence;
-  answer(decide(client, request, state, now));
+  const Verdict verdict = decide(client, request, way, state, now);
+  client->executed = client->executed || (verdict.state != AckState::kRejected && kind != RequestKind::kFeedHold);
+  answer(verdict);
   remember(client, ack);
 }
 
@@ -448,7 +483,7 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   acks->push_back(ack);
   pending->used = false;
   for (Client& client : client_) {
-    if (!client.used || client.way != pending->way || text_of(client.name) != text_of(ack.client)) continue;
+    if (!client.used || client.way != pending->way || client.writer != ack.writer || text_of(client.name) != text_of(ack.client)) continue;
     for (Ack& answered : client.answered)
       if (answered.sequence == ack.sequence) answered = ack;  // a duplicate gets this answer from now on
   }

@@ -13,6 +13,11 @@
 // Control is a token: one client has it, from its first kTakeControl until it releases it, is gone, or has not
 // sent anything for the time of its lease. When a client loses control, its jogs are stopped.
 //
+// Places for clients are bounded, and nobody can take them from others: a place is for not executing a command twice, so a client whose commands were refused, or
+// that is local (its numbers are those of its connection), gives its place up to the next one, the longest silent first. A participant of the gateway has at most
+// kPerWriter places, and kKeptForLocal are not for the gateway at all, so that a local client always finds one. A hold needs none: to stop is never refused for
+// want of a place or of a name, and to stop twice does no harm.
+//
 // An executed command that asks for a state which takes time (a start, a hold, a reset, a mode) is answered `accepted`, and later
 // `done` or `failed`. Any other one is answered `done` at once.
 //
@@ -82,10 +87,10 @@ class Intake {
   // The client that has control, "" = nobody.
   std::string controlling() const;
 
-  static constexpr unsigned kClients = 16, kRemembered = 32, kPending = 16;
+  static constexpr unsigned kClients = 16, kPerWriter = 8, kKeptForLocal = 4, kRemembered = 32, kPending = 16;
   static constexpr std::uint32_t kMaxLifespanMs = 10'000, kMinLeaseMs = 100, kMaxLeaseMs = 60'000;
   static constexpr std::uint32_t kDefaultLeaseMs = 2'000;
-  // A client that has been silent for this long may be forgotten: none of its commands can still be on the way, because lifespans are shorter.
+  // A client with executed commands that has been silent for this long may be forgotten: none of its commands can still be on the way, because lifespans are shorter.
   static constexpr std::int64_t kForgetNs = 60'000'000'000;
   static constexpr std::int64_t kClockSkewNs = 500'000'000;    // a command may be dated in the future by at most this much
   static constexpr std::int64_t kReachNs = 10'000'000'000;     // time within which an accepted command must reach its state
@@ -93,6 +98,7 @@ class Intake {
  private:
   struct Client {
     bool used = false;
+    bool executed = false;  // a command that must not be executed again; a hold may
     Way way = Way::kGateway;
     Text<32> name{};
     std::uint64_t writer = 0, last_sequence = 0;
@@ -115,11 +121,14 @@ class Intake {
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;
-  Verdict decide(Client* client, const Request& request, const Machine::State& state, const Now& now);
+  Verdict decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now);
+  Verdict hold_without_place(const Request& request, Way way, const Now& now);
   Verdict execute(const Request& request);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;
   Client* client_of(const Request& request, Way way, std::int64_t now_ns);
+  Client* place_for(std::uint64_t writer, Way way, std::int64_t now_ns);
+  bool may_displace(const Client& client, std::int64_t now_ns) const;
   void remember(Client* client, const Ack& ack);
   void lose_control();
   void gone(const Request& request, Way way, bool everyone);

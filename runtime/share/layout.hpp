@@ -65,7 +65,7 @@ struct SystemStatus {
   double path_length;    // mm since cycle start
   double run_s;          // seconds in execution since cycle start
   std::uint32_t refusals, refusal_cause;  // nc::rt::RefusalCause
-  std::uint64_t runs;           // number of programs that came to their end
+  std::uint64_t runs;           // number of programs that came to their end without an alarm
   std::uint32_t main_line;      // line of the main program that is in execution or was finished last
   std::uint32_t program_lines;  // 0 = not known
   std::uint32_t percent;        // part of the main program that is done

@@ -167,7 +167,7 @@ void Publisher::fill_run(const nc_outputs& nc, const FeederInfo::System& info, S
   out->main_line = progress.main_line;
   out->percent = progress.percent;
   out->program_lines = static_cast<std::uint32_t>(std::min<std::uint64_t>(lines, UINT32_MAX));
-  out->runs = info.runs;
+  out->runs = info.good_runs;
   out->last_run_ok = info.ended_ok;
 }
 

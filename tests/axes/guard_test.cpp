@@ -158,6 +158,56 @@ TEST_F(Guard, AnInterlockOfADirectionStopsThatDirectionByHand) {
   expect_limits_kept();
 }
 
+// The way back to the path has a direction before it begins, and is asked for as a jog is: by a client, by a button, and however often.
+TEST_F(Guard, AnInterlockOfADirectionRefusesTheWayBackToThePathBeforeItBegins) {
+  for (const bool button : {false, true}) {
+    SCOPED_TRACE(button ? "a button" : "a client");
+    std::string text = changed({{"[signals]\n", "[signals]\n\"plc.restart_approach.X\" = \"z_servo_off\"\n\"plc.jog_feed\" = \"jog_feed\"\n"}, {"\"plc.servo_off.Z\" = \"z_servo_off\"\n", ""}});
+    build(text + "[[point]]\nname = \"jog_feed\"\ntype = \"word\"\ndirection = \"input\"\n");
+    in("jog_feed", 600);
+    home_machine();
+    ASSERT_EQ(start_program("G90 G53 G1 X-50. F3000.\nM30\n"), Answer::kDone);
+    ASSERT_GE(until([&] { return out().command.v[kX] < -10; }, 5000), 0);
+    ASSERT_EQ(ask(CommandKind::kFeedHold), Answer::kDone);
+    ASSERT_GE(until([&] { return out().state == NC_STATE_HOLD && out().distance_zero; }, 2000), 0);
+    steps(20);
+    manual_mode();
+    jog(kX, 40, 300);
+    ASSERT_TRUE(let_go(kX));
+    in("x_free_m", 0);
+    steps(5);
+    const double stands = out().command.v[kX];
+    for (int n = 0; n < 20; ++n) {
+      if (button) {
+        in("z_servo_off", 1);
+      } else {
+        EXPECT_EQ(ask(CommandKind::kApproach, kX, 10), Answer::kInterlock);
+      }
+      steps(20);
+      if (button) in("z_servo_off", 0);
+      else (void)ask(CommandKind::kJog, kX, 0);
+      steps(50);
+      ASSERT_EQ(out().command.v[kX], stands) << "press " << n;
+    }
+    if (button) {
+      EXPECT_EQ(refusal(), "return to the path X refused: the interlock of the machine is on");
+    }
+    in("x_free_m", 1);
+    in("x_free_p", 0);
+    steps(5);
+    for (int n = 0; n < 500 && out().restart_axes != 0; ++n) {
+      if (button) {
+        in("z_servo_off", 1);
+      } else {
+        ASSERT_EQ(ask(CommandKind::kApproach, kX, 10), Answer::kDone) << "the way back is free";
+      }
+      steps(20);
+    }
+    EXPECT_EQ(out().restart_axes, 0u);
+    expect_limits_kept();
+  }
+}
+
 TEST_F(Guard, AnInterlockOfADirectionHoldsAProgramThatGoesThatWay) {
   build();
   home_machine();
@@ -170,6 +220,16 @@ TEST_F(Guard, AnInterlockOfADirectionHoldsAProgramThatGoesThatWay) {
   steps(1000);
   EXPECT_NEAR(place(kX), stands, 1e-6) << "it waits, and does not creep";
   EXPECT_EQ(out().state, NC_STATE_RUNNING);
+  for (int n = 0; n < 10; ++n) {
+    in("x_go", 0);
+    steps(50);
+    ASSERT_EQ(out().state, NC_STATE_HOLD);
+    in("x_go", 1);
+    steps(5);
+    ASSERT_EQ(ask(CommandKind::kCycleStart), Answer::kDone);
+    steps(50);
+  }
+  EXPECT_NEAR(place(kX), stands, 1e-6) << "nor with each start behind a feed hold";
   in("x_free_p", 1);
   ASSERT_GE(until([&] { return out().state == NC_STATE_IDLE; }, 5000), 0);
   steps(30);
@@ -286,6 +346,47 @@ TEST_F(Guard, AFollowingErrorStopsAndLosesNoPosition) {
   steps(50);
   reset();
   EXPECT_EQ(flags().homed, 7u);
+}
+
+// The contact of an emergency stop chain or of a door that is an alarm of the machine, and scans that come too late: all on their paths, drives hold, nothing is lost, and a
+// reset alone moves nothing.
+TEST_F(Guard, AnAlarmOfTheMachineAndOneOfTheScanStopOnThePathWithTheDrivesOn) {
+  for (const bool late : {false, true}) {
+    SCOPED_TRACE(late ? "late scans" : "plc.alarm.1");
+    build(changed({{"\"plc.cycle_start\" = \"start\"", "\"plc.alarm.1\" = \"start\""}}) + "[scheduling]\noverrun = \"alarm\"\noverrun_limit = 3\n");
+    home_machine();
+    ASSERT_EQ(start_program("G90 G53 G1 X200. Y100. F6000.\nM30\n"), Answer::kDone);
+    ASSERT_GE(until([&] { return place(kX) > 50; }, 5000), 0);
+    if (late) {
+      clock.advance(5'000'000);
+      steps(2);
+    } else {
+      in("start", 1);
+    }
+    ASSERT_GE(until([&] { return stopped_by_alarm(); }, 10), 0);
+    ASSERT_GE(until([&] { return out().distance_zero && out().state == NC_STATE_ALARM; }, 500), 0);
+    steps(50);
+    EXPECT_EQ(alarm().substr(0, 3), late ? "R10" : "R16");
+    EXPECT_NEAR(out().command.v[kX], 2 * out().command.v[kY], 1e-6) << "on the path";
+    EXPECT_TRUE(measured->last.enable) << "drives hold";
+    EXPECT_TRUE(brake_open());
+    EXPECT_EQ(flags().homed, 7u);
+    if (!late) {
+      ASSERT_EQ(ask(CommandKind::kReset), Answer::kDone);
+      steps(500);
+      EXPECT_TRUE(stopped_by_alarm()) << "the contact is still open";
+      in("start", 0);
+      steps(500);
+      EXPECT_TRUE(stopped_by_alarm()) << "and its closing alone does nothing";
+    }
+    const nc_axes stands = out().command;
+    reset();
+    steps(1000);
+    EXPECT_FALSE(stopped_by_alarm());
+    EXPECT_EQ(out().state, NC_STATE_IDLE);
+    for (const unsigned axis : {kX, kY, kZ}) EXPECT_EQ(out().command.v[axis], stands.v[axis]);
+    expect_limits_kept();
+  }
 }
 
 TEST_F(Guard, BehindPowerOnNothingMoves) {

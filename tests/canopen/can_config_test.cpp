@@ -88,6 +88,29 @@ TEST(CanConfig, EachDriveHasANumberOfItsOwn) {
   expect_in(only_error(replaced(can_toml(), "node = 2", "node = 128")), "canopen.drive[2].node: ");
 }
 
+TEST(CanConfig, EachDriveHasANameOfItsOwn) {
+  expect_in(only_error(replaced(can_toml(), "\"Y drive\"", "\"X drive\"")), "canopen.drive[2].name: drive \"X drive\" is node 1 already");
+  expect_in(only_error(replaced(replaced(can_toml(), "\"X drive\"", "\"drive 2\""), "name = \"Y drive\"\n", "")), "canopen.drive[2].name: drive \"drive 2\" is node 1 already");
+}
+
+// What the control writes into a drive by itself is not taken back behind it: each object that the plan of the set-up writes, that a command PDO carries, or that the
+// service writes. An object that is written for a function which this drive does not have is the file's own.
+TEST(CanConfig, WhatTheControlSetsIsNotSetByTheFile) {
+  const auto with = [](const std::string& object) { return can_toml("", "", "objects = [{ index = 0x6065, value = 1000 }, " + object + "]\n"); };
+  for (const char* object : {"index = 0x1017, bytes = 2", "index = 0x1016, sub = 1", "index = 0x1400, sub = 1", "index = 0x1803, sub = 1", "index = 0x1600", "index = 0x1A00, sub = 2", "index = 0x6040, bytes = 2",
+                             "index = 0x6060, bytes = 1", "index = 0x607A", "index = 0x605A, bytes = 2", "index = 0x60C2, sub = 1, bytes = 1"}) {
+    const auto errors = errors_of(with("{ " + std::string(object) + ", value = 0 }"));
+    ASSERT_EQ(errors.size(), 3u) << object;
+    EXPECT_EQ(errors[0].rfind("can.toml:", 0), 0u);
+    expect_in(errors[0], "canopen.drive[1].objects[2].index: ");
+    expect_in(errors[0], "is set by the control itself");
+  }
+  for (const char* object : {"index = 0x6098, bytes = 1", "index = 0x60FF", "index = 0x60B8, bytes = 2", "index = 0x2000", "index = 0x1010, sub = 1"})
+    EXPECT_TRUE(errors_of(with("{ " + std::string(object) + ", value = 0 }")).empty()) << object;
+  EXPECT_EQ(errors_of(can_toml("", "homing = { method = 1, fast = 1.0, slow = 1.0, acceleration = 1.0, request = \"home_x\", done = \"x_homed\" }\n",
+                               "objects = [{ index = 0x6098, bytes = 1, value = 1 }]\n")).size(), 1u);
+}
+
 TEST(CanConfig, WhatIsMissingOrWrongIsNamed) {
   expect_in(only_error(replaced(can_toml(), "interface = \"test\"\n", "")), "canopen.interface: is missing");
   expect_in(only_error(replaced(can_toml(), "encoder = 10000\n", "")), "canopen.drive[1].axis[1].encoder: is missing");

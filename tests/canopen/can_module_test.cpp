@@ -124,6 +124,18 @@ TEST(CanModule, ItIsSetUpWithItsPdosAndWithWhatItDoesWithoutTheControl) {
   EXPECT_TRUE(rig.quality("door"));
 }
 
+// Also a module's mapping is the control's, which is known only behind all points.
+TEST(CanModule, WhatTheControlSetsIsNotSetByTheFile) {
+  const auto with = [](const char* object) { return errors_of(with_module(std::string(kModule) + "objects = [{ " + object + ", value = 0 }]\n")); };
+  for (const char* object : {"index = 0x1017, bytes = 2", "index = 0x1A00, sub = 1", "index = 0x6207, sub = 1, bytes = 1", "index = 0x6200, sub = 1, bytes = 1"}) {
+    EXPECT_EQ(with(object).rfind("can.toml:", 0), 0u) << object;
+    EXPECT_NE(with(object).find("can_io[1].objects[1].index: "), std::string::npos) << with(object);
+    EXPECT_NE(with(object).find("is set by the control itself"), std::string::npos) << with(object);
+  }
+  EXPECT_EQ(with("index = 0x6444, sub = 1"), "");
+  EXPECT_NE(errors_of(replaced(with_module(), "\"Y drive\"", "\"io\"")).find("canopen.drive[2].name: module \"io\" is node 10 already"), std::string::npos);
+}
+
 TEST(CanModule, ALostModuleIsOneAlarmAndComesBack) {
   ModuleRig rig;
   rig.bring_all_up();

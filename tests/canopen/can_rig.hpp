@@ -138,12 +138,15 @@ class CanRig {
     hal::canopen::CanMachine* inner = nullptr;
     CanRig* rig = nullptr;
     std::vector<hal::canopen::ModuleBus> modules;
+    int held_on = -1;  // an output that is on, whatever the runtime makes of it, as a ladder program would have it
     bool start(const hal::PointImage&, std::string*) override { return true; }
     void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override {
       inner->read(feedback, image);
       for (hal::canopen::ModuleBus& module : modules) module.read(image);
     }
-    void write(const hal::Command& command, const hal::PointImage& image) noexcept override {
+    void write(const hal::Command& command, const hal::PointImage& given) noexcept override {
+      hal::PointImage image = given;
+      if (held_on >= 0) image.value[held_on] = 1;
       inner->write(command, image);
       for (hal::canopen::ModuleBus& module : modules) module.write(image);
       rig->bus_step();

@@ -235,6 +235,100 @@ TEST(CanSpindle, ItsFaultNamesItAndStopsTheAxes) {
   ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
 }
 
+// ---- behind a loss of "enabled" ----
+
+// A fault of the spindle's own drive, and of that of an axis: the ladder of this machine leaves its point on.
+TEST(CanSpindle, BehindAFaultOfAnyDriveAResetAloneTurnsNothing) {
+  for (const unsigned drive : {0u, 3u})
+    for (const char* point : {"#1103", "#1104"}) {
+      SpindleRig rig;
+      rig.block(std::string("S600\n") + point + " = 1");
+      rig.step(300);
+      ASSERT_NEAR(std::abs(rig.rpm()), 600, 0.01);
+      rig.drives[drive]->trip(0, 0x3210, 0x05);
+      rig.step(1000);
+      ASSERT_FALSE(rig.enabled());
+      rig.motor().plant().velocity = 0;
+      ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+      ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
+      const double stood = rig.motor().plant().position;
+      rig.step(1000);
+      EXPECT_NEAR(rig.motor().plant().position, stood, 1) << drive << point;
+      rig.block("M08");
+      rig.step(300);
+      EXPECT_NEAR(rig.motor().plant().position, stood, 1) << "a function that is not for the spindle";
+      rig.block(std::string(point) + " = 0");
+      rig.step(20);
+      EXPECT_NEAR(rig.motor().plant().position, stood, 1);
+      rig.block(std::string(point) + " = 1");
+      rig.step(300);
+      EXPECT_NEAR(std::abs(rig.rpm()), 600, 0.01) << "let go first, then asked for again";
+      EXPECT_EQ(rig.alarms(), "");
+    }
+}
+
+TEST(CanSpindle, BehindAFaultANewSpeedIsANewCommand) {
+  SpindleRig rig;
+  rig.block("S600\n#1103 = 1");
+  rig.step(300);
+  rig.motor().trip(0, 0x3210, 0x05);
+  rig.step(1000);
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
+  rig.step(300);
+  ASSERT_NEAR(rig.rpm(), 0, 0.01);
+  rig.block("S300");
+  rig.step(300);
+  EXPECT_NEAR(rig.rpm(), 300, 0.01);
+}
+
+// A point that rises while the drive is off is no command for the time when it is on again.
+TEST(CanSpindle, APointThatRisesWhileTheDriveIsOffTurnsNothingBehindTheReset) {
+  SpindleRig rig;
+  rig.block("S600");
+  rig.motor().trip(0, 0x3210, 0x05);
+  rig.step(1000);
+  rig.shell.held_on = rig.config.points.find("m3");
+  rig.step(20);
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
+  rig.step(500);
+  EXPECT_NEAR(rig.rpm(), 0, 0.01);
+}
+
+TEST(CanSpindle, BehindAFaultNothingIsOrientedByTheResetAlone) {
+  SpindleRig rig(kOrient);
+  rig.block("#1119 = 1");
+  ASSERT_TRUE(rig.until([&] { return (rig.runtime->snapshot().interface_input[0] >> 19 & 1u) != 0; }, 4000));
+  rig.motor().trip(0, 0x3210, 0x05);
+  rig.step(500);
+  rig.motor().plant().position += 3000;  // somebody turns it meanwhile
+  const double stood = rig.motor().plant().position;
+  ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+  ASSERT_TRUE(rig.until([&] { return rig.enabled(); }, 4000)) << rig.alarms();
+  rig.step(1500);
+  EXPECT_NEAR(rig.motor().plant().position, stood, 1);
+  EXPECT_EQ(rig.runtime->snapshot().interface_input[0] >> 19 & 1u, 0u);
+  rig.block("#1119 = 0");
+  rig.block("#1119 = 1");
+  EXPECT_TRUE(rig.until([&] { return (rig.runtime->snapshot().interface_input[0] >> 19 & 1u) != 0; }, 4000));
+}
+
+// Alarms that stop the axes on their paths leave its drive on: whether it turns on is for its points, which are the machine's (docs/safety.md).
+TEST(CanSpindle, AnAlarmThatHoldsTheDrivesLeavesItsSpeedToItsPoints) {
+  SpindleRig rig;
+  rig.block("S600\n#1103 = 1");
+  ASSERT_TRUE(rig.until([&] { return rig.rpm() > 595; }, 3000));
+  ASSERT_EQ(rig.mdi("G91 G01 X100. F1000"), Answer::kDone);
+  rig.step(300);
+  rig.drives[0]->plant().blocked = true;
+  rig.step(200);
+  EXPECT_EQ(rig.alarms().substr(0, 3), "R11");
+  EXPECT_TRUE(rig.enabled());
+  EXPECT_NEAR(rig.rpm(), 600, 5);
+  rig.drives[0]->plant().blocked = false;
+}
+
 TEST(CanSpindle, WithoutItsDriveTheSpeedIsNotMeasured) {
   SpindleRig rig;
   rig.motor().dead = true;
@@ -261,6 +355,15 @@ TEST(CanSpindle, WhatIsWrongInTheFileIsNamed) {
       {"backward = \"m4\"\n", "backward = \"m4\"\ntap_axis_lag_ms = -1.0\n", "canopen.drive[4].spindle[1].tap_axis_lag_ms: must be"},
       {"backward = \"m4\"\n", "backward = \"m4\"\nvelocity_scale = 1e8\n", "canopen.drive[4].spindle[1].max_rpm: is more than the 32 bits of 60FFh can say"},
       {"backward = \"m4\"\n", "backward = \"m4\"\norient = { request = \"m19\" }\n", "canopen.drive[4].spindle[1].orient.done: is missing"},
+      {"backward = \"m4\"", "backward = \"m3\"", "canopen.drive[4].spindle[1].backward: point \"m3\" turns it forward already"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\norient = { request = \"m3\", done = \"m19_done\" }\n", "canopen.drive[4].spindle[1].orient.request: point \"m3\" turns it forward already"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\norient = { request = \"m4\", done = \"m19_done\" }\n", "canopen.drive[4].spindle[1].orient.request: point \"m4\" turns it backward already"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\norient = { request = \"m19\", done = \"m19_done\", speed = 3001.0 }\n",
+       "canopen.drive[4].spindle[1].orient.speed: is above max_rpm (3000)"},
+      {"max_rpm = 3000.0", "max_rpm = 59.0\norient = { request = \"m19\", done = \"m19_done\" }", "canopen.drive[4].spindle[1].orient.speed: is above max_rpm (59)"},
+      {"backward = \"m4\"\n", "backward = \"m4\"\ngain = 50.1\n",
+       "canopen.drive[4].spindle[1].gain: is too large for a SYNC of 2000 us: the spindle would swing; at most 50"},
+      {"[canopen]\n", "[[spindle]]\nfeedback = \"none\"\n[canopen]\n", "spindle[1].feedback: spindle 1 is on a drive, which measures it"},
       {"backward = \"m4\"\n", "backward = \"m4\"\n[[canopen.drive.spindle]]\nencoder = 1\nmax_rpm = 1.0\nacceleration = 1.0\nforward = \"m3\"\nbackward = \"m4\"\n",
        "canopen.drive[4].spindle[2].encoder: spindle 1 is on this drive already"},
   };
@@ -272,6 +375,29 @@ TEST(CanSpindle, WhatIsWrongInTheFileIsNamed) {
   }
   const std::string both = errors_of(with_spindle(std::string(kGears) + kOrient));
   EXPECT_NE(both.find("orient.request: a spindle with gear steps cannot be oriented by its motor"), std::string::npos) << both;
+}
+
+// An angle is held by the loop of an axis whose drive is given a speed, so the gain that a file does not give is one that cannot swing either.
+TEST(CanSpindle, TheGainThatNobodyGivesFitsTheSync) {
+  for (const auto& [sync_us, gain] : {std::pair{2000u, 30.0}, std::pair{4000u, 25.0}, std::pair{10'000u, 10.0}}) {
+    Config config;
+    ASSERT_TRUE(nc::rt::parse_config(with_spindle("", kSpindle, sync_us), "can.toml", &config).empty());
+    EXPECT_DOUBLE_EQ(config.canopen.nodes[3].axes[0].spindle->law.gain, gain) << sync_us;
+  }
+}
+
+TEST(CanSpindle, WithTheLargestGainOfALongSyncItStandsAtItsAngle) {
+  SpindleRig rig(std::string(kOrient) + "gain = 10.0\n", kSpindle, 10'000);
+  rig.block("#1119 = 1");
+  ASSERT_TRUE(rig.until([&] { return (rig.runtime->snapshot().interface_input[0] >> 19 & 1u) != 0; }, 20'000));
+  rig.step(1000);
+  double least = 1e9, most = -1e9;
+  for (int n = 0; n < 2000; ++n) {
+    rig.step();
+    least = std::min(least, rig.motor().plant().position);
+    most = std::max(most, rig.motor().plant().position);
+  }
+  EXPECT_LT((most - least) / 10000 * 360, 0.1) << "degrees";
 }
 
 // ---- the law by itself ----

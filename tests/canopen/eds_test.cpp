@@ -108,4 +108,17 @@ TEST(Eds, ATextThatIsNoneIsRefusedWithItsLines) {
   EXPECT_EQ(wrong(std::string(kMostEdsBytes + 1, ';')), std::vector<std::string>{"0: is larger than 4 MiB: no data sheet"});
 }
 
+// The bytes of a file that is no text do not come to a terminal or into a log.
+TEST(Eds, BytesThatAreNoTextAreNotQuoted) {
+  const std::string escape = "pI\x1b[2J\x99\xc3\x7f";
+  EXPECT_EQ(wrong(escape + "\n"), std::vector<std::string>{"1: is no text: an EDS has lines [section] and key=value"});
+  EXPECT_EQ(wrong("[6040]\nDataType=0x" + escape + "\n"), std::vector<std::string>{"2: is no text: an EDS has lines [section] and key=value"});
+  EXPECT_EQ(wrong("[6040]\nVendor\xe4=M\xfcller\nDataType=\xb5\n"), std::vector<std::string>{"3: datatype is no number: \"\xef\xbf\xbd\""}) << "a text in Latin 1";
+  std::string random;
+  unsigned state = 1;
+  for (int n = 0; n < 5000; ++n) random += static_cast<char>((state = state * 1103515245u + 12345u) >> 16);
+  for (const std::string& error : wrong(random))
+    for (const char c : error) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) << error;
+}
+
 }  // namespace

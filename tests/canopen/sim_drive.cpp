@@ -258,7 +258,7 @@ std::uint32_t SimDrive::value_of(unsigned entry) const {
   const unsigned index = entry >> 16;
   for (unsigned a = 0; a < axis_.size(); ++a) {
     if (index == base(a) + 0x41) return status(a);
-    if (index == base(a) + 0x64) return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(axis_[a].plant.position)));
+    if (index == base(a) + 0x64) return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(axis_[a].plant.encoder_at.value_or(axis_[a].plant.position))));
     if (index == base(a) + 0xB9) return (axis_[a].probe_before & 1) | (axis_[a].probe_stored ? 2u : 0u);
     if (index == base(a) + 0xBA) return static_cast<std::uint32_t>(axis_[a].probe_position);
   }
@@ -399,7 +399,7 @@ void SimDrive::move(Axis& axis, unsigned number) {
     if (std::abs(plant.command - plant.position) > window) trip(number, 0x8611, 0x21);
   } else if (axis.state == State::kEnabled && (mode == 9 || mode == 3)) {
     plant.velocity += std::clamp(axis.pending_velocity - plant.velocity, -velocity_ramp, velocity_ramp);
-    plant.coast = plant.velocity * sync_s;
+    plant.coast = plant.turns * plant.velocity * sync_s;
     if (!plant.blocked) plant.position += plant.coast;
   } else if (axis.state == State::kEnabled && mode == 6) {
     home(axis, number);

@@ -8,6 +8,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct SimPlantAxis {
   bool enabled = false;     // torque
   double velocity = 0;      // increments per second, in the velocity modes
   double coast = 0;         // increments per SYNC at which it coasts on without torque
+  double turns = 1;         // in the velocity modes: -1 = the motor turns against its command
+  std::optional<double> encoder_at;  // what the encoder says, wherever the motor is: it stands, or has jumped there
 };
 
 class SimDrive {
@@ -46,6 +49,7 @@ class SimDrive {
   std::uint16_t status(unsigned axis = 0) const;
   unsigned nmt_state() const { return nmt_; }
   unsigned node() const { return node_; }
+  std::int32_t speed(unsigned axis = 0) const { return axis_[axis].pending_velocity; }  // 60FFh
   bool enabled(unsigned axis = 0) const { return axis_[axis].state == State::kEnabled; }
 
   // ---- faults ----

@@ -136,6 +136,9 @@ TEST(ArcCorner, WhatDoesNotFitIsAnAlarm) {
   EXPECT_EQ(alarm_of("G1 X10. F100\nG3 X0 Y10. I-10. J0 ,C6.\nG1 Y13.\nM30"), "P384 L3");
   EXPECT_EQ(alarm_of("G1 X10. F100\nG3 X0 Y10. I-10. J0 ,C6.\nG0 Y13.\nM30"), "P382 L3");
   EXPECT_EQ(alarm_of("G1 X10. F100\nG3 X0 Y10. I-10. J0 ,C6.\nM0\nG1 Y13.\nM30"), "P382 L3");
+  for (const char* const corner : {",C2.", ",R2."})  // an arc that goes nowhere
+    for (const char* const arc : {"G3 R-4.", "G3 R4.", "G3 X20. Y0 R4."})
+      for (const char* const behind : {"G1 Y9.\n", ""}) EXPECT_EQ(alarm_of(std::string("G1 X20.") + corner + " F100\n" + arc + "\n" + behind + "M30"), "P382 L2") << corner << arc << behind;
 }
 
 TEST(ArcCorner, SeveralInARowAndTheHelix) {

@@ -161,5 +161,29 @@ TEST(DrillingField, TakesLessTimeAndOnlyWhereItIsAskedFor) {
   EXPECT_NEAR(seconds(2, "G61"), seconds(0, "G61"), 1e-9) << "exact stops";
 }
 
+/// M700 13.1.1, G84: a hold on the way in takes the tap to rest in front of its thread, or acts behind the way back. Pressed in each cycle of the way to the tap.
+TEST(DrillingField, AHoldNeverRestsInTheThreadOfATap) {
+  constexpr double kR = 0.5;
+  unsigned rests = 0;
+  bool ended = false;
+  for (unsigned press = 600; !ended; press += 3) {
+    Bench bench(NC_DIALECT_M700, drilling_machine(1));
+    bench.at(0, 0, 10);
+    Drive drive(bench, "S500 M3\nG64 G0 Z1.\nG99 G81 X0 Z-3. R0.5 F3000\nG84 X20. Z-4. R0.5 F1500 ,R0\nX40.\nG80\nM30");
+    unsigned n = 0;
+    for (; n < press && !drive.ended; ++n) {
+      drive.in.cycle_start = n == 2;
+      drive.step(5000);
+    }
+    ended = drive.ended;
+    drive.in.feed_hold = true;
+    while (!drive.ended && drive.out.state != NC_STATE_HOLD && n++ < 60000) drive.step(5000);
+    if (drive.ended || drive.out.command.v[0] < 20 - 1e-6) continue;
+    ++rests;
+    EXPECT_GE(drive.out.command.v[2], kR - 1e-9) << "pressed in cycle " << press << ", at X" << drive.out.command.v[0];
+  }
+  EXPECT_GT(rests, 50u);
+}
+
 }  // namespace
 }  // namespace nc::test

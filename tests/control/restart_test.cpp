@@ -325,6 +325,23 @@ TEST_P(Restart, AResetInTheStopGivesThePlaceUp) {
   EXPECT_TRUE(m.drive->alarm().empty());
 }
 
+TEST_P(Restart, ThePositionIsNotSetBehindTheSearch) {  // the program would begin at its head
+  RestartMachine m(GetParam(), "G0 X10.\nX20.\nX30.\nM30");
+  const nc_axes stand{};
+  EXPECT_EQ(nc_position_set(m.bench.control(), 0, &stand), NC_OK);
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  EXPECT_EQ(nc_position_set(m.bench.control(), 0, &stand), NC_E_STATE);
+  m.enter();  // at the place
+  m.drive->in.reset = true;
+  m.step(5);
+  m.drive->in.reset = false;
+  m.step(5);
+  EXPECT_EQ(nc_position_set(m.bench.control(), 0, &stand), NC_OK);
+  ASSERT_EQ(m.find(at_line(3)), NC_OK);
+  ASSERT_EQ(nc_restart_cancel(m.bench.control(), 0), NC_OK);
+  EXPECT_EQ(nc_position_set(m.bench.control(), 0, &stand), NC_OK);
+}
+
 TEST_P(Restart, WhatHasChangedBehindTheSearchIsAnAlarm) {
   RestartMachine m(GetParam(), "G0 X10.\nG54\nX20.\nX30.\nM30");
   ASSERT_EQ(m.find(at_line(3)), NC_OK);
@@ -402,8 +419,18 @@ TEST_P(Restart, ArgumentsThatAreRefused) {
   EXPECT_EQ(nc_restart_begin(c, 0, nullptr, nullptr), NC_E_ARGUMENT);
   EXPECT_EQ(nc_restart_find(c, 0, 10, &m.found), NC_E_STATE);
   EXPECT_EQ(nc_restart_cancel(c, 0), NC_OK);
+  nc_restart_coordinates left{};
+  EXPECT_EQ(nc_restart_coordinates_get(c, 7, false, &left), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_coordinates_get(c, 0, false, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_coordinates_set(c, 7, &left), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_restart_coordinates_set(c, 0, nullptr), NC_E_ARGUMENT);
+  left.local[2].v[1] = NAN;
+  EXPECT_EQ(nc_restart_coordinates_set(c, 0, &left), NC_E_ARGUMENT);
+  left.local[2].v[1] = 0;
+  EXPECT_EQ(nc_restart_coordinates_set(c, 0, &left), NC_OK);
   place = at_line(2);
   m.press();
+  EXPECT_EQ(nc_restart_coordinates_set(c, 0, &left), NC_E_STATE) << "the program runs";
   EXPECT_EQ(nc_restart_begin(c, 0, &place, nullptr), NC_E_STATE) << "the program runs";
   EXPECT_EQ(nc_restart_cancel(c, 0), NC_E_STATE);
 }
@@ -461,6 +488,22 @@ TEST_P(Restart, AStartThatIsTakenBackKeepsTheBar) {
     m.press();
     m.step(50);
     EXPECT_EQ(m.drive->out.state, NC_STATE_STOPPED) << late;
+  }
+}
+
+/// The path of a place is planned while the axes stand beside it, and begins there where they are near enough. Behind the way to the place it begins at the place.
+TEST_P(Restart, GoesOnWhereTheAxesStoodHardlyBesideThePlace) {
+  for (const char* beside : {"0.0005", "0.001", "0.01", "0.02", "0.03", "1."}) {
+    RestartMachine m(GetParam(), std::string("G90 G0 X10.\nG0 X0 Y") + beside + "\nG0 Y30.\nG1 X5. F600\nM30");
+    ASSERT_EQ(m.find(at_line(3)), NC_OK);
+    m.enter();
+    EXPECT_EQ(m.drive->out.restart_axes, 2u) << beside;
+    m.bring_axes();
+    EXPECT_TRUE(m.at(m.found.machine)) << beside;
+    ASSERT_TRUE(m.to_end()) << beside;
+    EXPECT_NEAR(m.drive->out.command.v[0], 5, 1e-9);
+    EXPECT_NEAR(m.drive->out.command.v[1], 30, 1e-9);
+    EXPECT_LT(m.worst, 1.001) << beside;
   }
 }
 

@@ -123,10 +123,15 @@ TEST_F(SharedLives, AnotherToolInThePlaceOfTheOneInTheSpindleIsNotThatOne) {
     EXPECT_GT(life(1, NC_LIFE_USED), 0);
     execute(1, "G10 L3 P2\nP10\nG11\n" + other + "M30");
     ASSERT_EQ(table(), "1: 30 301 0 0");
-    execute(0, "G0 X0\nG1 X21. F600\nG0 X0\nG43 H99\nG0 Z10.\nM30");
+    execute(0, "G0 X0\nG1 X21. F600\nG0 X0\nM30");
     EXPECT_EQ(table(), "1: 30 301 0 0");
     EXPECT_EQ(pair.out[0].tool_group, 0U);
-    EXPECT_EQ(pair.out[0].command.v[2], 10) << "number 99 of the table of offsets, in which nothing stands";
+    pair.select(0, "G43 H99\nG0 Z10.\nM30");
+    pair.start(1);
+    pair.cycles(200);
+    EXPECT_EQ(pair.out[0].state, NC_STATE_ALARM) << "nobody knows the length of that tool";
+    EXPECT_EQ(pair.out[0].command.v[2], 0);
+    pair.reset(0);
     execute(0, "#60000=30\n#101=#60005\nM30");
     EXPECT_EQ(pair.var(0, 101), 0) << "no tool of that group is in the spindle";
     pair.in[0].tool_broken = true;
@@ -155,6 +160,10 @@ TEST_F(SharedLives, TheSameToolRegisteredAnewGoesOn) {
   execute(1, "G10 L3 P1\nP10 L5 Q3\nT101\nG11\nM30");
   execute(0, "G0 X1.\nG1 X2. F6000\nM30");
   EXPECT_EQ(table(), "1: 10 101 0 1");
+  execute(1, "G10 L3\nP20 L5 Q3\nT201\nP30 L9 Q3\nT301\nT101\nG11\nM30");
+  execute(0, "G0 X1.\nG1 X2. F6000\nM30");
+  EXPECT_EQ(table(), "1: 20 201 0 0, 2: 30 301 0 0, 3: 30 101 0 1") << "in another place of the table and in another group";
+  EXPECT_EQ(pair.out[0].tool_group, 30U);
 }
 
 /// To register a tool is to look for a free place and to write to it: one step for the other part system, whatever the rhythm of both and of the feeder.

@@ -513,6 +513,20 @@ TEST(StructSize, TheOrderOfTheCodesInFrontOfAPlaceIsForThoseWhoKnowOfIt) {
   }
 }
 
+TEST(StructSize, ThePlaceToGoBackToIsForThoseWhoKnowOfIt) {
+  for (const bool old : {true, false}) {
+    Control c(small());
+    nc_inputs in;
+    nc_inputs_init(&in);
+    nc_outputs out;
+    nc_outputs_init(&out);
+    out.return_place.v[0] = 77;
+    if (old) out.struct_size = offsetof(nc_outputs, return_place);
+    EXPECT_EQ(nc_cycle(c.control, &in, &out), NC_OK);
+    EXPECT_EQ(out.return_place.v[0], old ? 77 : 0);
+  }
+}
+
 TEST(StructSize, TheLengthAlongTheToolIsForThoseWhoKnowOfIt) {
   static_assert(offsetof(nc_inputs, tool_length_handle) == offsetof(nc_inputs, spindle_age_s) + sizeof(nc_inputs::spindle_age_s));
   static_assert(offsetof(nc_inputs, tool_angle) == offsetof(nc_inputs, tool_length_handle) + sizeof(double));

@@ -115,6 +115,52 @@ TEST_P(Tap, TheSpindleGoesWithTheAxis) {
   }
 }
 
+// A hold between two holes: the tap is out of its hole, so its axis moves by hand without its spindle, in the hold and behind a reset in it, also below R.
+TEST_P(Tap, InAHoldBetweenHolesTheAxisMovesByHandWithoutTheSpindle) {
+  for (const bool reset : {false, true}) {
+    SCOPED_TRACE(reset ? "reset" : "return");
+    start("G84 X20. Z-8. R2. F1.5 S600 ,R1\nX80.");
+    ASSERT_TRUE(until([&] { return drive->out.command.v[0] > 40; }));
+    drive->in.feed_hold = true;
+    ASSERT_TRUE(until([&] { return drive->out.state == NC_STATE_HOLD && drive->out.manual_allowed; }));
+    drive->in.feed_hold = false;
+    const double stood = z(), turned = drive->out.spindle_turns;
+    const auto turns_along = [&](const nc_manual& wish) {
+      drive->in.manual[2] = wish;
+      double most = 0;
+      for (unsigned n = 0; n < 400; ++n) {
+        step();
+        most = std::max(most, std::fabs(drive->out.spindle_turns - turned));
+      }
+      drive->in.manual[2] = {};
+      step();
+      return most;
+    };
+    EXPECT_EQ(turns_along({NC_MANUAL_STEP, 0, -14}), 0);
+    EXPECT_NEAR(z(), stood - 14, 1e-9) << "as deep as in a hole";
+    if (reset) {
+      drive->in.reset = true;
+      ASSERT_TRUE(until([&] { return drive->out.state == NC_STATE_IDLE; }));
+      drive->in.reset = false;
+      step();
+      EXPECT_FALSE(drive->out.tap_retract_possible);
+      EXPECT_EQ(drive->out.tap_holds, 0u);
+      EXPECT_EQ(drive->out.spindle_synchronous, 0);
+      (void)turns_along({NC_MANUAL_STEP, 0, 5});
+      EXPECT_EQ(drive->out.spindle_synchronous, 0);
+      EXPECT_NEAR(z(), stood - 9, 1e-9);
+    } else {
+      EXPECT_EQ(turns_along({NC_MANUAL_RETURN, 0, 0}), 0);
+      EXPECT_EQ(z(), stood);
+      drive->in.cycle_start = true;
+      drive->step(50);
+      drive->in.cycle_start = false;
+      ASSERT_TRUE(until([&] { return drive->ended; })) << drive->out.state << " " << drive->out.cause;
+    }
+    EXPECT_EQ(drive->alarm(), "");
+  }
+}
+
 TEST_P(Tap, TheSpindleAcceleratesByItsStages) {
   bench.param("3005", "3000").param("3013", "600").param("3017", "500").param("3037", "1200").param("3041", "2000").param("3045", "60000");
   const auto steepest = [&](const char* words) {
@@ -642,6 +688,30 @@ TEST_P(Retract, BehindAPowerCutItIsDrawnOut) {
   EXPECT_NEAR(z(), 2, 1e-3);
   EXPECT_LT(worst, 1e-3 + kLead * kRamp * kLag * kCycle_s);
   EXPECT_FALSE(drive->out.tap_retract_possible);
+}
+
+// On the way to the next hole the tap is in none: neither the one that is made nor the one to come is kept.
+TEST_P(Retract, BetweenTwoHolesThereIsNothingToBeDrawnOut) {
+  start("G84 X5. Z-5. R5. F1. S500 ,R1\nX15. Z-8. R0. F2. ,R1");
+  unsigned holes = 0;
+  bool kept = false;
+  ASSERT_TRUE(until([&] {
+    nc_tap tap = NC_INIT(nc_tap);
+    EXPECT_EQ(nc_tap_get(bench.control(), 0, &tap), NC_OK);
+    const bool first = drive->out.source.line == 2, below = z() < (first ? 5 : 0) - 1e-6, strokes = (drive->out.spindle_synchronous & 1) != 0;
+    if (below && strokes) {
+      EXPECT_EQ(tap.axis, 3) << z();
+      EXPECT_NEAR(tap.entry, first ? 5 : 0, 1e-9) << "that of the hole in hand";
+    }
+    if (!strokes) {
+      EXPECT_EQ(tap.axis, 0) << "in the air, at Z" << z();
+    }
+    holes += tap.axis != 0 && !kept ? 1 : 0;
+    kept = tap.axis != 0;
+    return drive->ended;
+  }));
+  EXPECT_EQ(drive->alarm(), "");
+  EXPECT_EQ(holes, 2u);
 }
 
 TEST(TapData, OnlyATapThatCanBeIsTaken) {

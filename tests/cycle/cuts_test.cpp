@@ -78,19 +78,20 @@ Path of_g73(const Words& w) {
   for (const double depth : cuts(w.bottom, w.q)) {
     pen.to("line", depth);
     pen.dwell(w.dwell);
-    if (depth != w.bottom) pen.to("rapid", depth + w.amount);
+    if (depth != w.bottom) pen.to("rapid", std::fmin(depth + w.amount, kR));
   }
   pen.to("rapid", w.to_r ? kR : kTop);
   return pen.list;
 }
 
-/// docs/decisions.md, "Q of a tap".
+/// docs/decisions.md, "Q of a tap". A floating holder without a way back makes one cut.
 Path of_tap(const Words& w, const char* kind, bool back_to_r) {
   Pen pen;
   pen.to("rapid", kR);
-  for (const double depth : cuts(w.bottom, w.q)) {
+  const bool whole = kind == std::string("line") && w.amount == 0 && !back_to_r;
+  for (const double depth : whole ? std::vector<double>{w.bottom} : cuts(w.bottom, w.q)) {
     pen.to(kind, depth);
-    if (depth != w.bottom) pen.to(kind, back_to_r ? kR : depth + w.amount);
+    if (depth != w.bottom) pen.to(kind, back_to_r ? kR : std::fmin(depth + w.amount, kR));
   }
   pen.dwell(w.dwell);
   pen.to(kind, kR);
@@ -103,7 +104,7 @@ std::vector<Words> all_words() {
   std::vector<Words> all;
   for (const double bottom : {-6., -7.5, 1.25})
     for (const double q : {0.75, 2., 4., 8., 50.})
-      for (const double amount : {0., 0.25, 0.5})
+      for (const double amount : {0., 0.25, 0.5, 5., 40.})
         for (const double dwell : {0., 0.3})
           for (const bool to_r : {false, true}) all.push_back({bottom, q, amount, dwell, to_r});
   return all;
@@ -199,7 +200,7 @@ std::string alarm_of(const std::string& text) {
 
 TEST(CycleAlarms, OfWordsThatEveryCycleHas) {
   for (const Cycle& cycle : kCycles) {
-    const std::string all = std::string(cycle.code) + " Z-5. R2. " + cycle.words;
+    const std::string all = std::string(cycle.code) + (cycle.code == std::string("G87") ? " Z-5. R-8. " : " Z-5. R2. ") + cycle.words;
     EXPECT_EQ(alarm_of(all + " F100"), "") << all;
     EXPECT_EQ(alarm_of(all), "P62") << all;
     EXPECT_EQ(alarm_of(all + " F0"), "P62") << all;
@@ -233,7 +234,13 @@ TEST(CycleAlarms, OfWordsThatSomeCyclesNeed) {
       {"G75 Z-5. R2. F100 Q1. P7", "P223"},
       {"G76 Z-5. R2. F100 Q0.3", "P33"},  // without #1080 it would be no shift
       {"G87 Z-5. R-8. F100 Q0.3", "P33"},
-      {"G83 Z-5. R2. F100 Q2.\nG76 X1.", ""},  // the Q of another cycle
+      {"G76 Z-5. R2. F100", "P33"},  // along the wall
+      {"G87 Z-5. R-8. F100", "P33"},
+      {"G87 Z-5. R-8. F100 I0", "P33"},
+      {"G83 Z-5. R2. F100 Q2.\nG76 X1.", "P33"},  // the Q of another cycle
+      {"G83 Z-5. R2. F100 Q2.\nG76 X1. J1.\nX2.", ""},
+      {"G87 Z-8. R-5. F100 I1.", "P35"},  // from below downwards
+      {"G87 Z-5. R-5. F100 I1.", ""},
       {"G84 Z-5. R2. F1. S500 ,R2", "P35"},
       {"G84 Z-5. R2. S500 ,R1", "P183"},
       {"G84 Z-5. R2. F0 S500 ,R1", "P184"},

@@ -344,6 +344,9 @@ TEST(DgshapeCycle, RepetitionsByK) {
             (Path{"rapid 5 0 10", "rapid 5 0 8", "line 5 0 0 F60", "rapid 5 0 10", "rapid 10 0 10", "rapid 10 0 8", "line 10 0 0 F60",
                   "rapid 10 0 10"}));
   EXPECT_EQ(dgshape_at_ten("M03\nG81X5000Z-8000R2000F60000K0\nM02").path(), Path{});
+  // Without Z there is no drilling, but the places are gone to, and the next hole counts from the last one.
+  EXPECT_EQ(dgshape_at_ten("M03\nG91G81X5000R-2000F60000K3\nX5000Z-8000\nM02").path(),
+            (Path{"rapid 5 0 10", "rapid 10 0 10", "rapid 15 0 10", "rapid 20 0 10", "rapid 20 0 8", "line 20 0 0 F60", "rapid 20 0 10"}));
 }
 
 TEST(DgshapeCycle, Alarms) {  // DGSHAPE 5
@@ -357,6 +360,24 @@ TEST(DgshapeCycle, Alarms) {  // DGSHAPE 5
   EXPECT_EQ(stopped.aux(), "M3 M5 M3 M2");
   EXPECT_EQ(stopped.path().back(), "rapid 1 0 2");
   EXPECT_EQ(dgshape_at_ten("G73Z-8000\nM02").alarm, "NC-NO-SUCH-CODE");
+}
+
+Outcome iso_at_ten(const std::string& text) { return Bench(NC_DIALECT_ISO).at(0, 0, 10).run("G21 G17 G90 G94 G98 S500 M3 F300\n" + text); }
+
+TEST(IsoCycle, LevelsCountByTheDistanceModeOfTheHole) {  // LinuxCNC: R2 and Z-5 are increments behind G91
+  EXPECT_EQ(iso_at_ten("G81 X1 Y1 Z-5 R2\nG91 X10\nG80\nM2").path(),
+            (Path{"rapid 1 1 10", "rapid 1 1 2", "line 1 1 -5 F300", "rapid 1 1 10", "rapid 1 1 12", "rapid 11 1 12", "line 11 1 7 F300", "rapid 11 1 12"}));
+  EXPECT_EQ(iso_at_ten("G91 G81 X1 Y1 R-8 Z-5\nG90 X5\nG80\nM2").alarm, iso_at_ten("G81 X1 Y1 R-8 Z-5\nM2").alarm) << "the bottom lies above R";
+  EXPECT_NE(iso_at_ten("G91 G81 X1 Y1 R-8 Z-5\nG90 X5\nG80\nM2").alarm, "");
+  EXPECT_EQ(iso_at_ten("G91 G81 X1 Y1 R-8 Z-5\nX5\nG80\nM2").alarm, "");
+}
+
+TEST(IsoCycle, TheCodeOfAnotherCycleBeginsItsDataAnew) {  // RS-274/NGC 3.5.16
+  EXPECT_EQ(iso_at_ten("G81 X1 Y1 Z-5 R2\nG82 X2 P1\nG80\nM2").alarm, iso_at_ten("G82 X2 P1\nM2").alarm);
+  EXPECT_NE(iso_at_ten("G82 X2 P1\nM2").alarm, "");
+  EXPECT_EQ(iso_at_ten("G81 X1 Y1 Z-5 R2\nG81 X2\nX3\nG80\nM2").alarm, "") << "the same cycle again";
+  EXPECT_EQ(iso_at_ten("G82 X1 Y1 Z-5 R2 P0.5\nG73 X2 Z-5 R2 Q3\nG80\nM2").dwells(), std::vector<double>{0.5}) << "G73 has no P";
+  EXPECT_EQ(iso_at_ten("G82 X1 Y1 Z-5 R2 P0.5\nG89 X2 Z-5 R2\nG80\nM2").dwells(), std::vector<double>{0.5}) << "nor is the P of G82 that of G89";
 }
 
 }  // namespace

@@ -144,6 +144,9 @@ TEST(Tap, Alarms) {
   for (const char* word : {"F0", "F1000.", "F-1.", "E0"}) EXPECT_EQ(tap(std::string("G84 Z-8. R2. S600 ,R1 ") + word).alarm, "P184") << word;
   EXPECT_EQ(tap("G84 Z-8. R2. S600 F1. ,R1\nX5. S700").alarm, "P186");
   EXPECT_EQ(tap("G84 Z-8. R2. S600 F1. ,R1\nS700").alarm, "P186");
+  for (const char* beside : {"G34 X0 Y0 I10. K2 S700", "G04 X1. S700", "G54 S700", "G52 X1. S700", "X5. L0 S700"})
+    EXPECT_EQ(tap(std::string("G84 Z-8. R2. S600 F1. ,R1\n") + beside).alarm, "P186") << beside;
+  for (const char* ended : {"G80\nS700", "G80 S700", "G0 X1. S700", "G84 X2. Z-8. R2. F1. S700"}) EXPECT_EQ(tap(std::string("G84 Z-8. R2. S600 F1. ,R1\n") + ended).alarm, "") << ended;
   EXPECT_EQ(tap("G84 Z-8. R2. S600 F1. ,R1\nG84 X5. S700").alarm, "");
   for (const char* word : {",R2", ",R0.5", ",R-1", ",S100000", ",S-1"})
     EXPECT_EQ(tap(std::string("G84 Z-8. R2. S600 F1. ") + word).alarm, "P35") << word;

@@ -94,18 +94,32 @@ leftover=$(find "$folder" -name '*.new' -o -name '*.request' -o -name '*.signed'
 # topics NAME: "publish: ..." and "subscribe: ..." of an identity.
 topics() {
   openssl smime -verify -text -in "$folder/identities/$1/permissions.p7s" -CAfile "$folder/ca/permissions-ca.pem" 2>/dev/null | tr -d '\r' |
-    awk '/<publish>/ { what = "publish:" } /<subscribe>/ { print what; what = "subscribe:" } /<topic>/ { gsub(/<[^>]*>| /, ""); what = what " " $0 } END { print what }'
+    awk '/<(publish|subscribe)>/ { if (what) print what; gsub(/[<> ]/, ""); what = $0 ":" } /<topic>/ { gsub(/<[^>]*>| /, ""); what = what " " $0 } END { print what }'
+}
+# partitions NAME TOPIC: those in which an identity may use a topic.
+partitions() {
+  openssl smime -verify -text -in "$folder/identities/$1/permissions.p7s" -CAfile "$folder/ca/permissions-ca.pem" 2>/dev/null | tr -d '\r' |
+    awk -v topic="<topic>$2</topic>" '/<(publish|subscribe)>/ { here = 0 } index($0, topic) { here = 1 } here && /<partition>/ { gsub(/<[^>]*>| /, ""); print }' | tr '\n' ' '
 }
 status="nc_MachineInfo nc_Status nc_Alarm nc_AlarmHistory nc_SignalTable nc_SignalImage nc_Status_v1 nc_Alarm_v1"
 services="nc_ServiceView nc_ServiceOperate nc_ServiceSetUp nc_ServiceMaintain"
-# has NAME PUBLISH SUBSCRIBE
+# has NAME PUBLISH SUBSCRIBE: topics, and nc_ServiceReply, which the gateway publishes and everybody else subscribes to.
 has() {
+  local replies=subscribe
+  [ "$1" != gateway ] || replies=publish
   [ "$(topics "$1")" = "publish: $2
-subscribe: $3" ] || fail "permissions of $1: $(topics "$1")"
+subscribe: $3
+$replies: nc_ServiceReply" ] || fail "permissions of $1: $(topics "$1")"
 }
-has gateway "$status nc_CommandAck nc_ServiceReply" "nc_Command $services"
-has anna "nc_ServiceView nc_Command nc_ServiceOperate" "$status nc_ServiceReply nc_CommandAck"
-has boss "nc_ServiceView nc_ServiceSetUp nc_ServiceMaintain" "$status nc_ServiceReply"
+has gateway "$status nc_CommandAck" "nc_Command $services"
+has anna "nc_ServiceView nc_Command nc_ServiceOperate" "$status nc_CommandAck"
+has boss "nc_ServiceView nc_ServiceSetUp nc_ServiceMaintain" "$status"
+[ "$(partitions anna nc_ServiceReply)" = "mill3/anna mill3/anna@* mill4/anna mill4/anna@* " ] || fail "anna reads replies in $(partitions anna nc_ServiceReply)"
+[ "$(partitions boss nc_ServiceReply)" = "*/boss */boss@* " ] || fail "boss reads replies in $(partitions boss nc_ServiceReply)"
+[ "$(partitions gateway nc_ServiceReply)" = "*/* " ] || fail "the gateway writes replies in $(partitions gateway nc_ServiceReply)"
+[ "$(partitions anna nc_ServiceOperate)" = "mill3 mill4 " ] || fail "anna operates $(partitions anna nc_ServiceOperate)"
+refuses "is too long" identity "$(printf 'n%.0s' $(seq 28))" --right view
+grep -q "kMostRemoteClient = $(sed -n 's/^readonly kMostClient=\([0-9]*\).*/\1/p' "$keys");" "$NC_SOURCE_DIR/runtime/services/service_table.hpp" || fail "nc-keys has another longest name of a client than the services"
 grep -q '<partition>mill3</partition>' "$folder/identities/anna/permissions.p7s" && grep -q '<partition>mill4</partition>' "$folder/identities/anna/permissions.p7s" &&
   ! grep -q '<partition>\*</partition>' "$folder/identities/anna/permissions.p7s" || fail "anna is not for mill3 and mill4 alone"
 grep -q '<partition>\*</partition>' "$folder/identities/boss/permissions.p7s" || fail "boss is not for all controls"
@@ -123,7 +137,13 @@ openssl smime -verify -text -in "$folder/identities/anna/governance.p7s" -CAfile
 old=$(serial anna) key=$(sha256sum <"$folder/identities/anna/key.pem") rights=$(topics anna)
 refuses "is there already" identity anna --right view
 [ "$(serial anna)" = "$old" ] && [ "$(topics anna)" = "$rights" ] || fail "a refused identity has changed the one that was there"
+signed=$(sha256sum <"$folder/identities/anna/permissions.p7s") subject=$(openssl x509 -in "$folder/identities/anna/identity.pem" -noout -subject)
 does renew anna
+# A process of DDS has one set of permissions: other ones cannot be taken without an interruption. They end with the authority.
+[ "$(sha256sum <"$folder/identities/anna/permissions.p7s")" = "$signed" ] || fail "renew has changed the permissions"
+[ "$(openssl x509 -in "$folder/identities/anna/identity.pem" -noout -subject)" = "$subject" ] || fail "renew has changed the subject"
+end=$(date -u -d "$(openssl x509 -in "$folder/ca/permissions-ca.pem" -noout -enddate | cut -d= -f2)" +%Y-%m-%dT%H:%M:%SZ)
+grep -q "<not_after>$end</not_after>" "$folder/identities/anna/permissions.p7s" || fail "the permissions end before their authority"
 [ "$(serial anna)" != "$old" ] && [ "$(sha256sum <"$folder/identities/anna/key.pem")" = "$key" ] && [ "$(topics anna)" = "$rights" ] || fail "renew"
 openssl verify -CAfile "$folder/ca/identity-ca.pem" "$folder/identities/anna/identity.pem" >/dev/null || fail "the renewed certificate"
 does renew --soon
@@ -157,10 +177,12 @@ grep -q "$(serial anna | cut -d= -f2)" "$work/text" || fail "the certificate of 
 cmp -s "$folder/ca/revoked.pem" "$folder/identities/gateway/revoked.pem" || fail "the gateway has not the new list"
 grep -qE '^anna .* revoked' <<<"$(nc_keys list)" || fail "list: anna is not revoked"
 refuses "anna is revoked" renew anna
+refuses "anna is revoked" export anna "$work/of_anna"
 does renew --all
 [[ "$said" != *anna* ]] || fail "renew --all renews who is revoked"
 does revoke anna
 does identity anna --right view --force
+[ "$(openssl x509 -in "$folder/identities/anna/identity.pem" -noout -subject)" != "$subject" ] || fail "the permissions that anna had before are those of her new certificate, too"
 [ "$(sha256sum <"$folder/identities/anna/key.pem")" != "$key" ] || fail "identity --force has kept the key"
 grep -qE '^anna +view .* valid' <<<"$(nc_keys list)" || fail "list: anna is not there again"
 
@@ -173,7 +195,7 @@ does export anna "$work/anna"
 [ "$(ls "$work/anna" | tr '\n' ' ')" = "governance.p7s identity-ca.pem identity.pem key.pem permissions-ca.pem permissions.p7s revoked.pem " ] || fail "export: $(ls "$work/anna")"
 [ "$(stat -c %a "$work/anna" "$work/anna/key.pem" | tr '\n' ' ')" = "700 600 " ] || fail "export: modes"
 does export anna "$work/anna"
-refuses "is the folder of CN=anna, not of boss" export boss "$work/anna"
+refuses "is the folder of anna, not of boss" export boss "$work/anna"
 refuses "has no group nosuchgroup" export boss "$work/boss" --group nosuchgroup
 does export boss "$work/boss" --group "$(id -gn)"
 [ "$(stat -c %a "$work/boss" "$work/boss/key.pem" | tr '\n' ' ')" = "750 640 " ] || fail "export --group: modes"

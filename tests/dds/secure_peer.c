@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program in C as others write them: it joins a domain with DDS Security, or without, reads the status of a control and gives commands. secure_test.py
-// starts it. It uses the types of the IDL and Cyclone DDS, and nothing of this tree.
+// A program in C as others write them: it joins a domain with DDS Security, or without, reads the status of a control, gives commands and asks for services.
+// secure_test.py and secure_services_test.py start it. It uses the types of the IDL and Cyclone DDS, and nothing of this tree.
 //
-//   secure_peer DOMAIN PARTITION PLUGINS IDENTITY [read] [command]
+//   secure_peer DOMAIN PARTITION PLUGINS IDENTITY [read] [command] [service=NAME]
 //
 // PLUGINS: folder of the plug-ins. IDENTITY: folder that nc-keys has made; "-" = without security.
 // read: prints each status. command: sends what standard input says, one line each: SEQ KIND NUMBER VALUE.
+// service: makes writers of all requests for services, and sends in this name what standard input says: TOPIC NUMBER SERVICE ARGUMENTS.
 // It ends with standard input. Each line on standard output is an event; "t" is the monotonic time in milliseconds.
 #define _POSIX_C_SOURCE 200809L
 #include <fcntl.h>
@@ -124,13 +125,70 @@ static void send_line(dds_entity_t writer, const char* line) {
   printf("sent %llu %s\n", seq, result < 0 ? dds_strretcode(result) : "ok");
 }
 
+#define REQUESTS 4
+static const char* const kRequests[REQUESTS] = {"nc_ServiceView", "nc_ServiceOperate", "nc_ServiceSetUp", "nc_ServiceMaintain"};
+
+// A client of the services; all is 0 where there is none, or it is refused.
+static struct {
+  const char* name;
+  dds_entity_t replies, requests[REQUESTS];
+  uint32_t heard[REQUESTS];
+} client;
+
+static void open_services(dds_entity_t participant, const char* partition, const char* name) {
+  char own[256];
+  snprintf(own, sizeof own, "%s/%s", partition, name);
+  client.name = name;
+  client.replies = endpoint(participant, &nc_ServiceReply_desc, "nc_ServiceReply", own, 0, 0);
+  for (int i = 0; i < REQUESTS; ++i) client.requests[i] = endpoint(participant, &nc_ServiceRequest_desc, kRequests[i], partition, 1, 0);
+}
+
+static void print_heard(void) {
+  for (int i = 0; i < REQUESTS; ++i) {
+    dds_publication_matched_status_t matched;
+    if (client.requests[i] <= 0 || dds_get_publication_matched_status(client.requests[i], &matched) < 0 || matched.current_count == client.heard[i]) continue;
+    client.heard[i] = matched.current_count;
+    printf("%s heard by %u\n", kRequests[i], client.heard[i]);
+  }
+}
+
+static void ask(const char* line) {
+  static nc_ServiceRequest request;
+  char topic[32];
+  unsigned long long number = 0;
+  int begin = 0;
+  memset(&request, 0, sizeof request);
+  if (sscanf(line, "%31s %llu %31s %n", topic, &number, request.service, &begin) != 3) return;
+  snprintf(request.client, sizeof request.client, "%s", client.name);
+  snprintf(request.args, sizeof request.args, "%s", line + begin);
+  request.number = number;
+  for (int i = 0; i < REQUESTS; ++i)
+    if (strcmp(topic, kRequests[i]) == 0 && client.requests[i] > 0)
+      printf("sent %llu %s\n", number, dds_write(client.requests[i], &request) < 0 ? "failed" : "ok");
+}
+
+static void print_replies(void) {
+  void* samples[16] = {NULL};
+  dds_sample_info_t infos[16];
+  const int count = dds_take(client.replies, samples, infos, 16, 16);
+  for (int i = 0; i < count; ++i) {
+    const nc_ServiceReply* reply = samples[i];
+    if (infos[i].valid_data)
+      printf("reply %llu status %d refusal \"%s\" session %llu part %u last %d t %.3f %s\n", (unsigned long long)reply->number, (int)reply->status, reply->refusal,
+             (unsigned long long)reply->session, (unsigned)reply->part, (int)reply->last, now_ms(), reply->body);
+  }
+  if (count > 0) dds_return_loan(client.replies, samples, count);
+}
+
 int main(int argc, char** argv) {
   if (argc < 5) return 2;
   const unsigned domain = (unsigned)strtoul(argv[1], NULL, 10);
   int reads = 0, commands = 0;
+  const char* service = NULL;
   for (int i = 5; i < argc; ++i) {
     reads |= strcmp(argv[i], "read") == 0;
     commands |= strcmp(argv[i], "command") == 0;
+    if (strncmp(argv[i], "service=", 8) == 0) service = argv[i] + 8;
   }
   setvbuf(stdout, NULL, _IOLBF, 0);
   (void)dds_create_domain(domain, kNetwork);
@@ -146,7 +204,8 @@ int main(int argc, char** argv) {
   const dds_entity_t status = reads ? endpoint(participant, &nc_Status_desc, "nc_Status", argv[2], 0, 1) : 0;
   const dds_entity_t acks = commands ? endpoint(participant, &nc_CommandAck_desc, "nc_CommandAck", argv[2], 0, 0) : 0;
   const dds_entity_t command = commands ? endpoint(participant, &nc_Command_desc, "nc_Command", argv[2], 1, 0) : 0;
-  char text[4096];
+  if (service != NULL) open_services(participant, argv[2], service);
+  static char text[65536];
   size_t length = 0;
   uint32_t heard = 0;
   for (;;) {
@@ -160,12 +219,15 @@ int main(int argc, char** argv) {
       while ((end = strchr(text, '\n')) != NULL) {
         *end = 0;
         if (command > 0) send_line(command, text);
+        if (strncmp(text, "nc_Service", 10) == 0) ask(text);
         length -= (size_t)(end + 1 - text);
         memmove(text, end + 1, length + 1);
       }
     }
     if (status > 0) print_status(status);
     if (acks > 0) print_answers(acks);
+    if (client.replies > 0) print_replies();
+    print_heard();
     dds_publication_matched_status_t matched;
     if (command > 0 && dds_get_publication_matched_status(command, &matched) >= 0 && matched.current_count != heard) {
       heard = matched.current_count;

@@ -5,6 +5,7 @@
 Exit status 77 = skipped: the programs are not built, or the plug-ins or openssl are not there.
 """
 import glob
+import json
 import os
 import re
 import signal
@@ -225,13 +226,37 @@ def forged(plant):
     home = os.path.join(plant.folder, "forged")
     subprocess.run(["cp", "-r", plant.identity("viewer"), home], check=True)
     text = os.path.join(plant.folder, "permissions.xml")
-    with open(os.path.join(plant.identity("operator"), "permissions.p7s"), encoding="utf-8") as file:
-        xml = re.search(r"<\?xml.*?</dds>", file.read(), re.DOTALL)[0].replace("CN=operator", "CN=viewer")
+    documents = []
+    for name in ("operator", "viewer"):
+        with open(os.path.join(plant.identity(name), "permissions.p7s"), encoding="utf-8") as file:
+            documents.append(re.search(r"<\?xml.*?</dds>", file.read(), re.DOTALL)[0])
+    subject = r"<subject_name>.*?</subject_name>"
+    xml = re.sub(subject, re.search(subject, documents[1])[0], documents[0])
     with open(text, "w", encoding="utf-8") as file:
         file.write(xml)
     subprocess.run(["openssl", "smime", "-sign", "-text", "-in", text, "-out", os.path.join(home, "permissions.p7s"),
                     "-signer", os.path.join(home, "identity.pem"), "-inkey", os.path.join(home, "key.pem")], check=True)
     return home
+
+
+def fewer_rights(plant, viewer):
+    """Who has fewer rights now, and has kept the permissions that he had."""
+    plant.make("identity", "less", "--right", "operate")
+    home, kept = plant.identity("less"), os.path.join(plant.folder, "kept.p7s")
+    subprocess.run(["cp", os.path.join(home, "permissions.p7s"), kept], check=True)
+    plant.make("identity", "less", "--right", "view", "--force")
+    subprocess.run(["cp", kept, os.path.join(home, "permissions.p7s")], check=True)
+    peers = {"": Peer(plant, home, "read", "command"), ", whose DDS does not obey,": Peer(plant, home, "read", "command", hostile=True)}
+    for who, peer in peers.items():
+        peer.wait_for("^made nc_Command$|^refused participant", f"who has kept the permissions that he had{who} begins")
+        if peer.process.poll() is None:
+            peer.command(TAKE_CONTROL)
+            peer.command(FEED_OVERRIDE, value=0.1)
+    time.sleep(SILENCE)
+    for who, peer in peers.items():
+        check(not peer.lines("^answer") and not peer.lines("^heard by [1-9]"), f"he is not heard{who}")
+        peer.end()
+    check(feed_override(viewer) == 0.5, "and the feed override is as it was")
 
 
 def operate_only(operator):
@@ -274,6 +299,22 @@ def renewal(plant, viewer, operator, gateway):
         gap = longest_gap(viewer, since)
         check(gap < 1000, f"the viewer has a status at least each second; the longest gap was {gap:.0f} ms")
     check(not operator.lines("repeated 1"), "no command came twice")
+
+
+def outlives(plant, viewer, operator, gateway):
+    """The end of a certificate that was renewed in time is nothing that anybody notices."""
+    used = len(gateway.lines("the new identity is in use"))
+    end = time.time() + 12
+    plant.make("renew", "gateway", "--until", in_time(12))
+    until(lambda: len(gateway.lines("the new identity is in use")) > used, "the gateway has a certificate for some seconds")
+    plant.make("renew", "gateway", "--days", "2")
+    until(lambda: len(gateway.lines("the new identity is in use")) > used + 1, "and then one for two days")
+    time.sleep(max(0.0, end + 2 - time.time()))
+    before = viewer.statuses()[-1]
+    time.sleep(1)
+    gap = longest_gap(viewer, before[2] - 5000)
+    check(gap < 1000, f"when the one for seconds has ended the status comes as before; the longest gap was {gap:.0f} ms")
+    operator.answered(operator.command(FEED_OVERRIDE, value=0.5), DONE, "and the operator has control as before")
 
 
 def silent_client(plant, gateway):
@@ -397,6 +438,57 @@ def monitor(plant):
         check(done.returncode == 1 and text in done.stderr, f"ncmon {options[0]}: {done.stderr.strip()}")
 
 
+class Screen:
+    """ncmon that prints a line of JSON for each status."""
+
+    def __init__(self, plant, identity):
+        self.process = subprocess.Popen([program("ncmon"), "--domain", plant.domain, "--security", identity, "--json", "--view", "signals", "--wait", "20"],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={k: v for k, v in os.environ.items() if k != "CYCLONEDDS_URI"})
+        self.views = []  # (time in s, alive, are there signals) of each line
+        self.said = []
+        for read in (self._read_views, self._read_said):
+            threading.Thread(target=read, daemon=True).start()
+
+    def _read_views(self):
+        for line in self.process.stdout:
+            view = json.loads(line)
+            self.views.append((time.time(), view["alive"], bool(view.get("signals"))))
+
+    def _read_said(self):
+        for line in self.process.stderr:
+            self.said.append(line.rstrip())
+
+    def says(self, pattern, text):
+        until(lambda: any(re.search(pattern, line) for line in self.said), text)
+
+    def shows(self, text, since):
+        """A status with signals comes after a moment."""
+        until(lambda: any(t > since and alive and signals for t, alive, signals in self.views[-5:]), text)
+
+
+def screen(plant):
+    """A screen lives through the renewal of its own identity, and through the end of it."""
+    plant.make("identity", "screen", "--right", "view", "--until", in_time(14))
+    first_end = time.time() + 14
+    panel = Screen(plant, plant.identity("screen"))
+    panel.shows("a screen shows status and signals", 0)
+    since = time.time()
+    plant.make("renew", "screen", "--days", "1")
+    panel.says("^ncmon: the new identity is in use$", "it takes its new identity by itself")
+    time.sleep(max(0.0, first_end + 1 - time.time()))
+    panel.shows("and shows status and signals when the first one has ended", first_end)
+    times = [t for t, *_ in panel.views if t > since]
+    gap = max(b - a for a, b in zip(times, times[1:]))
+    check(gap < 1 and all(alive for _, alive, _ in panel.views), f"the longest time without a status was {1000 * gap:.0f} ms")
+    plant.make("renew", "screen", "--until", in_time(7))
+    panel.says("has expired at .*; shows nothing until", "when its identity has ended it says so")
+    until(lambda: not panel.views[-1][1], "and that the status is not alive")
+    plant.make("renew", "screen", "--days", "1")
+    panel.shows("with the next identity it shows status and signals again", time.time())
+    panel.process.terminate()
+    check(panel.process.wait(timeout=20) == 143, "and ends in order")
+
+
 def refused(plant):
     """What ncdds does not begin with."""
     network = "<CycloneDDS><Domain id='any'><General><Interfaces><NetworkInterface name='lo'/></Interfaces></General></Domain></CycloneDDS>"
@@ -414,23 +506,28 @@ def refused(plant):
         check(done.returncode == 1 and text in done.stderr, f"ncdds does not begin: {text}")
 
 
-def main():
-    for name in ("ncrtd", "ncdds", "ncmon", "nc-keys", "secure_peer"):
+def plugins_or_reason(programs):
+    """The folder of the plug-ins and why not: what these programs and the test need."""
+    for name in programs:
         if not os.path.exists(program(name)):
-            print(f"skipped: {name} is not built")
-            return SKIPPED
+            return None, f"{name} is not built"
     if "thread" in os.environ.get("NC_SANITIZE", ""):
-        print("skipped: Cyclone DDS is not built for the thread sanitizer")
-        return SKIPPED
+        return None, "Cyclone DDS is not built for the thread sanitizer"
     plugins = glob.glob("/usr/lib/*/libddsc0debian/libdds_security_auth.so")
     if not plugins:
-        print("skipped: the plug-ins of DDS Security are not here (Debian: libddsc0debian)")
-        return SKIPPED
+        return None, "the plug-ins of DDS Security are not here (Debian: libddsc0debian)"
     if subprocess.run(["sh", "-c", "command -v openssl"], capture_output=True).returncode != 0:
-        print("skipped: openssl is not here")
+        return None, "openssl is not here"
+    return os.path.dirname(plugins[0]), ""
+
+
+def main():
+    plugins, reason = plugins_or_reason(("ncrtd", "ncdds", "ncmon", "nc-keys", "secure_peer"))
+    if not plugins:
+        print("skipped:", reason)
         return SKIPPED
     with tempfile.TemporaryDirectory() as folder:
-        plant = Plant(folder, os.path.dirname(plugins[0]))
+        plant = Plant(folder, plugins)
         try:
             plant.make("init")
             plant.make("identity", "gateway", "--gateway")
@@ -446,11 +543,14 @@ def main():
             viewer, operator = allowed(plant)
             operate_only(operator)
             not_allowed(plant, viewer)
+            fewer_rights(plant, viewer)
             monitor(plant)
             renewal(plant, viewer, operator, gateway)
+            outlives(plant, viewer, operator, gateway)
             damaged(plant, viewer, gateway)
             revoked_live(plant, viewer)
             ends_while_he_looks(plant)
+            screen(plant)
             expired_gateway(plant, viewer, operator, gateway, control)
             states(told)
             operator.leave()

@@ -163,6 +163,16 @@ TEST_F(Gpiod1Chip, WhatIsNotThereIsSaid) {
   EXPECT_EQ(error, "chip \"soc\" has no line 100 (it has 100 lines)");
 }
 
+TEST_F(Gpiod1Chip, AChipIsFoundByItsLabelBesideOneThatThisUserMayNotOpen) {
+  input("L1");
+  stand_in().chips[0].open_error = EACCES;
+  EXPECT_EQ(request(), Opening::kOpen) << error;
+  chip->release();
+  stand_in().chips[1].open_error = EACCES;
+  EXPECT_EQ(request(), Opening::kRefused);
+  EXPECT_EQ(error, "chip \"soc\" cannot be opened: Permission denied");
+}
+
 TEST_F(Gpiod1Chip, WhatIsThereTwiceIsRefused) {
   lines = {{.name = "L7"}, {.name = "", .offset = 7}};
   EXPECT_EQ(request(), Opening::kRefused);

@@ -30,10 +30,6 @@ struct gpiod_chip {
   StandInChip* chip;
   std::map<unsigned, std::unique_ptr<gpiod_line>> lines;
 };
-struct gpiod_chip_iter {
-  std::vector<gpiod_chip*> chips;
-  std::size_t next = 0;
-};
 
 namespace {
 
@@ -86,21 +82,16 @@ int usable(const gpiod_line_bulk* bulk, bool output) {
 
 }  // namespace
 
-gpiod_chip_iter* gpiod_chip_iter_new() {
-  if (stand_in().open_error != 0) return errno = stand_in().open_error, nullptr;
-  auto* iter = new gpiod_chip_iter;
-  for (StandInChip& chip : stand_in().chips) iter->chips.push_back(open_chip(&chip));
-  return iter;
-}
-gpiod_chip* gpiod_chip_iter_next_noclose(gpiod_chip_iter* iter) { return iter->next < iter->chips.size() ? iter->chips[iter->next++] : nullptr; }
-void gpiod_chip_iter_free_noclose(gpiod_chip_iter* iter) { delete iter; }
-
 gpiod_chip* gpiod_chip_open_by_name(const char* name) {
+  errno = stand_in().open_error != 0 ? stand_in().open_error : ENOENT;
   for (StandInChip& chip : stand_in().chips)
-    if (chip.name == name && stand_in().open_error == 0) return open_chip(&chip);
-  errno = ENOENT;
+    if (chip.name == name) {
+      if (chip.open_error != 0) errno = chip.open_error;
+      else if (stand_in().open_error == 0) return open_chip(&chip);
+    }
   return nullptr;
 }
+gpiod_chip* gpiod_chip_open_by_number(unsigned number) { return gpiod_chip_open_by_name(("gpiochip" + std::to_string(number)).c_str()); }
 gpiod_chip* gpiod_chip_open(const char* path) { return gpiod_chip_open_by_name(std::string(path).substr(5).c_str()); }
 void gpiod_chip_close(gpiod_chip* chip) {
   --stand_in().open;

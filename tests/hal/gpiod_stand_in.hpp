@@ -30,6 +30,7 @@ struct StandInChip {
   std::string name, label;
   std::vector<StandInLine> lines;
   bool gone = false;  // pulled out while it is open
+  int open_error = 0;  // errno of opening this one
 };
 
 struct StandIn {

@@ -272,7 +272,7 @@ const Difference kDifferences[] = {
     {"Z and R of a hole behind the code of another cycle (`G82 X2`)",
      {{"stay, 13.1.1", "G99 G81 X1. Z-1. R0 F100\nG82 X2. P500\nM30", "rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, rapid 2 0 0, line 2 0 -1 F100, dwell 0.5, rapid 2 0 0"},
       {"are those of its block: no Z, no hole, G81", "%\nM03S1000\nG99G81X1.Z-1.R0.F100.\nG82X2.P500\nM30", "S1000, rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, rapid 2 0 0"},
-      {"stay", "G99 G81 X1 Z-1 R0 F100\nG82 X2 P.5\nM2", "rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, rapid 2 0 0, line 2 0 -1 F100, dwell 0.5, rapid 2 0 0"},
+      {"are those of the same cycle: an alarm, 3.5.16", "G99 G81 X1 Z-1 R0 F100\nG82 X2 P.5\nM2", "rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, NC-WORDS"},
       {"stay, 12.1.2", "G99 G81 X1. Z-1. R0 F100\nG82 X2. P500\nM30", "rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, rapid 2 0 0, line 2 0 -1 F100, dwell 0.5, rapid 2 0 0"},
       {"stay, chosen", "F100\nG81X1Z-1R0\nG82X2P.5", "rapid 1 0 0, line 1 0 -1 F100, rapid 1 0 0, rapid 2 0 0, line 2 0 -1 F100, dwell 0.5, rapid 2 0 0"}}},
     {"Holes in a row by one block in G91",

@@ -74,6 +74,8 @@ TEST(LineAngle, IsRotatedScaledAndMirroredWithItsLine) {
 
 TEST(LineAngle, Alarms) {
   EXPECT_EQ(alarm_of("G1 F100\nX30. A90.\nM30"), "P395 L2");  // never gets there
+  EXPECT_EQ(alarm_of("G1 F100\nA45. H1\nX30. Y0 A-45.\nM30"), "P395 L2");  // H is of the block of an arc
+  EXPECT_EQ(alarm_of("G1 F100\nA45.\nX30. Y0 A-45. H0\nM30"), "P395 L3");
   EXPECT_EQ(alarm_of("G1 F100\nY30. A180.\nM30"), "P395 L2");
   // Neither here: a coordinate that no word could say (2.1).
   EXPECT_EQ(alarm_of("G1 F100\nX10. A89.99999999\nM30"), "P395 L2");

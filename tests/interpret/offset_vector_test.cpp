@@ -137,6 +137,7 @@ TEST(CornerTurn, LeadsTheWayOfTheBlockBehind) {
       const Outcome run = corner(behind);
       EXPECT_EQ(run.alarm, "NC-OFFSET-PATH") << behind;
       EXPECT_EQ(run.alarm_line, 5u) << behind;
+      EXPECT_NE(run.alarm_detail.find("G39 goes round an outer corner with the words of the block behind it."), std::string::npos) << run.alarm_detail;
       ASSERT_FALSE(run.moves().empty());
       EXPECT_NEAR(run.moves().back().machine.v[0], 20, 1e-9) << "it stops in front of the arc";
     }

@@ -127,9 +127,22 @@ TEST_F(ToolLifeTest, AUseIsACutBehindRapidTraverse) {
 TEST_F(ToolLifeTest, TheOffsetsOfTheToolInTheSpindleAreNumber99) {
   bench.tool(2, 25).tool(12, 3).tool(99, 77);
   EXPECT_EQ(alarm_of(kTwoGroups), "");
-  EXPECT_EQ(bench.run("G0 G43 H99 Z0\nG49\nM30").path(), (Path{"rapid 0 0 77"})) << "no managed tool is in the spindle";
-  bench.at(0, 0, 0);
+  for (const char* without : {"G0 G43 H99 Z0", "G41 D99 G1 X5. F100", "T20\nG0 G43 H99 Z0", "G10 L10 P99 R5.\nG0 G43 H99 Z0"}) EXPECT_EQ(alarm_of(without), "P170") << without << ": no managed tool is in the spindle";
   EXPECT_EQ(bench.run("T10 M6\nT10 M6\nT10 M6\nG0 G43 H99 Z0\nM30").path(), (Path{"rapid 0 0 25"})) << "tool 102";
+}
+
+TEST_F(ToolLifeTest, AToolInTheSpindleThatIsRegisteredAnewIsTheSameTool) {
+  bench.tool(1, 1).tool(2, 2).tool(7, 7).tool(99, 77);
+  EXPECT_EQ(alarm_of(kTwoGroups), "");
+  EXPECT_EQ(bench.run("T10 M6\nG10 L3 P1\nP10 L5\nT101 H7\nG11\nG0 G43 H99 Z0\nM30").path(), (Path{"rapid 0 0 7"}));
+  bench.at(0, 0, 0);
+  EXPECT_EQ(bench.run("T10 M6\nG10 L3\nP40 L5\nT1\nP41 L5\nT101 H2\nG11\nG0 G43 H99 Z0\nG49\nM30").path(), (Path{"rapid 0 0 2"})) << "in another group, in another place";
+  bench.at(0, 0, 0);
+  EXPECT_EQ(alarm_of("T41 M6\nG10 L3 P2\nP41\nG11\nG0 G43 H99 Z0"), "P170") << "removed";
+  EXPECT_EQ(bench.run("G10 L3 P1\nP41 L5\nT101 H1\nG11\nG0 G43 H99 Z0\nM30").path(), (Path{"rapid 0 0 1"})) << "and registered once more by a later program";
+  bench.at(0, 0, 0);
+  EXPECT_EQ(alarm_of("T41 M6\nG10 L3 P1\nP41 L5\nT102 H1\nG11\nG0 G43 H99 Z0"), "P170") << "another number";
+  EXPECT_EQ(bench.run("G10 L3\nP10 L5\nT101 H1\nT102 H2\nG11\nT10\nG10 L3 P1\nP10 L5\nT101 H7\nG11\nM6\nG0 G43 H99 Z0\nM30").path(), (Path{"rapid 0 0 7"})) << "between T and M06";
 }
 
 // M700 23300-23753: the table of #60001 to #60008, and the examples (1) to (4).

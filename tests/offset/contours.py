@@ -315,6 +315,20 @@ def divide(rng, elements):
     return result
 
 
+def misses(a, b, of_a, of_b):
+    """By how much the path `of_a` to the left of one block misses that `of_b` to the left of the other, both lengthened; negative: they cross."""
+    if a.center is None and b.center is None:
+        return -1.0
+    if a.center is None:
+        a, b, of_a, of_b = b, a, of_b, of_a
+    beside = abs(a.radius() - (of_a if a.ccw else -of_a))
+    if b.center is None:
+        ux, uy = b.at(0)[1]
+        return abs((a.center[1] - b.start[1]) * ux - (a.center[0] - b.start[0]) * uy - of_b) - beside
+    apart, other = math.dist(a.center, b.center), abs(b.radius() - (of_b if b.ccw else -of_b))
+    return max(apart - beside - other, abs(beside - other) - apart)
+
+
 class Contour:
     only = None  # the kind of all contours of a class
 
@@ -585,6 +599,17 @@ class Contour:
     def changes_in_a_tiny_line(self):
         """Half a micrometre does not scale: twice as long it may be a block, which has a side, or a corner with the new amount, of its own."""
         return self.changes_at() is not None and min(self.programmed[k].length() for k in self.changes_at()) < NO_DIRECTION
+
+    def left_at(self, block):
+        """Is the tool to the left of this block?"""
+        return self.side() == "G41"
+
+    def touches_by_a_digit(self):
+        """Whether the paths beside the two blocks of a corner miss each other by no more than half a micrometre: they touch then, and twice as large they do not."""
+        amounts = [self.radius if self.left_at(i) else -self.radius for i in range(len(self.programmed))]
+        blocks = list(zip(self.programmed, amounts))
+        corners = [(a, b) for a, b in zip(blocks, blocks[1:] + blocks[:1]) if a[1] != b[1] or math.dist(a[0].at(1)[1], b[0].at(0)[1]) > 0.01]
+        return any(0 < misses(a, b, of_a, of_b) < NO_DIRECTION for (a, of_a), (b, of_b) in corners)
 
     def reversible(self):
         """Words of corners would stand at other blocks, and along its sides the tool comes from the other end."""

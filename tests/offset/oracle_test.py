@@ -231,7 +231,7 @@ def judge_change(contour, moves, paths):
         of_block = [move for block, move in moves if block == line]
         if elements[i].length() > 0.01 and not (elements[i].center and abs(elements[i].radius() - r) < 0.01):
             off = max(off, min(beside_curve(elements[i], point, r, contour.left_at(i), last) for point in ends_beside(of_block, last, r)))
-    if off > 1e-5:
+    if off > (NO_DIRECTION if contour.touches_by_a_digit() else 1e-5):
         return f"off the offset curve by {off:.6f} mm at the change of side"
     return (judge_uncut(contour, together([each for each in paths if each[0] <= before]), r, contour.inside, elements[:a], 0)
             or judge_uncut(contour, together([each for each in paths if each[0] >= behind]), r, not contour.inside, elements[b + 1:], -1))
@@ -426,8 +426,8 @@ def main():
         for contour, result, other in zip(tried, results, run_all(programs)):
             if way == "back" and not contour.reversible():
                 continue  # their words stand at other blocks then, and along its sides the tool comes from the other end
-            if way == "scale" and contour.changes_in_a_tiny_line():
-                continue  # twice as long it may be a block, which has a side of its own
+            if way == "scale" and (contour.changes_in_a_tiny_line() or contour.touches_by_a_digit()):
+                continue  # twice as long it may be a block, which has a side of its own; twice as far apart paths do not touch
             bad = follows(result, other, TRANSFORMS.get(way, lambda p: p), way, as_large_as_the_tool(contour))
             if bad:
                 wrong[way] = wrong.get(way, 0) + 1

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "offset/offset.hpp"
@@ -164,6 +166,21 @@ class PathBuilder {
   bool has_next_ = false;
 };
 
+/// A stage with memory of its own. `contour_blocks`: the longest contour of the check of walls.
+class StageWithMemory : public OffsetStage {
+ public:
+  explicit StageWithMemory(unsigned contour_blocks = 0) {
+    Arena measure;
+    create(contour_blocks, measure);
+    memory_ = std::make_unique_for_overwrite<std::max_align_t[]>(measure.used() / sizeof(std::max_align_t) + 1);
+    Arena arena(memory_.get(), measure.used());
+    create(contour_blocks, arena);
+  }
+
+ private:
+  std::unique_ptr<std::max_align_t[]> memory_;
+};
+
 /// Pushes all items, popping as far as possible after each (or only when there is no room, when `lazy`).
 inline std::vector<Item> run_stage(OffsetStage& stage, const std::vector<Item>& items, bool lazy = false) {
   std::vector<Item> out;
@@ -178,7 +195,7 @@ inline std::vector<Item> run_stage(OffsetStage& stage, const std::vector<Item>& 
 }
 
 inline std::vector<Item> run_stage(const PathBuilder& path) {
-  OffsetStage stage;
+  StageWithMemory stage;
   return run_stage(stage, path.items);
 }
 

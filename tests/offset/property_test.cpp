@@ -256,7 +256,7 @@ TEST(OffsetProperty, EndsUncompensated) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     Random random(seed);
     const PathBuilder path = random_program(random, true);
-    OffsetStage stage;
+    StageWithMemory stage;
     const std::vector<Item> out = run_stage(stage, path.items);
     if (alarm_of(out) != nullptr) continue;
     EXPECT_TRUE(stage.idle()) << "seed " << seed;
@@ -269,7 +269,7 @@ TEST(OffsetProperty, ThePaceOfTheCallerDoesNotMatter) {
   for (unsigned seed = 0; seed < 500; ++seed) {
     Random random(seed);
     const PathBuilder path = random_program(random, false);
-    OffsetStage eager, lazy;
+    StageWithMemory eager, lazy;
     const std::vector<Item> a = run_stage(eager, path.items), b = run_stage(lazy, path.items, true);
     ASSERT_EQ(a.size(), b.size()) << "seed " << seed;
     for (size_t i = 0; i < a.size(); ++i) {
@@ -285,7 +285,7 @@ TEST(OffsetProperty, ResumesAtAnyMark) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     Random random(seed);
     const PathBuilder path = random_program(random, true);
-    OffsetStage stage;
+    StageWithMemory stage;
     std::vector<Item> out;
     std::vector<OffsetResume> resume;
     std::vector<size_t> out_behind, in_behind;
@@ -304,7 +304,7 @@ TEST(OffsetProperty, ResumesAtAnyMark) {
     }
     if (alarm_of(out) != nullptr) continue;
     for (size_t m = 0; m < resume.size(); ++m) {
-      OffsetStage again;
+      StageWithMemory again;
       again.restore(resume[m]);
       const std::vector<Item> rest(path.items.begin() + static_cast<std::ptrdiff_t>(in_behind[m]),
                                    path.items.end());
@@ -327,7 +327,7 @@ TEST(OffsetProperty, NothingToResumeOnceCompensationIsOver) {
   path.side(1, 5);
   path.line(0, 0).line(50, 0).cancel().line(80, 20);
   path.items.pop_back();  // the caller does not give the mark of the cancel block to the idle stage
-  OffsetStage stage;
+  StageWithMemory stage;
   run_stage(stage, path.items);
   EXPECT_TRUE(stage.idle());
   EXPECT_FALSE(stage.resume_point().active);
@@ -352,7 +352,7 @@ std::vector<Item> items_between(int count) {
 TEST(OffsetProperty, ItemsBetweenTwoMovesAreWaitedFor) {
   for (const int count : {1, 24, 100}) {
     const std::vector<Item> items = items_between(count);
-    OffsetStage stage;
+    StageWithMemory stage;
     const std::vector<Item> out = run_stage(stage, items);
     EXPECT_EQ(out.size(), items.size());
     const AxisVec p = at_block(out, AxisVec{}, 2);
@@ -362,7 +362,7 @@ TEST(OffsetProperty, ItemsBetweenTwoMovesAreWaitedFor) {
 }
 
 TEST(OffsetProperty, MoreItemsThanThereIsRoomForAreAnAlarmInFrontOfTheBlock) {  // the end of which cannot be known
-  OffsetStage stage;
+  StageWithMemory stage;
   const std::vector<Item> out = run_stage(stage, items_between(200));
   ASSERT_NE(alarm_of(out), nullptr);
   EXPECT_EQ(alarm_of(out)->alarm.condition, Condition::pre_read);
@@ -373,7 +373,7 @@ TEST(OffsetProperty, AnInhibitingItemIsNeverHeldBack) {
   for (unsigned seed = 0; seed < 300; ++seed) {
     Random random(seed);
     PathBuilder path = random_program(random, true);
-    OffsetStage stage;
+    StageWithMemory stage;
     Item item, sync;
     sync.kind = ItemKind::sync;
     sync.sync = Sync{NC_SYNC_POSITION};
@@ -419,7 +419,7 @@ TEST(OffsetProperty, RandomItemsNeverBreakTheStage) {
                                  ItemKind::sync, ItemKind::end};
   for (unsigned seed = 0; seed < 300; ++seed) {
     Random random(seed);
-    OffsetStage stage;
+    StageWithMemory stage;
     size_t popped = 0;
     for (int n = 0; n < 400; ++n) {
       Item item;

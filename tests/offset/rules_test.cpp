@@ -38,7 +38,7 @@ void expect_alarm(const std::vector<Item>& out, Condition condition) {
 TEST(OffsetOff, EverythingGoesThroughUnchanged) {
   PathBuilder path;
   path.line(10, 0).idle().arc(true, 10, 20, 0, 10).off_plane(-3).program_stop().line(0, 0).end();
-  OffsetStage stage;
+  StageWithMemory stage;
   const std::vector<Item> out = run_stage(stage, path.items);
   ASSERT_EQ(out.size(), path.items.size());
   for (size_t i = 0; i < out.size(); ++i) {
@@ -272,6 +272,36 @@ TEST(OffsetArcs, NoIntersectionOnTheInsideIsAnAlarmBeforeTheBlock) {
   expect_at(out, path, 2, 0, 38);
 }
 
+// Half a circle of twice the amount, whose offset circle only just comes to the curve behind: a line, or another arc. Whether they meet is the last digit of the words.
+TEST(OffsetArcs, CurvesThatTouchMeetInThatPoint) {
+  for (const double apart : {-0.4e-3, 0.0, 1e-12, 1e-6, 0.4e-3, 0.6e-3}) {
+    PathBuilder line(-40, 10);
+    line.side(-1, 1.5);
+    line.line(-20, 0).line(0, 0).arc(false, 0, -6 + 2 * apart, 0, -3 + apart).line(0, 50).cancel().line(-10, 50).end();
+    const std::vector<Item> beside_line = run_stage(line);
+    ASSERT_EQ(alarm_of(beside_line) != nullptr, apart > 0.5e-3) << apart;
+    if (apart > 0.5e-3) {
+      EXPECT_EQ(alarm_of(beside_line)->alarm.condition, Condition::comp_no_intersection);
+    } else if (apart >= 0) {
+      expect_at(beside_line, line, 3, 1.5, -3 + apart);
+    }
+  }
+  for (const double apart : {-0.4e-3, 0.0, 1e-12, 1e-6, 0.7e-3, 1.2e-3}) {
+    const double r = 1.5 + apart / 2, x = std::sqrt(13.75);  // centres (0, -3) and (x, -4.5), 4 from each other and radii of 3 and 4
+    PathBuilder arc(-40, 10);
+    arc.side(-1, r);
+    arc.line(-20, 0).line(0, 0).arc(false, 0, -6, 0, -3).arc(false, x, -0.5, x, 1.5).line(40, -0.5).cancel().line(60, -10).end();
+    const std::vector<Item> beside_arc = run_stage(arc);
+    ASSERT_EQ(alarm_of(beside_arc) != nullptr, apart > 1e-3) << apart;
+    if (apart > 1e-3) {
+      EXPECT_EQ(alarm_of(beside_arc)->alarm.condition, Condition::comp_no_intersection);
+    } else if (apart >= 0) {
+      const double along = (1.5 + apart / 8) / 4;  // as far beyond the one circle as beyond the other, by the squares
+      expect_at(beside_arc, arc, 3, along * x, -3 - along * 1.5);
+    }
+  }
+}
+
 TEST(OffsetArcs, ArcThatVanishesInsideIsAnAlarm) {
   PathBuilder path(-20, 0);
   path.side(1, 12);
@@ -436,12 +466,12 @@ TEST(OffsetG38, HoldBehindAResume) {
   Compensation hold = path.comp;
   hold.hold_vector = true;
   path.one_shot(hold).line(50, -30).cancel().line(80, -30).end();
-  OffsetStage stage;
+  StageWithMemory stage;
   for (const Item& item : path.items) stage.push(item);
   Item item;
   while (stage.pop(item) && !(item.kind == ItemKind::mark && item.source.line == 2)) {
   }
-  OffsetStage again;
+  StageWithMemory again;
   again.restore(stage.resume_point());
   const auto out =
       run_stage(again, {path.items.begin() + static_cast<std::ptrdiff_t>(first), path.items.end()});

@@ -127,12 +127,17 @@ class Session {
   }
 
   void by_hand() {
+    if (out_.restart_axes != 0 && dice_.chance(0.01)) lead_back();
     nc_manual& manual = in_.manual[dice_.draw(config_.system[0].axis_count)];
     if (manual.kind == NC_MANUAL_NONE ? dice_.chance(0.002) : dice_.chance(0.02)) {
       manual.kind = manual.kind == NC_MANUAL_NONE ? static_cast<uint8_t>(dice_.draw(5)) : static_cast<uint8_t>(NC_MANUAL_NONE);
       manual.velocity = any_number(dice_.uniform(-300, 300));
       manual.distance = any_number(manual.kind == NC_MANUAL_HANDLE ? dice_.uniform(-0.05, 0.05) : dice_.uniform(-3, 3));
     }
+  }
+  /// Leads every axis that was moved in a hold back to the path, and lets the others go.
+  void lead_back() {
+    for (unsigned i = 0; i < NC_MAX_AXES; ++i) in_.manual[i] = {(out_.restart_axes >> i & 1) != 0 ? uint8_t{NC_MANUAL_RETURN} : uint8_t{NC_MANUAL_NONE}, 0, 0};
   }
   /// Returns `usual`, but now and then NaN, infinity, or a number out of all ranges.
   double any_number(double usual) {
@@ -252,6 +257,7 @@ class Session {
       cycle();
       in_.cycle_start = false;
       if ((states >> out_.state & 1) != 0 && n > 3) return Ended::there;
+      lead_back();
       if (out_.state == NC_STATE_STOPPED || out_.state == NC_STATE_HOLD) in_.cycle_start = n % 2 == 0;
       // The operator would have to choose another speed.
       if (out_.cause == NC_CAUSE_SPINDLE_FAST || out_.cause == NC_CAUSE_SPINDLE_STOPPED || out_.cause == NC_CAUSE_SPINDLE_REVERSED) return Ended::slow;

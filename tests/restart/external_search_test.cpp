@@ -15,6 +15,7 @@ using namespace nc::rt;
 class Gate : public StartGate {
  public:
   bool may_begin(unsigned, unsigned) override { return passed; }
+  Looked look_again() override { return Looked::kSame; }
   bool waits(unsigned) override { return checks; }
   std::string remark(unsigned) override { return "the check says no"; }
   bool passed = true, checks = false;
@@ -180,6 +181,42 @@ TEST_F(ExternalSearch, IsGivenUpByAResetAndByAnotherSelection) {
   ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
   for (int n = 0; n < 500 && shown("search_finished") == 0; ++n) steps(1);
   EXPECT_EQ(shown("search_result"), 3);
+}
+
+/// A cell that asks for the program of a pallet and does not get it does not get the one of the pallet before.
+TEST_F(ExternalSearch, WhatIsNotThereLeavesNothingThatAStartWouldBegin) {
+  struct Row {
+    std::int32_t program, sequence, result;
+  };
+  for (const Row& row : {Row{7777, 0, 4}, Row{100'000'000, 0, 2}, Row{7777, 10, 4}, Row{0, 0, 2}}) {
+    SCOPED_TRACE(row.program);
+    for (const std::int32_t place : {0, 30}) {
+      ASSERT_EQ(search(1000, place), 1);
+      ASSERT_EQ(search(row.program, row.sequence), row.result);
+      for (const bool behind_a_reset : {false, true}) {  // it is what is pressed first where a start is refused
+        if (behind_a_reset) {
+          ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+        }
+        steps(20);
+        EXPECT_NE(start(), Answer::kDone);
+        steps(200);
+        EXPECT_EQ(out().command.v[0], 0);
+        EXPECT_EQ(out().state, NC_STATE_IDLE);
+      }
+    }
+  }
+  ASSERT_EQ(runtime->select_program(0, "O1000"), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kDone) << "who selects a program says which";
+}
+
+TEST_F(ExternalSearch, WhatWasFoundIsSaidBehindWhatWasNot) {
+  ASSERT_EQ(search(7777, 0), 4);
+  EXPECT_EQ(said(), "external search: there is none");
+  ASSERT_EQ(search(1000, 0), 1);
+  EXPECT_EQ(said(), "external search: O1000 is selected");
+  ASSERT_EQ(search(7777, 0), 4);
+  ASSERT_EQ(search(1000, 30), 1);
+  EXPECT_EQ(said(), "external search: sequence number 30 of O1000 is found");
 }
 
 TEST_F(ExternalSearch, ANewRequestTakesThePlaceOfTheOneInFront) {

@@ -411,6 +411,57 @@ TEST_F(Restart, TheLastStopIsFoundAndTheRestHasThePathOfTheWholeRun) {
   EXPECT_EQ(restart().found.source.line, 8u);
 }
 
+// M700 13.2, 13.5.1: the macro of G66 runs at each place of a pattern. A place to begin inside lies in one of these runs, or between two of them.
+TEST_F(Restart, InTheMacroOfAPatternTheRestHasAllItsPlaces) {
+  const char* const part =
+      "N10 G90 G54 G17 G21 G0 X5. Y5. Z10.\n"
+      "G66 P200 Z-5. F1200.\n"
+      "N20 G37.1 X10. Y10. I6. P2 J6. K2\n"
+      "N30 G67\n"
+      "G0 X0 Y0\n"
+      "M30\n"
+      "O200\n"
+      "N50 G91 G1 Z#26 F#9\n"
+      "N60 G0 Z-#26\n"
+      "N70 G90\n"
+      "M99\n";
+  build();
+  select(part);
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  const std::vector<nc_axes> whole = machine->path;
+  const auto rest_of_whole = [&] {
+    ASSERT_NO_FATAL_FAILURE(come_to_place());
+    ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+    ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+    for (const unsigned axis : {2u, 0u, 1u}) ASSERT_NO_FATAL_FAILURE(approach(axis));
+    ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+    machine->path.clear();
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(to_end());
+    EXPECT_LT(most_beside(whole, machine->path), kChord);
+    EXPECT_LT(most_beside(machine->path, {whole.end() - 1, whole.end()}), kChord);
+  };
+  for (const std::uint32_t passing : {1u, 3u}) {
+    SCOPED_TRACE(passing);
+    ASSERT_EQ(find(RestartBy::kLine, 8, passing), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+    ASSERT_NO_FATAL_FAILURE(rest_of_whole());
+    unsigned holes = 0;  // what comes down at 5 behind the place
+    for (std::size_t i = 1; i < machine->path.size(); ++i) holes += machine->path[i].v[2] < 5.001 && machine->path[i - 1].v[2] >= 5.001 ? 1 : 0;
+    EXPECT_EQ(holes, 5 - passing);
+  }
+  // Stopped by a reset in a macro, and on the way between two places: the pattern of that run goes on, not a new one.
+  for (const bool in_macro : {true, false}) {
+    SCOPED_TRACE(in_macro);
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(until([&] { return out().source.line == (in_macro ? 8u : 3u) && machine->path.back().v[0] > 12 && (in_macro ? out().velocity.v[2] : out().velocity.v[0]) != 0; }));
+    steps(10);
+    ASSERT_NO_FATAL_FAILURE(reset());
+    ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+    ASSERT_NO_FATAL_FAILURE(rest_of_whole());
+  }
+}
+
 // A loop that is long enough for the search to take many steps of the feeder.
 const char* const kLoop = "#1=0\nN1 #1=#1+1\nG1 X[#1/100000] F6000.\nIF[#1LT300000]GOTO1\nN9 G1 X20.\nM30\n";
 
@@ -424,7 +475,7 @@ TEST_F(Restart, AResetOrAnotherModeEndsTheSearch) {
   EXPECT_EQ(start(), Answer::kRestartSearch);
   EXPECT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kNoPlace);
   ASSERT_NO_FATAL_FAILURE(reset());
-  EXPECT_EQ(restart().phase, RestartPhase::kEnded);
+  EXPECT_EQ(restart().phase, RestartPhase::kEnded) << restart().text;
   ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
   steps(5);
   ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
@@ -529,10 +580,42 @@ TEST_F(SearchedWrites, ArePutBackWhenThePlaceIsGivenUp) {
   EXPECT_EQ(values(), before) << "a reset at the place";
 }
 
+// What counts once more is named, and nobody goes on without having seen it. A variable that was vacant cannot have counted, and what has the same value behind the search does not.
+TEST_F(SearchedWrites, AreAnEntryToBeConfirmedWhereTheyHaveChangedAnything) {
+  ASSERT_NO_FATAL_FAILURE(begin());
+  ASSERT_NO_FATAL_FAILURE(search());
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  const RestartStatus now = restart();
+  ASSERT_EQ(now.list.entries().size(), 1u);
+  EXPECT_EQ(now.list.text(now.list.entries()[0]), "written in front of the place: #500 = 8 (it was 7), work offset 1 X = -2 (it was -3)");
+  EXPECT_EQ(start(), Answer::kRestartOpen);
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, 0), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartAxes);
+  ASSERT_NO_FATAL_FAILURE(reset());
+  select("G90 G54\nG10 L2 P1 X-3.\n#500=7\n#501=5\nG90 G0 X5.\nX6.\nM30\n");
+  ASSERT_NO_FATAL_FAILURE(search());
+  EXPECT_TRUE(restart().list.entries().empty());
+}
+
+TEST_F(SearchedWrites, OfManyTheFirstAreNamedAndTheRestCounted) {
+  build();
+  ASSERT_EQ(runtime->change([](nc_control* control) {
+    for (unsigned n = 0; n < 40; ++n) (void)nc_variable_set(control, 0, 500 + n, 1, false);
+  }), Answer::kDone);
+  select("#1=0\nWHILE[#1LT40]DO1\n#[500+#1]=#1+10\n#1=#1+1\nEND1\nN6G90 G0 X5.\nM30\n");
+  ASSERT_NO_FATAL_FAILURE(search());
+  const RestartStatus now = restart();
+  ASSERT_EQ(now.list.entries().size(), 1u);
+  const std::string text = now.list.text(now.list.entries()[0]);
+  EXPECT_NE(text.find("#500 = 10 (it was 1), #501 = 11 (it was 1)"), std::string::npos) << text;
+  EXPECT_NE(text.find("and 32 more"), std::string::npos) << text;
+}
+
 // The search executes what the program writes, so it needs what a start needs.
 TEST_F(SearchedWrites, AProgramThatMayNotBeginIsNotSearched) {
   struct Refuses : StartGate {
     bool may_begin(unsigned, unsigned) override { return false; }
+    Looked look_again() override { return Looked::kSame; }
     bool waits(unsigned) override { return false; }
     std::string remark(unsigned) override { return "line 3: the axis is not there"; }
   } gate;
@@ -562,6 +645,75 @@ TEST_F(SearchedWrites, StayWhereTheProgramGoesOnOrSomebodyElseHasWritten) {
   ASSERT_EQ(start(), Answer::kDone);
   ASSERT_TRUE(to_end());
   EXPECT_EQ(values(), "-7 8 set");
+}
+
+// The search takes tools of groups, counts their mounts, and registers tools anew.
+class SearchedLives : public SearchedWrites {
+ protected:
+  using Rows = std::map<std::string, double>;
+  void begin_lives(const std::string& source, const Rows& rows) {
+    build("[parameters]\n\"1103\" = 1\n");
+    ASSERT_EQ(runtime->change([&](nc_control* control) {
+      for (const auto& [key, value] : rows) EXPECT_EQ(nc_tool_life_set(control, static_cast<unsigned>(key[0] - '0'), static_cast<nc_life_column>(key[2] - '0'), value), NC_OK) << key;
+    }), Answer::kDone);
+    select(source);
+  }
+  // "1 5" is the column NC_LIFE_USED of the first tool.
+  Rows lives() {
+    Rows rows;
+    EXPECT_EQ(runtime->look([&](nc_control* control) {
+      for (unsigned number = 1; number <= 9; ++number)
+        for (unsigned column = 0; column <= NC_LIFE_AUXILIARY; ++column) {
+          double value = 0;
+          if (nc_tool_life_get(control, number, static_cast<nc_life_column>(column), &value) == NC_OK && value != 0) rows[std::to_string(number) + " " + std::to_string(column)] = value;
+        }
+    }), Answer::kDone);
+    return rows;
+  }
+};
+
+TEST_F(SearchedLives, ArePutBackWhenThePlaceIsGivenUp) {
+  const Rows before = {{"1 0", 7}, {"1 1", 11}, {"1 2", 16}, {"1 4", 3}, {"1 5", 1}, {"2 0", 7}, {"2 1", 12}, {"2 2", 16}, {"2 4", 3}};
+  ASSERT_NO_FATAL_FAILURE(begin_lives("T7 M6\nT7 M6\nT7 M6\nG0 X5.\nX6.\nM30\n", before));
+  ASSERT_EQ(lives(), before);
+  ASSERT_NO_FATAL_FAILURE(search(5));
+  EXPECT_NE(lives(), before) << "else it shows nothing";
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+  EXPECT_EQ(lives(), before) << "cancelled";
+  ASSERT_NO_FATAL_FAILURE(search(5));
+  ASSERT_NO_FATAL_FAILURE(reset());
+  EXPECT_EQ(lives(), before) << "a reset";
+  ASSERT_NO_FATAL_FAILURE(search(99, RestartPhase::kLost));
+  EXPECT_EQ(lives(), before) << "not found";
+}
+
+// What is counted decides which lives a tool may have, so no order of the columns fits every change.
+TEST_F(SearchedLives, OfMinutesComeBackBehindOnesOfTimesAndTheOtherWayRound) {
+  const Rows minutes = {{"1 0", 7}, {"1 1", 11}, {"1 4", 100}, {"1 5", 20.5}}, times = {{"1 0", 7}, {"1 1", 11}, {"1 2", 16}, {"1 4", 9000}, {"1 5", 8000}};
+  for (const Rows& before : {minutes, times}) {
+    const char* const other = before == minutes ? "G10 L3\nP7 L9000 Q1\nT11\nG11\nT7 M6\nX6.\nM30\n" : "G10 L3\nP7 L100 Q2\nT11\nG11\nT7 M6\nX6.\nM30\n";
+    ASSERT_NO_FATAL_FAILURE(begin_lives(other, before));
+    ASSERT_EQ(lives(), before);
+    ASSERT_NO_FATAL_FAILURE(search(6));
+    EXPECT_NE(lives(), before);
+    ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+    EXPECT_EQ(lives(), before);
+  }
+}
+
+// The outputs that the search has written were given out by nobody: a program that writes one bit of their word later gives out that one.
+TEST_F(SearchedWrites, OutputsOfASearchThatIsGivenUpAreNotGivenOutLater) {
+  build();
+  select("#1100=1\n#1101=1\nG0 X5.\nX6.\nM30\n");
+  ASSERT_NO_FATAL_FAILURE(search(4));
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+  select("#1102=1\n#500=#1100\nG0 X1.\nM30\n", "other.nc");
+  ASSERT_EQ(start(), Answer::kDone);
+  ASSERT_TRUE(to_end());
+  EXPECT_EQ(runtime->snapshot().interface_output[0], 4u);
+  double read = 0;
+  EXPECT_EQ(runtime->look([&](nc_control* control) { (void)nc_variable_get(control, 0, 500, &read, nullptr); }), Answer::kDone);
+  EXPECT_EQ(read, 0);
 }
 
 TEST_F(Restart, AChangedProgramAndAnotherOneAreRefused) {
@@ -603,7 +755,10 @@ TEST_F(Restart, ChangedTablesLoseThePlaceAndNothingStartsBeforeTheOperatorSaysSo
     EXPECT_EQ(out().state, NC_STATE_IDLE);
   };
   ASSERT_NO_FATAL_FAILURE(lose());
-  ASSERT_NO_FATAL_FAILURE(reset());
+  ASSERT_NO_FATAL_FAILURE(reset());  // says nothing of the place
+  EXPECT_EQ(restart().phase, RestartPhase::kLost);
+  EXPECT_EQ(start(), Answer::kRestartLost);
+  ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
   EXPECT_EQ(restart().phase, RestartPhase::kEnded);
   ASSERT_NO_FATAL_FAILURE(lose());
   ASSERT_EQ(find(RestartBy::kSequence, 80), Answer::kDone);
@@ -660,6 +815,169 @@ TEST_F(Restart, AnAxisComesBackToThePathInABlockStop) {
     steps(20);
   }
   EXPECT_NEAR(out().command.v[0], 10, 1e-9);
+}
+
+// What a run leaves in force of the coordinate systems outlives it (M700 9.1). The rest of the part is that of the run, so it is read with what the run was begun with.
+class CoordinatesLeft : public Restart {
+ protected:
+  void by_mdi(const std::string& blocks) {
+    ASSERT_EQ(mode(Mode::kMdi), Answer::kDone);
+    ASSERT_EQ(runtime->load_mdi(blocks), Answer::kDone) << runtime->explain(Answer::kRefusedByControl);
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(to_end());
+    steps(5);
+    ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+  }
+  // Runs the part once as a whole and once up to its line 3, with the machine and its coordinate systems as `head` leaves them.
+  void stop_in(const std::string& part, const std::string& head = "G92.1 X0 Y0\nG52 X0 Y0\nG53 G0 X-20. Y-10.\n") {
+    build();
+    for (const bool whole : {true, false}) {
+      ASSERT_NO_FATAL_FAILURE(by_mdi(head));
+      ASSERT_NO_FATAL_FAILURE(select(part));
+      machine->path.clear();
+      ASSERT_EQ(start(), Answer::kDone);
+      if (whole) {
+        ASSERT_TRUE(to_end());
+        whole_ = machine->path;
+      } else {
+        ASSERT_TRUE(until([&] { return out().source.line == 3 && out().velocity.v[0] != 0; }));
+        steps(40);
+        ASSERT_NO_FATAL_FAILURE(reset());
+      }
+    }
+  }
+  void expect_rest_of_whole() {
+    ASSERT_NO_FATAL_FAILURE(come_to_place());
+    EXPECT_EQ(restart().found.source.line, 3u);
+    ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kDone);
+    ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
+    for (const unsigned axis : {2u, 0u, 1u}) ASSERT_NO_FATAL_FAILURE(approach(axis));
+    ASSERT_EQ(mode(Mode::kAuto), Answer::kDone);
+    machine->path.clear();
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(to_end());
+    EXPECT_LT(most_beside(whole_, machine->path), kChord);
+    for (unsigned a = 0; a < 3; ++a) EXPECT_NEAR(machine->path.back().v[a], whole_.back().v[a], 1e-9) << a;
+  }
+  // Of X, as the executed blocks have left it.
+  double shift() {
+    nc_restart_coordinates left{};
+    EXPECT_EQ(runtime->look([&](nc_control* control) { (void)nc_restart_coordinates_get(control, 0, false, &left); }), Answer::kDone);
+    return left.shift.v[0];
+  }
+  std::vector<nc_axes> whole_;
+};
+const char* const kShifted = "G90 G54 G0 X5. Y5.\nG92 X30.\nG1 X60. F1500.\nX30.\nM30\n";
+const char* const kLocal = "G90 G54 G0 X5. Y5.\nG52 X10. Y12.\nG1 X60. F1500.\nX30. Y1.\nM30\n";
+
+TEST_F(CoordinatesLeft, ByG92DoNotCountTwice) {
+  ASSERT_NO_FATAL_FAILURE(stop_in(kShifted));
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(expect_rest_of_whole());
+}
+
+TEST_F(CoordinatesLeft, ByG52DoNotCountTwice) {
+  ASSERT_NO_FATAL_FAILURE(stop_in(kLocal));
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(expect_rest_of_whole());
+}
+
+// The shift was in force before the run: the rest is cut with it.
+TEST_F(CoordinatesLeft, OfTheBeginningCountAsInTheRun) {
+  ASSERT_NO_FATAL_FAILURE(stop_in(kShifted, "G92.1 X0 Y0\nG53 G0 X-20. Y-10.\nG92 X0 Y7.\n"));
+  ASSERT_NO_FATAL_FAILURE(by_mdi("G92.1 X0 Y0\n"));
+  ASSERT_NO_FATAL_FAILURE(select(kShifted));
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(expect_rest_of_whole());
+}
+
+TEST_F(CoordinatesLeft, AreThoseOfBeforeWhereThePlaceIsGivenUp) {
+  ASSERT_NO_FATAL_FAILURE(stop_in(kShifted));
+  const double left = shift();
+  for (int time = 0; time < 3; ++time) {
+    ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+    ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; })) << restart().text;
+    EXPECT_NEAR(restart().found.machine.v[0], 5, 1e-9) << time;
+    if (time == 2) break;
+    if (time == 0) {
+      ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+    } else {
+      ASSERT_NO_FATAL_FAILURE(reset());
+    }
+    steps(20);
+    EXPECT_NEAR(shift(), left, 1e-9) << time;
+  }
+  ASSERT_NO_FATAL_FAILURE(expect_rest_of_whole());
+}
+
+// Nobody has kept what the part was begun with: it is what a cycle start would begin with, and the operator says whether that is right.
+TEST_F(CoordinatesLeft, AreAnEntryToBeConfirmedWhereTheBeginningIsNotKnown) {
+  ASSERT_NO_FATAL_FAILURE(stop_in(kShifted));
+  ASSERT_EQ(find(RestartBy::kLine, 3), Answer::kDone);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  const RestartStatus now = restart();
+  ASSERT_EQ(now.list.entries().size(), 1u);
+  EXPECT_EQ(now.list.text(now.list.entries()[0]), "shift of the workpiece coordinates X-25 in force at the beginning");
+  EXPECT_EQ(now.list.open(), 1u);
+  EXPECT_EQ(start(), Answer::kRestartOpen);
+  ASSERT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, 0), Answer::kDone);
+  EXPECT_EQ(start(), Answer::kRestartAxes);
+  ASSERT_NO_FATAL_FAILURE(reset());
+  ASSERT_NO_FATAL_FAILURE(by_mdi("G92.1 X0 Y0\n"));
+  ASSERT_NO_FATAL_FAILURE(select(kShifted));
+  ASSERT_EQ(find(RestartBy::kLine, 3), Answer::kDone);
+  ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; })) << restart().text;
+  EXPECT_TRUE(restart().list.entries().empty());
+  ASSERT_NO_FATAL_FAILURE(expect_rest_of_whole());
+}
+
+// plc.mirror mirrors about where the axis stands when the program is begun. Where that is not known it is where the axis stands now, and only the operator knows whether the part was begun there.
+class Mirrored : public CoordinatesLeft {
+ protected:
+  void stop_in_mirrored() {
+    build("[signals]\n\"plc.mirror.X\" = \"in0\"\n");
+    machine->hold(config.points.find("in0"), 1);
+    steps(5);
+    ASSERT_NO_FATAL_FAILURE(by_mdi("G53 G0 X-30. Y-10.\n"));
+    ASSERT_NO_FATAL_FAILURE(select(kMirrored));
+    ASSERT_EQ(start(), Answer::kDone);
+    ASSERT_TRUE(until([&] { return out().source.line == 3 && out().velocity.v[0] != 0; }));
+    steps(40);
+    ASSERT_NO_FATAL_FAILURE(reset());
+  }
+  static constexpr const char* kMirrored = "G90 G54 G0 X5. Y5.\nG1 Y7. F1500.\nN30 X60. F1500.\nX30.\nM30\n";
+};
+
+TEST_F(Mirrored, APlaceByNumberSaysAboutWhatItIsMirrored) {
+  ASSERT_NO_FATAL_FAILURE(stop_in_mirrored());
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
+  ASSERT_NO_FATAL_FAILURE(come_to_place());
+  EXPECT_TRUE(restart().list.entries().empty());
+  EXPECT_NEAR(restart().found.machine.v[0], -65, 1e-9) << "5 mirrored about -30";
+  ASSERT_NO_FATAL_FAILURE(reset());
+  for (const RestartBy by : {RestartBy::kLine, RestartBy::kSequence, RestartBy::kBlock}) {
+    ASSERT_EQ(find(by, by == RestartBy::kLine ? 3 : by == RestartBy::kSequence ? 30 : 2), Answer::kDone);
+    ASSERT_NO_FATAL_FAILURE(come_to_place());
+    const RestartStatus now = restart();
+    ASSERT_EQ(now.list.entries().size(), 1u);
+    char text[120];
+    std::snprintf(text, sizeof text, "mirror image by the machine about X%.10g, where the axis stands now", out().command.v[0]);
+    EXPECT_EQ(now.list.text(now.list.entries()[0]), text);
+    EXPECT_EQ(start(), Answer::kRestartOpen);
+    ASSERT_NO_FATAL_FAILURE(reset());
+  }
+}
+
+// The switch is not where it was in the run.
+TEST_F(Mirrored, AStopOfARunThatWasMirroredOtherwiseIsSaid) {
+  ASSERT_NO_FATAL_FAILURE(stop_in_mirrored());
+  machine->hold(config.points.find("in0"), 0);
+  steps(5);
+  EXPECT_EQ(find(RestartBy::kLastStop), Answer::kNoPlace);
+  EXPECT_NE(runtime->explain(Answer::kNoPlace).find("mirror"), std::string::npos) << runtime->explain(Answer::kNoPlace);
+  machine->hold(config.points.find("in0"), 1);
+  steps(5);
+  ASSERT_EQ(find(RestartBy::kLastStop), Answer::kDone) << runtime->explain(Answer::kNoPlace);
 }
 
 }  // namespace

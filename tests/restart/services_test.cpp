@@ -76,4 +76,25 @@ TEST_F(RestartServices, ReplyWithWhatTheTableHas) {
   EXPECT_EQ(client.outcome("restart.cancel"), "refused");
 }
 
+// A feed hold amid a block has a place as well, and where the axes are; nothing was looked for.
+TEST_F(RestartServices, AFeedHoldShowsWhereThePathHasStopped) {
+  write_program("long.nc", "G90 G1 X100. F600.\nM30\n");
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  EXPECT_EQ(client.outcome("select", {{"name", "long.nc"}}), "");
+  EXPECT_FALSE(client.call("restart.status")["reply"]["axes"][0].contains("place")) << "nothing is held";
+  EXPECT_EQ(client.outcome("start"), "");
+  EXPECT_EQ(client.outcome("hold"), "");
+  EXPECT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "refused");
+  EXPECT_EQ(client.outcome("mode", {{"mode", "manual"}}), "");
+  const Json held = until(&client, "restart.status", [](const Json& reply) { return reply["axes"][0].contains("place"); });
+  EXPECT_EQ(held["phase"], "none");
+  EXPECT_EQ(held["axes"][0]["place"], held["axes"][0]["machine"]);
+  EXPECT_EQ(held["axes"][0]["away"], false);
+  EXPECT_EQ(client.outcome("jog", {{"axis", "Y"}, {"velocity", 20}}), "");
+  const Json away = until(&client, "restart.status", [](const Json& reply) { return reply["axes"][1]["away"] == true; });
+  EXPECT_EQ(away["axes"][1]["place"], 0);
+  EXPECT_EQ(client.outcome("jog", {{"axis", "Y"}, {"velocity", 0}}), "");
+}
+
 }  // namespace

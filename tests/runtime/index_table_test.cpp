@@ -172,4 +172,65 @@ TEST_F(IndexTables, AWireAnswersWithoutALadder) {
   ASSERT_GE(until_end(), 0);
 }
 
+// In a feed hold amid a block of other axes the table is turned by hand and comes back: the block goes on when it is clamped (9.3 (6)), however early the start comes.
+TEST_F(IndexTables, TurnedByHandInAFeedHoldTheBlockWaitsForItsClamp) {
+  wire(kLadder);
+  build();
+  start("G1 X100. F1200\nM30\n");
+  ASSERT_GT(until([&] { return out().command.v[0] > 20; }), 0);
+  ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);
+  ASSERT_GT(until([&] { return out().state == NC_STATE_HOLD && out().manual_allowed; }), 0);
+  const double stood = out().command.v[0];
+  const auto mode = [&](nc::rt::Mode to) { return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(to)); };
+  ASSERT_EQ(mode(nc::rt::Mode::kManual), Answer::kDone);
+  for (const double way : {3.0, -3.0}) {
+    const double to = b() + way;
+    ASSERT_EQ(runtime->execute({CommandKind::kStep, 0, kB, 0, way, 0}), Answer::kDone);
+    ASSERT_GE(until([&] { return unclamp(); }, 300), 0);
+    in("in0", 1);
+    ASSERT_GT(until([&] { return std::abs(b() - to) < 1e-9 && !unclamp(); }, 3000), 0);
+    if (way < 0) break;
+    in("in0", 0);
+    steps(20);
+  }
+  ASSERT_EQ(mode(nc::rt::Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  steps(300);
+  EXPECT_EQ(out().command.v[0], stood) << "it is not clamped yet";
+  EXPECT_EQ(out().fin_wait, 0x800);
+  in("in0", 0);
+  ASSERT_GE(until_end(), 0);
+  EXPECT_NEAR(out().command.v[0], 100, 1e-9);
+  EXPECT_EQ(b(), 0);
+}
+
+// A table that was held on its way is turned on by hand, comes back to that place, where it could not be clamped, and goes on.
+TEST_F(IndexTables, HeldOnItsWayItComesBackToItsPlaceAndGoesOn) {
+  wire("", "\"2106\" = { B = 15.0 }\n");
+  build();
+  start("G1 F1800 B45.\nX5.\nM30\n");
+  ASSERT_GT(until([&] { return b() > 20; }), 0);
+  ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);
+  ASSERT_GT(until([&] { return out().state == NC_STATE_HOLD && out().manual_allowed; }), 0);
+  const double stood = b();
+  const auto mode = [&](nc::rt::Mode to) { return runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(to)); };
+  ASSERT_EQ(mode(nc::rt::Mode::kManual), Answer::kDone);
+  ASSERT_EQ(runtime->execute({CommandKind::kStep, 0, kB, 0, 30 - stood, 0}), Answer::kDone);
+  ASSERT_GT(until([&] { return std::abs(b() - 30) < 1e-9; }, 3000), 0);
+  steps(600);
+  EXPECT_EQ(b(), 30);
+  for (int i = 0; i < 300 && (out().restart_axes >> kB & 1u) != 0; ++i) {
+    ASSERT_EQ(runtime->execute({CommandKind::kApproach, 0, kB, 0, 10.0, 0}), Answer::kDone);
+    steps(20);
+  }
+  EXPECT_EQ(runtime->execute({CommandKind::kJog, 0, kB, 0, 0.0, 0}), Answer::kDone);
+  steps(300);
+  EXPECT_EQ(b(), stood);
+  ASSERT_EQ(mode(nc::rt::Mode::kAuto), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(b(), 45);
+  EXPECT_EQ(out().command.v[0], 5);
+}
+
 }  // namespace

@@ -306,7 +306,8 @@ TEST_F(InterventionTest, ResetAfterTheJogAndResetWithCycleStart) {
   }
 }
 
-TEST_F(InterventionTest, InTheMiddleOfABlockManualIsRefusedByName) {
+// A hold amid a block: by hand, and back to the path (tests/restart/hold_test.cpp), but not by MDI. To the end of the block, both.
+TEST_F(InterventionTest, InTheMiddleOfABlockMdiIsRefusedByName) {
   build();
   start("G90 G0 X10.\nG1 X200. F3000.\nM30\n");
   steps(800);
@@ -315,8 +316,10 @@ TEST_F(InterventionTest, InTheMiddleOfABlockManualIsRefusedByName) {
   ASSERT_EQ(runtime->execute(CommandKind::kFeedHold), Answer::kDone);
   steps(400);
   ASSERT_EQ(out().state, NC_STATE_HOLD);
-  EXPECT_EQ(set_mode(Mode::kManual), Answer::kMiddleOfBlock);
   EXPECT_EQ(set_mode(Mode::kMdi), Answer::kMiddleOfBlock);
+  EXPECT_EQ(set_mode(Mode::kManual), Answer::kDone);
+  EXPECT_EQ(set_mode(Mode::kMdi), Answer::kMiddleOfBlock) << "from there no more than from AUTO";
+  EXPECT_EQ(set_mode(Mode::kAuto), Answer::kDone);
   single_block(true);  // the way out that the answer names
   press();
   ASSERT_TRUE(until_state(NC_STATE_STOPPED));

@@ -15,6 +15,12 @@ expect 0 "$ncrtd" run --fast --no-progress "$source/examples/parts/flange.nc" --
 expect 0 "$ncrtd" --version
 said out "ncrtd $(sed -n 's/^project(libnc VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")"
 expect 0 "$ncrtd" --config "$source/etc/modelling-machine.toml" check
+# A machine on a bus of drives says how full the bus is, however full; a machine without one has none.
+[ "$(grep -c "load of the bus" "$work/out")" = 0 ] || fail "a simulated machine has the load of a bus"
+expect 0 "$ncrtd" --config "$source/etc/can_mill.toml" check
+said out "load of the bus can0: SYNC 55 + 6 PDOs of 6 bytes, 115 each + heartbeats 2.6 = 747.6 bits with worst-case stuffing, of 1000 bits in 1000 us at 1000000 bit/s: 74.8 %; at most 80 %"
+expect 0 "$ncrtd" --config "$source/etc/table_mill.toml" check
+said out "%; at most 80 %"
 # Warnings of the ladder program are printed, and are no errors.
 { sed '/^END$/d' "$source/etc/mill.il"; printf 'LD M0\nOUT plc.fin1\nEND\n'; } >"$work/mill.il"
 sed "s#^programs = .*#programs = \"$work\"#" "$machine" >"$work/twice.toml"

@@ -207,6 +207,24 @@ TEST_F(PowerKeep, WithoutFilesTheAlarmSaysThatNothingIsKept) {
   EXPECT_TRUE(says("no retained data are configured")) << alarms();
 }
 
+// A tap that a power cut meets in its hole has to be known behind it, also where the hole is done long before the interval ends.
+TEST_F(PowerKeep, ATapIsOnTheDiskWhileItGoesIn) {
+  start("offsets = \"offsets\"\nretain_every_s = 3600\n", "[parameters]\n\"3005\" = 3000\n\"3013\" = 600\n\"3017\" = 250\n");
+  const auto kept = [&] {
+    RetainStore store((folder / "offsets").string());
+    std::string bytes, error;
+    return store.load(&bytes, &error) == RetainStore::Loaded::kWhole ? bytes : "";
+  };
+  EXPECT_EQ(kept().find("tap 0 0"), std::string::npos);
+  unsigned number = 0;
+  const std::string& source = texts.emplace_back("G90 G0 Z1.\nG84 X0 Y0 Z-3. R0. S60 F0.1 ,R1\nG80\nM30\n");  // 6 mm/min: half a minute
+  ASSERT_EQ(runtime->look([&](nc_control* control) { (void)nc_program_add_text(control, "tap.nc", source.data(), source.size(), &number); }), Answer::kDone);
+  ASSERT_EQ(runtime->select_program(number), Answer::kDone);
+  ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_TRUE(wait_until([&] { return kept().find("tap 0 0") != std::string::npos; })) << kept();
+  EXPECT_EQ(runtime->snapshot().system[0].nc.state, NC_STATE_RUNNING) << alarms();
+}
+
 // ---- the keeper alone ----
 
 // Data of which a copy is there only when the test gives it.

@@ -56,7 +56,7 @@ class SwitchMachine : public testing::Test {
     return points + signals;
   }
   void build(const std::string& more = "", double start_x = 0, const char* on_from_the_start = nullptr) {
-    std::string text = base_toml() + more + switches();
+    std::string text = base_toml() + more + switches() + more_signals;
     text.insert(text.find("name = \"X\"\n"), "start = " + std::to_string(start_x) + "\n");
     if (on_from_the_start != nullptr) text.insert(text.find(std::string("name = \"") + on_from_the_start + "\"\n"), "initial = 1\n");
     runtime.reset();  // before the machine that it has
@@ -123,6 +123,7 @@ class SwitchMachine : public testing::Test {
   }
 
   double fin_timeout_s = 30;
+  std::string more_signals;  // lines of [signals]
   rt::Config config;
   rt::VirtualClock clock;
   std::unique_ptr<WatchedHal> hal;

@@ -86,6 +86,7 @@ TEST_F(SimTap, ACommandDrawsTheTapOut) {
 
 TEST_F(SimTap, OtherAxesAreRefusedWithTheReasonWhileItStandsInItsHole) {
   into_the_hole();
+  EXPECT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kTapInHole);
   ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kManual)), Answer::kDone);
   const double x = out().command.v[0];
   const auto ask = [&](CommandKind kind, unsigned axis, double value) {

@@ -104,6 +104,26 @@ TEST_F(MachineHistory, RemembersRunsAlarmsAndWhoHasDoneWhatBehindARestart) {
   }
 }
 
+// Who counts parts by `runs` counts none that an alarm has ended. When the reset comes decides whether the control sees such a run come to its end, so many are tried.
+TEST_F(MachineHistory, AProgramThatAnAlarmHasEndedIsNoRunThatCameToItsEnd) {
+  write_program("good.nc", "G0 X1.\nM30\n");
+  write_program("bad.nc", "G0 X2.\nG999\nM30\n");
+  ServiceClient client(path_);
+  const auto runs = [&] { return client.call("status")["reply"]["systems"][0]["runs"]; };
+  run_program(&client, "good.nc");
+  EXPECT_EQ(runs(), 1);
+  for (int n = 0; n < 20; ++n) {
+    ASSERT_EQ(client.outcome("select", {{"name", "bad.nc"}}), "");
+    (void)client.call("start");
+    until(&client, "status", [](const Json& now) { return now["alarms"] != 0; });
+    ASSERT_EQ(client.outcome("reset"), "");
+    until(&client, "status", [](const Json& now) { return now["alarms"] == 0 && now["systems"][0]["state"] == "idle"; });
+  }
+  EXPECT_EQ(runs(), 1);
+  run_program(&client, "good.nc");
+  EXPECT_EQ(runs(), 2);
+}
+
 TEST_F(MachineHistory, WhatIsRefusedIsWrittenAndARepetitionOnce) {
   ServiceClient one(path_), two(path_);
   ASSERT_EQ(one.outcome("control.take", {{"lease_ms", 60000}}), "");

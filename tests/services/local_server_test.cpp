@@ -29,9 +29,10 @@ Json arguments_of(const ServiceRow& row) {
       case Kind::kText: args[field.name] = field.field == Field::kMode ? "auto" : std::string(static_cast<std::size_t>(field.least), 'X'); break;
       case Kind::kName: args[field.name] = "none.nc"; break;
       case Kind::kData: args[field.name] = "AAAA"; break;
-      case Kind::kList: args[field.name] = {"XX"}; break;
+      case Kind::kList: args[field.name] = field.field == Field::kKeptRights ? Json({"view", "operate", "set up", "maintain"}) : Json({"XX"}); break;
     }
   }
+  if (row.service == Service::kProgramBegin) args["sha256"] = std::string(64, '0');
   if (row.service == Service::kSetTool) args["length"] = 1;
   if (row.service == Service::kParameterImport) args["toml"] = "[parameters]\n1078 = 1\n";
   if (row.service == Service::kSetLife) args["used"] = 1;
@@ -74,6 +75,90 @@ TEST_F(LocalServices, EveryServiceIsRefusedToEveryOneWithoutItsRight) {
   EXPECT_GT(refused, 100u);
 }
 
+TEST_F(LocalServices, ARightThatIsGivenUpDoesNotComeBack) {
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("rights.limit", {{"rights", {"set up", "nonsense"}}}), "malformed");
+  const Json limited = client.call("rights.limit", {{"rights", {"set up"}}});
+  EXPECT_EQ(limited["reply"]["rights"], Json({"view", "set up"}));
+  for (const ServiceRow& row : service_table()) {
+    if (row.service == Service::kLimit) continue;
+    SCOPED_TRACE(row.name);
+    EXPECT_EQ(client.outcome(row.name, arguments_of(row)) == "no right", row.right == Right::kOperate || row.right == Right::kMaintain);
+  }
+  EXPECT_EQ(client.call("rights.limit", {{"rights", {"operate", "maintain"}}})["reply"]["rights"], Json({"view"}));
+  EXPECT_EQ(client.outcome("hold"), "no right");
+  EXPECT_EQ(ServiceClient(path_).outcome("hold"), "");  // another connection has its own
+}
+
+TEST_F(LocalServices, ARequestCanComeWithOneRight) {
+  ServiceClient client(path_);
+  for (unsigned right = 0; right < kRightCount; ++right)
+    for (const ServiceRow& row : service_table()) {
+      SCOPED_TRACE(std::string(row.name) + " with " + right_name(static_cast<Right>(right)));
+      ASSERT_TRUE(client.send_bytes(frame_of(Json{{"id", 1}, {"service", row.name}, {"args", arguments_of(row)}, {"right", right_name(static_cast<Right>(right))}}.dump())));
+      const Json reply = client.receive();
+      const bool lacks = reply["ok"] == false && reply["error"] == "no right";
+      EXPECT_EQ(lacks, row.right != Right::kView && row.right != static_cast<Right>(right)) << reply;
+    }
+  ASSERT_TRUE(client.send_bytes(frame_of(R"({"id":2,"service":"status","right":"everything"})")));
+  EXPECT_EQ(client.receive()["error"], "malformed");
+}
+
+TEST_F(LocalServices, WhatACommandHasBeenOnItsWayCountsForItsLifespan) {
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("control.take"), "");
+  const auto ask = [&](int age) {
+    EXPECT_TRUE(client.send_bytes(frame_of(Json{{"id", 1}, {"service", "mode"}, {"args", {{"mode", "mdi"}, {"lifespan_ms", 5000}}}, {"age_ms", age}}.dump())));
+    return client.receive();
+  };
+  EXPECT_EQ(ask(5100)["error"], "late");
+  EXPECT_EQ(ask(10)["ok"], true);
+  EXPECT_EQ(ask(-1)["error"], "malformed");
+}
+
+TEST_F(LocalServices, AConnectionAsksForOneOther) {
+  ServiceClient gateway(path_), second(path_);
+  EXPECT_EQ(gateway.outcome("rights.limit", {{"rights", {"set up"}}, {"behalf", "anna"}}), "malformed");  // could be a user of the computer
+  EXPECT_EQ(gateway.outcome("rights.limit", {{"rights", {"set up"}}, {"behalf", "dds:an na"}}), "malformed");
+  EXPECT_EQ(gateway.outcome("rights.limit", {{"rights", {"set up", "operate"}}, {"behalf", "dds:screen"}}), "");
+  EXPECT_EQ(gateway.call("rights")["reply"]["client"], "dds:screen");
+  EXPECT_EQ(second.outcome("rights.limit", {{"rights", {"view"}}, {"behalf", "dds:screen"}}), "busy");
+  EXPECT_EQ(gateway.outcome("rights.limit", {{"rights", {"set up", "operate"}}, {"behalf", "dds:other"}}), "no right");
+  EXPECT_EQ(gateway.outcome("tools.set", {{"number", 3}, {"length", 7}}), "");
+  EXPECT_EQ(second.outcome("tools.set", {{"number", 4}, {"length", 8}}), "");
+  const Json changes = second.call("changes")["reply"]["changes"];
+  EXPECT_EQ(changes[1]["user"], "dds:screen") << changes;
+  EXPECT_EQ(changes[1]["client"], "dds:screen");
+  EXPECT_NE(changes[0]["user"], "dds:screen");
+  EXPECT_EQ(gateway.outcome("undo"), "");  // its own change, and not the last one
+  EXPECT_EQ(second.call("changes")["reply"]["changes"][2]["undone_by"], second.call("changes")["reply"]["changes"][0]["number"]);
+  EXPECT_EQ(gateway.outcome("control.take"), "");
+  EXPECT_EQ(second.call("rights")["reply"]["control"], "dds:screen");
+  gateway.leave();
+  const auto free = [&] { return second.outcome("rights.limit", {{"rights", {"view"}}, {"behalf", "dds:screen"}}); };
+  for (int i = 0; i < 100 && free() == "busy"; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(second.call("rights")["reply"]["client"], "dds:screen");
+}
+
+// An identity may be several clients at once, NAME@ANYTHING: each call of ncctl is one of its own, and all of them are the same user.
+TEST_F(LocalServices, TheClientsOfOneIdentityAreOneUser) {
+  const auto as = [&](const char* behalf) {
+    auto client = std::make_unique<ServiceClient>(path_);
+    EXPECT_EQ(client->outcome("rights.limit", {{"rights", {"operate", "set up", "maintain"}}, {"behalf", behalf}}), "");
+    return client;
+  };
+  const auto first = as("dds:boss@1");
+  EXPECT_EQ(first->call("rights")["reply"]["client"], "dds:boss@1") << "control and jogs belong to one of them";
+  ASSERT_EQ(first->outcome("tools.set", {{"number", 3}, {"length", 7}}), "");
+  for (const char* value : {"1", "0"}) ASSERT_EQ(first->outcome("parameters.set", {{"key", "1121"}, {"value", value}}), "");
+  for (const char* other : {"dds:boss2@1", "dds:bos@1", "dds:b", "DDS:boss@1", "dds:boss-1"}) EXPECT_EQ(as(other)->outcome("undo"), "not found") << other;
+  const Json change = first->call("changes")["reply"]["changes"][0];
+  EXPECT_EQ(change["user"], "dds:boss");
+  EXPECT_EQ(change["client"], "dds:boss@1");
+  EXPECT_EQ(as("dds:boss@2")->outcome("undo"), "");
+  EXPECT_EQ(as("dds:boss")->outcome("parameters.undo"), "");
+}
+
 TEST_F(LocalServices, WithoutAnyRightThePeerIsPutOut) {
   give({});
   ServiceClient client(path_);
@@ -109,7 +194,7 @@ TEST_F(LocalServices, RepliesHoldWhatTheTableSays) {
     if (row.right != Right::kView) continue;
     if (row.service == Service::kLadderRungs || row.service == Service::kLadderDevices || row.service == Service::kWatchBegin || row.service == Service::kWatchEnd) continue;  // this machine has no ladder: ladder_test.cpp
     SCOPED_TRACE(row.name);
-    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : row.service == Service::kProgramCheck ? Json{{"name", "part.nc"}} : Json::object());
+    const Json reply = client.call(row.name, row.service == Service::kProgramRead ? Json{{"name", "part.nc"}, {"begin", 0}, {"bytes", 10}} : row.service == Service::kTraceRead ? Json{{"recording", 1}} : row.service == Service::kProgramCheck ? Json{{"name", "part.nc"}} : row.service == Service::kLimit ? arguments_of(row) : Json::object());
     ASSERT_EQ(reply["ok"], true) << reply;
     std::set<std::string> known, found;
     for (const ReplyRow& member : row.reply) known.insert(member.path);

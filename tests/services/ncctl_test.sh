@@ -125,11 +125,90 @@ expect 1 "$ncctl" trace record
 expect 0 "$ncctl" trace signals
 said out "nc.feed"
 
+# What cannot be written is no success, with one exit status for every command.
+for command in status 'tools list' history services rights 'ladder rungs' 'parameters list' 'tables export' 'parameters export' 'watch --for 0.1' 'trace signals' '--json status' '--help'; do
+  # shellcheck disable=SC2086
+  "$ncctl" $command >/dev/full 2>"$work/err"
+  got=$?
+  [ "$got" = 5 ] || { fail "exit $got instead of 5 on a full disk: $command"; cat "$work/err"; }
+  [ "$(wc -l <"$work/err")" = 1 ] || { fail "not one line of one failure: $command"; cat "$work/err"; }
+  # shellcheck disable=SC2086
+  "$ncctl" $command >&- 2>"$work/err"
+  got=$?
+  [ "$got" = 5 ] || { fail "exit $got instead of 5 with a closed output: $command"; cat "$work/err"; }
+done
+expect 5 "$ncctl" tables export "$work/no-such-folder/tables.toml"
+
+# With --json every error is one object on standard output, wherever on the line --json stands and whatever the line lacks; the exit status is that of the same line without it.
+one_error() {
+  local wanted=$1 name=$2; shift 2
+  expect "$wanted" "$ncctl" "$@"
+  python3 -c '
+import json, sys
+lines = open(sys.argv[1]).read().splitlines()
+error = json.loads(lines[0])
+assert len(lines) == 1 and error["ok"] is False and error["error"] == sys.argv[2] and error["text"], lines' "$work/out" "$name" || { fail "no object with the error $name: $*"; cat "$work/out"; }
+  [ ! -s "$work/err" ] || { fail "the error is said on standard error, too: $*"; cat "$work/err"; }
+}
+one_error 1 usage --json
+one_error 1 usage --json nonsense
+one_error 1 usage nonsense --json
+one_error 1 usage tools --json
+one_error 1 usage tools set --json
+one_error 1 usage tools set three --length 1 --json
+one_error 1 usage --json tools set 3 --length
+one_error 1 usage --json tools set 3 --lenght 4
+one_error 1 usage --json --socket a --control b status
+one_error 1 usage --json history --since someday
+one_error 1 usage --json tables import "$work/none.toml"
+one_error 1 malformed --json tools set 3
+one_error 2 'not found' --json tools set 999 --length 1
+one_error 6 'no connection' --json --socket "$work/none.sock" status
+one_error 1 usage tools set three --length 1 --json=true
+expect 1 "$ncctl" tools set three --length 1 --json=false
+[ ! -s "$work/out" ] || { fail "--json=false"; cat "$work/out"; }
+expect 1 "$ncctl" --socket a --control b mdi -- --json
+[ ! -s "$work/out" ] || { fail "a block that is called --json is no option"; cat "$work/out"; }
+expect 0 "$ncctl" --json --help
+said out "--control"
+
 # A part, from its file to its end.
 expect 0 "$ncctl" programs put "$source/examples/parts/flange.nc"
 cmp -s "$source/examples/parts/flange.nc" "$work/programs/flange.nc" || fail "the program is another one after put"
 expect 2 "$ncctl" programs put "$source/examples/parts/flange.nc"
 expect 0 "$ncctl" programs put "$source/examples/parts/flange.nc" --replace
+# The completion asks the control for names of programs, wherever the line says that it is.
+cp "$source/examples/parts/flange.nc" "$work/programs/flat part.nc"
+completed() { COMP_WORDS=("$ncctl" "$@"); COMP_CWORD=$#; COMPREPLY=(); _ncctl; echo "${COMPREPLY[*]:-}"; }
+. "$source/packaging/completion/ncctl"
+completes() {
+  local wanted=$1; shift
+  [ "$(completed "$@")" = "$wanted" ] || fail "completion of $*: '$(completed "$@")' instead of '$wanted'"
+}
+completes 'flange.nc flat\ part.nc' select fl
+completes 'flange.nc' programs get --json flan
+completes 'flange.nc flat\ part.nc' programs delete ''
+completes 'flat\ part.nc' programs rename flat
+completes '' programs rename flange.nc fl
+completes '' --socket "$work/none.sock" select fl
+NC_SOCKET=$work/none.sock completes 'flange.nc' --socket "$work/mill.sock" select flan
+rm "$work/programs/flat part.nc"
+# What has no end, or waits for somebody who writes, is no program.
+mkfifo "$work/pipe.nc"
+expect 1 timeout 20 "$ncctl" programs put /dev/zero --name zero.nc
+expect 1 timeout 20 "$ncctl" programs put "$work/pipe.nc"
+said err "no regular file"
+# One that is interrupted says that it was not sent, and leaves nothing.
+head -c 60000000 /dev/zero | tr '\0' '\n' >"$work/slow.nc"
+"$ncctl" programs put "$work/slow.nc" >"$work/out" 2>"$work/err" &
+sender=$!
+until compgen -G "$work/programs/.nc-upload-*" >/dev/null || ! kill -0 "$sender" 2>/dev/null; do sleep 0.01; done
+kill "$sender"
+wait "$sender"
+got=$?
+[ "$got" = 5 ] || { fail "exit $got instead of 5 of an upload that is interrupted"; cat "$work/err"; }
+said err "was not sent"
+until ! compgen -G "$work/programs/.nc-upload-*" >/dev/null; do sleep 0.01; done
 expect 0 "$ncctl" programs get flange.nc "$work/back.nc"
 cmp -s "$source/examples/parts/flange.nc" "$work/back.nc" || fail "the program is another one after get"
 expect 2 "$ncctl" programs get none.nc "$work/none.nc"
@@ -176,6 +255,33 @@ expect 0 "$ncctl" hold
 expect 0 "$ncctl" reset
 expect 0 "$ncctl" mode manual
 expect 0 "$ncctl" jog --for 0.2 -- X -5
+
+# A feed hold amid a block: an axis is moved by hand, and led back to the path, before the program goes on.
+expect 0 "$ncctl" mode auto
+printf 'G54 G90 G91 G1 X-60. F600.\nM30\n' >"$work/hold.nc"
+expect 0 "$ncctl" programs put "$work/hold.nc"
+expect 0 "$ncctl" select hold.nc
+until_true "$ncctl" start
+until_true says 'running' "$ncctl" status
+expect 0 "$ncctl" hold
+expect 2 "$ncctl" mode mdi
+said err "amid a block"
+expect 0 "$ncctl" restart
+said out "a feed hold: cycle start goes on from where the path has stopped"
+expect 0 "$ncctl" mode manual
+expect 0 "$ncctl" jog --for 0.3 -- Y -5
+until_true says '^Y .* away' "$ncctl" restart
+expect 0 "$ncctl" mode auto
+expect 2 "$ncctl" start
+said err "an axis is not where the program goes on"
+expect 0 "$ncctl" mode manual
+expect 0 "$ncctl" restart approach Y --velocity 20
+if says ' away$' "$ncctl" restart; then fail "an axis is away behind its return"; "$ncctl" restart; fi
+expect 0 "$ncctl" mode auto
+expect 0 "$ncctl" start
+expect 0 "$ncctl" hold
+expect 0 "$ncctl" reset
+expect 0 "$ncctl" mode manual
 expect 2 "$ncctl" mdi "G0 X1."
 expect 0 "$ncctl" mode mdi
 expect 0 "$ncctl" mdi --start "G90 G53 G0 X-1."
@@ -215,6 +321,38 @@ wait "$pipe" 2>/dev/null
 exec 7>&-
 until_true "$ncctl" mode auto
 expect 0 "$ncctl" pipe
+
+# A line is refused where the socket would refuse it as a request: nothing in it is left out, and a right that it names limits it.
+piped() { "$ncctl" pipe <<<"$1" >"$work/out" 2>"$work/err"; }
+pipe_refuses() {
+  piped "$2"
+  local got=$?
+  [ "$got" = "$1" ] || { fail "pipe: exit $got instead of $1: $2"; cat "$work/out" "$work/err"; }
+  said out "$3"
+}
+length=$("$ncctl" --json tools list | python3 -c 'import json, sys; print([t["length"] for t in json.load(sys.stdin)["tools"] if t["number"] == 3][0])')
+set_3='"service": "tools.set", "args": {"number": 3, "length": 55}'
+pipe_refuses 3 "{$set_3, \"right\": \"view\"}" 'tools.set needs the right to set up, and this request has come with that to view'
+pipe_refuses 3 "{$set_3, \"right\": \"maintain\"}" '"no right"'
+pipe_refuses 1 "{$set_3, \"right\": \"everything\"}" 'right must be view, operate, set up or maintain'
+pipe_refuses 1 "{$set_3, \"right\": 1}" 'right must be the name of a right'
+pipe_refuses 1 "{$set_3, \"x\": 1}" 'the request has no member \"x\"'
+pipe_refuses 1 "{$set_3, \"service\": \"status\"}" 'has a member twice'
+pipe_refuses 1 '{"service": "tools.set", "args": {"number": 3, "length": 54, "length": 55}}' 'has a member twice'
+pipe_refuses 1 '{"service": "tools.set", "args": [3, 55]}' 'args must be an object'
+pipe_refuses 1 '{"service": "tools.set", "args": {"number": 3, "length": 1e999}}' 'has a number that is too large'
+pipe_refuses 1 '{"service": ' 'is no JSON'
+pipe_refuses 1 '{"args": {}}' 'service must be the name of a service'
+pipe_refuses 1 '["status"]' 'is no object'
+[ "$("$ncctl" --json tools list | python3 -c 'import json, sys; print([t["length"] for t in json.load(sys.stdin)["tools"] if t["number"] == 3][0])')" = "$length" ] || fail "a refused line has set tool 3"
+piped "{$set_3, \"right\": \"set up\"}" || fail "a line with the right that its service needs is refused"
+expect 0 "$ncctl" undo
+
+# Who does not get the replies is told so, and nothing more is asked.
+printf '%s\n' '{"service": "status"}' "{$set_3}" | "$ncctl" pipe >/dev/full 2>"$work/err"
+[ "${PIPESTATUS[1]}" = 5 ] || fail "a pipe whose output is full: exit ${PIPESTATUS[1]}"
+said err "the output cannot be written: No space left on device"
+[ "$("$ncctl" --json tools list | python3 -c 'import json, sys; print([t["length"] for t in json.load(sys.stdin)["tools"] if t["number"] == 3][0])')" = "$length" ] || fail "a pipe has gone on without its output"
 
 # Other users: one of the group that views, one of the group that operates, one of none.
 if [ "$(id -u)" = 0 ] && command -v setpriv >/dev/null && getent group games >/dev/null && getent group daemon >/dev/null; then

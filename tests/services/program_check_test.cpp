@@ -97,6 +97,48 @@ TEST_F(ProgramCheckServices, LooksBehindTheFirstAlarm) {
   EXPECT_EQ(put_and_check(&client, "one.nc", "G7.7\nG0 X1.\nM30\n")["alarms"].size(), 1u);
 }
 
+// M700 13.3, #1121: the number decides, whatever stands behind it in the name of the file, and whether or not the control has read the program.
+TEST_F(ProgramCheckServices, AParameterProtectsNumbersOfPrograms) {
+  ServiceClient client(path_);
+  const char* const names[] = {"O9003.nc", "9004", "o9005.NC"};
+  for (const char* name : names) ASSERT_EQ(put(&client, name, "M99\n"), "");
+  ASSERT_EQ(put(&client, "O8999.nc", "M99\n"), "");
+  ASSERT_EQ(client.outcome("parameters.set", {{"key", "1121"}, {"value", "1"}}), "");
+  for (const char* name : names) {
+    EXPECT_EQ(put(&client, name, "M30\n", true).find("\"protected\"") != std::string::npos, true) << name;
+    EXPECT_EQ(client.outcome("programs.delete", {{"name", name}}), "protected") << name;
+    EXPECT_EQ(client.outcome("programs.rename", {{"name", name}, {"new_name", "other.nc"}}), "protected") << name;
+  }
+  EXPECT_EQ(client.outcome("programs.rename", {{"name", "O8999.nc"}, {"new_name", "O9999.nc"}}), "protected");
+  EXPECT_NE(put(&client, "O9003", "M30\n"), "") << "it would be called in place of O9003.nc";
+  const Json listed = client.call("programs.list");
+  for (const Json& program : listed["reply"]["programs"]) EXPECT_EQ(program["protected"], program["name"] != "O8999.nc") << program;
+  ASSERT_EQ(client.outcome("parameters.set", {{"key", "1121"}, {"value", "0"}}), "");
+  EXPECT_EQ(client.outcome("programs.delete", {{"name", "O9003.nc"}}), "");
+}
+
+// What a call by the number would find is protected, and what it would not find is not: a name with several points is found by what stands in front of the first one, and in place of
+// the program with the plain name where it is the first in order.
+TEST_F(ProgramCheckServices, WhatACallByAProtectedNumberFindsIsProtected) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("parameters.set", {{"key", "1121"}, {"value", "1"}}), "");
+  unsigned found = 0;
+  for (const char* name : {"O9003.a.nc", "O9003.a.b", "O9003..nc", "O9003.!.nc", "o9003.b.c", "O09003.nc.bak", "O9003.tar.gz", "O9003.9.8.7", "O9003a.nc", "O9003~", "O9003 .nc", "part.O9003.nc", "O8999.9003.nc", "9003.0.nc"}) {
+    SCOPED_TRACE(name);
+    write_program(name, "M99\n");
+    const bool called = !tools::ProgramFiles(config_.programs_folder()).find("O9003").empty();
+    found += called ? 1 : 0;
+    EXPECT_EQ(client.call("programs.list")["reply"]["programs"][0]["protected"], called);
+    EXPECT_EQ(client.outcome("programs.rename", {{"name", name}, {"new_name", "other.nc"}}), called ? "protected" : "");
+    EXPECT_EQ(client.outcome("programs.delete", {{"name", called ? name : "other.nc"}}), called ? "protected" : "");
+    std::filesystem::remove(in_programs(name));
+    const std::string answer = put(&client, name, "M30\n");
+    EXPECT_EQ(answer.find("\"protected\"") != std::string::npos, called) << answer;
+    std::filesystem::remove(in_programs(name));
+  }
+  EXPECT_EQ(found, 8u);
+}
+
 TEST_F(ProgramCheckServices, AnAlarmRefusesAProgramAndItsStart) {
   ServiceClient client(path_);
   take_control(&client);
@@ -178,7 +220,7 @@ TEST_F(ProgramCheckServices, WhatIsCalledIsLookedAtWhileAnotherProgramIsChecked)
   ASSERT_EQ(put(&client, "O1000.nc", "G1 X10. F600.\nM99\n", true), "");
   ASSERT_EQ(client.outcome("select", {{"name", "main.nc"}}), "");
   ASSERT_EQ(checked(&client, "main.nc")["state"], "passed");
-  ASSERT_EQ(put(&client, "long.nc", "N10 G0 X10.\nX0\n#500=#500+1\nGOTO 10\n", true), "");
+  ASSERT_EQ(put(&client, "long.nc", "N10 G0 X10.\nX0\n#500=#500+1\nIF[#500LT2000000000]GOTO 10\nM30\n", true), "");
   until(&client, "programs.check", [](const Json& reply) { return reply["state"] == "checking"; }, {{"name", "long.nc"}});
   write_program("O1000.nc", "G1 X99999. F600.\nM99\n");
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -216,6 +258,25 @@ TEST_F(ProgramCheckServices, WhatIsCalledIsWhatWasChecked) {
   ASSERT_NO_FATAL_FAILURE(selected());
   write_program("O1000.nc", "G1 X99999. F600.\nM99\n");
   refused("another sub program");
+}
+
+// Right behind the change, and not only when the files have been looked at the next time.
+TEST_F(ProgramCheckServices, AStartBehindAChangeOfWhatIsCalledWaitsForItsCheck) {
+  ServiceClient client(path_);
+  take_control(&client);
+  ASSERT_EQ(put(&client, "main.nc", "G0 X1.\nM98 P1000\nM30\n", true), "");
+  for (int n = 0; n < 8; ++n) {
+    SCOPED_TRACE(n);
+    ASSERT_EQ(put(&client, "O1000.nc", "G1 X10. F600.\nM99\n", true), "");
+    ASSERT_EQ(client.outcome("select", {{"name", "main.nc"}}), "");
+    ASSERT_EQ(checked(&client, "main.nc")["state"], "passed");
+    until(&client, "programs.check", [](const Json& reply) { return reply["state"] == "passed"; }, {{"name", "main.nc"}});
+    const std::string bad = "G1 X99999. F600.\nM99\n";
+    if (n % 2 == 0) ASSERT_EQ(put(&client, "O1000.nc", bad, true), "");
+    else write_program("O1000.nc", bad);  // by another program, of which the services do not know
+    ASSERT_EQ(start(&client), "refused");
+    ASSERT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_IDLE);
+  }
 }
 
 // Right behind a change of its file by another program: what was found of the old text says nothing of the new one.
@@ -268,6 +329,58 @@ TEST_F(ProgramCheckServices, EndlessProgramsEndTheirCheck) {
   EXPECT_EQ(put_and_check(&client, "silent.nc", "N1 #100=#100+1\nGOTO1\n")["state"], "unchecked");
   EXPECT_EQ(put_and_check(&client, "warm.nc", "WHILE[1EQ1]DO1\nG0 X1.\nG0 X0.\nEND1\n")["state"], "passed");
   EXPECT_EQ(put_and_check(&client, "again.nc", "G0 X1.\nG0 X0.\nM99\n")["state"], "passed");
+}
+
+// Strangers' programs count their parts and jump back: a state that never comes again, and no end in what is written.
+TEST_F(ProgramCheckServices, ALoopThatCountsPartsPassesWithTheRoundsThatWereChecked) {
+  ServiceClient client(path_);
+  take_control(&client);
+  const std::string holes = "#1=0\nWHILE[#1LT5]DO1\nG0 X[10.*#1]\nG1 Z-1. F600\nG0 Z2.\n#1=#1+1\nEND1\n";
+  for (const std::string& text : {std::string("G90 G54\nN1 ") + holes + "#500=#500+1\nGOTO1\nM30\n", "G90 G54\nDO2\n" + holes + "#500=#500+1\nEND2\nM30\n", std::string("G90 G54\nN1 G0 X5.\nG0 X0.\n#500=#500+1\nIF[#500LT3]GOTO2\nM8\nN2 GOTO1\nM30\n")}) {
+    const Json report = put_and_check(&client, "counts.nc", text);
+    EXPECT_EQ(report["state"], "passed") << text << report;
+    const std::string said = report["text"].get<std::string>();
+    EXPECT_EQ(said.rfind("it goes on until a reset: line ", 0), 0u) << said;
+    EXPECT_NE(said.find("1000 rounds of the loop back to line "), std::string::npos) << said;
+    EXPECT_NE(said.find("later ones are not checked"), std::string::npos) << said;
+  }
+  ASSERT_EQ(client.outcome("select", {{"name", "counts.nc"}}), "");
+  std::string why;
+  EXPECT_EQ(start(&client, &why), "") << why;
+}
+
+TEST_F(ProgramCheckServices, AnOffsetThatGrowsEachRoundIsFoundOrItsRoundsAreSaid) {
+  ServiceClient client(path_);
+  const auto grows = [&](const char* by) { return put_and_check(&client, "grows.nc", std::string("G90 G54\nN1 G0 X5.\nG0 X0.\nG91 G10 L2 P1 X") + by + "\nG90\nGOTO1\nM30\n"); };
+  const Json fast = grows("1.");
+  EXPECT_EQ(fast["state"], "refused") << fast;
+  EXPECT_NE(fast["text"].get<std::string>().find("X"), std::string::npos) << fast;
+  const Json slow = grows("0.01");
+  EXPECT_EQ(slow["state"], "passed") << slow;
+  EXPECT_NE(slow["text"].get<std::string>().find("1000 rounds"), std::string::npos) << slow;
+}
+
+// A count to a large number has an end, however far it is, and behind it stand blocks that nobody has looked at.
+TEST_F(ProgramCheckServices, ALoopWithAWayOutIsALongProgram) {
+  ServiceClient client(path_);
+  for (const char* text : {"N1 G0 X5.\nG0 X0.\n#500=#500+1\nIF[#500GT2000000000]GOTO9\nGOTO1\nN9 M30\n", "N1 G0 X5.\nG0 X0.\n#500=#500+1\nIF[#500LT2000000000]GOTO1\nM30\n",
+                           "N1 G0 X5.\nG0 X0.\n#500=#500+1\nIF[#500LT2000000000]GOTO2\nM30\nN2 GOTO1\n", "N1 G0 X5.\nM98 P1000\n#500=#500+1\nGOTO1\nM30\nO1000\nIF[#500LT2000000000]GOTO5\nM30\nN5 M99\n"}) {
+    ASSERT_EQ(put(&client, "long.nc", text, true), "");
+    ASSERT_EQ(client.outcome("programs.recheck", {{"name", "long.nc"}, {"seconds", 1}}), "");
+    const Json report = checked(&client, "long.nc");
+    EXPECT_EQ(report["state"], "unchecked") << text << report;
+    ASSERT_EQ(client.outcome("programs.delete", {{"name", "long.nc"}}), "");
+  }
+}
+
+// Whether it goes on the machine says, in each round.
+TEST_F(ProgramCheckServices, ALoopThatAsksTheMachineAndCountsPassesWhenItsTimeIsOver) {
+  ServiceClient client(path_);
+  ASSERT_EQ(put(&client, "until.nc", "WHILE[#1000EQ0]DO1\nG0 X5.\nG0 X0.\n#500=#500+1\nEND1\nM30\n"), "");
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "until.nc"}, {"seconds", 1}}), "");
+  const Json report = checked(&client, "until.nc");
+  EXPECT_EQ(report["state"], "passed") << report;
+  EXPECT_NE(report["text"].get<std::string>().find("line 1 asks the machine"), std::string::npos) << report;
 }
 
 TEST_F(ProgramCheckServices, WhatTakesTooLongIsNotChecked) {

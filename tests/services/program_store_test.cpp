@@ -23,7 +23,7 @@ class Store : public testing::Test {
     char pattern[] = "/tmp/nc-store-XXXXXX";
     ASSERT_NE(mkdtemp(pattern), nullptr);
     folder_ = pattern;
-    store_ = std::make_unique<ProgramStore>(folder_, StoreLimits{1000, 2500, 100}, [this] { return use_; });
+    store_ = std::make_unique<ProgramStore>(folder_, StoreLimits{1000, 2500, 100}, [this](const ProgramStore::Names&) { return use_; });
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -79,6 +79,28 @@ class Store : public testing::Test {
   std::unique_ptr<ProgramStore> store_;
   double upload_ = 0;
 };
+
+// Digits of both cases are the same digest; what is none is refused before a byte of the program is sent.
+TEST_F(Store, TheDigestIsLookedAtBeforeTheFirstPiece) {
+  const std::string text = "G0 X0\nM30\n";
+  const auto with = [this, &text](const std::string& digest) {
+    const Outcome outcome = store_->begin(1, call(Service::kProgramBegin, {{Field::kFile, "a.nc"}, {Field::kHash, digest}}, {{Field::kSize, static_cast<double>(text.size())}}));
+    if (outcome.ok) upload_ = outcome.reply["upload"].get<double>();
+    return outcome;
+  };
+  const std::string right = hash(text);
+  for (const std::string& wrong : {std::string(64, 'z'), right.substr(1), right + "0", std::string("0x") + right.substr(2)}) {
+    const Outcome outcome = with(wrong);
+    EXPECT_FALSE(outcome.ok) << wrong;
+    EXPECT_EQ(outcome.why, Refused::kMalformed) << wrong;
+  }
+  std::string capitals = right;
+  for (char& c : capitals) c = c >= 'a' && c <= 'f' ? static_cast<char>(c - 'a' + 'A') : c;
+  ASSERT_TRUE(with(capitals).ok);
+  ASSERT_TRUE(data(text, 0).ok);
+  EXPECT_TRUE(finish().ok);
+  EXPECT_EQ(content("a.nc"), text);
+}
 
 TEST_F(Store, WritesAndReadsAProgram) {
   const std::string text = "G0 X1.\nM30\n%\xff";
@@ -137,7 +159,7 @@ TEST_F(Store, SizesAreBounded) {
 }
 
 TEST_F(Store, TenGigabytesAreRefusedAndTwoArePossible) {
-  ProgramStore store(folder_, {std::uint64_t{4096} << 20, std::uint64_t{16384} << 20, 16 << 20}, [this] { return use_; });
+  ProgramStore store(folder_, {std::uint64_t{4096} << 20, std::uint64_t{16384} << 20, 16 << 20}, [this](const ProgramStore::Names&) { return use_; });
   const auto begin_size = [&](double size) { return store.begin(1, call(Service::kProgramBegin, {{Field::kFile, "huge.nc"}, {Field::kHash, std::string(64, '0')}}, {{Field::kSize, size}})); };
   EXPECT_EQ(begin_size(10e9).why, Refused::kNoSpace);
   EXPECT_EQ(files(), 0u);
@@ -184,11 +206,26 @@ TEST_F(Store, AProtectedProgramIsNotChanged) {
   EXPECT_EQ(remove("O8000").why, Refused::kProtected) << "a parameter of the control protects it";
 }
 
+// A parameter protects a number, so nobody brings in a program with it, either.
+TEST_F(Store, AProtectedNumberIsNotGiven) {
+  ASSERT_TRUE(put("a.nc", "a").ok);
+  ASSERT_TRUE(begin("late.nc", "b").ok);
+  use_.locked = {"O9001.nc", "late.nc"};
+  EXPECT_EQ(put("O9001.nc", "b").why, Refused::kProtected);
+  EXPECT_EQ(rename("a.nc", "O9001.nc").why, Refused::kProtected);
+  ASSERT_TRUE(data("b", 0).ok);
+  EXPECT_EQ(finish().why, Refused::kProtected) << "the parameter was set meanwhile";
+  use_.known = false;
+  EXPECT_EQ(remove("a.nc").why, Refused::kFailed);
+  EXPECT_EQ(files(), 1u);
+}
+
 TEST_F(Store, WhatRunsStays) {
   ASSERT_TRUE(put("run.nc", "a").ok);
   ASSERT_TRUE(put("other.nc", "a").ok);
   ASSERT_TRUE(put("long.nc", std::string(200, 'x')).ok);
-  use_ = {{"run.nc"}, true, {}};
+  use_.selected = {"run.nc"};
+  use_.active = true;
   EXPECT_EQ(remove("run.nc").why, Refused::kProtected);
   EXPECT_EQ(rename("run.nc", "x.nc").why, Refused::kProtected);
   EXPECT_EQ(put("run.nc", "b", true).why, Refused::kProtected);
@@ -243,7 +280,7 @@ class FullDisk : public Store {
   // The number of the first thing that is not as it should be; 0 = none.
   int run(const std::string& folder) {
     folder_ = folder;
-    store_ = std::make_unique<ProgramStore>(folder_, StoreLimits{1 << 20, 1 << 20, 100}, [this] { return use_; });
+    store_ = std::make_unique<ProgramStore>(folder_, StoreLimits{1 << 20, 1 << 20, 100}, [this](const ProgramStore::Names&) { return use_; });
     const std::string old(30'000, 'a');
     if (!put("old.nc", old).ok) return 1;
     // It is told before a byte has been sent, and nothing of it stays; what was there is there.

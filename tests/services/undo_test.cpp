@@ -141,6 +141,123 @@ TEST_F(Undo, IsPossibleBehindARestart) {
   EXPECT_EQ(newest(&client)["number"], 10) << "the numbers go on";
 }
 
+// A power cut: the changes are on the disk before their replies, the tables up to some seconds later.
+class LostChanges : public Undo {
+ protected:
+  // Ends ncrtd in order; what it has kept is what a power cut will leave of these files.
+  void keep(std::initializer_list<const char*> names) {
+    stop();
+    for (const char* name : names) std::filesystem::copy_file(folder_ + "/" + name, folder_ + "/kept." + name, std::filesystem::copy_options::overwrite_existing);
+    kept_ = names;
+    start();
+  }
+  void cut_the_power() {
+    stop();
+    for (const char* name : kept_) std::filesystem::rename(folder_ + "/kept." + name, folder_ + "/" + name);
+    start();
+  }
+  std::vector<const char*> kept_;
+};
+
+TEST_F(LostChanges, UndoGoesOnBehindThem) {
+  {
+    ServiceClient client(path_);
+    ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"value", 1}}), "");
+    ASSERT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 10}}), "");
+  }
+  keep({"offsets", "variables"});
+  {
+    ServiceClient client(path_);
+    ASSERT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 20}}), "");
+    ASSERT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 30}}), "");
+    ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"value", 5}}), "");
+  }
+  cut_the_power();
+  ServiceClient client(path_);
+  ASSERT_EQ(length(&client, 3), 10) << "the test has done what it says";
+  const Json changes = client.call("changes")["reply"]["changes"];
+  for (unsigned n = 0; n < 5; ++n) EXPECT_EQ(changes[n]["lost"], n < 3) << changes[n];
+  const Json named = client.call("undo", {{"change", 4}});
+  EXPECT_EQ(named["error"], "refused");
+  EXPECT_EQ(named["text"], "change 4 was lost before the last start: tool 3 length is as it was before it");
+  const Json reply = client.call("undo");
+  EXPECT_EQ(reply["reply"]["text"], "undo of 2: tool 3 length; lost before the last start, and so left out: 5 (#501 of part system 1), 4 (tool 3 length), 3 (tool 3 length)") << reply;
+  EXPECT_EQ(length(&client, 3), 0);
+  EXPECT_EQ(client.call("undo")["reply"]["text"], "undo of 1: #501 of part system 1") << "they are named once";
+  EXPECT_TRUE(variable(&client, 501).is_null());
+  EXPECT_EQ(client.outcome("undo"), "not found");
+}
+
+TEST_F(LostChanges, AreRememberedBehindTheNextStart) {
+  ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 10}});
+  keep({"offsets"});
+  ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 20}});
+  cut_the_power();
+  ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 40}});
+  stop();
+  start();
+  ServiceClient client(path_);
+  EXPECT_EQ(client.call("undo")["reply"]["text"], "undo of 3: tool 3 length");
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(length(&client, 3), 0) << "2 was lost under the change that came behind it";
+}
+
+TEST_F(LostChanges, AnUndoThatIsLostIsDoneAgain) {
+  {
+    ServiceClient client(path_);
+    ASSERT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 10}}), "");
+    ASSERT_EQ(client.outcome("tools.set", {{"number", 3}, {"length", 20}}), "");
+  }
+  keep({"offsets"});
+  ASSERT_EQ(ServiceClient(path_).outcome("undo"), "");
+  cut_the_power();
+  ServiceClient client(path_);
+  ASSERT_EQ(length(&client, 3), 20);
+  EXPECT_EQ(client.call("changes")["reply"]["changes"][1]["undone_by"], 0);
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(length(&client, 3), 10);
+  EXPECT_EQ(newest(&client)["what"], "undo of 2: tool 3 length");
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(length(&client, 3), 0);
+}
+
+// Values of one change stand in two files, of which one was written in time.
+TEST_F(LostChanges, WhatIsLeftOfAChangeIsTakenBack) {
+  ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 10}, {"pocket", 4}});
+  keep({"offsets"});
+  ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 20}, {"pocket", 7}});
+  cut_the_power();
+  ServiceClient client(path_);
+  const auto tool = [&] { return client.call("tools.list", {{"from", 3}, {"count", 1}})["reply"]["tools"][0]; };
+  ASSERT_EQ(tool()["length"], 10);
+  ASSERT_EQ(tool()["pocket"], 7);
+  EXPECT_EQ(client.call("changes")["reply"]["changes"][0]["lost"], false) << "not all of it";
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(tool()["pocket"], 4);
+  EXPECT_EQ(tool()["length"], 10);
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(tool()["length"], 0);
+}
+
+// What a program has set is not lost, also behind a start.
+TEST_F(LostChanges, WhatAProgramHasSetIsNone) {
+  {
+    ServiceClient client(path_);
+    ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"value", 1}}), "");
+    ASSERT_EQ(client.outcome("control.take"), "");
+    ASSERT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "");
+    ASSERT_EQ(client.outcome("mdi", {{"blocks", "#501=2"}}), "");
+    ASSERT_EQ(client.outcome("start"), "");
+    until(&client, "status", [](const Json& now) { return now["systems"][0]["runs"] == 1; });
+  }
+  stop();
+  start();
+  ServiceClient client(path_);
+  EXPECT_EQ(client.call("changes")["reply"]["changes"][0]["lost"], false);
+  EXPECT_EQ(client.outcome("undo"), "refused");
+  EXPECT_EQ(variable(&client, 501), 2);
+}
+
 // Changes that are too many, or too large, to be remembered.
 TEST(ChangeLogBounds, TheOldestCannotBeTakenBack) {
   ChangeLog log("");

@@ -349,13 +349,80 @@ TEST_F(IntakeRules, ClientIdBelongsToItsParticipant) {
   EXPECT_EQ(machine_.total(), 0u);
 }
 
-TEST_F(IntakeRules, ClientsAreBounded) {
-  for (unsigned i = 0; i < Intake::kClients; ++i)
-    give(RequestKind::kFeedHold, 1, ("c" + std::to_string(i)).c_str());
-  expect_rejected(give(RequestKind::kFeedHold, 1, "one-more"), AckReason::kTooManyClients);
+TEST_F(IntakeRules, AHoldIsTakenUnderANameInUse) {
+  give(RequestKind::kFeedHold, 1);
+  Request other = request(RequestKind::kFeedHold, 1);
+  other.writer = 77;
+  const Ack ack = give(other);
+  EXPECT_EQ(ack.state, state(AckState::kAccepted)) << text_of(ack.text);
+  EXPECT_EQ(ack.writer, 77u);
+  EXPECT_EQ(ack.repeated, 0u);
+  EXPECT_EQ(machine_.executed.size(), 2u);
+  other.sequence = 0;
+  EXPECT_EQ(give(other).state, state(AckState::kRejected)) << "its form is checked all the same";
+}
+
+// Clients of the gateway of whom something was executed, as many as find a place: it may not be executed again, so they keep their places for a while.
+TEST_F(IntakeRules, AHoldNeedsNoPlace) {
+  const auto numbered = [&](RequestKind kind, std::uint64_t sequence, unsigned i) {
+    Request r = request(kind, sequence, ("c" + std::to_string(i)).c_str());
+    r.writer = 100 + i;
+    return r;
+  };
+  for (unsigned i = 0; i < Intake::kClients; ++i) {
+    give(numbered(RequestKind::kTakeControl, 1, i));
+    give(numbered(RequestKind::kReleaseControl, 2, i));
+  }
+  expect_rejected(give(numbered(RequestKind::kTakeControl, 1, 99)), AckReason::kTooManyClients);
+  for (unsigned i = 90; i < 99; ++i) EXPECT_EQ(give(numbered(RequestKind::kFeedHold, 1, i)).state, state(AckState::kAccepted)) << i;
+  EXPECT_EQ(machine_.executed.size(), 9u);
+  // The local way has places that the gateway does not get: a reset from there finds one.
+  acks_.clear();
+  intake_.take(request(RequestKind::kTakeControl, 1, "local"), now_, &acks_, Way::kLocal);
+  intake_.take(request(RequestKind::kReset, 2, "local"), now_, &acks_, Way::kLocal);
+  ASSERT_EQ(acks_.size(), 2u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kDone));
+  EXPECT_EQ(acks_[1].state, state(AckState::kAccepted));
   now_ += Intake::kForgetNs + kMs;
   intake_.tick(now_, &acks_);
-  EXPECT_EQ(give(RequestKind::kFeedHold, 1, "one-more").state, state(AckState::kAccepted)) << "the silent are forgotten";
+  EXPECT_EQ(give(numbered(RequestKind::kTakeControl, 1, 99)).state, state(AckState::kDone)) << "the silent are forgotten";
+}
+
+TEST_F(IntakeRules, RefusedCommandsKeepNoPlace) {
+  for (unsigned i = 0; i < 3 * Intake::kClients; ++i) expect_rejected(give(RequestKind::kReset, 1, ("c" + std::to_string(i)).c_str()), AckReason::kNoControl);
+  EXPECT_EQ(give(RequestKind::kTakeControl, 1, "one-more").state, state(AckState::kDone));
+}
+
+TEST_F(IntakeRules, LocalClientsGiveUpTheirPlacesButNotControl) {
+  const auto local = [&](RequestKind kind, std::uint64_t sequence, unsigned i) {
+    Request r = request(kind, sequence, ("local" + std::to_string(i)).c_str());
+    r.writer = i;
+    acks_.clear();
+    intake_.take(r, now_, &acks_, Way::kLocal);
+    return acks_.at(0);
+  };
+  EXPECT_EQ(local(RequestKind::kTakeControl, 1, 1000).state, state(AckState::kDone));
+  for (unsigned i = 0; i < 3 * Intake::kClients; ++i) {
+    expect_rejected(local(RequestKind::kReset, 1, i), AckReason::kNoControl);
+    EXPECT_NE(local(RequestKind::kFeedHold, 2, i).state, state(AckState::kRejected));
+  }
+  EXPECT_EQ(intake_.controlling(), "local1000");
+  EXPECT_NE(local(RequestKind::kReset, 2, 1000).state, state(AckState::kRejected));
+  EXPECT_EQ(local(RequestKind::kReleaseControl, 3, 1000).state, state(AckState::kDone));
+  EXPECT_EQ(local(RequestKind::kTakeControl, 3, 0).state, state(AckState::kDone)) << "who has lost his place goes on";
+}
+
+TEST_F(IntakeRules, AParticipantHasSomeOfThePlaces) {
+  const auto both = [&](const char* name, std::uint64_t writer) {
+    Request take = request(RequestKind::kTakeControl, 1, name), release = request(RequestKind::kReleaseControl, 2, name);
+    take.writer = release.writer = writer;
+    const Ack ack = give(take);
+    give(release);
+    return ack;
+  };
+  for (unsigned i = 0; i < Intake::kPerWriter; ++i) EXPECT_EQ(both(("c" + std::to_string(i)).c_str(), 5).state, state(AckState::kDone)) << i;
+  expect_rejected(both("too-many", 5), AckReason::kTooManyClients);
+  EXPECT_EQ(both("another", 6).state, state(AckState::kDone));
 }
 
 // Part system 0 of the IDL means all of them, as the buttons of a panel do. A command for only one of them must name it.

@@ -280,6 +280,8 @@ class Faults:
                 raise Failed(f"kill {n}: #501 was {seen} and is {kept}, X of G55 {offset}, #520 {self.control.variable(520)}, length of tool 3 {tool}")
             rounds, counted, most_lost = rounds + (kept - counted) % ROUNDS, kept, max(most_lost, lost)
             self.control.up(self.drives)
+            if (n + 1) % 10 == 0:  # a long run that is ended says how far it has come
+                print(f"      {n + 1} cuts: #501 counted {rounds:.0f} rounds and was {most_lost:.0f} behind at most", flush=True)
         return f"{self.kills} cuts; #501 counted {rounds:.0f} rounds and was {most_lost:.0f} behind at most, the rest of what is kept is what it was"
 
     def all(self):

@@ -195,7 +195,10 @@ class Control:
 
     @staticmethod
     def service(word, good=True):
-        return run("systemctl", word, "ncrtd", good=good, seconds=180)
+        try:
+            return run("systemctl", word, "ncrtd", good=good, seconds=180)
+        except Failed as error:
+            raise Failed(f"{error}\n{Control.log(12)}") from error
 
     @staticmethod
     def shown(name):

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking for dwells alone passes over nearly all lines of a text and finds what reading every block finds.
+// Looking for dwells, or for lengths without a point, passes over nearly all lines of a text and finds what reading every block finds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <random>
 #include <string>
 
 #include "tools/lib/dialect_names.hpp"
@@ -34,6 +37,51 @@ TEST(NumberHints, ADwellIsFoundHoweverItsCodeIsWritten) {
 TEST(NumberHints, LinesOfDataAreNoDwells) {
   for (const std::string begin : {"G10 L70\n", "G10L50\n", "g10 l70\n", "G1 X1.\nG10 L70 (a)\n"})
     for (const std::string end : {"G11\n", "g11\n", "", "G1 X1.\n"}) expect_the_same(begin + "G4 P1.5\nX1.\n" + end + "G1 X1.\nG4 P2.5\n");
+}
+
+/// What number_hints() finds when it reads every block: nothing is passed over before a length with a point was read, so texts that are read line by line are.
+NumberHints read_line_by_line(const std::string& text, nc_dialect dialect) {
+  NumberHints all;
+  for (size_t begin = 0; begin < text.size();) {
+    const size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const NumberHints line = number_hints(text.substr(begin, end - begin), dialect, "XYZ", true);
+    if (all.without_point == 0 && line.without_point != 0) {
+      all.first_without = 1 + static_cast<uint32_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(begin), '\n'));
+      all.first_word = line.first_word;
+    }
+    if (line.largest_without > all.largest_without) {
+      all.largest_without = line.largest_without;
+      all.largest_word = line.largest_word;
+    }
+    all.without_point += line.without_point;
+    all.with_point = all.with_point || line.with_point;
+    all.dwells += line.dwells;
+    begin = end;
+  }
+  return all;
+}
+
+TEST(NumberHints, ALengthWithoutAPointIsFoundAmongAnyLines) {
+  const char* const line[] = {"X1.",        "N12 X1.5 Y2.",    "X10",           "G1X1.Y-20F100", "G4 P1.5",        "G4 X3",       "(X7)",      "X(a)7",       "G81 X1. Z-3. R2 Q4.", "G2 X1. I5",
+                              "G83 Q3000 Z-2.", "M98 P7 L2",   "T12 M6",        "G65 P9 X4 Y5.", "G1 X1.,C2",      "G1 X1.,R.5",  "x9",        "X#1",         "X[10]Y3",            "G04 P100",
+                              "X 1 2",      "X-.5",            "S1000 M3 F200", "G10 L2 P1 X5",  "/N5 X1. Z8",     "H3 D2 P5",    "#100=5",    "IF[#1 EQ 2]GOTO 10", "A90 B1.", "",
+                              "G41 D1 X1.", "G52 X2 Y3.",      "K4",            "R6.5",          "G92 X0 Y00.0 Z0", "Y+77",       "X1.Y",      "Y.",          "U5 V6. W7",          "G68 X0. Y0. R45"};
+  for (const std::string& family : dialect_names()) {
+    nc_dialect dialect{};
+    ASSERT_EQ(nc_dialect_get(family.c_str(), &dialect), NC_OK);
+    std::mt19937 random(7);
+    for (unsigned round = 0; round < 40; ++round) {
+      std::string text;
+      for (unsigned i = 0; i < 400; ++i) text += random() % 3 != 0 ? "G1 X1.25 Y-3.5\n" : std::string(line[random() % std::size(line)]) + (random() % 9 == 0 ? "\r\n" : "\n");
+      const NumberHints found = number_hints(text, dialect, "XYZ", true), all = read_line_by_line(text, dialect);
+      EXPECT_EQ(found.with_point, all.with_point) << family << ": " << text;
+      EXPECT_EQ(found.without_point, all.without_point) << family << ": " << text;
+      EXPECT_EQ(found.first_without, all.first_without) << family << ": " << text;
+      EXPECT_EQ(found.first_word, all.first_word) << family << ": " << text;
+      EXPECT_EQ(found.largest_word, all.largest_word) << family << ": " << text;
+      EXPECT_EQ(found.dwells, all.dwells) << family << ": " << text;
+    }
+  }
 }
 
 TEST(NumberHints, TheLineOfTheFirstDwellIsCounted) {

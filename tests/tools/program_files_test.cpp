@@ -202,6 +202,28 @@ TEST_F(ProgramsTest, AProtectedProgramCanBeSelectedAgain) {
   EXPECT_NE(error.find("protected"), std::string::npos) << error;
 }
 
+// A parameter protects a program from those who operate the control. Its file is what is checked before a start, so it is what runs.
+TEST_F(ProgramsTest, AProtectedSubProgramIsThatOfItsFile) {
+  write("O9001.nc", "G0 X1.\nM99\n");
+  write("a.nc", "M98 P9001\nM30\n");
+  ProgramFiles files(folder_);
+  test::Bench bench;
+  files.attach(bench.control());
+  bench.param("1121", "1");
+  for (const std::string wanted : {"1", "2"}) {
+    write("O9001.nc", "G0 X" + wanted + ".\nM99\n");
+    selected(&files, bench, "a.nc");
+    std::string x;
+    EXPECT_EQ(run(bench, &x), "");
+    EXPECT_EQ(x, wanted + " ");
+    ASSERT_EQ(nc_reset(bench.control(), 0), NC_OK);  // blocks that were read ahead do not come back
+  }
+  std::filesystem::remove(folder_ + "/O9001.nc");
+  selected(&files, bench, "a.nc");
+  std::string x;
+  EXPECT_NE(run(bench, &x), "") << "there is no such program any more";
+}
+
 TEST_F(ProgramsTest, NamesOf255Bytes) {
   const std::string name(255, 'p');
   write(name, "G0 X4.\nM30\n");

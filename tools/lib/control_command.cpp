@@ -2,6 +2,10 @@
 // See control_command.hpp.
 #include "tools/lib/control_command.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
@@ -38,9 +42,25 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
+// False when it cannot be written, which may be what there is to be said.
+bool print_object(const ServiceRefusal& refusal, std::FILE* out) {
+  const Json object{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}};
+  return std::ferror(out) == 0 && std::fprintf(out, "%s\n", object.dump(-1, ' ', false, Json::error_handler_t::replace).c_str()) >= 0 && std::fflush(out) == 0;
+}
+
+// What is wrong in several lines of a file has as many lines.
+void print_lines(const std::string& text, std::FILE* err) {
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::fprintf(err, "ncctl: %s\n", terminal_text(text.substr(at, end - at)).c_str());
+    at = end + 1;
+  }
+}
+
 class Command {
  public:
-  Command(const ControlCommand& command, std::FILE* in, std::FILE* out, std::FILE* err) : command_(command), in_(in), out_(out), err_(err) {}
+  Command(const ControlCommand& command, OpenRemote open_remote, std::FILE* in, std::FILE* out, std::FILE* err)
+      : command_(command), open_remote_(open_remote), in_(in), out_(out), err_(err) {}
 
   int run() {
     using What = ControlCommand::What;
@@ -65,22 +85,22 @@ class Command {
   }
 
  private:
-  int failed(const ServiceRefusal& refusal) {
-    if (command_.json) std::fprintf(out_, "%s\n", Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}}.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-    else print_lines(refusal.text.empty() ? refusal.error : refusal.text);
-    return status_ = refusal.status;
-  }
-  // What is wrong in several lines of a file has as many lines.
-  void print_lines(const std::string& text) {
-    for (std::size_t at = 0; at <= text.size();) {
-      const std::size_t end = std::min(text.find('\n', at), text.size());
-      std::fprintf(err_, "ncctl: %s\n", terminal_text(text.substr(at, end - at)).c_str());
-      at = end + 1;
-    }
-  }
+  int failed(const ServiceRefusal& refusal) { return status_ = report_refusal(refusal, command_.json, out_, err_); }
   int failed(int status, const std::string& text) { return failed({status, status == kControlUsage ? "usage" : "failed", text}); }
 
   bool connect() {
+    return command_.remote.used ? connect_remotely() : connect_locally();
+  }
+  bool connect_remotely() {
+    if (open_remote_ == nullptr) return failed(kControlUsage, "this ncctl was built without DDS") == 0;
+    if (command_.control.empty()) return failed(kControlUsage, "over DDS --control NAME says which control") == 0;
+    ServiceRefusal refusal;
+    RemoteAccess access = command_.remote;
+    access.control = command_.control;
+    client_ = open_remote_(access, &refusal);
+    return client_ != nullptr || failed(refusal) == 0;
+  }
+  bool connect_locally() {
     std::string path = command_.socket;
     if (path.empty()) {
       std::vector<std::string> found = find_sockets();
@@ -92,22 +112,23 @@ class Command {
       path = found.front();
     }
     ServiceRefusal refusal;
-    return client_.open(path, &refusal) || failed(refusal) == 0;
+    client_ = open_local_client(path, &refusal);
+    return client_ != nullptr || failed(refusal) == 0;
   }
 
   bool call(const std::string& service, const Json& args, Json* reply) {
     ServiceRefusal refusal;
-    return client_.call(service, args, reply, &refusal) || failed(refusal) == 0;
+    return client_->call(service, args, reply, &refusal) || failed(refusal) == 0;
   }
   bool take_control() {
     Json reply;
     return call("control.take", Json::object(), &reply);
   }
 
-  void print(const ServiceRow& row, const Json& reply) {
-    const std::string text = command_.json ? reply.dump() + "\n" : reply_text(row, reply);
-    std::fwrite(text.data(), 1, text.size(), out_);
-    std::fflush(out_);
+  // False when the output cannot be written, which is no success of the command.
+  bool print(const ServiceRow& row, const Json& reply) {
+    to_ = out_;
+    return write_out(command_.json ? json_line(reply) : reply_text(row, reply));
   }
 
   // A command needs control, which ends with this connection. A hold does not: it is taken from everyone.
@@ -124,8 +145,7 @@ class Command {
       if (next == 0 || command_.args.contains("count")) break;
       args["from"] = next;
     }
-    print(row, whole);
-    return 0;
+    return print(row, whole) ? 0 : status_;
   }
 
   // Joins the pages of a list.
@@ -146,9 +166,8 @@ class Command {
     for (std::uint64_t line = 0; rt::end_signal() == 0; ++line) {
       Json reply;
       if (!call(row.name, Json::object(), &reply)) return status_;
-      if (command_.json) print(row, reply);
-      else std::fprintf(out_, "%s\n", status_line(reply).c_str());
-      if (std::fflush(out_) != 0) return failed(kControlFailed, "the output cannot be written");
+      to_ = out_;
+      if (!write_out(command_.json ? json_line(reply) : status_line(reply) + "\n")) return status_;
       const auto next = begin + std::chrono::duration<double>(static_cast<double>(line + 1) / command_.rate);
       if (command_.seconds > 0 && next - begin > std::chrono::duration<double>(command_.seconds)) return 0;
       std::this_thread::sleep_until(std::chrono::time_point_cast<Clock::duration>(next));
@@ -168,7 +187,7 @@ class Command {
     while (rt::end_signal() == 0 && (command_.seconds == 0 || Clock::now() < end)) {
       Json update;
       ServiceRefusal refusal;
-      if (!client_.next_update(&update, &refusal)) return failed(refusal);
+      if (!client_->next_update(&update, &refusal)) return failed(refusal);
       if (command_.json) {
         std::fputs(json_line(update).c_str(), out_);
       } else {
@@ -223,17 +242,27 @@ class Command {
     Json system = Json::object();
     if (command_.args.contains("system")) system["system"] = command_.args["system"];
     if (command_.start && !call("start", system, &reply)) return status_;
-    print(rt::services::row_of(rt::services::Service::kMdi), reply);
-    return 0;
+    return print(rt::services::row_of(rt::services::Service::kMdi), reply) ? 0 : status_;
   }
 
   // ---- programs ----
+
+  // A file of this side, with its bytes in it: a device or a pipe has no end, or waits for somebody.
+  static File regular_file(const std::string& path) {
+    const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat info {};
+    if (descriptor >= 0 && fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode)) return File(fdopen(descriptor, "rb"));
+    const int why = descriptor < 0 ? errno : S_ISDIR(info.st_mode) ? EISDIR : ENODEV;
+    if (descriptor >= 0) close(descriptor);
+    errno = why;
+    return nullptr;
+  }
 
   static bool hash_of(std::FILE* file, std::uint64_t* size, std::string* hash) {
     rt::services::Sha256 sum;
     std::string bytes(kChunk, '\0');
     *size = 0;
-    for (;;) {
+    while (rt::end_signal() == 0) {
       const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file);
       sum.add({bytes.data(), count});
       *size += count;
@@ -244,10 +273,12 @@ class Command {
   }
 
   int put() {
-    const File file(std::fopen(command_.file.c_str(), "rbe"));
+    const File file = regular_file(command_.file);
     std::uint64_t size = 0;
     std::string hash;
+    if (file == nullptr && errno == ENODEV) return failed(kControlUsage, command_.file + ": is no regular file");
     if (file == nullptr || !hash_of(file.get(), &size, &hash)) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
+    if (rt::end_signal() != 0) return failed(kControlFailed, command_.file + ": was not sent");
     Json begin = command_.args, reply;
     if (!begin.contains("name")) begin["name"] = command_.file.substr(command_.file.rfind('/') + 1);
     if (!rt::services::is_program_name(begin["name"].get_ref<const std::string&>())) return failed(kControlUsage, "the name cannot be that of a program: --name gives another one");
@@ -261,6 +292,10 @@ class Command {
       if (count == 0) return failed(kControlFailed, command_.file + ": it has become shorter meanwhile");
       if (!call("programs.data", {{"upload", upload}, {"begin", at}, {"data", rt::services::to_base64({bytes.data(), count})}}, &reply)) return status_;
       at += count;
+    }
+    if (rt::end_signal() != 0) {
+      (void)call("programs.abandon", {{"upload", upload}}, &reply);  // when this is refused, the end of the connection drops it
+      return failed(kControlFailed, command_.file + ": was not sent");
     }
     return call("programs.finish", {{"upload", upload}}, &reply) ? 0 : status_;
   }
@@ -290,7 +325,7 @@ class Command {
     if (command_.file.empty() || command_.file == "-") return true;
     std::string why;
     own_ = std::make_unique<WholeFile>();
-    if (!own_->open(command_.file, &why)) return failed(kControlUsage, why) == 0;
+    if (!own_->open(command_.file, &why)) return failed(kControlFailed, why) == 0;
     to_ = own_->stream();
     return true;
   }
@@ -329,8 +364,7 @@ class Command {
     std::string text;
     Json reply;
     if (!read_text(rt::services::kMostToml, &text) || !call(command_.service, {{"toml", text}}, &reply)) return status_;
-    print(*rt::services::find_service(command_.service), reply);
-    return 0;
+    return print(*rt::services::find_service(command_.service), reply) ? 0 : status_;
   }
 
   int swap_ladder() {
@@ -341,8 +375,7 @@ class Command {
     if (!read_text(rt::services::kMostLadder, &text)) return status_;
     args["program"] = std::move(text);
     if (!call("ladder.swap", args, &reply)) return status_;
-    print(rt::services::row_of(rt::services::Service::kLadderSwap), reply);
-    return 0;
+    return print(rt::services::row_of(rt::services::Service::kLadderSwap), reply) ? 0 : status_;
   }
 
   // Records, waits for the end, and writes what there is. A signal ends the recording, and not only the waiting for it.
@@ -356,7 +389,7 @@ class Command {
       if (status["state"] == "complete" || status["state"] == "stopped") return write_recording(status);
       if (rt::end_signal() != 0 && !stopped) {
         ServiceRefusal ended;  // it may have come to its end just now, and then there is nothing to be stopped
-        (void)client_.call("trace.stop", Json::object(), &reply, &ended);
+        (void)client_->call("trace.stop", Json::object(), &reply, &ended);
         stopped = true;
         continue;
       }
@@ -389,6 +422,7 @@ class Command {
   // One request in a line, one reply in a line. The exit status is that of the first refusal.
   int pipe() {
     int first = 0;
+    to_ = out_;
     std::string line;
     for (int c = std::fgetc(in_); rt::end_signal() == 0; c = std::fgetc(in_)) {
       if (c != '\n' && c != EOF) {
@@ -398,6 +432,7 @@ class Command {
       if (line.find_first_not_of(" \t\r") != std::string::npos) {
         const int status = answer(line);
         if (first == 0) first = status;
+        if (status_ == kControlFailed) return status_;  // nobody gets the replies
         if (status == kControlNobody) return first;
       }
       line.clear();
@@ -406,28 +441,56 @@ class Command {
     return first;
   }
 
+  // A line of pipe as a request of the socket, which numbers it: nothing in it is left out. False with the refusal, in the words of the socket.
+  static bool read_line(const std::string& line, Json* request, ServiceRefusal* refusal) {
+    const auto bad = [refusal](const std::string& text) {
+      *refusal = {kControlUsage, "malformed", text};
+      return false;
+    };
+    std::string why;
+    if (!rt::services::read_json(line, request, &why)) return bad("the request " + why);
+    if (!request->is_object()) return bad("the request is no object");
+    for (const auto& [key, value] : request->items())
+      if (key != "service" && key != "args" && key != "right") return bad("the request has no member \"" + key + "\"");
+    if (!request->contains("service") || !(*request)["service"].is_string()) return bad("service must be the name of a service");
+    if (request->contains("args") && !(*request)["args"].is_object()) return bad("args must be an object");
+    return !request->contains("right") || may_come_with(*request, refusal);
+  }
+
+  // The right that a line names limits it. Over DDS a request goes to the topic of its service, which has no member for it: so this side looks.
+  static bool may_come_with(const Json& request, ServiceRefusal* refusal) {
+    const std::string name = request["right"].is_string() ? request["right"].get<std::string>() : "", service = request["service"].get<std::string>();
+    const auto right = rt::services::find_right(name);
+    const ServiceRow* row = rt::services::find_service(service);
+    if (!request["right"].is_string()) *refusal = {kControlUsage, "malformed", "right must be the name of a right"};
+    else if (!right) *refusal = {kControlUsage, "malformed", "right must be view, operate, set up or maintain"};
+    else if (row == nullptr) *refusal = refusal_named("unknown service", "there is no such service");
+    else if (row->right != rt::services::Right::kView && row->right != *right)
+      *refusal = refusal_named("no right", service + " needs the right to " + rt::services::right_name(row->right) + ", and this request has come with that to " + name);
+    else return true;
+    return false;
+  }
+
   int answer(const std::string& line) {
-    const Json request = Json::parse(line, nullptr, false);
-    ServiceRefusal refusal{kControlUsage, "malformed", "a line must be an object with the member service"};
-    Json reply;
-    const bool good = request.is_object() && request.contains("service") && request["service"].is_string();
-    const Json message = good && client_.call(request["service"], request.value("args", Json::object()), &reply, &refusal)
+    Json request, reply;
+    ServiceRefusal refusal;
+    const Json message = read_line(line, &request, &refusal) && client_->call(request["service"], request.value("args", Json::object()), &reply, &refusal)
                              ? Json{{"ok", true}, {"reply", std::move(reply)}}
                              : Json{{"ok", false}, {"error", refusal.error}, {"text", refusal.text}};
-    std::fprintf(out_, "%s\n", message.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
-    std::fflush(out_);
+    if (!write_out(json_line(message))) return kControlFailed;
     return message["ok"] ? 0 : refusal.status;
   }
 
   int document() {
-    const std::string text = command_.document == "markdown" ? services_markdown() : command_.document == "man" ? services_man() : services_bash();
+    const std::string text = command_.document == "markdown" ? services_markdown() : command_.document == "man" ? services_man() : command_.document == "idl" ? services_idl() : command_.document == "python" ? services_python() : services_bash();
     std::fwrite(text.data(), 1, text.size(), out_);
     return 0;
   }
 
   const ControlCommand& command_;
+  const OpenRemote open_remote_;
   std::FILE *in_, *out_, *err_;
-  ServiceClient client_;
+  std::unique_ptr<ServiceClient> client_;
   std::unique_ptr<WholeFile> own_;  // of open_output()
   std::FILE* to_ = nullptr;
   int status_ = 0;
@@ -435,6 +498,18 @@ class Command {
 
 }  // namespace
 
-int control_command(const ControlCommand& command, std::FILE* in, std::FILE* out, std::FILE* err) { return Command(command, in, out, err).run(); }
+void keep_standard_descriptors() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+    if (fcntl(descriptor, F_GETFD) < 0) (void)::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int report_refusal(const ServiceRefusal& refusal, bool json, std::FILE* out, std::FILE* err) {
+  if (!json || !print_object(refusal, out)) print_lines(refusal.text.empty() ? refusal.error : refusal.text, err);
+  return refusal.status;
+}
+
+int control_command(const ControlCommand& command, OpenRemote open_remote, std::FILE* in, std::FILE* out, std::FILE* err) {
+  return Command(command, open_remote, in, out, err).run();
+}
 
 }  // namespace nc::tools

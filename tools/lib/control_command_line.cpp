@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <ctime>
+#include <string_view>
 
 #include "nc/control.h"
 #include "runtime/programs/encoding.hpp"
@@ -204,19 +205,34 @@ save->callback([command] { command->what = What::kSave; });
 CLI::App* pipe = app->add_subcommand("pipe", "requests from standard input over one connection, one object of JSON in a line: {\"service\": \"mode\", \"args\": {...}}");
 pipe->callback([command] { command->what = What::kPipe; });
 
-CLI::App* document = app->add_subcommand("document", "prints what is made from the table of services: markdown, man or bash")->group("");
-document->add_option("FORM", command->document, "markdown, man or bash")->required()->check(CLI::IsMember({"markdown", "man", "bash"}));
+CLI::App* document = app->add_subcommand("document", "prints what is made from the table of services: markdown, man, bash, idl or python")->group("");
+document->add_option("FORM", command->document, "markdown, man, bash, idl or python")->required()->check(CLI::IsMember({"markdown", "man", "bash", "idl", "python"}));
 document->callback([command] { command->what = What::kDocument; });
 }
 
 }  // namespace
 
+// The words themselves are asked, because a line that cannot be read may have no options yet. What stands behind "--" may be an argument.
+bool asks_for_json(int argc, const char* const* argv) {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i)
+    if (std::string_view(argv[i]) == "--json" || std::string_view(argv[i]) == "--json=true") return true;
+  return false;
+}
+
 int parse_control_command(int argc, const char* const* argv, ControlCommand* command) {
-  CLI::App app{"ncctl: shows and operates a control that runs on this computer"};
+  CLI::App app{"ncctl: shows and operates a control, on this computer or over DDS"};
   app.set_version_flag("--version", std::string("ncctl ") + nc_version());
   CLI::Option* socket = app.add_option("--socket", command->socket, "path of the socket of the control")->envname("NC_SOCKET")->check(given());
   app.add_option("--control", command->control, "name of the control, as in DDS; default: the only one that runs")->check(given())->excludes(socket);
-  app.add_flag("--json", command->json, "replies as JSON, one object in a line");
+  // Each of them means DDS.
+  const auto over_dds = [&](CLI::Option* option) {
+    option->excludes(socket)->each([command](const std::string&) { command->remote.used = true; });
+  };
+  over_dds(app.add_option("--domain", command->remote.domain, "over DDS, in this domain, in place of the socket: ncdds passes it on")->check(CLI::Range(0, 230)));
+  over_dds(app.add_option("--security", command->remote.security, "over DDS with DDS Security: folder of an identity that nc-keys has made")->check(given()));
+  over_dds(app.add_option("--network", command->remote.network, "interface of the network, with --security; default: this computer only")->check(given()));
+  over_dds(app.add_option("--client", command->remote.client, "over DDS the name of this client; default: a name of its own")->check(given()));
+  const CLI::Option* json = app.add_flag("--json", command->json, "replies as JSON, one object in a line");
   app.require_subcommand(1);
   app.fallthrough();
   for (const ServiceRow& row : rt::services::service_table())
@@ -225,7 +241,10 @@ int parse_control_command(int argc, const char* const* argv, ControlCommand* com
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kControlUsage;
+    const bool wrong = error.get_exit_code() != 0;
+    if (wrong && ((json->count() > 0 && json->as<bool>()) || asks_for_json(argc, argv))) return report_refusal({kControlUsage, "usage", error.what()}, true, stdout, stderr);
+    (void)app.exit(error);
+    return wrong ? kControlUsage : 0;
   }
   return -1;
 }

@@ -119,9 +119,19 @@ std::string status_text(const Json& status) {
   return text;
 }
 
+// Where each axis has to be, and where it is.
+std::string axes_text(const Json& reply) {
+  std::vector<std::vector<std::string>> axes = {{"axis", "place", "machine", "to go", ""}};
+  for (const Json& axis : reply.value("axes", Json::array()))
+    axes.push_back({text_at(axis, "name"), text_at(axis, "place"), text_at(axis, "machine"), text_at(axis, "to_go"), axis.value("away", false) ? "away" : ""});
+  return table_text(axes);
+}
+
 // A program that is begun inside: what is to be done next, the place, and the two tables that an operator works through.
 std::string restart_text(const Json& reply) {
   const std::string phase = text_at(reply, "phase"), what = text_at(reply, "text");
+  const bool held = phase != "found" && phase != "stands" && reply.value("axes", Json::array()).size() > 0 && reply["axes"][0].contains("place");
+  if (held) return "a feed hold: cycle start goes on from where the path has stopped\n" + axes_text(reply);
   if (phase == "none") return "no place has been looked for\n";
   if (phase == "ended") return "ended: " + what + "\n";
   if (phase == "lost") return "lost: " + what + ". No cycle start: look for the place again, or cancel it; then the program begins at its head\n";
@@ -129,10 +139,8 @@ std::string restart_text(const Json& reply) {
   std::string text = phase == "found" ? "found: " + what + ". Cycle start comes to the place, and moves nothing\n" : "stands at the place: " + what + "\n";
   text += text_at(reply, "file") + " line " + text_at(reply, "line") + ", behind " + text_at(reply, "blocks") + " blocks\n" + text_at(reply, "modal") + "\n";
   if (const std::string asked = text_at(reply, "asked"); !asked.empty()) text += "the program has asked for: " + asked + "; it was answered with the present state\n";
-  std::vector<std::vector<std::string>> axes = {{"axis", "place", "machine", "to go", ""}}, codes = {{"entry", "code", "state"}};
-  for (const Json& axis : reply.value("axes", Json::array()))
-    axes.push_back({text_at(axis, "name"), text_at(axis, "place"), text_at(axis, "machine"), text_at(axis, "to_go"), axis.value("away", false) ? "away" : ""});
-  text += table_text(axes);
+  text += axes_text(reply);
+  std::vector<std::vector<std::string>> codes = {{"entry", "code", "state"}};
   for (const Json& code : reply.value("codes", Json::array())) codes.push_back({text_at(code, "entry"), text_at(code, "code"), text_at(code, "state")});
   if (codes.size() > 1) text += table_text(codes);
   if (reply.value("left_out", 0) != 0) text += text_at(reply, "left_out") + " older M codes are not in the list\n";

@@ -107,16 +107,77 @@ std::map<std::string, std::set<std::string>> word_tree() {
   return tree;
 }
 
-std::string joined(const std::set<std::string>& words) {
+template <class Words>
+std::string joined(const Words& words, const char* between) {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  for (const auto& word : words) text.append(text.empty() ? "" : between).append(word);
   return text;
+}
+
+// ---- completion ----
+
+// Options that say where the control is, each with a value.
+constexpr const char* kAccess[] = {"--socket", "--control", "--domain", "--security", "--network", "--client"};
+
+// Words that can stand for an argument or be the value of an option.
+struct WordChoice {
+  const char *of, *words;
+};
+constexpr WordChoice kWordChoices[] = {{"MODE", "auto mdi manual"}, {"ON", "on off"}, {"--kind", "alarm message action change run system"}, {"--table", "tools life offsets variables"}, {"--when", "rise fall change high low"}};
+
+// A command as its line in the manual page has it.
+struct CompletedCommand {
+  std::string words;
+  std::vector<std::string> arguments, options;
+  std::set<std::string> with_values;  // those of the options
+};
+
+// `arguments`: such as "NAME [FILE] [--count N | --all]".
+CompletedCommand completed_command(std::string words, const std::string& arguments) {
+  CompletedCommand command;
+  command.words = std::move(words);
+  bool is_value = false;
+  for (std::size_t at = 0; at < arguments.size();) {
+    const std::size_t end = std::min(arguments.find(' ', at), arguments.size());
+    const std::string word = arguments.substr(at, end - at);
+    const std::size_t begin = word.find_first_not_of('[');
+    const std::string bare = word.substr(begin, word.find_first_of("].", begin) - begin);
+    at = end + 1;
+    if (bare.rfind("--", 0) == 0) {
+      command.options.push_back(bare);
+      is_value = word.back() != ']';
+      if (is_value) command.with_values.insert(bare);
+    } else if (bare != "|") {
+      if (!is_value) command.arguments.push_back(bare);
+      is_value = false;
+    }
+  }
+  return command;
+}
+
+// Those of two words first: a command of one word may begin as they do.
+std::vector<CompletedCommand> completed_commands() {
+  std::vector<CompletedCommand> all;
+  for (const ServiceRow& row : service_table())
+    if (is_command(row)) all.push_back(completed_command(replaced(row.name, '.', ' '), arguments_of(row)));
+  for (const OwnCommand& own : kOwn) all.push_back(completed_command(own.words, own.arguments));
+  std::stable_sort(all.begin(), all.end(), [](const CompletedCommand& one, const CompletedCommand& other) {
+    const bool two = one.words.find(' ') != std::string::npos, other_two = other.words.find(' ') != std::string::npos;
+    return two != other_two ? two : one.words < other.words;
+  });
+  return all;
+}
+
+std::set<std::string> options_with_values() {
+  std::set<std::string> all;
+  for (const CompletedCommand& command : completed_commands()) all.insert(command.with_values.begin(), command.with_values.end());
+  return all;
 }
 
 }  // namespace
 
 bool is_command(const ServiceRow& row) {
-  constexpr Service kOthers[] = {Service::kHistory, Service::kExport, Service::kImport, Service::kParameterExport, Service::kParameterImport, Service::kLadderSwap, Service::kWatchBegin, Service::kWatchEnd, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
+  constexpr Service kOthers[] = {Service::kLimit, Service::kHistory, Service::kExport, Service::kImport, Service::kParameterExport, Service::kParameterImport, Service::kLadderSwap, Service::kWatchBegin, Service::kWatchEnd, Service::kTraceRead, Service::kTakeControl, Service::kReleaseControl, Service::kProgramRead, Service::kProgramBegin, Service::kProgramData, Service::kProgramFinish, Service::kProgramAbandon};
   return std::find(std::begin(kOthers), std::end(kOthers), row.service) == std::end(kOthers);
 }
 
@@ -192,25 +253,61 @@ std::string services_man() {
 }
 
 std::string services_bash() {
-  const auto tree = word_tree();
   std::string text =
-      "# SPDX-License-Identifier: Apache-2.0\n# Completion of ncctl for bash, made by scripts/service-tables from the table of services.\n_ncctl() {\n"
-      "  local word=${COMP_WORDS[COMP_CWORD]} words=() i\n"
+      "# SPDX-License-Identifier: Apache-2.0\n# Completion of ncctl for bash, made by scripts/service-tables from the table of services.\n"
+      "# The names of the programs, from the control that the line is about: those that come within a second.\n"
+      "_ncctl_programs() {\n"
+      "  local word=$1 self=ncctl name\n"
+      "  shift\n"
+      "  if [[ ${COMP_WORDS[0]} == */* && -x ${COMP_WORDS[0]} ]]; then self=${COMP_WORDS[0]}; fi\n"
+      "  while IFS= read -r name; do\n"
+      "    name=${name#'\"name\":\"'}\n"
+      "    name=${name%'\"'}\n"
+      "    if [[ $name == \"$word\"* ]]; then COMPREPLY+=(\"$(printf '%q' \"$name\")\"); fi\n"
+      "  done < <(timeout 1 \"$self\" \"$@\" --json programs list 2>/dev/null </dev/null | grep -o '\"name\":\"[^\"\\]*\"')\n"
+      "}\n"
+      "_ncctl() {\n"
+      "  local word=${COMP_WORDS[COMP_CWORD]} words=() access=() value= options= arguments=() used=0 i\n"
       "  for ((i = 1; i < COMP_CWORD; i++)); do\n"
       "    case ${COMP_WORDS[i]} in\n"
-      "      --socket | --control) ((i++)) ;;\n"
+      "      " + joined(kAccess, " | ") + ") access+=(\"${COMP_WORDS[i]}\" \"${COMP_WORDS[i + 1]-}\") value=${COMP_WORDS[i]}; ((i++)) ;;\n"
+      "      " + joined(options_with_values(), " | ") + ") value=${COMP_WORDS[i]}; ((i++)) ;;\n"
       "      -*) ;;\n"
       "      *) words+=(\"${COMP_WORDS[i]}\") ;;\n"
       "    esac\n"
       "  done\n"
-      "  case ${#words[@]} in\n"
-      "    0) COMPREPLY=($(compgen -W '--socket --control --json --help --version " + joined(tree.at("")) + "' -- \"$word\")) ;;\n"
-      "    1)\n      case ${words[0]} in\n";
+      "  COMPREPLY=()\n"
+      "  if ((i > COMP_CWORD)); then  # the word is the value of an option\n"
+      "    case $value in\n";
+  for (const WordChoice& choice : kWordChoices)
+    if (choice.of[0] == '-') text += std::string("      ") + choice.of + ") COMPREPLY=($(compgen -W '" + choice.words + "' -- \"$word\")) ;;\n";
+  text += "      --socket | --security | --file) compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- \"$word\") ;;\n"
+      "    esac\n"
+      "    return 0\n"
+      "  fi\n"
+      "  case \"${words[0]-} ${words[1]-}\" in\n";
+  for (const CompletedCommand& command : completed_commands()) {
+    const bool two = command.words.find(' ') != std::string::npos;
+    text += "    '" + command.words + (two ? "'" : " '*") + ") used=" + (two ? "2" : "1") + " options='" + joined(command.options, " ") + "' arguments=(" + joined(command.arguments, " ") + ") ;;\n";
+  }
+  text += "  esac\n"
+      "  if [[ $word == -* ]]; then\n"
+      "    COMPREPLY=($(compgen -W \"$options " + joined(kAccess, " ") + " --json --help --version\" -- \"$word\"))\n"
+      "    return 0\n"
+      "  fi\n"
+      "  case ${#words[@]} in\n";
+  const auto tree = word_tree();
+  text += "    0) COMPREPLY=($(compgen -W '" + joined(tree.at(""), " ") + "' -- \"$word\")) ;;\n    1)\n      case ${words[0]} in\n";
   for (const auto& [first, next] : tree)
-    if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next) + "' -- \"$word\")) ;;\n";
-  text += "        mode) COMPREPLY=($(compgen -W 'auto mdi manual' -- \"$word\")) ;;\n        single | optional) COMPREPLY=($(compgen -W 'on off' -- \"$word\")) ;;\n      esac\n      ;;\n"
-      "    *) case \"${words[0]} ${words[1]}\" in 'programs put' | 'ladder swap' | 'tables import' | 'tables export' | 'parameters import' | 'parameters export' | 'trace save') COMPREPLY=($(compgen -f -- \"$word\")) ;; esac ;;\n"
-      "  esac\n}\ncomplete -F _ncctl ncctl\n";
+    if (!first.empty()) text += "        " + first + ") COMPREPLY=($(compgen -W '" + joined(next, " ") + "' -- \"$word\")) ;;\n";
+  text += "      esac\n      ;;\n  esac\n"
+      "  ((used > 0)) || return 0\n"
+      "  case ${arguments[${#words[@]} - used]-} in\n"
+      "    NAME) _ncctl_programs \"$word\" \"${access[@]}\" ;;\n"
+      "    FILE) compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen -f -- \"$word\") ;;\n";
+  for (const WordChoice& choice : kWordChoices)
+    if (choice.of[0] != '-') text += std::string("    ") + choice.of + ") COMPREPLY=($(compgen -W '" + choice.words + "' -- \"$word\")) ;;\n";
+  text += "  esac\n}\ncomplete -F _ncctl ncctl\n";
   return text;
 }
 

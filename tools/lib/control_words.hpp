@@ -27,5 +27,8 @@ std::string services_markdown();
 std::string services_man();
 /** The completion of ncctl for bash. */
 std::string services_bash();
+// Types and topics of the services over DDS: the part of dds/nc_dds.idl and of dds/nc_dds.py between their markers.
+std::string services_idl();
+std::string services_python();
 
 }  // namespace nc::tools

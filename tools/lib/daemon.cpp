@@ -258,6 +258,7 @@ int check(const DaemonOptions& options, const rt::Config& config) {
   for (const std::string& warning : runtime->warnings()) warn(warning);
   std::printf("%s: %s, %u us, %u points: no errors\n", options.config.c_str(), config.name.c_str(), config.cycle_us, config.points.size());
   std::printf("motion: %s; look_ahead %u\n", rt::motion_text(config.nc, config.motion_given).c_str(), config.nc.look_ahead);
+  if (config.machine_kind->load != nullptr) std::printf("load of the bus %s\n", config.machine_kind->load(config).c_str());
   return 0;
 }
 

@@ -8,6 +8,8 @@
 // come to that only later, or repeat only after more passes: so the state after pass 199 is compared with the next 4, that after pass 399 with the next 8,
 // and so on. The state is needed so rarely that even the longest loop does not become slower, nor an inner loop, whose passes are counted anew again and
 // again.
+//
+// A loop that counts comes to new states for ever. Where its text has no end it is given up after some rounds, or when the time of the whole program is over.
 #include "tools/lib/loop_watch.hpp"
 
 #include <algorithm>
@@ -24,6 +26,7 @@ std::string program_of(const nc_source& source) { return source.program != 0 ? "
 
 bool LoopWatch::block(const nc_source& source, const Look& look) {
   in_block_ = {};
+  ++blocks_;
   levels_.resize(size_t{source.depth} + 1);  // removes the levels of calls that have returned
   Level& level = levels_.back();
   if (level.program != source.program || level.file != source.file) {
@@ -40,7 +43,9 @@ bool LoopWatch::block(const nc_source& source, const Look& look) {
     return false;
   }
   level.loops.erase(level.loops.upper_bound({source.line, UINT32_MAX}), level.loops.end());
-  return pass(source, from, &level.loops[{source.line, from}], look);
+  Loop& loop = level.loops[{source.line, from}];
+  if (loop.passes == 0) loop.began = blocks_;
+  return pass(source, from, &loop, look) || (source.depth == 0 && enough_rounds(source, from, loop));
 }
 
 bool LoopWatch::pass(const nc_source& to, uint32_t from, Loop* loop, const Look& look) {
@@ -49,6 +54,32 @@ bool LoopWatch::pass(const nc_source& to, uint32_t from, Loop* loop, const Look&
   verdict_ = "line " + std::to_string(from) + program_of(to) + ": " + std::to_string(loop->passes) + " passes of the loop back to line " +
              std::to_string(to.line) + why;
   return true;
+}
+
+bool LoopWatch::enough_rounds(const nc_source& to, uint32_t from, const Loop& loop) {
+  const bool enough = loop.passes == rounds_.rounds || (loop.passes >= rounds_.few && loop.passes < rounds_.rounds && blocks_ - loop.began >= rounds_.blocks);
+  if (!enough || !rounds_.never_ends || !rounds_.never_ends(to, from)) return false;
+  endless_as_written_ = true;
+  say_rounds({to.line, from}, loop);
+  return true;
+}
+
+void LoopWatch::say_rounds(const std::pair<uint32_t, uint32_t>& lines, const Loop& loop) {
+  verdict_ = "line " + std::to_string(lines.second) + ": " + std::to_string(loop.passes) + " rounds of the loop back to line " + std::to_string(lines.first);
+}
+
+bool LoopWatch::given_up() {
+  if (levels_.empty()) return false;
+  const Level& main = levels_.front();
+  for (const auto& [lines, loop] : main.loops) {
+    if (loop.passes < rounds_.few) continue;
+    nc_source to{};
+    to.file = main.file, to.program = main.program, to.line = lines.first;
+    const bool never_ends = rounds_.never_ends && rounds_.never_ends(to, lines.second);
+    if (verdict_.empty() || (never_ends && !endless_as_written_)) say_rounds(lines, loop);
+    endless_as_written_ |= never_ends;
+  }
+  return !verdict_.empty();
 }
 
 bool LoopWatch::block_goes_on(const nc_source& source, const Look& look) {
@@ -64,7 +95,7 @@ std::string LoopWatch::too_often(Loop* loop, const Look& look) const {
   if (limits_.same == 0 || passes + 1 < limits_.same) return {};
   const uint64_t since = passes - loop->kept_at;
   if (loop->kept_at == 0 || passes + 1 == 2 * (loop->kept_at + 1)) {
-    *loop = {passes, passes, look(), questions_};
+    *loop = {passes, passes, look(), questions_, loop->began};
   } else if (since <= std::min(kLongestPeriod, 2 * (loop->kept_at + 1) / limits_.same) && loop->questions == questions_ && look() == loop->state) {
     const std::string last = since == 1 ? ", the last one without any change" : ", the last " + std::to_string(since) + " of them back to where they began";
     return last + ": an endless loop";

@@ -3,10 +3,12 @@
 #include "tools/lib/number_hints.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +25,9 @@ std::string switched_off(const Session& session, nc_parameter_role role) {
   if (nc_parameter_key_get(session.control(), role, key) != NC_OK) return "";
   return nc_parameter_get(session.control(), kPartSystem, key, 0, &value) == NC_OK && value == 0 ? key : "";
 }
+
+/// So many blocks, of which one has a length with a point, are read before a faster way is looked for.
+constexpr uint32_t kReadAll = 100;
 
 /// The word as it is written in the block at `begin`, without blanks; its address alone where the block is so long that its place is not known.
 std::string spelled(std::string_view text, size_t begin, const nc_plain_word& word) {
@@ -93,6 +98,95 @@ class DwellSearch {
   Letter letters_[2];  // of codes: the capital and the small one
 };
 
+/// Finds the lines of a text that may have a length without a decimal point, without reading the others: where programs come from a CAM system those are nearly
+/// all. What no plain word begins with (a comment, a formula, a comma) makes its line one that must be read.
+class UndottedSearch {
+ public:
+  UndottedSearch(std::string_view text, nc_dialect dialect, const std::string& axes) : text_(text) {
+    std::array<Kind, 256> kinds;
+    kinds.fill(Kind::other);
+    const auto at = [&kinds](char c) -> Kind& { return kinds[static_cast<unsigned char>(c)]; };
+    for (const char c : {' ', '\t', '\r', '+', '-'}) at(c) = Kind::between;
+    for (char c = '0'; c <= '9'; ++c) at(c) = Kind::digit;
+    at('.') = Kind::point;
+    at('\n') = Kind::line_end;
+    bool read[26] = {}, length[26] = {};
+    nc_function row = NC_INIT(nc_function);
+    for (unsigned i = 0; nc_function_row(dialect, i, &row) == NC_OK; ++i) look_at_letters(row.code, dialect, axes, read, length);
+    for (unsigned i = 0; i < 26; ++i) {
+      const Kind kind = read[i] && !length[i] ? Kind::no_length : Kind::length;
+      at(static_cast<char>('A' + i)) = at(static_cast<char>('a' + i)) = kind;
+    }
+    for (unsigned c = 0; c < 256; ++c) steps_[c] = steps_of(kinds[c]);
+  }
+
+  /// The first character from `from` on, where a block begins, of such a line; the size of the text where none follows.
+  size_t next(size_t from) const {
+    uint64_t state = shift_of(State::before);
+    const char *place = text_.data() + from, *const end = text_.data() + text_.size();
+    while (end - place >= kAtOnce) {
+      uint64_t behind = state;
+      for (unsigned i = 0; i < kAtOnce; ++i) behind = step(behind, place[i]);
+      if (behind == shift_of(State::found)) break;
+      state = behind;
+      place += kAtOnce;
+    }
+    while (place != end && (state = step(state, *place)) != shift_of(State::found)) ++place;
+    if (place == end && state != shift_of(State::digits)) return text_.size();
+    const auto found = static_cast<size_t>(place - text_.data());
+    const size_t line_end = found == 0 ? text_.npos : text_.rfind('\n', found - 1);
+    return line_end == text_.npos ? from : std::max(from, line_end + 1);
+  }
+
+ private:
+  enum class Kind : uint8_t { other, length, no_length, between, line_end, digit, point };
+  enum class State : uint8_t {
+    beside,  ///< in a word that is no length
+    before,  ///< where a number would be that of a length; one in front of any address is none of a plain word
+    digits,  ///< in such a number, which has no point so far
+    dotted,  ///< in such a number, which has one
+    found    ///< and stays so
+  };
+  /// What follows in each state from a character of each kind.
+  static constexpr State kNext[4][8] = {
+      {State::found, State::before, State::beside, State::beside, State::before, State::beside, State::beside},
+      {State::found, State::before, State::beside, State::before, State::before, State::digits, State::dotted},
+      {State::found, State::found, State::found, State::found, State::found, State::digits, State::dotted},
+      {State::found, State::before, State::beside, State::before, State::before, State::dotted, State::dotted}};
+
+  // A state is held as the place of its bits in a word that has the next state for each one. A step is then one shift of a word that depends on the character
+  // alone: a table of two indices would be waited for once for each character, and a branch would be guessed wrong.
+  static constexpr unsigned kBits = 6;       // hold the place of any state
+  static constexpr std::ptrdiff_t kAtOnce = 32;  // characters between two looks whether the state is `found`
+  static constexpr uint64_t shift_of(State state) { return kBits * static_cast<uint64_t>(state); }
+  static uint64_t steps_of(Kind kind) {
+    uint64_t steps = shift_of(State::found) << shift_of(State::found);
+    for (unsigned state = 0; state < 4; ++state) steps |= shift_of(kNext[state][static_cast<unsigned>(kind)]) << (kBits * state);
+    return steps;
+  }
+  uint64_t step(uint64_t state, char c) const { return steps_[static_cast<unsigned char>(c)] >> state & ((1u << kBits) - 1); }
+
+  /// Marks which letters the family reads as words of a block with this code, and which of them are lengths there. A word that the family takes at the begin of a
+  /// block only is asked for there.
+  static void look_at_letters(const std::string& code, nc_dialect dialect, const std::string& axes, bool* read, bool* length) {
+    nc_block_text block = NC_INIT(nc_block_text);
+    nc_plain_word words[NC_MAX_WORDS];
+    std::string text = "N1" + code;
+    for (char c = 'A'; c <= 'Z'; ++c)
+      if (c != 'N' && c != 'O') text += std::string(1, c) + "1";
+    block.data = false;
+    if (nc_block_words(dialect, axes.c_str(), text.data(), text.size(), &block, words) != NC_OK) return;
+    for (uint32_t i = 0; i < block.count; ++i) {
+      if (words[i].letter < 'A' || words[i].letter > 'Z') continue;
+      read[words[i].letter - 'A'] = true;
+      if (words[i].kind == NC_NUMBER_LENGTH) length[words[i].letter - 'A'] = true;
+    }
+  }
+
+  const std::string_view text_;
+  std::array<uint64_t, 256> steps_;  ///< for each character
+};
+
 }  // namespace
 
 bool NumberHints::count_without_point(const std::string& word, double value) {
@@ -109,17 +203,20 @@ NumberHints number_hints(std::string_view text, nc_dialect dialect, const std::s
   NumberHints hints;
   const auto line_of = [&](size_t place) { return 1 + static_cast<uint32_t>(std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(place), '\n')); };
   DwellSearch dwells(text, dialect);
+  std::optional<UndottedSearch> undotted;  // what it has to know is looked up where a program is long enough
+  uint32_t blocks = 0;
   nc_block_text block = NC_INIT(nc_block_text);
   nc_plain_word words[NC_MAX_WORDS];
   for (size_t begin = 0; begin < text.size(); begin += block.used) {
-    if (!lengths && !block.data) begin = dwells.next(begin);
+    if (lengths && !undotted && hints.with_point && ++blocks > kReadAll) undotted.emplace(text, dialect, axes);
+    if (!block.data && (!lengths || undotted)) begin = lengths ? std::min(dwells.next(begin), undotted->next(begin)) : dwells.next(begin);
     if (begin == text.size()) break;
     if (nc_block_words(dialect, axes.c_str(), text.data() + begin, text.size() - begin, &block, words) != NC_OK || block.used == 0) return {};
     for (uint32_t i = 0; i < block.count; ++i) {
       const nc_plain_word& word = words[i];
       if (word.value == 0) continue;  // the same in every unit
       if (word.kind == NC_NUMBER_LENGTH) {
-        if (word.point) ++hints.with_point;
+        if (word.point) hints.with_point = true;
         else if (hints.count_without_point(spelled(text, begin, word), std::fabs(word.value))) hints.first_without = line_of(begin);
       }
       if (word.kind != NC_NUMBER_DWELL || !word.point || hints.dwells++ != 0) continue;

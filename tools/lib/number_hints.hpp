@@ -13,7 +13,8 @@ namespace nc::tools {
 
 /** What the text of a program shows, whether its blocks are executed or not. */
 struct NumberHints {
-  uint64_t with_point = 0, without_point = 0;  // number of dimension words; zeros are not counted, because they are the same in every unit
+  bool with_point = false;     // some dimension word has a point; zeros do not count, because they are the same in every unit
+  uint64_t without_point = 0;  // number of dimension words without a point, zeros not counted
   uint32_t first_without = 0;                  // line of the first word without a point
   std::string first_word;                      // that word: "X10"
   double largest_without = 0;
@@ -29,7 +30,7 @@ struct NumberHints {
    * True when the numbers without a point were probably not meant in thousandths: other numbers have a point, or all of them are less than a millimetre. A
    * program whose numbers are all in thousandths is probably meant so; for it there is only a note.
    */
-  bool doubtful() const { return without_point != 0 && (with_point != 0 || largest_without < 1000); }
+  bool doubtful() const { return without_point != 0 && (with_point || largest_without < 1000); }
 
   /** They were probably meant in whole mm or inch: they are not only doubtful, but are places on a machine as such. One of them that would be metres away is not. */
   bool probably_whole() const { return doubtful() && largest_without < 1000; }

@@ -14,8 +14,8 @@ constexpr uint64_t kMostMovesInBlock = 1000000;  // a cycle with a peck of a tho
 
 class OfflineRun {
  public:
-  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops)
-      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops) {}
+  OfflineRun(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides, bool one_pass, const RunProgress& progress, const LoopLimits& loops, const RoundLimits& rounds)
+      : items_(*items), world_(*world), sink_(*sink), one_pass_(one_pass), progress_(progress), next_told_(progress.first), passes_(std::move(decides)), loops_(loops, without_silent(rounds)) {}
 
   RunResult run(uint64_t max_silent_blocks) {
     passes_moves_ = !sink_.takes_moves() && world_.waits_for_nothing();
@@ -44,8 +44,9 @@ class OfflineRun {
       }
       if (!handle(item_)) return result_;
       if (result_.one_pass || sink_.stop()) {
-        result_.how = result_.one_pass ? RunResult::How::kEnded : RunResult::How::kStopped;
-        if (result_.one_pass) sink_.end(last(), true, work_, world_.machine(), modal_);
+        if (!result_.one_pass) return stopped();
+        result_.how = RunResult::How::kEnded;
+        sink_.end(last(), true, work_, world_.machine(), modal_);
         return finish();
       }
     }
@@ -54,6 +55,13 @@ class OfflineRun {
   }
 
  private:
+  // Rounds in which the machine has got nothing to do are no rounds of a program that is for it.
+  RoundLimits without_silent(RoundLimits rounds) {
+    if (rounds.never_ends)
+      rounds.never_ends = [this, most = rounds.rounds, asks = rounds.never_ends](const nc_source& to, uint32_t from) { return silent_ < most && asks(to, from); };
+    return rounds;
+  }
+
   // Where the last item comes from; all 0 before there is one.
   const nc_source& last() const { return item_.source; }
 
@@ -121,6 +129,7 @@ class OfflineRun {
 
   void give_up_loop() {
     result_.loop = loops_.verdict();
+    result_.endless_as_written = loops_.endless_as_written();
     give_up(loops_.verdict_and_option());
   }
 
@@ -131,6 +140,10 @@ class OfflineRun {
 
   RunResult stopped() {
     result_.how = RunResult::How::kStopped;
+    if (loops_.given_up()) {
+      result_.loop = loops_.verdict();
+      result_.endless_as_written = loops_.endless_as_written();
+    }
     return finish();
   }
 
@@ -333,8 +346,8 @@ bool has_decision(std::string_view text) {
 }
 
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides,
-                      uint64_t max_silent_blocks, bool one_pass, const RunProgress& progress, const LoopLimits& loops) {
-  return OfflineRun(items, world, sink, std::move(decides), one_pass, progress, loops).run(max_silent_blocks);
+                      uint64_t max_silent_blocks, bool one_pass, const RunProgress& progress, const LoopLimits& loops, const RoundLimits& rounds) {
+  return OfflineRun(items, world, sink, std::move(decides), one_pass, progress, loops, rounds).run(max_silent_blocks);
 }
 
 }  // namespace nc::tools

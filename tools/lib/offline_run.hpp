@@ -45,8 +45,9 @@ struct RunResult {
   How how = How::kFailed;
   nc_alarm alarm = {};  // for kAlarmed
   std::string error;    // for kFailed; for kEndless the loop that was given up
-  std::string loop;     // that loop, without an option of ncsim; "" where it is no loop that comes back to itself
+  std::string loop;     // that loop, without an option of ncsim; "" where it is none. For kStopped one that is under way
   uint64_t blocks = 0, moves = 0;
+  bool endless_as_written = false;  // with kEndless and kStopped: that loop has no end by what is written, and comes to new states
   bool silent = false;    // with kEndless: so many blocks in a row did nothing that the machine would notice
   bool one_pass = false;  // with kEnded: the run ended where M99 would begin the main program again
   double length = 0.0;    // mm
@@ -112,10 +113,11 @@ struct RunProgress {
  * Runs the program to its end. The run is given up after `max_silent_blocks` blocks in a row that only calculate and jump, and after more passes of a
  * loop than `loops` allows; 0 = no limit. Blocks that read the clock are not counted: time passes, so a waiting loop ends. Where M99
  * would begin the main program again, the run ends; without `one_pass` it goes on there if the passes differ (Passes).
+ * @param rounds when a loop that counts is given up because its text has no end
  * @param decides has_decision() of the main program, asked at the end of its first pass
  */
 RunResult run_offline(ItemSource* items, VirtualWorld* world, RunSink* sink, Decides decides,
                       uint64_t max_silent_blocks, bool one_pass = false, const RunProgress& progress = {},
-                      const LoopLimits& loops = LoopLimits::all(0));
+                      const LoopLimits& loops = LoopLimits::all(0), const RoundLimits& rounds = {});
 
 }  // namespace nc::tools

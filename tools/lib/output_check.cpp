@@ -32,10 +32,10 @@ bool standard_output_written() {
   return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
 }
 
-int status_when_written(const char* program, int status) {
-  if (standard_output_written()) return status;
+int status_when_written(const char* program, int status, int unwritten) {
+  if (standard_output_written() || status != 0) return status;
   std::fprintf(stderr, "%s: standard output cannot be written\n", program);
-  return status == 0 ? 1 : status;
+  return unwritten;
 }
 
 }  // namespace nc::tools

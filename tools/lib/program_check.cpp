@@ -14,8 +14,10 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "runtime/alarm_message.hpp"
 #include "runtime/nc_system.hpp"
@@ -25,6 +27,7 @@
 #include "tools/lib/offline_run.hpp"
 #include "tools/lib/program_files.hpp"
 #include "tools/lib/virtual_world.hpp"
+#include "tools/lib/way_out.hpp"
 
 namespace nc::tools {
 namespace {
@@ -41,6 +44,8 @@ constexpr unsigned kPlacesOfCurve = 64;        // places of a curve at which its
 constexpr std::size_t kMostLookedBehind = 1u << 20;  // bytes of a program that is read again without the lines of its alarms
 constexpr double kBehindSeconds = 5;           // processor time for that
 constexpr unsigned kItemsPerLook = 256;        // between two looks at the clock
+// Behind the rounds of a loop that has no end by what is written.
+constexpr const char* kCounts = " are good, in which it comes to new values each time: later ones are not checked";
 constexpr double kRoom = 1e-6;                 // mm, deg: so far an axis may be beyond its limit by rounding
 constexpr uint32_t kAsks = NC_SYNC_INPUT | NC_SYNC_CLOCK | NC_SYNC_SKIP;  // what only the machine knows
 
@@ -77,7 +82,11 @@ class CheckSink final : public RunSink {
     else if (move.center_axes == 2) cover_circle(source, move);
     extra_s_ += seconds_beyond(move);
   }
-  void block(const nc_source& source, const nc_axes&, const nc_axes&) override { last_ = source; }
+  void block(const nc_source& source, const nc_axes&, const nc_axes&) override {
+    if (source.depth == 0) main_file_ = source.file;
+    else calls_itself_ |= source.file == main_file_;
+    last_ = source;
+  }
   void aux(const nc_source&, char code, double value) override {
     const auto tool = static_cast<uint32_t>(value);
     if (code != 'T' || report_.tools.size() >= CheckReport::kMostTools || std::find(report_.tools.begin(), report_.tools.end(), tool) != report_.tools.end()) return;
@@ -106,6 +115,8 @@ class CheckSink final : public RunSink {
   bool refused() const { return refused_; }
   // The line of the main program whose alarm has ended it; 0 = none.
   std::uint32_t alarm_line() const { return ended_by_.depth == 0 ? ended_by_.line : 0; }
+  // A sub program stands in the text of the main program.
+  bool calls_itself() const { return calls_itself_; }
   const nc_source& last() const { return last_; }
   double extra_seconds() const { return extra_s_; }
   void finish() const {
@@ -192,15 +203,17 @@ class CheckSink final : public RunSink {
   const double end_s_;
   mutable unsigned looks_ = 0;
   mutable bool stopped_ = false;
-  bool asked_ = false, refused_ = false, moved_ = false;
+  bool asked_ = false, refused_ = false, moved_ = false, calls_itself_ = false;
+  std::uint32_t main_file_ = 0;
   nc_source last_{}, ended_by_{};
   double least_[NC_MAX_AXES], most_[NC_MAX_AXES], extra_s_ = 0;
   bool told_[NC_MAX_AXES][2] = {};
 };
 
+constexpr std::size_t kHead = 1u << 20;  // bytes of a program in which it is looked for what it decides
+
 // The text of the main program as far as has_decision() is to see it: what a large program decides would be found too late for a check of bounded time.
 std::string head_of(rt::ProgramText* text) {
-  constexpr std::size_t kHead = 1u << 20;
   std::string head(static_cast<std::size_t>(std::min<uint64_t>(text->size(), kHead)), '\0');
   const long count = text->read(0, head.data(), head.size());
   head.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
@@ -238,7 +251,9 @@ class Check {
     setup.start = machine_.position[order_.system];
     setup.clock_ms = local_ms();
     VirtualWorld world(setup, config_.nc.system[order_.system]);
-    const RunResult result = run_offline(items_.get(), &world, sink_.get(), [this] { return has_decision(head_of(files_.text_of(file_).get())); }, kMostSilentBlocks, true, {}, LoopLimits{});
+    RoundLimits rounds;
+    rounds.never_ends = [this](const nc_source& to, uint32_t from) { return never_ends(to.line, from); };
+    const RunResult result = run_offline(items_.get(), &world, sink_.get(), [this] { return has_decision(head_of(files_.text_of(file_).get())); }, kMostSilentBlocks, true, {}, LoopLimits{}, rounds);
     report_.seconds = std::max(0.0, result.seconds + sink_->extra_seconds());
     report_.length = result.length;
     report_.blocks = result.blocks;
@@ -324,6 +339,20 @@ class Check {
     return false;
   }
 
+  // Of a loop of the main program, by what is written (way_out.hpp).
+  bool never_ends(std::uint32_t first, std::uint32_t last) {
+    const auto [known, asked] = never_ends_.try_emplace({first, last}, false);
+    if (!asked) return known->second;
+    const auto dialect = static_cast<nc_dialect>(config_.nc.dialect);
+    const auto whole = files_.text_of(file_);
+    if (whole->size() > kHead) return false;
+    const std::string text = head_of(whole.get());
+    if (has_way_out(dialect, text, first, last) || (sink_->calls_itself() && may_not_return(dialect, text))) return false;
+    for (const auto& [path, called] : files_.texts())
+      if (called != whole && (called->size() > kHead || may_not_return(dialect, head_of(called.get())))) return false;
+    return known->second = true;
+  }
+
   void note_files() {
     for (const auto& [path, text] : files_.texts())
       if (path != order_.path) report_.files.push_back({path, text->info()});
@@ -356,10 +385,15 @@ class Check {
           report_.text = "line " + std::to_string(sink_->last().line) + ": an endless loop, " + std::to_string(kMostSilentBlocks) + " blocks in which nothing happens";
         } else {
           report_.state = CheckState::kPassed;
-          report_.text = "it goes on until a reset: " + result.loop;
+          report_.text = "it goes on until a reset: " + result.loop + (result.endless_as_written ? kCounts : "");
         }
         return;
       case RunResult::How::kStopped:
+        if (!given_up_ && !result.loop.empty() && (result.endless_as_written || sink_->asked())) {
+          report_.state = CheckState::kPassed;
+          report_.text = result.endless_as_written ? "it goes on until a reset: " + result.loop + kCounts : "up to " + result.loop + behind;
+          return;
+        }
         report_.text = "not checked: too long: " + std::to_string(result.blocks) + " blocks are good, more took longer than " + std::to_string(static_cast<long long>(std::ceil(order_.limit_s))) +
                        " s of processor time";
         return;
@@ -387,6 +421,7 @@ class Check {
   unsigned file_ = 0;
   std::unique_ptr<ControlSource> items_;
   std::unique_ptr<CheckSink> sink_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, bool> never_ends_;  // of the loops that were asked for
 };
 
 }  // namespace

@@ -12,10 +12,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "runtime/programs/called_number.hpp"
 #include "runtime/services/sha256.hpp"
 
 namespace nc::tools {
@@ -40,20 +40,6 @@ char lower(char c) {
 bool equal_any_case(const std::string& a, const std::string& b) {
   return a.size() == b.size() &&
          std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
-}
-
-// The number in a name `O<digits>` or `O<digits>.<ending>`, in upper or lower case. At most 9 digits are read, because O numbers have at most
-// 8.
-std::optional<unsigned long> program_number(const std::string& name) {
-  if (name.size() < 2 || lower(name[0]) != 'o') return std::nullopt;
-  size_t end = 1;
-  unsigned long number = 0;
-  while (end < name.size() && name[end] >= '0' && name[end] <= '9') {
-    number = number * 10 + static_cast<unsigned long>(name[end] - '0');
-    if (++end > 10) return std::nullopt;
-  }
-  if (end == 1 || (end < name.size() && name[end] != '.')) return std::nullopt;
-  return number;
 }
 
 std::string base_name(const std::string& path) {
@@ -180,9 +166,10 @@ void ProgramFiles::forget(unsigned file) {
   std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) { return entry->index == file; });
 }
 
+// Protected ones as well: a parameter protects a program from those who operate the control, and what runs is always what the file has.
 void ProgramFiles::give_up_unused(nc_control* control) {
   std::erase_if(entries_, [&](const std::unique_ptr<Entry>& entry) {
-    return !(remembered_ && remembered_(entry->index)) && nc_program_remove(control, entry->index) == NC_OK;
+    return !(remembered_ && remembered_(entry->index)) && nc_program_give_up(control, entry->index) == NC_OK;
   });
 }
 
@@ -192,12 +179,12 @@ bool ProgramFiles::make_room(nc_control* control) {
   uint64_t used = 0;
   for (const auto& entry : entries_) {
     nc_program_info info;
-    if (nc_program_get(control, entry->index, &info) != NC_OK || info.in_use || info.is_protected) continue;
+    if (nc_program_get(control, entry->index, &info) != NC_OK || info.in_use) continue;
     if ((remembered_ && remembered_(entry->index)) || (oldest && info.used > used)) continue;
     oldest = entry.get();
     used = info.used;
   }
-  if (!oldest || nc_program_remove(control, oldest->index) != NC_OK) return false;
+  if (!oldest || nc_program_give_up(control, oldest->index) != NC_OK) return false;
   forget(oldest->index);
   return true;
 }
@@ -243,11 +230,11 @@ long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t siz
 std::string ProgramFiles::find(const std::string& name) const {
   if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos) return "";
   const std::vector<std::string> listing = list_folder(folder_);
-  const auto number = program_number(name);
+  const auto number = rt::called_number(name);
   const std::string* loose = nullptr;
   for (const std::string& candidate : listing) {
     if (candidate == name) return folder_ + "/" + candidate;
-    const bool fits = number ? program_number(candidate) == number : equal_any_case(candidate, name);
+    const bool fits = number ? rt::called_number(candidate) == number : equal_any_case(candidate, name);
     if (fits && !loose) loose = &candidate;
   }
   return loose ? folder_ + "/" + *loose : "";

@@ -14,14 +14,13 @@
 #include <cstring>
 
 #include "runtime/services/call.hpp"
+#include "runtime/services/frames.hpp"
 
 namespace nc::tools {
 namespace {
 
 constexpr timeval kPatience{30, 0};
 constexpr std::size_t kReadBytes = 65536;
-
-ServiceRefusal nobody(const std::string& text) { return {kControlNobody, "no connection", text}; }
 
 int status_of(const std::string& error) {
   using rt::services::Refused;
@@ -34,13 +33,7 @@ int status_of(const std::string& error) {
 }
 
 // The refusal that a message holds.
-ServiceRefusal refusal_of(const Json& message) {
-  ServiceRefusal refusal;
-  refusal.error = message.value("error", "failed");
-  refusal.text = message.value("text", "");
-  refusal.status = status_of(refusal.error);
-  return refusal;
-}
+ServiceRefusal refusal_of(const Json& message) { return refusal_named(message.value("error", "failed"), message.value("text", "")); }
 
 // An update of a watch list comes without a request.
 bool is_update(const Json& message) { return message.contains("watch") && !message.contains("id"); }
@@ -56,7 +49,34 @@ void add_sockets(const std::string& folder, std::vector<std::string>* paths) {
   closedir(stream);
 }
 
+class LocalClient : public ServiceClient {
+ public:
+  LocalClient() {}  // not = default, which would be noexcept: a Json may need memory
+  ~LocalClient() override {
+    if (socket_ >= 0) close(socket_);
+  }
+  bool open(const std::string& path, ServiceRefusal* refusal);
+  bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) override;
+  bool next_update(Json* update, ServiceRefusal* refusal) override;
+
+ private:
+  bool receive(Json* message, ServiceRefusal* refusal);
+  int socket_ = -1;
+  std::uint64_t next_id_ = 1;
+  rt::services::FrameReader in_;
+};
+
 }  // namespace
+
+ServiceRefusal refusal_named(const std::string& error, const std::string& text) { return {status_of(error), error, text}; }
+
+ServiceRefusal no_connection(const std::string& text) { return {kControlNobody, "no connection", text}; }
+
+std::unique_ptr<ServiceClient> open_local_client(const std::string& path, ServiceRefusal* refusal) {
+  auto client = std::make_unique<LocalClient>();
+  if (client->open(path, refusal)) return client;
+  return nullptr;
+}
 
 std::vector<std::string> find_sockets() {
   std::vector<std::string> paths;
@@ -67,36 +87,33 @@ std::vector<std::string> find_sockets() {
   return paths;
 }
 
-ServiceClient::~ServiceClient() {
-  if (socket_ >= 0) close(socket_);
-}
-
-bool ServiceClient::open(const std::string& path, ServiceRefusal* refusal) {
+bool LocalClient::open(const std::string& path, ServiceRefusal* refusal) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.size() >= sizeof address.sun_path) {
-    *refusal = nobody(path + ": the path is too long");
+    *refusal = no_connection(path + ": the path is too long");
     return false;
   }
   std::memcpy(address.sun_path, path.data(), path.size());
   socket_ = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (socket_ < 0 || connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    *refusal = nobody(path + ": " + (errno == ECONNREFUSED || errno == ENOENT ? "no control runs there" : std::strerror(errno)));
+    *refusal = no_connection(path + ": " + (errno == ECONNREFUSED || errno == ENOENT ? "no control runs there" : std::strerror(errno)));
     return false;
   }
   (void)setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
   (void)setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
-  if (!receive(&greeting_, refusal)) return false;
-  if (greeting_.value("ncrtd", 0u) != rt::services::kProtocol) {
-    *refusal = nobody(path + ": it speaks another protocol");
+  Json greeting;
+  if (!receive(&greeting, refusal)) return false;
+  if (greeting.value("ncrtd", 0u) != rt::services::kProtocol) {
+    *refusal = no_connection(path + ": it speaks another protocol");
     return false;
   }
-  if (greeting_.value("ok", false)) return true;
-  *refusal = refusal_of(greeting_);
+  if (greeting.value("ok", false)) return true;
+  *refusal = refusal_of(greeting);
   return false;
 }
 
-bool ServiceClient::receive(Json* message, ServiceRefusal* refusal) {
+bool LocalClient::receive(Json* message, ServiceRefusal* refusal) {
   std::string text;
   for (;;) {
     const auto next = in_.next(&text);
@@ -105,25 +122,25 @@ bool ServiceClient::receive(Json* message, ServiceRefusal* refusal) {
     const ssize_t count = next == rt::services::FrameReader::Next::kTooLong ? 0 : recv(socket_, bytes, sizeof bytes, 0);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      *refusal = nobody(count == 0 ? "the control has ended the connection" : "the control does not answer");
+      *refusal = no_connection(count == 0 ? "the control has ended the connection" : "the control does not answer");
       return false;
     }
     in_.add({bytes, static_cast<std::size_t>(count)});
   }
   *message = Json::parse(text, nullptr, false);
   if (message->is_object()) return true;
-  *refusal = nobody("the control sends what is no reply");
+  *refusal = no_connection("the control sends what is no reply");
   return false;
 }
 
-bool ServiceClient::call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) {
+bool LocalClient::call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) {
   const Json request = {{"id", next_id_}, {"service", service}, {"args", args}};
   const std::string frame = rt::services::frame_of(request.dump(-1, ' ', false, Json::error_handler_t::replace));
   for (std::size_t sent = 0; sent < frame.size();) {
     const ssize_t count = send(socket_, frame.data() + sent, frame.size() - sent, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
-      *refusal = nobody("the control has ended the connection");
+      *refusal = no_connection("the control has ended the connection");
       return false;
     }
     sent += static_cast<std::size_t>(count);
@@ -141,7 +158,7 @@ bool ServiceClient::call(const std::string& service, const Json& args, Json* rep
   return true;
 }
 
-bool ServiceClient::next_update(Json* update, ServiceRefusal* refusal) {
+bool LocalClient::next_update(Json* update, ServiceRefusal* refusal) {
   do {
     if (!receive(update, refusal)) return false;
   } while (!is_update(*update));

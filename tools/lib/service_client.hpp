@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The client's side of the services on a local socket: connects, asks, waits for the reply.
+// The client's side of the services: asks, waits for the reply. Here the one on a local socket; the one over DDS is in tools/remote.
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
-
-#include "runtime/services/frames.hpp"
 
 namespace nc::tools {
 
@@ -27,28 +25,36 @@ struct ServiceRefusal {
 /** The sockets of controls that run on this computer, sorted: those in /run/ncrtd and in the user's folder of run-time files. */
 std::vector<std::string> find_sockets();
 
+/** The refusal with this name in the protocol, with the exit status that belongs to it. */
+ServiceRefusal refusal_named(const std::string& error, const std::string& text);
+/** There is nobody, or nobody answers. */
+ServiceRefusal no_connection(const std::string& text);
+
 class ServiceClient {
  public:
-  ServiceClient() {}  // not = default, which would be noexcept: a Json may need memory
-  ~ServiceClient();
+  ServiceClient() = default;
+  virtual ~ServiceClient() = default;
   ServiceClient(const ServiceClient&) = delete;
   ServiceClient& operator=(const ServiceClient&) = delete;
-
-  /** Connects and reads the greeting. On failure `refusal` says why. */
-  bool open(const std::string& path, ServiceRefusal* refusal);
   /** Asks for a service and waits for its reply, at most 30 s. On failure `refusal` says why. */
-  bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal);
+  virtual bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) = 0;
   /** Waits for the next update of a watch list, at most 30 s. On failure `refusal` says why. */
-  bool next_update(Json* update, ServiceRefusal* refusal);
-  /** What the control said when it let the client in. */
-  const Json& greeting() const { return greeting_; }
-
- private:
-  bool receive(Json* message, ServiceRefusal* refusal);
-  int socket_ = -1;
-  std::uint64_t next_id_ = 1;
-  rt::services::FrameReader in_;
-  Json greeting_;
+  virtual bool next_update(Json* update, ServiceRefusal* refusal) = 0;
 };
+
+/** Connects to the socket and reads the greeting; null with the reason in *refusal. */
+std::unique_ptr<ServiceClient> open_local_client(const std::string& path, ServiceRefusal* refusal);
+
+/** Where a control is over DDS, and as whom. */
+struct RemoteAccess {
+  bool used = false;      ///< over DDS, and not on the local socket
+  unsigned domain = 0;
+  std::string security;   ///< folder of an identity; "" = without DDS Security
+  std::string network;    ///< interface; "" = this computer only
+  std::string control;    ///< its name, which is the partition
+  std::string client;     ///< name of this client; "" = one of its own
+};
+/** What makes a client over DDS (tools/remote/remote_client.hpp); null in a program without Cyclone DDS. */
+using OpenRemote = std::unique_ptr<ServiceClient> (*)(const RemoteAccess& access, ServiceRefusal* refusal);
 
 }  // namespace nc::tools

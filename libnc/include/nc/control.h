@@ -52,11 +52,12 @@ NC_API nc_dialect nc_control_dialect(const nc_control* control);
 /* ---- state ---------------------------------------------------------------------------------------------------- */
 
 /**
- * Set the position of the machine while nothing runs; all axes count as referenced. Feeder thread.
+ * Set the position of the machine while nothing runs; all axes count as referenced. Not between nc_restart_begin() and the cycle start at the place (nc/restart.h): set it
+ * in front of nc_restart_begin(), or give the place up with nc_restart_cancel() first. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param machine machine coordinates, mm or deg, between -1e9 and 1e9; copied
- * @return NC_OK; NC_E_STATE: a program runs; NC_E_ARGUMENT: no such part system, `machine` is NULL, or a coordinate is out of range
+ * @return NC_OK; NC_E_STATE: a program runs, or a place to begin at is looked for or found; NC_E_ARGUMENT: no such part system, `machine` is NULL, or a coordinate is out of range
  */
 NC_API nc_status nc_position_set(nc_control* control, unsigned system, const nc_axes* machine);
 

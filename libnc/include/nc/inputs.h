@@ -32,7 +32,7 @@ typedef enum nc_manual_kind {
                                that of any axis which has to do with it: with the next start, and without a movement (M700 12.2 (4), 12.3). Not while a program that
                                is begun inside has not gone on */
   NC_MANUAL_RETURN = 5    /**< in a block stop: the axis goes back to where the program, or the blocks of MDI behind it, have left it, or, where the program is begun inside (nc/restart.h), to where it
-                               goes on. An axis that stands there already does not move. Of a velocity the amount counts, 0 means the top speed of the axis */
+                               goes on; in a feed hold to where its path has stopped. An axis that stands there already does not move. Of a velocity the amount counts, 0 means the top speed of the axis */
 } nc_manual_kind;
 
 typedef struct nc_manual {
@@ -105,7 +105,7 @@ typedef struct nc_inputs {
   nc_axes actual;        /**< measured machine position, mm or deg, -1e9..1e9; read only while `actual_valid` is true */
   bool follow_up;        /**< level, for times when the drives are off: while no program runs the commanded position follows `actual` */
   nc_manual manual[NC_MAX_AXES]; /**< manual motion of each axis, while nc_outputs::manual_allowed is on; a program in a block stop goes on from where it
-                                      has led */
+                                      has led, one that a feed hold has stopped only when the axes are back (nc_outputs::restart_axes), whatever `manual_absolute_off` is */
   bool manual_absolute_off; /**< level, read when cycle start goes on from a block stop in which axes were moved by hand. True: the coordinate systems are
                                  moved along with these axes. False (manual absolute is on): the coordinate systems stay, and an absolute command
                                  goes to its programmed position (M700 12.4.4, 14.12) */

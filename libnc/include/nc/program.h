@@ -88,6 +88,16 @@ static inline void nc_program_info_init(nc_program_info* info) {
 NC_API nc_status nc_program_get(const nc_control* control, unsigned file, nc_program_info* info);
 
 /**
+ * Whether a parameter protects the number that a text of this name has or would have (M700 #8105, #1121), whether or not it is in the program store. For a host
+ * with a folder of programs, which reads some of them only when they are called. Feeder thread.
+ * @param control the control
+ * @param name name of the text, for example "O9001.nc"; a path in front of it does not count
+ * @param is_protected receives it
+ * @return NC_OK; NC_E_ARGUMENT: a pointer is NULL, or the name is empty or too long for the program store
+ */
+NC_API nc_status nc_program_name_protected(const nc_control* control, const char* name, bool* is_protected);
+
+/**
  * Take a text out of the program store. The text is not read any more, and its index may be given to another text. Feeder thread.
  * @param control the control
  * @param file its index
@@ -96,6 +106,15 @@ NC_API nc_status nc_program_get(const nc_control* control, unsigned file, nc_pro
  *         modal call or of the macro interrupt; NC_E_ARGUMENT: `control` is NULL
  */
 NC_API nc_status nc_program_remove(nc_control* control, unsigned file);
+
+/**
+ * Take a text out of the program store in the same way, also one that is protected: for a host that has the program as a file and reads it anew when it is
+ * called again. Nothing is deleted by that, and what runs next is what the file has then. Feeder thread.
+ * @param control the control
+ * @param file its index
+ * @return NC_OK; NC_E_NOT_FOUND: the place is free; NC_E_STATE: something refers to it, as above; NC_E_ARGUMENT: `control` is NULL
+ */
+NC_API nc_status nc_program_give_up(nc_control* control, unsigned file);
 
 /**
  * Called when a sub program is not in the store: the host may add it with nc_program_add() from inside this call. Feeder thread.

@@ -13,8 +13,8 @@
  *   MDI and motion by hand bring spindle, coolant, tool and axes there; NC_MANUAL_RETURN leads an axis to where the program goes on
  *   cycle start           goes on with the block. It is refused while an axis of nc_outputs::restart_axes is not there
  *
- * nc_program_select(), nc_mdi_load(), nc_position_set(), nc_pull(), nc_rewind() and a reset forget what was found. A cycle start while the place is still
- * looked for is an alarm, NC-RESTART.
+ * nc_program_select(), nc_mdi_load(), nc_pull(), nc_rewind() and a reset forget what was found; nc_position_set() is refused (NC_E_STATE). A cycle start while the place is
+ * still looked for is an alarm, NC-RESTART.
  */
 #ifndef NC_RESTART_H
 #define NC_RESTART_H
@@ -85,6 +85,39 @@ static inline void nc_restart_found_init(nc_restart_found* found) {
 }
 
 /**
+ * What programs and blocks of MDI leave in force of the coordinate systems beside the tables of offsets. A program that is read from its head begins with it, and no
+ * reset ends it but where the family says so. A search for a place begins with what is in force, too: where the run that was stopped has left a shift, that would count
+ * twice. A host that knows what that run was begun with gives it back in front of nc_restart_begin().
+ */
+typedef struct nc_restart_coordinates {
+  nc_axes shift;        /**< of all workpiece coordinate systems (G92), mm or deg */
+  nc_axes shift_kept;   /**< that G92.2 has taken out of force, for G92.3; 0 in families that have no such codes */
+  nc_axes local[6];     /**< local systems (G52) of G54 to G59 */
+  bool polar;           /**< the polar coordinate command (G16), where a parameter keeps it in force over a reset */
+} nc_restart_coordinates;
+
+/**
+ * Read what is in force of the coordinate systems. Feeder thread; also from nc_look_executed().
+ * @param control the control
+ * @param system part system, from 0
+ * @param begun true: what the program that runs, or ran last, was begun with; one that was begun inside: what its search was begun with. false: what is in
+ *        force after all blocks that have been read so far
+ * @param coordinates receives it; not NULL
+ * @return NC_OK; NC_E_ARGUMENT: no such part system, or `coordinates` is NULL
+ */
+NC_API nc_status nc_restart_coordinates_get(const nc_control* control, unsigned system, bool begun, nc_restart_coordinates* coordinates);
+
+/**
+ * Put into force what nc_restart_coordinates_get() has read. What is read next from the head of a program begins with it: to be called in front of nc_program_select(),
+ * nc_reset() or nc_restart_begin(). Feeder thread.
+ * @param control the control
+ * @param system part system, from 0
+ * @param coordinates copied; each value between -1e9 and 1e9
+ * @return NC_OK; NC_E_STATE: a program runs; NC_E_ARGUMENT: no such part system, `coordinates` is NULL, or a value is out of range
+ */
+NC_API nc_status nc_restart_coordinates_set(nc_control* control, unsigned system, const nc_restart_coordinates* coordinates);
+
+/**
  * Begin to look for a place in the selected program. Feeder thread.
  * @param control the control
  * @param system part system, from 0
@@ -97,7 +130,7 @@ NC_API nc_status nc_restart_begin(nc_control* control, unsigned system, const nc
 
 /**
  * Go on to look for the place. The program is executed up to it but for the machine: its writes of variables and offsets are done, and a host that gives the
- * place up puts them back. Feeder thread.
+ * place up puts them back. A place that another part system has found stays, as if this program had come to its own behind it. Feeder thread.
  * @param control the control
  * @param system part system, from 0
  * @param budget blocks that may be read before the call returns NC_BUDGET

@@ -352,7 +352,8 @@ typedef struct nc_outputs {
                                  program has left it, and stays there until a block names it. The bit goes off at a start that moves the coordinate
                                  systems along with the axis */
   bool manual_absolute;     /**< manual absolute is in force: the opposite of nc_inputs::manual_absolute_off */
-  bool manual_allowed;      /**< nc_inputs::manual acts: there is no program, or it is stopped between two blocks */
+  bool manual_allowed;      /**< nc_inputs::manual acts: there is no program, it is stopped between two blocks, or it stands in a feed hold
+                                 (`restart_axes`), not in a thread or between R and R of a tap */
   bool message;             /**< on in the cycle that gives out a message: `message_text` and `message_port` are new */
   uint32_t message_text;    /**< id of the message for nc_text_get() */
   uint32_t message_port;    /**< where the message goes: 0 to the operator, 1 to the external output (POPEN, DPRNT, PCLOS) */
@@ -387,12 +388,15 @@ typedef struct nc_outputs {
   uint32_t tap_holds;       /**< bit n: axis n is not moved by hand, because a tap that was given up stands in its hole and would break, or tear the hole.
                                  The axis of the tap is free, and the way out; when its spindle does not follow, that is an alarm, which ends this */
   bool followed;            /**< in this cycle `command` was taken from nc_inputs::actual (nc_inputs::follow_up) */
-  uint32_t restart_axes;    /**< bit n: a program that is begun inside (nc/restart.h) waits for axis n, which is not where it goes on */
+  uint32_t restart_axes;    /**< bit n: cycle start is refused, because axis n is not where the program goes on. One that is begun inside (nc/restart.h) waits for
+                                 it, or it was moved by hand where a feed hold has stopped the path, which goes on from there: amid a block, or behind a thread */
   double tool_length_added; /**< what nc_inputs::tool_length_handle has added to the length of the number in force, mm, also what counts only from the next block on. 0
                                  again with another number, at the end of the compensation (G49, G43, G44, number 0), with the end of the program and a reset; the
                                  table of tool offsets is not changed */
   bool tool_length_dropped; /**< in this cycle a way of nc_inputs::tool_length_handle was dropped: it did not count (see there), the amount would have been out of the
                                  range of an offset, or its number was changed before it could act */
+  nc_axes return_place;     /**< machine position to which NC_MANUAL_RETURN leads each axis: where a program that is stopped goes on, or where it has left the axes in
+                                 a block stop. `command` where there is no such place */
 } nc_outputs;
 /**
  * Clear it and set its size. Any thread.
@@ -405,7 +409,7 @@ static inline void nc_outputs_init(nc_outputs* outputs) {
 
 /**
  * The synchronous tap that stands in a hole, or could (M700 13.1.1): what has to outlast a power cut so that it can be drawn out afterwards. It is there
- * from the first stroke of a tapping cycle until the cycle ends, and behind a reset until the spindle is commanded again.
+ * from the first stroke of a hole until the tap is at R again, and behind a reset in the hole until the spindle is commanded again.
  */
 typedef struct nc_tap {
   NC_STRUCT_SIZE(nc_tap);   /**< see NC_STRUCT_SIZE */

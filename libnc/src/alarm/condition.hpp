@@ -18,7 +18,7 @@ enum class Condition : uint16_t {
   no_feed, arc_deviation, arc_displaced, arc_center, helix_option, plane_mismatch, plane_in_compensation, plane_in_rotation, space_conversion, arc_in_compensation_start,
   no_offset_number, cycle_in_compensation, skip_in_compensation, skip_feed_zero, skip_feed_mode, no_reference, soft_limit, spindle_not_turning,
   cycle_wrong_plane, not_in_compensation, code_in_incremental, tool_pair,
-  comp_no_intersection, comp_interference, corner_option, corner_arc, corner_no_move, corner_short, corner_reversal, corner_next_short,
+  comp_no_intersection, comp_interference, comp_way, corner_option, corner_arc, corner_no_move, corner_short, corner_reversal, corner_next_short,
   corner_motion, pre_read, geometric_option, second_aux, space_compensation,
   thread_lead, mill_code, mill_axis, mill_modal, mill_state, space_arc_blocks, space_arc_mode, exponential_mode, exponential_axes,
   nurbs_knot, nurbs_start, displaced, space_conversion_code, inverse_time_code, arc_feed_zero, circle_radius,
@@ -44,6 +44,7 @@ enum class Condition : uint16_t {
   polar_code, polar_axis, polar_modal, polar_state,   // as those of mill_..., of the polar coordinate interpolation
   probe_contact, two_words, comment_open, level_below_bottom, cavity_size, cavity_corner, cavity_step,
   head_silent, length_beside_arc, tool_unknown, corner_uneven,
+  comp_turn_open, comp_turn_inside, no_direction,
   internal,
   count_
 };

@@ -8,5 +8,6 @@ namespace nc {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kMillimetresPerInch = 25.4;
+inline constexpr double kDegreesOfTurn = 360;
 
 }  // namespace nc

@@ -43,6 +43,7 @@ struct Command {
   bool vector_in_space = false;    ///< a vector in space (M700 12.3, 12.5) is in force before this block or in it
   bool meeting = false;            ///< the block has no end, or meets the one before, which has none (M700 13.9)
   bool fin_behind_dwell = false;   ///< M S T B beside G04: their completion is waited for after the dwell
+  bool moved_before = false;       ///< it has been read before, and has gone to places of its pattern
   bool stops_given_out = false;    ///< M00 and M01 have gone out before the end of the block
 
   // ---- targets

@@ -180,7 +180,7 @@ void CommandReader::clear() {
   w.functions.clear();
   w.auxiliary.clear();
   w.one_shot = w.motion = w.cycle = nullptr;
-  w.exact_stop = w.fin_behind_dwell = w.stops_given_out = w.comp_entry = false;
+  w.exact_stop = w.fin_behind_dwell = w.stops_given_out = w.moved_before = w.comp_entry = false;
   w.corner_code = w.distance_once = nullptr;
   w.in_position = w.in_position_drill = 0;
   w.counted_feeds = 0;

@@ -105,7 +105,8 @@ void ContourStage::settle(const Item& next, ContourRule rule) {
   const double amount = line.corner_mm;
   const bool arcs = line.circular || (next.move.circular && rule.arcs && is_cut(next.move));
   if (!arcs && !is_line(next.move)) return fail(next.move.circular ? Condition::corner_arc : Condition::corner_no_move, next.source, amount);
-  if (arcs && !is_cut(next.move)) return fail(Condition::corner_no_move, next.source, amount);
+  // By its radius alone an arc goes nowhere, but where the block behind it meets it, and then there is no end yet from which the corner could take its part.
+  if (arcs && (!is_cut(next.move) || next.move.corner == Corner::meet_by_radius)) return fail(Condition::corner_no_move, next.source, amount);
   // A line whose end is the point where the next block meets it (13.9) has no length yet from which the corner could take its part.
   if (is_line(next.move) && meets_later(next.move)) return fail(Condition::corner_option, next.source, amount);
   if (turns_tool(line, next.move, rotary_, axis_count_)) return fail(Condition::tool_axis_code, first.item.source, amount);

@@ -46,16 +46,17 @@ const char* file_of(const char* name) {
   return length != 0 && length < NC_MAX_NAME ? base : nullptr;
 }
 
-/// The number of the program is one that a parameter protects.
-bool is_protected(const nc_control* c, unsigned file) {
+/// A parameter protects the programs with this number.
+bool protects_number(const nc_control* c, uint32_t number) {
   constexpr nc::Parameter kLocks[] = {nc::Parameter::edit_lock_b, nc::Parameter::edit_lock_c};
-  const uint32_t number = c->store.entry(file)->number;
   for (unsigned i = 0; i < 2; ++i) {
     const nc::NumberRange range = c->dialect->parameters->locked_programs[i];
     if (number >= range.first && number <= range.last && c->system[0].interpreter.tables().parameter(kLocks[i]) != 0) return true;
   }
   return false;
 }
+
+bool is_protected(const nc_control* c, unsigned file) { return protects_number(c, c->store.entry(file)->number); }
 
 bool is_referred_to(const nc_control* c, unsigned file, bool only_busy) {
   for (unsigned i = 0; i < c->config.system_count; ++i)
@@ -346,10 +347,23 @@ nc_status nc_program_get(const nc_control* c, unsigned file, nc_program_info* in
   return NC_OK;
 }
 
+nc_status nc_program_name_protected(const nc_control* c, const char* name, bool* is_protected) {
+  const char* const base = file_of(name);
+  if (c == nullptr || base == nullptr || is_protected == nullptr) return NC_E_ARGUMENT;
+  *is_protected = protects_number(c, c->store.number_of(base));
+  return NC_OK;
+}
+
 nc_status nc_program_remove(nc_control* c, unsigned file) {
   if (c == nullptr) return NC_E_ARGUMENT;
   if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
-  if (c->store.entry(file)->own || is_referred_to(c, file, false) || is_protected(c, file)) return NC_E_STATE;
+  return is_protected(c, file) ? NC_E_STATE : nc_program_give_up(c, file);
+}
+
+nc_status nc_program_give_up(nc_control* c, unsigned file) {
+  if (c == nullptr) return NC_E_ARGUMENT;
+  if (c->store.entry(file) == nullptr) return NC_E_NOT_FOUND;
+  if (c->store.entry(file)->own || is_referred_to(c, file, false)) return NC_E_STATE;
   c->store.remove(file);
   return NC_OK;
 }
@@ -412,7 +426,7 @@ nc_status nc_mdi_load(nc_control* c, unsigned system, const char* text, size_t l
 
 nc_status nc_position_set(nc_control* c, unsigned system, const nc_axes* machine) {
   if (!has_system(c, system) || machine == nullptr) return NC_E_ARGUMENT;
-  if (c->system[system].occupied()) return NC_E_STATE;
+  if (c->system[system].occupied() || c->system[system].has_search()) return NC_E_STATE;  // the next start would begin at the head, and nobody has said so
   nc::AxisVec position;
   for (unsigned i = 0; i < c->config.system[system].axis_count; ++i) {
     if (!sane(machine->v[i])) return NC_E_ARGUMENT;

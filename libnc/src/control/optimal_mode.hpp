@@ -3,6 +3,7 @@
 #pragma once
 
 #include "alarm/condition.hpp"
+#include "path/shape.hpp"
 #include "ring/record.hpp"
 
 namespace nc {

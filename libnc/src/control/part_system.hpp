@@ -57,6 +57,11 @@ class PartSystem {
   nc_status restart_cancel();
   void forget_restart() { search_.forget(); }
   void outdate_restart() { search_.outdate(); }
+  /// A place is looked for, or found.
+  bool has_search() const { return search_.phase() != RestartSearch::Phase::none; }
+  /// A place is found, and a start would begin there now.
+  bool has_place() const { return search_.phase() == RestartSearch::Phase::found && !search_.outdated() && search_.goes_on_in(interpreter.state_hash()); }
+  void searched_beside(bool begins) { search_.searched_beside(interpreter.state_hash(), begins); }
   /// A unit of the budget, and an item that is committed without a new block, in instructions of a processor (nc_feed()).
   static constexpr int64_t kUnit = 20000, kItem = 2500;
   /// To the scan, which has to know them before anything is moved by hand; nothing while they are as before.
@@ -205,7 +210,7 @@ class PartSystem {
   bool alarm_given_ = false;
   /// Items that the stages have given out: only the next one, or all items of a block that begins with M, S, T or B.
   static constexpr unsigned kStaged = 32;
-  Item staged_[kStaged];
+  Item* staged_ = nullptr;  ///< kStaged
   unsigned staged_head_ = 0, staged_count_ = 0;
   bool gathering_ = false;   ///< the items of such a block are being fetched, and its end has not come yet
   int64_t* shape_left_ = nullptr;  ///< instructions that are left for the table of a curve, which may be made in the next calls, too; nullptr: no end

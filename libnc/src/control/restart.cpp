@@ -101,7 +101,7 @@ nc_status PartSystem::restart_cancel() {
 /// The scan has begun a run. True: it begins at the place that was found, and what stands before the place is given to the scan.
 bool PartSystem::begin_found() {
   if (search_.phase() == RestartSearch::Phase::none) return false;
-  const bool same = !search_.looks() && !search_.outdated() && executor.mirror() == search_.place().mirror && interpreter.state_hash() == search_.hash();
+  const bool same = has_place() && executor.mirror() == search_.place().mirror;
   search_.forget();
   publish_all();
   published_ = 0;

@@ -117,4 +117,14 @@ void RestartSearch::tell(nc_restart_found* out) const {
   out->blocks = blocks_;
 }
 
+bool RestartSearch::goes_on_in(uint64_t hash) const { return std::find(hash_, hash_ + hashes_, hash) != hash_ + hashes_; }
+
+void RestartSearch::searched_beside(uint64_t hash, bool begins) {
+  if (begins) {
+    if (hashes_ == kHashes) std::copy(hash_ + 2, hash_ + hashes_--, hash_ + 1);  // the first is that of the search itself
+    ++hashes_;
+  }
+  if (hashes_ > 1) hash_[hashes_ - 1] = hash;
+}
+
 }  // namespace nc

@@ -41,8 +41,12 @@ class RestartSearch {
   void note(const Item& item);
   uint64_t blocks() const { return blocks_; }
   /// The place is reached. `hash` is that of the state in which the program goes on.
-  void found(uint64_t hash) { phase_ = Phase::found, hash_ = hash; }
-  uint64_t hash() const { return hash_; }
+  void found(uint64_t hash) { phase_ = Phase::found, hashes_ = 1, hash_[0] = hash; }
+  /// In this state the program goes on as it was found. Searches of other part systems are as if their programs had come to their places behind this one, so a
+  /// state that one of them has left is such a state; that of before is one again when the host has put back what the search has written.
+  bool goes_on_in(uint64_t hash) const;
+  /// Another part system has searched on from such a state, and has left this one. `begins`: its search has begun with it, else it has gone on.
+  void searched_beside(uint64_t hash, bool begins);
   /// A text that the program is in has been replaced: the place is no longer the one that was found.
   void outdate() { outdated_ = true; }
   bool outdated() const { return outdated_; }
@@ -60,6 +64,7 @@ class RestartSearch {
   void note_m(uint32_t number, bool changes_tool);
   void note_control(const Action& action);
   static constexpr unsigned kControls = 16;
+  static constexpr unsigned kHashes = 8;  ///< of more searches beside this one the oldest are forgotten; what they have left makes the place out of date
 
   Phase phase_ = Phase::none;
   nc_restart_place place_{};
@@ -73,7 +78,8 @@ class RestartSearch {
   bool torn_ = false;
   bool radius_given_ = false;
   uint64_t blocks_ = 0;
-  uint64_t hash_ = 0;
+  uint64_t hash_[kHashes] = {};
+  unsigned hashes_ = 0;
   bool outdated_ = false;
   nc_restart_found given_{};
   uint32_t codes_ = 0;      ///< codes that have come: the order of the newest

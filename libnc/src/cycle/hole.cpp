@@ -24,8 +24,8 @@ double coordinate(const Hole& hole, Level level, HoleProgress& progress) {
     case Level::exit: return hole.return_to;
     case Level::initial: return hole.initial;
     case Level::peck: return progress.depth = next_peck(hole, progress.depth);
-    case Level::above_peck: return progress.depth - down(hole) * std::fmin(hole.clearance, std::fabs(progress.depth - hole.r));
-    case Level::back_from_peck: return progress.depth - down(hole) * hole.clearance;
+    case Level::above_peck:
+    case Level::back_from_peck: return progress.depth - down(hole) * std::fmin(hole.clearance, std::fabs(progress.depth - hole.r));  // not beyond R
     case Level::none:
     case Level::beside:
     case Level::over: break;

@@ -17,6 +17,7 @@ struct HolePattern {
   double angle = 0;                 ///< of the line, or of the first hole
   double step = 0;                  ///< of circle and arc, from one hole to the next
   bool closed = false;              ///< a frame: its first place is its last one as well
+  bool operator==(const HolePattern&) const = default;
   bool is_frame() const { return kind == PatternKind::frame_ccw || kind == PatternKind::frame_cw; }
   uint32_t count() const {
     if (!is_frame()) return columns * rows;

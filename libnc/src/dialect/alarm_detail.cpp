@@ -45,6 +45,10 @@ bool of_unsigned_centre(const Dialect& dialect, const Fault& fault) {
 bool of_cylinder_or_polar(const Dialect& dialect, const Fault& fault) {
   return of<Function::cylinder>(dialect, fault) || of<Function::polar_on>(dialect, fault) || of<Function::polar_off>(dialect, fault);
 }
+/// The choice between two places in which two blocks meet (M700 13.9).
+bool of_meeting_choice(const Dialect& dialect, const Fault& fault) { return fault.has_value && fault.letter != 0 && fault.letter == dialect.addresses.letter(Role::meeting_choice); }
+/// A coordinate that is given, with its value.
+bool of_coordinate(const Dialect&, const Fault& fault) { return fault.axis >= 0 && fault.has_value; }
 bool of_variable(const Dialect&, const Fault& fault) { return fault.letter == '#'; }
 /// The spindle turns in one direction, and so there is no tap (DGSHAPE).
 bool turns_one_way(const Dialect& dialect, const Fault&) {
@@ -71,7 +75,7 @@ constexpr NamedCode kNamedCodes[] = {
     {"rotation_on", Function::rotation_on}, {"rotation_off", Function::rotation_off}, {"scaling_off", Function::scaling_off},
     {"offset_longer", Function::offset_longer}, {"offset_shorter", Function::offset_shorter},
     {"comp_off", Function::comp_off}, {"rapid", Function::rapid}, {"linear", Function::linear},
-    {"cycle_off", Function::cycle_off}, {"plane_xy", Function::plane_xy},
+    {"corner_arc", Function::comp_corner_arc}, {"corner_turn", Function::comp_corner_turn}, {"cycle_off", Function::cycle_off}, {"plane_xy", Function::plane_xy},
     {"incremental", Function::incremental}, {"absolute", Function::absolute},
     {"comp_left", Function::comp_left}, {"comp_right", Function::comp_right},
     {"space_arc_first", Function::space_arc_first}, {"space_arc_second", Function::space_arc_second},
@@ -125,6 +129,7 @@ constexpr Sentence kSentences[] = {
      "place."},
     {C::behind_semicolon, "Text behind ';', the end of the block. Give a block its own line, a comment ( ), or set semicolon_comments.", nullptr},
     {C::value_range, "The axes stand where the loop is to turn: it has no length.", nullptr, "The axes stand where {word} is to turn: the loop has no length.", of<Function::sine_loop>},
+    {C::no_direction, "The words of a vector are all 0: it has no direction. Give one of them a value.", nullptr},
     {C::value_range, "The value of {word} is outside its range.",
      "A value in the block is outside its range."},
     {C::comment_open, "A comment that begins with '(' has no ')' in its line.", nullptr},
@@ -211,8 +216,12 @@ constexpr Sentence kSentences[] = {
     {C::comp_no_intersection,
      "The compensated paths of two blocks do not meet. Use a smaller tool or a larger inner radius.",
      nullptr},
-    {C::comp_interference, "The tool would cut into the contour. Use a smaller tool or change the contour.",
-     nullptr},
+    {C::comp_interference, "Line {value} leads the tool into the contour. Use a smaller tool or change the contour.",
+     "The tool would cut into the contour. Use a smaller tool or change the contour."},
+    {C::comp_way, "The way in or out in line {value} leads into the contour. Begin or end it farther away on the tool's side, or straight on.",
+     "The way in or out of the contour leads into it. Begin or end it farther away on the tool's side, or straight on."},
+    {C::comp_turn_open, "Behind {corner_arc} a block has to move before a stop, and before four do not (its own counts): move those, or leave it out.", nullptr},
+    {C::comp_turn_inside, "An arc by {corner_turn} goes round an outer corner with the words of the block behind it. Give it those words, or leave it out.", nullptr},
     {C::contour_too_long, "The contour is longer than its check can hold: cancel compensation earlier ({comp_off}), or allow more contour_blocks.", nullptr},
     {C::corner_option, "A corner ({comma}{chamfer} {comma}{rounding}) is not possible in this mode. Leave it out, or program it as a block of its own.", nullptr},
     {C::corner_arc, "A corner ({comma}{chamfer} {comma}{rounding}) lies between two lines; the block before or behind it is an arc. Program the corner as a block of its own.", nullptr},
@@ -230,6 +239,8 @@ constexpr Sentence kSentences[] = {
     {C::geometric_parallel, "The two lines run within one degree of each other: they have no corner. Check the angles.", nullptr},
     {C::geometric_incremental, "The end of the second block of a pair has to be absolute. Program {absolute}.", nullptr},
     {C::geometric_no_line, "Behind a block without an end the block that meets it must move: a line ({linear}) or an arc.", nullptr},
+    {C::geometric_address, "{word}: 0 or 1 chooses one of the two places in which the blocks meet.", "0 or 1 chooses one of the two places in which the blocks meet.", nullptr, of_meeting_choice},
+    {C::geometric_address, "A line at this angle does not come to {word}. Give the other coordinate of its end in place of it.", "A line at this angle does not come to the coordinate. Give the other one in place of it.", nullptr, of_coordinate},
     {C::geometric_address, "The words do not fit a line by its angle, or two blocks that meet: leave out others, and give the second its whole end.", nullptr},
     {C::geometric_plane, "The plane cannot change between a block without an end and the one that meets it. Select it in front of both.", nullptr},
     {C::geometric_contact, "The two blocks do not meet: check the centre, the radius, the angle and the ends.", nullptr},

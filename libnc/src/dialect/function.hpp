@@ -114,6 +114,10 @@ constexpr bool is_space_arc(Function f) { return f == Function::space_arc_first 
 constexpr bool is_exponential(Function f) { return f == Function::exponential_positive || f == Function::exponential_negative; }
 /// A full circle that begins and ends at its centre. Its block names no axis.
 constexpr bool cuts_circle(Function f) { return f == Function::circle_cut_cw || f == Function::circle_cut_ccw; }
+/// Holes, or places, in a pattern.
+constexpr bool is_hole_pattern(Function f) {
+  return (f >= Function::holes_on_circle && f <= Function::holes_on_grid) || f == Function::holes_on_frame_ccw || f == Function::holes_on_frame_cw;
+}
 /// A cavity is milled.
 constexpr bool cuts_cavity(Function f) { return f == Function::cavity_ccw || f == Function::cavity_cw || f == Function::cavity_circle; }
 /// A straight line that needs no other words than those of axes.

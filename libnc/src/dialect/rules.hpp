@@ -285,6 +285,13 @@ enum class CycleBeside : uint8_t {
   fault        ///< the two are of one group, and a block has one code of a group (RS-274/NGC 3.4)
 };
 
+/// How long the hole data hold that a block with the code of a cycle gives.
+enum class HoleData : uint8_t {
+  of_mode,   ///< to the end of the mode, behind the codes of other cycles too (M700 13.1.1)
+  of_code,   ///< to the next code of a cycle: without Z nothing is drilled, without R the initial level is taken, without P there is no dwell (DGSHAPE G80 to G89)
+  of_cycle,  ///< to the code of another cycle (RS-274/NGC 3.5.16: a number stays when the same cycle is used again)
+};
+
 struct CycleRules {
   CycleBeside beside = CycleBeside::motion;
   /// XY is the only plane of cycles (DGSHAPE G80-G89). M700 13.1.1 allows every plane.
@@ -326,20 +333,20 @@ struct CycleRules {
   bool tap_follows_spindle = false;
   /// The offset number of a block with a hole is that of the length of its tool (Series 8 G81). Otherwise it is that of radius compensation.
   bool takes_length_number = false;
-  /// A cycle that goes beside the hole has the words of the shift, or both parameters that say which way Q goes: the axis of the plane, and the direction
-  /// (HX 12.3.9, Series 8 G88, G89). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
-  bool shift_needs_words = false;
-  /// The shift beside the hole is that of the spindle, which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88).
-  /// Otherwise it is mapped as other words are (M700 13.19).
-  bool shift_is_of_spindle = false;
+  /// Q without I J says where the place beside the hole is, so that those of an earlier block count no more; two parameters say which way it goes: the axis of the
+  /// plane, and the direction (HX 12.3.9, Series 8 G88, G89). Otherwise a parameter of each axis says whether Q counts for it, and its direction (M700 13.1.1).
+  bool q_is_shift = false;
   /// All cycles have one format: each takes the words of every other one and keeps them for it (HX 12.1.2). Otherwise each has its own (DGSHAPE G80 to G89;
   /// Series 8 G81 to G89).
   bool words_of_all = false;
   /// The bore that comes back with the spindle stopped dwells for P at the bottom (M700 13.1.1, G86). Otherwise its format has no P (DGSHAPE G86, HX 12.3.8).
   bool bore_stop_dwells = true;
-  /// The code of a cycle begins its data anew: what its block does not give is not that of the cycle before (DGSHAPE G80 to G89: without Z nothing is
-  /// drilled, without R the initial level is taken, without P there is no dwell). Otherwise they hold as long as the mode (M700 13.1.1).
-  bool code_begins_data = false;
+  HoleData data = HoleData::of_mode;
+  /// Z and R count as the distance mode of the block says in which a hole is made, whatever it was when they were written (LinuxCNC G81). Otherwise they stay
+  /// what they were (M700 13.1.1).
+  bool levels_by_mode_of_hole = false;
+  /// The cycle that breaks chips dwells for P behind each cut (M700 13.1.1 (j)). Otherwise it has no P (RS-274/NGC 3.5.16, LinuxCNC G73).
+  bool step_dwells = true;
   /// A bottom above R is a fault (LinuxCNC G81; Series 8 G80: R is the clearance, Z the final depth, and both stay known from one cycle to the next). Otherwise the hole is made upwards (M700 13.1.1).
   bool bottom_is_below_r = false;
   /// A peck is larger than zero (RS-274/NGC 3.5.16.3: "Q number is negative or zero" is an error). Otherwise its sign says nothing (M700 13.1.1).

@@ -94,9 +94,10 @@ struct ToolLives {
 
   /// The tool in a slot as it is registered now.
   RegisteredTool registered_in(unsigned slot) const { return slot >= kNone ? RegisteredTool{} : RegisteredTool{slot, static_cast<uint32_t>(tool[slot].tool)}; }
-  /// The slot of the tool while it is registered there; kNone = it is not any more.
+  /// The slot where the tool is registered now: the one from before, else the first one of its number; kNone = it is not registered any more.
   unsigned find(const RegisteredTool& used) const {
-    return used.slot < kNone && !tool[used.slot].is_free() && tool[used.slot].tool == used.number ? used.slot : kNone;
+    if (used.slot < kNone && !tool[used.slot].is_free() && tool[used.slot].tool == used.number) return used.slot;
+    return used.number != 0 ? with_tool(used.number) : kNone;
   }
   /// The group registered first, 0 = none.
   uint64_t first_group() const;

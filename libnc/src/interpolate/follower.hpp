@@ -52,6 +52,8 @@ class Follower {
   double planned_turns() const NC_RT {
     return static_cast<double>(store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turns);
   }
+  /// The axis that the spindle of a synchronous tap is, for which the next cell was planned, -1 = none. Not to be called when idle().
+  int planned_turning_axis() const NC_RT { return store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turning_axis; }
   /// At rest at a place where the path itself rests, and not only the plan.
   bool at_path_end() const { return at_end_ && (cell_ != optimal::kNoCell ? store_->at(cell_).path_ends : halted_ && halt_ends_); }
   /// At rest at the end of the plan, and the record at ring index k lies on the path of that plan.
@@ -75,8 +77,7 @@ class Follower {
   void brake(PlanPace pace = {}) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    const double share = store_->piece_at(store_->at(cell_).piece).share;
-    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, share < 1 ? part_of(*limits_, share) : *limits_, use, pace);
+    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, limits_here(), use, pace);
   }
   bool braking() const { return braking_; }
 
@@ -128,11 +129,16 @@ class Follower {
   static constexpr unsigned kOfGentle = 8;                ///< one of so many tries of brake() is gentle: it uses less than the limits leave
   static constexpr double kGentle[] = {0.6, 0.35, 0.15};  ///< shares that gentle tries use
 
-  /// The limits that a piece has which may use a share of them alone: a synchronous tap, whose spindle bears no more.
-  static optimal::Limits part_of(optimal::Limits limits, double share) NC_RT {
+  /// The limits of the piece in execution. A synchronous tap may use a share of them alone, because its spindle bears no more.
+  optimal::Limits limits_here() const NC_RT {
+    const optimal::PlanCell& cell = store_->at(cell_);
+    const optimal::Piece& piece = store_->piece_at(cell.piece);
+    optimal::Limits limits = *limits_;
+    limits.scale.turning_axis = cell.turning_axis;
+    const double acceleration = tap_acceleration_share(piece, limits), jerk = tap_jerk_share(piece, limits);
     for (unsigned i = 0; i < limits.axis_count; ++i) {
-      limits.acceleration[i] *= share;
-      limits.jerk[i] *= share;
+      limits.acceleration[i] *= acceleration;
+      limits.jerk[i] *= jerk;
     }
     return limits;
   }

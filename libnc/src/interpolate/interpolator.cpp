@@ -17,6 +17,13 @@ constexpr unsigned kRecordsPerCycle = 256;
 /// full speed.
 constexpr unsigned kRecordsPassed = 2048;
 
+/// Some axis is asked to move by hand.
+bool asks_by_hand(const nc_inputs& in) {
+  for (const nc_manual& wish : in.manual)
+    if (wish.kind != NC_MANUAL_NONE) return true;
+  return false;
+}
+
 nc_axes to_nc(const AxisVec& a) {
   nc_axes out;
   for (unsigned i = 0; i < kMaxAxes; ++i) out.v[i] = a[i];
@@ -292,7 +299,7 @@ void Interpolator::states(const nc_inputs& in) {
     hold_behind_tap_ = true;
   } else if (holds && state_ == NC_STATE_RUNNING && cutting_thread()) {
     hold_behind_thread_ = true;
-  } else if (holds && state_ == NC_STATE_RUNNING && (!hold_behind_thread_ || at_rest())) {
+  } else if (holds && state_ == NC_STATE_RUNNING && !hold_behind_thread_) {  // M700 6.7.1 (6): also one that stays on, or the tool would stop in the groove
     hold_ = true;
     state_ = NC_STATE_HOLD;
   }
@@ -308,7 +315,7 @@ void Interpolator::states(const nc_inputs& in) {
   }
   if (start_ && !frozen_ && !rereading_) {
     const bool mdi = starts_ != 0 && shared_->mdi_waits.load(std::memory_order_acquire) == starts_;
-    if (restart_bars(mdi)) return;
+    if (restart_bars(mdi) || held_stop_bars(mdi) || aside_bars()) return;
     // Axes were moved by hand, the handle has changed the length along the tool, or there are blocks of MDI: the start acts when blocks have been read again.
     const bool lengthens = length_waits() && !start_told_ && between_blocks();
     if ((displaced_ || lengthens || mdi) && still && state_ == NC_STATE_STOPPED) {
@@ -361,6 +368,7 @@ void Interpolator::start(const nc_inputs& in) {
         begins_again_ = false;
         shared_->gone_on_inside.store(true, std::memory_order_release);
       }
+      held_stop_[in_mdi_ ? 1 : 0].on = false;
       [[fallthrough]];
     case NC_STATE_HOLD:
       state_ = NC_STATE_RUNNING;
@@ -377,6 +385,7 @@ void Interpolator::start(const nc_inputs& in) {
 void Interpolator::give_up() {
   run_.give_up();
   hold_tap();
+  leave_aside();
   law_ = {};
   end_rounding();
   check_ = false;
@@ -518,12 +527,14 @@ void Interpolator::note_block_stop() {
 /// next: an axis that brakes and sets off by hand in the same cycle would use its acceleration twice.
 void Interpolator::manual(const nc_inputs& in, bool rested) {
   manual_allowed_ = rested && stands() && !alarmed_ && !reset_ && !in.reset && !frozen_ && !rereading_ &&
-                    (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()));
-  if (!manual_allowed_ && !manual_.active()) {
+                    (state_ == NC_STATE_IDLE || (state_ == NC_STATE_STOPPED && between_blocks()) || hold_frees_hands());
+  const bool acts = manual_allowed_ && (state_ != NC_STATE_HOLD || asks_by_hand(in));  // a hold without hands leaves the path as it is
+  if (!acts && !manual_.active()) {
     manual_.idle(in.manual);
     if (index_.busy()) clamp_at_rest(0, in);
     return;
   }
+  if (acts && state_ == NC_STATE_HOLD) step_aside();
   const AxisVec before = wanted_;
   let_tap_go_outside(in);
   if (manual_allowed_) filter_.use({});  // by hand each axis has an acceleration of its own
@@ -536,7 +547,8 @@ void Interpolator::manual(const nc_inputs& in, bool rested) {
     if (wanted_[i] == (begins_again_ ? restart_at_ : left_at_)[i]) by_hand_ &= ~(1u << i);  // it has gone back
   }
   note_returned(before);
-  if (displaced_ && elsewhere_ && wanted_ == left_at_ && returned_ == 0) displaced_ = elsewhere_ = false;  // all have: the program goes on with what was read
+  // All have: the program goes on with what was read. Not where it begins inside, because then its path was planned from where the axes stood before that.
+  if (displaced_ && elsewhere_ && !begins_again_ && wanted_ == left_at_ && returned_ == 0) displaced_ = elsewhere_ = false;
 }
 
 /// While the drives are off the commanded position follows the measured one, so that nothing jumps when the drives come on again.
@@ -675,7 +687,10 @@ void Interpolator::outputs(const nc_inputs& in, nc_outputs& out) {
   out.followed = followed_;
   out.handle_dropped = manual_.handle_dropped();
   out.moved_by_hand = by_hand_;
-  out.restart_axes = begins_again_ ? axes_off_restart() : 0;
+  out.restart_axes = axes_away();
+  const AxisVec* back = &command_;
+  (void)return_places(&back);
+  out.return_place = to_nc(*back);
   out.tool_length_added = length_.by_handle + length_told_ + length_way_;
   out.tool_length_dropped = length_dropped_;
   out.manual_absolute = !in.manual_absolute_off;

@@ -134,9 +134,24 @@ class Interpolator {
   void end_mdi() NC_RT;
   // interpolator_restart.cpp
   void stand_at_restart() NC_RT;
-  uint32_t axes_off_restart() const NC_RT;
   bool restart_bars(bool mdi) NC_RT;
   uint32_t return_places(const AxisVec** places) const NC_RT;
+  // interpolator_aside.cpp: axes are moved by hand in a feed hold
+  /// Behind a thread a hold is a block stop, and bars as a hold does.
+  struct HeldStop {
+    bool on = false;
+    AxisVec place;  ///< where the axes have stopped, and have to be again
+  };
+  bool hold_frees_hands() const NC_RT;
+  void step_aside() NC_RT;
+  bool aside_bars() NC_RT;
+  void leave_aside() NC_RT;
+  uint32_t axes_off_path() const NC_RT;
+  uint32_t axes_off(const AxisVec& place) const NC_RT;
+  const HeldStop& held_stop() const { return held_stop_[in_mdi_ ? 1 : 0]; }
+  void stop_held() NC_RT;
+  bool held_stop_bars(bool mdi) NC_RT;
+  uint32_t axes_away() const NC_RT;
   void follow(const nc_inputs& in) NC_RT;
   void run(const nc_inputs& in) NC_RT;
   void manual(const nc_inputs& in, bool rested) NC_RT;
@@ -179,10 +194,10 @@ class Interpolator {
   bool all_locked(const Segment& segment, const nc_inputs& in) const NC_RT;
 
   // interpolator_tap.cpp: taps that go with the spindle
-  int tap_as_axis() const NC_RT;
   bool tap_disturbed(const nc_inputs& in) const NC_RT;
   bool tap_spindle_ready(const nc_inputs& in) NC_RT;
   void note_tap(const Segment& s, const nc_inputs& in) NC_RT;
+  void fail_tap(ScanFault fault) NC_RT;
   bool tap_lets_go() NC_RT;
   Done take_tapping(uint8_t bits) NC_RT;
   void hold_tap() NC_RT;
@@ -199,6 +214,22 @@ class Interpolator {
   uint32_t tap_holds(const nc_inputs& in) const NC_RT;
   void turn_tap_spindle(const nc_inputs& in, nc_outputs& out) NC_RT;
   nc_tap tap() const NC_RT;
+
+  // interpolator_tap_axis.cpp: taps whose spindle is a C axis
+  int tap_as_axis() const NC_RT;
+  bool tap_axis_ready() NC_RT;
+  void take_tap_axis(const nc_inputs& in) NC_RT;
+  void adopt_tap_axis(const nc_inputs& in) NC_RT;
+  void leave_tap_axis() NC_RT;
+  double tap_axis_most(const Segment& s, double AxisLimits::*limit) const NC_RT;
+  bool tap_turns_axis(unsigned axis) const NC_RT;
+  double added_by_tap(unsigned axis) const NC_RT { return static_cast<int>(axis) == tap_.c_axis ? tap_.added : 0; }
+  double tap_axis_place(const nc_inputs& in) const NC_RT;
+  bool tap_axis_measured(const nc_inputs& in) const NC_RT;
+  void turn_tap_axis() NC_RT;
+  bool tap_axis_fails(const nc_inputs& in) const NC_RT;
+  void begin_following_tap_axis(const nc_inputs& in) NC_RT;
+  void spare_tap_axis(Manual::Rules* rules) const NC_RT;
 
   // interpolator_records.cpp: what each kind of record does
   Done execute(const Record& record, const nc_inputs& in) NC_RT;
@@ -308,6 +339,16 @@ class Interpolator {
   AxisVec path_end_;  ///< end of the newest move that has been executed
   uint32_t returned_ = 0;   ///< bit i: axis i has come to its reference position by hand, and the feeder does not know it yet
   uint32_t by_hand_ = 0;    ///< bit i: axis i was moved by hand, and the program has not moved it since
+  /// Motion by hand in a feed hold: what the path goes on with when the axes are back.
+  struct Aside {
+    bool on = false;        ///< axes were moved by hand in this hold, or are about to be
+    bool rounding = false;  ///< rounding_ as the path has stopped
+    AxisVec path;           ///< wanted_ as the path has stopped
+    AxisVec place;          ///< where the axes have stopped, and have to be again
+    uint32_t returned = 0;  ///< bit i: axis i has come to its reference position by hand
+  };
+  Aside aside_;
+  HeldStop held_stop_[2];  ///< of the program, and of blocks of MDI that interrupt it ([in_mdi_])
   bool rereading_ = false;  ///< the feeder reads again from here; meanwhile nothing is executed, moved or given up
   bool begins_again_ = false;  ///< a program that is begun inside stands at its place, and has not gone on yet
   AxisVec restart_at_;         ///< where its axes have to be
@@ -426,6 +467,7 @@ class Interpolator {
     bool stuck = false;              ///< held, and its spindle has not followed: it cannot be drawn out with it
     bool pressed = false;            ///< level of the signal for that
     bool locked = false;             ///< its axis stands in a machine lock, and so does its spindle
+    bool adopts = false;             ///< held, behind a power cut: its spindle is what that is as the tap begins to move
     int c_axis = -1;                 ///< its spindle is this axis
     unsigned axis = 0;               ///< that the tap moves
     double entry = 0;                ///< place of the axis where the tap has begun
@@ -435,6 +477,7 @@ class Interpolator {
     double waited_s = 0;             ///< for the spindle, where it is to be let go
     double shown = 0;                ///< turns of the cycle before
     double added = 0;                ///< to the commands of c_axis, deg
+    double c_from = 0;               ///< place of c_axis where the encoder of its spindle is at 0, deg
   };
   TapInHand tap_;
   TapFollower tap_follower_;         ///< keeps the axis with the measured angle

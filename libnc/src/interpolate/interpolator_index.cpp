@@ -76,7 +76,7 @@ void Interpolator::watch_index(const nc_inputs& in) {
 /// While no program moves: clamps the tables that manual motion does not need (`wanted` are those that it does) and that stand where they can be
 /// clamped. The tables of a move that is interrupted stay unclamped (6).
 void Interpolator::clamp_at_rest(uint32_t wanted, const nc_inputs& in) {
-  if (state_ == NC_STATE_RUNNING || moving_ || !stands() || frozen_ || rereading_) return;
+  if (state_ == NC_STATE_RUNNING || (moving_ && !aside_.on) || !stands() || frozen_ || rereading_) return;
   uint32_t off = index_.unclamp() & ~wanted;
   if (state_ == NC_STATE_HOLD && tail_ != end_ && is_current(current())) off &= ~stay_open(current());
   if (off != 0) off &= may_clamp();
@@ -96,6 +96,7 @@ void Interpolator::manual_cycle(const nc_inputs& in) {
   rules.stop = !manual_allowed_ || in.interlock || in.feed_hold;
   rules.dropped = spindles_now();  // M700 10.5 (1): an axis that is a spindle is not moved; the command does not go on later either (precaution (3))
   rules.refused = tap_holds(in);
+  if (state_ == NC_STATE_HOLD) rules.refused |= stale_;  // they stand where their spindle has turned to, and not on the path
   rules.turning = parameters.turning;
   rules.short_cut = parameters.short_cut;
   rules.unlimited = static_cast<uint32_t>(in.unlimited);

@@ -24,7 +24,11 @@ bool Interpolator::length_handle_acts(const nc_inputs& in) const {
 /// What a return to the reference position by hand ends (12.2 (4) (a), 12.3 "compensation amount resetting") is gone when the program goes on, also where the axis
 /// has stood there already. A program that is begun inside is as it was at its place.
 void Interpolator::note_returned(const AxisVec& before) {
-  if (manual_.returned() == 0 || begins_again_) return;
+  if (manual_.returned() == 0 || begins_again_ || (state_ == NC_STATE_STOPPED && held_stop().on)) return;
+  if (aside_.on) {  // the block that is held goes on as it was read
+    aside_.returned |= manual_.returned();
+    return;
+  }
   returned_ |= manual_.returned();
   if (state_ != NC_STATE_STOPPED) return;
   leave_at(before);

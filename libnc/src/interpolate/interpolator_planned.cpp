@@ -183,10 +183,12 @@ void Interpolator::tell_planner(const nc_inputs& in, const ScanStatus& status) {
   const double turns = std::fabs(encoder(in).rev_per_s);
   if (!cutting_thread() && (std::fabs(turns - turns_) > kTurnsChange * turns_ || turns == 0)) turns_ = turns;
   f.scale.turns = turns_;
+  // In the mode of a tap its spindle stays what it is (M700 10.6.1), so that the plan of its strokes can be made for that.
+  f.scale.turning_axis = static_cast<int8_t>((tapping_ & NC_TAPPING_CYCLE) != 0 ? tap_as_axis() : -1);
   f.block_rests = status.single_block;
   f.tail = tail_;
   f.s = moving_ ? law_.s : 0;
-  f.machine = wanted_;
+  f.machine = aside_.on ? aside_.path : wanted_;
   f.epoch = run_.epoch();
   optimal_->say(f);
 }

@@ -258,7 +258,7 @@ double Interpolator::corner_factor(const Segment& s) const {
 /// Path speed that is wanted now; 0 lets the path come to rest.
 double Interpolator::speed_cap(const Segment& s, const nc_inputs& in) {
   if ((s.thread ? thread_braking() : braking()) || skip_braking_) return 0;
-  double cap = s.rapid ? s.speed_limit * in.rapid_override : s.speed_limit;
+  double cap = s.rapid ? s.speed_limit * in.rapid_override : std::min(s.speed_limit, tap_axis_most(s, &AxisLimits::velocity));
   nc_stop_cause cause = NC_CAUSE_OVERRIDE_ZERO;
   if (dry_feed(s) >= 0) {
     if (dry_feed(s) < cap) cause = dry_stop(in);
@@ -317,7 +317,7 @@ Interpolator::Done Interpolator::move(const Record& r, const nc_inputs& in) {
   }
   if (optimal_ != nullptr) return follow_plan(r, in);
   const double from = law_.s;
-  const LawGoal goal{s.curve.length, plan_->exit2(ordinal_), speed_cap(s, in), s.acceleration};
+  const LawGoal goal{s.curve.length, plan_->exit2(ordinal_), speed_cap(s, in), std::min(s.acceleration, tap_axis_most(s, &AxisLimits::acceleration))};
   time_ = advance(law_, goal, time_);
   path_length_ += law_.s - from;
   if (law_.s >= s.curve.length) {
@@ -418,7 +418,7 @@ bool Interpolator::in_position(const nc_inputs& in, double width_of_block) const
   for (unsigned i = 0; i < config_.axis_count; ++i) {
     const double width = width_of_block > 0 ? width_of_block : config_.limits[i].in_position;
     if ((spindles_now() >> i & 1) != 0) continue;  // the axis is a spindle now
-    if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i] - turned_[i]) > width) return false;
+    if (width > 0 && std::fabs(in.actual.v[i] - wanted_[i] - turned_[i] - added_by_tap(i)) > width) return false;
   }
   return true;
 }
@@ -538,8 +538,7 @@ void Interpolator::mark(const Mark& m, const nc_inputs& in) {
   if (thread || !stops_at(m, in)) return;
   if (hold_behind_thread_) {
     hold_behind_thread_ = false;
-    state_ = NC_STATE_STOPPED;
-    cause_ = NC_CAUSE_FEED_HOLD;
+    stop_held();
   } else {
     state_ = NC_STATE_STOPPED;
     cause_ = NC_CAUSE_SINGLE_BLOCK;

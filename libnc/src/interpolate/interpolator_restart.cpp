@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program that is begun inside stands at the place (nc/restart.h), and axes go back by hand to where a program goes on.
-#include <cmath>
-
 #include "interpolate/interpolator.hpp"
 
 namespace nc {
@@ -11,22 +9,15 @@ void Interpolator::stand_at_restart() {
   begins_again_ = true;
   restart_at_ = shared_->restart_at;
   blocks_ = shared_->restart_blocks;
-  if (axes_off_restart() == 0) return;
+  if (axes_off(restart_at_) == 0) return;
   leave_at(restart_at_);
   displaced_ = true;
-}
-
-uint32_t Interpolator::axes_off_restart() const {
-  uint32_t off = 0;
-  for (unsigned i = 0; i < config_.axis_count; ++i)
-    if (std::fabs(wanted_[i] - restart_at_[i]) > kAddingUp && (spindles_now() >> i & 1) == 0) off |= 1u << i;
-  return off;
 }
 
 /// Whether a cycle start has to be refused: the block would begin from another place than the program comes from. Blocks of MDI begin anywhere, those that wait
 /// (`mdi`) and those that have begun and stand in a block stop. The bar stays until a start is executed: one that waits may be taken back.
 bool Interpolator::restart_bars(bool mdi) {
-  if (!begins_again_ || state_ != NC_STATE_STOPPED || mdi || in_mdi_ || axes_off_restart() == 0) return false;
+  if (!begins_again_ || state_ != NC_STATE_STOPPED || mdi || in_mdi_ || axes_off(restart_at_) == 0) return false;
   start_ = false;
   cause_ = NC_CAUSE_RESTART;
   return true;
@@ -34,9 +25,14 @@ bool Interpolator::restart_bars(bool mdi) {
 
 /// Bit i: there is a place to which axis i can go back, in *places.
 uint32_t Interpolator::return_places(const AxisVec** places) const {
-  if (state_ != NC_STATE_STOPPED || !(begins_again_ || elsewhere_)) return 0;
-  *places = begins_again_ ? &restart_at_ : &left_at_;
-  return (1u << config_.axis_count) - 1;
+  const uint32_t all = (1u << config_.axis_count) - 1;
+  if (aside_.on) {
+    *places = &aside_.place;
+    return all;
+  }
+  if (state_ != NC_STATE_STOPPED || !(begins_again_ || held_stop().on || elsewhere_)) return 0;
+  *places = begins_again_ && !(held_stop().on && in_mdi_) ? &restart_at_ : held_stop().on ? &held_stop().place : &left_at_;
+  return all;
 }
 
 }  // namespace nc

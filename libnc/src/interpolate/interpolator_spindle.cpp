@@ -58,8 +58,9 @@ void Interpolator::take_position(unsigned axis, const nc_inputs& in) {
   const nc_spindle_inputs& spindle = in.spindle[config_.axis_spindle[axis] - 1];
   double place = command_[axis];
   if (in.actual_valid) place = in.actual.v[axis];
-  else if (spindle.turns_valid) place = 360 * (spindle.turns - std::floor(spindle.turns));
-  turned_[axis] = place - wanted_[axis];
+  else if (spindle.turns_valid) place = tap_turns_axis(axis) ? tap_axis_place(in) : 360 * (spindle.turns - std::floor(spindle.turns));
+  if (aside_.on) wanted_[axis] = aside_.place[axis];  // by how far it was moved by hand is void: the spindle has turned since
+  turned_[axis] = place - wanted_[axis] - added_by_tap(axis);
   command_[axis] = last_command_[axis] = place;
   stale_ = static_cast<uint8_t>(stale_ | 1u << axis);
   if (!stands() || frozen_ || rereading_) return;

@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // Synchronous taps (M700 13.1.1): the path turns the spindle, and the axis follows the angle that the spindle really has (interpolate/tap_follower.hpp). Also the
 // tap that a reset or a power cut has left in its hole: its spindle turns with its axis by hand, and a signal draws it out.
-//
-// Where the spindle is a C axis as the tap begins (M700 10.5) the turns are added to the commands of that axis, behind interpolation.
+// Where the spindle is a C axis (M700 10.5): interpolator_tap_axis.cpp.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 #include "interpolate/interpolator.hpp"
 
 namespace nc {
 namespace {
 
 constexpr double kStands_rev_s = 1e-3;
-constexpr double kDegrees = 360;  // of a turn
-constexpr double kOut = 1e-3;     // mm: so near to R a tap is out of its hole
+constexpr double kOut = 1e-3;  // mm: so near to R a tap is out of its hole
 constexpr double kLongestWait_s = 1;  // for a spindle to come to the place where it is let go
 
 }  // namespace
-
-/// The C axis that the spindle of the tap is now, -1 = it is a spindle.
-int Interpolator::tap_as_axis() const {
-  for (unsigned i = 0; i < config_.axis_count; ++i)
-    if ((servo_ready_ >> i & 1) != 0 && config_.axis_spindle[i] == spindles_.lead() + 1) return static_cast<int>(i);
-  return -1;
-}
 
 /// A synchronous tap takes its spindles over where they stand: once, also where its cuts go back to where they have begun.
 bool Interpolator::tap_spindle_ready(const nc_inputs& in) {
   if (tap_.taken) return true;
   tap_.c_axis = tap_as_axis();
-  if (tap_.c_axis >= 0) return true;
+  if (optimal_ != nullptr && (follower_.idle() || follower_.planned_turning_axis() != tap_.c_axis)) {  // the planner has not heard of it yet
+    wait(NC_CAUSE_STARVED);
+    return false;
+  }
+  if (tap_.c_axis >= 0) return tap_axis_ready();
   const nc_spindle_inputs& spindle = encoder(in);
   if (encoder_ == 0 || spindle.unmeasured) {  // appendix 1, P182: there is no connection to the spindle
     wait(NC_CAUSE_SPINDLE_UNMEASURED);
@@ -61,7 +57,11 @@ void Interpolator::note_tap(const Segment& s, const nc_inputs& in) {
   }
   tap_.known = true;
   tap_.locked = (in.locked >> tap_.axis & 1) != 0;
-  if (!tap_.locked && tap_.c_axis < 0 && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, 0);
+  if (tap_.c_axis >= 0) {
+    take_tap_axis(in);
+  } else if (!tap_.locked && encoder(in).turns_valid) {
+    tap_follower_.begin(encoder(in).turns, 0);
+  }
 }
 
 /// The tap may let its spindle go: both have come to their places. Where the spindle stands a little beside its own, the axis comes back to its path while that
@@ -88,8 +88,11 @@ Interpolator::Done Interpolator::take_tapping(uint8_t bits) {
     tap_.turns = 0;
     tap_.held = tap_.taken = false;
   }
-  if ((bits & NC_TAPPING_STROKES) == 0) tap_follower_.end();
-  if ((bits & (NC_TAPPING_CYCLE | NC_TAPPING_SYNCHRONOUS)) == 0) tap_.known = false;
+  if ((bits & NC_TAPPING_STROKES) == 0) {
+    leave_tap_axis();
+    tap_follower_.end();
+  }
+  if ((bits & NC_TAPPING_SYNCHRONOUS) == 0) tap_.known = false;  // between two holes the tap is in none
   tapping_ = bits;
   if (!hold_behind_tap_ || (bits & NC_TAPPING_STROKES) != 0) return Done::yes;
   hold_behind_tap_ = false;
@@ -112,7 +115,7 @@ void Interpolator::hold_tap() {
 
 /// The next code for the spindle ends it, the next program, and motion by hand out of the hole.
 void Interpolator::release_tap() {
-  tap_.held = tap_.known = tap_.drawing = false;
+  tap_.held = tap_.known = tap_.drawing = tap_.adopts = false;
   tap_follower_.end();
 }
 
@@ -134,15 +137,21 @@ double Interpolator::tap_turns() const {
 void Interpolator::follow_tap(const nc_inputs& in) {
   const bool taps = tap_.held || ((tapping_ & NC_TAPPING_SYNCHRONOUS) != 0 && tap_.known);
   const unsigned a = tap_.axis;
-  if (taps && tap_.c_axis >= 0) {
-    tap_.added = tap_.held ? 0 : kDegrees * tap_turns();
-    command_[static_cast<unsigned>(tap_.c_axis)] += tap_.added;
-  }
+  if (tap_.held && tap_.adopts) adopt_tap_axis(in);
+  if (taps && tap_.c_axis >= 0) turn_tap_axis();
+  else tap_.added = 0;
   const bool stands = tap_.held && tap_.c_axis < 0 && !tap_follower_.active() && encoder(in).rev_per_s == 0;
   if (stands && encoder(in).turns_valid) tap_follower_.begin(encoder(in).turns, tap_turns());  // behind a power cut, or with drives that were off
+  if (taps && tap_.c_axis >= 0 && faulted_ == ScanFault::none && tap_axis_fails(in)) {
+    fail_tap(ScanFault::tap);
+    if (!tap_follower_.active()) return begin_following_tap_axis(in);
+  }
   if (!tap_follower_.active()) return;
-  const bool measured = taps && encoder(in).turns_valid && !encoder(in).unmeasured;
-  if (tap_.held && measured && !alarmed_ && tap_follower_.rests_beside() && !manual_.active()) take_tap_where_it_stands(in);
+  const bool as_axis = tap_.c_axis >= 0;
+  const bool measured = taps && (as_axis ? tap_axis_measured(in) : encoder(in).turns_valid && !encoder(in).unmeasured);
+  const double turns = as_axis ? tap_axis_place(in) / kDegreesOfTurn : encoder(in).turns;
+  if (tap_.held && measured && !alarmed_ && (as_axis ? tap_follower_.rests() : tap_follower_.rests_beside()) && !manual_.active()) take_tap_where_it_stands(in);
+  if (!tap_follower_.active()) return;
   TapFollower::Limits limits{config_.limits[a].velocity, config_.limits[a].acceleration, config_.limits[a].jerk, config_.cycle_s};
   limits.most_apart = config_.tap_most_apart;
   limits.before = last_command_[a];
@@ -150,10 +159,15 @@ void Interpolator::follow_tap(const nc_inputs& in) {
     limits.low = std::min(config_.soft_min[a], command_[a]);
     limits.high = std::max(config_.soft_max[a], command_[a]);
   }
-  command_[a] += tap_follower_.step(measured, encoder(in).turns, encoder_age_s(in), taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
+  command_[a] += tap_follower_.step(measured, turns, as_axis ? 0 : encoder_age_s(in), taps ? tap_turns() : 0, tap_.per_mm, command_[a], limits);
   if (tap_follower_.trouble() == TapFollower::Trouble::none || faulted_ != ScanFault::none) return;
+  fail_tap(tap_follower_.trouble() == TapFollower::Trouble::jumped ? ScanFault::encoder : ScanFault::tap);
+}
+
+/// The spindle of the tap does not do what it is told: the alarm that stops the path.
+void Interpolator::fail_tap(ScanFault fault) {
   if (!alarmed_ && placed_) stop_in(source_, serial_ == last_mark_ ? last_block_ - 1 : last_block_);
-  faulted_ = tap_follower_.trouble() == TapFollower::Trouble::jumped ? ScanFault::encoder : ScanFault::tap;
+  faulted_ = fault;
   tap_.stuck = tap_.held;
   alarmed_ = true;
 }
@@ -166,7 +180,7 @@ void Interpolator::take_tap_where_it_stands(const nc_inputs& in) {
   command_[tap_.axis] += beside;
   tap_.shown += beside * tap_.per_mm;
   tap_follower_.drop();
-  tap_follower_.begin(encoder(in).turns, tap_turns());
+  if (tap_.c_axis < 0) tap_follower_.begin(encoder(in).turns, tap_turns());
 }
 
 /// A tap that stands in its hole: the signal draws it out, with the speed and the acceleration with which it has gone in. True: `wish` says how.
@@ -178,6 +192,7 @@ bool Interpolator::draw_tap_out(const nc_inputs& in, nc_manual* wish, Manual::Ru
     rules->gentle = bit;
     rules->gentle_acceleration = tap_.acceleration;
   }
+  if (tap_.c_axis >= 0) spare_tap_axis(rules);
   const bool there = !(way * tap_.speed < 0) || std::fabs(way) <= kAddingUp;
   const bool rises = in.tap_retract && !tap_.pressed;
   tap_.pressed = in.tap_retract;
@@ -226,7 +241,6 @@ void Interpolator::turn_tap_spindle(const nc_inputs& in, nc_outputs& out) {
   const double turns = taps || tap_.held ? tap_turns() : 0;
   const double of_path = tap_.locked || !moving_ ? 0 : law_.v * current().segment.tap_rev_per_mm;
   const double speed = tap_.held ? (turns - tap_.shown) / config_.cycle_s : of_path;
-  if (tap_.held && tap_.c_axis >= 0) wanted_[static_cast<unsigned>(tap_.c_axis)] += kDegrees * (turns - tap_.shown);
   tap_.shown = turns;
   if ((!taps && !tap_.held) || tap_.c_axis >= 0) return;
   out.spindle_turns = turns;
@@ -255,7 +269,7 @@ void Interpolator::set_tap(const nc_tap& tap) {
   tap_.per_mm = tap.turns_per_mm;
   tap_.speed = tap.speed;
   tap_.acceleration = tap.acceleration;
-  tap_.known = tap_.held = true;
+  tap_.known = tap_.held = tap_.adopts = true;
 }
 
 /// M700 10.6.1, relation (4), (5): in the tapping mode another selection is wanted, or its spindle as a C axis. The axes wait until that

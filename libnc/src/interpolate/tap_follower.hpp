@@ -48,6 +48,14 @@ class TapFollower {
     apart_ = fastest_ = 0;
     trouble_ = Trouble::none;
   }
+  /// The same while both turn: from here on the axis, which was commanded to `place` with `speed`, goes by what the encoder shows.
+  void begin_moving(double turns, double commanded, double place, double speed, double per_mm) NC_RT {
+    begin(turns, commanded);
+    fresh_ = false;
+    last_ = place;
+    speed_ = speed;
+    fastest_ = std::fabs(speed * per_mm);
+  }
   /// The axis has been put where it is: it is on its path.
   void drop() NC_RT { active_ = false; }
   /// The spindle is let go. The axis comes back to its path.
@@ -67,6 +75,8 @@ class TapFollower {
   void say_apart() NC_RT { trouble_ = Trouble::apart; }
   /// Axis and spindle have come to rest beside the path, or where the spindle could not be followed any more.
   bool rests_beside() const NC_RT { return active_ && stands_ && speed_ == 0 && (beside_ != 0 || trouble_ != Trouble::none); }
+  /// Both rest, but for rounding.
+  bool rests() const NC_RT { return active_ && stands_ && std::fabs(speed_) <= kRests; }
 
   /**
    * One cycle.
@@ -210,6 +220,7 @@ class TapFollower {
   }
 
   static constexpr double kArrived = 1e-3;        ///< mm
+  static constexpr double kRests = 1e-6;          ///< mm/s
   static constexpr double kStill = 1e-6;          ///< revolutions in one cycle
   static constexpr double kUnfelt = 3e-4;         ///< share of the limits of the axis that is not felt ...
   static constexpr double kAtRest = 0.25;         ///< ... and that it may have of them alone; each of three parts has so much

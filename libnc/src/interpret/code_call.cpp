@@ -109,7 +109,7 @@ Execution call_with_arguments(Interpreter& in, const Caller& caller) {
 /// The words of the block are a movement command, after which G66 calls (M700 13.5.1).
 bool moves(const Interpreter& in) {
   const Command& w = in.words;
-  if (w.one_shot != nullptr && cuts_circle(w.one_shot->function)) return true;
+  if (makes_pattern(in) || (w.one_shot != nullptr && cuts_circle(w.one_shot->function))) return true;
   if (w.target.axes() == 0) return !is_line(in.state.modal.of(Mode::motion)) && w.any({Role::vector_x, Role::vector_y, Role::vector_z, Role::arc_radius}) && w.one_shot == nullptr;
   return w.one_shot == nullptr || goes_to_position(w.one_shot->function);
 }

@@ -358,6 +358,7 @@ Execution finish(Interpreter& in, Execution did) {
   if (did != Execution::done) return did;
   in.state.comp.has_vector = false;
   in.state.comp.cancel_vector = false;
+  if (in.state.modal_call != 0 && calls_behind_place(in)) return make_modal_call_first(in);
   if (codes_behind_motion(in)) did = auxiliary_before(in);
   if (did != Execution::done) return did;
   if (in.state.modal_call != 0 && goes_on_elsewhere(in)) return make_modal_call_first(in);
@@ -366,9 +367,10 @@ Execution finish(Interpreter& in, Execution did) {
   return call_behind_block(in);
 }
 
-/// Executes what is left of a block whose motion, and the macro behind it, have been executed: its call of a program, or the return from its own.
+/// Executes what is left of a block whose motion, and the macro behind it, have been executed: the other places of its pattern, its call of a program, or the return from its own.
 Execution execute_codes_left(Interpreter& in) {
   in.state.codes_left &= ~(1u << in.state.depth);
+  if (in.state.frame[in.state.depth].places_made != 0) return finish(in, go_on_in_pattern(in));
   in.words.target.clear();
   return execute_behind_motion(in);
 }

@@ -514,6 +514,7 @@ Execution return_sub(Interpreter& in) {
     if (!find_from_here(in, caller, n, &offset, &line)) return in.raise(Condition::sequence_missing, Role::return_sequence, n);
     leave_program(in);
     s.codes_left &= ~(1u << s.depth);
+    caller.places_made = 0;
     leave_loops(in, offset);
     if (in.reader.failure() != Condition::none) return in.raise(Condition::read_failed);
     caller.offset = offset;

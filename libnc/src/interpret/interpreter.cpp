@@ -198,6 +198,7 @@ void Interpreter::reset(bool keep_modal) {
   refresh_derived();
   take_work_rotation(*this, true);  // M700 13.21 (4): the parameters act from the cycle start on
   store->forget_notes(system_index);
+  if (!place_.kept) begun_with_ = coordinates();
   forget_block();
   ended = !main_program.valid();
   alarm_fault = Fault{};

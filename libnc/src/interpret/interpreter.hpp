@@ -57,6 +57,10 @@ struct Interpreter : BlockContext {
   /// force (program_restart.cpp). `stands` is false where the newest block is not the last one that the machine has executed: the place is forgotten.
   void keep_place(bool stands);
   void forget_place() { place_.kept = false; }
+  /// interpret/coordinates_left.cpp: what outlives programs of the coordinate systems beside the tables of offsets (nc/restart.h).
+  nc_restart_coordinates coordinates() const;
+  const nc_restart_coordinates& begun_with() const { return begun_with_; }
+  void set_coordinates(const nc_restart_coordinates& left);
   /// The next block begins at such a place, and the axes do not stand where the block before it has led them.
   bool begins_inside() const { return state.seq == 0 && place_.kept && !(state.machine == place_.machine); }
   /// Where the axes stood at the beginning of that block.
@@ -295,6 +299,7 @@ struct Interpreter : BlockContext {
   Place place_;
   VendorCall vendor_call_;       ///< newest block whose vendor's function has been called; when the block is read again the function is not called again
   BlockSeq answered_ = ~BlockSeq{0};  ///< number of the block before the one that the newest answer of a sync was for
+  nc_restart_coordinates begun_with_{};  ///< coordinates() when the program that is read was begun
 };
 
 /// interpret/program_restart.cpp: a block whose words have been read and that begins in its middle, or the alarm that it cannot begin there.

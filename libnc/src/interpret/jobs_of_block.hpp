@@ -29,7 +29,10 @@ struct HolesOfBlock {
   PolarHoles polar;
   HolePattern pattern;        ///< where they lie, of a pattern
   AxisVec pattern_at;         ///< its reference point as programmed
+  uint8_t pattern_axis[2] = {0, 1};  ///< of its plane
+  bool one_by_one = false;    ///< a modal call calls its macro at each place of the pattern
   AxisVec over, beside;       ///< the hole, and the place that a shift goes to
+  bool places_only = false;   ///< the block goes to the places of its holes and makes none
   bool whole = false;         ///< no pecks: what is tried before the block begins
   bool tapping = false;       ///< between R and R again
   bool inside = false;        ///< the item in hand belongs to a stroke
@@ -40,7 +43,7 @@ struct HolesOfBlock {
     left = 0;
     polar.on = false;
     pattern.kind = PatternKind::none;
-    whole = tapping = inside = false;
+    one_by_one = places_only = whole = tapping = inside = false;
   }
 };
 

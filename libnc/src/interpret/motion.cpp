@@ -109,6 +109,7 @@ Affine map_in_force(const InForce& in) { return Affine::translation(offset_in_fo
   if (stands_beside(in.state.comp)) [[unlikely]] lead_back_to_path(in, move);
   if (in.state.mapped) map_compensation(in, move.comp);
   move.high_accuracy = in.state.high_accuracy;
+  move.inch = in.state.modal.is(Function::inch);
   move.transform = transform;
   in.state.machine = machine;
   in.state.moves_since_comp_off = 1;

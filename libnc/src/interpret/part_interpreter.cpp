@@ -154,6 +154,9 @@ bool PartInterpreter::interrupt(const AxisVec& machine, unsigned taken_back, boo
 bool PartInterpreter::interrupt_inside(const AxisVec& machine, unsigned items) { return in_->interrupt_inside(machine, items); }
 bool PartInterpreter::takes_mdi(uint64_t seq) const { return in_->takes_mdi(seq); }
 void PartInterpreter::enter_mdi(const ProgramRef& blocks) { in_->enter_mdi(blocks); }
+nc_restart_coordinates PartInterpreter::coordinates() const { return in_->coordinates(); }
+const nc_restart_coordinates& PartInterpreter::begun_with() const { return in_->begun_with(); }
+void PartInterpreter::set_coordinates(const nc_restart_coordinates& left) { in_->set_coordinates(left); }
 void PartInterpreter::begin_search() { in_->begin_search(); }
 void PartInterpreter::give_up_search() { in_->give_up_search(); }
 void PartInterpreter::begin_inside(BlockSeq seq) { in_->begin_inside(seq); }

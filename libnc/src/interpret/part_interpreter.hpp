@@ -13,6 +13,7 @@
 #include "interpret/host_tables.hpp"
 #include "interpret/motion_settings.hpp"
 #include "nc/control.h"
+#include "nc/restart.h"
 #include "path/shape.hpp"
 #include "program/store.hpp"
 #include "stream/item_queue.hpp"
@@ -190,6 +191,10 @@ class PartInterpreter {
   bool takes_mdi(uint64_t seq) const;
   /// These blocks of MDI run next; the program goes on behind them. Everything made so far has been executed.
   void enter_mdi(const ProgramRef& blocks);
+  /// What is in force of the coordinate systems behind the newest block (nc/restart.h); what the program was begun with; and what the next one begins with.
+  nc_restart_coordinates coordinates() const;
+  const nc_restart_coordinates& begun_with() const;
+  void set_coordinates(const nc_restart_coordinates& left);
   /// A place in the program is looked for (nc/restart.h), or is not any more.
   void begin_search();
   void give_up_search();

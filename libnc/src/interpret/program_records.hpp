@@ -18,8 +18,10 @@
 #include <type_traits>
 
 #include "base/optional_double.hpp"
+#include "cycle/pattern.hpp"
 #include "frame/stroke_box.hpp"
 #include "frame/tool_life.hpp"
+#include "interpret/state.hpp"
 #include "macro/journalled.hpp"
 #include "macro/variables.hpp"
 #include "nc/types.h"
@@ -39,6 +41,14 @@ struct ModalCall {
   uint8_t depth = 0;                ///< call level of the program that commanded it
   OptionalDouble argument[kLocals]; ///< values for #1 to #33
   bool operator==(const ModalCall&) const = default;
+};
+
+/// A pattern at whose places the modal call in force calls its macro (M700 13.2, 13.5.1): what the words of its block have said before the first of them.
+struct PlacesOfCalls {
+  HolePattern pattern;
+  AxisVec at;                    ///< its reference point as programmed
+  uint8_t axis[2] = {0, 1};      ///< of the plane
+  bool operator==(const PlacesOfCalls&) const = default;
 };
 
 /// A figure that is rotated pass by pass, in the plane in force (M700 13.3.3).
@@ -153,6 +163,7 @@ struct ToolsInUse {
 
 struct ProgramRecordsLife {
   ModalCall modal_call[kModalCalls];  ///< slot n is element n - 1
+  PlacesOfCalls places[kMaxFrames];   ///< of the block under way in the program of each call level
   Figure figure;
   InterruptProgram interrupt;
   SwitchMirror switch_mirror;

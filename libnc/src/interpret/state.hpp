@@ -80,8 +80,9 @@ struct CallFrame {
   uint32_t last_sequence = 0;  ///< behind the block of this number a pass has ended (HX 2.4.3), 0 = M99 says so
   bool last_begun = false;    ///< that block has been read
   bool puts_back = false;     ///< blocks of MDI at a place where the program is begun inside: behind them its modes are those of the place
+  uint32_t places_made = 0;   ///< of the pattern in the next block, which is read again behind the macro that is called at each of them (PlacesOfCalls)
 };
-static_assert(sizeof(CallFrame) == 72);
+static_assert(sizeof(CallFrame) == 80);
 
 /// An open DO.
 struct Loop {

@@ -106,14 +106,22 @@ class Hash {
   }
   void add_one(const CallFrame& frame) {
     const auto& [program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot,
-                 figure, last_sequence, last_begun, puts_back] = frame;
+                 figure, last_sequence, last_begun, puts_back, places_made] = frame;
     add(program, offset, begin, line, begin_line, call_line, repeats, kind, macro_level, loop_base, started, origin, modal_call, modal_slot, figure, last_sequence,
-        last_begun, puts_back);
+        last_begun, puts_back, places_made);
   }
   void add_one(const OptionalDouble& number) { add_one(number.value_or(std::numeric_limits<double>::quiet_NaN())); }
   void add_one(const ModalCall& call) {
     const auto& [program, repeats, every_block, by_code, below, depth, argument] = call;
     add(program, repeats, every_block, by_code, below, depth, argument);
+  }
+  void add_one(const HolePattern& pattern) {
+    const auto& [kind, columns, rows, interval, interval_2, angle, step, closed] = pattern;
+    add(kind, columns, rows, interval, interval_2, angle, step, closed);
+  }
+  void add_one(const PlacesOfCalls& places) {
+    const auto& [pattern, at, axis] = places;
+    add(pattern, at, axis);
   }
   void add_one(const Figure& figure) {
     const auto& [center, start, step, angle] = figure;
@@ -285,8 +293,8 @@ void add_parameters(Hash& hash, const Parameters& parameters) {
 
 void add_records(Hash& hash, const ProgramRecords& records) {
   {
-    const auto& [modal_call, figure, interrupt, switch_mirror, selection, work_turn] = static_cast<const ProgramRecordsLife&>(records);
-    hash.add(modal_call, figure, interrupt, switch_mirror, selection, work_turn);
+    const auto& [modal_call, places, figure, interrupt, switch_mirror, selection, work_turn] = static_cast<const ProgramRecordsLife&>(records);
+    hash.add(modal_call, places, figure, interrupt, switch_mirror, selection, work_turn);
   }
   {
     const auto& [maps] = static_cast<const MapRecordsLife&>(records);

@@ -112,7 +112,9 @@ void Manual::wish(unsigned i, const nc_manual& w, const Rules& rules, double pos
 double Manual::move(unsigned i, const Rules& rules, double position) {
   Axis& a = axis_[i];
   const bool held = (rules.held >> i & 1) != 0;
-  const double accel = (rules.gentle >> i & 1) != 0 ? std::min(acceleration(i), rules.gentle_acceleration) : acceleration(i);
+  const bool gentle = (rules.gentle >> i & 1) != 0;
+  const double accel = gentle ? std::min(acceleration(i), rules.gentle_acceleration) : acceleration(i);
+  const double cap = gentle ? std::min(a.cap, rules.gentle_velocity) : a.cap;
   double time = config_.cycle_s;
   for (int leg = 0; leg < 3 && time > 0; ++leg) {
     const double ahead = a.going ? a.target - position : 0;
@@ -125,7 +127,7 @@ double Manual::move(unsigned i, const Rules& rules, double position) {
     const double stopping = 0.5 * v * v / accel;
     const bool brake = !a.going || held || way < stopping * (1 - 1e-11);
     LawState state{0, v};
-    const LawGoal goal{brake ? stopping + 1 : way, 0, brake ? 0 : a.cap, accel};
+    const LawGoal goal{brake ? stopping + 1 : way, 0, brake ? 0 : cap, accel};
     const double left = advance(state, goal, time);
     const bool arrived = !brake && state.s >= way;
     position = arrived ? a.target : position + direction * state.s;

@@ -3,6 +3,8 @@
 // always stop at its soft limit.
 #pragma once
 
+#include <cmath>
+
 #include "motion/axis_limits.hpp"
 #include "nc/run.h"
 #include "stream/stream.hpp"
@@ -29,8 +31,8 @@ class Manual {
     uint32_t refused = 0;    ///< axes that brake to rest, and whose targets are given up
     uint32_t turning = 0;    ///< axes whose positions count within one turn (M700 14.13)
     uint32_t short_cut = 0;  ///< axes among those that go to a position by the shorter way
-    uint32_t gentle = 0;     ///< axes that accelerate no faster than `gentle_acceleration`
-    double gentle_acceleration = 0;  ///< mm/s^2
+    uint32_t gentle = 0;     ///< axes that accelerate no faster than `gentle_acceleration`, and go no faster than `gentle_velocity`
+    double gentle_acceleration = HUGE_VAL, gentle_velocity = HUGE_VAL;  ///< mm/s^2, mm/s
     uint32_t unlimited = 0;  ///< axes without soft limits, because it is not known where they stand
     uint32_t returns = 0;    ///< axes that can go back to `back`
     const AxisVec* back = nullptr;

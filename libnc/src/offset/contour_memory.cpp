@@ -32,13 +32,31 @@ ContourMemory::State ContourMemory::with(State state, const Doubt& doubt) {
   if (doubt.first != state.first) return state;
   for (unsigned place = 0; place <= kWay; ++place) {
     const uint64_t number = state.first + place - (state.with_start ? 0 : 1);
-    if (number < state.end) state.suspects = static_cast<uint8_t>(state.suspects | (doubt.suspects & 1u << place));
+    if (number >= state.end || (doubt.suspects & ~state.suspects & 1u << place) == 0) continue;
+    state.suspects = static_cast<uint8_t>(state.suspects | 1u << place);
+    state.culprit[place] = doubt.culprit[place];
   }
-  if (doubt.out != 0 && doubt.out < state.end) state.out = doubt.out;
+  if (doubt.out != 0 && doubt.out < state.end) {
+    state.out = doubt.out;
+    state.culprit[kOut] = doubt.culprit[kOut];
+  }
   return state;
 }
 
+ContourMemory::Doubt ContourMemory::doubt() const {
+  Doubt doubt{state_.first, state_.out, state_.suspects, {}};
+  if (doubt.out != 0 || doubt.suspects != 0) std::copy_n(state_.culprit, kOut + 1, doubt.culprit);
+  return doubt;
+}
+
+const ContourMemory::Culprit* ContourMemory::suspect() const {
+  for (unsigned place = 0; place <= kWay; ++place)
+    if ((state_.suspects >> place & 1) != 0) return &state_.culprit[place];
+  return state_.out != 0 ? &state_.culprit[kOut] : nullptr;
+}
+
 void ContourMemory::restore(const State& state) {
+  culprit_ = nullptr;
   state_ = state;
   if (!state.open) return;
   // Where the contour is not in this memory, another control has read it, or too much has been read since: it cannot be checked any more.
@@ -81,27 +99,39 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
 
 bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(number) <= kWay && state_.closed >> behind_start(number) != 0; }
 
-/// A path comes too near to this block. True: it is a wall; else that shows later.
-bool ContourMemory::blame(uint64_t number) {
+/// The path comes too near to this block. True: it is a wall; else that shows later.
+bool ContourMemory::blame(uint64_t number, const Path& path) {
   if (is_way_in(number)) return false;
   const uint64_t place = behind_start(number);
+  const Culprit culprit{path.source, path.starts || path.cancels};
   if (place <= kWay) {  // the contour may still come back to where it ends
+    if ((state_.suspects >> place & 1) == 0) state_.culprit[place] = culprit;
     state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
     return false;
   }
-  if (state_.closure == 0 || number <= state_.closure) return true;
-  if (state_.out == 0 || number < state_.out) state_.out = number;
+  if (state_.closure == 0 || number <= state_.closure) {
+    in_front_ = culprit;
+    return true;
+  }
+  if (state_.out == 0 || number < state_.out) {
+    state_.out = number;
+    state_.culprit[kOut] = culprit;
+  }
   return false;
 }
 
 /// At the end of the contour: blocks in doubt behind its start that are neither a way in nor one out.
-bool ContourMemory::no_way(uint64_t cancel) const {
+bool ContourMemory::no_way(uint64_t cancel) {
   for (unsigned place = 0; place <= kWay; ++place) {
     if ((state_.suspects >> place & 1) == 0) continue;
     const uint64_t number = state_.first + place - (state_.with_start ? 0 : 1);
-    if (state_.closure == 0 || number <= state_.closure || cancel - number > kWay) return true;
+    if (state_.closure != 0 && number > state_.closure && cancel - number <= kWay) continue;
+    culprit_ = &state_.culprit[place];
+    return true;
   }
-  return state_.out != 0 && (state_.out <= state_.closure || cancel - state_.out > kWay);
+  if (state_.out == 0 || (state_.out > state_.closure && cancel - state_.out <= kWay)) return false;
+  culprit_ = &state_.culprit[kOut];
+  return true;
 }
 
 /// Between the path and the wall, which are neighbours, lies a joint at which the tool stands on the contour.
@@ -113,9 +143,10 @@ bool ContourMemory::at_its_own_corner(const Path& path, uint64_t number) { retur
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
   if (wall.offset == 0) return false;
   // The cutter cuts all that is above its tip, so what has been cut above a path is a wall for it; a block above it that comes later is a way across the part. A wall
-  // that ends below the tip is none; but where a contour goes down as it goes along (a helix, a ramp), its walls reach up to where it came from.
+  // that ends below the tip is none; but where a contour goes down as it goes along (a helix, a ramp), its walls reach up to where it came from, the level moves at its
+  // top included: a way in there cuts what the contour below it leaves standing.
   if (wall.low > path.high + kLevel_mm && number > path.number) return false;
-  if (path.low > wall.high + kLevel_mm && !(path.goes_down && path.descent == wall.descent)) return false;
+  if (path.low > wall.high + kLevel_mm && path.descent != wall.descent) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it. The tangent of
   // an arc, by which a corner is lengthened, comes near to the other end of that arc where it turns by more than half a circle.
@@ -126,6 +157,8 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
     if (open.from && open.to && !wall.piece.round) return false;
+    const double amount = std::min(std::abs(path.offset), std::abs(open.from ? wall.before : wall.offset));
+    if (cuts_end({path.piece, path.starts, amount, kEnters_mm + path.slop + wall.slop}, wall.piece, open)) return true;
   }
   const Amount of_path{std::abs(path.before), std::abs(path.offset)}, of_wall{std::abs(wall.before), std::abs(wall.offset)};
   return comes_nearer(path.piece, of_path, wall.piece, of_wall, kEnters_mm + path.slop + wall.slop, open);
@@ -137,6 +170,7 @@ double ContourMemory::amount_before(const Section& section) const {
 }
 
 Clearance ContourMemory::read(Section* section) {
+  culprit_ = nullptr;
   const bool ends = section->cancel && !section->transparent;
   if (state_.open && section->start && no_way(state_.end)) return Clearance::enters;  // G40 without a movement has ended the contour in front of it
   if (!state_.open || section->start) begin(section->start);
@@ -145,7 +179,10 @@ Clearance ContourMemory::read(Section* section) {
     state_.overlong = true;
     return Clearance::full;
   }
-  if (state_.out != 0 && !ends && section->number - state_.out >= kWay) return Clearance::enters;  // it leads on: no way out
+  if (state_.out != 0 && !ends && section->number - state_.out >= kWay) {  // it leads on: no way out
+    culprit_ = &state_.culprit[kOut];
+    return Clearance::enters;
+  }
   const Vec2 start = state_.at + section->approach;
   section->contour_start = start;
   follow(*section, section->number);
@@ -165,19 +202,24 @@ Clearance ContourMemory::read(Section* section) {
   const Box box = box_of(wall.piece);
   walls_.push(wall, box);
   if (wall.offset == 0) return Clearance::fits;
-  const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) { return enters(path, section->number, wall); });
-  return near && blame(section->number) ? Clearance::enters : Clearance::fits;
+  const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) {
+    if (!enters(path, section->number, wall)) return false;
+    if (blame(section->number, path)) culprit_ = &in_front_;
+    return true;  // the first one tells for all
+  });
+  return near && culprit_ != nullptr ? Clearance::enters : Clearance::fits;
 }
 
-Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_given) {
+Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_given, const nc_source& source) {
+  culprit_ = nullptr;
   Path path;
   path.number = section.number;
+  path.source = source;
   path.offset = section.cancel ? state_.offset : section.offset;
   path.before = section.cancel ? path.offset : walls_[section.number].before;
   path.low = std::min(section.level, section.level_end);
   path.high = std::max(section.level, section.level_end);
   path.descent = section.descent;
-  path.goes_down = !section.start && !section.cancel && section.level_end < section.level;
   path.starts = section.start;
   path.cancels = section.cancel;
   const bool to_given = section.commanded && !section.cancel;
@@ -187,7 +229,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.from_contour = from_given && from == Vec2{};
   path.to_contour = to_given && section.joint.v[0] == Vec2{};
   const Vec2 start = section.contour_start, end = start + section.delta;
-  path.slop = slop_of(wall_of(section, start));
+  path.slop = slop_of(wall_of(section, start)) + enters_of(section.inch) - kEnters_mm;
   path.contour = section.start ? end : start;
   Clearance found = Clearance::fits;
   const auto add = [&](Path next_path, const Piece& piece) {
@@ -220,15 +262,18 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);
+  if (found != Clearance::fits) culprit_ = nullptr;
   state_.open = false;
   return found == Clearance::fits && no_way_in_or_out ? Clearance::enters : found;
 }
 
 Clearance ContourMemory::step(const Step& step) {
   if (!state_.open) begin(false);
+  culprit_ = nullptr;
   if (state_.overlong || !walls_.keeps(state_.first)) return Clearance::full;
   Path path;
   path.number = state_.end;
+  path.source = step.source;
   path.offset = path.before = step.offset;
   path.low = path.high = state_.level;
   path.descent = state_.descent;
@@ -249,7 +294,7 @@ Clearance ContourMemory::take(const Path& path) {
   const Box box = box_of(path.piece);
   if (path.offset == 0) return Clearance::fits;
   paths_.push(path, box);
-  const bool near = walls_.any(state_.first, box.grown(std::max(std::abs(path.offset), std::abs(path.before))), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && (at_its_own_corner(path, number) || blame(number)); });
+  const bool near = walls_.any(state_.first, box.grown(std::max(std::abs(path.offset), std::abs(path.before))), [&](uint64_t number, const Wall& wall) { return enters(path, number, wall) && (at_its_own_corner(path, number) || blame(number, path)); });
   return near ? Clearance::enters : Clearance::fits;
 }
 

@@ -32,6 +32,13 @@ class ContourMemory {
   static constexpr unsigned kWay = 3;  ///< the most blocks of a way in, or out
   static constexpr unsigned kOpen = 2;  ///< blocks beside the start or the cancel whose end may lie where the tool comes or leaves
 
+  /// The block whose path comes too near to a wall. It stands far in front of the block in which that is certain, and is the one to be changed.
+  struct Culprit {
+    nc_source source{};
+    bool way = false;  ///< it starts compensation, or ends it
+  };
+  static constexpr unsigned kOut = kWay + 1;  ///< place of the way out among the culprits, behind those of `suspects`
+
   /// What a checkpoint keeps: the contour as far as it has been read.
   struct State {
     bool open = false;       ///< between the start and the end of compensation
@@ -48,6 +55,7 @@ class ContourMemory {
     uint8_t away = 0;        ///< bit i: the contour has left joint i
     uint8_t closed = 0;      ///< bit i: ... and has come back to it, when it first closed
     uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in, or out
+    Culprit culprit[kOut + 1];  ///< whose path it is, of each of the suspects, and of `out`
     double offset = 0;       ///< of the last block that has one
     double level = 0;        ///< across the plane, at its end
     uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, or changes its level by itself
@@ -68,17 +76,22 @@ class ContourMemory {
     uint64_t first = 0;    ///< the contour that it is about
     uint64_t out = 0;
     uint8_t suspects = 0;
+    Culprit culprit[kOut + 1];
   };
-  Doubt doubt() const { return {state_.first, state_.out, state_.suspects}; }
+  Doubt doubt() const;
   /// The state at the end of a block, with what is in doubt since: of blocks behind it nothing.
   static State with(State state, const Doubt& doubt);
   /// A path has come too near to blocks that have to be a way in or out, which is not known yet.
   bool suspects() const { return state_.open && (state_.suspects != 0 || state_.out != 0); }
+  /// Whose path that is; nullptr: of none.
+  const Culprit* suspect() const;
+  /// What the last call has found too near is another block's path; nullptr: that of the block itself.
+  const Culprit* culprit() const { return culprit_; }
 
   /// A block has been read; `section->number` becomes its number. Its path comes later.
   Clearance read(Section* section);
   /// The path of the block is settled: it begins with this vector, which the program may have given.
-  Clearance settle(const Section& section, Vec2 from, bool from_given);
+  Clearance settle(const Section& section, Vec2 from, bool from_given, const nc_source& source);
   /// A block without movement has given a vector (I J K, M700 12.4.3 (4); G39 of DGSHAPE): the tool goes there from the one before, where the contour stands.
   struct Step {
     Vec2 from, to;
@@ -86,6 +99,7 @@ class ContourMemory {
     double offset = 0;   ///< signed, of what is commanded
     Vec2 approach;       ///< from the last joint to where the contour stands
     bool crosses = false;  ///< from the other side
+    nc_source source{};
   };
   Clearance step(const Step& step);
 
@@ -101,11 +115,11 @@ class ContourMemory {
   struct Path {
     Piece piece;
     uint64_t number = 0;  ///< of its block
+    nc_source source{};
     double offset = 0, slop = 0;
     double before = 0;    ///< the offset at its start
     double low = 0, high = 0;
     uint32_t descent = 0;
-    bool goes_down = false;
     bool from_contour = false, to_contour = false;  ///< without a vector
     bool starts = false, cancels = false, bends = false;  ///< bends: an arc about the corner behind the block
     bool crosses_own = false;  ///< the move of a block, one of whose ends is given, or has lost its vector: it need not lie beside its own wall
@@ -123,13 +137,15 @@ class ContourMemory {
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
   double amount_before(const Section& section) const;
   static bool at_its_own_corner(const Path& path, uint64_t number);
-  bool blame(uint64_t number);
-  bool no_way(uint64_t cancel) const;
+  bool blame(uint64_t number, const Path& path);
+  bool no_way(uint64_t cancel);
   Clearance take(const Path& path);
 
   BoxRow<Wall> walls_;
   BoxRow<Path> paths_;
   State state_;
+  const Culprit* culprit_ = nullptr;
+  Culprit in_front_;  ///< one that has nothing to do with ways in and out
 };
 
 }  // namespace nc

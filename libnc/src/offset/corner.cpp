@@ -2,6 +2,7 @@
 // The geometry of a joint; the derivation stands in the header.
 #include "offset/corner.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/same_place.hpp"
@@ -15,6 +16,7 @@ constexpr double kCusp = 0.1;         // sine below which a turn back may be a c
 // digits makes, of the ends of lines that are long enough for the tool and of centres, is less than 20 nm. Round the point of a larger overlap the tool would go, too, and
 // then through both blocks; below what is no direction of a line it is no place that a tool could go round.
 constexpr double kOverlap_mm = kNoDirection_mm;
+constexpr double kOneNumber = 1e-9;    // numbers that differ by less of their size are one
 constexpr double kRightAngle = 1e-6;  // 90 degrees belongs to the obtuse corners (M700 12.4.1)
 
 Vec2 in_plane(const AxisVec& p, const uint8_t axis[2]) {
@@ -55,7 +57,7 @@ ContourJoint two_perpendiculars(const Leg& before, double offset_before, const L
   ContourJoint joint;
   joint.v[0] = perpendicular(before, offset_before);
   joint.v[1] = perpendicular(behind, offset_behind);
-  joint.n = norm(joint.v[1] - joint.v[0]) > kNoLength ? 2 : 1;
+  joint.n = norm(joint.v[1] - joint.v[0]) > kOneLength_mm ? 2 : 1;
   return joint;
 }
 
@@ -69,19 +71,32 @@ double reach(const Leg& leg, Vec2 delta) { return leg.curvature == 0 ? norm(delt
 ContourJoint joint_of_side_change(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind) {
   Vec2 w;
   const double square_of_sin = (1 - dot(before.u, behind.u)) / 2;  // of half the angle
-  const bool meets = square_of_sin * kExtremelyLarge * kExtremelyLarge >= 1 && offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
+  const bool meets = square_of_sin * kExtremelyLarge * kExtremelyLarge >= 1 - kOneNumber && offset_exists(before, offset_before) && offset_exists(behind, offset_behind) &&
                      intersection(before, offset_before, behind, offset_behind, &w) &&
-                     norm(w) <= kExtremelyLarge * std::abs(offset_before) &&
-                     -dot(w, before.u) <= reach(before, delta_before) && dot(w, behind.u) <= reach(behind, delta_behind);
+                     norm(w) <= kExtremelyLarge * std::abs(offset_before) + kOneLength_mm &&
+                     -dot(w, before.u) <= reach(before, delta_before) + kOneLength_mm && dot(w, behind.u) <= reach(behind, delta_behind) + kOneLength_mm;
   return meets ? ContourJoint::single(w) : two_perpendiculars(before, offset_before, behind, offset_behind);
 }
 
-// The point of the offset curve beside this leg that is nearest to `point`; both are vectors.
-Vec2 nearest_on_curve(const Leg& leg, double offset, Vec2 point) {
-  if (leg.curvature == 0) return point + (offset - dot(point, left_of(leg.u))) * left_of(leg.u);
-  const Vec2 center = (1 / leg.curvature) * left_of(leg.u);
-  return center + std::abs(1 / leg.curvature - offset) * unit(point - center);
+// How far a point is from the offset curve beside this leg; it is a vector.
+double distance_from_curve(const Leg& leg, double offset, Vec2 point) {
+  if (leg.curvature == 0) return std::abs(offset - dot(point, left_of(leg.u)));
+  return std::abs(std::abs(1 / leg.curvature - offset) - norm(point - (1 / leg.curvature) * left_of(leg.u)));
 }
+
+// Curves that pass each other by less than what is no direction of a line touch: the last digit of the words decides whether they meet. Of the point between them `beyond` is what the
+// square of its distance from the centre of a circle has more than that of a point on it. What is left of an arc that is hardly larger than the tool is no such circle but a place,
+// which a line of micrometres may pass as its digits lead it (meets_in_a_point()).
+constexpr double kSmallCircle_mm = 0.01;
+bool touches(const Leg& leg, double offset, double beyond) {
+  if (leg.curvature == 0) return true;
+  const double radius = std::abs(1 / leg.curvature - offset);
+  return radius >= kSmallCircle_mm - kOneLength_mm && beyond <= kNoDirection_mm * (2 * radius + kNoDirection_mm);
+}
+
+// Curves that touch as far as the words tell: of the two numbers whose difference the discriminant is all digits but some last binary ones are the same. These would decide whether
+// and where the curves meet; `whole` is one of the two.
+double without_noise(double discriminant, double whole) { return std::abs(discriminant) <= kOneNumber * whole ? 0 : discriminant; }
 
 bool turns_back(double sine, double cosine) { return cosine < 0 && std::abs(sine) < kCusp; }
 
@@ -97,27 +112,27 @@ bool meet_behind_cusp(const Leg& before, const Leg& behind, double offset, Vec2*
   if (bend * o <= 0) return false;
   const double q0 = 2 * o * (1 - d) / bend, g = 2 * c / bend;
   const double a2 = 1 + 0.25 * k * k * g * g, a1 = g * (0.5 * k * k * q0 - (1 - o * k)), a0 = 0.25 * k * k * q0 * q0 - q0 * (1 - o * k);
-  const double discriminant = a1 * a1 - 4 * a2 * a0;
-  if (!(discriminant >= 0)) return false;
-  const double a = (-a1 - std::sqrt(discriminant)) / (2 * a2);
+  const double discriminant = without_noise(a1 * a1 - 4 * a2 * a0, a1 * a1 + a2 * std::abs(q0 * (1 - o * k))), beyond = -discriminant / (4 * a2);
+  if (!(discriminant >= 0) && !(touches(before, o, beyond) && touches(behind, o, beyond))) return false;
+  const double a = (-a1 - std::sqrt(std::max(discriminant, 0.0))) / (2 * a2);
   *w = a * before.u + (o + 0.5 * k * (q0 + g * a)) * left_of(before.u);
-  return a < 0 && std::isfinite(w->h) && std::isfinite(w->v);
+  return a < kOneLength_mm && std::isfinite(w->h) && std::isfinite(w->v);
 }
 
 // Of an arc whose radius is the amount there is no more than a point, its centre, and rounding decides whether that lies on the other curve. It does as far as the
 // words can tell. The vector leads to the centre, from which the tool touches all of the arc.
-bool meets_in_a_point(const Leg& arc, const Leg& other, double offset, Vec2* w) {
-  if (!is_point(arc, offset)) return false;
+bool meets_in_a_point(const Leg& arc, const Leg& other, double offset, double unsure, Vec2* w) {
+  if (!is_point(arc, offset, unsure)) return false;
   *w = (1 / arc.curvature) * left_of(arc.u);
-  return norm(nearest_on_curve(other, offset, *w) - *w) < kLastDigit_mm;
+  return distance_from_curve(other, offset, *w) < unsure;
 }
 
 // Two blocks with lines between them that have no direction, in which the amount changes: the first half of the corner that the amount in front of them makes, the
 // second half of the one of the amount behind them.
-bool joint_of_amount_change(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint) {
+bool joint_of_amount_change(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, double unsure, ContourJoint* joint) {
   ContourJoint first, last;
-  if (!joint_in_mode(before, offset_before, delta_before, behind, offset_before, delta_behind, &first)) return false;
-  if (!joint_in_mode(before, offset_behind, delta_before, behind, offset_behind, delta_behind, &last)) return false;
+  if (!joint_in_mode(before, offset_before, delta_before, behind, offset_before, delta_behind, unsure, &first)) return false;
+  if (!joint_in_mode(before, offset_behind, delta_before, behind, offset_behind, delta_behind, unsure, &last)) return false;
   const unsigned of_first = (first.n + 1) / 2;
   joint->set({});
   joint->n = 0;
@@ -201,10 +216,12 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
   }
   const Vec2 w1 = (0.5 / c) * (ka * behind.u - kb * before.u);
   const double a2 = dot(w1, w1), a1 = 2 * dot(w0, w1) - 1, a0 = dot(w0, w0) - oa * oa;
-  double discriminant = a1 * a1 - 4 * a2 * a0;
-  if (discriminant < 0) {
-    if (discriminant < -1e-12 * (a1 * a1 + 4 * a2 * std::abs(a0))) return false;
-    discriminant = 0;  // the curves touch
+  const double discriminant = without_noise(a1 * a1 - 4 * a2 * a0, a1 * a1);
+  if (discriminant <= 0) {
+    const double beyond = -discriminant / (4 * a2);
+    if (beyond > 0 && !(touches(before, oa, beyond) && touches(behind, ob, beyond))) return false;
+    *w = w0 - a1 / (2 * a2) * w1;
+    return std::isfinite(w->h) && std::isfinite(w->v);
   }
   const double root = std::sqrt(discriminant);
   const double p = a1 < 0 ? 2 * a0 / (root - a1) : (-a1 - root) / (2 * a2);
@@ -212,7 +229,7 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
   return std::isfinite(w->h) && std::isfinite(w->v);
 }
 
-bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint) {
+bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, double unsure, ContourJoint* joint) {
   if (offset_before == 0) {
     joint->set({});
     return true;
@@ -221,7 +238,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     *joint = joint_of_side_change(before, offset_before, delta_before, behind, offset_behind, delta_behind);
     return true;
   }
-  if (offset_before != offset_behind) return joint_of_amount_change(before, offset_before, delta_before, behind, offset_behind, delta_behind, joint);
+  if (offset_before != offset_behind) return joint_of_amount_change(before, offset_before, delta_before, behind, offset_behind, delta_behind, unsure, joint);
   // The vectors at the end of a block have the amount of that block (M700 12.4.5 (2)).
   const double o = offset_before;
   const Turn turn = classify(before, behind, o);
@@ -231,7 +248,7 @@ bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, c
     joint->set(w);
     return true;
   }
-  if (meets_in_a_point(before, behind, o, &w) || meets_in_a_point(behind, before, o, &w)) {
+  if (meets_in_a_point(before, behind, o, unsure, &w) || meets_in_a_point(behind, before, o, unsure, &w)) {
     joint->set(w);
     return true;
   }
@@ -262,7 +279,7 @@ ContourJoint joint_at_cancel_vector(const Leg& before, Vec2 direction, double of
   const Leg hypothetical{unit(direction), 0};
   Vec2 w;
   if (norm(direction) > 0 && intersection(before, offset, hypothetical, offset, &w) &&
-      norm(w) <= kExtremelyLarge * std::abs(offset)) {
+      norm(w) <= kExtremelyLarge * std::abs(offset) + kOneLength_mm) {
     return ContourJoint::single(w);
   }
   return ContourJoint::single(perpendicular(before, offset));

@@ -19,10 +19,16 @@
 
 #include <cstdint>
 
+#include "base/same_place.hpp"
 #include "offset/plane_vector.hpp"
 #include "stream/stream.hpp"
 
 namespace nc {
+
+/// What the last of three digits makes of the radius of an arc, I and J and both ends together, but for one arc in fifty; less than what the check of walls allows (kEnters_mm).
+inline constexpr double kLastDigit_mm = 9e-4 + kOneLength_mm;
+/// The same of words in millimetres or of four digits in inch, whose last one is 2.54 um.
+inline double unsure_of(bool inch) { return inch ? 2.54 * kLastDigit_mm : kLastDigit_mm; }
 
 /// A block as seen from its joint.
 struct Leg {
@@ -76,7 +82,7 @@ struct ContourJoint {
 /// A line shorter than this has no direction: the last digit of its words decides where it leads, and a corner beside it would take the tool
 /// anywhere. It goes along with the vector of the joint before it, which is that of the blocks around it, so the path is off by less than this,
 /// half of what the check of walls allows (kEnters_mm). Several in a row are a block as soon as they lead this far.
-inline constexpr double kNoDirection_mm = 5e-4;
+inline constexpr double kNoDirection_mm = 5e-4 - kOneLength_mm;
 
 /// "Extremely large" (M700 12.4.2, G40 I J K) has no number in the manual: chosen as ten times the amount, a turn of
 /// 168.5 degrees.
@@ -107,16 +113,13 @@ inline bool offset_exists(const Leg& leg, double offset) {
   return 1 - leg.curvature * offset > -1e-9;
 }
 
-/// What the last of three digits makes of the radius of an arc, I and J and both ends together; less than what the check of walls allows (kEnters_mm).
-inline constexpr double kLastDigit_mm = 9e-4;
-
-/// The offset curve inside of an arc that is as large as the tool, as far as the last digit tells, is a point: its centre.
-inline bool is_point(const Leg& leg, double offset) {
-  return leg.curvature != 0 && std::abs(1 / leg.curvature - offset) < kLastDigit_mm;
+/// The offset curve inside of an arc that is as large as the tool, as far as the last digit tells (`unsure`), is a point: its centre.
+inline bool is_point(const Leg& leg, double offset, double unsure) {
+  return leg.curvature != 0 && std::abs(1 / leg.curvature - offset) < unsure;
 }
 
 /// Can the tool go along the block at all?
-inline bool tool_fits(const Leg& leg, double offset) { return offset_exists(leg, offset) || is_point(leg, offset); }
+inline bool tool_fits(const Leg& leg, double offset, double unsure) { return offset_exists(leg, offset) || is_point(leg, offset, unsure); }
 
 /// Vector to the intersection of two offset curves, the one nearest to the joint.
 bool intersection(const Leg& before, double offset_before, const Leg& behind, double offset_behind, Vec2* w);
@@ -124,7 +127,7 @@ bool intersection(const Leg& before, double offset_before, const Leg& behind, do
 /// The joint inside the mode. False: no intersection on the inner side (M700 12.4.1 (4)). The amounts are those in front of it and behind it: they differ where the amount
 /// changes in the joint itself, not along one of the blocks.
 /// The ways that the two blocks lead, `delta_before` and `delta_behind`, bound how much a change of side may cut off.
-bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, ContourJoint* joint);
+bool joint_in_mode(const Leg& before, double offset_before, Vec2 delta_before, const Leg& behind, double offset_behind, Vec2 delta_behind, double unsure, ContourJoint* joint);
 
 /// The joint at the end of a start block.
 ContourJoint joint_at_start(const Leg& before, const Leg& behind, double offset, bool type_b);

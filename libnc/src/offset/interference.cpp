@@ -17,20 +17,21 @@ constexpr unsigned kMaxSpan = 3;
 // The avoidance joins a block to the next but one or the one behind that, or to the one behind the joints that interfere.
 constexpr unsigned kReach = 2;
 // Below this the cosine of the angle between two vectors is rounding: at right angles is not "more than 90 degrees".
-constexpr double kCosineNoise = 1e-9;
+constexpr double kCosineNoise = 1e-8;
+// Directions are one where they differ by less, in rad: lines of half a micrometre have theirs to some 1e-9 of where they lie on the table.
+constexpr double kOneDirection = 1e-8;
 constexpr double kBackwards_mm = 1e-6;
-constexpr double kHalfTurn = kPi + 1e-9;
-constexpr double kNearHalfTurn_rad = 1e-6;  ///< so near to half a turn rounding decides which way it goes
+constexpr double kHalfTurn = kPi + 1e-8;
 
 // Do the vectors a, standing at the origin, and b, standing at d, cross? Touching ends do not, nor do those that touch but for the last digit: at the centre of an arc of the
 // tool's radius. They cross in s a = d + t b, s and t compared without a division.
-bool vectors_cross(Vec2 a, Vec2 b, Vec2 d) {
+bool vectors_cross(Vec2 a, Vec2 b, Vec2 d, double unsure) {
   const double c = cross(a, b), size = std::abs(c);
-  if (c * c <= 1e-24 * (dot(a, a) * dot(b, b))) return false;
+  if (c * c <= kOneDirection * kOneDirection * (dot(a, a) * dot(b, b))) return false;
   const double s = std::copysign(1, c) * cross(d, b), t = std::copysign(1, c) * cross(d, a);
   const double near_end = 1e-9 * size;
   if (!(s > near_end && s < size - near_end && t > near_end && t < size - near_end)) return false;
-  return (size - s) * norm(a) >= kLastDigit_mm * size || (size - t) * norm(b) >= kLastDigit_mm * size;
+  return (size - s) * norm(a) >= unsure * size || (size - t) * norm(b) >= unsure * size;
 }
 
 // An offset curve: a line through `point` along `u`, or a circle about `center`.
@@ -52,12 +53,17 @@ OffsetCurve curve_of(const Leg& leg, Vec2 joint, double offset) {
   return curve;
 }
 
+// Two curves that overlap by this, so negative where they are apart: false where they do not meet. Where they touch rounding would decide whether they do, and where.
+bool overlaps(double by, double square, double* root) {
+  *root = by > kOneLength_mm ? std::sqrt(std::max(square, 0.0)) : 0;
+  return by >= -kOneLength_mm;
+}
+
 unsigned line_circle(const OffsetCurve& line, const OffsetCurve& circle, Vec2 hit[2]) {
   const Vec2 to_center = circle.center - line.point;
   const double foot = dot(to_center, line.u), away = cross(line.u, to_center);
-  const double h2 = circle.radius * circle.radius - away * away;
-  if (h2 < 0) return 0;
-  const double h = std::sqrt(h2);
+  double h;
+  if (!overlaps(circle.radius - std::abs(away), (circle.radius - away) * (circle.radius + away), &h)) return 0;
   hit[0] = line.point + (foot - h) * line.u;
   hit[1] = line.point + (foot + h) * line.u;
   return 2;
@@ -66,12 +72,13 @@ unsigned line_circle(const OffsetCurve& line, const OffsetCurve& circle, Vec2 hi
 unsigned circle_circle(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
   const Vec2 d = b.center - a.center;
   const double distance = norm(d);
-  if (distance < 1e-9) return 0;
+  if (distance < kOneLength_mm) return 0;
   const double x = (a.radius * a.radius - b.radius * b.radius + distance * distance) / (2 * distance);
-  const double h2 = a.radius * a.radius - x * x;
-  if (h2 < 0) return 0;
+  const double sum = a.radius + b.radius, difference = std::abs(a.radius - b.radius);
+  const double outside = sum - distance, inside = distance - difference;
+  double h;
+  if (!overlaps(std::min(outside, inside), outside * (sum + distance) * inside * (difference + distance) / (4 * distance * distance), &h)) return 0;
   const Vec2 e = (1 / distance) * d;
-  const double h = std::sqrt(h2);
   hit[0] = a.center + x * e + h * left_of(e);
   hit[1] = a.center + x * e - h * left_of(e);
   return 2;
@@ -82,7 +89,7 @@ unsigned curves_meet(const OffsetCurve& a, const OffsetCurve& b, Vec2 hit[2]) {
   if (a.circle) return line_circle(b, a, hit);
   if (b.circle) return line_circle(a, b, hit);
   const double c = cross(a.u, b.u);
-  if (std::abs(c) < 1e-9) return 0;  // parallel walls
+  if (std::abs(c) < kOneDirection) return 0;  // parallel walls
   hit[0] = a.point + (cross(b.point - a.point, b.u) / c) * a.u;
   return 1;
 }
@@ -94,17 +101,18 @@ double distance_from(const OffsetCurve& curve, Vec2 point) {
 
 // Where the offset curves of two sections meet that begin and end there, nearest to `middle`; of one that is a point, in the centre of its arc. False: they do not.
 bool meeting_of(const Section& before, const Section& behind, Vec2 from_joint, Vec2 middle, Vec2* x) {
-  if (!tool_fits(before.end, before.offset) || !tool_fits(behind.begin, behind.offset)) return false;
+  const double unsure = unsure_of(before.inch);
+  if (!tool_fits(before.end, before.offset, unsure) || !tool_fits(behind.begin, behind.offset, unsure)) return false;
   const OffsetCurve a = curve_of(before.end, {}, before.offset), b = curve_of(behind.begin, from_joint, behind.offset);
-  const bool at_a = is_point(before.end, before.offset);
-  if (at_a || is_point(behind.begin, behind.offset)) {
+  const bool at_a = is_point(before.end, before.offset, unsure);
+  if (at_a || is_point(behind.begin, behind.offset, unsure)) {
     *x = at_a ? a.center : b.center;
-    return distance_from(at_a ? b : a, *x) < kLastDigit_mm;
+    return distance_from(at_a ? b : a, *x) < unsure;
   }
   Vec2 hit[2];
   const unsigned hits = curves_meet(a, b, hit);
   if (hits == 0) return false;
-  *x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) ? hit[1] : hit[0];
+  *x = hits == 2 && norm(hit[1] - middle) < norm(hit[0] - middle) - kOneLength_mm ? hit[1] : hit[0];
   return true;
 }
 
@@ -121,13 +129,13 @@ Vec2 start_vector(const Chain& chain, unsigned i, Vec2 first_vector) {
 
 // Would a line run backwards between these two vectors? (12.4.8 alarm (2)(a)(ii), (c))
 bool runs_backwards(const Section& section, Vec2 from, Vec2 to) {
-  if (section.begin.curvature != 0) return false;
+  if (section.begin.curvature != 0 || section.part) return false;
   return dot(section.delta + to - from, section.begin.u) < -kBackwards_mm;
 }
 
 // The same of an arc: its sweep has changed its sign.
 bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
-  if (section.begin.curvature == 0 || section.sweep == 0 || is_point(section.begin, section.offset)) return false;
+  if (section.begin.curvature == 0 || section.sweep == 0 || is_point(section.begin, section.offset, unsure_of(section.inch))) return false;
   const double sense = section.sweep > 0 ? 1 : -1;
   const Vec2 radius_start = (-sense / std::abs(section.begin.curvature)) * left_of(section.begin.u);
   const Vec2 radius_end = (-sense / std::abs(section.end.curvature)) * left_of(section.end.u);
@@ -138,11 +146,6 @@ bool arc_runs_backwards(const Section& section, Vec2 from, Vec2 to) {
   if (along_start > 0 && along_end > 0 &&
       std::abs(section.sweep) > std::abs(cross(radius_start, now_start)) / along_start + std::abs(cross(radius_end, now_end)) / along_end)
     return false;
-  // Which way a radius turns by half a turn is decided by rounding. It is the way against the arc.
-  const auto turned = [](Vec2 a, Vec2 b, double way) {
-    const double by = std::atan2(cross(a, b), dot(a, b));
-    return kPi - std::abs(by) < kNearHalfTurn_rad ? way * kPi : by;
-  };
   const double sweep = section.sweep + turned(radius_end, now_end, -sense) - turned(radius_start, now_start, sense);
   return sweep * sense * norm(now_start) < -kBackwards_mm;
 }
@@ -187,7 +190,7 @@ bool way_behind(const Chain& chain, unsigned j, Vec2 d, Piece* way) {
   const Section& next = chain[j + 1];
   if (next.cancel || next.vanished || next.offset != section.offset) return false;
   const bool known = next.jointed && next.joint.n > 0;
-  if (!known && (next.begin.curvature != 0 || norm(next.delta) <= std::abs(next.offset))) return false;
+  if (!known && (next.begin.curvature != 0 || norm(next.delta) <= std::abs(next.offset) + kOneLength_mm)) return false;
   const Vec2 leave = known ? next.joint.v[0] : perpendicular(next.end, next.offset) - std::abs(next.offset) * next.end.u;
   *way = path_of(next, d + section.delta + next.approach, section.joint.v[section.joint.n - 1], leave);
   return true;
@@ -254,7 +257,7 @@ bool go_round(Chain* chain, unsigned i, unsigned j, unsigned besides, Vec2 first
   Vec2 x;
   if (!meeting_of(before, behind, d, 0.5 * d, &x)) return false;
   // Blocks that run all but back beside each other meet far from both: no avoidance vector (12.4.8 alarm (2)(b)).
-  if (norm(x) > kExtremelyLarge * std::abs(before.offset) + norm(d)) return false;
+  if (norm(x) > kExtremelyLarge * std::abs(before.offset) + norm(d) + kOneLength_mm) return false;
   const Vec2 from = start_vector(*chain, i, first_vector), leave = behind.jointed ? behind.joint.v[0] : perpendicular(behind.end, behind.offset);
   if (runs_backwards(before, from, x) || arc_runs_backwards(before, from, x)) return false;
   if (runs_backwards(behind, x - d, leave) || arc_runs_backwards(behind, x - d, leave)) return false;
@@ -292,12 +295,12 @@ struct Crossing {
 
 // From the outermost vectors inwards: (1)-(4)', (2)-(3)', (3)-(2)', (4)-(1)'. `walls_only`: just those that stand on the blocks between the two
 // joints. Of a groove with several blocks these tell whether the tool fits between its walls; the tips of lengthened corners may cross outside of it.
-Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, Vec2 d, bool walls_only) {
+Crossing find_crossing(const ContourJoint& before, const ContourJoint& behind, Vec2 d, double unsure, bool walls_only) {
   const unsigned steps = before.n > behind.n ? before.n : behind.n;
   for (unsigned k = walls_only ? steps - 1 : 0; k < steps; ++k) {
     const unsigned i = k < before.n ? k : before.n - 1u;
     const unsigned j = k < behind.n ? behind.n - 1u - k : 0u;
-    if (vectors_cross(before.v[i], behind.v[j], d)) return {true, i, j};
+    if (vectors_cross(before.v[i], behind.v[j], d, unsure)) return {true, i, j};
   }
   return {};
 }
@@ -314,8 +317,8 @@ double longest_square(const ContourJoint& joint) {
 // the distance is a sum of coordinates, which are exact to far less than a nanometre.
 bool too_far_to_cross(double longest_before, double longest_behind, Vec2 d) { return dot(d, d) > 2.2 * (longest_before + longest_behind) + 1e-12; }
 
-// Does the contour turn away from the tool behind section i?
-bool turns_away(const Chain& chain, unsigned i) { return cross(chain[i].end.u, chain[i + 1].begin.u) * chain[i].offset < 0; }
+// Does the contour turn to the tool behind section i? Straight on is no turn, and of a cusp the curvatures tell.
+bool turns_to(const Chain& chain, unsigned i) { return classify(chain[i].end, chain[i + 1].begin, chain[i].offset) == Turn::inner; }
 
 // Do the blocks between the joints of sections i and j, all of them walls on one side, come back towards the tool: at a corner, or along an arc? Not where the program
 // gives a vector, which may lie anywhere (12.4.3).
@@ -325,7 +328,7 @@ bool comes_back(const Chain& chain, unsigned i, unsigned j) {
   for (unsigned k = i + 1; k <= j; ++k) {
     const Section& section = chain[k];
     if (section.dead || section.vanished || section.commanded || !is_wall(section) || changes_side(chain, k)) return false;
-    back = back || (k < j && !turns_away(chain, k)) || section.begin.curvature * section.offset > 0;
+    back = back || (k < j && turns_to(chain, k)) || section.begin.curvature * section.offset > 0;
   }
   return back;
 }
@@ -341,30 +344,42 @@ Piece driven_path(const Chain& chain, unsigned k, Vec2 start) {
   return path_of(section, start, chain[k - 1].joint.v[last_driven(chain[k - 1])], section.joint.v[first_driven(section, last)]);
 }
 
-// Could the tool at a corner, whose longest vector this is the square of, come to the line that ends at `end`? Places count from the corner.
-bool in_reach(const Section& line, Vec2 end, double longest) {
-  const double reach = 2 * (longest + line.offset * line.offset);  // (a + b)^2 <= 2 (a^2 + b^2)
+// A joint and its place.
+struct PlacedJoint {
+  const ContourJoint& joint;
+  Vec2 at;
+};
+
+// Could the tool, at two joints or on its way between them, come to the line that ends at `end`?
+bool in_reach(const Section& line, Vec2 end, PlacedJoint first, PlacedJoint last) {
   const Vec2 u = line.begin.u;
-  const double beside = cross(u, end), ahead = dot(u, end), behind = dot(u, line.delta) - ahead;
-  return beside * beside <= reach && (ahead >= 0 || ahead * ahead <= reach) && (behind >= 0 || behind * behind <= reach);
+  const double most = std::abs(line.offset) + kOneLength_mm;
+  const auto beyond = [](const ContourJoint& joint, Vec2 way, double far) {
+    unsigned n = 0;
+    while (n < joint.n && dot(way, joint.v[n]) > far) ++n;
+    return n == joint.n;
+  };
+  const auto all_beyond = [&](Vec2 way, double far) { return beyond(first.joint, way, far + dot(way, end - first.at)) && beyond(last.joint, way, far + dot(way, end - last.at)); };
+  return !(all_beyond(-u, dot(u, line.delta) + most) || all_beyond(u, most) || all_beyond(left_of(u), most) || all_beyond(-left_of(u), most));
 }
 
 // The same of two blocks that may bend, whose middles are so far apart: what turns by no more than half a circle lies within that of its chord.
 bool in_reach(const Section& a, const Section& b, Vec2 apart, double longest) {
   if (std::abs(a.sweep) > kPi || std::abs(b.sweep) > kPi) return true;
-  return norm(apart) <= 0.5 * (norm(a.delta) + norm(b.delta)) + std::sqrt(longest) + std::abs(a.offset);
+  return norm(apart) <= 0.5 * (norm(a.delta) + norm(b.delta)) + std::sqrt(longest) + std::abs(a.offset) + kOneLength_mm;
 }
 
-// Three blocks between two joints, at one of which the contour turns away, and the tool there, or along the wall behind it where walls bend, could come to the wall on the
-// other side. `d` leads from the one to the other, and the squares are those of the longest vectors at the two.
+// Three blocks between two joints, at one of which the contour does not turn to the tool, and the tool there, or along the wall at it, could come to the wall on the other
+// side. `d` leads from the one to the other, and the squares are those of the longest vectors at the two.
 bool may_have_mouth(const Chain& chain, unsigned i, unsigned j, Vec2 d, double longest_before, double longest_behind) {
   if (j + 1 >= chain.size()) return false;
   const Section& into = chain[i + 1];
   const Section& out = chain[j];
+  const Vec2 foot = into.approach + into.delta;
   if (into.begin.curvature == 0 && out.begin.curvature == 0)
-    return (in_reach(out, d, longest_before) && turns_away(chain, i)) || (in_reach(into, into.approach + into.delta - d, longest_behind) && turns_away(chain, j));
-  const Vec2 apart = d - 0.5 * out.delta - into.approach - 0.5 * into.delta;
-  return (turns_away(chain, i) || turns_away(chain, j)) && in_reach(into, out, apart, std::max(longest_before, longest_behind));
+    return (in_reach(out, d, {chain[i].joint, {}}, {into.joint, foot}) && !turns_to(chain, i)) || (in_reach(into, foot, {chain[j - 1].joint, d - out.delta - out.approach}, {out.joint, d}) && !turns_to(chain, j));
+  const Vec2 apart = d - 0.5 * out.delta - foot + 0.5 * into.delta;
+  return in_reach(into, out, apart, std::max(longest_before, longest_behind)) && (!turns_to(chain, i) || !turns_to(chain, j));
 }
 
 // Is the mouth of a groove of three blocks narrower than the tool? The vectors on its walls tell where the walls are about parallel. Where they go apart below
@@ -372,13 +387,13 @@ bool may_have_mouth(const Chain& chain, unsigned i, unsigned j, Vec2 d, double l
 // side of the mouth and along the wall below, comes nearer than the amount to the wall on the other side. Where the contour closes they may be ways in and out.
 bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j, Vec2 first_vector) {
   if (!comes_back(chain, i, j)) return false;
-  const bool in_front = turns_away(chain, i), behind = turns_away(chain, j);
+  const bool in_front = !turns_to(chain, i), behind = !turns_to(chain, j);
   const Vec2 d = joint_distance(chain, i, j);
   const Section& into = chain[i + 1];
   const Section& out = chain[j];
   if (!on_one_level(into, out)) return false;
   const Piece first = wall_of(into, into.approach), last = wall_of(out, d - out.delta);
-  const double least = std::min({std::abs(chain[i].offset), std::abs(into.offset), std::abs(out.offset)}) - kEnters_mm - slop_of(first) - slop_of(last);  // at the first joint that of the block in front
+  const double least = std::min({std::abs(chain[i].offset), std::abs(into.offset), std::abs(out.offset)}) - enters_of(into.inch) - slop_of(first) - slop_of(last);  // at the first joint that of the block in front
   const auto enters = [&](unsigned k, Vec2 at, const Piece& wall) {
     const ContourJoint& joint = chain[k].joint;
     for (unsigned n = first_driven(chain[k], start_vector(chain, k, first_vector)); n < last_driven(chain[k]); ++n)
@@ -393,13 +408,14 @@ bool mouth_too_narrow(const Chain& chain, unsigned i, unsigned j, Vec2 first_vec
 // Does the tool stay in one place between the joints of sections i and j, as far as the last digit tells? That is so where nothing but points is left of arcs, and of lines
 // between them that lead from one to the other.
 bool stays_in_place(const Chain& chain, unsigned i, unsigned j) {
-  const auto point = [&](unsigned k) { return is_point(chain[k].begin, chain[k].offset) && is_point(chain[k].end, chain[k].offset); };
+  const double unsure = unsure_of(chain[j].inch);
+  const auto point = [&](unsigned k) { return is_point(chain[k].begin, chain[k].offset, unsure) && is_point(chain[k].end, chain[k].offset, unsure); };
   for (unsigned k = i + 1; k <= j; ++k) {
     if (point(k)) continue;
     const Section& line = chain[k];
     if (line.begin.curvature != 0 || !point(k - 1) || k + 1 >= chain.size() || !point(k + 1) || chain[k - 1].joint.n == 0 || line.joint.n == 0) return false;
     const Vec2 way = line.delta + line.joint.v[0] - start_vector(chain, k, {});
-    if (norm(way) >= 2 * kLastDigit_mm) return false;  // each of the two places is known to one
+    if (norm(way) >= 2 * unsure) return false;  // each of the two places is known to one
   }
   return true;
 }
@@ -410,8 +426,8 @@ Finding check_pair(Chain* chain, unsigned live, unsigned i, unsigned j, bool may
                    unsigned* at, bool* crosses) {
   Section& before = (*chain)[i];
   Section& behind = (*chain)[j];
-  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j), j - i == kMaxSpan);
-  if (!crossing.found || stays_in_place(*chain, i, j)) return Finding::none;
+  const Crossing crossing = find_crossing(before.joint, behind.joint, joint_distance(*chain, i, j), unsure_of(before.inch), j - i == kMaxSpan);
+  if (!crossing.found || (j == i + 1 && behind.part) || stays_in_place(*chain, i, j)) return Finding::none;
   *crosses = true;
   *at = live;
   const Vec2 a = before.joint.v[crossing.before], b = behind.joint.v[crossing.behind];
@@ -512,7 +528,7 @@ void keep_to_the_way(Chain* chain, unsigned i, Vec2 first_vector) {
   const Vec2 u = section.begin.u;
   if (ContourJoint* before = i == 0 ? nullptr : &(*chain)[i - 1].joint; before != nullptr && before->lengthened && (*chain)[i - 1].merge_last) {
     const Vec2 end = section.delta + section.joint.v[0], last = before->v[before->n - 1], outer = before->v[before->n - 2];
-    const bool short_of_it = runs_beside(section, section.joint.v[0]) && dot(end - last, u) < 0 && dot(end - outer, u) >= 0;
+    const bool short_of_it = runs_beside(section, section.joint.v[0]) && dot(end - last, u) < 0 && dot(end - outer, u) >= -kOneLength_mm;
     if (short_of_it) {
       before->v[before->n - 1] = end;
       if (!ways_keep_amount(*chain, i, first_vector)) before->v[before->n - 1] = last;
@@ -520,7 +536,7 @@ void keep_to_the_way(Chain* chain, unsigned i, Vec2 first_vector) {
   }
   if (section.joint.lengthened && section.merge_first) {
     const Vec2 start = start_vector(*chain, i, first_vector), first = section.joint.v[0], outer = section.joint.v[1];
-    const bool behind_it = runs_beside(section, start) && dot(section.delta + first - start, u) < 0 && dot(section.delta + outer - start, u) >= 0;
+    const bool behind_it = runs_beside(section, start) && dot(section.delta + first - start, u) < 0 && dot(section.delta + outer - start, u) >= -kOneLength_mm;
     if (behind_it) {
       section.joint.v[0] = start - section.delta;
       if (!ways_keep_amount(*chain, i, first_vector)) section.joint.v[0] = first;

@@ -44,6 +44,8 @@ struct Section {
   bool led = false;           ///< a displacement to the first vector goes before it, from led_from
   bool led_turns = false;     ///< ... which is one of another contour on the same side
   bool settled = false;       ///< its path has been looked at
+  bool inch : 1 = false;      ///< its words are in inch (unsure_of())
+  bool part : 1 = false;      ///< a line of micrometres that is a part of what goes on before and behind it (tiny_line.hpp): it has no direction to keep
   uint32_t descent = 0;       ///< of the contour, which it belongs to
   uint64_t number = 0;        ///< in that memory
   Vec2 contour_start;         ///< programmed start, counted from the start of the contour
@@ -56,6 +58,7 @@ struct Section {
     joint.n = 0;
     joint.corner_arc = joint.lengthened = joint.first_erased = joint.last_erased = false;
     jointed = commanded = holds = start = cancel = vanished = dead = oblique = merge_first = merge_last = check = walls = avoid = bound = transparent = cuts = led = led_turns = settled = false;
+    part = false;
     descent = 0;
     number = 0;
     contour_start = {};
@@ -66,7 +69,7 @@ static_assert(sizeof(Section) == 256);
 /// Does a line that begins or ends with this vector run parallel to its programmed one? Not where another amount, or the program, has made the vector.
 inline bool runs_beside(const Section& line, Vec2 vector) { return std::abs(dot(vector, left_of(line.end.u)) - line.offset) <= kNoLength; }
 
-/// The blocks under consideration, in order. Only the last one may not be jointed yet. They lie in a ring, so that those in front go without the others
+/// The blocks under consideration, in order. Only the last one may not be jointed yet, and the one in front of it where that may be a part of its neighbours (tiny_line.hpp). They lie in a ring, so that those in front go without the others
 /// being moved.
 class Chain {
  public:

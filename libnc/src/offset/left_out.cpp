@@ -41,7 +41,7 @@ bool enters(const Way& way, const Section& of_way, const Piece& wall, const Sect
 
 bool is_low_step(const Section& section) {
   const double length = section.begin.curvature != 0 ? std::abs(section.sweep / section.begin.curvature) : norm(section.delta);
-  return length < std::abs(section.offset);
+  return length < std::abs(section.offset) - kOneLength_mm;
 }
 
 }  // namespace

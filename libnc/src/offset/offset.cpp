@@ -10,6 +10,7 @@
 #include "base/same_place.hpp"
 #include "base/units.hpp"
 #include "offset/left_out.hpp"
+#include "offset/tiny_line.hpp"
 #include "stream/copy_item.hpp"
 
 namespace nc {
@@ -51,8 +52,8 @@ bool cuts_inner_corner(const Section& before, const Move& move, const Section& b
   return kPi - turn < static_cast<double>(move.rule.corner_angle);
 }
 
-bool vanishes(const Leg& begin, const Leg& end, double offset) {
-  return !tool_fits(begin, offset) || !tool_fits(end, offset);
+bool vanishes(const Leg& begin, const Leg& end, double offset, double unsure) {
+  return !tool_fits(begin, offset, unsure) || !tool_fits(end, offset, unsure);
 }
 
 Item alarm_in(const nc_source& source, Condition condition) {
@@ -65,6 +66,16 @@ Item alarm_in(const nc_source& source, Condition condition) {
 }
 
 Condition condition_of(Clearance found) { return found == Clearance::full ? Condition::contour_too_long : Condition::comp_interference; }
+
+// What is found in this block may be the fault of another one, which the sentence then names by its line, if that is one of the same text.
+Item alarm_by(const nc_source& source, Clearance found, const ContourMemory::Culprit* culprit) {
+  Item alarm = alarm_in(source, condition_of(found));
+  if (found != Clearance::enters || culprit == nullptr) return alarm;
+  if (culprit->way) alarm.alarm.condition = Condition::comp_way;
+  alarm.alarm.has_value = culprit->source.file == source.file && culprit->source.line != 0;
+  alarm.alarm.value = culprit->source.line;
+  return alarm;
+}
 
 }  // namespace
 
@@ -105,7 +116,7 @@ bool OffsetStage::push(const Item& item, NoRule) {
     }
     if (item.kind == ItemKind::sync) held.item.sync.ahead = false;  // all in front of it is executed first
     if (inhibits_read_ahead(item)) close();
-    if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) fail(next_index(), Condition::comp_interference, item.source);
+    if (!failed_ && item.kind == ItemKind::end && memory_.suspects()) stop_by(next_index(), alarm_by(item.source, Clearance::enters, memory_.suspect()));
     if (!failed_) ++count_;
   }
   if (!failed_ && item.block_end) count_block_end();
@@ -146,6 +157,7 @@ void OffsetStage::let_pass(const Item& sync) {
   }
   for (unsigned i = 0; i < chain_.size(); ++i) ++chain_[i].index;
   ++turn_.index;
+  ++bend_.index;
   Sync& passed = new_slot(released_, sync).item.sync;
   const Section* last = open();
   const Vec2 vector = last == nullptr ? tail_ : last->start || last->vanished ? Vec2{} : perpendicular(last->end, last->offset);
@@ -185,6 +197,7 @@ void OffsetStage::reset() {
   given_ = true;
   unchecked_ = false;
   turn_ = {};
+  bend_ = {};
   doubt_ = {};
   memory_.reset();
   level_ = level_end_ = 0;
@@ -237,11 +250,12 @@ void OffsetStage::count_block_end() {
 void OffsetStage::close() {
   turn_.waits = false;
   if (mode_ == Mode::pending) mode_ = Mode::on;
+  if (!decide_waiting()) return;
   if (Section* last = open()) {
     if (last->vanished)
       return fail(last->index, Condition::comp_interference, held_at(last->index).item.source);
     if (held_at(last->index).item.move.comp.corner_arc && !last->start)  // where the arc of G39 leads to nobody knows
-      return fail(last->index, Condition::comp_no_intersection, held_at(last->index).item.source);
+      return fail(bend_.index, Condition::comp_turn_open, bend_.source);
     last->joint.set(last->start ? Vec2{} : perpendicular(last->end, last->offset));
     last->jointed = last->commanded = true;
     tail_ = last->joint.v[0];
@@ -372,6 +386,7 @@ void OffsetStage::intake_uncompensated(Held* held) {
   } else {
     held->role = without_length(move) ? Role::command : Role::carried;
     cancelled_ = true;
+    if (!decide_waiting()) return;
     Section* last = open();
     if (without_length(move) && move.comp.cancel_vector && last && !last->start && !last->vanished) {
       last->joint =
@@ -389,6 +404,7 @@ void OffsetStage::intake_uncompensated(Held* held) {
 void OffsetStage::bend_behind(uint32_t index, const Item& corner) {
   Move& last = held_at(index).item.move;
   last.comp.corner_arc = true;
+  bend_ = {next_index(), nc_source(corner.source)};
   if (last.kind != NC_MOVE_RAPID) return;
   last.feed_mm_min = corner.move.feed_mm_min;
   last.feed_mm_rev = corner.move.feed_mm_rev;
@@ -413,6 +429,7 @@ bool OffsetStage::look_at_step(const Held& held) {
   step.offset = signed_offset(comp_);
   step.approach = approach_;
   step.crosses = held.lead_crosses;
+  step.source = held.item.source;
   const Clearance found = memory_.step(step);
   if (found != Clearance::fits) fail(next_index(), condition_of(found), nc_source(held.item.source));
   return !failed_;
@@ -423,13 +440,14 @@ bool OffsetStage::look_at_step(const Held& held) {
 void OffsetStage::intake_command(Held* held) {
   const Compensation& comp = held->item.move.comp;
   held->role = without_length(held->item.move) ? Role::command : Role::carried;
+  if (!decide_waiting()) return;
   Section* last = open();
   if (comp.corner_arc &&
       comp.has_vector) {  // DGSHAPE G39: from the normal of the block before to the normal of the direction
     close();
     if (failed_) return;
     const Vec2 vector = signed_offset(comp) * left_of(unit({comp.vector[0], comp.vector[1]}));
-    if (turns_to_tool(tail_, vector, signed_offset(comp))) return fail(next_index(), Condition::comp_interference, nc_source(held->item.source));
+    if (turns_to_tool(tail_, vector, signed_offset(comp))) return fail(next_index(), Condition::comp_turn_inside, nc_source(held->item.source));
     start_commanded_ = held->lead_arc = true;
     lead(held, vector);
     if (!look_at_step(*held)) return;
@@ -465,7 +483,7 @@ bool OffsetStage::turn_fits(const Section& behind) {
   const Vec2 vector = perpendicular(behind.begin, behind.offset);
   const double shared = dot(unit(turn.vector), unit(vector));
   if ((1 - shared) * std::min(norm(turn.vector), norm(vector)) <= kEnters_mm) return true;
-  fail(turn.waits ? turn.index : behind.index, Condition::comp_interference, turn.source);
+  fail(turn.waits ? turn.index : behind.index, Condition::comp_turn_inside, turn.source);
   return false;
 }
 
@@ -494,11 +512,14 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.led_from = held->lead_from;
   section.led_turns = section.led && held->lead_from != Vec2{} && !held->lead_crosses;
   section.avoid = comp.avoid;
+  section.inch = move.inch;
+  if (comp.corner_arc) bend_ = {section.index, nc_source(held->item.source)};
   if (!section.cancel && !section.start) {
     // It begins with the amount of the block before (M700 12.4.6).
     const Section* last = open();
     const double offset_begin = last == nullptr || amount_changed_ ? section.offset : offset_on_side(last->offset, section.offset);
-    section.vanished = vanishes(begin, end, section.offset) || !tool_fits(begin, offset_begin);
+    const double unsure = unsure_of(section.inch);
+    section.vanished = vanishes(begin, end, section.offset, unsure) || !tool_fits(begin, offset_begin, unsure);
   }
   if (!turn_fits(section)) return;
   if (trim_next_) held->trim = true;
@@ -540,6 +561,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
 // Decides the joint between the block that is open and `behind`.
 void OffsetStage::join(const Section& behind, Held* held_behind) {
   const nc_source& source_behind = held_behind->item.source;
+  if (behind.vanished && !decide_waiting()) return;
   Section* last = open();
   if (behind.vanished) {  // M700 12.4.8: only the avoidance can leave such an arc out, once the block behind
                           // it is known
@@ -547,6 +569,39 @@ void OffsetStage::join(const Section& behind, Held* held_behind) {
     if (!avoidable) return fail(behind.index, Condition::comp_interference, source_behind);
   }
   if (!last) return;
+  if (Section* const before = waiting()) {
+    if (goes_on(*last, behind, held_behind->item.move.comp) && is_part(*before, *last, behind)) {
+      before->joint.set(perpendicular(before->end, before->offset));
+      last->joint.set(perpendicular(behind.begin, behind.offset));
+      before->jointed = last->jointed = last->part = last->bound = true;
+      tail_ = last->joint.v[0];
+      return;
+    }
+    if (!decide_waiting()) return;
+  }
+  if (may_be_part(*last, behind) && goes_on(*last, behind, held_behind->item.move.comp)) return;
+  join_pair(last, behind, held_behind);
+}
+
+// Two blocks of the contour with one amount, and nothing at their joint that the program says a word about.
+bool OffsetStage::goes_on(const Section& before, const Section& behind, const Compensation& comp_behind) {
+  const auto plain = [](const Section& section, const Compensation& comp) {
+    return !section.start && !section.cancel && !section.vanished && !comp.has_vector && !comp.hold_vector && !comp.corner_arc && comp.arc_cos == 0;
+  };
+  return plain(before, held_at(before.index).item.move.comp) && plain(behind, comp_behind) && before.offset == behind.offset && !amount_changed_ && behind.approach == Vec2{};
+}
+
+// The block whose joint waits for the one behind the next, which is the last.
+Section* OffsetStage::waiting() { return chain_.size() > 1 && !chain_.back().jointed && !chain_[chain_.size() - 2].jointed ? &chain_[chain_.size() - 2] : nullptr; }
+
+// There is no such block, or it does not make the next one a part of it. False: the program stops.
+bool OffsetStage::decide_waiting() {
+  Section* const before = waiting();
+  if (before != nullptr) join_pair(before, chain_.back(), &held_at(chain_.back().index));
+  return !failed_;
+}
+
+void OffsetStage::join_pair(Section* last, const Section& behind, Held* held_behind) {
   Held& held_last = held_at(last->index);
   const Compensation& comp_behind = held_behind->item.move.comp;
   if (last->vanished || behind.vanished) {  // provisional, replaced by the avoidance
@@ -582,7 +637,7 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
     *joint = joint_corner_arc(before.end, behind.begin, before.offset);
   } else if (comp_before.arc_cos == 0 || offset_behind != before.offset ||
              !joint_of_outer_corner(before.end, behind.begin, before.offset, static_cast<double>(comp_before.arc_cos), joint)) {
-    return joint_in_mode(before.end, before.offset, before.delta, behind.begin, offset_behind, behind.delta, joint);
+    return joint_in_mode(before.end, before.offset, before.delta, behind.begin, offset_behind, behind.delta, unsure_of(before.inch), joint);
   }
   return true;
 }
@@ -591,14 +646,17 @@ bool OffsetStage::find_joint(const Section& before, const Compensation& comp_bef
 // stops.
 bool OffsetStage::check_joints(unsigned last_call) {
   unsigned at = 0;
-  if (chain_.size() > 0 && check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
+  if (!chain_.empty() && check_interference(&chain_, last_call, chain_start(), &at) == Finding::alarm) {
     fail(chain_[at].index, Condition::comp_interference, held_at(chain_[at].index).item.source);
     return false;
   }
   if (chain_.size() < 2) return look_at_left_out(last_call) && look_at_walls(last_call);
   if (!look_at_left_out(last_call)) return false;
   if (chain_.may_have_walls() && !look_at_walls(last_call)) return false;
-  const ContourJoint& joint = chain_[chain_.size() - (open() ? 2 : 1)].joint;
+  unsigned known = chain_.size();
+  while (known > 0 && !chain_[known - 1].jointed) --known;
+  if (known == 0) return true;
+  const ContourJoint& joint = chain_[known - 1].joint;
   tail_ = joint.v[joint.n - 1];
   return true;
 }
@@ -619,7 +677,7 @@ bool OffsetStage::look_at_walls(unsigned sections) {
   Clearance found = Clearance::fits;
   const unsigned at = first_too_near(sections, &found);
   if (found == Clearance::fits) return true;
-  fail(chain_[at].index, condition_of(found), held_at(chain_[at].index).item.source);
+  stop_by(chain_[at].index, alarm_by(held_at(chain_[at].index).item.source, found, memory_.culprit()));
   return false;
 }
 
@@ -631,7 +689,7 @@ unsigned OffsetStage::first_too_near(unsigned sections, Clearance* found) {
     section.settled = true;
     const ContourJoint* before = i == 0 ? nullptr : &chain_[i - 1].joint;
     const bool from_given = !section.start && (i == 0 ? start_commanded_ : chain_[i - 1].commanded);
-    *found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], from_given);
+    *found = memory_.settle(section, before == nullptr ? chain_start_ : before->v[before->n - 1], from_given, held_at(section.index).item.source);
     held_at(section.index).doubt = memory_.doubt();
     if (*found != Clearance::fits) return i;
   }
@@ -641,8 +699,9 @@ unsigned OffsetStage::first_too_near(unsigned sections, Clearance* found) {
 // The section as a wall, against the paths in front of it.
 void OffsetStage::read_wall(Section* section, const nc_source& source) {
   const Clearance found = memory_.read(section);
+  const ContourMemory::Culprit* const culprit = memory_.culprit();  // which stays where it is: no more is read
   if (found == Clearance::fits || !check_joints(chain_.size())) return;
-  fail(section->index, condition_of(found), source);
+  stop_by(section->index, alarm_by(source, found, culprit));
 }
 
 // ---- letting go ----
@@ -658,6 +717,7 @@ void OffsetStage::settle(unsigned n) {
 // into the corner or leave it standing.
 void OffsetStage::make_room() {
   turn_.waits = false;
+  if (!decide_waiting()) return;
   unsigned n = 0;
   while (n < chain_.size() && chain_[n].jointed && !chain_[n].vanished && !(n + 1 < chain_.size() && chain_[n + 1].vanished)) ++n;
   if (n > 0 && !check_joints(n)) return;
@@ -707,6 +767,7 @@ uint32_t OffsetStage::stop_at(uint32_t index, Item* alarm) {
     if (by_itself) *alarm = alarm_in(held_at(index).item.source, condition);
     chain_.keep_front(at);
   };
+  if (waiting() != nullptr) cut(chain_.size() - 1, false, Condition::none);  // whether it is a part of the block before is not known
   if (const Section* first = open(); first != nullptr && first->start) cut(size - 1, false, Condition::none);  // the vector at its end is that of a block that is not reached
   for (unsigned at = 0; interferes(&at);) cut(at, chain_[at].vanished || !chain_[at].avoid, Condition::comp_interference);
   if (Section* last = open()) {

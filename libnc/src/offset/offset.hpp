@@ -64,8 +64,12 @@ class OffsetStage {
   static constexpr unsigned kHeld = 128;
   using Rule = NoRule;
   using Resume = OffsetResume;
-  /// `contour_blocks`: the longest contour that the check of its walls can take. Without this call it takes none.
-  void create(unsigned contour_blocks, Arena& arena) { memory_.create(contour_blocks, arena); }
+  /// `contour_blocks`: the longest contour that the check of its walls can take.
+  void create(unsigned contour_blocks, Arena& arena) {
+    held_ = arena.make<Held>(kHeld);
+    contour_ = arena.make<ContourMemory::State>(kHeld);
+    memory_.create(contour_blocks, arena);
+  }
   /// A move that is compensated.
   bool takes(const Item& item, NoRule, bool) const { return item.move.comp.side != 0; }
   /// Room for one more push (a push may make several items ready).
@@ -135,6 +139,12 @@ class OffsetStage {
     nc_source source{};
   };
 
+  /// Where the arc of G39 at the end of the block that is open has been commanded: in that block, or in one of its own behind it.
+  struct Bend {
+    uint32_t index = 0;
+    nc_source source{};
+  };
+
   // Intake: push() and what it decides (offset.cpp).
   void let_pass(const Item& sync);
   void keep_state(Held* mark);
@@ -149,6 +159,10 @@ class OffsetStage {
   bool look_at_step(const Held& held);
   void intake_section(Held* held, const Leg& begin, const Leg& end);
   void join(const Section& behind, Held* held_behind);
+  void join_pair(Section* before, const Section& behind, Held* held_behind);
+  bool goes_on(const Section& before, const Section& behind, const Compensation& comp_behind);
+  Section* waiting();
+  bool decide_waiting();
   bool find_joint(const Section& before, const Compensation& comp_before, const Section& behind, const Compensation& comp_behind, ContourJoint* joint) const;
   bool check_joints(unsigned last_call);
   bool look_at_left_out(unsigned sections);
@@ -186,8 +200,8 @@ class OffsetStage {
   void note_section(const Held& held);
   void note_mark(const Held& held);
 
-  Held held_[kHeld];       ///< item number i lies in held_[i % kHeld]
-  ContourMemory::State contour_[kHeld];
+  Held* held_ = nullptr;   ///< kHeld; item number i lies in held_[i % kHeld]
+  ContourMemory::State* contour_ = nullptr;  ///< kHeld
   uint32_t count_ = 0;     ///< of items held
   Chain chain_;            ///< sections whose items are not released
   uint32_t first_ = 0;     ///< index of the front of held_
@@ -203,6 +217,7 @@ class OffsetStage {
   Vec2 chain_start_;     ///< vector at the start of chain_[0]
   Vec2 approach_;        ///< of the next section
   Turn turn_;
+  Bend bend_;
   bool unchecked_ = false;     ///< the last section has not been compared with those in front
   bool given_ = true;          ///< restored: the vector goes by no block behind it
   bool side_changed_ = false;  ///< a block without a direction in front of the next section has changed the side

@@ -2,6 +2,7 @@
 // The stage of tool radius compensation, second half: items whose joints are decided leave it, moves with the
 // geometry of the tool centre. Only straight displacements along the vectors are added to what was
 // programmed.
+#include <algorithm>
 #include <cmath>
 
 #include "base/same_place.hpp"
@@ -48,18 +49,9 @@ bool has_length(const Move& move) {
   return false;
 }
 
-double turned_by(Vec2 from, Vec2 to) {
-  const double across = cross(from, to), along = dot(from, to);
-  // Of so small a number the arc tangent is the number itself, in all the digits that a double has: the vectors at smooth joints.
-  if (std::abs(across) < 1e-9 * along) return across / along;
-  return std::atan2(across, along);
-}
-
 // How far the radius turns at one end of an arc. Where the tool passes through the centre itself (its radius is
 // that of the arc) nothing is left that could point anywhere: what remains is rounding, and the angle stays.
-double radius_turned_by(Vec2 from, Vec2 to) {
-  return norm(to) > kNoLength ? turned_by(from, to) : 0;
-}
+double radius_turned_by(Vec2 from, Vec2 to, double way) { return norm(to) > kNoLength ? turned(from, to, way) : 0; }
 
 // The centre stays; radii and angles follow the vectors at both ends. Vectors that are not along the radius
 // (I J K, a changed amount) make a spiral. M700 12.4.2 "Arc exceeding 360 degrees": with `trim` only what is
@@ -69,8 +61,8 @@ void shift_circle(Circle* circle, Vec2 start, Vec2 end, Vec2 w_start, Vec2 w_end
   if (w_start == Vec2{} && w_end == Vec2{}) return;
   const Vec2 center{circle->center[0], circle->center[1]};
   const Vec2 from = start + w_start - center, to = end + w_end - center;
-  const double turn_start = radius_turned_by(start - center, from);
-  const double sweep = circle->sweep + radius_turned_by(end - center, to) - turn_start;
+  const double turn_start = radius_turned_by(start - center, from, circle->sweep);
+  const double sweep = circle->sweep + radius_turned_by(end - center, to, -circle->sweep) - turn_start;
   circle->radius_start = norm(from);
   circle->radius_end = norm(to);
   circle->angle_start += turn_start;
@@ -271,7 +263,7 @@ bool OffsetStage::pop_shifted(const Held& held, Vec2 end_vector, Item& out) {
     const Vec2 end{programmed.end[axis_[0]], programmed.end[axis_[1]]};
     shift_circle(&move.circle, start, end, vector_, end_vector, held.trim);
     // An arc whose radius is that of the tool: what is left of it is rounding, which would stop the machine as the bend that it is.
-    if (move.circle.radius_start < kLastDigit_mm && move.circle.radius_end < kLastDigit_mm) make_line(&move);
+    if (std::max(move.circle.radius_start, move.circle.radius_end) < unsure_of(move.inch)) make_line(&move);
   } else if (move.circular) {  // an arc in another plane goes along as a whole
     for (unsigned i = 0; i < 2; ++i) {
       if (move.plane_axis[i] == axis_[0]) move.circle.center[i] += vector_.h;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace nc {
 
 struct Vec2 {
@@ -47,6 +49,16 @@ inline Vec2 left_of(Vec2 a) {
 inline Vec2 unit(Vec2 a) {
   const double n = norm(a);
   return n > 0 ? (1 / n) * a : Vec2{};
+}
+
+/// Angle from one vector to the other, counter-clockwise positive. So near to half a turn that rounding would decide which way it goes, in rad, it goes the way of the sign of `way`.
+inline double turned(Vec2 from, Vec2 to, double way) {
+  constexpr double kNearHalfTurn = 1e-6;
+  const double across = cross(from, to), along = dot(from, to);
+  // Of so small a number the arc tangent is the number itself, in all the digits that a double has: the vectors at smooth joints.
+  if (std::abs(across) < 1e-9 * along) return across / along;
+  const double by = std::atan2(across, along);
+  return kPi - std::abs(by) < kNearHalfTurn ? std::copysign(kPi, way) : by;
 }
 
 }  // namespace nc

@@ -20,10 +20,8 @@ constexpr double kOneRadius_mm = 1e-4;
 constexpr double kOneAmount_mm = 1e-4;
 /// Vectors whose lengths differ by less end on one circle about the corner.
 constexpr double kBends_mm = 1e-6;
-/// Which way a turn of 180 degrees goes is decided by rounding, from this near on.
-constexpr double kHalfTurn_rad = 1e-6;
-
-double turned(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+/// A way that leads from the lengthened wall by no more than this sine leads straight on along it: a hundredth is more than what the three digits of its words make of it, and of a tangent.
+constexpr double kStraightOn = 0.01;
 double mean_radius(const Piece& arc) { return 0.5 * (arc.radius + arc.radius_end); }
 
 /// The ray from the centre to this point goes through the arc.
@@ -123,6 +121,24 @@ void halve(const Piece& arc, Piece half[2]) {
   half[0].radius_end = half[1].radius = middle;
 }
 
+/// The direction of travel at one of its ends.
+Vec2 tangent(const Piece& wall, Vec2 end) { return wall.round ? std::copysign(1.0, wall.sweep) * left_of(unit(end - wall.center)) : unit(wall.to - wall.from); }
+
+// Straight on along the wall, beyond its end, the manual's own ways lead (12.4.1): what they cut of the end is theirs.
+bool leads_straight_on(Vec2 far, const Piece& wall, Vec2 end) {
+  const double straight_on = kStraightOn + kLastDigit_mm / (wall.round ? mean_radius(wall) : norm(wall.to - wall.from));
+  const Vec2 beyond = norm(end - wall.to) <= norm(end - wall.from) ? tangent(wall, end) : -1.0 * tangent(wall, end);
+  return dot(far, beyond) > 0 && std::abs(dot(far, left_of(beyond))) <= straight_on * norm(far);
+}
+
+bool cuts_end(const WayPast& way, const Piece& wall, Vec2 end) {
+  const Vec2 beside = way.comes ? way.path.to : way.path.from, far = (way.comes ? way.path.from : way.path.to) - end;
+  const double least = std::min(way.amount, norm(beside - end)) - way.margin;
+  if (norm(far) < least) return true;  // the tool stands in the wall's end there, whichever way it has come
+  if (leads_straight_on(far, wall, end)) return false;
+  return std::min({to_inside(way.path, end), norm(way.path.from - end), norm(way.path.to - end)}) < least;
+}
+
 /// How far its points may lie beside the arc of its mean radius.
 double slack(const Piece& piece) { return piece.round ? 0.5 * std::abs(piece.radius - piece.radius_end) : 0; }
 
@@ -140,7 +156,7 @@ Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to) {
   Piece path;
   path.from = start + from;
   path.to = start + section.delta + to;
-  if (section.begin.curvature == 0 || section.dead || section.oblique || is_point(section.begin, section.offset)) return path;
+  if (section.begin.curvature == 0 || section.dead || section.oblique || is_point(section.begin, section.offset, unsure_of(section.inch))) return path;
   arc_of(section, start, &path);
   const Vec2 center = path.center;
   path.radius = norm(path.from - center);
@@ -149,16 +165,14 @@ Piece path_of(const Section& section, Vec2 start, Vec2 from, Vec2 to) {
     path.round = false;
     return path;
   }
-  path.sweep += turned(start + section.delta - center, path.to - center) - turned(start - center, path.from - center);
+  path.sweep += turned(start + section.delta - center, path.to - center, -path.sweep) - turned(start - center, path.from - center, path.sweep);
   return path;
 }
 
 bool bendable(Vec2 from, Vec2 to) { return norm(from) > kNoLength && std::abs(norm(from) - norm(to)) < kBends_mm && norm(to - from) > kNoLength; }
 
 double corner_sweep(Vec2 from, Vec2 to, double offset) {
-  const double sweep = turned(from, to);
-  if (kPi - std::abs(sweep) >= kHalfTurn_rad) return sweep;
-  return offset > 0 ? -std::abs(sweep) : std::abs(sweep);
+  return turned(from, to, offset > 0 ? -1 : 1);
 }
 
 Piece arc_about(Vec2 center, Vec2 from, Vec2 to, double offset) {
@@ -206,6 +220,8 @@ double distance(const Piece& path, const Piece& wall, OpenEnds open) {
   if (path.round || wall.round) return std::min(best, path.round ? line_to_arc(wall, path) : line_to_arc(path, wall));
   return lines_cross(path, wall) ? 0 : best;
 }
+
+bool cuts_end(const WayPast& way, const Piece& wall, OpenEnds open) { return (open.from && cuts_end(way, wall, wall.from)) || (open.to && cuts_end(way, wall, wall.to)); }
 
 bool comes_nearer(const Piece& path, const Piece& wall, double least, OpenEnds open) {
   const double slack_path = slack(path), slack_wall = slack(wall), d = distance(path, wall, open);

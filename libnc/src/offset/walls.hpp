@@ -34,10 +34,19 @@ Piece way_at(Vec2 point, Vec2 from, Vec2 to, bool bends, double offset);
 /// What it lies in.
 Box box_of(const Piece& piece);
 
-/// Ends of a wall that are not looked at: where the tool comes to the contour or leaves it.
+/// Ends of a wall whose distance is not asked for: where the tool comes to the contour or leaves it. Of the way there cuts_end() is asked.
 struct OpenEnds {
   bool from = false, to = false;
 };
+/// A way to such an end (`comes`), or from it.
+struct WayPast {
+  const Piece& path;
+  bool comes = false;
+  double amount = 0, margin = 0;
+};
+/// Does it come nearer to that end than `amount`, and than the place beside the wall where it ends or begins, by more than `margin`? Straight on along the wall it may, as far as it does
+/// not end (begin) as near as that: there the tool stands in the wall.
+bool cuts_end(const WayPast& way, const Piece& wall, OpenEnds open);
 /// Shortest distance of two pieces, 0 where they cross. An arc counts with the mean of its radii.
 double distance(const Piece& path, const Piece& wall, OpenEnds open = {});
 /// Whether they come nearer to each other than `least`, also where radii change, to a tenth of a micrometre.
@@ -54,11 +63,11 @@ bool comes_nearer(const Piece& path, Amount of_path, const Piece& wall, Amount o
 inline double slop_of(const Piece& wall) { return 0.1 * std::abs(wall.radius - wall.radius_end); }
 
 /// A contour that comes back to a point this near has closed there,
-inline constexpr double kCloses_mm = 1e-3;
+inline constexpr double kCloses_mm = 1e-3 + kOneLength_mm;
 /// once it has been this far away.
-inline constexpr double kAway_mm = 0.01;
+inline constexpr double kAway_mm = 0.01 + kOneLength_mm;
 /// Levels that differ by less are one; so are distances from a wall.
-inline constexpr double kLevel_mm = 1e-3;
+inline constexpr double kLevel_mm = 1e-3 + kOneLength_mm;
 
 /// Does it cut along its offset curve?
 inline bool is_wall(const Section& section) { return !section.start && !section.cancel && section.cuts && section.offset != 0; }
@@ -68,6 +77,8 @@ bool on_one_level(const Section& a, const Section& b);
 bool closes(const Chain& chain, unsigned first, unsigned last);
 
 /// By how much a path may come nearer than the radius: rounding, and the micrometre that a vector may be off where an arc ends beside its circle.
-inline constexpr double kEnters_mm = 1e-3;
+inline constexpr double kEnters_mm = 1e-3 + kOneLength_mm;
+/// The same of words in inch, the last of whose four digits is 2.54 um.
+inline double enters_of(bool inch) { return inch ? 2.54 * kEnters_mm : kEnters_mm; }
 
 }  // namespace nc

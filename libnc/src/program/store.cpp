@@ -62,6 +62,8 @@ void ProgramStore::create(unsigned capacity, unsigned reserved, ProgramNumbers n
   count_ = given_ = 0;
 }
 
+uint32_t ProgramStore::number_of(const char* name) const { return number_of_name(without_folder(name), numbers_); }
+
 nc_status ProgramStore::add(const TextEntry& entry, const char* name, unsigned* file, bool own) {
   if (name == nullptr || (entry.read == nullptr && entry.memory == nullptr && entry.size != 0))
     return NC_E_ARGUMENT;

@@ -32,6 +32,8 @@ class ProgramStore {
   /// `reserved` more places are kept for texts of the control itself (MDI), however many texts the host enters.
   void create(unsigned capacity, unsigned reserved, ProgramNumbers numbers, Arena& arena);
   char number_letter() const { return numbers_.letter; }
+  /// The number that a text of this name has; 0 = none.
+  uint32_t number_of(const char* name) const;
   nc_status add(const TextEntry& entry, const char* name, unsigned* file, bool own = false);
   /// Frees the place of an entry that nothing refers to.
   void remove(unsigned file);

@@ -165,6 +165,7 @@ struct Move {
   bool connecting = false;       ///< inserted by a stage (corner of a compensated contour), not programmed
   uint8_t skip_mask = 0;
   bool skip_away = false;        ///< skip: ends where these signals are off
+  bool inch = false;             ///< the last digit of its words is a ten-thousandth of an inch, not a thousandth of a millimetre
   const SkipSpeeds* skip_speeds = nullptr; ///< skip: signals that change its feed (M700 15.5); nullptr in nearly every move
   uint32_t stroke_box = 0;       ///< id of the prohibited area in force, counted from 1; 0 = none (M700 15.7)
   Plane plane = Plane::none;     ///< plane of a circular move, and of a line with a rounding at its end

@@ -78,7 +78,7 @@ inline constexpr Rules kRules = {
               .keeps_spindle_direction = false,
               .axis_follows_plane = false,
               .bore_stop_dwells = false,
-              .code_begins_data = true},
+              .data = HoleData::of_code},
     .reference = {.remembered_axes_go = true,
                   .forgets_with_program = true,
                   .takes_rotary_axes = false,

@@ -38,6 +38,7 @@ const AlarmRow kConditions[] = {
     {C::illegal_character, "F_82001", nullptr},  // 2.2.1
     {C::illegal_address, "F_82001", nullptr},
     {C::value_range, "F_82002", nullptr},        // 2.2.2
+    {C::no_direction, "F_82002", nullptr},
     {C::format_error, "F_82004", nullptr},
     {C::program_end, "F_82016", nullptr},        // 2.3
     {C::block_skip, "F_82017", nullptr},         // 2.3.3

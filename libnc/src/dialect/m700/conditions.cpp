@@ -15,6 +15,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::format_error, "P33", nullptr},
     {C::behind_semicolon, "P33", nullptr},  // appendix 1: "the command format of the block"
     {C::value_range, "P35", nullptr},
+    {C::no_direction, "P35", nullptr},  // 12.4.2, 12.5
     {C::illegal_character, "P32", nullptr},  // 3.1: a code outside the tape code table
     {C::block_too_long, "P33", nullptr},     // 3.2 gives no largest length of a block, so it is a fault of format
     {C::number_zero, "P37", nullptr},
@@ -46,7 +47,7 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::space_conversion, "P920", nullptr},   // 13.22
     {C::arc_in_compensation_start, "P151", nullptr},  // 12.4.1
     {C::no_offset_number, "P170", nullptr},
-    {C::tool_unknown, "P170", nullptr},  // does not occur: H and D are words (12.1)
+    {C::tool_unknown, "P170", nullptr},  // H99, D99: the tool in the spindle is not known (10.15)
     {C::cycle_in_compensation, "P155", nullptr},
     {C::skip_in_compensation, "P608", nullptr},
     {C::skip_feed_zero, "P603", nullptr},
@@ -62,6 +63,9 @@ const AlarmRow kConditions[kConditionRows] = {
     {C::tool_pair, "P33", nullptr},            // does not occur: M06 is put out like any other M code
     {C::comp_no_intersection, "P152", nullptr},
     {C::comp_interference, "P153", nullptr},
+    {C::comp_way, "P153", nullptr},
+    {C::comp_turn_open, "P152", nullptr},    // 12.4.2, G39
+    {C::comp_turn_inside, "P153", nullptr},  // does not occur: G39 takes its corner from the block behind it
     {C::contour_too_long, "P990", nullptr},    // CONTOUR_CHECK; appendix 1: more than can be read ahead
     {C::corner_option, "P380", nullptr},       // 13.7; in a fixed cycle, and while programmed coordinates are not those of the axes
     {C::corner_arc, "P381", nullptr},          // 13.7

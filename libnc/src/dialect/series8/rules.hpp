@@ -84,8 +84,7 @@ inline constexpr Rules kRules = {
               .levels_outlive_mode = true,
               .tap_follows_spindle = true,
               .takes_length_number = true,
-              .shift_needs_words = true,  // G88, G89
-              .shift_is_of_spindle = true,
+              .q_is_shift = true,  // G88, G89
               .bottom_is_below_r = true},
     .reference = {.remembered_axes_go = false,
                   .forgets_with_program = true,

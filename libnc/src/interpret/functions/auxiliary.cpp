@@ -62,7 +62,7 @@ namespace {
 Execution spindle_word(BlockContext& in) {
   uint32_t s = 0;
   const bool tap = taps_with_spindle(in);
-  if (tap) {
+  if (tap || keeps_spindle_of_tap(in)) {
     const Execution did = check_tap_speed(in);
     if (did != Execution::done) return did;
   }
@@ -213,7 +213,7 @@ Execution check_precedence(BlockInHand& in) {
   return tool != 0 ? check_tool_pair(in) : Execution::done;
 }
 
-bool codes_behind_motion(const BlockInHand& in) { return in.settings.codes_after_motion && in.words.target.axes() != 0; }
+bool codes_behind_motion(const BlockInHand& in) { return in.settings.codes_after_motion && (in.words.target.axes() != 0 || in.words.moved_before); }
 
 Execution auxiliary_before(BlockContext& in) {
   Command& w = in.words;

@@ -108,8 +108,9 @@ bool means_managed_tool(const BlockInHand& in, Role word) {
 }  // namespace
 
 Execution offset_number(BlockInHand& in, Role word, uint32_t* number) {
-  const unsigned in_spindle = in.managed_tool();
-  if (means_managed_tool(in, word) && in_spindle != ToolLives::kNone) {
+  if (means_managed_tool(in, word)) {
+    const unsigned in_spindle = in.managed_tool();
+    if (in_spindle == ToolLives::kNone) return in.raise(Condition::tool_unknown, word, in.words.get(word));  // never the row of the table: its amount is no tool's
     const ToolLife& tool = in.lives->tool[in_spindle];
     *number = static_cast<uint32_t>(word == Role::length_number ? tool.length : tool.radius);
     return Execution::done;

@@ -67,7 +67,6 @@ Execution check_axis_stays(BlockInHand& in) {
   return of_pair ? Execution::done : in.raise_mode(Condition::drilling_axis_changed, Mode::plane);
 }
 
-/// DGSHAPE G80 to G89: a code has the data of its block; the blocks behind it without a code repeat them.
 void forget_hole_data(CycleState& c) {
   c.has_z = c.has_r = c.has_p = false;
   c.q = 0;
@@ -100,8 +99,8 @@ Execution select_cycle(BlockContext& in, const FunctionRow& row) {
     const Execution did = check_axis_stays(in);
     if (did != Execution::done) return did;
   }
-  if (rules.code_begins_data) forget_hole_data(state.cycle);
   const CycleKind kind = cycle_kind(*in.dialect, row.function);
+  if (rules.data == HoleData::of_code || (rules.data == HoleData::of_cycle && kind != state.cycle.kind)) forget_hole_data(state.cycle);
   const bool tapping = is_tap(kind), tapped = is_tap(state.cycle.kind);
   state.cycle.kind = kind;
   state.cycle.synchronous = state.cycle.synchronous && tapping;
@@ -132,7 +131,7 @@ bool q_replaces_shift(const BlockInHand& in) {
   if (!strokes_of(in.state.cycle.kind).shifts || is_shift_word(in, Role::cycle_depth_step)) return false;
   for (unsigned i = 0; i < 3; ++i)
     if (in.words.has(vector_along(i)) && is_shift_word(in, vector_along(i))) return false;
-  return in.dialect->rules.cycle.shift_needs_words || in.settings.drilling_axis_z;
+  return in.dialect->rules.cycle.q_is_shift || in.settings.drilling_axis_z;
 }
 
 /// I J K: the way to the place beside the hole, and of RS-274/NGC 3.5.16.7 the third level.
@@ -174,6 +173,7 @@ Execution take_hole_data(BlockInHand& in) {
     c.r = axis_value(in, c.drill_axis, w.written(Role::cycle_level), false);  // M700 2.1: a position of that axis
     c.r_incremental = is_incremental(in);
   }
+  if (in.dialect->rules.cycle.levels_by_mode_of_hole) c.z_incremental = c.r_incremental = is_incremental(in);
   if (w.in_position_drill > 0) c.in_position = w.in_position_drill;  // "Programmable in-position width": it stays, ,I does not
   if (w.has(Role::cycle_first_depth) && strokes_of(c.kind).pecks) {
     c.has_first = true;
@@ -246,6 +246,25 @@ uint32_t positioning_axes(const InForce& in) {
   return axes;
 }
 
+namespace {
+
+/// M700 13.1.1, G76 (5), G87 (3): without a shift the tool is drawn out along the wall, and a bar for back boring goes down through the work.
+bool has_shift(const InForce& in) {
+  const CycleState& c = in.state.cycle;
+  if (c.shift[0] != 0 || c.shift[1] != 0 || c.shift[2] != 0) return true;
+  const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0;  // HX 12.3.9
+  return c.q != 0 && (by_parameter || in.settings.drilling_axis_z);  // 13.1.1, note: Q is the shift where #1080 makes Z the drilling axis
+}
+
+/// Back boring from below cuts towards the level from which the tool has come, in an increment by the sign rule of R (13.1.1).
+bool back_bores_downwards(const InForce& in) {
+  const CycleState& c = in.state.cycle;
+  if (c.kind != CycleKind::back_bore || !c.has_z || !c.has_r || c.z_incremental || c.r_incremental) return false;
+  return (c.z - c.r) * (c.initial_level - in.zero()[c.drill_axis] - c.r) < 0;
+}
+
+}  // namespace
+
 Execution check_hole(BlockInHand& in) {
   const Command& w = in.words;
   const CycleState& c = in.state.cycle;
@@ -262,18 +281,14 @@ Execution check_hole(BlockInHand& in) {
   if (strokes_of(c.kind).pecks && c.q < 0 && rules.peck_is_positive) return in.raise(Condition::value_range, Role::cycle_depth_step, c.q);
   if (c.has_first && strokes_of(c.kind).pecks && c.has_r && !c.r_incremental && c.has_z && !c.z_incremental && !((c.first - c.r) * (c.z - c.r) > 0))
     return in.raise(Condition::value_range, Role::cycle_first_depth, c.first);
-  const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0 && c.q != 0;
-  // 13.1.1, note: Q is the shift where #1080 makes Z the drilling axis. Without that it would be ignored, and the tool drawn along the wall.
-  const bool lost_q = w.has(Role::cycle_depth_step) && !is_shift_word(in, Role::cycle_depth_step) && !in.settings.drilling_axis_z;
-  if ((rules.shift_needs_words || lost_q) && !by_parameter && strokes_of(c.kind).shifts && c.shift[0] == 0 && c.shift[1] == 0 && c.shift[2] == 0)
-    return in.raise(Condition::words_missing, Role::vector_x);
+  if (strokes_of(c.kind).shifts && !has_shift(in)) return in.raise(Condition::words_missing, Role::vector_x);
   const double depth = c.z_incremental ? -c.z : c.r - c.z;  // below R
   const bool same_kind = c.z_incremental || (c.has_r && !c.r_incremental);
   const bool cuts_upwards = c.kind == CycleKind::back_bore_to_level || c.kind == CycleKind::face_upwards;
   if (rules.bottom_is_below_r && c.has_z && same_kind && !cuts_upwards && depth < 0) return in.raise(Condition::level_below_bottom, Role::cycle_level, c.r);
   // Series 8 G89, step 6, HX 12.3.10: from below it cuts in the positive direction.
   const bool from_below = c.kind == CycleKind::face_upwards || (c.kind == CycleKind::back_bore && rules.back_bore_is_upwards);
-  if (from_below && c.has_z && same_kind && !(depth < 0)) return in.raise(Condition::value_range, Role::basic_z, c.z);
+  if ((from_below && c.has_z && same_kind && !(depth < 0)) || back_bores_downwards(in)) return in.raise(Condition::value_range, Role::basic_z, c.z);
   if (c.kind == CycleKind::back_bore_to_level && !c.has_third) return in.raise(Condition::words_missing, Role::vector_z);
   return c.kind == CycleKind::circle ? check_circle(in) : Execution::done;
 }
@@ -318,11 +333,8 @@ Execution do_cycle(BlockContext& in) {
   in.jobs.holes.target = w.target;
   if (in.state.modal.is(Function::polar_command_on)) in.jobs.holes.polar = in.jobs.polar_holes;
   if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
-  if (!c.has_z && rules.without_bottom_positions) {
-    position_over_hole(in);
-    return Execution::done;
-  }
-  did = check_hole(in);
+  in.jobs.holes.places_only = !c.has_z && rules.without_bottom_positions;
+  if (!in.jobs.holes.places_only) did = check_hole(in);
   if (did != Execution::done) return did;
   in.jobs.holes.left = count;
   return begin_hole(in);

@@ -46,7 +46,8 @@ double clearance(const InForce& in, CycleKind kind) {
 /// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.
 double dwell_s(const InForce& in) {
   const CycleState& c = in.state.cycle;
-  const bool takes_p = c.kind != CycleKind::circle && (c.kind != CycleKind::bore_stop || in.dialect->rules.cycle.bore_stop_dwells);
+  const CycleRules& rules = in.dialect->rules.cycle;
+  const bool takes_p = c.kind != CycleKind::circle && (c.kind != CycleKind::bore_stop || rules.bore_stop_dwells) && (c.kind != CycleKind::step || rules.step_dwells);
   const double p = c.has_p && takes_p ? c.p / 1000 : 0;
   return c.synchronous && in.settings.tap_checks ? std::fmax(p, in.settings.tap_dwell_s) : p;
 }
@@ -77,7 +78,8 @@ void resolve_levels(BlockInHand& in) {
   h.return_to = rules.ends_at_r || in.state.modal.is(Function::return_r) ? h.r : h.initial;
 }
 
-/// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87).
+/// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87). The shift is that of the spindle,
+/// which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88), or the tip would be drawn along the wall.
 AxisVec place_beside(BlockInHand& in) {
   const CycleState& c = in.state.cycle;
   const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
@@ -87,8 +89,7 @@ AxisVec place_beside(BlockInHand& in) {
     const bool second = in.settings.shift_axis != 0;
     shift[second ? 1 : 0] = in.settings.shift_direction * std::fabs(c.q);
   }
-  const bool of_spindle = in.dialect->rules.cycle.shift_is_of_spindle;
-  AxisVec place = of_spindle ? in.jobs.holes.over : as_programmed(in, in.jobs.holes.over);
+  AxisVec place = in.jobs.holes.over;
   for (unsigned i = 0; i < 2; ++i) {
     const int axis = in.state.plane_axis[i];
     if (axis < 0) continue;
@@ -96,7 +97,7 @@ AxisVec place_beside(BlockInHand& in) {
       shift[i] = (in.settings.shift_minus >> axis & 1) != 0 ? -std::fabs(c.q) : std::fabs(c.q);
     place[static_cast<unsigned>(axis)] += shift[i];
   }
-  return of_spindle ? place : as_moved(in, place);
+  return place;
 }
 
 void resolve_hole(BlockInHand& in) {
@@ -142,7 +143,7 @@ AxisVec place_in_pattern(const BlockInHand& in) {
   double place[2];
   place_of_hole(pattern, pattern.count() - in.jobs.holes.left, place);
   AxisVec target = in.jobs.holes.pattern_at;
-  for (unsigned i = 0; i < 2; ++i) target[static_cast<unsigned>(in.state.plane_axis[i])] += place[i];
+  for (unsigned i = 0; i < 2; ++i) target[in.jobs.holes.pattern_axis[i]] += place[i];
   return as_moved(in, target);
 }
 
@@ -151,7 +152,7 @@ void position_in_pattern(BlockContext& in) {
   const AxisVec target = place_in_pattern(in);
   LinearStyle style;
   style.kind = NC_MOVE_RAPID;
-  const uint32_t axes = 1u << in.state.plane_axis[0] | 1u << in.state.plane_axis[1];
+  const uint32_t axes = 1u << in.jobs.holes.pattern_axis[0] | 1u << in.jobs.holes.pattern_axis[1];
   if (in.state.cycle.kind == CycleKind::none) {
     style = by_motion_in_force(in, in.position(), target);
   } else if (traverse_beyond_level(in, target, axes)) {
@@ -219,7 +220,8 @@ void move_along(BlockContext& in, const CycleStep& step) {
   if (style.tapping && c.synchronous) set_tap(in, step, &style);
   const double width = (step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths ? c.in_position : 0;
   style.in_position = width;
-  style.flows = in.retract_overlap > 0 && style.kind == NC_MOVE_RAPID && width == 0 && strokes_flow(in);
+  const bool taps_next = is_tap(c.kind) && step.level == Level::r;  // a hold on the way in comes to rest in front of the thread, or behind the way back
+  style.flows = in.retract_overlap > 0 && style.kind == NC_MOVE_RAPID && width == 0 && !taps_next && strokes_flow(in);
   move_axis(in, c.drill_axis, step.to, style);
 }
 
@@ -364,9 +366,13 @@ Execution begin_hole(BlockContext& in) {
   if (left != Execution::done) return left;
   if (in.dialect->rules.cycle.rises_before_positioning) rise_to_level(in);
   position_over_hole(in);
-  const bool stops = stop_over_hole(in);
-  if (in.state.cycle.kind != CycleKind::none && !stops) in.emit_stop_point();  // positions of a pattern alone have one stop each
+  const bool hole = in.state.cycle.kind != CycleKind::none && !in.jobs.holes.places_only;
+  if (hole && !stop_over_hole(in)) in.emit_stop_point();  // places alone have one stop each
   resolve_hole(in);
+  if (!hole) {
+    in.jobs.holes.hole.kind = CycleKind::none;
+    in.jobs.holes.hole.dwell_s = 0;
+  }
   note_hole(in);
   in.jobs.holes.progress = begin_strokes(in.jobs.holes.hole);
   in.next_step = Step::cycle;
@@ -386,8 +392,8 @@ Execution continue_cycle(BlockContext& in) {
       holes.inside = false;
       continue;
     }
-    in.state.cycle.returned = way_back(in);
-    if (--holes.left == 0) return Execution::done;
+    if (!holes.places_only) in.state.cycle.returned = way_back(in);
+    if (--holes.left == 0 || holes.one_by_one) return Execution::done;
     in.emit_stop_point();  // single block also stops at the end of each hole but the last, where the block itself ends
     if (holes.polar.on) step_polar_hole(in);
     return begin_hole(in);

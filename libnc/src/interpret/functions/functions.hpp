@@ -69,6 +69,9 @@ AxisVec before_creep(const InForce& in, const AxisVec& target, uint32_t axes);
 Execution do_circle_cut(BlockContext& in);         // circle_cut.cpp: G12 G13
 Execution do_position_offset(BlockContext& in);    // position_offset.cpp: G45 to G48
 Execution do_hole_pattern(BlockContext& in);       // hole_pattern.cpp: G34 G35 G36 G37.1
+bool makes_pattern(const BlockInHand& in);         ///< the block is one of these
+bool calls_behind_place(BlockInHand& in);          ///< a modal call is to be made behind a place of the pattern that is not its last one
+Execution go_on_in_pattern(BlockContext& in);      ///< behind that: the next place
 
 Execution do_cavity(BlockContext& in);             // cavity.cpp: G34 G35 G36 of the Series 8
 Execution continue_cavity(BlockContext& in);       // cavity.cpp
@@ -166,6 +169,7 @@ void cancel_cycle(BlockContext& in);
 /// tap.cpp: the block in hand belongs to a tapping cycle; it goes with the angle of the spindle, whose speed and lead the cycle then has.
 bool taps(const BlockInHand& in);
 bool taps_with_spindle(const BlockInHand& in);
+bool keeps_spindle_of_tap(const BlockInHand& in);  ///< the block makes no hole and leaves such a tap in force
 Execution check_tap_speed(BlockInHand& in);  ///< the S of such a block
 
 /// M S T B (auxiliary.cpp). before: everything that goes out before the motion.

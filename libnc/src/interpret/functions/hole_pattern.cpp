@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Special fixed cycles: holes on a circle, a line, an arc, a grid (M700 13.2), a frame (Series 8 G49, G50). The cycle in force makes each of them; without one the axes of the
-// plane go to each of them.
+// plane go to each of them. Where a modal call is in force its macro is called at each place, behind the hole: the block is read again when the macro has ended, and goes on with
+// the next place.
 #include <cmath>
 
 #include "interpret/feed.hpp"
 #include "interpret/functions/cycle.hpp"
+#include "interpret/functions/functions.hpp"
 #include "interpret/plane.hpp"
 #include "interpret/program_map.hpp"
 
@@ -119,6 +121,36 @@ Execution read_pattern(BlockInHand& in, HolePattern* p) {
   }
 }
 
+/// A macro is called at each place: a modal call is in force, and is made at all (L0: no).
+bool calls_at_places(const InForce& in) {
+  const unsigned slot = in.state.modal_call;
+  return slot != 0 && in.records->modal_call[slot - 1].repeats != 0;
+}
+
+/// To all places that are left, or to the next one, where a macro is called behind it.
+Execution go_to_places(BlockContext& in, const PlacesOfCalls& places) {
+  const CycleState& c = in.state.cycle;
+  Execution did = Execution::done;
+  if (c.kind != CycleKind::none) {
+    if (c.drill_axis == places.axis[0] || c.drill_axis == places.axis[1]) return in.raise_code(Condition::plane_mismatch, *in.words.one_shot);
+    did = check_hole(in);
+  } else if (!in.state.modal.is(Function::rapid)) {
+    did = check_feed(in, Function::linear);
+  }
+  if (did != Execution::done) return did;
+  HolesOfBlock& holes = in.jobs.holes;
+  holes.begin();
+  holes.pattern = places.pattern;
+  holes.pattern_at = places.at;
+  holes.pattern_axis[0] = places.axis[0];
+  holes.pattern_axis[1] = places.axis[1];
+  holes.one_by_one = calls_at_places(in);
+  uint32_t& made = in.state.frame[in.state.depth].places_made;
+  holes.left = places.pattern.count() - made;
+  if (!holes.one_by_one) made = 0;  // the block is not read again
+  return begin_hole(in);
+}
+
 /// The reference point as programmed: the words of the plane's axes, else where the program stands.
 AxisVec reference_point(const BlockInHand& in) {
   const Command& w = in.words;
@@ -139,20 +171,33 @@ Execution do_hole_pattern(BlockContext& in) {
   pattern.kind = kind_of(row.function);
   if (did == Execution::done) did = read_pattern(in, &pattern);
   if (did != Execution::done) return did;
-  const CycleState& c = in.state.cycle;
   if (pattern.closed && is_arc(in.state.modal.of(Mode::motion))) return in.raise_code(Condition::not_accepted, row);  // its sides are lines
-  if (c.kind != CycleKind::none) {
-    if (c.drill_axis == plane.h || c.drill_axis == plane.v) return in.raise_code(Condition::plane_mismatch, row);
-    did = check_hole(in);
-  } else if (!in.state.modal.is(Function::rapid)) {
-    did = check_feed(in, Function::linear);
-  }
-  if (did != Execution::done) return did;
-  in.jobs.holes.begin();
-  in.jobs.holes.pattern = pattern;
-  in.jobs.holes.pattern_at = reference_point(in);
-  in.jobs.holes.left = pattern.count();
-  return begin_hole(in);
+  PlacesOfCalls places;
+  places.pattern = pattern;
+  places.at = reference_point(in);
+  places.axis[0] = static_cast<uint8_t>(plane.h);
+  places.axis[1] = static_cast<uint8_t>(plane.v);
+  if (calls_at_places(in)) in.change(&ProgramRecords::places, in.state.depth, places);
+  in.state.frame[in.state.depth].places_made = 0;
+  return go_to_places(in, places);
+}
+
+// The block is read again behind each of its macros. What its words say counts once: where the pattern lies is kept, and F, S, M have gone out.
+Execution go_on_in_pattern(BlockContext& in) {
+  in.words.stops_given_out = true;
+  in.words.moved_before = (in.words.present & in.axis_words.all()) != 0;
+  return go_to_places(in, in.records->places[in.state.depth]);
+}
+
+bool makes_pattern(const BlockInHand& in) { return in.words.one_shot != nullptr && is_hole_pattern(in.words.one_shot->function); }
+
+bool calls_behind_place(BlockInHand& in) {
+  HolesOfBlock& holes = in.jobs.holes;
+  CallFrame& frame = in.state.frame[in.state.depth];
+  if (!makes_pattern(in) || !holes.one_by_one) return false;
+  if (++frame.places_made < holes.pattern.count()) return true;
+  frame.places_made = 0;
+  return false;
 }
 
 }  // namespace nc

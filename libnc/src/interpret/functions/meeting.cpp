@@ -4,6 +4,7 @@
 // was known. Here, in between, the position is still that of its start.
 #include "contour/meeting.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "interpret/feed.hpp"
@@ -105,11 +106,20 @@ Execution check_modes_of_pair(BlockInHand& in, Condition option) {
   return check_feed(in, in.state.modal.of(Mode::motion));
 }
 
+/// H chooses a point on an arc, and is said in the block of the arc. Beside a line it would choose nothing.
+Execution check_choice_beside_line(BlockInHand& in) {
+  const auto is_length = [](const FunctionRow* row) { return mode_of(row->function) == Mode::length; };
+  const bool of_length = std::any_of(in.words.functions.begin(), in.words.functions.end(), is_length);
+  if (!in.words.has(Role::meeting_choice) || of_length) return Execution::done;
+  return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
+}
+
 /// (a), (c), (e): G01 A.
 Execution begin_with_line(BlockContext& in) {
   if (word_is_taken(in) && in.words.target.axes() == 0) return in.raise(Condition::geometric_option, Role::option_angle, in.words.has_angle ? in.words.angle.value : 0);
   if (in.words.target.axes() != 0) return in.raise_axis(Condition::geometric_address, first_of(in.words.target.axes()));
-  const Execution did = check_modes_of_pair(in, Condition::geometric_option);
+  Execution did = check_choice_beside_line(in);
+  if (did == Execution::done) did = check_modes_of_pair(in, Condition::geometric_option);
   if (did != Execution::done) return did;
   const InPlane plane = in_plane(in);
   if (!plane.exists()) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
@@ -317,6 +327,7 @@ Execution end_meeting(BlockContext& in, const MeetingFirst& first) {
   if (second.incremental) return in.raise(Condition::geometric_incremental);
   if (!choice_of_block(in, &second.choice)) return in.raise(Condition::geometric_address, Role::meeting_choice, in.words.get(Role::meeting_choice));
   Execution did = check_second_words(in);
+  if (did == Execution::done && second.line) did = check_choice_beside_line(in);
   if (did == Execution::done) did = check_modes_of_pair(in, option_of(first, second));
   if (did != Execution::done) return did;
   const Meeting meeting = solve(in, first, second);

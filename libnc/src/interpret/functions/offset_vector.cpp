@@ -57,7 +57,7 @@ Execution do_comp_vector(BlockContext& in) {
     comp.vector[i] = has ? length_of(in, plane.center[i]) : 0;
     any = any || has;
   }
-  if (any && comp.vector[0] == 0 && comp.vector[1] == 0) return in.raise(Condition::value_range, plane.center[0], 0);
+  if (any && comp.vector[0] == 0 && comp.vector[1] == 0) return in.raise(Condition::no_direction, plane.center[0], 0);
   // The words of an arc's centre are the vector's: then the arc has none.
   if (any && is_arc(in.state.modal.of(Mode::motion)) && !in.words.has(Role::arc_radius)) return in.raise(Condition::center_missing, plane.center[0]);
   comp.has_vector = any;

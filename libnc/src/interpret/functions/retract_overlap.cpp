@@ -42,7 +42,7 @@ bool length_is_applied(const InForce& in, unsigned axis) {
 }
 
 /// A curve to `end` from one direction into another one, each `reach` long: p(u) = reach (1 - (1-u)^3) from + reach u^3 to.
-void emit_curve(BlockContext& in, const Traverse& t, const double (&from)[3], const double (&to)[3], double reach, const AxisVec& end) {
+void emit_curve(BlockContext& in, const Traverse& t, const double (&from)[3], const double (&to)[3], double reach, const AxisVec& end, bool flows = true) {
   MoveShape shape;
   shape.kind = ShapeKind::spline;
   shape.spline = SplineSpan{};
@@ -55,8 +55,9 @@ void emit_curve(BlockContext& in, const Traverse& t, const double (&from)[3], co
     axes |= 1u << t.axis[i];
   }
   Move& move = emit_shaped(in, frame_of_move(in, end, axes), shape, NC_MOVE_RAPID);
-  move.exact_stop = move.rule.check_reversal = false;
-  move.flows = true;
+  move.exact_stop = !flows;
+  move.rule.check_reversal = false;
+  move.flows = flows;
   move.feed_mm_min = 0;
 }
 
@@ -119,7 +120,7 @@ bool traverse_beyond_level(BlockContext& in, const AxisVec& target, uint32_t axe
   }
   for (unsigned i = 0; i < 2; ++i) end[t.axis[i]] = target[t.axis[i]];
   end[c.drill_axis] = from[c.drill_axis];
-  emit_curve(in, t, over, down, reach, end);
+  emit_curve(in, t, over, down, reach, end, !is_tap(c.kind));  // in front of a tap it rests, so that a hold does not take it into the thread
   return true;
 }
 

@@ -43,7 +43,8 @@ Execution make_vector(BlockInHand& in, Function side) {
     state.space.v[i] = in.words.has(kVector[i]) ? length_of(in, kVector[i]) : 0;
     squares += state.space.v[i] * state.space.v[i];
   }
-  if (!(squares > 0) || !std::isfinite(squares)) return in.raise(Condition::value_range, kVector[0], in.words.has(kVector[0]) ? in.words.get(kVector[0]) : 0);
+  if (squares == 0) return in.raise(Condition::no_direction, kVector[0], 0);
+  if (!std::isfinite(squares)) return in.raise(Condition::value_range, kVector[0], in.words.has(kVector[0]) ? in.words.get(kVector[0]) : 0);
   const double radius = radius_amount(in, state.modal.d);
   const double divisor = in.settings.space_divisor != 0 ? in.settings.space_divisor : std::sqrt(squares);
   const double factor = (side == Function::comp_right ? -radius : radius) / divisor;

@@ -75,6 +75,12 @@ bool taps(const BlockInHand& in) {
 
 bool taps_with_spindle(const BlockInHand& in) { return taps(in) && synchronous(in) && !rigid_by_code(in); }
 
+bool keeps_spindle_of_tap(const BlockInHand& in) {
+  const Command& w = in.words;
+  const CycleState& c = in.state.cycle;
+  return w.motion == nullptr && w.cycle == nullptr && is_tap(c.kind) && c.synchronous && !rigid_by_code(in);
+}
+
 /// P186: in the mode of synchronous tapping the spindle is the tap's. The block that selects it brings its S.
 Execution check_tap_speed(BlockInHand& in) {
   const double s = in.words.get(Role::spindle_speed);
@@ -130,6 +136,8 @@ double tap_slope(const InForce& in, double rev_min) {
 CycleKind tap_in_cuts(const InForce& in, CycleKind kind) {
   if (!(in.state.cycle.tap_q >= 1e-6)) return kind;
   const bool to_r = in.settings.tap_to_r;
+  // With a floating holder and no way back between the cuts the spindle would turn back and forth where the axis stands, and tear the tap off its holder.
+  if (!to_r && !in.state.cycle.synchronous && !(in.settings.tap_clearance > 0)) return kind;
   if (kind == CycleKind::tap) return to_r ? CycleKind::deep_tap : CycleKind::peck_tap;
   if (kind == CycleKind::reverse_tap) return to_r ? CycleKind::deep_reverse_tap : CycleKind::peck_reverse_tap;
   return kind;

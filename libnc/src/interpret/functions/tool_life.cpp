@@ -31,22 +31,16 @@ void tell_machine(BlockContext& in, unsigned slot) {
 
 void register_tool(InForce& in, unsigned slot, const ToolLife& tool) { in.lives.change(in.state.seq + 1, &ToolLives::tool, slot, tool); }
 
-void clear_slot(BlockContext& in, unsigned slot) {
-  register_tool(in, slot, ToolLife{});
-  if (in.records->tools.spindle.slot == slot) {
-    in.change(&ProgramRecords::tools, &ToolsInUse::spindle, RegisteredTool{});
-    tell_machine(in, ToolLives::kNone);
-  }
-  if (in.records->tools.selected.slot == slot) in.change(&ProgramRecords::tools, &ToolsInUse::selected, RegisteredTool{});
-}
+/// A tool that is in the spindle stays there, and is found again where it is registered anew.
+void clear_slot(InForce& in, unsigned slot) { register_tool(in, slot, ToolLife{}); }
 
-void clear_group(BlockContext& in, uint32_t group) {
+void clear_group(InForce& in, uint32_t group) {
   for (unsigned slot = 0; slot < kLifeTools; ++slot)
     if (in.lives->tool[slot].group == group) clear_slot(in, slot);
 }
 
 Execution number_of(BlockInHand& in, Role word, uint32_t least, uint32_t most, uint32_t* number) {
-  if (!in.words.has(word)) return in.raise(Condition::format_error, word);
+  if (!in.words.has(word)) return in.raise(Condition::words_missing, word);
   if (whole_number(in.words.get(word), number) && *number >= least && *number <= most) return Execution::done;
   return in.raise(Condition::value_range, word, in.words.get(word));
 }
@@ -73,7 +67,7 @@ Execution take_group(BlockContext& in) {
     if (did != Execution::done) return did;
   }
   const LifeMethod counts = method == 1 ? LifeMethod::mounts : method == 2 ? LifeMethod::time : LifeMethod::uses;
-  if (!w.has(Role::life_span)) return in.raise(Condition::format_error, Role::life_span);
+  if (!w.has(Role::life_span)) return in.raise(Condition::words_missing, Role::life_span);
   const double life = w.get(Role::life_span), most = in.dialect->rules.range.most_life(counts == LifeMethod::time);
   if (!(life >= 0 && life <= most && life == std::trunc(life))) return in.raise(Condition::value_range, Role::life_span, life);
   clear_group(in, group);  // a group that is given again loses its tools
@@ -88,7 +82,8 @@ Execution take_tool(BlockInHand& in) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // another part system may register a tool in the same place
   const LifeInput& input = in.state.life_input;
   uint32_t tool = 0, length = 0, radius = 0;
-  if (!input.group || input.kind == LifeInput::Kind::remove) return in.raise(Condition::format_error, Role::life_group);
+  if (!input.group) return in.raise(Condition::words_missing, Role::life_group);
+  if (input.kind == LifeInput::Kind::remove) return in.raise(Condition::format_error, Role::life_group);
   Execution did = number_of(in, Role::life_tool, 1, in.dialect->rules.range.largest_life_number, &tool);
   if (did == Execution::done && in.words.has(Role::life_length)) did = number_of(in, Role::life_length, 0, in.frames.tool_offsets(), &length);
   if (did == Execution::done && in.words.has(Role::life_radius)) did = number_of(in, Role::life_radius, 0, in.frames.tool_offsets(), &radius);

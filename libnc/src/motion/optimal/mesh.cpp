@@ -18,6 +18,8 @@ constexpr double kShortLaunch = 0.025;  ///< the cell next to rest is at most th
 constexpr double kGentle = 24;  ///< the guess leaves the speed of the start within this many cells
 constexpr double kFeed =
     0.9995;  ///< of feed and axis velocities where the path bends: |q'| changes inside a cell
+constexpr double kFirstFiner = 0.12, kFirstFine = 12, kStopFiner = 0.8;  ///< of the usual length are the first cells of a stop, longer by that behind so many cells, and the last ones
+constexpr double kJointPart = 0.25;  ///< of the cell that would be there: a joint of what is followed that is so near to another place is none
 constexpr double kAtStart = 1.0012;   ///< a start at speed is given, and rows of other cells have let it pass
 constexpr double kRounding = 1e-12;  ///< two places that are nearer to each other than this part of the length of the window are the same but for rounding
 /// The first cell of a start that brakes is at most this part of the length in which it would come to rest braking twice as hard.
@@ -85,7 +87,7 @@ Mesher::Bound Mesher::bound_of(const Piece& p, double from) const {
   if (p.cell > 0) b.cell = p.cell;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double v = velocity_of(p, *limits_, i);
-    const double a = acceleration_share(p) * limits_->acceleration[i], j = jerk_share(p) * limits_->jerk[i];
+    const double a = acceleration_share(p, *limits_) * limits_->acceleration[i], j = jerk_share(p, *limits_) * limits_->jerk[i];
     if (v > 0 && b.speed * most[0][i] > v) b.speed = v / most[0][i];
     if (a > 0 && b.speed * b.speed * most[1][i] > a) b.speed = std::sqrt(a / most[1][i]);
     if (j > 0 && b.speed * b.speed * b.speed * most[2][i] > j) b.speed = std::cbrt(j / most[2][i]);
@@ -235,11 +237,33 @@ Mesher::Walk Mesher::begin_cells(double end, bool fine) const {
   return walk;
 }
 
+/// The next end of a cell of the law that is followed, not nearer than a part of a cell to the end of the piece or to the landing.
+double Mesher::next_joint(double u, double h, Walk* walk) const {
+  const MeshRequest& in = *in_;
+  const auto end_of = [&](unsigned k) { return in.chain[k].s + in.chain[k].h; };
+  while (walk->chain < in.chain_cells && !(end_of(walk->chain) > u + kJointPart * std::min(h, in.chain[walk->chain].h))) ++walk->chain;
+  if (walk->chain == in.chain_cells) return HUGE_VAL;
+  const double at = end_of(walk->chain), next = std::min(walk->edge, walk->end - walk->landing);
+  return at < next - kJointPart * h ? at : HUGE_VAL;
+}
+
+/// The control value of a cell with which the search for a stop begins: that of what is followed, or where that is slower of a stop on a line.
+double Mesher::stop_guess(double u, double h, const Walk& walk) const {
+  const MeshRequest& in = *in_;
+  const double left = walk.end - u - 0.5 * h, a = in.stop_a, j = in.stop_j, soft = a * a * a / (6 * j * j);
+  const double line = left < soft ? std::pow(0.5 * j, 2) * std::pow(6 * left / j, 4.0 / 3) : std::pow(0.5 * a * a / j, 2) + 2 * a * (left - soft);
+  if (walk.chain == in.chain_cells) return line;
+  const FollowedCell& c = in.chain[walk.chain];
+  const double control = c.control(u - c.s, h);
+  return control > 0 ? std::min(control, line) : line;
+}
+
 /// Walks along and sets a knot at every joint of pieces and about every `period` seconds. Goes on for `count` cells.
 void Mesher::cells(Walk* walk, unsigned count) {
   const MeshRequest& in = *in_;
   Mesh& m = *mesh_;
-  const double t = in.period, end = walk->end, launch = walk->launch, landing = walk->landing, stop = end - landing;
+  double t = in.period;
+  const double end = walk->end, launch = walk->launch, landing = walk->landing, stop = end - landing;
   const bool alone = walk->alone;
   double u = walk->u, edge = walk->edge;
   PathPlace at = walk->at;
@@ -247,6 +271,7 @@ void Mesher::cells(Walk* walk, unsigned count) {
   while (u < end && m.cells < last && !walk->ended) {
     const unsigned f = hint_f_, b = hint_b_;
     double h = launch;
+    if (in.chain != nullptr) t = in.period * std::min(kStopFiner, kFirstFiner * (1 + m.cells / kFirstFine));
     if (m.cells > 0 || !in.from_rest) {
       const double ahead = t * estimate(u);
       h = t * estimate(std::min(u + 0.5 * ahead, 0.5 * (u + end)));
@@ -260,8 +285,9 @@ void Mesher::cells(Walk* walk, unsigned count) {
       hint_b_ = b;
     }
     h = std::min(h, bound(at.piece).cell);
+    walk->edge = edge;
     const bool lands = u >= stop - kRounding * end;
-    const double limit = lands ? end : std::min(edge, stop);
+    const double limit = lands ? end : std::min({edge, stop, next_joint(u, h, walk)});
     if (lands || u + 1.5 * h >= limit) {
       h = limit - u;
     } else if (u + 2 * h > limit) {
@@ -281,10 +307,11 @@ void Mesher::cells(Walk* walk, unsigned count) {
     const double share = 1 - (1 - in.guess) * away * away * (3 - 2 * away);
     place_[m.cells] = at;
     m.h[m.cells] = h;
-    const double use = !in.from_rest && m.cells < 3 ? kAtStart : 1;
-    m.use[m.cells] = use * jerk_share(in.at(at.piece));
-    m.use_a[m.cells] = use * acceleration_share(in.at(at.piece));
+    const double use = in.chain != nullptr || (!in.from_rest && m.cells < 3) ? kAtStart : 1;
+    m.use[m.cells] = use * jerk_share(in.at(at.piece), *limits_);
+    m.use_a[m.cells] = use * acceleration_share(in.at(at.piece), *limits_);
     m.guess[m.cells] = std::max(share * share * middle * middle, 1e-8);
+    if (in.chain != nullptr) m.guess[m.cells] = std::max(1e-8, stop_guess(u, h, *walk));
     if (in.down != nullptr) m.guess[m.cells] = std::max(m.guess[m.cells], 0.9 * in.down->at(u + 0.5 * h));
     ++m.cells;
     const bool ends_piece = u + h >= edge - kRounding * end;
@@ -403,7 +430,7 @@ bool Mesher::can_be_level(unsigned k) const {
   const double v3 = cap * std::sqrt(cap);
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double d2 = std::max(std::fabs(left.d2[i]), std::fabs(right.d2[i])), d3 = std::max(std::fabs(left.right3[i]), std::fabs(right.left3[i]));
-    if (d2 * cap > kLevelUse * acceleration_share(p) * limits_->acceleration[i] || d3 * v3 > kLevelUse * jerk_share(p) * limits_->jerk[i]) return false;
+    if (d2 * cap > kLevelUse * acceleration_share(p, *limits_) * limits_->acceleration[i] || d3 * v3 > kLevelUse * jerk_share(p, *limits_) * limits_->jerk[i]) return false;
   }
   return true;
 }
@@ -412,7 +439,7 @@ bool Mesher::can_be_level(unsigned k) const {
 void Mesher::level_between(unsigned from, unsigned to) {
   Mesh& m = *mesh_;
   const Piece& p = in_->at(place_[from].piece);  // threads and other moves have a rest between them
-  const double use_a = kRampUse * acceleration_share(p), use_j = kRampUse * jerk_share(p);
+  const double use_a = kRampUse * acceleration_share(p, *limits_), use_j = kRampUse * jerk_share(p, *limits_);
   double a = HUGE_VAL, j = HUGE_VAL;
   for (unsigned k = from; k <= to; ++k)
     for (unsigned i = 0; i < limits_->axis_count; ++i) {
@@ -460,6 +487,7 @@ Task<PathPlace> Mesher::build(Work& work, const MeshRequest& request, const Limi
   mesh->from_rest = request.from_rest;
   mesh->b0 = request.b0;
   mesh->slope0 = request.slope0;
+  mesh->stops = request.chain != nullptr;
   mesh->levels = 0;
   co_await forward(work);
   for (unsigned n = 0;; ++n) {

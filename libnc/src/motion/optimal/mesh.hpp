@@ -33,6 +33,13 @@ struct Followed {
   At end;  ///< where it rests
 };
 
+/// A cell of it: from s on, u'^2 = b + 2 a x + w x^2.
+struct FollowedCell {
+  double s = 0, h = 0, b = 0, a = 0, w = 0;
+  /// The control value of a part of it.
+  double control(double x, double length) const { return b + 2 * a * x + w * x * x + (a + w * x) * length; }
+};
+
 inline constexpr unsigned kFirstCells = 12;
 
 struct MeshRequest {
@@ -52,6 +59,10 @@ struct MeshRequest {
   /// Lengths of the first cells: those of the law that the start is taken from, which is feasible on them.
   double first_h[kFirstCells] = {};
   unsigned first_cells = 0;
+  /// Of a stop: the law that is followed. Cells end where its cells do, and it is what the solver begins with.
+  const FollowedCell* chain = nullptr;
+  unsigned chain_cells = 0;
+  double stop_a = 0, stop_j = 0;  ///< acceleration and jerk along the path with which it may come to rest
 };
 
 class Mesher {
@@ -91,10 +102,13 @@ class Mesher {
     double u = 0, edge = 0;  ///< edge: where the piece ends
     PathPlace at;
     double end = 0, launch = 0, landing = 0;
+    unsigned chain = 0;  ///< the cell of what is followed that lies there
     bool alone = false;  ///< a straight line by itself
     bool ended = false;
   };
   Walk begin_cells(double end, bool fine) const;
+  double next_joint(double u, double h, Walk* walk) const;
+  double stop_guess(double u, double h, const Walk& walk) const;
   void cells(Walk* walk, unsigned count);
   Task<bool> cells(Work& work, double end, bool fine);
   static double step_time(double v, double a, const Bound& bound, double period);

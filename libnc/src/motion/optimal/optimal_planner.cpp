@@ -32,7 +32,7 @@ bool same(double a, double b) {
 }
 
 bool same(const Scales& a, const Scales& b) {
-  bool all = same(a.feed, b.feed) && same(a.rapid, b.rapid) && same(a.turns, b.turns) && a.skip_feed == b.skip_feed && a.dry == b.dry;
+  bool all = same(a.feed, b.feed) && same(a.rapid, b.rapid) && same(a.turns, b.turns) && a.skip_feed == b.skip_feed && a.dry == b.dry && a.turning_axis == b.turning_axis;
   for (unsigned i = 0; i < sizeof a.pulses / sizeof a.pulses[0]; ++i) all = all && a.pulses[i] == b.pulses[i];
   return all;
 }
@@ -60,10 +60,13 @@ void OptimalPlanner::create(const Setup& setup, const Record* records, Arena& ar
   store_.record_mask = setup.capacity - 1;
   builder_.create(setup_.limits, setup.tolerance, kPeriod, records, &store_, arena);
   windows_ = arena.make<Windows>();
+  path_work_ = arena.make<Work>();
+  law_work_ = arena.make<Work>();
   chain_next_ = arena.make<CellIndex>(kCells);
   chain_end_ = arena.make<double>(kCells);
   down_u_ = arena.make<double>(kMaxCells + 1);
   down_b_ = arena.make<double>(kMaxCells + 1);
+  cell_behind_ = arena.make<FollowedCell>(kMaxCells);
   records_ = records;
   lead_ = least_lead();
   line_lead_ = least_line_lead();
@@ -152,15 +155,15 @@ bool OptimalPlanner::called(const Following& f) const {
 
 /// What is under way for a law. Where it has come to an offer that stays, and with it the cells that have been written.
 void OptimalPlanner::give_up_law() {
-  if (!law_work_.open()) return;
-  law_work_.give_up();
+  if (!law_work_->open()) return;
+  law_work_->give_up();
   if (round_ == Round::law) builder_.give_up();
   if (!open_) write_ = law_first_;
 }
 
 void OptimalPlanner::give_up_rounds() {
   give_up_law();
-  path_work_.give_up();
+  path_work_->give_up();
   round_ = Round::none;
   answering_ = unanswered_ = false;
 }
@@ -187,7 +190,7 @@ void OptimalPlanner::begin_law(bool answer) {
   law_for_ = now_;
   free_from_ = now_.cell != kNoCell ? now_.cell : write_;
   limits_ = with(now_);
-  law_work_.begin(law(law_work_, answer));
+  law_work_->begin(law(*law_work_, answer));
 }
 
 /// All that is to be done for what the scan has said. `answer`: no more than that.
@@ -209,7 +212,7 @@ bool OptimalPlanner::answer(int64_t* instructions) {
     // Only a hold or its end breaks off an answer: an override that never stands still gets one, and then the path is gone on with.
     turn_over_ = turn_over_ || now_.brake == heard_.brake;
     heard_ = now_;
-    if (law_work_.open()) {
+    if (law_work_->open()) {
       give_up_law();
       if (round_ == Round::law) round_ = Round::law_due;
     }
@@ -221,8 +224,8 @@ bool OptimalPlanner::answer(int64_t* instructions) {
     if (published_ != offer_.number) publish();  // of a law that was broken off behind its offer
     return true;
   }
-  *instructions = law_work_.go_on(*instructions);
-  if (law_work_.open()) return false;
+  *instructions = law_work_->go_on(*instructions);
+  if (law_work_->open()) return false;
   answering_ = false;
   publish();
   return true;
@@ -240,12 +243,12 @@ bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
     }
     unanswered_ = false;
     if (now_.cell != kNoCell && !fresh_) builder_.free_pieces(store_.at(now_.cell).piece);
-    path_work_.begin(builder_.take(path_work_, head));
+    path_work_->begin(builder_.take(*path_work_, head));
     round_ = Round::path;
   }
   if (round_ == Round::path) {
-    *instructions = path_work_.go_on(*instructions);
-    if (path_work_.open()) return false;
+    *instructions = path_work_->go_on(*instructions);
+    if (path_work_->open()) return false;
     round_ = Round::law_due;
   }
   if (round_ == Round::law_due && answered(now_)) {
@@ -254,8 +257,8 @@ bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
     round_ = Round::law;
   }
   if (round_ == Round::law) {
-    *instructions = law_work_.go_on(*instructions);
-    if (law_work_.open()) return false;
+    *instructions = law_work_->go_on(*instructions);
+    if (law_work_->open()) return false;
   }
   round_ = Round::none;
   turn_over_ = false;
@@ -569,6 +572,7 @@ void OptimalPlanner::copy_cell(const Start& start, unsigned k, bool path_ends, d
   c.u = builder_.start_of(c.piece) + c.x;  // not by the cells' lengths, whose rounding adds up
   c.path_ends = path_ends;
   c.turns = turns_of(limits_.scale);
+  c.turning_axis = limits_.scale.turning_axis;
   chain_next_[write_ & store_.cell_mask] = write_ + 1;
   chain_end_[write_ & store_.cell_mask] = *time += c.seconds;
   ++write_;
@@ -723,13 +727,19 @@ void OptimalPlanner::offer(const Start& start, bool stops) {
 // ---- what is to be done
 // ----------------------------------------------------------------------------------------------------------------
 
+/// The scan rests in front of a law that was made for another spindle: a tap is waiting for one that is made for its own.
+bool OptimalPlanner::stroke_waits(const Following& f) const {
+  const CellIndex next = f.at_end ? chain_next_[f.cell & store_.cell_mask] : kNoCell;
+  return next != kNoCell && store_.at(next).turning_axis != limits_.scale.turning_axis;
+}
+
 /// What is asked for of the scan that moves is not what the chain does, and it has not been tried in vain just before.
 bool OptimalPlanner::must_change(const Following& f) {
   if (fresh_ || !moving(f)) {
     chain_.stops = false;
     return false;
   }
-  const bool scales = !same(limits_.scale, chain_.scale), blocks = f.block_rests && !chain_.block_rests;
+  const bool scales = !same(limits_.scale, chain_.scale) || stroke_waits(f), blocks = f.block_rests && !chain_.block_rests;
   if (!f.brake) offer_.rests = kNoCell;
   if (!(f.brake ? !chain_.stops && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return false;
   if (f.waits) return !f.brake;
@@ -812,14 +822,14 @@ Task<bool> OptimalPlanner::slow_down(Work& work, const Following& f, const Start
   }
   const Limits now = limits_;
   limits_ = unbound(start);
-  const bool stops = co_await stop_law(work, start, HUGE_VAL, Stops::any);
+  const bool stops = co_await stop_law(work, start, HUGE_VAL, Stops::gentle);
   limits_ = now;
   if (!stops) co_return false;
   WayDown down;
   way_down(&down);
   done = co_await extend(work, f, start, most, &down);
   if (!done) done = co_await extend_later(work, f, start, most);
-  if (!done) done = co_await stop_there(work, start, Stops::any);
+  if (!done) done = co_await stop_there(work, start, Stops::gentle);
   co_return done;
 }
 

@@ -74,6 +74,7 @@ class OptimalPlanner {
   void begin_again(const Following& f);
   bool answered(const Following& f);
   Task<bool> go_on(Work& work, const Following& f, bool idle);
+  bool stroke_waits(const Following& f) const;
   bool must_change(const Following& f);
   Task<bool> change(Work& work, const Following& f);
   Task<bool> change_from(Work& work, const Following& f, const Start& start);
@@ -99,9 +100,11 @@ class OptimalPlanner {
   Task<bool> phase_law(Work& work, const Start& start, double reach);
   bool whole() const;
   double law_seconds() const;
-  Task<bool> shortest_stop(Work& work, const Start& start, double distance, double most, double seconds);
-  /// What is looked for: the stop on a straight line alone; that and those of the solver; that and those in phases; all.
-  enum class Stops : uint8_t { line, solved, closed, any };
+  /// What is looked for: the stop on a straight line alone; that and those of the solver; that and those in phases; all; those of a way down, which leave room for a law that goes on.
+  enum class Stops : uint8_t { line, solved, closed, any, gentle };
+  Task<bool> find_cells_behind(Work& work, const Start& start, double most);
+  Task<bool> one_stop(Work& work, const Start& start, double reach, double period);
+  Task<bool> shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which);
   Task<bool> stop_law(Work& work, const Start& start, double most, Stops which);
   double ahead_of_end(const Start& start) const;
   struct Along {
@@ -160,6 +163,8 @@ class OptimalPlanner {
   CellIndex* chain_next_ = nullptr;
   double* chain_end_ = nullptr;  ///< s from the start of the chain to the end of the cell
   double *down_u_ = nullptr, *down_b_ = nullptr;
+  FollowedCell* cell_behind_ = nullptr;  ///< of the chain, behind the place where a stop is to begin
+  unsigned cells_behind_ = 0;
   Followed followed_;                               ///< of the chain, from where a law is to begin
   CellIndex followed_cell_[Followed::kMost] = {};  ///< behind which each of its places lies
 
@@ -195,7 +200,7 @@ class OptimalPlanner {
   bool truncated_ = false;    ///< records have been given up since then
   Following now_, heard_, law_for_;  ///< as it is; of the newest answer or round; of the law that is under way
   CellIndex law_first_ = 0;   ///< the cells of that law are written from here on
-  Work path_work_, law_work_;
+  Work *path_work_ = nullptr, *law_work_ = nullptr;
 
   Latest<Proposal> offers_;
   Latest<Following> following_;

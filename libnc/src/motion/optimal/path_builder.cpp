@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/optimal/path_builder.hpp"
 #include "base/same_place.hpp"
+#include "base/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -370,6 +371,7 @@ Task<bool> PathBuilder::add_curve(Work& work, const Record& r) {
   p.feed = s.rapid ? HUGE_VAL : feed_of_segment(s, &p.by);
   p.digit = digit_of(s);
   p.share = tap_share(s);
+  p.turning = kDegreesOfTurn * std::fabs(s.tap_rev_per_mm);
   p.rapid = s.rapid;
   p.dry = s.dry;
   uses_turns_ |= goes_by_spindle(p.by);

@@ -66,8 +66,8 @@ bool PhaseLaw::measure_stretch(const Piece& p, double from, double to, unsigned 
 
 /// The speeds of a stretch. Bends alone take |q''| v^2 of the acceleration and |q'''| v^3 of the jerk.
 void PhaseLaw::bound(const Piece& p, Stretch* s) const {
-  s->use_a = share_ * acceleration_share(p);
-  s->use_j = share_ * jerk_share(p);
+  s->use_a = share_ * acceleration_share(p, *limits_);
+  s->use_j = share_ * jerk_share(p, *limits_);
   double length2 = 0, axes = HUGE_VAL, bends = HUGE_VAL, hold = HUGE_VAL;
   for (unsigned i = 0; i < limits_->axis_count; ++i) {
     const double v = velocity_of(p, *limits_, i), a = s->use_a * limits_->acceleration[i], j = s->use_j * limits_->jerk[i];

@@ -18,6 +18,7 @@ struct Scales {
   double pulses[5] = {};       ///< what the handle has made of F1 to F5 (M700 7.3)
   DryFeeds dry;                ///< what replaces the feeds in dry run
   double skip_feed = 0;        ///< mm/s that the newest skip signal calls for (M700 15.5); 0 = none has come
+  int8_t turning_axis = -1;    ///< the axis that the spindle of synchronous taps is (M700 10.5), -1 = it is none
 
   bool operator==(const Scales&) const = default;
 };
@@ -67,8 +68,26 @@ struct Piece {
   const Curve* curve = nullptr;  ///< then q(x) = curve(curve_from + x)
   double curve_from = 0;
   double share = 1;              ///< of the axes' acceleration and jerk that it may use (a synchronous tap: what its spindle can)
+  double turning = 0;            ///< a synchronous tap, which is a line: deg that its spindle turns with each mm, whatever the direction; else 0
   AxisVec c[6];  ///< else q(x) = c[0] + c[1] x + ...
 };
+
+/// mm/s: the greatest speed with which the axis that turns with the piece keeps its own.
+inline double feed_of_turning(const Piece& p, const Limits& limits) {
+  const int axis = limits.scale.turning_axis;
+  return p.turning > 0 && axis >= 0 && limits.velocity[axis] > 0 ? limits.velocity[axis] / p.turning : HUGE_VAL;
+}
+/// What that axis leaves of a limit (of acceleration, or of jerk) to those that move along the line.
+inline double share_of_turning(const Piece& p, const Limits& limits, const double (&limit)[kMaxAxes]) NC_RT {
+  const int axis = limits.scale.turning_axis;
+  if (!(p.turning > 0) || axis < 0 || !(limit[axis] > 0)) return 1;
+  double along = HUGE_VAL;
+  for (unsigned i = 0; i < limits.axis_count; ++i)
+    if (limit[i] > 0 && along * std::fabs(p.c[1][i]) > limit[i]) along = limit[i] / std::fabs(p.c[1][i]);
+  return along < HUGE_VAL ? std::fmin(1, limit[axis] / (p.turning * along)) : 1;
+}
+inline double tap_acceleration_share(const Piece& p, const Limits& limits) NC_RT { return std::fmin(p.share, share_of_turning(p, limits, limits.acceleration)); }
+inline double tap_jerk_share(const Piece& p, const Limits& limits) NC_RT { return std::fmin(p.share, share_of_turning(p, limits, limits.jerk)); }
 
 /// Feed of the piece under the present overrides.
 inline double feed_of(const Piece& p, const Limits& limits) {
@@ -76,7 +95,7 @@ inline double feed_of(const Piece& p, const Limits& limits) {
   if (p.dry && by.dry.of(p.rapid) >= 0) return by.dry.of(p.rapid);
   if (p.feed == HUGE_VAL) return p.feed;
   switch (p.by) {
-    case FeedBy::constant: return p.feed;
+    case FeedBy::constant: return std::fmin(p.feed, feed_of_turning(p, limits));
     case FeedBy::turns: return p.feed * by.feed * by.turns;
     case FeedBy::spindle: return p.feed * by.turns;
     case FeedBy::signals: return by.skip_feed > 0 ? by.skip_feed : p.feed;
@@ -92,11 +111,11 @@ inline double velocity_of(const Piece& p, const Limits& limits, unsigned i) {
   return p.rapid ? (limits.rapid[i] > 0 ? limits.rapid[i] : limits.velocity[i]) * limits.scale.rapid : limits.velocity[i];
 }
 /// What a plan may use of the limits of acceleration and of jerk.
-inline double acceleration_share(const Piece& p) {
-  return p.by == FeedBy::spindle ? ThreadShare::kAcceleration : p.share;
+inline double acceleration_share(const Piece& p, const Limits& limits) {
+  return p.by == FeedBy::spindle ? ThreadShare::kAcceleration : tap_acceleration_share(p, limits);
 }
-inline double jerk_share(const Piece& p) {
-  return p.by == FeedBy::spindle ? ThreadShare::kJerk : p.share;
+inline double jerk_share(const Piece& p, const Limits& limits) {
+  return p.by == FeedBy::spindle ? ThreadShare::kJerk : tap_jerk_share(p, limits);
 }
 /// Nothing moves on the piece under the present overrides.
 inline bool stands(const Piece& p, const Limits& limits) {

@@ -26,6 +26,7 @@ struct PlanCell {
   uint32_t piece = 0;
   Kind kind = Kind::level;
   bool path_ends = false;  ///< the path rests at its end, not the plan alone
+  int8_t turning_axis = -1;  ///< Scales::turning_axis for which it was planned
   static constexpr float kInDryRun = -1;
 };
 

@@ -43,7 +43,7 @@ bool OptimalPlanner::line_limits(const Piece& p, LineLimits* most) const {
     const double d = std::fabs(p.c[1][i]), v = velocity_of(p, limits_, i);
     if ((limits_.linear >> i & 1) != 0) length2 += d * d;
     if (most->speed * d > v && v > 0) most->speed = v / d;
-    const double acceleration = acceleration_share(p) * limits_.acceleration[i], jerk = jerk_share(p) * limits_.jerk[i];
+    const double acceleration = acceleration_share(p, limits_) * limits_.acceleration[i], jerk = jerk_share(p, limits_) * limits_.jerk[i];
     if (most->acceleration * d > acceleration) most->acceleration = acceleration / d;
     if (most->jerk * d > jerk) most->jerk = jerk / d;
   }
@@ -113,7 +113,7 @@ void OptimalPlanner::bound_creep(const Piece& p, double x, LineLimits* most) con
   double length2 = 0;
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
     const double v = velocity_of(p, limits_, i), d1 = std::fabs(q.d1[i]), d2 = std::fabs(q.d2[i]), d3 = std::fabs(q.d3[i]);
-    const double a = 0.5 * acceleration_share(p) * limits_.acceleration[i], j = 0.5 * jerk_share(p) * limits_.jerk[i];
+    const double a = 0.5 * acceleration_share(p, limits_) * limits_.acceleration[i], j = 0.5 * jerk_share(p, limits_) * limits_.jerk[i];
     if ((limits_.linear >> i & 1) != 0) length2 += d1 * d1;
     if (v > 0 && most->speed * d1 > v) most->speed = v / d1;
     if (a > 0 && most->speed * most->speed * d2 > a) most->speed = std::sqrt(a / d2);
@@ -137,8 +137,8 @@ bool OptimalPlanner::keeps_limits(const Piece& p, double x) const {
       for (unsigned i = 0; i < limits_.axis_count; ++i) {
         const double a = q.d1[i] * s.a + q.d2[i] * s.v * s.v;
         const double j = q.d1[i] * phase.jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
-        if (limits_.acceleration[i] > 0 && !(std::fabs(a) <= acceleration_share(p) * limits_.acceleration[i])) return false;
-        if (limits_.jerk[i] > 0 && !(std::fabs(j) <= jerk_share(p) * limits_.jerk[i])) return false;
+        if (limits_.acceleration[i] > 0 && !(std::fabs(a) <= acceleration_share(p, limits_) * limits_.acceleration[i])) return false;
+        if (limits_.jerk[i] > 0 && !(std::fabs(j) <= jerk_share(p, limits_) * limits_.jerk[i])) return false;
       }
     }
     from = from.behind(phase.jerk, phase.seconds);
@@ -221,6 +221,7 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
       c.a = at.a;
       c.w = phase.jerk;
       c.turns = turns_of(limits_.scale);
+      c.turning_axis = limits_.scale.turning_axis;
       if (write_ == first && start.from_rest) {
         c.kind = PlanCell::Kind::launch;
         c.v = then.v;

@@ -12,6 +12,7 @@ namespace {
 constexpr double kPeriod = 0.005;  ///< s that a cell lasts
 /// A stop is looked for at these many times the distance that a stop on a line takes.
 constexpr double kFarther[] = {1.004, 1.05, 1.15, 1.35, 1.8, 2.7, 4, 8};
+constexpr double kFartherFollowed[] = {1.35, 2.7, 4, 8};  ///< the same on the cells of what is followed
 constexpr double kFartherPhases[] = {1.02, 1.2, 1.6, 2.5, 4, 8};  ///< the same for laws in phases
 constexpr double kAtOnce = 1e-4;  ///< s: a stop that takes no longer is as good as done
 /// Where the end of what is planned is nearer than this many times the time of a stop on a line, there is no room for another stop.
@@ -19,13 +20,15 @@ constexpr double kHardlyLonger = 3;
 constexpr double kFarthestAmid = 4;    ///< of that distance, from amid a cell: where none so short is found, one from its end may be shorter
 constexpr unsigned kStopStarts = 24;   ///< cells behind which such a law is looked for, one after the other
 constexpr unsigned kSolvedStops[] = {1, 4};  ///< of these, where the solver looks for one, too
+constexpr unsigned kNearerFollowed = 5;  ///< so often the distance between such a stop that is too short and one that is not is halved
 constexpr unsigned kNearer = 4;  ///< so often the distance between a stop that is too short and one that is not is halved
 constexpr unsigned kStopSteps = 18;  ///< the solver makes so many steps, after which there is no stop that is so short
+constexpr unsigned kStopStepsFollowed = 30;  ///< the same on the cells of what is followed, where most of what is none ends sooner
 constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
 constexpr double kCloseStops = 1.02;  ///< the halving ends when the two distances differ by no more than this factor
 constexpr double kFarEnd = 1.5;       ///< times the way to the end of a block: farther is the next one, so that a law to this one is worth all its time
-// Instructions: of a stop on a straight line, and of a record that is looked at.
-constexpr int64_t kLineCost = 15000, kRecordCost = 20;
+// Instructions: of a stop on a straight line, of a record that is looked at, and of a cell of what is followed.
+constexpr int64_t kLineCost = 15000, kRecordCost = 20, kBehindCost = 150;
 
 }  // namespace
 
@@ -58,14 +61,62 @@ double OptimalPlanner::stopping_distance(const Start& start, double* seconds) co
   return std::max(whole - t * (v - t * t * j / 6), 0.05 * whole);
 }
 
+/// The cells of the chain behind `start`, up to its next rest, no farther than `most`.
+Task<bool> OptimalPlanner::find_cells_behind(Work& work, const Start& start, double most) {
+  cells_behind_ = 0;
+  if (start.fresh || start.from_rest) co_return false;
+  double s = 0, v = start.v, a = start.a;
+  CellIndex k = start.cut > 0 ? start.after : chain_next_[start.after & store_.cell_mask];
+  while (cells_behind_ < kMaxCells && s < most) {
+    const PlanCell& c = store_.at(k);
+    if (c.kind == PlanCell::Kind::launch) break;
+    const CellState end = state_in(c, c.seconds);
+    const double h = c.u + c.h - start.u - s;
+    if (!(h > 0)) break;
+    cell_behind_[cells_behind_++] = {s, h, v * v, a, (end.v * end.v - v * v - 2 * a * h) / (h * h)};
+    if (k == chain_.last || c.kind == PlanCell::Kind::land) break;
+    s += h;
+    k = chain_next_[k & store_.cell_mask];
+    v = store_.at(k).v;
+    a = store_.at(k).a;
+    co_await work.pause(kBehindCost);
+  }
+  co_return cells_behind_ > 0;
+}
+
+/// The law of the solver that rests after `reach`: on the cells that find_cells_behind() has found, or where there are none on cells like any other law.
+Task<bool> OptimalPlanner::one_stop(Work& work, const Start& start, double reach, double period) {
+  MeshRequest request = request_from(start, reach, nullptr);
+  if (request.count == 0) co_return false;
+  Windows::Goal goal;
+  goal.once = true;
+  goal.period = period;
+  goal.steps = kStopSteps;
+  if (cells_behind_ > 0) {
+    const Along most = along(start);
+    request.chain = cell_behind_;
+    request.chain_cells = cells_behind_;
+    request.stop_a = most.acceleration;
+    request.stop_j = most.jerk;
+    goal.steps = kStopStepsFollowed;
+  }
+  const bool found = co_await windows_->law_to(work, request, limits_, goal);
+  co_return found;
+}
+
 /// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
-Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds) {
+Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which) {
   const double period = kStopPeriod * std::min(kPeriod, seconds / 14);
   double none = distance, some = 0;
-  for (const double farther : kFarther) {
-    const double reach = std::min(distance * farther, most);
+  cells_behind_ = 0;
+  if (which != Stops::gentle) co_await find_cells_behind(work, start, std::min(most, distance * *std::rbegin(kFarther)));
+  const bool behind = cells_behind_ > 0;
+  const double* const farther = behind ? kFartherFollowed : kFarther;
+  const size_t count = behind ? std::size(kFartherFollowed) : std::size(kFarther);
+  for (size_t n = 0; n < count; ++n) {
+    const double reach = std::min(distance * farther[n], most);
     if (!(reach > none)) break;
-    const bool found = co_await one_law(work, start, reach, nullptr, true, period, kStopSteps);
+    const bool found = co_await one_stop(work, start, reach, period);
     if (found) {
       some = reach;
       break;
@@ -74,12 +125,12 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   }
   if (!(some > 0)) co_return false;
   bool last = true;
-  for (unsigned n = 0; n < kNearer && some > kCloseStops * none; ++n) {
+  for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none; ++n) {
     const double reach = std::sqrt(none * some);
-    last = co_await one_law(work, start, reach, nullptr, true, period, kStopSteps);
+    last = co_await one_stop(work, start, reach, period);
     (last ? some : none) = reach;
   }
-  if (!last) last = co_await one_law(work, start, some, nullptr, true, period, kStopSteps);
+  if (!last) last = co_await one_stop(work, start, some, period);
   co_return last;
 }
 
@@ -99,7 +150,7 @@ Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most,
   found_ = Found::cells;
   const bool closed = which == Stops::closed;
   if (!closed && seconds > kAtOnce) {
-    const bool found = co_await shortest_stop(work, start, distance, which == Stops::solved ? std::min(most, kFarthestAmid * distance) : most, seconds);
+    const bool found = co_await shortest_stop(work, start, distance, which == Stops::solved ? std::min(most, kFarthestAmid * distance) : most, seconds, which);
     if (found) co_return true;
   }
   if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;

@@ -27,6 +27,9 @@ constexpr double kFall = 0.2, kRise = 5;  ///< of a control value, after a step
 constexpr double kResidual = 0.003;
 constexpr double kSmallestSlack = 0.5;
 constexpr double kGapFirst = 0.4;  ///< the solver begins with a gap of this part of the time, shared by all rows
+constexpr double kNoStop = 3;  ///< where there is no stop the multipliers grow without end: the gap becomes more than so many times the time; of stops that are found it is below half of it
+constexpr double kGapOfStop = 2e-3;  ///< kGap of a stop, whose rows come near to being kept and away again where the gap is smaller
+constexpr double kGapUnkept = 0.5;  ///< as long as rows are not kept the gap of a stop stays above this part of that
 constexpr double kSlackAgain = 0.003;  ///< the smallest slack where it begins from a solution of nearly the same rows
 constexpr double kGapAgain = 0.003;
 constexpr double kAlong = 2.5;         ///< times the acceleration and jerk that an axis would allow, at most, along the path
@@ -144,7 +147,7 @@ TimeLaw::Rows* TimeLaw::fill_rows(const Run& run, unsigned k, Rows* row) {
     const unsigned i = axis_[n];
     if (!matters(k, i, most)) continue;
     const double per_j = limits_->jerk[i] > 0 ? 1 / (m.use[k] * limits_->jerk[i]) : 0;
-    const auto jerk = [&](bool bends) { return per_j * (bends ? 1 / kInsideCurve : 1 / kInside); };
+    const auto jerk = [&](bool bends) { return per_j * (bends && !m.stops ? 1 / kInsideCurve : 1 / kInside); };
     const double j0 = jerk(left.d2[i] != 0 || left.left3[i] != 0 || left.right3[i] != 0),
                  j1 = jerk(right.d2[i] != 0 || right.left3[i] != 0 || right.right3[i] != 0),
                  jm = launch || land ? 0 : jerk(in.d2_start[i] != 0 || in.d2_end[i] != 0 || in.d3[i] != 0),
@@ -480,19 +483,17 @@ Task<bool> TimeLaw::solve(Work& work, const Mesh& mesh, const Limits& limits, bo
   for (unsigned n = 0, more = 0; n < most; ++n) {
     law->iterations = n;
     law->worst = sums.worst * kInside;
-    if (sums.gap < kGap * time_ && sums.worst < 1.0005 && (sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {
+    if (sums.gap < (mesh.stops ? kGapOfStop : kGap) * time_ && sums.worst < 1.0005 && (mesh.stops || sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {
       law->ok = levels_hold(sums.gap / rows_);
       if (law->ok) finish(law);
       work.spend(kStepCost * n_);
       co_return law->ok;
     }
-    const double average = sums.gap / rows_;
+    if (mesh.stops && !(sums.gap < kNoStop * time_)) co_return false;
+    const double average = sums.gap / rows_, least = mesh.stops && !(sums.worst < 1.0005) ? kGapUnkept * kGapOfStop * time_ / rows_ : 0;
     // Not nearer to the walls than the rows are to being kept: else the steps become short.
-    const double target = std::max((sums.residual > 0.3    ? 0.5
-                                    : sums.residual > 1e-3 ? 0.3
-                                                           : 0.1) *
-                                       average,
-                                   kResidual * sums.residual * time_ / rows_);
+    const double part = sums.residual > 0.3 ? 0.5 : sums.residual > 1e-3 ? 0.3 : 0.1;
+    const double target = std::max({part * average, kResidual * sums.residual * time_ / rows_, least});
     if (!step(target)) co_return false;
     co_await work.pause(kStepCost * n_);
     begin_pass(false, target, 0);

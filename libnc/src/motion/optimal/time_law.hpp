@@ -47,6 +47,7 @@ struct Mesh {
   Inside inside[kMaxCells];
   bool from_rest = true;  ///< else b and b' at the start are given
   double b0 = 0, slope0 = 0;
+  bool stops = false;  ///< it is a stop from a law that is followed, one of many that are tried, and there may be none
 };
 
 /// b at the knots, its slope, and b''/2 in the cells. The first cell when it starts from rest, and the last

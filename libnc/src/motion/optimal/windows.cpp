@@ -15,6 +15,8 @@ constexpr double kFinerAgain = 2;  ///< the same for a path for which no law was
 constexpr double kOfMost = 0.95;  ///< a mesh has at most this part of the cells that a law may have
 constexpr unsigned kTightened = 6;  ///< a law that exceeds a limit is corrected at most so often
 constexpr double kExcess = 1.0003;  ///< inside its cells a law may use this many times a limit
+constexpr double kExcessOfStop = 1.0006;  ///< the same of a stop: what it leaves may use as much as any law, on other cells, and there may be no other way
+constexpr double kTighter = 1.001, kTighterStop = 0.9998;  ///< a cell that uses too much may use so many times less than what it is too much by
 constexpr double kLonger = 1.02;  ///< a law is good enough when it takes no more than this many times the time of the law in phases, or the estimate
 constexpr double kOfPhases = 0.9;  ///< another law that begins with the law in phases begins with this part of its squared speed
 constexpr double kGentle = 24;  ///< a law that begins with the law in phases leaves the speed of the start within this many cells
@@ -282,14 +284,15 @@ void Windows::lower_caps(unsigned k, double times) {
 /// Where a cell uses more than a limit between the rows, it may use less of it. @return the largest share.
 NC_FOR_WIDE_VECTORS double Windows::tighten(unsigned from, unsigned to) {
   double worst = 0;
+  const double tighter = mesh_.stops ? kTighterStop : kTighter;
   for (unsigned k = from; k < to; ++k) {
     if (k > 0 && mesh_.level[k - 1] && mesh_.level[k] && mesh_.level[k + 1]) continue;  // the mesh has looked at it
     const Excess share = excess(k);
     worst = std::max({worst, share.acceleration, share.jerk, share.velocity});
     if (share.velocity > kExcess) lower_caps(k, 1.001 * share.velocity);
     const double most = std::max(share.jerk, share.acceleration);
-    if (most > kExcess) mesh_.use[k] /= 1.001 * most;
-    if (share.acceleration > kExcess) mesh_.use_a[k] /= 1.001 * share.acceleration;
+    if (most > kExcess) mesh_.use[k] /= tighter * most;
+    if (share.acceleration > kExcess) mesh_.use_a[k] /= tighter * share.acceleration;
   }
   return worst;
 }
@@ -320,7 +323,7 @@ Task<bool> Windows::corrected(Work& work) {
     if (!solved) co_return false;
     const double share = co_await tighten(work);
     if (!(share < HUGE_VAL)) co_return false;  // a cell that is not gone through
-    if (!(share > kExcess)) co_return true;
+    if (!(share > (mesh_.stops ? kExcessOfStop : kExcess))) co_return true;
   }
   co_return false;
 }
@@ -357,9 +360,9 @@ bool Windows::phase_keeps_limits(const MeshRequest& request, const LineState& s,
     const double most = velocity_of(p, limits_, i), a = q.d1[i] * s.a + q.d2[i] * s.v * s.v,
                  j = q.d1[i] * jerk + 3 * q.d2[i] * s.v * s.a + q.d3[i] * s.v * s.v * s.v;
     if (most > 0 && !(std::fabs(q.d1[i] * s.v) <= kExcess * most)) return false;
-    if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p))) return false;
-    if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p))) return false;
-    if (look->goes_on && (j > 0) != (last.j > 0) && !(peaks_between(last, {a, j}, step).a * per_acceleration_[i] <= kExcess * acceleration_share(p)))
+    if (!(std::fabs(a) * per_acceleration_[i] <= kExcess * acceleration_share(p, limits_))) return false;
+    if (!(std::fabs(j) * per_jerk_[i] <= kExcess * jerk_share(p, limits_))) return false;
+    if (look->goes_on && (j > 0) != (last.j > 0) && !(peaks_between(last, {a, j}, step).a * per_acceleration_[i] <= kExcess * acceleration_share(p, limits_)))
       return false;
     last = {a, j};
   }
@@ -490,7 +493,7 @@ Task<bool> Windows::solve(Work& work, unsigned tries) {
       taken = co_await take(work);
       if (taken) co_return true;
     }
-    if (t > 0) continue;
+    if (t > 0 || request_.chain != nullptr) continue;
     taken = co_await from_phases(work);
     if (taken) co_return true;
   }

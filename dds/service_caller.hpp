@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client of the services over DDS (docs/dds.md, "Services"): asks, waits for the reply, and puts its parts together. To be used by one thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "dds/participant.hpp"
+#include "runtime/services/rights.hpp"
+
+namespace nc::dds {
+
+struct ServiceReplyText {
+  std::string refusal;  // "" = none
+  std::string body;     // JSON
+};
+
+class ServiceCaller {
+ public:
+  // kNotAllowed: the permissions of DDS Security do not let this identity ask; kNobody: there is no gateway, or it does not answer.
+  enum class Result { kDone, kNotAllowed, kNobody };
+
+  // `control`: name of the control. `client`: that of this client, which no other one has. False with a sentence in *error.
+  bool open(const Access& access, const std::string& control, const std::string& client, std::string* error);
+  // Asks on the topic of the right, with the arguments as JSON, and waits for the reply. Without one *error has a sentence.
+  Result call(rt::services::Right right, const std::string& service, const std::string& args, ServiceReplyText* reply, std::string* error);
+  // Waits for the next update of a watch list.
+  Result next_update(std::string* body, std::string* error);
+
+ private:
+  struct Parts {
+    dds_instance_handle_t writer = 0;
+    std::uint32_t count = 0;
+    std::string text;
+  };
+  Result writer_of(rt::services::Right right, dds_entity_t* writer, std::string* error);
+  void take();
+  void add_part(const nc_ServiceReply& sample, dds_instance_handle_t writer);
+  bool wait(std::int64_t until_ns);
+
+  Access access_;
+  std::string control_, client_;
+  Participant participant_;
+  dds_entity_t replies_ = 0, waitset_ = 0;
+  std::array<dds_entity_t, rt::services::kRightCount> writers_{};
+  std::uint64_t number_ = 0;                          // of the last request
+  std::map<std::uint64_t, Parts> parts_;              // of replies that have not come to their end
+  std::map<std::uint64_t, ServiceReplyText> whole_;   // replies that nobody has fetched yet
+  std::deque<std::string> updates_;
+};
+
+}  // namespace nc::dds

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Offline: the items of a part system given out one after the other, passed over, or looked through for a place to restart from.
+#include "control/part_system_stream.hpp"
+
+namespace nc {
+
+/// A macro interrupt that has been asked for begins in front of the next item, where it may.
+[[gnu::always_inline]] inline void PartSystem::begin_wanted_interrupt() {
+  if (!watched_) [[likely]] return;
+  if ((uit_mode_ & NC_INTERRUPT_ENABLED) == 0) uit_pending_ = false;
+  const bool wanted = uit_pending_ || (uit_ && interpreter.interrupts().by_level && uit_rest_.over());
+  if (wanted && pulled_ == ItemKind::mark && !beside_ && interruptible()) begin_interrupt();
+}
+
+[[gnu::always_inline]] inline void PartSystem::give(const Item& item, nc_item* out) {
+  pulled_ = item.kind;
+  pulled_in_hole_ = item.in_hole;
+  if (item.kind == ItemKind::mark) {
+    commit_.mark_to_public(item, out);
+    if (watched_ && item.mark.report) [[unlikely]] uit_rest_.block_ended();
+    beside_ = item.mark.beside;
+    note_mark(item);
+  } else {
+    commit_.to_public(item, out);
+    if (item.kind == ItemKind::move) [[likely]] {
+      const Move& move = item.move;
+      move_transform_ = move.transform;
+      move_offset_ = move.comp.side * move.comp.radius;
+      move_plane_axis_[0] = move.comp.axis[0];
+      move_plane_axis_[1] = move.comp.axis[1];
+      move_in_space_ = move.space.on;
+    } else {
+      note_given(item);
+      note_interrupt_mode(item);
+    }
+  }
+  take();
+}
+
+nc_status PartSystem::pull(uint32_t budget, nc_item* out) {
+  for (;;) {
+    begin_wanted_interrupt();
+    const Item* item = nullptr;
+    const nc_status status = pump(budget, &item);
+    if (status != NC_OK) return status;
+    if (item == nullptr) continue;
+    give(*item, out);
+    return NC_OK;
+  }
+}
+
+/// Counts an item instead of giving it out; `before`: number of moves that had been passed before this call. False: it has to be given.
+[[gnu::always_inline]] inline bool PartSystem::pass(const Item& item, uint64_t before, nc_passed* passed) {
+  if (watched_) [[unlikely]] return false;
+  if (item.kind == ItemKind::move) {
+    const Move& move = item.move;
+    if (move.kind == NC_MOVE_SKIP) [[unlikely]] return false;
+    ++passed->moves;
+    ++passed->moves_in_row;
+    passed->marks = 0;
+    commit_.count_move(move, passed);
+  } else {
+    if (item.kind != ItemKind::mark || item.mark.report || passed->moves == before) return false;
+    ++passed->marks;
+    passed->moves_in_row = 0;
+    beside_ = item.mark.beside;
+    note_mark(item);
+  }
+  pulled_ = ItemKind::mark;  // nothing that was given out last: nc_move_point() has no move
+  pulled_in_hole_ = item.in_hole;
+  passed->source = item.source;
+  take();
+  return true;
+}
+
+nc_status PartSystem::pull_past(uint32_t budget, nc_passed* passed, nc_item* out) {
+  const uint64_t before = passed->moves;
+  for (;;) {
+    begin_wanted_interrupt();
+    const Item* item = nullptr;
+    const nc_status status = pump(budget, &item);
+    if (status != NC_OK) return status;
+    if (item == nullptr) continue;
+    if (!pass(*item, before, passed)) {
+      give(*item, out);
+      return NC_OK;
+    }
+    if (passed->moves_in_row >= passed->most_in_row && passed->most_in_row != 0) [[unlikely]] return NC_BUDGET;
+  }
+}
+
+/// The interpreter is about to read the block on the line that is looked for. In front of a call that is the only time to stop, because the items behind it are
+/// those of what it calls. Where stages hold items back it is too late: there the block is found by its first item, and a call by its end.
+bool PartSystem::at_place(Passed* passed) {
+  const nc_source& wanted = search_.wanted();
+  if (!search_.of_line() || staged_count_ != 0 || !stages_.idle() || !interpreter.at_line(wanted.file, wanted.line, &passed->source)) return false;
+  return passed->reached = search_.comes_to_line(interpreter.newest_block());
+}
+
+/// An item that commit leaves out is passed as a mark without meaning.
+PartSystem::Passed PartSystem::pass_item(uint32_t& budget) {
+  const Item* item = nullptr;
+  Passed passed;
+  if (at_place(&passed)) return passed;
+  passed.status = next(budget, &item);
+  if (passed.status != NC_OK) return passed;
+  passed.reached = search_.reached(*item);
+  passed.source = item->source;
+  if (passed.reached) return passed;
+  passed.status = pump(budget, &item);
+  if (passed.status != NC_OK || item == nullptr) return passed;
+  passed.kind = pulled_ = item->kind;
+  search_.note(*item);
+  if (item->kind == ItemKind::mark) {
+    restart_modal_ = item->mark.modal;
+    note_mark(*item);
+  } else {
+    note_given(*item);
+  }
+  take();
+  return passed;
+}
+
+}  // namespace nc
