@@ -62,6 +62,23 @@ class Element:
             return math.hypot(self.end[0] - self.start[0], self.end[1] - self.start[1])
         return abs(self.sweep()) * self.radius()
 
+    def distances(self, points):
+        """How far each of the points (an array of two columns) is from the element, whose radius changes evenly with the angle where its ends lie at two."""
+        start, end, points = numpy.array(self.start), numpy.array(self.end), numpy.asarray(points)
+        if self.center is None:
+            along = end - start
+            length = float(along @ along)
+            part = numpy.clip((points - start) @ along / length, 0, 1) if length > 0 else numpy.zeros(len(points))
+            return numpy.hypot(*(points - start - part[:, None] * along).T)
+        r, sweep = self.radius(), self.sweep()
+        r_end = math.hypot(self.end[0] - self.center[0], self.end[1] - self.center[1])
+        beside = points - numpy.array(self.center)
+        first = math.atan2(self.start[1] - self.center[1], self.start[0] - self.center[0])
+        turned = (math.copysign(1, sweep) * (numpy.arctan2(beside[:, 1], beside[:, 0]) - first)) % (2 * math.pi)
+        of_ends = numpy.minimum(numpy.hypot(*(points - start).T), numpy.hypot(*(points - end).T))
+        of_arc = numpy.abs(numpy.hypot(*beside.T) - (r + (r_end - r) * turned / abs(sweep)))
+        return numpy.where(turned <= abs(sweep), numpy.minimum(of_arc, of_ends), of_ends)
+
     def split(self, part):
         point = rounded(self.at(part)[0])
         if self.center is None:

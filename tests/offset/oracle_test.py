@@ -27,6 +27,7 @@ import subprocess
 import sys
 
 try:
+    import numpy
     from shapely.geometry import LineString, MultiLineString, Point, Polygon
     from shapely.ops import unary_union
 except ImportError:
@@ -354,19 +355,15 @@ def reaches_every_block(contour):
 
 def beside(element, move, radius):
     """The parts of a move on which the tool touches its own block. On the others it goes round a corner, on sides that 12.4.1 lengthens; what else stands there is for CONTOUR_CHECK."""
-    points, block = move.points(), LineString(element.points())
-    parts, last = [], False
-    for one, other in zip(points, points[1:]):
-        pieces = max(1, math.ceil(math.hypot(other[0] - one[0], other[1] - one[1]) / (radius / 20)))
-        for n in range(pieces):
-            ends = [(one[0] + (other[0] - one[0]) * part / pieces, one[1] + (other[1] - one[1]) * part / pieces) for part in (n, n + 1)]
-            touches = all(block.distance(Point(end)) <= radius + TOLERANCE for end in ends)
-            if touches and last:
-                parts[-1].append(ends[1])
-            elif touches:
-                parts.append(ends)
-            last = touches
-    return parts
+    corners = numpy.array(move.points())
+    ends = [corners[:1]]
+    for one, other in zip(corners, corners[1:]):
+        pieces = max(1, math.ceil(math.dist(one, other) / (radius / 20)))
+        ends.append(one + (other - one) * (numpy.arange(pieces) + 1)[:, None] / pieces)
+    ends = numpy.concatenate(ends)
+    touches = numpy.concatenate(([False], element.distances(ends) <= radius + TOLERANCE, [False]))
+    changes = numpy.flatnonzero(touches[1:] != touches[:-1])  # where a part begins, and behind where it ends, in turn
+    return [ends[first:behind] for first, behind in zip(changes[::2], changes[1::2]) if behind - first > 1]
 
 
 def judge_blocks(contour, result):
