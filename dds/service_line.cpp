@@ -118,7 +118,7 @@ bool ServiceLine::take_greeting(std::string* error) {
 bool ServiceLine::next(std::string* text) { return in_.next(text) == rt::services::FrameReader::Next::kFrame; }
 
 std::string find_service_socket(const std::string& share) {
-  const std::string system = "/run/ncrtd/" + share + ".sock";
+  std::string system = "/run/ncrtd/" + share + ".sock";
   if (access(system.c_str(), F_OK) == 0) return system;
   // NOLINTNEXTLINE(concurrency-mt-unsafe): nothing in this process changes its environment
   const char* folder = std::getenv("XDG_RUNTIME_DIR");

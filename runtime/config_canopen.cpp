@@ -227,6 +227,7 @@ std::vector<std::string> eds_errors(const std::string& name, const Config& confi
   std::vector<hal::canopen::EdsError> errors = hal::canopen::read_eds(text, &eds);
   if (errors.empty()) errors = hal::canopen::check_eds(eds, node);
   std::vector<std::string> texts;
+  texts.reserve(errors.size());
   for (const hal::canopen::EdsError& error : errors) texts.push_back(name + (error.line != 0 ? ":" + std::to_string(error.line) : "") + ": " + error.text);
   return texts;
 }

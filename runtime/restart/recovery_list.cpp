@@ -55,7 +55,7 @@ void RecoveryList::begin_codes(const nc_restart_found& found) {
   std::vector<Given> given;
   const auto add = [&](std::uint32_t order, Kind kind, double value, bool of_change = false) { given.push_back({order, {kind, State::kOpen, value, of_change, 0, 0, 0, {}}}); };
   const bool ahead = found.t_given && (!found.change_t_given || found.t_order != found.change_t_order);
-  if (found.change_t_given) add(found.change_t_order, Kind::kTool, found.change_t, true);
+  if (found.change_t_given) add(found.change_t_order, Kind::kTool, static_cast<double>(found.change_t), true);
   if (ahead) add(found.t_order, Kind::kTool, found.t);
   if (found.b_given) add(found.b_order, Kind::kSecond, found.b);
   if (found.s_given) add(found.s_order, Kind::kSpeed, found.s);

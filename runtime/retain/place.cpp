@@ -155,7 +155,7 @@ bool StopData::restore(const std::string& bytes) {
 
 bool PlaceData::take(std::string* bytes) {
   if (!feeder_.take(Feeder::kPlace, bytes)) return false;
-  *bytes = kept_or(std::move(*bytes));
+  *bytes = kept_or(*bytes);
   return true;
 }
 

@@ -196,7 +196,7 @@ bool decode_call(std::string_view frame, Call* call, Outcome* outcome) {
     for (const auto& [key, value] : args->items()) {
       const FieldInfo* field = field_of(*call->row, key);
       if (field == nullptr) return bad(Refused::kMalformed, std::string(call->row->name) + " has no member \"" + key + "\"");
-      if (const std::string wrong = take(*field, value, call); !wrong.empty()) return bad(Refused::kMalformed, key + " " + wrong);
+      if (const std::string wrong = take(*field, value, call); !wrong.empty()) return bad(Refused::kMalformed, std::string(key).append(" ").append(wrong));
       call->given.set(static_cast<unsigned>(field->field));
     }
   }

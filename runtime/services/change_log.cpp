@@ -153,6 +153,7 @@ std::vector<TablePlace> ChangeLog::places() const {
   for (const Change& change : changes_)
     for (const ValueChange& value : change.values) all.emplace(place_key(value.place), value.place);
   std::vector<TablePlace> places;
+  places.reserve(all.size());
   for (auto& [key, place] : all) places.push_back(std::move(place));
   return places;
 }

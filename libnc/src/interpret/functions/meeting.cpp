@@ -280,13 +280,13 @@ Execution make_second(BlockContext& in, const InPlane& plane, const Second& seco
     if (did != Execution::done) did = in.raise(Condition::geometric_contact, second.circle.by_radius ? Role::arc_radius : plane.axes.center[0]);
   }
   Move* const move = newest_move(in, before);
-  if (did == Execution::done && move == nullptr) did = in.raise(Condition::geometric_contact);  // nothing is left of the second block
-  if (did != Execution::done) {
-    in.state.machine = before_machine;
-    return did;
+  if (did == Execution::done && move != nullptr) {
+    move->meets = true;
+    return Execution::done;
   }
-  move->meets = true;
-  return Execution::done;
+  if (did == Execution::done) did = in.raise(Condition::geometric_contact);  // nothing is left of the second block
+  in.state.machine = before_machine;
+  return did;
 }
 
 /// A line without an end and a choice of the point are nothing by themselves; an arc without an end is.
