@@ -323,12 +323,13 @@ bool Runtime::find_answer(std::uint64_t ticket, bool from_feeder, Answer* answer
   return false;
 }
 
-// What a start begins is looked at before it: the files that its program calls may have been changed a moment ago. Without operator_, because the disk may take its time.
+// What a start begins is looked at before it: the files that its program calls may have been changed a moment ago, and a check that has just come to its end
+// may not have been told to the scan. Without operator_, because the disk may take its time.
 bool Runtime::is_still_checked() {
   if (gate_ == nullptr) return true;
   const StartGate::Looked looked = gate_->look_again();
   if (looked == StartGate::Looked::kNoAnswer) return false;
-  if (looked == StartGate::Looked::kDoubtful) (void)look([](nc_control*) {});  // behind this step of the feeder the scan knows of it
+  if (looked == StartGate::Looked::kDoubtful || scan_->any_not_checked()) (void)look([](nc_control*) {});  // behind this step of the feeder the scan knows of it
   return true;
 }
 

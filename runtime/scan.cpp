@@ -307,6 +307,13 @@ std::uint32_t Scan::head_with(Loaded wanted, bool all) const noexcept {
   return found & ~active;
 }
 
+bool Scan::any_not_checked() const noexcept {
+  const std::uint32_t loaded = loaded_.load(std::memory_order_acquire);
+  for (unsigned s = 0; s < systems_; ++s)
+    if ((loaded >> kLoadedBits * s & ((1u << kLoadedBits) - 1)) == kPartNotChecked) return true;
+  return false;
+}
+
 // Blocks of MDI that wait for a start.
 std::uint32_t Scan::mdi_waiting() const noexcept {
   std::uint32_t waiting = 0;

@@ -86,6 +86,8 @@ class Scan {
   enum Loaded : std::uint8_t { kNothingLoaded = 0, kPartLoaded = 1, kMdiLoaded = 2, kPartNotChecked = 3 };
   static constexpr unsigned kLoadedBits = 2;
   void set_loaded(std::uint32_t loaded) noexcept { loaded_.store(loaded, std::memory_order_release); }
+  // Whether a start would find a part program that may not begin. Any thread.
+  bool any_not_checked() const noexcept;
   // Blocks of MDI wait that are to interrupt the program of a part system, which stands in a block stop (M700 12.4.4): `text` is their number, 0 = there are
   // none. They begin with a start in MDI; a start in AUTO waits until they are taken back.
   void set_mdi_waits(unsigned system, std::uint32_t text) noexcept { mdi_waits_[system].store(text, std::memory_order_release); }
