@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two part systems that are begun inside together, each with a program that writes what both share: a search in one leaves the place of the other, unless that was found with what is put back.
 #include <array>
+#include <random>
 
 #include "restart_machine.hpp"
 #include "runtime/test_config.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -77,6 +79,7 @@ class TwoSystems : public testing::Test {
   }
 
   Config config;
+  std::deque<std::string> texts;  // of programs: the control refers to them
   VirtualClock clock;
   std::unique_ptr<nc::test::PathMachine> machine;
   std::unique_ptr<Runtime> runtime;
@@ -168,6 +171,46 @@ TEST_F(TwoSystems, TheSameVariableIsCountedByBoth) {
   ASSERT_EQ(command(CommandKind::kReset, 0), Answer::kDone);
   ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting && variable(500) == 7; }, 2000)) << variable(500);
   EXPECT_EQ(variable(502), 7);
+}
+
+// Two random programs, each with writes of what both share, also in the block in front of the place, are looked for one after the other and begun together. What is written may have been vacant, become
+// vacant, or stay what it was.
+TEST_F(TwoSystems, RandomWritesInFrontOfBothPlaces) {
+  const std::uint64_t first_seed = nc::test::wish("NC_FIRST_SEED", 1), count = nc::test::seeds(60, 10);
+  for (std::uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto pick = [&random](unsigned most) { return static_cast<unsigned>(random() % most); };
+    std::string text[2];
+    std::uint32_t place[2];
+    for (unsigned s = 0; s < 2; ++s) {
+      const unsigned lines = 2 + pick(8);
+      for (unsigned n = 0; n < lines; ++n) {
+        const std::string target = std::to_string(pick(2) == 0 ? 520 + pick(4) : 500 + pick(3)), other = std::to_string(520 + pick(4)), common = std::to_string(110 + pick(3));
+        const std::string blocks[] = {"#" + target + "=0", "#" + target + "=" + std::to_string(pick(3)), "#" + target + "=#0", "#" + target + "=#" + other, "#" + target + "=#" + other + "+1", "#" + common + "=0", "#" + target + "=#" + common,
+                                      "G91 G10 L2 P2 X1.", "G90 G10 L2 P1 X0", "G90 G0 X" + std::to_string(1 + pick(5)) + ".", "G4 P1", "#" + target + "=-0"};
+        text[s] += blocks[pick(std::size(blocks))] + "\n";
+      }
+      place[s] = lines + 1;
+      text[s] += "G90 G1 X7. F600.\nX9.\nM30\n";
+    }
+    const unsigned first = pick(2);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", first part system " + std::to_string(first + 1) + "\n" + text[0] + "----\n" + text[1]);
+    for (unsigned s = 0; s < 2; ++s) select(s, s == 0 ? "first.nc" : "second.nc", texts.emplace_back(text[s]).c_str());
+    const bool together = pick(4) == 0;
+    ASSERT_NO_FATAL_FAILURE(ask(first, place[first]));
+    if (!together) {
+      ASSERT_TRUE(until([&] { return phase(first) != RestartPhase::kSearching; }));
+    }
+    ASSERT_NO_FATAL_FAILURE(ask(1 - first, place[1 - first]));
+    ASSERT_TRUE(until([&] { return phase(0) != RestartPhase::kSearching && phase(1) != RestartPhase::kSearching; }));
+    for (unsigned n = pick(30); n > 0; --n) runtime->step();
+    ASSERT_EQ(phase(0), RestartPhase::kFound) << said(0);
+    ASSERT_EQ(phase(1), RestartPhase::kFound) << said(1);
+    ASSERT_NO_FATAL_FAILURE(expect_both_stand());
+    ASSERT_FALSE(HasFailure());
+    ASSERT_EQ(command(CommandKind::kReset, 0), Answer::kDone);
+    ASSERT_TRUE(until([&] { return !runtime->snapshot().resetting; }));
+  }
 }
 
 // What anybody else changes makes each place out of date, as before.

@@ -61,6 +61,7 @@ nc_status PartSystem::restart_find(uint32_t budget, nc_restart_found* found) {
   if (search_.torn() || search_.radius_given()) return give_up_search(NC_E_NOT_FOUND);
   const MarkPoint* const before = commit_.newest();
   if (search_.blocks() != 0 && (before == nullptr || before->serial != commit_.serial())) return give_up_search(NC_E_NOT_FOUND);
+  publish_all();  // what it has written last: the other part systems are told before their places are compared with what this search has left
   search_.found(interpreter.state_hash());
   if (search_.blocks() == 0) restart_modal_ = 0;
   search_.tell(found);
@@ -81,7 +82,9 @@ void PartSystem::answer_search() {
 
 /// The search does not go on, unless it only waits for another call.
 nc_status PartSystem::give_up_search(nc_status status) {
-  if (status != NC_BUDGET) forget_search();
+  if (status == NC_BUDGET) return status;
+  publish_all();
+  forget_search();
   return status;
 }
 
