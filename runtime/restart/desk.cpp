@@ -157,17 +157,18 @@ void RestartDesk::follow(const Snapshot& now, unsigned system) {
   if (status_.phase != RestartPhase::kFound && status_.phase != RestartPhase::kStands) return;
   const nc_outputs& out = now.system[system].nc;
   status_.list.look(out, now.interface_output);
-  if (out.state == NC_STATE_ALARM) return end("an alarm has come");
+  if (out.state == NC_STATE_ALARM) return lose("an alarm has come");
   if (status_.phase == RestartPhase::kFound) {
     if (out.state == NC_STATE_STOPPED) status_.phase = RestartPhase::kStands;
     return;
   }
-  if (out.state == NC_STATE_IDLE) return end("the program has been given up");
-  // Blocks of MDI run in their own mode, and do not count.
+  // Blocks of MDI run in their own mode, and do not count. What is left of the program may have come to its end since the last look.
   const bool runs = out.state == NC_STATE_RUNNING && now.mode == Mode::kAuto;
-  if (!runs && out.blocks <= status_.found.blocks) return;
-  written_ = false;
-  end("the program has gone on");
+  if (runs || out.blocks > status_.found.blocks) {
+    written_ = false;
+    return end("the program has gone on");
+  }
+  if (out.state == NC_STATE_IDLE) lose("the program has been given up");
 }
 
 void RestartDesk::end(const std::string& why) {

@@ -3,9 +3,9 @@
 //
 //   kNone -> kSearching -> kFound -> (cycle start) kStands -> (cycle start) kEnded
 //
-// Another program and who cancels it end it in any phase. A search without a place, another mode during the search, changed tables and blocks of MDI that come before
-// the start lose the place: the operator still means it, so no program begins at its head before one of those two says so, or a place is found. A reset ends what is in hand
-// and leaves that bar where it is: it is what is pressed first where a start is refused, and says nothing of another part.
+// Another program and who cancels it end it in any phase. A search without a place, another mode during the search, changed tables, blocks of MDI that come before
+// the start, an alarm and a reset lose the place: the operator still means it, so no program begins at its head before one of those two says so, or a place is found. Further resets
+// leave that bar where it is: a reset is what is pressed first where a start is refused, and says nothing of another part.
 #pragma once
 
 #include <string>
@@ -33,10 +33,8 @@ class RestartDesk {
   }
   // Where something was in hand or lost it has ended; `why` is a sentence.
   void end(const std::string& why);
-  // The machine has been reset.
-  void reset() {
-    if (in_hand()) end("a reset has ended it");
-  }
+  // The machine has been reset: what was in hand is lost, so that the next start does not begin the whole program where the operator has asked for a part of it.
+  void reset() { lose("a reset has ended it"); }
   // Where something was in hand it is lost.
   void lose(const std::string& why);
 

@@ -475,7 +475,8 @@ TEST_F(Restart, AResetOrAnotherModeEndsTheSearch) {
   EXPECT_EQ(start(), Answer::kRestartSearch);
   EXPECT_EQ(runtime->execute(CommandKind::kConfirmRestart, 0, kEveryEntry), Answer::kNoPlace);
   ASSERT_NO_FATAL_FAILURE(reset());
-  EXPECT_EQ(restart().phase, RestartPhase::kEnded) << restart().text;
+  EXPECT_EQ(restart().phase, RestartPhase::kLost) << restart().text;
+  EXPECT_EQ(start(), Answer::kRestartLost);
   ASSERT_EQ(find(RestartBy::kSequence, 9), Answer::kDone);
   steps(5);
   ASSERT_EQ(mode(Mode::kManual), Answer::kDone);
@@ -492,6 +493,50 @@ TEST_F(Restart, AResetOrAnotherModeEndsTheSearch) {
   ASSERT_EQ(start(), Answer::kDone);
   ASSERT_TRUE(until([&] { return out().source.line == 3; }));
   EXPECT_LT(out().command.v[0], 0.1);
+}
+
+// A reset gives the place up, wherever the operator is with it, and an alarm does. The whole program is not what the next press of the button means, so it begins neither inside
+// nor at its head, by command or button, however often reset is pressed, before it is said what is meant.
+TEST_F(Restart, BehindAResetOrAnAlarmNothingBeginsAtTheHeadWithoutAWord) {
+  for (const bool stands : {false, true})
+    for (const bool alarm : {false, true})
+      for (const unsigned way : {0u, 1u, 2u}) {
+        SCOPED_TRACE(std::string(stands ? "at the place, " : "place found, ") + (alarm ? "alarm, way " : "reset, way ") + std::to_string(way));
+        build("[[point]]\nname = \"trouble\"\ndirection = \"input\"\n[signals]\n\"plc.alarm.1\" = \"trouble\"\n");
+        select(kPart);
+        ASSERT_EQ(find(RestartBy::kSequence, 50), Answer::kDone);
+        ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; })) << restart().text;
+        if (stands) {
+          ASSERT_EQ(start(), Answer::kDone);
+          ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kStands; })) << restart().text;
+        }
+        if (alarm) {
+          machine->hold(config.points.find("trouble"), 1);
+          ASSERT_TRUE(until([&] { return runtime->snapshot().alarmed(); }));
+          steps(5);
+          machine->hold(config.points.find("trouble"), 0);
+        }
+        const double before = out().command.v[0];
+        for (unsigned press = 0; press < 3; ++press) {
+          ASSERT_NO_FATAL_FAILURE(reset());
+          steps(5);
+          EXPECT_EQ(restart().phase, RestartPhase::kLost) << restart().text;
+          EXPECT_EQ(start(), Answer::kRestartLost);
+          steps(50);
+          EXPECT_EQ(out().state, NC_STATE_IDLE);
+          EXPECT_EQ(out().command.v[0], before);
+        }
+        EXPECT_NE(restart().text.find(alarm ? "alarm" : "reset"), std::string::npos) << restart().text;
+        if (way == 0) {
+          ASSERT_EQ(runtime->execute(CommandKind::kCancelRestart), Answer::kDone);
+        } else if (way == 1) {
+          select(kPart);
+        } else {
+          ASSERT_EQ(find(RestartBy::kSequence, 50), Answer::kDone);
+          ASSERT_TRUE(until([&] { return restart().phase == RestartPhase::kFound; })) << restart().text;
+        }
+        EXPECT_EQ(start(), Answer::kDone);
+      }
 }
 
 TEST_F(Restart, WhatIsNotThereIsSaidAndNothingStartsBeforeItIsCancelled) {
