@@ -170,6 +170,7 @@ struct ShareConfig {
   bool enabled = false;
   std::string name;            // empty = made from the machine's name
   bool commands = false;       // commands are taken from the segment
+  ConfigPlace commands_place;
   bool group = false;          // readers of the same group are admitted, not only those of the same user
 };
 

@@ -19,7 +19,7 @@ void read_scheduling(TableReader* root, Config* config);
 void read_motion(TableReader* root, Config* config);  // after the axes
 void read_axes(TableReader* root, Config* config);
 void read_parameters(TableReader* root, Config* config);
-// A parameter's value as the text that nc_parameter_set() takes: of a number, a word or a boolean.
+// A parameter's value as the text that nc_parameter_set() takes: of a number or a word. A switch is 0 or 1, as in the manual.
 std::optional<std::string> parameter_text(const toml::node& node);
 void read_work_offsets(TableReader* root, Config* config);
 void read_tool_offsets(TableReader* root, Config* config);

@@ -37,7 +37,6 @@ std::optional<std::string> parameter_text(const toml::node& node) {
   double number = 0;
   if (node_number(node, &number)) return number_text(number);
   if (const auto* text = node.as_string()) return text->get();
-  if (const auto* flag = node.as_boolean()) return std::string(flag->get() ? "1" : "0");
   return {};
 }
 
@@ -53,7 +52,7 @@ void read_parameters(TableReader* root, Config* config) {
             reader.errors()->add(place.line, place.key, no_axis(axis_name.str()));
           else if (!text)
             reader.errors()->add(place.line, place.key,
-                                 std::string("must be a number or a word, not ") + shown_type(value));
+                                 std::string("must be a finite number or a word, not ") + shown_type(value));
           else
             config->parameters.push_back({key, axis_name.str()[0], system, *text, place});
         }

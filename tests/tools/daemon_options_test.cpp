@@ -34,6 +34,29 @@ TEST(DaemonOptions, CommandsNeedSharedMemory) {
   EXPECT_EQ(conflict_of(options, config), "");
 }
 
+// What the configuration asks for in vain has its place there; where the machine is served, or only checked, it is not in vain.
+TEST(DaemonOptions, CommandsOfTheConfigurationNeedSharedMemory) {
+  rt::Config config;
+  config.file = "m.toml";
+  config.share.commands = true;
+  config.share.commands_place = {7, "share.commands"};
+  DaemonOptions options;
+  for (const Command command : {Command::kCheck, Command::kServe}) {
+    options.command = command;
+    EXPECT_EQ(conflict_of(options, config), "");
+  }
+  for (const Command command : {Command::kRun, Command::kMdi}) {
+    options.command = command;
+    options.fast = false;
+    EXPECT_EQ(conflict_of(options, config).find("m.toml:7: share.commands: needs shared memory"), 0u) << conflict_of(options, config);
+    options.fast = true;
+    EXPECT_EQ(conflict_of(options, config), "") << "takes no commands";
+  }
+  options.fast = false;
+  config.share.enabled = true;
+  EXPECT_EQ(conflict_of(options, config), "");
+}
+
 TEST(DaemonOptions, NothingAskedIsNoConflict) {
   DaemonOptions options;
   options.fast = true;

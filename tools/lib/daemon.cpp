@@ -273,8 +273,8 @@ int daemon_command(const DaemonOptions& given) {
   if (whole) errors = rt::check_host(config);
   if (!errors.empty() && only_check) check_ladder(whole ? config : partial, whole, &errors);
   if (!errors.empty()) return config_failed(errors);
-  options.commands |= config.share.commands && !options.fast;
   if (const std::string conflict = conflict_of(options, config); !conflict.empty()) return failed(conflict);
+  options.commands |= config.share.commands && !options.fast;
   return only_check ? check(options, config) : operate(options, &config);
 }
 

@@ -9,8 +9,13 @@ namespace nc::tools {
 
 std::string conflict_of(const DaemonOptions& options, const rt::Config& config) {
   if (options.commands && options.fast) return "--commands is for a machine in real time, not for --fast";
-  if (options.commands && options.share.empty() && options.command != DaemonOptions::Command::kServe && !config.share.enabled)
-    return "--commands needs shared memory: --share NAME, or enabled = true in [share]";
+  // A machine that is served has shared memory in any case, so a configuration alone says nothing wrong.
+  const bool begins = options.command == DaemonOptions::Command::kRun || options.command == DaemonOptions::Command::kMdi;
+  if (begins && options.share.empty() && !config.share.enabled) {
+    if (options.commands) return "--commands needs shared memory: --share NAME, or enabled = true in [share]";
+    if (config.share.commands && !options.fast)
+      return rt::ConfigError{config.file, config.share.commands_place.line, config.share.commands_place.key, "needs shared memory: enabled = true beside it, or --share NAME"}.text();
+  }
   if (options.fast && config.machine_kind != nullptr && !config.machine_kind->no_virtual_time.empty())
     return "--fast cannot be: " + std::string(config.machine_kind->no_virtual_time) + " (hal = \"" + std::string(config.machine_kind->name) + "\")";
   return "";
