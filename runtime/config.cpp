@@ -14,6 +14,7 @@
 #include "runtime/config_equipment.hpp"
 #include "runtime/config_sections.hpp"
 #include "runtime/hal_factory.hpp"
+#include "runtime/point_uses.hpp"
 
 namespace nc::rt {
 
@@ -93,6 +94,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   resolve_equipment(&reader, &read);
   read_machine_sections(&reader, &read);
   read_spindle_feedback(&reader, &read);
+  check_point_uses(&reader, read);
   read_share(&reader, &read);
   read_services(&reader, &read);
   reader.finish();

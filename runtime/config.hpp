@@ -88,6 +88,22 @@ struct EquipmentName {
   std::uint8_t system = 0, axis = 0;
 };
 
+// What a point is used for (runtime/point_uses.hpp has a row for each).
+enum class PointRole : std::uint8_t {
+  kMacroOutput, kSignalOutput, kHomingRequest, kBrake,                                        // sets an output
+  kDriveHoming, kSpindleTurn, kSpindleOrient, kSpindleGear, kSimulatedCommand,                // obeys an output
+  kDriveHomed, kSpindleOriented, kSimulatedAnswer,                                            // gives an input
+  kHomingDone, kDog, kIndex, kLimit, kWheelCounter, kWheelTimes10, kWheelTimes100, kStick, kMeasuredSpeed, kFree  // goes by an input
+};
+
+struct PointUse {
+  PointRole role = PointRole::kFree;
+  int point = -1;
+  ConfigPlace place;
+  std::uint8_t system = 0;
+  std::uint8_t number = 0;  // of the axis or spindle in its part system, of the handwheel; from 0
+};
+
 // What measures the speed of a spindle.
 struct SpindleFeedback {
   enum class By : std::uint8_t { kSimulation, kPoint, kNothing };
@@ -251,6 +267,7 @@ struct Config {
   std::array<std::array<AxisEquipment, NC_MAX_AXES>, NC_MAX_SYSTEMS> equipment;
   std::array<std::array<ConfigPlace, NC_MAX_AXES>, NC_MAX_SYSTEMS> homing_place;
   std::vector<EquipmentName> equipment_names;
+  std::vector<PointUse> point_uses;  // of the machine that is chosen
   hal::SimConfig sim;
   hal::canopen::BusMap canopen;
   ShareConfig share;
@@ -278,6 +295,8 @@ struct Config {
   std::string history_path() const;
   // True when the point is an output that a wire connects with a signal of the NC.
   bool is_wired_output(unsigned point) const;
+  // True when the control sets the output for an axis: its brake, or the request to its drive to home it.
+  bool is_set_for_axis(unsigned point) const;
 };
 
 // Parse a text. `file` is the path for messages, and the paths in the text are relative to its folder. Returns the errors; when there are none, *config

@@ -36,22 +36,14 @@ void read_gears(TableReader* reader, SpindleMap* spindle) {
   }
 }
 
-void read_gear_select(TableReader* reader, const Config& config, SpindleMap* spindle) {
+void read_gear_select(TableReader* reader, const AxisMap& owner, Config* config, SpindleMap* spindle) {
   const bool given = reader->find("gear_select") != nullptr;
-  if (given) read_drive_point(reader, "gear_select", hal::PointType::kWord, hal::PointDirection::kOutput, config, &spindle->gear_select);
+  if (given) read_drive_point(reader, "gear_select", hal::PointType::kWord, hal::PointDirection::kOutput, PointRole::kSpindleGear, owner, config, &spindle->gear_select);
   if (spindle->gears.size() > 1 && !given) reader->error("gears", "with several steps gear_select names the point that says which one is in");
   if (spindle->gears.size() == 1 && given) reader->error("gear_select", "is for several gears");
 }
 
-// A point asks for one thing only: a spindle that is to turn both ways, or a way and to its angle, would stand.
-void check_ways(TableReader* reader, const char* key, int point, const SpindleMap& spindle, const Config& config) {
-  if (point < 0) return;
-  const std::string name = "point \"" + config.points.at(static_cast<unsigned>(point)).name + "\" turns it ";
-  if (point == spindle.forward) reader->error(key, name + "forward already");
-  else if (point == spindle.backward) reader->error(key, name + "backward already");
-}
-
-void read_orient(TableReader* spindle_reader, const Config& config, SpindleMap* spindle) {
+void read_orient(TableReader* spindle_reader, const AxisMap& owner, Config* config, SpindleMap* spindle) {
   spindle_reader->table("orient", [&](TableReader& reader) {
     double rpm = 60, angle = 0, window = 1;
     reader.number("speed", &rpm, 0.1, kMostRpm);
@@ -62,9 +54,8 @@ void read_orient(TableReader* spindle_reader, const Config& config, SpindleMap* 
     spindle->law.orient_angle = angle / 360;
     spindle->law.orient_window = window / 360;
     for (const char* key : {"request", "done"}) reader.require(key);
-    read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle->orient);
-    read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, config, &spindle->oriented);
-    check_ways(&reader, "request", spindle->orient, *spindle, config);
+    read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kSpindleOrient, owner, config, &spindle->orient);
+    read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, PointRole::kSpindleOriented, owner, config, &spindle->oriented);
     if (spindle->gears.size() > 1) reader.error("request", "a spindle with gear steps cannot be oriented by its motor: behind a change nobody knows its angle");
   });
 }
@@ -78,47 +69,44 @@ void check_velocity(TableReader* reader, const SpindleMap& spindle) {
 
 }  // namespace
 
-void read_drive_spindle(TableReader* reader, const Config& config, NodeMap* node) {
+void read_drive_spindle(TableReader* reader, Config* config, NodeMap* node) {
   AxisMap map;
   SpindleMap spindle;
   unsigned system = 1, number = 1, mode = 0;
   double rpm = 0, acceleration = 0;
   bool reverse = false;
   for (const char* key : {"encoder", "max_rpm", "acceleration", "forward", "backward"}) reader->require(key);
-  reader->integer("system", &system, 1, config.nc.system_count);
-  const unsigned count = std::max<unsigned>(1, config.nc.system[system - 1].spindle_count);
+  reader->integer("system", &system, 1, config->nc.system_count);
+  const unsigned count = std::max<unsigned>(1, config->nc.system[system - 1].spindle_count);
   reader->integer("number", &number, 1, count);
+  map.system = system - 1;
+  map.axis = NC_MAX_AXES + number - 1;
   read_drive_place(reader, *node, &map);
   if (reader->number("encoder", &spindle.increments, 1, 4294967296.0)) spindle.velocity_scale = spindle.increments / 60;
   if (reader->number("velocity_scale", &spindle.velocity_scale, 1e-9, 1e9) && spindle.velocity_scale == 0) reader->error("velocity_scale", "must not be 0");
   reader->boolean("reverse", &reverse);
   if (reader->number("max_rpm", &rpm, 1, kMostRpm)) spindle.law.most = rpm / 60;
   if (reader->number("acceleration", &acceleration, 1, 1e9)) spindle.law.acceleration = acceleration / 60;
-  read_loop_gain(reader, "gain", 1, 200, config.canopen.sync_us, "the spindle", &spindle.law.gain);
+  read_loop_gain(reader, "gain", 1, 200, config->canopen.sync_us, "the spindle", &spindle.law.gain);
   if (reader->choice("mode", {"cyclic", "profile"}, &mode) && mode == 1) map.mode = hal::canopen::kModeProfileVelocity;
   else map.mode = hal::canopen::kModeCyclicVelocity;
   if (double lag_ms = 0; reader->number("tap_axis_lag_ms", &lag_ms, 0, kMostLag_ms)) spindle.tap_axis_lag_s = lag_ms / 1000;
   read_gears(reader, &spindle);
-  read_gear_select(reader, config, &spindle);
-  read_drive_point(reader, "forward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &spindle.forward);
-  int backward = -1;
-  read_drive_point(reader, "backward", hal::PointType::kBit, hal::PointDirection::kOutput, config, &backward);
-  check_ways(reader, "backward", backward, spindle, config);
-  spindle.backward = backward;
-  read_orient(reader, config, &spindle);
+  read_gear_select(reader, map, config, &spindle);
+  read_drive_point(reader, "forward", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kSpindleTurn, map, config, &spindle.forward);
+  read_drive_point(reader, "backward", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kSpindleTurn, map, config, &spindle.backward);
+  read_orient(reader, map, config, &spindle);
   check_velocity(reader, spindle);
   if (reverse)
     for (double& gear : spindle.gears) gear = -gear;
-  map.system = system - 1;
-  map.axis = NC_MAX_AXES + number - 1;
   spindle.number = number - 1;
   map.name = "spindle " + std::to_string(number);
   map.spindle = std::move(spindle);
-  const nc_system_config& axes = config.nc.system[map.system];
+  const nc_system_config& axes = config->nc.system[map.system];
   for (unsigned a = 0; a < axes.axis_count; ++a)
     if (axes.axis[a].spindle == number)
       reader->error(reader->find("number") != nullptr ? "number" : "encoder", std::string("axis ") + axes.axis[a].name + " is this spindle: only the simulated one can be a C axis so far");
-  for (const NodeMap& other : config.canopen.nodes)
+  for (const NodeMap& other : config->canopen.nodes)
     for (const AxisMap& taken : other.axes)
       if (taken.system == map.system && taken.axis == map.axis) return reader->error("encoder", map.name + " is on drive \"" + other.name + "\" already");
   for (const AxisMap& taken : node->axes)

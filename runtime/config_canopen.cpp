@@ -53,7 +53,7 @@ void read_bus(TableReader* reader, Config* config) {
   bus.completes_functions = config->ladder.program.empty();
 }
 
-void read_homing(TableReader* axis, const Config& config, AxisMap* map) {
+void read_homing(TableReader* axis, Config* config, AxisMap* map) {
   axis->table("homing", [&](TableReader& reader) {
     for (const char* key : {"method", "fast", "slow", "acceleration", "request", "done"}) reader.require(key);
     if (reader.integer("method", &map->homing_method, -128, 127) && map->homing_method == 0) reader.error("method", "0 is no homing: leave the table out");
@@ -62,8 +62,8 @@ void read_homing(TableReader* axis, const Config& config, AxisMap* map) {
     reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
     reader.number("position", &map->homing_position, -1e6, 1e6);
     reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
-    read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, config, &map->homing_request);
-    read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, config, &map->homed);
+    read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kDriveHoming, *map, config, &map->homing_request);
+    read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, PointRole::kDriveHomed, *map, config, &map->homed);
   });
 }
 
@@ -125,27 +125,27 @@ void check_speed(TableReader* reader, const AxisMap& map) {
     reader->error("velocity_scale", "makes " + number_text(most) + " of the largest velocity, which is beyond the 32 bits of 60FFh");
 }
 
-void read_drive_axis(TableReader* reader, const Config& config, NodeMap* node) {
+void read_drive_axis(TableReader* reader, Config* config, NodeMap* node) {
   AxisMap map;
   reader->require("name");
   const bool named = reader->string("name", &map.name);
-  const bool found = named && find_axis(config, map.name, &map.system, &map.axis);
+  const bool found = named && find_axis(*config, map.name, &map.system, &map.axis);
   if (named && !found) reader->error("name", "there is no axis \"" + map.name + "\": see [[axis]]");
   read_drive_place(reader, *node, &map);
   const double encoder = read_scale(reader, &map);
   reader->number("zero", &map.zero, -1e6, 1e6);
   reader->number("following_error_limit", &map.following_limit, 0, 1e6);
-  read_mode(reader, config.canopen, encoder, &map);
+  read_mode(reader, config->canopen, encoder, &map);
   read_homing(reader, config, &map);
   read_probe(reader, &map);
   if (!found) return;
-  map.max_velocity = config.nc.system[map.system].axis[map.axis].max_velocity;
-  for (const NodeMap& other : config.canopen.nodes)
+  map.max_velocity = config->nc.system[map.system].axis[map.axis].max_velocity;
+  for (const NodeMap& other : config->canopen.nodes)
     for (const AxisMap& taken : other.axes)
       if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on drive \"" + other.name + "\" already");
   for (const AxisMap& taken : node->axes)
     if (taken.system == map.system && taken.axis == map.axis) return reader->error("name", "axis " + map.name + " is on this drive already");
-  check_range(reader, config, map);
+  check_range(reader, *config, map);
   check_speed(reader, map);
   node->axes.push_back(map);
 }
@@ -184,17 +184,19 @@ void read_drive_place(TableReader* reader, const NodeMap& node, AxisMap* map) {
     if (other.slot == map->slot) reader->error("slot", (other.spindle ? "" : "axis ") + other.name + " of this drive has it already");
 }
 
-void read_drive_point(TableReader* reader, const char* key, hal::PointType type, hal::PointDirection direction, const Config& config, int* place) {
+void read_drive_point(TableReader* reader, const char* key, hal::PointType type, hal::PointDirection direction, PointRole role, const AxisMap& owner, Config* config, int* place) {
   std::string name;
   if (!reader->string(key, &name)) return;
-  *place = config.points.find(name);
+  *place = config->points.find(name);
   if (*place < 0) return reader->error(key, "no point is named \"" + name + "\"");
-  const hal::Point& point = config.points.at(static_cast<unsigned>(*place));
+  const hal::Point& point = config->points.at(static_cast<unsigned>(*place));
   const bool output = direction == hal::PointDirection::kOutput;
   if (point.type != type || point.direction != direction)
     reader->error(key, "point \"" + name + "\" must be a " + (type == hal::PointType::kBit ? "bit" : "word") + " and an " + (output ? "output" : "input"));
   else if (!output && point.bus != 0)
     reader->error(key, "point \"" + name + "\" is on another bus");
+  else if (config->machine_kind != nullptr && config->machine_kind->name == "canopen")
+    config->point_uses.push_back({role, *place, {reader->line(key), reader->path(key)}, static_cast<std::uint8_t>(owner.system), static_cast<std::uint8_t>(owner.axis % NC_MAX_AXES)});
 }
 
 void read_identity(TableReader* reader, NodeMap* node, std::vector<ConfigPlace>* objects) {
@@ -244,8 +246,8 @@ void read_drive(TableReader* reader, Config* config) {
   reader->string("name", &node.name);
   for (const NodeMap& other : bus.nodes)
     if (other.name == node.name) reader->error("name", (other.module ? "module \"" : "drive \"") + other.name + "\" is node " + std::to_string(other.id) + " already");
-  reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, *config, &node); });
-  reader->tables("spindle", [&](TableReader& spindle, std::size_t) { read_drive_spindle(&spindle, *config, &node); });
+  reader->tables("axis", [&](TableReader& axis, std::size_t) { read_drive_axis(&axis, config, &node); });
+  reader->tables("spindle", [&](TableReader& spindle, std::size_t) { read_drive_spindle(&spindle, config, &node); });
   std::vector<ConfigPlace> objects;
   read_identity(reader, &node, &objects);
   check_objects(reader->errors(), bus, node, objects);

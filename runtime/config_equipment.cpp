@@ -3,7 +3,6 @@
 #include "runtime/config_equipment.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace nc::rt {
 namespace {
@@ -118,12 +117,21 @@ int* place_of(Config* config, const EquipmentName& name) {
   return &equipment.brake.point;
 }
 
-bool is_macro_output(const MacroMap& map, int point) {
-  return std::any_of(map.output_bit.begin(), map.output_bit.end(), [point](const auto& bits) { return std::find(bits.begin(), bits.end(), point) != bits.end(); });
+PointRole role_of(Part part) {
+  switch (part) {
+    case Part::kDog: return PointRole::kDog;
+    case Part::kIndex: return PointRole::kIndex;
+    case Part::kRequest: return PointRole::kHomingRequest;
+    case Part::kDone: return PointRole::kHomingDone;
+    case Part::kMinus:
+    case Part::kPlus: return PointRole::kLimit;
+    case Part::kBrake: break;
+  }
+  return PointRole::kBrake;
 }
 
 // What is wrong with a point for this; empty: nothing.
-std::string fault_of(const Config& config, const EquipmentName& name, int index, std::set<int>* outputs) {
+std::string fault_of(const Config& config, const EquipmentName& name, int index) {
   if (index < 0) return "no point is named \"" + name.name + "\"";
   const hal::Point& point = config.points.at(static_cast<unsigned>(index));
   const std::string shown = "point \"" + name.name + "\" ";
@@ -132,9 +140,7 @@ std::string fault_of(const Config& config, const EquipmentName& name, int index,
   if (point.type != hal::PointType::kBit) return shown + "must be a bit";
   if (input) return "";
   if (name.part == Part::kBrake && point.initial != 0) return shown + "must be 0 in the beginning: that closes the brake";
-  if (is_macro_output(config.macro, index)) return shown + "is an output of the macro interface already";
-  if (config.is_wired_output(static_cast<unsigned>(index))) return shown + "has a signal already";
-  return outputs->insert(index).second ? "" : shown + "is the output of another axis already";
+  return "";
 }
 
 void use_limit_as_dog(TableReader* root, Config* config, unsigned s, unsigned a) {
@@ -173,22 +179,18 @@ void read_equipment(TableReader* axis, Config* config, unsigned s, unsigned a) {
 }
 
 void resolve_equipment(TableReader* root, Config* config) {
-  std::set<int> outputs;
   for (const EquipmentName& name : config->equipment_names) {
     const int index = config->points.find(name.name);
-    const std::string fault = fault_of(*config, name, index, &outputs);
-    if (!fault.empty()) root->errors()->add(name.place.line, name.place.key, fault);
-    else *place_of(config, name) = index;
+    const std::string fault = fault_of(*config, name, index);
+    if (!fault.empty()) {
+      root->errors()->add(name.place.line, name.place.key, fault);
+      continue;
+    }
+    *place_of(config, name) = index;
+    config->point_uses.push_back({role_of(name.part), index, name.place, name.system, name.axis});
   }
   for (unsigned s = 0; s < config->nc.system_count; ++s) {
-    for (unsigned a = 0; a < config->nc.system[s].axis_count; ++a) {
-      use_limit_as_dog(root, config, s, a);
-      const Contact* limit = config->equipment[s][a].limit;
-      if (!limit[0].present() || limit[0].point != limit[1].point) continue;
-      for (const EquipmentName& name : config->equipment_names)
-        if (name.system == s && name.axis == a && name.part == Part::kPlus)
-          root->errors()->add(name.place.line, name.place.key, "is the switch of the other end, too");
-    }
+    for (unsigned a = 0; a < config->nc.system[s].axis_count; ++a) use_limit_as_dog(root, config, s, a);
   }
 }
 

@@ -18,15 +18,15 @@ std::string chosen_twice(const Config& config, const HandwheelConfig& wheel, uns
   return "";
 }
 
-void read_axes_of(TableReader* wheel, const Config& config, HandwheelConfig* entry) {
+void read_axes_of(TableReader* wheel, Config* config, HandwheelConfig* entry) {
   wheel->require("axes");
   wheel->table("axes", [&](TableReader& reader) {
     reader.each([&](const std::string& key, const toml::node&) {
       unsigned system = 0, axis = 0;
-      if (!find_axis(config, key, &system, &axis)) return reader.error(key, "no axis has this name");
-      const int point = read_input(&reader, key, hal::PointType::kBit, config);
+      if (!find_axis(*config, key, &system, &axis)) return reader.error(key, "no axis has this name");
+      const int point = read_input(&reader, key, hal::PointType::kBit, PointRole::kFree, 0, config);
       if (point < 0) return;
-      const std::string twice = chosen_twice(config, *entry, system, axis, point);
+      const std::string twice = chosen_twice(*config, *entry, system, axis, point);
       if (!twice.empty()) return reader.error(key, twice);
       entry->axes.push_back({static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point});
     });
@@ -35,31 +35,32 @@ void read_axes_of(TableReader* wheel, const Config& config, HandwheelConfig* ent
 
 void read_wheel(TableReader* reader, Config* config) {
   HandwheelConfig entry;
+  const auto number = static_cast<std::uint8_t>(config->handwheels.size());
   reader->require("counter");
-  const int counter = read_input(reader, "counter", hal::PointType::kWord, *config);
+  const int counter = read_input(reader, "counter", hal::PointType::kWord, PointRole::kWheelCounter, number, config);
   if (counter >= 0) entry.counter = static_cast<unsigned>(counter);
   reader->integer("counts", &entry.counts, 1, 1000);
   unsigned bits = entry.bits;
   if (reader->integer("bits", &bits, 8, 32)) entry.bits = bits;
-  entry.times_10 = read_input(reader, "times_10", hal::PointType::kBit, *config);
-  entry.times_100 = read_input(reader, "times_100", hal::PointType::kBit, *config);
-  read_axes_of(reader, *config, &entry);
-  for (const HandwheelConfig& other : config->handwheels)
-    if (counter >= 0 && other.counter == entry.counter) reader->error("counter", "is that of another handwheel already");
+  entry.times_10 = read_input(reader, "times_10", hal::PointType::kBit, PointRole::kWheelTimes10, number, config);
+  entry.times_100 = read_input(reader, "times_100", hal::PointType::kBit, PointRole::kWheelTimes100, number, config);
+  read_axes_of(reader, config, &entry);
   if (config->handwheels.size() == kMostHandwheels) return reader->error("counter", "there are more than " + std::to_string(kMostHandwheels) + " handwheels");
   config->handwheels.push_back(std::move(entry));
 }
 
 }  // namespace
 
-int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config) {
+int read_input(TableReader* reader, const std::string& key, hal::PointType type, PointRole role, std::uint8_t number, Config* config) {
   std::string name;
   if (!reader->string(key, &name)) return -1;
-  const int index = config.points.find(name);
-  const bool fits = index >= 0 && config.points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kInput && config.points.at(static_cast<unsigned>(index)).type == type;
+  const int index = config->points.find(name);
+  const bool fits = index >= 0 && config->points.at(static_cast<unsigned>(index)).direction == hal::PointDirection::kInput && config->points.at(static_cast<unsigned>(index)).type == type;
   if (index < 0) reader->error(key, "no point is named \"" + name + "\"");
   else if (!fits) reader->error(key, std::string("must be an input that is a ") + (type == hal::PointType::kWord ? "word" : "bit"));
-  return fits ? index : -1;
+  if (!fits) return -1;
+  config->point_uses.push_back({role, index, {reader->line(key), reader->path(key)}, 0, number});
+  return index;
 }
 
 void read_handwheels(TableReader* root, Config* config) {

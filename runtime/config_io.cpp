@@ -208,12 +208,8 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
     return;
   }
   std::string& owner = (*mapped_by)[static_cast<std::size_t>(index)];
-  if (!owner.empty()) {
+  if (!owner.empty() && !number->output) {  // check_point_uses() finds two outputs that are one
     reader->error(key, "point \"" + name + "\" is mapped twice (also by " + owner + ")");
-    return;
-  }
-  if (number->output && config->is_wired_output(static_cast<unsigned>(index))) {
-    reader->error(key, "point \"" + name + "\" has a signal already");
     return;
   }
   if (overlaps(config->macro, *number)) {
@@ -227,6 +223,7 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
   }
   *place = index;
   owner = key;
+  config->point_uses.push_back({number->output ? PointRole::kMacroOutput : PointRole::kFree, index, {reader->line(key), reader->path(key)}});
 }
 
 void read_solid(TableReader* reader, Config* config) {

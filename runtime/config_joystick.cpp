@@ -26,9 +26,9 @@ void read_stick(TableReader* reader, Config* config) {
     if (find_axis(*config, name, &system, &axis)) entry.system = static_cast<std::uint8_t>(system), entry.axis = static_cast<std::uint8_t>(axis);
     else reader->error("axis", "no axis is named \"" + name + "\"");
   }
-  entry.input = static_cast<unsigned>(std::max(read_input(reader, "input", hal::PointType::kWord, *config), 0));
-  entry.dead_man = static_cast<unsigned>(std::max(read_input(reader, "dead_man", hal::PointType::kBit, *config), 0));
-  entry.chosen_by = read_input(reader, "chosen_by", hal::PointType::kBit, *config);
+  entry.input = static_cast<unsigned>(std::max(read_input(reader, "input", hal::PointType::kWord, PointRole::kStick, 0, config), 0));
+  entry.dead_man = static_cast<unsigned>(std::max(read_input(reader, "dead_man", hal::PointType::kBit, PointRole::kFree, 0, config), 0));
+  entry.chosen_by = read_input(reader, "chosen_by", hal::PointType::kBit, PointRole::kFree, 0, config);
   read_counts(reader, &entry);
   reader->number("dead_band", &entry.dead_band, 0.01, 0.9);
   const double most = config->nc.system[entry.system].axis[entry.axis].max_velocity;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration sections [sim.spindle] and [sim.tool_changer]: the output points that drive them and the input points with which they answer.
-#include <map>
-
 #include "runtime/config_sections.hpp"
+#include "runtime/hal_factory.hpp"
 
 namespace nc::rt {
 namespace {
@@ -15,16 +14,13 @@ struct PointKey {
   int* index;
 };
 
-// For each point in use the key of the plant that uses it. A point is one wire, so only one key may use it.
-using Wires = std::map<int, std::string>;
-
-void read_point_key(TableReader* reader, const Config& config, const PointKey& wanted, Wires* wires) {
+void read_point_key(TableReader* reader, Config* config, const PointKey& wanted) {
   if (wanted.required) reader->require(wanted.key);
   std::string name;
   if (!reader->string(wanted.key, &name)) return;
-  const int index = config.points.find(name);
+  const int index = config->points.find(name);
   if (index < 0) return reader->error(wanted.key, "no point is named \"" + name + "\"");
-  const hal::Point& point = config.points.at(static_cast<unsigned>(index));
+  const hal::Point& point = config->points.at(static_cast<unsigned>(index));
   if (point.direction != wanted.direction)
     return reader->error(wanted.key, "point \"" + name + "\" must be an " +
                                          (wanted.direction == hal::PointDirection::kInput ? "input" : "output"));
@@ -32,9 +28,10 @@ void read_point_key(TableReader* reader, const Config& config, const PointKey& w
     return reader->error(wanted.key, "point \"" + name + "\" must be a " +
                                          (wanted.type == hal::PointType::kBit ? "bit" : "word"));
   if (point.bus != 0) return reader->error(wanted.key, "point \"" + name + "\" belongs to another bus");
-  const auto [wire, added] = wires->emplace(index, reader->path(wanted.key));
-  if (!added) return reader->error(wanted.key, "point \"" + name + "\" is used by " + wire->second + " already");
   *wanted.index = index;
+  if (config->machine_kind == nullptr || config->machine_kind->name != "sim") return;
+  const bool obeys = wanted.direction == hal::PointDirection::kOutput;
+  config->point_uses.push_back({obeys ? PointRole::kSimulatedCommand : PointRole::kSimulatedAnswer, index, {reader->line(wanted.key), reader->path(wanted.key)}});
 }
 
 constexpr auto kBit = hal::PointType::kBit;
@@ -50,7 +47,6 @@ void read_sim_plant(TableReader* sim, Config* config) {
   plant.max_rpm = config->sim.spindle_max_rpm;
   plant.prepare_s = config->sim.tool_select_s;
   plant.change_s = config->sim.tool_change_s;
-  Wires wires;
   const auto needs_ladder = [&](TableReader& reader) {
     if (config->ladder.program.empty())
       reader.errors()->add(reader.line(), reader.path(), "needs a ladder program: see [ladder]");
@@ -64,7 +60,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
                                   {"speed", kWord, kOut, true, &spindle.speed},
                                   {"at_speed", kBit, kIn, false, &spindle.at_speed},
                                   {"stopped", kBit, kIn, false, &spindle.stopped}})
-        read_point_key(&reader, *config, key, &wires);
+        read_point_key(&reader, config, key);
       needs_ladder(reader);
       if (n >= config->sim.spindle_count[0])
         reader.errors()->add(reader.line(), reader.path(), "part system 1 has no spindle " + std::to_string(n + 1) + ": see machine.spindles");
@@ -78,7 +74,7 @@ void read_sim_plant(TableReader* sim, Config* config) {
                                 {"change", kBit, kOut, true, &plant.change},
                                 {"changed", kBit, kIn, true, &plant.changed},
                                 {"tool", kWord, kIn, false, &plant.tool}})
-      read_point_key(&reader, *config, key, &wires);
+      read_point_key(&reader, config, key);
     needs_ladder(reader);
   });
 }

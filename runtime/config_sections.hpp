@@ -31,8 +31,8 @@ void read_signals(TableReader* root, Config* config);  // after points, macro in
 void connect_signal(TableReader* reader, const std::string& key, const std::string& signal, Config* config);
 void read_handwheels(TableReader* root, Config* config);  // after axes and points
 void read_joysticks(TableReader* root, Config* config);   // the same
-// The input of this type that `key` names. -1 when the key is not there or names none.
-int read_input(TableReader* reader, const std::string& key, hal::PointType type, const Config& config);
+// The input of this type that `key` names, which is used for `role` of this number then. -1 when the key is not there or names none.
+int read_input(TableReader* reader, const std::string& key, hal::PointType type, PointRole role, std::uint8_t number, Config* config);
 void read_power(TableReader* root, Config* config);  // after the signals
 void read_sim(TableReader* root, Config* config);
 void read_spindle_feedback(TableReader* root, Config* config);  // after [sim] and the points; in runtime/config_spindles.cpp

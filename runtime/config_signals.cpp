@@ -9,11 +9,6 @@
 namespace nc::rt {
 namespace {
 
-bool macro_output(const MacroMap& map, int point) {
-  const auto has = [point](const auto& list) { return std::find(list.begin(), list.end(), point) != list.end(); };
-  return has(map.output_word) || std::any_of(map.output_bit.begin(), map.output_bit.end(), has);
-}
-
 // `called`: the name of the signal, which a family may have a name of its own for, the key.
 void connect(TableReader* reader, const std::string& key, const std::string& called, const std::vector<Signal>& signals, Config* config) {
   std::string name;
@@ -34,13 +29,8 @@ void connect(TableReader* reader, const std::string& key, const std::string& cal
                                                                  : "is a bit, but point \"" + name + "\" is a word");
   if (to_nc && !config->ladder.program.empty())
     return reader->error(key, "is given by the ladder program: connect it there");
-  if (!to_nc && macro_output(config->macro, index))
-    return reader->error(key, "point \"" + name + "\" is an output of the macro interface already");
-  const auto place = static_cast<unsigned>(signal - signals.begin());
-  const auto taken = [&](const SignalWire& wire) { return !to_nc && wire.point == static_cast<unsigned>(index); };
-  if (std::any_of(config->wires.begin(), config->wires.end(), taken))
-    return reader->error(key, "point \"" + name + "\" has a signal already");
-  config->wires.push_back({place, static_cast<unsigned>(index)});
+  config->wires.push_back({static_cast<unsigned>(signal - signals.begin()), static_cast<unsigned>(index)});
+  config->point_uses.push_back({to_nc ? PointRole::kFree : PointRole::kSignalOutput, index, {reader->line(key), reader->path(key)}});
 }
 
 }  // namespace
@@ -54,6 +44,12 @@ void read_signals(TableReader* root, Config* config) {
 
 void connect_signal(TableReader* reader, const std::string& key, const std::string& signal, Config* config) {
   connect(reader, key, signal, machine_signals(config->nc), config);
+}
+
+bool Config::is_set_for_axis(unsigned point) const {
+  return std::any_of(point_uses.begin(), point_uses.end(), [point](const PointUse& use) {
+    return (use.role == PointRole::kBrake || use.role == PointRole::kHomingRequest) && use.point == static_cast<int>(point);
+  });
 }
 
 bool Config::is_wired_output(unsigned point) const {

@@ -83,6 +83,7 @@ void read_spindle_feedback(TableReader* root, Config* config) {
     if (feedback.given) return reader.errors()->add(reader.line(), reader.path(), "this spindle is there already");
     feedback.given = true;
     read_feedback(&reader, *config, &feedback);
+    if (feedback.point >= 0) config->point_uses.push_back({PointRole::kMeasuredSpeed, feedback.point, feedback.place, static_cast<std::uint8_t>(system - 1), static_cast<std::uint8_t>(number - 1)});
     if (is_on_drive(*config, system - 1, number - 1)) reader.error("feedback", "spindle " + std::to_string(number) + " is on a drive, which measures it: without this table");
     const nc_system_config& axes = config->nc.system[system - 1];
     for (unsigned a = 0; a < axes.axis_count; ++a)

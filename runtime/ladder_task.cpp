@@ -52,14 +52,14 @@ std::unique_ptr<LadderTask> LadderTask::create(const Config& config, std::vector
 }
 
 // The device of a point has the name of the point; the device "<name>.good" is its quality. The program must not write an output point that
-// the configuration connects with a signal of the NC.
+// the configuration connects with a signal of the NC, or that the control sets for an axis: its value would count for nothing.
 ladder::DeviceTable LadderTask::device_table(const Config& config, std::vector<ConfigError>* errors) {
   ladder::DeviceTable table;
   for (const Signal& signal : machine_signals(config.nc))  // all names differ, which a test checks
     (void)table.add(signal.name, signal.row->type, signal.row->direction == SignalDirection::kToNc, signal.row->meaning);
   for (unsigned p = 0; p < config.points.size(); ++p) {
     const hal::Point& point = config.points.at(p);
-    const bool output = point.direction == hal::PointDirection::kOutput && !config.is_wired_output(p);
+    const bool output = point.direction == hal::PointDirection::kOutput && !config.is_wired_output(p) && !config.is_set_for_axis(p);
     const auto device = table.add(point.name, point_device(point), output,
                                   point.meaning.empty() ? "point of the machine" : point.meaning);
     const auto good = table.add(point.name + ".good", ladder::DeviceType::kBit, false, "the bus of the point answers");

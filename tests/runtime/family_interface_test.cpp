@@ -145,7 +145,7 @@ TEST(FamilyInterfaceErrors, NamesOfTheSeries8AreSaidAndCheckedAsSignals) {
   has("\"@SCODE\" = \"word_in\"", "comes from the NC, but point \"word_in\" is an input");
   has("\"@SCODE\" = \"out0\"", "is a word, but point \"out0\" is a bit");
   has("\"@LCRPM\" = \"nowhere\"", "no point is named");
-  has("\"@SCODE\" = \"word_out\"\n\"@LCRPM\" = \"word_out\"", "point \"word_out\" has a signal already");
+  has("\"@SCODE\" = \"word_out\"\n\"@LCRPM\" = \"word_out\"", "point \"word_out\" is set by two");
   has("\"#1100\" = \"word_out\"", "is no name of the macro interface");
 }
 

@@ -154,7 +154,7 @@ TEST(HandwheelConfigErrors, AreNamedWithTheirKeys) {
       {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\ncounts = 0\n", "handwheel[1].counts", "from 1", 4},
       {"[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\", Y = \"sel_x\" }\n", "handwheel[1].axes.Y", "chooses another axis of this wheel", 3},
       {kWheel + "[[handwheel]]\ncounter = \"wheel2\"\naxes = { X = \"sel_x\" }\n", "handwheel[2].axes.X", "\"sel_x\" chooses this axis for handwheel[1], too", 8},
-      {kWheel + "[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel2_x\" }\n", "handwheel[2].counter", "of another handwheel", 7},
+      {kWheel + "[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel2_x\" }\n", "handwheel[2].counter", "says two things that are not true together: the counter of handwheel 1, and the counter of handwheel 2", 7},
   };
   for (const auto& mistake : mistakes) {
     SCOPED_TRACE(mistake.added);
