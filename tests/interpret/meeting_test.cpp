@@ -3,6 +3,10 @@
 // is elsewhere, other functions, going back, alarms.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <random>
+
 #include "support/drive.hpp"
 #include "support/pull.hpp"
 
@@ -154,6 +158,78 @@ TEST(Meeting, AWholeCircleInFrontOfAnArcThatStandsByItself) {
   EXPECT_EQ(path_of("G91 G3 I8. J6. F100\nG3 X0. Y12. I8. J6.\nM30").size(), 2u);  // distances, and the same centre
   EXPECT_EQ(path_of("G3 I1.8 J7.8 F100\nG3 X0. Y12. I8. J6.\nM30").size(), 2u);
   EXPECT_EQ(path_of("G3 I-4. J4.7 F100\nG2 X2. Y1.4 R-5.6\nM30").size(), 2u);  // the two would not meet
+}
+
+/// (b) 1: two circles of opposite senses that touch, in words of three digits. The second arc ends where its words, read as those of an arc by itself (6.4), miss a circle by `off` mm.
+struct TouchingPair {
+  std::string text;
+  double meets[2] = {0, 0};
+  bool found = false;
+};
+
+TouchingPair touching_pair(uint64_t seed, double off) {
+  std::mt19937_64 random(seed);
+  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto digits = [](double value) { return std::round(value * 1000) / 1000; };
+  const double turn = 2 * std::acos(-1.0), r1 = number(3, 30), r2 = number(3, 30), start = number(0, turn), way = number(0, turn);
+  const double x0 = digits(number(-20, 20)), y0 = digits(number(-20, 20)), x1 = x0 - r1 * std::cos(start), y1 = y0 - r1 * std::sin(start);
+  const double x2 = x1 + (r1 + r2) * std::cos(way), y2 = y1 + (r1 + r2) * std::sin(way);
+  const auto misses = [&](double angle) { return r2 - std::hypot(x0 - r2 * std::cos(angle) - x2 - r2 * std::cos(angle), y0 - r2 * std::sin(angle) - y2 - r2 * std::sin(angle)) - off; };
+  TouchingPair pair;
+  for (unsigned i = 0; i < 360 && !pair.found; ++i) {
+    double low = turn * i / 360, high = turn * (i + 1) / 360;
+    if (misses(low) * misses(high) > 0) continue;
+    for (unsigned k = 0; k < 60; ++k) (misses(low) * misses((low + high) / 2) > 0 ? low : high) = (low + high) / 2;
+    char text[300];
+    const bool ccw = random() % 2 == 0;
+    std::snprintf(text, sizeof text, "G0 X%.3f Y%.3f\nG%d I%.3f J%.3f F500\nG%d X%.3f Y%.3f I%.3f J%.3f\nM30\n", x0, y0, ccw ? 3 : 2, x1 - x0, y1 - y0, ccw ? 2 : 3, x2 + r2 * std::cos(low), y2 + r2 * std::sin(low), -r2 * std::cos(low),
+                  -r2 * std::sin(low));
+    pair = {text, {x1 + r1 * std::cos(way), y1 + r1 * std::sin(way)}, true};
+  }
+  return pair;
+}
+
+// #1084 lets radii differ by 0.1 mm: by as much an end may miss the circle that it is on by itself. Two circles that touch but for the last digits are a pair all the same, and the first is
+// driven to the point where they touch, not all round.
+TEST(Meeting, APairIsOneThoughTheSecondArcIsNearlyOneByItself) {
+  unsigned found = 0;
+  for (uint64_t seed = 1; seed <= 400; ++seed)
+    for (const double off : {0.09, 0.03, -0.012, 0.0}) {
+      const TouchingPair pair = touching_pair(seed, off);
+      if (!pair.found) continue;
+      ++found;
+      const Outcome run = run_of(pair.text);
+      const std::vector<nc_move> moves = run.moves();
+      ASSERT_EQ(run.alarm, "") << pair.text;
+      ASSERT_EQ(moves.size(), 3u) << pair.text;
+      EXPECT_NEAR(moves[1].machine.v[0], pair.meets[0], 0.01) << pair.text;
+      EXPECT_NEAR(moves[1].machine.v[1], pair.meets[1], 0.01) << pair.text;
+    }
+  EXPECT_GT(found, 100u);
+}
+
+// An arc by itself behind a whole circle is none of a pair because two circles miss each other by less than #1084, nor where it leaves the whole circle along its tangent, outside or inside.
+TEST(Meeting, AnArcByItselfIsOneThoughItsCirclesNearlyTouch) {
+  std::mt19937_64 random(2);
+  const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  unsigned near = 0;
+  for (unsigned i = 0; i < 20000; ++i) {
+    const double r1 = number(3, 30), r2 = number(1, 30), start = number(0, 6.283), begin = i % 4 == 0 ? start + (i % 8 == 0 ? std::acos(-1.0) : 0) : number(0, 6.283), end = number(0, 6.283);
+    const double x1 = -r1 * std::cos(start), y1 = -r1 * std::sin(start), x2 = -r2 * std::cos(begin), y2 = -r2 * std::sin(begin), x3 = x2 + r2 * std::cos(end), y3 = y2 + r2 * std::sin(end);
+    if (std::hypot(x3, y3) < 0.3) continue;
+    const bool first_ccw = random() % 2 == 0, second_ccw = i % 4 == 0 ? first_ccw == (i % 8 != 0) : random() % 2 == 0;
+    const double apart = std::hypot(x3 + x2 - x1, y3 + y2 - y1), gap = std::abs(apart - (first_ccw != second_ccw ? r1 + r2 : std::abs(r1 - r2)));
+    if (i % 4 != 0 && (gap > 0.1 || gap < 0.012)) continue;
+    ++near;
+    char text[300];
+    std::snprintf(text, sizeof text, "G0 X0 Y0\nG%d I%.3f J%.3f F500\nG%d X%.3f Y%.3f I%.3f J%.3f\nM30\n", first_ccw ? 3 : 2, x1, y1, second_ccw ? 3 : 2, x3, y3, x2, y2);
+    const Outcome run = run_of(text);
+    const std::vector<nc_move> moves = run.moves();
+    ASSERT_EQ(run.alarm, "") << text;
+    ASSERT_EQ(moves.size(), 2u) << text;
+    EXPECT_NEAR(std::abs(moves[0].sweep_deg), 360, 1e-6) << text;
+  }
+  EXPECT_GT(near, 5000u);
 }
 
 // Of the same sense: the second one is none by itself, since its ends are farther apart than twice its radius.

@@ -167,6 +167,11 @@ Meeting touch_circles(const KnownCircle& first, const KnownCircle& second, doubl
   return choice.best();
 }
 
+double gap_of_circles(const KnownCircle& first, const KnownCircle& second) {
+  const double r1 = norm(first.on - first.center), r2 = norm(second.on - second.center);
+  return std::fabs(norm(second.center - first.center) - (first.ccw != second.ccw ? r1 + r2 : std::fabs(r1 - r2)));
+}
+
 Circle part_of_circle(PlanePoint start, PlanePoint end, PlanePoint center, bool ccw) {
   Circle circle;
   circle.center[0] = center.h;

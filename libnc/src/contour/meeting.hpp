@@ -51,6 +51,8 @@ Meeting touch_line_and_circle(const SlopedLine& line, const KnownCircle& circle,
 
 /// (b) Arc and arc that touch: both by their centres, or one of them by its radius. Opposite senses touch from outside, equal ones from inside.
 Meeting touch_circles(const KnownCircle& first, const KnownCircle& second, double tolerance);
+/// By how much two circles with their centres miss each other.
+double gap_of_circles(const KnownCircle& first, const KnownCircle& second);
 
 /// The arc about a centre from one point on its circle to another, less than a whole turn.
 Circle part_of_circle(PlanePoint start, PlanePoint end, PlanePoint center, bool ccw);

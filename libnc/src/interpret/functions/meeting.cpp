@@ -223,22 +223,38 @@ Second second_block(const BlockInHand& in, const InPlane& plane) {
   return second;
 }
 
+KnownCircle circle_of(const MeetingFirst& first) { return {{first.start[0], first.start[1]}, first.ccw, first.by_radius, first.radius, {first.center[0], first.center[1]}}; }
+
+/// Do an arc about `center` and the first one have one tangent where the first one begins, as far as their words tell?
+bool leaves_along_tangent(const MeetingFirst& first, PlanePoint center) {
+  const double a[2] = {first.center[0] - first.start[0], first.center[1] - first.start[1]}, b[2] = {center.h - first.start[0], center.v - first.start[1]};
+  const double one = std::hypot(a[0], a[1]), other = std::hypot(b[0], b[1]);
+  return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * one * other + 1e-3 * (one + other);
+}
+
+/// What the last digits of three make, of two starts, two centres and an end together.
+constexpr double kAllDigits_mm = 0.005;
+
 /// Whether the second block is an arc by itself, from where the first one began: by 6.4 and 6.5 an arc without an end and the arc behind it mean
-/// something without 13.9. Where both readings are possible the older one counts, but for a pair as 13.9 prints it, with a radius and the other
-/// sense, that does not begin along the circle before. `meet` false: the two blocks do not meet, so there is no other reading.
+/// something without 13.9. `meet` false: the two blocks do not meet, so there is no other reading. Where both are possible by #1084, the tolerance of radii, one that is so but for
+/// the last digits counts before one that is not. Where both are, it is the older one, but for a pair as 13.9 prints it, with the other sense, that does not begin along the circle
+/// before: a contour that goes on from a whole circle leaves it along its tangent, and circles of which the second leaves the first so do not touch anywhere else.
 bool stands_by_itself(const InForce& in, const MeetingFirst& first, const Second& second, bool meet) {
   const PlanePoint start{first.start[0], first.start[1]};
-  const double tolerance = in.settings.arc_tolerance;
-  if (!second.circle.by_radius) {  // its centre counts from the start there
-    const double h = second.circle.center.h - second.end.h, v = second.circle.center.v - second.end.v;
-    return std::fabs(std::hypot(h, v) - std::hypot(start.h + h - second.end.h, start.v + v - second.end.v)) <= tolerance + 1e-9;
+  const double tolerance = in.settings.arc_tolerance + 1e-9;
+  if (second.circle.by_radius) {
+    const double chord = std::hypot(second.end.h - start.h, second.end.v - start.v);
+    if (chord / 2 - std::fabs(second.circle.radius) > in.settings.arc_tolerance || chord == 0) return false;  // 6.5: no circle of that radius goes through both
+    return !meet || first.ccw == second.circle.ccw || leaves_along_tangent(first, center_of_radius(start, second.end, second.circle.radius, second.circle.ccw));
   }
-  const double chord = std::hypot(second.end.h - start.h, second.end.v - start.v);
-  if (chord / 2 - std::fabs(second.circle.radius) > tolerance || chord == 0) return false;  // 6.5: no circle of that radius goes through both
-  if (!meet || first.ccw == second.circle.ccw) return true;
-  const PlanePoint center = center_of_radius(start, second.end, second.circle.radius, second.circle.ccw);
-  const double a[2] = {first.center[0] - start.h, first.center[1] - start.v}, b[2] = {center.h - start.h, center.v - start.v};
-  return std::fabs(a[0] * b[1] - a[1] * b[0]) <= 1e-4 * std::hypot(a[0], a[1]) * std::hypot(b[0], b[1]);
+  const double h = second.circle.center.h - second.end.h, v = second.circle.center.v - second.end.v;  // its centre counts from the start there
+  const double off = std::fabs(std::hypot(h, v) - std::hypot(start.h + h - second.end.h, start.v + v - second.end.v));
+  if (off > tolerance || !meet) return off <= tolerance;
+  const double exact = in.state.modal.is(Function::inch) ? 2.54 * kAllDigits_mm : kAllDigits_mm;
+  const double gap = first.by_radius ? 0 : gap_of_circles(circle_of(first), second.circle);
+  if (gap > tolerance) return true;
+  if (off > exact || gap > exact) return off <= gap;
+  return first.ccw == second.circle.ccw || (!first.by_radius && leaves_along_tangent(first, {start.h + h, start.v + v}));
 }
 
 Meeting solve(const InForce& in, const MeetingFirst& first, const Second& second) {
@@ -248,7 +264,7 @@ Meeting solve(const InForce& in, const MeetingFirst& first, const Second& second
     if (second.line) return meet_lines(line, second.slope);
     return second.circle.by_radius ? touch_line_and_circle(line, second.circle, false) : meet_line_and_circle(line, second.circle, second.choice == 1);
   }
-  const KnownCircle circle{start, first.ccw, first.by_radius, first.radius, {first.center[0], first.center[1]}};
+  const KnownCircle circle = circle_of(first);
   if (second.arc) return touch_circles(circle, second.circle, in.settings.arc_tolerance);
   return first.by_radius ? touch_line_and_circle(second.slope, circle, true) : meet_line_and_circle(second.slope, circle, first.choice == 1);
 }
