@@ -97,6 +97,28 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
   state_.joints = static_cast<uint8_t>(place + 1);
 }
 
+/// By a plunge, up, or down from a contour that has closed on its level: that one is a terrace with a depth of its own, and what lies below it ends there.
+bool ContourMemory::goes_to_another_depth(const Section& section) {
+  const bool by_itself = std::abs(section.level - state_.level) > kLevel_mm, up = section.level_end > section.level + kLevel_mm, down = section.level_end < section.level - kLevel_mm;
+  const bool another = by_itself || up || (down && state_.level_closed);
+  if (by_itself || up || down) {
+    state_.level_first = section.number + (up || down ? 1 : 0);
+    state_.level_closed = false;
+  }
+  return another;
+}
+
+/// Does this block, the last one that has been read, come back to the start of one on its level?
+bool ContourMemory::closes_on_level(const Wall& wall) const {
+  if (state_.level_first >= walls_.end()) return false;
+  if (wall.piece.round && std::abs(wall.piece.sweep) > kPi && norm(wall.piece.to - wall.piece.from) <= kCloses_mm) return wall.piece.radius > kAway_mm;
+  Box end;
+  end.take(wall.piece.to);
+  return walls_.any(state_.level_first, end.grown(kCloses_mm), [&](uint64_t, const Wall& first) {
+    return first.offset != 0 && norm(first.piece.from - wall.piece.to) <= kCloses_mm && (norm(first.piece.to - first.piece.from) > kAway_mm || (first.piece.round && first.piece.radius > kAway_mm));
+  });
+}
+
 bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(number) <= kWay && state_.closed >> behind_start(number) != 0; }
 
 /// The path comes too near to this block. True: it is a wall; else that shows later.
@@ -146,22 +168,26 @@ bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) 
   // that ends below the tip is none; but where a contour goes down as it goes along (a helix, a ramp), its walls reach up to where it came from, the level moves at its
   // top included: a way in there cuts what the contour below it leaves standing.
   if (wall.low > path.high + kLevel_mm && number > path.number) return false;
-  if (path.low > wall.high + kLevel_mm && path.descent != wall.descent) return false;
+  // A wall that slopes down from the level of a path of another depth stands no higher than that.
+  const bool slopes_from_there = number > path.number && wall.high - wall.low > kLevel_mm && path.low >= wall.high - kLevel_mm;
+  if (path.descent != wall.descent && (path.low > wall.high + kLevel_mm || slopes_from_there)) return false;
   const uint64_t between = apart(path.number + (path.of_next ? 1 : 0), number);
   // A path lies beside its own wall. The arc of G39 at an inner corner turns into it, and one with an end that the program gives may lead through it. The tangent of
   // an arc, by which a corner is lengthened, comes near to the other end of that arc where it turns by more than half a circle.
   if (between == 0 && !path.bends && !path.crosses_own && !(path.prolongs && wall.piece.round)) return false;
   if (between == 1 && (path.offset * wall.offset < 0 || across_contour(path, number))) return false;
   OpenEnds open;
+  double margin = kEnters_mm + path.slop + wall.slop;
   if (between <= kOpen && (path.starts ? number > path.number : path.cancels && number < path.number)) {
     open.from = norm(wall.piece.from - path.contour) <= kSameJoint_mm;
     open.to = norm(wall.piece.to - path.contour) <= kSameJoint_mm;
     if (open.from && open.to && !wall.piece.round) return false;
     const double amount = std::min(std::abs(path.offset), std::abs(open.from ? wall.before : wall.offset));
-    if (cuts_end({path.piece, path.starts, amount, kEnters_mm + path.slop + wall.slop}, wall.piece, open)) return true;
+    if (open.from || open.to) margin += path.unsure;  // the words of both have one: a way at right angles that is as long as the radius is so but for two digits
+    if (cuts_end({path.piece, path.starts, amount, margin}, wall.piece, open)) return true;
   }
   const Amount of_path{std::abs(path.before), std::abs(path.offset)}, of_wall{std::abs(wall.before), std::abs(wall.offset)};
-  return comes_nearer(path.piece, of_path, wall.piece, of_wall, kEnters_mm + path.slop + wall.slop, open);
+  return comes_nearer(path.piece, of_path, wall.piece, of_wall, margin, open);
 }
 
 /// The offset at the start of a block that has been read (M700 12.4.6); that of the block itself where it is not reached from another amount on the same side.
@@ -191,7 +217,7 @@ Clearance ContourMemory::read(Section* section) {
   Wall wall;
   wall.piece = wall_of(*section, start);
   wall.before = amount_before(*section);
-  if (std::abs(section->level - state_.level) > kLevel_mm || section->level_end > section->level + kLevel_mm) ++state_.descent;  // by a plunge, or up
+  if (goes_to_another_depth(*section)) ++state_.descent;
   state_.level = section->level_end;
   section->descent = wall.descent = state_.descent;
   wall.low = std::min(section->level, section->level_end);
@@ -202,6 +228,7 @@ Clearance ContourMemory::read(Section* section) {
   const Box box = box_of(wall.piece);
   walls_.push(wall, box);
   if (wall.offset == 0) return Clearance::fits;
+  state_.level_closed = state_.level_closed || closes_on_level(wall);
   const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) {
     if (!enters(path, section->number, wall)) return false;
     if (blame(section->number, path)) culprit_ = &in_front_;
@@ -230,6 +257,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   path.to_contour = to_given && section.joint.v[0] == Vec2{};
   const Vec2 start = section.contour_start, end = start + section.delta;
   path.slop = slop_of(wall_of(section, start)) + enters_of(section.inch) - kEnters_mm;
+  path.unsure = unsure_of(section.inch);
   path.contour = section.start ? end : start;
   Clearance found = Clearance::fits;
   const auto add = [&](Path next_path, const Piece& piece) {
@@ -262,7 +290,12 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
   }
   if (!section.cancel || section.transparent) return found;
   const bool no_way_in_or_out = no_way(section.number);
-  if (found != Clearance::fits) culprit_ = nullptr;
+  if (found == Clearance::enters) {
+    in_front_ = {source, true};
+    culprit_ = &in_front_;
+  } else if (found != Clearance::fits) {
+    culprit_ = nullptr;
+  }
   state_.open = false;
   return found == Clearance::fits && no_way_in_or_out ? Clearance::enters : found;
 }

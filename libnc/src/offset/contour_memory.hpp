@@ -58,7 +58,9 @@ class ContourMemory {
     Culprit culprit[kOut + 1];  ///< whose path it is, of each of the suspects, and of `out`
     double offset = 0;       ///< of the last block that has one
     double level = 0;        ///< across the plane, at its end
-    uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, or changes its level by itself
+    uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, changes its level by itself, or goes on down from a level on which it has closed
+    uint64_t level_first = 0;   ///< number of the first block of those on one level up to here
+    bool level_closed = false;  ///< ... which have come back to one of their joints
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
     Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
   };
@@ -117,6 +119,7 @@ class ContourMemory {
     uint64_t number = 0;  ///< of its block
     nc_source source{};
     double offset = 0, slop = 0;
+    double unsure = kLastDigit_mm;  ///< what the last digit of its words makes
     double before = 0;    ///< the offset at its start
     double low = 0, high = 0;
     uint32_t descent = 0;
@@ -132,6 +135,8 @@ class ContourMemory {
   void begin(bool with_start);
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   void follow(const Section& section, uint64_t number);
+  bool goes_to_another_depth(const Section& section);
+  bool closes_on_level(const Wall& wall) const;
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;

@@ -22,6 +22,9 @@ constexpr double kOneAmount_mm = 1e-4;
 constexpr double kBends_mm = 1e-6;
 /// A way that leads from the lengthened wall by no more than this sine leads straight on along it: a hundredth is more than what the three digits of its words make of it, and of a tangent.
 constexpr double kStraightOn = 0.01;
+/// Straight on the tool sinks beside the wall at the angle whose tangent is the radius over the way. A way of the tool's diameter takes 0.11 R of the wall's end and 0.24 R of its length, one of the radius
+/// 0.29 R and 0.41 R: from there on it leads into the wall rather than along it.
+constexpr double kStraightRadii = 2;
 double mean_radius(const Piece& arc) { return 0.5 * (arc.radius + arc.radius_end); }
 
 /// The ray from the centre to this point goes through the arc.
@@ -133,9 +136,9 @@ bool leads_straight_on(Vec2 far, const Piece& wall, Vec2 end) {
 
 bool cuts_end(const WayPast& way, const Piece& wall, Vec2 end) {
   const Vec2 beside = way.comes ? way.path.to : way.path.from, far = (way.comes ? way.path.from : way.path.to) - end;
-  const double least = std::min(way.amount, norm(beside - end)) - way.margin;
+  const double amount = std::min(way.amount, norm(beside - end)), least = amount - way.margin;
   if (norm(far) < least) return true;  // the tool stands in the wall's end there, whichever way it has come
-  if (leads_straight_on(far, wall, end)) return false;
+  if (leads_straight_on(far, wall, end)) return norm(far) < kStraightRadii * amount - way.margin;
   return std::min({to_inside(way.path, end), norm(way.path.from - end), norm(way.path.to - end)}) < least;
 }
 

@@ -44,8 +44,8 @@ struct WayPast {
   bool comes = false;
   double amount = 0, margin = 0;
 };
-/// Does it come nearer to that end than `amount`, and than the place beside the wall where it ends or begins, by more than `margin`? Straight on along the wall it may, as far as it does
-/// not end (begin) as near as that: there the tool stands in the wall.
+/// Does it come nearer to that end than `amount`, and than the place beside the wall where it ends or begins, by more than `margin`? Straight on along the wall it may, where it leads
+/// on by the tool's diameter: a shorter way sinks into the wall more than it leaves it.
 bool cuts_end(const WayPast& way, const Piece& wall, OpenEnds open);
 /// Shortest distance of two pieces, 0 where they cross. An arc counts with the mean of its radii.
 double distance(const Piece& path, const Piece& wall, OpenEnds open = {});
