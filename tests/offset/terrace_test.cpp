@@ -3,6 +3,7 @@
 // it; a contour that has closed on its level is a depth of its own, and what lies below it, behind a ramp no less than behind a plunge, is no wall that it cuts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -28,10 +29,11 @@ struct Corner {
 std::vector<Corner> rectangle(double half_x, double half_y) { return {{half_x, 0}, {half_x, half_y}, {-half_x, half_y}, {-half_x, -half_y}, {half_x, -half_y}, {half_x, 0}}; }
 
 enum class Down { plunge, first_side, round };
+enum class Across { rapid, line, two_lines, way_in };
 
-/// Rectangles, the first of half the size `first`, each of the others smaller by `step` (a pocket; negative: larger, a boss), cut from the top down. From one to the next a rapid leads
-/// over the terrace between them.
-std::string terraces(bool pocket, double first, double step, unsigned count, Down down, double radius) {
+/// Rectangles, the first of half the size `first`, each of the others smaller by `step` (a pocket; of a boss larger), cut from the top down. From one to the next a rapid leads
+/// over the terrace between them, or one or two lines in cutting feed; or it leads beyond that, and a line at right angles is the way in.
+std::string terraces(bool pocket, double first, double step, unsigned count, Down down, double radius, Across across = Across::rapid, const char* last = nullptr) {
   char text[100];
   std::string all = "G90 G17 G0";
   const auto add = [&](const char* format, auto... values) {
@@ -44,10 +46,12 @@ std::string terraces(bool pocket, double first, double step, unsigned count, Dow
   for (unsigned level = 0; level < count; ++level) {
     if (level > 0) {
       size -= pocket ? step : -step;
-      add("G0 X%.3f\n", size);
+      if (across == Across::two_lines) add("G1 X%.3f\n", size - (pocket ? -step : step) / 2);
+      add("%s X%.3f\n", across == Across::line || across == Across::two_lines ? "G1" : "G0", across == Across::way_in ? size + 1.5 * away : size);
       const double from = z;
       z -= 1.5;
       if (down == Down::plunge) add("G1 Z%.3f\n", z);
+      if (across == Across::way_in) add("G1 X%.3f\n", size);
       const std::vector<Corner> ring = rectangle(size, 0.8 * size);
       for (size_t i = 1; down != Down::plunge && i < ring.size(); ++i) {
         add("G1 X%.3f Y%.3f", ring[i].x, ring[i].y);
@@ -59,12 +63,15 @@ std::string terraces(bool pocket, double first, double step, unsigned count, Dow
     const std::vector<Corner> ring = rectangle(size, 0.8 * size);
     for (size_t i = 1; i < ring.size(); ++i) add("G1 X%.3f Y%.3f\n", ring[i].x, ring[i].y);
   }
-  add("G40 X%.3f\nM30\n", size + away);
+  if (last == nullptr)
+    add("G40 X%.3f\nM30\n", size + away);
+  else
+    all += std::string(last) + "\nM30\n";
   return all;
 }
 
 TEST(Terraces, AClosedLevelIsADepthOfItsOwn) {
-  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(300, 30);
+  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(40, 10);
   for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
     std::mt19937_64 random(seed);
     const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
@@ -72,10 +79,23 @@ TEST(Terraces, AClosedLevelIsADepthOfItsOwn) {
     const auto levels = static_cast<unsigned>(2 + random() % 3);
     for (const bool pocket : {true, false})
       for (const Down down : {Down::plunge, Down::first_side, Down::round}) {
-        const std::string program = terraces(pocket, size, step, levels, down, radius);
-        EXPECT_EQ(alarm_of_terraces(program, radius), "") << "seed " << seed << (pocket ? " pocket" : " boss") << static_cast<int>(down) << "\n" << program;
+        for (const Across across : {Across::rapid, Across::line, Across::two_lines, Across::way_in}) {
+          const double room = across == Across::two_lines ? std::max(step, 2.1 * radius) : step;  // the corner at its end takes the radius from each of the two
+          const std::string program = terraces(pocket, size, room, levels, down, radius, across);
+          EXPECT_EQ(alarm_of_terraces(program, radius), "") << "seed " << seed << (pocket ? " pocket" : " boss") << static_cast<int>(down) << "\n" << program;
+        }
       }
   }
+}
+
+// The last contour of some is no way out: one that leads through its sides is P153, also where it ends on the terrace outside of them.
+TEST(Terraces, AWayOutThroughTheLastContourCutsIt) {
+  for (const Across across : {Across::rapid, Across::line, Across::two_lines, Across::way_in})
+    for (const Down down : {Down::plunge, Down::first_side})
+      for (const char* const last : {"G40 X10. Y41.", "G40 X10. Y-41.", "G40 X-51. Y5."}) {
+        const std::string program = terraces(true, 80, 40, 2, down, 4, across, last);
+        EXPECT_NE(alarm_of_terraces(program, 4), "") << program;
+      }
 }
 
 // A wall that stands above the tip, since it has been cut before, is one: a lower contour that leads back under the terrace above it cuts that.

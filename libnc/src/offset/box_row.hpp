@@ -57,6 +57,8 @@ class BoxRow {
   bool keeps(uint64_t first) const { return size_ != 0 && std::max(written_, end_ + 1) - first <= size_ - size_ / kParts; }
   const Record& operator[](uint64_t number) const { return records_[number & (size_ - 1)]; }
 
+  Record& at(uint64_t number) { return records_[number & (size_ - 1)]; }
+
   void push(const Record& record, const Box& box) {
     const uint64_t slot = end_ & (size_ - 1);
     records_[slot] = record;

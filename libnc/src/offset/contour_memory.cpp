@@ -100,23 +100,51 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
 /// By a plunge, up, or down from a contour that has closed on its level: that one is a terrace with a depth of its own, and what lies below it ends there.
 bool ContourMemory::goes_to_another_depth(const Section& section) {
   const bool by_itself = std::abs(section.level - state_.level) > kLevel_mm, up = section.level_end > section.level + kLevel_mm, down = section.level_end < section.level - kLevel_mm;
-  const bool another = by_itself || up || (down && state_.level_closed);
-  if (by_itself || up || down) {
-    state_.level_first = section.number + (up || down ? 1 : 0);
-    state_.level_closed = false;
-  }
+  if (!by_itself && !up && !down) return false;
+  const bool another = by_itself || up || state_.level_closed != 0;
+  if (state_.level_closed != 0 && state_.closure != 0) leads_across(std::max(state_.level_closed, state_.closure) + 1, section.number);
+  state_.level_first = section.number + (up || down ? 1 : 0);
+  state_.level_ring = state_.level_closed = 0;
+  state_.level_terrace = state_.closure != 0;
   return another;
 }
 
 /// Does this block, the last one that has been read, come back to the start of one on its level?
-bool ContourMemory::closes_on_level(const Wall& wall) const {
-  if (state_.level_first >= walls_.end()) return false;
-  if (wall.piece.round && std::abs(wall.piece.sweep) > kPi && norm(wall.piece.to - wall.piece.from) <= kCloses_mm) return wall.piece.radius > kAway_mm;
+bool ContourMemory::closes_on_level(uint64_t number, uint64_t* ring) const {
+  if (state_.level_first > number) return false;
+  const Piece& last = walls_[number].piece;
+  *ring = number;
+  if (last.round && std::abs(last.sweep) > kPi && norm(last.to - last.from) <= kCloses_mm) return last.radius > kAway_mm;
   Box end;
-  end.take(wall.piece.to);
-  return walls_.any(state_.level_first, end.grown(kCloses_mm), [&](uint64_t, const Wall& first) {
-    return first.offset != 0 && norm(first.piece.from - wall.piece.to) <= kCloses_mm && (norm(first.piece.to - first.piece.from) > kAway_mm || (first.piece.round && first.piece.radius > kAway_mm));
+  end.take(last.to);
+  return walls_.any(std::max(state_.level_first, state_.level_ring), end.grown(kCloses_mm), [&](uint64_t first, const Wall& wall) {
+    const Piece& piece = wall.piece;
+    *ring = first;
+    return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && (norm(piece.to - piece.from) > kAway_mm || (piece.round && piece.radius > kAway_mm));
   });
+}
+
+void ContourMemory::note_closed_level(uint64_t number) {
+  uint64_t ring = 0;
+  if (!closes_on_level(number, &ring)) return;
+  if (state_.level_closed == 0) {
+    state_.level_ring = ring;
+    if (state_.level_terrace) {  // the first contour has its own ways in, and closes as they say (follow())
+      leads_across(state_.level_first, ring);
+      state_.closure = number;
+    }
+  }
+  state_.level_closed = number;
+}
+
+/// These blocks, no more than three, are a way in or out: they are no walls.
+void ContourMemory::leads_across(uint64_t from, uint64_t to) {
+  if (to <= from || to - from > kWay) return;
+  for (uint64_t number = from; number < to; ++number) {
+    walls_.at(number).across = true;
+    if (behind_start(number) <= kWay) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << behind_start(number)));
+  }
+  if (state_.out >= from && state_.out < to) state_.out = 0;
 }
 
 bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(number) <= kWay && state_.closed >> behind_start(number) != 0; }
@@ -163,7 +191,7 @@ bool ContourMemory::across_contour(const Path& path, uint64_t number) { return n
 bool ContourMemory::at_its_own_corner(const Path& path, uint64_t number) { return path.of_joint && (number == path.number || number == path.number + 1); }
 
 bool ContourMemory::enters(const Path& path, uint64_t number, const Wall& wall) const {
-  if (wall.offset == 0) return false;
+  if (wall.offset == 0 || wall.across) return false;
   // The cutter cuts all that is above its tip, so what has been cut above a path is a wall for it; a block above it that comes later is a way across the part. A wall
   // that ends below the tip is none; but where a contour goes down as it goes along (a helix, a ramp), its walls reach up to where it came from, the level moves at its
   // top included: a way in there cuts what the contour below it leaves standing.
@@ -205,6 +233,7 @@ Clearance ContourMemory::read(Section* section) {
     state_.overlong = true;
     return Clearance::full;
   }
+  const bool another_depth = goes_to_another_depth(*section);
   if (state_.out != 0 && !ends && section->number - state_.out >= kWay) {  // it leads on: no way out
     culprit_ = &state_.culprit[kOut];
     return Clearance::enters;
@@ -217,7 +246,7 @@ Clearance ContourMemory::read(Section* section) {
   Wall wall;
   wall.piece = wall_of(*section, start);
   wall.before = amount_before(*section);
-  if (goes_to_another_depth(*section)) ++state_.descent;
+  if (another_depth) ++state_.descent;
   state_.level = section->level_end;
   section->descent = wall.descent = state_.descent;
   wall.low = std::min(section->level, section->level_end);
@@ -228,7 +257,7 @@ Clearance ContourMemory::read(Section* section) {
   const Box box = box_of(wall.piece);
   walls_.push(wall, box);
   if (wall.offset == 0) return Clearance::fits;
-  state_.level_closed = state_.level_closed || closes_on_level(wall);
+  note_closed_level(section->number);
   const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) {
     if (!enters(path, section->number, wall)) return false;
     if (blame(section->number, path)) culprit_ = &in_front_;

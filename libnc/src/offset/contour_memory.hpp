@@ -8,6 +8,9 @@
 // three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
+// A contour that closes on another level behind that one, a terrace, has ways in and out of its own: up to three blocks on its level in front of where it closes, and up to three behind
+// that, in front of a way to another depth.
+//
 // What is not compared: a path with its own wall (but for the arc of G39, and for a block one of whose vectors is given or erased), blocks below it (along the axis across the plane; of a way down along
 // the contour all are on one level), and beside a change of
 // side, or where the tool stands on the contour without a vector, the block before and the block behind, each with the path of the other.
@@ -60,7 +63,9 @@ class ContourMemory {
     double level = 0;        ///< across the plane, at its end
     uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, changes its level by itself, or goes on down from a level on which it has closed
     uint64_t level_first = 0;   ///< number of the first block of those on one level up to here
-    bool level_closed = false;  ///< ... which have come back to one of their joints
+    bool level_terrace = false; ///< behind one on which the contour has closed
+    uint64_t level_ring = 0;    ///< number of the block to whose start they have come back first,
+    uint64_t level_closed = 0;  ///< ... and of the one with which they have done so last; 0: not yet
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
     Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
   };
@@ -113,6 +118,7 @@ class ContourMemory {
     double slop = 0;
     double low = 0, high = 0;
     uint32_t descent = 0;
+    bool across = false;    ///< it leads to a contour that has closed on its level, or from there to another depth
   };
   struct Path {
     Piece piece;
@@ -136,7 +142,9 @@ class ContourMemory {
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   void follow(const Section& section, uint64_t number);
   bool goes_to_another_depth(const Section& section);
-  bool closes_on_level(const Wall& wall) const;
+  bool closes_on_level(uint64_t number, uint64_t* ring) const;
+  void note_closed_level(uint64_t number);
+  void leads_across(uint64_t from, uint64_t to);
   bool is_way_in(uint64_t number) const;
   static bool across_contour(const Path& path, uint64_t number);
   bool enters(const Path& path, uint64_t number, const Wall& wall) const;
