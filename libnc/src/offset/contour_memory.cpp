@@ -126,7 +126,8 @@ bool ContourMemory::closes_on_level(uint64_t number, uint64_t* ring) const {
 
 void ContourMemory::note_closed_level(uint64_t number) {
   uint64_t ring = 0;
-  if (!closes_on_level(number, &ring)) return;
+  const bool from_start = state_.level_first <= state_.first + 1;  // where the first contour closes is known (follow()), which spares nearly all programs the search
+  if (from_start ? state_.closure != number : !closes_on_level(number, &ring)) return;
   if (state_.level_closed == 0) {
     state_.level_ring = ring;
     if (state_.level_terrace) {  // the first contour has its own ways in, and closes as they say (follow())
