@@ -51,6 +51,8 @@ TEST_F(ToolLifeTest, GroupsAreAddedAndRemoved) {
   EXPECT_EQ(table(), "10 111 0 9 0 0 0, 20 201 0 5 0 3 13, 30 301 0 1 0 0 0") << "group 10 is registered anew";
   EXPECT_EQ(alarm_of("G10 L3 P2\nP20\nP30\nG11"), "");
   EXPECT_EQ(table(), "10 111 0 9 0 0 0");
+  for (const char* data : {"P10 L9", "P10 Q1", "P10 L9 Q1"}) EXPECT_EQ(alarm_of(std::string("G10 L3 P2\n") + data), "P32") << data << ": of a group that was to be registered, and would be removed";
+  EXPECT_EQ(table(), "10 111 0 9 0 0 0");
 }
 
 TEST_F(ToolLifeTest, WrongDataAreAlarms) {

@@ -57,6 +57,8 @@ Execution take_group(BlockContext& in) {
   if (did != Execution::done) return did;
   const bool known = before != 0;
   if (input.kind == LifeInput::Kind::remove) {
+    const WordSet data = w.present & in.set_of({Role::life_span, Role::life_method});  // of a group that was to be registered
+    if (data != 0) return in.raise_first(Condition::illegal_address, data);
     if (!known) return in.raise(Condition::life_group, Role::life_group, group);
     clear_group(in, group);
     return Execution::done;
