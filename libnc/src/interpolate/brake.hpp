@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "motion/optimal/peaks.hpp"
 #include "motion/optimal/piece.hpp"
@@ -26,8 +27,9 @@ struct PlanPace {
 class Brake {
  public:
   /// Finds a way to rest from `pace`. `plan` gives later and later moments of the plan (PlanAhead). @param use  share of what the limits leave
+  /// @param longest  it takes no more than so many times the time of a stop on a line
   template <class Plan>
-  bool find(Plan plan, const optimal::Limits& limits, double use, PlanPace pace = {}) NC_RT {
+  bool find(Plan plan, const optimal::Limits& limits, double use, PlanPace pace = {}, double longest = HUGE_VAL) NC_RT {
     count_ = 0;
     from_ = pace;
     State x{0, pace.sigma, pace.slope};
@@ -36,7 +38,8 @@ class Brake {
     if (soonest < kNothing) return begin_at_rest();
     step_ = std::fmin(step_for(look_[0].plan, limits, pace.sigma), kOfSoonest * soonest);
     at_once_ = std::fmin(kAtOnce, kOfStep * step_);
-    while (count_ < kSteps) {
+    most_ = static_cast<uint16_t>(std::fmin(kSteps, std::ceil(longest * stop_on_line(look_[0].plan, limits, pace.sigma) / step_)));
+    while (count_ < most_) {
       const Plan here = plan;
       if (!gather(plan, x, 0, step_)) return false;
       if (rests_) return keeps(x, 0, limits) <= 1 && begin();  // the plan itself comes to rest here
@@ -117,14 +120,19 @@ class Brake {
   /// Seconds of one step of the search: a share kOfRise of the time in which the acceleration of an axis can rise to its limit, or more where the way to rest
   /// would take too many such steps.
   static double step_for(const PlanMoment& now, const optimal::Limits& limits, double sigma) NC_RT {
-    double rise = HUGE_VAL, stop = 0;
-    for (unsigned i = 0; i < limits.axis_count; ++i) {
-      if (!(limits.acceleration[i] > 0) || !(limits.jerk[i] > 0)) continue;
-      const double t = limits.acceleration[i] / limits.jerk[i];
-      rise = std::fmin(rise, t);
-      stop = std::fmax(stop, std::fabs(now.path.d1[i] * now.v * sigma) / limits.acceleration[i] + 2 * t);
-    }
+    double rise = HUGE_VAL;
+    for (unsigned i = 0; i < limits.axis_count; ++i)
+      if (limits.acceleration[i] > 0 && limits.jerk[i] > 0) rise = std::fmin(rise, limits.acceleration[i] / limits.jerk[i]);
+    const double stop = stop_on_line(now, limits, sigma);
     return std::fmin(kLongest, std::fmax(std::fmin(kOfRise * rise, kLongest), std::fmax(kShortest, stop / (kSteady * kSteps))));
+  }
+  /// Seconds of a stop on a line, whatever the acceleration is that it begins with.
+  static double stop_on_line(const PlanMoment& now, const optimal::Limits& limits, double sigma) NC_RT {
+    double stop = 0;
+    for (unsigned i = 0; i < limits.axis_count; ++i)
+      if (limits.acceleration[i] > 0 && limits.jerk[i] > 0)
+        stop = std::fmax(stop, std::fabs(now.path.d1[i] * now.v * sigma) / limits.acceleration[i] + 2 * limits.acceleration[i] / limits.jerk[i]);
+    return stop;
   }
   /// Seconds in which the axes would come to rest if only jerk was limited: first the acceleration goes to 0, then the velocity in two halves. A step has
   /// to be shorter than that, or the lowest sigma'' that the limits allow would lead beyond rest.
@@ -299,7 +307,7 @@ class Brake {
   bool land(Plan plan, const optimal::Limits& limits, State x) NC_RT {
     const double bend = x.slope * x.slope / (2 * x.sigma);
     double left = -2 * x.sigma / x.slope;
-    while (count_ < kSteps) {
+    while (count_ < most_) {
       last_ = std::fmin(left, step_);
       bend_[count_++] = bend;
       look_[0].plan = plan.at(x.tau);
@@ -336,6 +344,7 @@ class Brake {
   unsigned looks_ = 0;
   double entered_ = 0;      ///< time of the plan at which the cell of the last moment begins, or the step, whichever is later
   bool rests_ = false;      ///< the plan comes to rest in the step that is looked at
+  uint16_t most_ = kSteps;  ///< steps that the way to rest may take
   double bend_[kSteps] = {};
   unsigned count_ = 0, at_ = 0;
   double step_ = kLongest, at_once_ = kAtOnce;

@@ -73,11 +73,12 @@ class Follower {
     return point(c, 0);
   }
 
-  /// Looks for a way to rest along the plan ahead that keeps the limits, and takes it. To be called in each cycle until stops().
-  void brake(PlanPace pace = {}) NC_RT {
+  /// Looks for a way to rest along the plan ahead that keeps the limits, and takes it where it takes no more than `longest` times as long as a stop on a line.
+  /// To be called in each cycle until stops().
+  void brake(PlanPace pace = {}, double longest = HUGE_VAL) NC_RT {
     if (braking_ || at_rest()) return;
     const double use = ++tries_ % kOfGentle != 0 ? 1 : kGentle[tries_ / kOfGentle % (sizeof kGentle / sizeof kGentle[0])];
-    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, limits_here(), use, pace);
+    braking_ = brake_.find(PlanAhead{this, cell_, -t_}, limits_here(), use, pace, longest);
   }
   bool braking() const { return braking_; }
 

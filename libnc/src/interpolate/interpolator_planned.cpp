@@ -14,6 +14,8 @@ constexpr double kRounding = 1e-13;   ///< ... plus this share of the path lengt
 constexpr double kPassed = 1e-9;      ///< mm: a moving path that is farther than this behind the end of a record has passed it
 constexpr double kHit = 1e-6;         ///< mm or deg: how near to an exact stop the axes have to be in some cycle
 constexpr double kPatience = 0.03;     ///< s: how long the planner may take for a stop before the scan brakes itself
+constexpr double kWayToRest = 1.5;     ///< times a stop on a line: what such a way to rest may take at first ...
+constexpr double kLongerWay_s = 0.1;   ///< ... and once more as long behind so many s, because a plan that uses its limits in full leaves a long way only
 constexpr double kTurnsChange = 0.002; ///< share by which the speed of the spindle has to change before another plan is made
 constexpr double kPlannedTurns = 0.02; ///< share by which it may differ from the speed of the plan when a thread begins
 
@@ -78,7 +80,7 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   }
   silent_ = path_stops(in) && !follower_.at_rest() && !follower_.stops() ? silent_ + time_ : 0;
   if (time_ > 0) {
-    if (silent_ > kPatience) follower_.brake();
+    if (silent_ > kPatience) follower_.brake({}, kWayToRest + (silent_ - kPatience) / kLongerWay_s);
     const double from = follower_.u();
     if (goes_by_spindle(s)) {
       follow_spindle(s, in);

@@ -14,6 +14,7 @@ constexpr double kPartLeft = 0.5;
 constexpr double kEnough = 1.0;  ///< s of chain that are made at once where there are many rests
 constexpr double kNew = 0.1;  ///< a law is solved anew when this part of the path that is left has been added to it
 constexpr double kDown = 1.06;  ///< the way down to a lower feed has this many times the squared speed of the stop that was found last
+constexpr double kLater = 1.25;  ///< a law that came too late begins at least so many times as far ahead
 constexpr double kLongestLead = 0.2;  ///< s: a law begins no farther ahead of the scan
 constexpr unsigned kLawsAtOnce = 8;
 constexpr unsigned kCellsAtOnce = 480; ///< of a law, so that it is there soon
@@ -118,7 +119,10 @@ void OptimalPlanner::rebuild(const Following& f) {
 
 /// A law came too late: the next one begins farther ahead.
 void OptimalPlanner::begin_later() {
-  lead_ = std::min(2 * lead_, kLongestLead);
+  begin_later(2 * lead_);
+}
+void OptimalPlanner::begin_later(double lead) {
+  lead_ = std::min(std::max(lead, kLater * lead_), kLongestLead);
 }
 
 /// False while an offer waits for its answer.
@@ -771,8 +775,9 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
     if (!f.brake) co_await extend(work, f, start, block_most(f, start), nullptr);
     co_return true;  // the scan stops there by itself
   }
+  late_ = false;
   co_await change_from(work, f, start);
-  tried_at_ = open_ ? kNoCell : f.cell;
+  tried_at_ = open_ || late_ ? kNoCell : f.cell;  // a search that came too late is begun anew at once
   co_return true;
 }
 

@@ -134,12 +134,16 @@ class OptimalPlanner {
   Task<bool> copy_phases(Work& work, const PhasesOf& law, const Start& start, Start* end);
   void offer(const Start& start, bool stops);
   Task<bool> stop_there(Work& work, const Start& start, Stops which);
+  Task<bool> timely_stop(Work& work, const Start& start, double reach, double period);
   Task<bool> stop_soon(Work& work, const Following& f, const Start& start);
   Task<bool> stop_later(Work& work, const Start& from);
   void reuse_cells(const Following& f);
   Task<bool> law_to_block(Work& work, const Start& start, double u);
   bool too_late(const Start& start);
+  double left_to(const Start& start) const;
+  bool time_for_two(const Start& start) const;
   void begin_later();
+  void begin_later(double lead);
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
   Task<bool> stop_between(Work& work, const Following& f, const Start& start, double none, double some);
   Task<bool> slow_down(Work& work, const Following& f, const Start& start);
@@ -177,6 +181,10 @@ class OptimalPlanner {
   bool told_failed_ = false;
   CellIndex told_rests_ = kNoCell;
   bool urgent_ = false;   ///< any law is better than what the chain does
+  bool late_ = false;     ///< the scan has passed the place from which a stop was looked for
+  double search_s_ = 0;   ///< by how much it has come nearer to that place since the search began ...
+  double longest_s_ = 0;  ///< ... and in the longest of the laws that were tried, which are ...
+  unsigned searched_ = 0; ///< ... so many
   bool no_room_ = false;  ///< the stop that was not found last would hardly have been shorter than the chain
   CellIndex write_ = 0;         ///< next free cell
   CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan

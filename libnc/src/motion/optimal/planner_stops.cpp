@@ -104,6 +104,29 @@ Task<bool> OptimalPlanner::one_stop(Work& work, const Start& start, double reach
   co_return found;
 }
 
+/// Seconds in which the scan comes to a place of the chain.
+double OptimalPlanner::left_to(const Start& start) const {
+  if (start.fresh) return HUGE_VAL;
+  return ahead(now_, start.after) - (start.cut > 0 ? store_.at(start.after).seconds - start.cut : 0);
+}
+
+/// The same, in the time that the scan needs to the place where the law begins. Behind that it would be refused, so nothing more is looked for from there, and the next
+/// search begins as far ahead as this one would have needed.
+Task<bool> OptimalPlanner::timely_stop(Work& work, const Start& start, double reach, double period) {
+  const double before = left_to(start);
+  const bool found = co_await one_stop(work, start, reach, period);
+  const double left = left_to(start), took = start.fresh ? 0 : before - left;
+  search_s_ += took;
+  longest_s_ = std::max(longest_s_, took);
+  ++searched_;
+  late_ = !(left > 0);
+  if (late_) begin_later(search_s_ + longest_s_);
+  co_return found && !late_;
+}
+
+/// Two more laws as those of this search can be tried: the next one, and where it is none the last one that was found once more.
+bool OptimalPlanner::time_for_two(const Start& start) const { return left_to(start) * searched_ > 2 * search_s_; }
+
 /// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
 Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which) {
   const double period = kStopPeriod * std::min(kPeriod, seconds / 14);
@@ -111,12 +134,15 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   cells_behind_ = 0;
   if (which != Stops::gentle) co_await find_cells_behind(work, start, std::min(most, distance * *std::rbegin(kFarther)));
   const bool behind = cells_behind_ > 0;
+  search_s_ = longest_s_ = 0;
+  searched_ = 0;
   const double* const farther = behind ? kFartherFollowed : kFarther;
   const size_t count = behind ? std::size(kFartherFollowed) : std::size(kFarther);
   for (size_t n = 0; n < count; ++n) {
     const double reach = std::min(distance * farther[n], most);
     if (!(reach > none)) break;
-    const bool found = co_await one_stop(work, start, reach, period);
+    const bool found = co_await timely_stop(work, start, reach, period);
+    if (late_) co_return false;
     if (found) {
       some = reach;
       break;
@@ -125,12 +151,13 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   }
   if (!(some > 0)) co_return false;
   bool last = true;
-  for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none; ++n) {
+  for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none && time_for_two(start); ++n) {
     const double reach = std::sqrt(none * some);
-    last = co_await one_stop(work, start, reach, period);
+    last = co_await timely_stop(work, start, reach, period);
+    if (late_) co_return false;
     (last ? some : none) = reach;
   }
-  if (!last) last = co_await one_stop(work, start, some, period);
+  if (!last) last = co_await timely_stop(work, start, some, period);
   co_return last;
 }
 
@@ -151,7 +178,7 @@ Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most,
   const bool closed = which == Stops::closed;
   if (!closed && seconds > kAtOnce) {
     const bool found = co_await shortest_stop(work, start, distance, which == Stops::solved ? std::min(most, kFarthestAmid * distance) : most, seconds, which);
-    if (found) co_return true;
+    if (found || late_) co_return found;
   }
   if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
   if (which == Stops::solved) co_return false;
@@ -208,10 +235,10 @@ Task<bool> OptimalPlanner::stop_soon(Work& work, const Following& f, const Start
   }
   if (find_amid(f, lead_, &at) && at.cut > 0) {
     const bool done = co_await stop_there(work, at, Stops::solved);
-    if (done) co_return true;
+    if (done || late_) co_return done;
   }
   const bool done = co_await stop_there(work, start, Stops::any);
-  if (done) co_return true;
+  if (done || late_) co_return done;
   if (f.brake && no_room_) {
     offer_.rests = chain_.last;
     co_return false;
@@ -234,7 +261,7 @@ Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
     }
     const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
     const bool stopped = co_await stop_there(work, start, closed ? Stops::closed : Stops::any);
-    if (stopped) co_return true;
+    if (stopped || late_) co_return stopped;
   }
   co_return false;
 }
