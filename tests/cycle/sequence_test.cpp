@@ -15,6 +15,8 @@ namespace nc::test {
 namespace {
 
 constexpr double kOut = 0.5, kBreak = 0.25;                      // #8013, #8012
+constexpr int kToolNumber = 7;                                   // its offset is the radius of the tool
+constexpr double kOfTool = 1.25;
 constexpr double kOffset[2][2] = {{0, 0}, {100.5, -20.25}};      // of G54 and G55, X and Y
 
 std::string word(char letter, double value) {
@@ -83,12 +85,12 @@ class Writer {
   }
   static std::string name(int code) { return "G" + std::to_string(code); }
   int any_cycle() {
-    static constexpr int kCodes[] = {73, 81, 82, 83, 84, 85, 86, 88, 89};
-    return kCodes[pick(9)];
+    static constexpr int kCodes[] = {73, 74, 75, 76, 81, 82, 83, 84, 85, 86, 88, 89};
+    return kCodes[pick(12)];
   }
   void begin_cycle() {
     initial_ = at_[2];
-    q_ = p_ = 0;
+    q_ = p_ = shift_[0] = shift_[1] = 0;
     levels_needed_ = true;
     change_cycle();
   }
@@ -121,8 +123,11 @@ class Writer {
       if (z_.second != g91_) return;
     }
     if (pecks && (q_ == 0 || chance(0.3))) q_ = number(1, 6), block += word('Q', q_);
-    if (chance(0.3)) {
-      p_ = 10 * pick(50);
+    if (code_ == 75 && (std::fabs(q_) < 2 * kOfTool || chance(0.3))) q_ = (chance(0.5) ? 1 : -1) * number(3, 6), block += word('Q', q_);
+    if (code_ == 76 && (shift_[0] == 0 || chance(0.3))) block += word('I', shift_[0] = number(0.1, 1));
+    if (code_ == 76 && chance(0.3)) block += word('J', shift_[1] = number(-1, 1));
+    if (code_ == 75 ? p_ != kToolNumber : chance(0.3)) {  // what is the number of an offset for G75 is a dwell for the others
+      p_ = code_ == 75 ? kToolNumber : 10 * pick(50);
       block += " P" + brief(p_);
     }
     unsigned count = 1;
@@ -170,7 +175,8 @@ class Writer {
     const double back = to_r_ ? r : initial_;
     z("rapid", r);
     if (code_ == 73 || code_ == 83) {
-      for (double depth = r - q_;; depth -= q_) {
+      const double q = std::fabs(q_);
+      for (double depth = r - q;; depth -= q) {
         const double to = depth - bottom > 1e-9 ? depth : bottom;
         z("line", to);
         if (code_ == 73) dwell();
@@ -181,13 +187,32 @@ class Writer {
       return z("rapid", back);
     }
     z("line", bottom);
+    if (code_ == 75) return circle(back);
+    if (code_ == 76) return bore(back);
     if (code_ != 81 && code_ != 85) dwell();
     if (code_ == 84) m(4);
+    if (code_ == 74) m(3);
     if (code_ == 86 || code_ == 88) m(5);
-    if (code_ == 84 || code_ == 85 || code_ == 89) z("line", r);
+    if (code_ == 74 || code_ == 84 || code_ == 85 || code_ == 89) z("line", r);
     if (code_ == 84) dwell(), m(3);
+    if (code_ == 74) dwell(), m(4);
     z("rapid", back);
     if (code_ == 86 || code_ == 88) m(3);
+  }
+
+  /// (l): half a circle to X-(q-r), the whole one, half a circle back; it cuts no dwell.
+  void circle(double back) {
+    const std::array<double, 3> over = at_, edge{over[0] - (std::fabs(q_) - kOfTool), over[1], over[2]};
+    go("line", edge);
+    list.push_back(list.back());
+    go("line", over);
+    z("rapid", back);
+  }
+  /// (m)
+  void bore(double back) {
+    const std::array<double, 3> over = at_;
+    m(19), go("line", {over[0] + shift_[0], over[1] + shift_[1], over[2]});
+    z("rapid", back), go("rapid", {over[0], over[1], back}), m(3);
   }
 
   std::mt19937_64 random_;
@@ -197,7 +222,7 @@ class Writer {
   bool g91_ = false, to_r_ = false, levels_needed_ = true;
   unsigned system_ = 0;
   Level z_{}, r_{};
-  double q_ = 0, p_ = 0, initial_ = 0;
+  double q_ = 0, p_ = 0, shift_[2] = {}, initial_ = 0;
 };
 
 Path events(const Outcome& run) {
@@ -218,6 +243,7 @@ Path events(const Outcome& run) {
 TEST(Sequence, RandomProgramsAreMadeAsTheManualSays) {
   Bench bench;
   bench.param("8013", brief(kOut).c_str()).param("8012", brief(kBreak).c_str());
+  bench.tool(kToolNumber, kOfTool);
   bench.work_offset(1, {kOffset[0][0], kOffset[0][1], 0}).work_offset(2, {kOffset[1][0], kOffset[1][1], 0});
   const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(400, 60);
   for (uint64_t seed = first; seed < first + count; ++seed) {
