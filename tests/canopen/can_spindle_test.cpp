@@ -219,6 +219,76 @@ TEST(CanSpindle, TapsStayInTheirThreadOnAnyBus) {
   }
 }
 
+/// A tap in cuts that an operator disturbs at random instants: overrides, holds, and a reset behind which it is drawn out by the command, with stops on the way.
+/// Axis and spindle stay in one thread as the motors really stand, the tap does not stand in its hole in a hold, and it comes out.
+void disturb_tap(std::mt19937_64& random, unsigned* resets) {
+  const auto pick = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+  TapCut cut;
+  cut.sync_us = 1000 * (2 + pick(3));
+  cut.rpm = 200 + 100 * pick(12);
+  cut.lead = 0.5 + 0.25 * pick(8);
+  cut.depth = 4 * cut.lead + pick(8);
+  const double ramp = cut.spare * (cut.rpm / 60.0 / kTapRamp_s);
+  SpindleRig rig("", replaced(kSpindle, "acceleration = 6000.0", "acceleration = " + std::to_string(60 * ramp)), cut.sync_us, cut.rpm);
+  rig.block("G90 G00 Z2.");
+  rig.motor().velocity_ramp = ramp * kMotorIncrements * cut.sync_us * 1e-6;
+  std::ostringstream blocks;
+  blocks << std::fixed << std::setprecision(3) << "G90 " << (pick(2) == 0 ? "G84" : "G74") << " X0 Y0 Z" << 2 - cut.depth << " R2. F" << cut.lead << " S" << cut.rpm << " ,R1" << (pick(2) == 0 ? " Q" : " P200 Q");
+  blocks << cut.depth / (1 + pick(3)) << "\nG80";
+  const double hand = blocks.str().find("G84") != std::string::npos ? 1 : -1, out_at = 2 - 3e-3;
+  SCOPED_TRACE(blocks.str());
+  ASSERT_EQ(rig.mdi(blocks.str()), Answer::kDone);
+  double began = 0, apart = 0, deepest = 2;
+  bool was_in = false, reset = false, out_again = false, draws = false;
+  const unsigned reset_at = 200 + pick(2500);
+  for (unsigned n = 0; n < 60'000 && !(out_again && rig.idle()); ++n) {
+    const auto out = rig.runtime->snapshot().system[0].nc;
+    const double turns = rig.motor().plant().position / kMotorIncrements, z = rig.plant_mm(2);
+    if (out.spindle_synchronous == 0) began = turns;
+    const bool in_hole = z < out_at;
+    if (in_hole) apart = std::max(apart, std::abs(2 - z - hand * cut.lead * (turns - began)));
+    ASSERT_FALSE(in_hole && out.spindle_synchronous == 0) << "the spindle is let go in the hole, cycle " << n;
+    ASSERT_FALSE(in_hole && !reset && out.state == NC_STATE_HOLD && out.distance_zero) << "it stands in its hole, cycle " << n;
+    out_again = out_again || (was_in && !in_hole);
+    was_in = was_in || in_hole;
+    deepest = std::min(deepest, z);
+    if (!reset && pick(300) == 0) (void)rig.runtime->execute(CommandKind::kFeedOverride, 0.01 * pick(200));
+    if (!reset && pick(400) == 0) (void)rig.run(CommandKind::kFeedHold);
+    if (!reset && out.state == NC_STATE_HOLD && pick(50) == 0) (void)rig.run(CommandKind::kCycleStart);
+    if (!reset && n >= reset_at && in_hole) {
+      reset = true;
+      ++*resets;
+      (void)rig.run(CommandKind::kReset);
+    } else if (reset && out.distance_zero && !draws) {
+      (void)rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual));
+      if (out.tap_retract_possible && pick(20) == 0) draws = rig.run(CommandKind::kTapRetract, 1) == Answer::kDone;
+    } else if (draws && pick(200) == 0) {
+      draws = false;
+      (void)rig.run(CommandKind::kTapRetract, 0);
+    }
+    rig.step();
+  }
+  EXPECT_TRUE(out_again) << rig.alarms() << rig.plant_mm(2);
+  EXPECT_EQ(rig.alarms(), "");
+  EXPECT_LT(apart, thread_bound(cut));
+  if (!reset) {
+    EXPECT_NEAR(deepest, 2 - cut.depth, 0.25 * cut.lead);
+  }
+}
+
+TEST(CanSpindle, ATapThatIsDisturbedStaysInItsThreadAndComesOut) {
+  const std::uint64_t first = nc::test::wish("NC_FIRST_SEED", 1), count = nc::test::seeds(20, 2);
+  unsigned resets = 0;
+  for (std::uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    disturb_tap(random, &resets);
+  }
+  if (count >= 10) {
+    EXPECT_GT(resets, 2U) << "the sessions are not what they should be";
+  }
+}
+
 TEST(CanSpindle, ItsFaultNamesItAndStopsTheAxes) {
   SpindleRig rig;
   rig.block("S600\n#1103 = 1");
