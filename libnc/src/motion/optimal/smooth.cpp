@@ -10,7 +10,6 @@ namespace nc::optimal {
 namespace {
 
 constexpr double kUse = 0.94;  ///< one corner is given this part of the tolerance ...
-constexpr double kUseTurn = 0.975;  ///< ... and a sharp one this part, for it is cut by a depth that is known
 constexpr double kSharp = 0.5;  ///< a corner with |t2 - t1| above this always has its own knots
 constexpr double kAlone = 1.7;      ///< of its room, that a corner may ask for and is still one by itself, with what there is
 /// The same for one that is not sharp: lines that follow a curve within the tolerance have no such corners.
@@ -40,8 +39,8 @@ constexpr double kShortRest = 1e-6; ///< mm, of an edge: it is not cut so near t
 constexpr int64_t kPlaces = 256;    ///< and of places where the distance is measured
 constexpr unsigned kMeasured = 512; ///< the same of vertices where the line is measured
 // Instructions: to measure along a vertex, to look whether it wants a knot, of an edge in a sum; of a cell for each axis: its control point, its
-// polynomial, the distance of a place; and to move a cell.
-constexpr int64_t kAlongCost = 12, kVertexCost = 150, kEdgeCost = 100, kControlCost = 150, kPieceCost = 120, kPlaceCost = 15, kMoveCost = 80;
+// polynomial, the distance of a place; to move a cell; and to look at the lines beside a corner.
+constexpr int64_t kAlongCost = 12, kVertexCost = 150, kEdgeCost = 100, kControlCost = 150, kPieceCost = 120, kPlaceCost = 15, kMoveCost = 80, kCornerCost = 200;
 
 }  // namespace
 
@@ -85,14 +84,6 @@ void Smoother::set_corner(double u, double apart) {
   const unsigned before = last_;
   set(u, apart);
   if (last_ != before) room_.cell[last_].halved = kCorner;
-}
-
-void Smoother::set_turn(unsigned vertex, double reach) {
-  const double u = room_.u[vertex];
-  for (unsigned n = 0; n <= kTurnPieces; ++n) {
-    set_corner(n < kTurnPieces ? u + kTurn.piece[n].at * reach : u + reach, 0);
-    room_.corner[last_] = vertex;
-  }
 }
 
 /// |t2 - t1| at vertex k.
@@ -145,7 +136,8 @@ void Smoother::knots(unsigned first, unsigned to) {
     const double before = l.length[k - 1] + (k == 1 ? in_.hidden : 0), behind = l.length[k];
     const double turn_most = kUseTurn * in_.tolerance / (kTurnDepth * turn);
     const double turn_reach = std::min(turn_most, 0.4999 * std::min(before, behind));
-    if (turn > kSharp && turn_reach > 0.6 * turn_most && u[k] - turn_reach > keep) {
+    if (turn > kSharp && turn_reach < turn_most && set_turn_of_lines(k, turn_most, turn_reach, &keep)) continue;
+    if (turn > kSharp && turn_reach > kLeastTurn * turn_most && u[k] - turn_reach > keep) {
       set_turn(k, turn_reach);
       keep = u[k] + turn_reach;
       continue;
@@ -223,8 +215,9 @@ Task<bool> Smoother::first_knots(Work& work) {
   begin_knots();
   for (unsigned k = first_; k + 1 < count; k += kAtOnce) {
     const unsigned to = std::min(count - 1, k + kAtOnce);
+    corners_looked_at_ = 0;
     knots(k, to);
-    co_await work.pause((to - k) * kVertexCost);
+    co_await work.pause((to - k) * kVertexCost + corners_looked_at_ * in_.axis_count * kCornerCost);
   }
   end_knots();
   co_return !full_;
@@ -327,43 +320,6 @@ void Smoother::start_controls() {
     room_.control[0][i] = q.position[i];
     room_.control[1][i] = q.position[i] + q.d1[i] * b / 3;
     room_.control[2][i] = q.position[i] + q.d1[i] * (b + c) / 3 + q.d2[i] * b * c / 6;
-  }
-}
-
-/// A sharp corner whose first knot is `first`. With q'' = (t2 - t1) K(u) the control values of the part that
-/// turns follow from the differences that pieces() takes: e grows by K (t_(k+1) - t_(k-1)) / 2 at knot k, d
-/// by e (t_j - t_(j-3)) / 3.
-void Smoother::turn_controls(unsigned first) {
-  const Polyline& l = in_.line;
-  const unsigned vertex = room_.corner[first];
-  const int a = static_cast<int>(first);
-  const double u = room_.u[vertex], reach = u - t(a);
-  const double pa = 1 / l.length[vertex - 1], pb = 1 / l.length[vertex];
-  double e = 0, d = 0;
-  for (int n = 1; n <= static_cast<int>(kTurnPieces); ++n) {
-    const int j = a + 2 + n;  // control value a + 2 is the last one before the turn
-    e += kTurn.chord[n] / reach * (t(a + n + 1) - t(a + n - 1)) / 2;  // nothing at the last one
-    d += e * (t(j) - t(j - 3)) / 3;
-    const double along = (t(j - 2) + t(j - 1) + t(j)) / 3 - u;
-    for (unsigned i = 0; i < in_.axis_count; ++i) {
-      const double t1 = (l.vertex[vertex][i] - l.vertex[vertex - 1][i]) * pa,
-                   t2 = (l.vertex[vertex + 1][i] - l.vertex[vertex][i]) * pb;
-      room_.control[static_cast<unsigned>(j)][i] = l.vertex[vertex][i] + along * t1 + d * (t2 - t1);
-    }
-  }
-}
-
-/// What the curve of a sharp corner has beyond the cubic of its cell k, by axis.
-void Smoother::turn_rest(unsigned k, AxisVec* out) const {
-  const Polyline& l = in_.line;
-  const unsigned vertex = room_.corner[k];
-  unsigned first = k;
-  while (room_.corner[first - 1] == vertex) --first;
-  const double reach = room_.u[vertex] - room_.knot[first], pa = 1 / l.length[vertex - 1], pb = 1 / l.length[vertex];
-  for (unsigned i = 0; i < in_.axis_count; ++i) {
-    const double t1 = (l.vertex[vertex][i] - l.vertex[vertex - 1][i]) * pa, t2 = (l.vertex[vertex + 1][i] - l.vertex[vertex][i]) * pb;
-    double scale = reach * (t2 - t1);
-    for (unsigned j = 0; j < 6; ++j, scale /= reach) out[j][i] = scale * kTurn.rest[k - first][j];
   }
 }
 

@@ -11,6 +11,8 @@
 namespace nc::optimal {
 
 inline constexpr double kUseMost = 0.98;   ///< of the tolerance, that any of the places may use
+inline constexpr double kUseTurn = 0.975;  ///< the same of a sharp corner, which is cut by a depth that is known
+inline constexpr double kLeastTurn = 0.6;  ///< of the reach that a corner of long edges would have: with less its curve is no better than other corners
 inline constexpr double kLongEdge = 8;     ///< in spacings
 inline constexpr unsigned kLooks = 4;      ///< places in a cell, beside the vertices, where the distance is measured
 inline constexpr double kOtherFeed = 1.5;   ///< times the lowest feed of the cells that a control point bends: it is fitted up to there
@@ -40,7 +42,16 @@ class Smoother {
   void sum_up(unsigned k, unsigned* edge);
   void controls(unsigned from, unsigned to, unsigned* edge);
   bool fits(unsigned j) const;
+  struct TurnSides {
+    AxisVec before, behind;  ///< q' in front of the corner and behind it
+  };
   void set_turn(unsigned vertex, double reach);
+  bool of_lines(unsigned vertex, double reach) const;
+  TurnSides turn_sides(unsigned vertex, double reach) const;
+  double turn_depth(unsigned vertex, double reach) const;
+  bool one_feed_beside(unsigned vertex, double way) const;
+  bool on_line_before(unsigned vertex, double reach, unsigned last) const;
+  bool set_turn_of_lines(unsigned vertex, double most, double of_edges, double* keep);
   void turn_controls(unsigned first);
   void turn_rest(unsigned k, AxisVec* out) const;
   double corner(unsigned k) const;
@@ -90,6 +101,7 @@ class Smoother {
   bool full_ = false;
   bool one_feed_ = true;
   // while the first knots are set
+  unsigned corners_looked_at_ = 0;  ///< times that the lines beside one were
   double keep_ = 0;     ///< the knots behind a corner stay clear of what follows up to here
   double apart_ = 0;
   unsigned first_ = 1;  ///< vertex that may want one
