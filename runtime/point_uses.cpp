@@ -138,6 +138,7 @@ std::span<const PointRoleRow> point_roles() { return kPointRoles; }
 
 void check_point_uses(TableReader* root, const Config& config) {
   std::vector<const PointUse*> uses;
+  uses.reserve(config.point_uses.size());
   for (const PointUse& use : config.point_uses) uses.push_back(&use);
   std::stable_sort(uses.begin(), uses.end(), [](const PointUse* one, const PointUse* other) { return one->role < other->role; });
   for (std::size_t i = 0; i < uses.size(); ++i) {
