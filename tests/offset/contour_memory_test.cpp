@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -739,6 +741,39 @@ TEST(ContourCheck, AWayOfTheRadiusAtAnyAngle) {
     const OpenContour contour(std::uniform_real_distribution<double>(0, kTurn)(random), 0, i % 2 == 0);
     EXPECT_EQ(contour.alarm(180, 2, 2), 0u) << i;
     EXPECT_NE(contour.alarm(180, 1.996, 2), 0u) << i;
+  }
+}
+
+// The leads of CAM systems onto an open profile: an arc of up to a quarter, in front of it (behind it) a line along its radius that is at least as long as the tool's. The arc is a wall, and
+// the tool stands clear of its end; with a shorter line it stands in it.
+TEST(ContourCheck, ArcsThatLeadToAnOpenProfile) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(500, 50);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double radius = number(0.5, 5), turned = number(0, kTurn), length = number(3, 20) * radius;
+    const auto lead = [&](double line, double side) {  // its arc about (0, w), from its outer end; side -1: in front of the profile
+      const double w = number(1.02, 3) * radius, angle = number(0.3, kTurn / 4);
+      const Vec2 outer{side * w * std::sin(angle), w - w * std::cos(angle)};
+      return std::array<Vec2, 3>{outer + line * radius / w * (Vec2{0, w} - outer), outer, Vec2{0, w}};
+    };
+    const auto program = [&](const std::array<Vec2, 3>& in, const std::array<Vec2, 3>& out) {
+      std::string text;
+      const auto place = [&](Vec2 p) { return Vec2{std::round(1000 * (std::cos(turned) * p.h - std::sin(turned) * p.v)) / 1000, std::round(1000 * (std::sin(turned) * p.h + std::cos(turned) * p.v)) / 1000}; };
+      const auto words = [](char h, char v, Vec2 p) { return std::string(1, h) + std::to_string(p.h) + " " + v + std::to_string(p.v) + " "; };
+      const auto arc = [&](Vec2 from, Vec2 to, Vec2 center) { text += "G3 " + words('X', 'Y', place(to)) + words('I', 'J', place(center) - place(from)) + "\n"; };
+      const Vec2 end{length, 0};
+      text = "G90 G17 G0 " + words('X', 'Y', place(in[0])) + "\nG1 G41 D1 F500 " + words('X', 'Y', place(in[1])) + "\n";
+      arc(in[1], {0, 0}, in[2]);
+      text += "G1 " + words('X', 'Y', place(end)) + "\n";
+      arc(end, end + out[1], end + out[2]);
+      return text + "G1 G40 " + words('X', 'Y', place(end + out[0])) + "\nM30\n";
+    };
+    const std::map<std::string, std::string> check = {{"CONTOUR_CHECK", "1"}};
+    const double line = random() % 3 == 0 ? 1 : number(1, 1.5);
+    EXPECT_EQ(alarm_of_program(program(lead(line, -1), lead(line, 1)), radius, check), "") << "seed " << seed;
+    EXPECT_EQ(alarm_of_program(program(lead(number(0.05, 0.99), -1), lead(line, 1)), radius, check), "P153") << "seed " << seed;
+    EXPECT_EQ(alarm_of_program(program(lead(line, -1), lead(number(0.05, 0.99), 1)), radius, check), "P153") << "seed " << seed;
   }
 }
 
