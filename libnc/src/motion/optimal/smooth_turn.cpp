@@ -16,7 +16,7 @@ constexpr unsigned kLineEdges = 16;  ///< of a line, at most
 constexpr double kOwnKnots = 3;  ///< reaches, up to which all knots beside such a corner are its own: they keep the curve on its line
 constexpr double kClear = 0.3;   ///< of the reach, that they are away from others
 constexpr unsigned kReaches = 4;  ///< that are tried
-constexpr double kLess = 0.98;  ///< of the reach that should do: the line is another one when it is shorter
+constexpr double kSafeShare = 0.98;  ///< of the reach that should do: the line is another one when it is shorter
 constexpr double kNearly = 1e-9;
 
 }  // namespace
@@ -110,7 +110,7 @@ bool Smoother::set_turn_of_lines(unsigned vertex, double most, double of_edges, 
     ++corners_looked_at_;
     if (depth == HUGE_VAL) return false;
     if (depth <= deepest) break;
-    reach *= kLess * deepest / depth;
+    reach *= kSafeShare * deepest / depth;
   }
   if (!one_feed_beside(vertex, (kOwnKnots + kClear) * reach)) return false;
   const bool own = u - (kOwnKnots + kClear) * reach > *keep;
