@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration sections [parameters], [work_offsets], [tool_offsets].
+#include <charconv>
 #include <optional>
 
 #include "runtime/config_sections.hpp"
@@ -35,7 +36,11 @@ void read_label(TableReader* columns, const Config& config, ToolOffsetSetting* s
 
 std::optional<std::string> parameter_text(const toml::node& node) {
   double number = 0;
-  if (node_number(node, &number)) return number_text(number);
+  if (node_number(node, &number)) {  // nc_parameter_set() reads no exponent
+    char buffer[400];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed);
+    return std::string(buffer, result.ptr);
+  }
   if (const auto* text = node.as_string()) return text->get();
   return {};
 }

@@ -103,6 +103,16 @@ bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double val
   return row == nullptr || row->bit >= 0 || row->takes(value);
 }
 
+bool parameter_takes_code(const Dialect& dialect, const ParameterKey& key) {
+  constexpr Parameter kNamedByLetter[] = {Parameter::setting_unit, Parameter::plane_axis, Parameter::parallel_axis, Parameter::exponential_axis,
+                                          Parameter::mill_axis, Parameter::polar_linear_axis, Parameter::work_turn_axis, Parameter::ascii_call_letter};
+  const ParameterRow* const row = find_parameter(dialect, key);
+  if (row == nullptr) return true;
+  for (const Parameter named : kNamedByLetter)
+    if (row->what == named) return true;
+  return false;
+}
+
 bool parameter_used(const Dialect& dialect, const char* key) {
   if (find_parameter_name(dialect, key) != nullptr) return true;
   ParameterKey parsed;

@@ -125,6 +125,10 @@ const ParameterName* find_parameter_name(const Dialect& dialect, const char* key
 /// The whole parameter can have this value. A parameter without a row takes any value.
 bool parameter_takes(const Dialect& dialect, const ParameterKey& key, double value);
 
+/// The whole parameter may be given as a letter, whose code is its value: the name of an axis, the letter of a call, the setting unit, or any without a row. As the value of another
+/// one a letter is a mistake, whose code nobody means.
+bool parameter_takes_code(const Dialect& dialect, const ParameterKey& key);
+
 /// The control uses the parameter with this key: "1084", "1229/bit2", "1229" (then it uses at least one bit of it), "UNIT*10".
 bool parameter_used(const Dialect& dialect, const char* key);
 

@@ -16,23 +16,7 @@ bool same_word(const char* word, size_t length, const char* text) {
   return text[length] == 0;
 }
 
-/// Reads the exponent of a number such as 1e-05, as hosts print them; false when the text is anything else.
-bool parse_exponent(const char* text, int* exponent) {
-  constexpr int kMost = 308;  // of a double
-  const bool negative = *text == '-';
-  if (*text == '-' || *text == '+') ++text;
-  if (*text == 0) return false;
-  int number = 0;
-  for (; *text != 0; ++text) {
-    if (!is_digit(*text)) return false;
-    number = number * 10 + (*text - '0');
-    if (number > kMost) return false;
-  }
-  *exponent = negative ? -number : number;
-  return true;
-}
-
-/// Reads a decimal number with sign, point and exponent; false when the text is anything else.
+/// Reads a decimal number with sign and point; false when the text is anything else.
 bool parse_number(const char* text, double* value) {
   bool negative = false;
   if (*text == '-' || *text == '+') negative = *text++ == '-';
@@ -45,12 +29,6 @@ bool parse_number(const char* text, double* value) {
       any = true;
       if (point) scale *= 10;
       number = number * 10 + (*text - '0');
-    } else if (any && upper(*text) == 'E') {
-      int exponent = 0;
-      if (!parse_exponent(text + 1, &exponent)) return false;
-      for (; exponent > 0; --exponent) number *= 10;
-      for (; exponent < 0; ++exponent) scale *= 10;
-      break;
     } else {
       return false;
     }
@@ -81,16 +59,6 @@ bool is_text(const char* text) {
   for (; text[length] != 0; ++length)
     if (text[length] < ' ' || text[length] > '~') return false;
   return length <= 63;
-}
-
-/// The value may be written as a letter, and is its code then: the name of an axis, the letter of a call, the setting unit. Any other number that is given as a letter is a
-/// mistake, whose code nobody means.
-constexpr bool may_be_letter(Parameter parameter) {
-  constexpr Parameter kNamedByLetter[] = {Parameter::setting_unit, Parameter::plane_axis, Parameter::parallel_axis, Parameter::exponential_axis,
-                                          Parameter::mill_axis, Parameter::polar_linear_axis, Parameter::work_turn_axis, Parameter::ascii_call_letter};
-  for (const Parameter named : kNamedByLetter)
-    if (parameter == named) return true;
-  return false;
 }
 
 /// A parameter as 32 bits; no bit is set when the value is negative or too large.
@@ -134,11 +102,11 @@ nc_status Parameters::set(const Dialect& dialect, ParameterId id, int bit, int a
   if (parse_number(text, &number)) return set(dialect, id, bit, axis, number, index, old);
   // #1003 takes the letters of 2.1; a letter is stored by its code, also in a parameter that only programs read.
   if (bit >= 0 || named != nullptr || !is_text(text)) return NC_E_ARGUMENT;
-  const ParameterRow* const row = find_parameter(dialect, ParameterKey{id.value, 0, -1});
-  if (row != nullptr && !may_be_letter(row->what)) return NC_E_ARGUMENT;
+  const ParameterKey key{id.value, 0, -1};
+  if (!parameter_takes_code(dialect, key)) return NC_E_ARGUMENT;
   if (text[1] == 0) return set(dialect, id, bit, axis, static_cast<unsigned char>(text[0]), index, old);
   // No parameter that has an effect in the control is a text of several characters.
-  if (row != nullptr) return NC_E_ARGUMENT;
+  if (find_parameter(dialect, key) != nullptr) return NC_E_ARGUMENT;
   const uint8_t place = keep_text(text);
   return place == 0 ? NC_E_MEMORY : put(id, bit, axis, false, ParameterValue{OptionalDouble{}, place}, index, old);
 }
