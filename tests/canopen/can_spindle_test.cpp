@@ -289,6 +289,53 @@ TEST(CanSpindle, ATapThatIsDisturbedStaysInItsThreadAndComesOut) {
   }
 }
 
+// A reset in the hole, and the tap is drawn out. Its spindle comes to its place by the gain of its loop, a little beyond R and back, and the axis goes with it in the thread: within a second of the
+// longest SYNC both stand at R, and move no more.
+TEST(CanSpindle, BehindARetractAxisAndSpindleComeToRest) {
+  struct Retract {
+    unsigned sync_us, rpm;
+    double lead;
+  };
+  for (const Retract& retract : {Retract{2000, 600, 1.5}, Retract{5000, 600, 1.5}, Retract{5000, 1500, 3}, Retract{10'000, 2000, 3}}) {
+    SCOPED_TRACE(std::to_string(retract.sync_us) + " us, S" + std::to_string(retract.rpm));
+    const TapCut cut{retract.sync_us, retract.rpm, retract.lead};
+    const double ramp = cut.spare * cut.rpm / 60.0 / kTapRamp_s;
+    SpindleRig rig("", replaced(kSpindle, "acceleration = 6000.0", "acceleration = " + std::to_string(60 * ramp)), cut.sync_us, cut.rpm);
+    rig.block("G90 G00 Z2.");
+    rig.motor().velocity_ramp = ramp * kMotorIncrements * cut.sync_us * 1e-6;
+    std::ostringstream blocks;
+    blocks << std::fixed << std::setprecision(3) << "G90 G84 X0 Y0 Z-8. R2. F" << cut.lead << " S" << cut.rpm << " ,R1\nG80";
+    const double began = rig.motor().plant().position;
+    ASSERT_EQ(rig.mdi(blocks.str()), Answer::kDone);
+    ASSERT_TRUE(rig.until([&] { return rig.plant_mm(2) < -3; }, 30'000)) << rig.alarms();
+    ASSERT_EQ(rig.run(CommandKind::kReset), Answer::kDone);
+    ASSERT_TRUE(rig.until([&] { return !rig.runtime->snapshot().resetting && rig.idle(); }, 5000)) << rig.alarms();
+    rig.step(100);
+    ASSERT_EQ(rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+    const auto possible = [&] { return rig.runtime->snapshot().system[0].nc.tap_retract_possible; };
+    ASSERT_TRUE(possible());
+    for (unsigned n = 0; n < 100 && possible(); ++n) {
+      ASSERT_EQ(rig.run(CommandKind::kTapRetract, 1), Answer::kDone) << rig.alarms();
+      rig.step(50);
+    }
+    ASSERT_FALSE(possible());
+    double apart = 0;
+    for (unsigned n = 0; n < 1000; ++n) {
+      rig.step();
+      apart = std::max(apart, std::abs(rig.plant_mm(2) - 2 + cut.lead * (rig.motor().plant().position - began) / kMotorIncrements));
+    }
+    EXPECT_LT(apart, thread_bound(cut)) << "in the thread";
+    EXPECT_NEAR(rig.plant_mm(2), 2, 1e-3);
+    const double axis = rig.plant_mm(2), spindle = rig.motor().plant().position;
+    for (unsigned n = 0; n < 2000; ++n) {
+      rig.step();
+      ASSERT_NEAR(rig.plant_mm(2), axis, 1e-9) << n;
+      ASSERT_NEAR(rig.motor().plant().position, spindle, 1e-9) << n;
+    }
+    EXPECT_EQ(rig.alarms(), "");
+  }
+}
+
 TEST(CanSpindle, ItsFaultNamesItAndStopsTheAxes) {
   SpindleRig rig;
   rig.block("S600\n#1103 = 1");
