@@ -24,6 +24,14 @@ struct AxisEntry {
   hal::SimAxis sim;
 };
 
+// An array of places of an axis.
+bool read_places(TableReader* reader, const char* key, std::size_t least, std::size_t most, std::vector<double>* places) {
+  if (!reader->numbers(key, places, least, most)) return false;
+  if (std::all_of(places->begin(), places->end(), [](double place) { return place >= -kMaxLength && place <= kMaxLength; })) return true;
+  reader->error(key, "must hold numbers from " + number_text(-kMaxLength) + " to " + number_text(kMaxLength));
+  return false;
+}
+
 void read_limits(TableReader* reader, AxisEntry* entry) {
   nc_axis_config& axis = entry->axis;
   for (const char* key : {"max_velocity", "max_acceleration"}) reader->require(key);
@@ -35,13 +43,13 @@ void read_limits(TableReader* reader, AxisEntry* entry) {
     reader->error("rapid", "must not be above max_velocity (" + number_text(axis.max_velocity) + ")");
   reader->number("in_position", &axis.in_position, 1e-6, kMaxLength);
   std::vector<double> numbers;
-  if (reader->numbers("soft_limits", &numbers, 2, 2)) {
+  if (read_places(reader, "soft_limits", 2, 2, &numbers)) {
     axis.soft_limited = true;
     axis.soft_min = numbers[0];
     axis.soft_max = numbers[1];
     if (numbers[0] >= numbers[1]) reader->error("soft_limits", "the first number must be below the second");
   }
-  const bool referenced = reader->numbers("reference", &numbers, 1, 4);
+  const bool referenced = read_places(reader, "reference", 1, 4, &numbers);
   if (referenced) std::copy(numbers.begin(), numbers.end(), axis.reference);
   const auto outside = [&axis](double position) { return axis.soft_limited && axis.soft_min < axis.soft_max && (position < axis.soft_min || position > axis.soft_max); };
   // Outside the soft limits every G28 would be an alarm.
