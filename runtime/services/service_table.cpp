@@ -165,6 +165,7 @@ constexpr ReplyRow kRightsReply[] = {{"client", "text", "the name under which th
 constexpr ReplyRow kLimitReply[] = {{"client", "text", "the name under which this connection may have control from now on"}, {"rights[]", "text", "what it still has"}};
 constexpr ReplyRow kServicesReply[] = {{"services[].name", "text", "name of the service"},
                                        {"services[].right", "text", "the right that it needs"},
+                                       {"services[].or_right", "text", "a right that is enough in its place, empty = none"},
                                        {"services[].meaning", "text", "what it does"},
                                        {"services[].request[].name", "text", "member of `args`"},
                                        {"services[].request[].type", "text", "number, whole, flag, text, name, data or list"},
@@ -453,8 +454,8 @@ constexpr ServiceRow kRows[] = {
     {Service::kRestartStatus, "restart.status", Right::kView, Lane::kData, kNo, kSystemOnly, kRestartReply, "a program that is begun inside: the place, the recovery list, and how far the operator is"},
 
     {Service::kTakeControl, "control.take", Right::kOperate, Lane::kCommand, RequestKind::kTakeControl, kLeaseOnly, kDoneReply,
-     "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well"},
-    {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end"},
+     "the client becomes the only one whose commands are executed, until its lease ends; renews the lease. Every later command renews it as well", Right::kMaintain},
+    {Service::kReleaseControl, "control.release", Right::kOperate, Lane::kCommand, RequestKind::kReleaseControl, {}, kDoneReply, "gives control back; jogs of the client end", Right::kMaintain},
     {Service::kStart, "start", Right::kOperate, Lane::kCommand, RequestKind::kCycleStart, kCommandOnly, kDoneReply, "cycle start; the reply comes when the program runs"},
     {Service::kHold, "hold", Right::kOperate, Lane::kCommand, RequestKind::kFeedHold, kCommandOnly, kDoneReply, "feed hold; the reply comes when the axes stand. It needs no control. In manual mode what moves by hand comes to rest and needs a new press"},
     {Service::kReset, "reset", Right::kOperate, Lane::kCommand, RequestKind::kReset, kLifespanOnly, kDoneReply, "reset of all part systems; the reply comes when it is done"},
@@ -542,6 +543,8 @@ const char* topic_of(Right right) {
   }
   return "?";
 }
+
+std::string rights_text(const ServiceRow& row) { return std::string(right_name(row.right)) + (row.or_right ? std::string(" or ") + right_name(*row.or_right) : ""); }
 
 std::span<const ServiceRow> service_table() { return kRows; }
 

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "runtime/services/rights.hpp"
@@ -69,7 +71,13 @@ struct ServiceRow {
   std::span<const Wanted> request;
   std::span<const ReplyRow> reply;
   const char* meaning;
+  std::optional<Right> or_right = {};  // is enough in place of `right`
+
+  bool allows(RightSet rights) const { return rights.has(right) || (or_right && rights.has(*or_right)); }
+  bool is_of(Right which) const { return which == right || which == or_right; }
 };
+// The rights of which one is needed, in words: "operate or maintain".
+std::string rights_text(const ServiceRow& row);
 
 // The topic on which a request may use the services of this right, and those of view.
 const char* topic_of(Right right);

@@ -106,11 +106,11 @@ void Services::open(std::string* warning) {
 
 std::string Services::lack(const Session& session, const Call& call) {
   const ServiceRow& row = *call.row;
-  const std::string needs = std::string(row.name) + " needs the right to " + right_name(row.right);
-  if (!session.rights.has(row.right)) return needs;
+  const std::string needs = std::string(row.name) + " needs the right to " + rights_text(row);
+  if (!row.allows(session.rights)) return needs;
   RightSet came;
   if (call.right) came.add(*call.right);
-  return !call.right || came.has(row.right) ? "" : needs + ", and this request has come with that to " + right_name(*call.right);
+  return !call.right || row.allows(came.both(session.rights)) ? "" : needs + ", and this request has come with that to " + right_name(*call.right);
 }
 
 Outcome Services::limit(const Session& session, const Call& call, Session* after) {

@@ -9,38 +9,14 @@
 #include <set>
 
 #include "services/local_machine.hpp"
+#include "services/service_arguments.hpp"
 
 namespace nc::rt::services {
 namespace {
 
+using test::arguments_of;
 using test::LocalMachine;
 using test::ServiceClient;
-
-// A value for each member that a request must have, so that only the right decides.
-Json arguments_of(const ServiceRow& row) {
-  Json args = Json::object();
-  for (const Wanted& wanted : row.request) {
-    if (!wanted.required) continue;
-    const FieldInfo& field = row_of(wanted.field);
-    switch (field.kind) {
-      case Kind::kNumber:
-      case Kind::kWhole: args[field.name] = std::max(field.least, std::min(1.0, field.most)); break;
-      case Kind::kFlag: args[field.name] = true; break;
-      case Kind::kText: args[field.name] = field.field == Field::kMode ? "auto" : std::string(static_cast<std::size_t>(field.least), 'X'); break;
-      case Kind::kName: args[field.name] = "none.nc"; break;
-      case Kind::kData: args[field.name] = "AAAA"; break;
-      case Kind::kList: args[field.name] = field.field == Field::kKeptRights ? Json({"view", "operate", "set up", "maintain"}) : Json({"XX"}); break;
-    }
-  }
-  if (row.service == Service::kProgramBegin) args["sha256"] = std::string(64, '0');
-  if (row.service == Service::kSetTool) args["length"] = 1;
-  if (row.service == Service::kParameterImport) args["toml"] = "[parameters]\n1078 = 1\n";
-  if (row.service == Service::kSetLife) args["used"] = 1;
-  if (row.service == Service::kRestartFind) args["line"] = 1;
-  if (row.service == Service::kSetVariable) args["value"] = 1;
-  if (row.service == Service::kImport) args["toml"] = "[tool_offsets]\n1 = 1\n";
-  return args;
-}
 
 class LocalServices : public LocalMachine {};
 
@@ -61,18 +37,47 @@ TEST_F(LocalServices, EveryServiceIsRefusedToEveryOneWithoutItsRight) {
       const Json reply = client.call(row.name, arguments_of(row));
       ASSERT_FALSE(reply.is_null());
       const bool lacks = reply["ok"] == false && reply["error"] == "no right";
-      EXPECT_EQ(lacks, !rights.has(row.right)) << reply;
+      EXPECT_EQ(lacks, !rights.has(row.right) && !(row.or_right && rights.has(*row.or_right))) << reply;
       // The pieces of a program that was begun before it are not right, which is asked for after the right.
       const bool piece = row.service == Service::kProgramData || row.service == Service::kProgramFinish;
       EXPECT_TRUE(piece || reply.value("error", "") != "malformed") << reply;
       if (lacks) {
         EXPECT_NE(reply["text"].get<std::string>().find(right_name(row.right)), std::string::npos);
+        if (row.or_right) {
+          EXPECT_NE(reply["text"].get<std::string>().find(right_name(*row.or_right)), std::string::npos);
+        }
       }
       lacks ? ++refused : ++let;
     }
   }
   EXPECT_EQ(refused + let, 15 * kServiceRows);
   EXPECT_GT(refused, 100u);
+}
+
+// Forces and writes of the ladder need control and the right to maintain, and nothing else: who has only that right takes control, and moves nothing with it.
+TEST_F(LocalServices, WhoMaintainsTakesControlAndMovesNothing) {
+  give({Right::kMaintain});
+  ServiceClient client(path_);
+  EXPECT_EQ(client.outcome("release"), "no control");
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  const Json released = client.call("release");
+  EXPECT_NE(released.value("error", ""), "no control") << released;
+  EXPECT_NE(released.value("error", ""), "no right") << released;
+  give({Right::kOperate});
+  ServiceClient other(path_);
+  EXPECT_EQ(other.outcome("start"), "no control");
+  EXPECT_NE(other.outcome("hold"), "no control");
+  for (const ServiceRow& row : service_table()) {
+    if (row.lane != Lane::kCommand) continue;
+    SCOPED_TRACE(row.name);
+    const bool may = row.service == Service::kTakeControl || row.service == Service::kForce || row.service == Service::kRelease || row.service == Service::kWriteDevice;
+    if (row.service != Service::kReleaseControl) {
+      EXPECT_EQ(client.outcome(row.name, arguments_of(row)) == "no right", !may);
+    }
+  }
+  EXPECT_EQ(client.outcome("control.release"), "");
+  EXPECT_EQ(other.outcome("control.take"), "");
+  EXPECT_EQ(client.outcome("control.take"), "no control");
 }
 
 TEST_F(LocalServices, ARightThatIsGivenUpDoesNotComeBack) {
@@ -98,7 +103,7 @@ TEST_F(LocalServices, ARequestCanComeWithOneRight) {
       ASSERT_TRUE(client.send_bytes(frame_of(Json{{"id", 1}, {"service", row.name}, {"args", arguments_of(row)}, {"right", right_name(static_cast<Right>(right))}}.dump())));
       const Json reply = client.receive();
       const bool lacks = reply["ok"] == false && reply["error"] == "no right";
-      EXPECT_EQ(lacks, row.right != Right::kView && row.right != static_cast<Right>(right)) << reply;
+      EXPECT_EQ(lacks, row.right != Right::kView && row.right != static_cast<Right>(right) && row.or_right != static_cast<Right>(right)) << reply;
     }
   ASSERT_TRUE(client.send_bytes(frame_of(R"({"id":2,"service":"status","right":"everything"})")));
   EXPECT_EQ(client.receive()["error"], "malformed");

@@ -91,7 +91,7 @@ void add_fields(CLI::App* app, const ServiceRow& row, ControlCommand* command) {
 }
 
 void add_service(CLI::App* app, const ServiceRow& row, ControlCommand* command) {
-  CLI::App* sub = subcommand(app, row.name, std::string(row.meaning) + " (" + right_name(row.right) + ")");
+  CLI::App* sub = subcommand(app, row.name, std::string(row.meaning) + " (" + rights_text(row) + ")");
   add_fields(sub, row, command);
   sub->callback([command, &row] { command->service = row.name; });
   if (row.service == rt::services::Service::kJog) {

@@ -222,7 +222,7 @@ std::string services_markdown() {
   for (unsigned right = 0; right < kRightCount; ++right) {
     text += "## Services that need the right to " + std::string(right_name(static_cast<Right>(right))) + "\n\n| service | request | meaning |\n|---|---|---|\n";
     for (const ServiceRow& row : service_table())
-      if (row.right == static_cast<Right>(right)) text += "| `" + std::string(row.name) + "` | " + request_text(row) + " | " + row.meaning + " |\n";
+      if (row.is_of(static_cast<Right>(right))) text += "| `" + std::string(row.name) + "` | " + request_text(row) + " | " + row.meaning + (row.or_right ? "; needs the right to " + rights_text(row) : "") + " |\n";
     text += "\n";
   }
   text += "## Members of requests\n\n| member | type | range | meaning |\n|---|---|---|---|\n";
@@ -240,15 +240,15 @@ std::string services_markdown() {
 std::string services_man() {
   std::string text;
   std::set<std::string> groups;
-  const auto add = [&](Right right, const std::string& words, const std::string& arguments, const std::string& meaning) {
+  const auto add = [&](const std::string& rights, const std::string& words, const std::string& arguments, const std::string& meaning) {
     const std::size_t space = words.find(' ');
     if (space != std::string::npos && groups.insert(words.substr(0, space)).second)
       text += ".TP\n.B " + words.substr(0, space) + "\nIs followed by one of these words:\n";
-    text += ".TP\n.B " + man(words) + (arguments.empty() ? "" : "\n.RI \"" + man(arguments) + "\"") + "\n" + man(meaning) + ". Needs the right to " + right_name(right) + ".\n";
+    text += ".TP\n.B " + man(words) + (arguments.empty() ? "" : "\n.RI \"" + man(arguments) + "\"") + "\n" + man(meaning) + ". Needs the right to " + rights + ".\n";
   };
   for (const ServiceRow& row : service_table())
-    if (is_command(row)) add(row.right, replaced(row.name, '.', ' '), arguments_of(row), row.meaning);
-  for (const OwnCommand& own : kOwn) add(own.right, own.words, own.arguments, own.meaning);
+    if (is_command(row)) add(rights_text(row), replaced(row.name, '.', ' '), arguments_of(row), row.meaning);
+  for (const OwnCommand& own : kOwn) add(right_name(own.right), own.words, own.arguments, own.meaning);
   return text;
 }
 

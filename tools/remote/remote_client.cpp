@@ -29,8 +29,10 @@ class RemoteClient : public ServiceClient {
     std::string error;
     const std::string words = args.dump(-1, ' ', false, Json::error_handler_t::replace);
     if (secured_ && row != nullptr && row->service == rt::services::Service::kRights) be_heard(words);
-    const auto result = caller_.call(right, service, words, &text, &error);
-    if (result == ServiceCaller::Result::kNotAllowed) *refusal = refusal_named("no right", std::string("the permissions of this identity do not have the right to ") + right_name(right));
+    auto result = caller_.call(right, service, words, &text, &error);
+    if (result == ServiceCaller::Result::kNotAllowed && row != nullptr && row->or_right) result = caller_.call(*row->or_right, service, words, &text, &error);
+    if (result == ServiceCaller::Result::kNotAllowed)
+      *refusal = refusal_named("no right", "the permissions of this identity do not have the right to " + (row != nullptr ? rt::services::rights_text(*row) : right_name(right)));
     else if (result == ServiceCaller::Result::kNobody) *refusal = no_connection(error);
     else return read(text, reply, refusal);
     return false;
