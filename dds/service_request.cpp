@@ -22,11 +22,6 @@ bool is_hiding(const char (&text)[kSize]) {
   return end == nullptr || std::any_of(end, text + kSize, [](char c) { return c != 0; });
 }
 
-bool is_object(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && text[first] == '{' && Json::accept(text.begin(), text.end());
-}
-
 }  // namespace
 
 bool is_client_name(std::string_view name) {
@@ -48,9 +43,12 @@ bool service_frame(const ServiceRequest& request, std::uint64_t id, std::int64_t
   if (request.hides) return bad(Refused::kMalformed, "a text has a NUL in its middle");
   const std::string args = request.args.empty() ? "{}" : request.args;
   // One object and nothing behind it: so the arguments cannot add members to the request.
-  if (!is_object(args)) return bad(Refused::kMalformed, "args must be an object in JSON");
+  Json read;
+  std::string wrong;
+  if (!rt::services::read_json(args, &read, &wrong)) return bad(Refused::kMalformed, "the text of args " + wrong);
+  if (!read.is_object()) return bad(Refused::kMalformed, "args must be an object in JSON");
   const ServiceRow* row = rt::services::find_service(request.service);
-  if (gate.rights.none() || (row != nullptr && !gate.rights.has(row->right))) return bad(Refused::kNoRight, gate.why);
+  if (gate.rights.none() || (row != nullptr && !row->allows(gate.rights))) return bad(Refused::kNoRight, gate.why);
   const bool command = row != nullptr && row->lane == Lane::kCommand;
   const std::int64_t age_ns = wall_ns - std::clamp(request.sent_ns, wall_ns - kMostAgeNs, wall_ns + kMostAgeNs);  // any time may stand in a sample
   if (command && age_ns < kMostAhead) return bad(Refused::kLate, "the clock of the client is ahead by " + std::to_string(-age_ns / kMs) + " ms");

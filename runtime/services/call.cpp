@@ -29,7 +29,10 @@ class NumberWatch final : public nlohmann::json_sax<Json> {
   bool string(string_t&) override { return true; }
   bool binary(binary_t&) override { return true; }
   bool start_object(std::size_t) override { return true; }
-  bool key(string_t&) override { return true; }
+  bool key(string_t& name) override {
+    member = name;
+    return true;
+  }
   bool end_object() override { return true; }
   bool start_array(std::size_t) override { return true; }
   bool end_array() override { return true; }
@@ -39,12 +42,32 @@ class NumberWatch final : public nlohmann::json_sax<Json> {
     return false;
   }
   bool too_large = false;
+  std::string member;  // the last one
 };
 
-const char* what_is_no_json(std::string_view text) {
+// Where the first text with the sign that replaces bytes of no character is: its member, or the member that is named so. "" = nowhere.
+std::string place_of_replaced(const Json& value, const std::string& member) {
+  constexpr char kReplaced[] = "\xef\xbf\xbd";
+  if (value.is_string()) return value.get_ref<const std::string&>().find(kReplaced) == std::string::npos ? "" : member;
+  if (value.is_array())
+    for (const Json& element : value)
+      if (std::string found = place_of_replaced(element, member); !found.empty()) return found;
+  if (value.is_object())
+    for (const auto& [key, element] : value.items()) {
+      if (key.find(kReplaced) != std::string::npos) return key;
+      if (std::string found = place_of_replaced(element, key); !found.empty()) return found;
+    }
+  return "";
+}
+
+std::string what_is_no_json(std::string_view text) {
   NumberWatch watch;
   (void)Json::sax_parse(text.begin(), text.end(), &watch);
-  return watch.too_large ? "has a number that is too large" : "is no JSON in UTF-8";
+  if (watch.too_large) return "has a number that is too large" + (watch.member.empty() ? "" : ": \"" + watch.member + "\"");
+  const std::string mended = valid_utf8(text);  // JSON apart from its bytes: the text was in Latin-1, Shift-JIS or the like
+  const Json read = mended == text ? Json() : Json::parse(mended.begin(), mended.end(), nullptr, false);
+  const std::string member = read.is_structured() ? place_of_replaced(read, "") : "";
+  return member.empty() ? "is no JSON in UTF-8" : "is no JSON in UTF-8: \"" + member + "\" has other bytes";
 }
 
 std::string range_text(const FieldInfo& row) {

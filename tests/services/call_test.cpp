@@ -59,14 +59,16 @@ TEST(ServiceCall, WhatIsWrongIsNamed) {
       {R"({"id": 1, "service": "mode", "args": {"mode": "auto", "mode": "mdi"}})", Refused::kMalformed, "twice"},
       {R"({"id": 1, "service": "single", "args": {"on": 1}})", Refused::kMalformed, "true or false"},
       {R"({"id": 1, "service": "jog", "args": {"axis": "X", "velocity": 1e7}})", Refused::kMalformed, "-1000000 to 1000000"},
-      {R"({"id": 1, "service": "jog", "args": {"axis": "X", "velocity": 1e999}})", Refused::kMalformed, "the request has a number that is too large"},
+      {R"({"id": 1, "service": "jog", "args": {"axis": "X", "velocity": 1e999}})", Refused::kMalformed, "the request has a number that is too large: \"velocity\""},
       {R"({"id": 1, "service": "jog", "args": {"axis": "XY", "velocity": 1}})", Refused::kMalformed, "bytes"},
       {R"({"id": 1, "service": "tools.set", "args": {"number": 1.5, "length": 1}})", Refused::kMalformed, "whole"},
       {R"({"id": 1, "service": "mdi", "args": {"blocks": "G0\u0000X1"}})", Refused::kMalformed, "control characters"},
       {R"({"id": 1, "service": "programs.data", "args": {"upload": 1, "begin": 0, "data": "A"}})", Refused::kMalformed, "base64"},
       {R"({"id": 1, "service": "status", "args": {"a": {"b": {"c": {"d": {"e": 1}}}}}})", Refused::kMalformed, "deep"},
-      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"M\xfcller.nc\"}}", Refused::kMalformed, "UTF-8"},         // Latin-1
-      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"\x95\x5c.nc\"}}", Refused::kMalformed, "UTF-8"},  // Shift-JIS
+      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"M\xfcller.nc\"}}", Refused::kMalformed, "UTF-8: \"name\" has other bytes"},         // Latin-1
+      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"\x93\xfa\x96\x7b.nc\"}}", Refused::kMalformed, "UTF-8: \"name\" has other bytes"},  // Shift-JIS
+      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"na\xfcme\": 1}}", Refused::kMalformed, "UTF-8: \"na\xef\xbf\xbdme\" has other bytes"},
+      {"{\"id\": 1, \"service\": \"select\", \"args\": {\"name\": \"\x95\x5c.nc\"}}", Refused::kMalformed, "UTF-8"},  // Shift-JIS with a backslash in it
       {R"({"id": 1, "service": "select", "args": {"name": "../x.nc"}})", Refused::kMalformed, "without a path"},
       {R"({"id": 1, "service": "select", "args": {"name": "a\u0000.nc"}})", Refused::kMalformed, "without a path"},
   };
