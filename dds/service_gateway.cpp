@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "runtime/clock.hpp"
+#include "runtime/services/history.hpp"
+#include "runtime/services/places.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
@@ -41,6 +43,11 @@ struct DeleteQos {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
+
+using rt::services::Place;
+using rt::services::Service;
+
+std::string text_of_key(const std::array<unsigned char, 16>& key) { return {key.begin(), key.end()}; }
 
 }  // namespace
 
@@ -111,6 +118,7 @@ void ServiceGateway::serve() {
 
 void ServiceGateway::serve_clients() {
   std::erase_if(ending_, [](const std::future<void>& end) { return end.wait_for(std::chrono::seconds(0)) == std::future_status::ready; });
+  admit_newcomers();
   std::vector<Client*> silent;
   for (const auto& [name, client] : clients_) {
     pass_early(client.get());
@@ -120,10 +128,74 @@ void ServiceGateway::serve_clients() {
     if (client->held_ns != 0 && now() - client->held_ns > kPatienceNs) silent.push_back(client.get());
   }
   for (Client* client : silent) {
-    say("client " + client->name + " does not read its replies: its connection ends");
+    if (client->served || !reads_replies(*client, client->participant)) say("client " + client->name + " does not read its replies: its connection ends");
+    else say("no place was found for client " + client->name + ": it gets no answer");
     remove(client);
   }
   miss_clients();
+}
+
+// ---- places ----
+
+// Whom a place counts for. Without DDS Security a name says nothing.
+std::string ServiceGateway::owner_of(const Client& client) {
+  return gate().by_permissions ? rt::services::user_of_behalf(client.name) : text_of_key(client.participant);
+}
+
+// Gives a place to those who have shown that they read their replies. Those without one wait for it.
+void ServiceGateway::admit_newcomers() {
+  std::vector<Client*> ready;
+  for (const auto& [name, client] : clients_)
+    if (!client->served && !client->early.empty() && reads_replies(*client, client->participant)) ready.push_back(client.get());
+  std::sort(ready.begin(), ready.end(), [](const Client* a, const Client* b) { return a->came_ns < b->came_ns; });
+  for (Client* client : ready) {
+    client->served = make_place(*client);
+    if (!client->served) hold(client, now());
+  }
+}
+
+bool ServiceGateway::make_place(const Client& newcomer) {
+  std::vector<Client*> served;
+  std::vector<Place> taken;
+  for (const auto& [name, client] : clients_) {
+    if (!client->served) continue;
+    served.push_back(client.get());
+    taken.push_back({owner_of(*client), 0, client->heard_ns, name == controls_});
+  }
+  if (served.size() < kClients) return true;
+  const auto given = rt::services::place_to_give_up(taken, owner_of(newcomer), 0);
+  if (given) give_up(served[*given]);
+  return given.has_value();
+}
+
+// A participant can ask under as many names as it likes, whether it may have them or not: so until that is known each participant has the same right to wait.
+bool ServiceGateway::make_room_for_newcomer(const Client& newcomer) {
+  std::vector<Client*> waiting;
+  std::vector<Place> taken;
+  Client* oldest = nullptr;
+  for (const auto& [name, client] : clients_) {
+    if (client->served) continue;
+    waiting.push_back(client.get());
+    taken.push_back({text_of_key(client->participant), 0, client->came_ns, false});
+    if (oldest == nullptr || client->came_ns < oldest->came_ns) oldest = client.get();
+  }
+  if (waiting.size() < kNewcomers) return true;
+  if (const auto given = rt::services::place_to_give_up(taken, text_of_key(newcomer.participant), 0)) oldest = waiting[*given];
+  else if (now() - oldest->came_ns < kUndisturbedNs) return false;
+  give_up(oldest);
+  return true;
+}
+
+// What it has asked is refused, as far as it reads that at once; its connection ends, and with it what it has begun. Of a newcomer nobody knows whether another
+// gateway answers it.
+void ServiceGateway::give_up(Client* client) {
+  say("client " + client->name + " loses its place to another one");
+  if (client->served && !is_undecided(*client)) {
+    lose_line(client, "another client needs the place of this one");
+    client->next_write_ns = 0;
+    write_replies(client);
+  }
+  remove(client);
 }
 
 // Until something comes, or is to be tried again.
@@ -193,8 +265,9 @@ ServiceGateway::Client* ServiceGateway::client_of(unsigned topic, const dds_samp
   client->name = name;
   client->instance[topic] = info.instance_handle;
   if (!is_of(client.get(), topic, info.publication_handle)) return nullptr;  // it has gone already
-  if (clients_.size() >= kClients) {
-    say("more than " + std::to_string(kClients) + " clients: " + name + " gets no answer");
+  client->came_ns = client->heard_ns = now();
+  if (!make_room_for_newcomer(*client)) {
+    say("more than " + std::to_string(kNewcomers) + " new clients at once: " + name + " gets no answer");
     return nullptr;
   }
   if (!make_writer_for(client.get())) return nullptr;
@@ -289,6 +362,7 @@ void ServiceGateway::remove(Client* client) {
 
 void ServiceGateway::receive(Client* client, ServiceRequest request) {
   const std::uint64_t number = request.number;
+  client->heard_ns = now();
   const bool same = std::any_of(client->open.begin(), client->open.end(), [&](const auto& open) { return open.second.number == number; }) ||
                     std::any_of(client->early.begin(), client->early.end(), [&](const ServiceRequest& early) { return early.number == number; });
   if (number != 0 && same) return say("client " + client->name + " gives a number to two requests: the second one is not taken");
@@ -301,6 +375,7 @@ void ServiceGateway::receive(Client* client, ServiceRequest request) {
 void ServiceGateway::pass_early(Client* client) {
   if (client->early.empty()) return;
   if (!reads_replies(*client, client->participant)) return hold(client, now());
+  if (!client->served) return;  // until it is admitted
   if (client->replies.empty()) client->held_ns = 0;
   for (; !client->early.empty(); client->early.pop_front()) pass(client, client->early.front());
 }
@@ -324,7 +399,7 @@ void ServiceGateway::pass(Client* client, const ServiceRequest& request) {
     if (!client->line.open(socket_.empty() ? find_service_socket(partition_) : socket_, "dds:" + client->name, gate.most, &error)) return refuse(Refused::kFailed, error);
     client->session = next_session_++;
   }
-  client->open[id] = {number, request.service == row_of(rt::services::Service::kRights).name || request.service == row_of(rt::services::Service::kLimit).name};
+  client->open[id] = {number, rt::services::find_service(request.service)};
   client->line.put(frame);
 }
 
@@ -357,7 +432,11 @@ void ServiceGateway::take_messages(Client* client) {
       const auto found = client->open.find(id);
       if (found == client->open.end()) continue;
       message.number = found->second.number;
-      if (found->second.asks_rights) narrow_rights(&message, rights_of(*client));
+      const rt::services::ServiceRow* row = found->second.row;
+      if (row != nullptr && (row->service == Service::kRights || row->service == Service::kLimit)) narrow_rights(&message, rights_of(*client));
+      const bool done = row != nullptr && message.status == nc_SERVICE_DONE;
+      if (done && row->service == Service::kTakeControl) controls_ = client->name;
+      if (done && row->service == Service::kReleaseControl && controls_ == client->name) controls_.clear();
       client->open.erase(found);
     }
     reply(client, std::move(message));
@@ -414,6 +493,7 @@ void ServiceGateway::take_over(ServiceGateway* other) {
     if (make_writer_for(client.get())) clients_[name] = std::move(client);
   }
   other->clients_.clear();
+  controls_ = other->controls_;
   next_id_ = std::max(next_id_, other->next_id_);
   next_session_ = std::max(next_session_, other->next_session_);
   other->stands_by_ = true;
@@ -471,6 +551,7 @@ void ServiceGateway::write_replies(Client* client) {
       if (!write_part(client, message, client->written, client->written + 1 == parts.size(), parts[client->written])) return hold(client, at);
       ++client->written;
       client->held_ns = 0;
+      client->heard_ns = now();
     }
     client->waiting -= message.body.size() + sizeof message;
     client->written = 0;

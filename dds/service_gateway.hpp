@@ -8,6 +8,9 @@
 // A request is passed on when its participant reads the replies in the partition of its client. So with DDS Security, whose permissions say who may read which
 // of these partitions, nobody asks in the name of another.
 //
+// Nobody keeps others out by taking names: places are bounded, and when all are taken the one with the most of them gives one up (places.hpp). With DDS Security that
+// is an identity, else a participant. Who has not shown yet that it reads the replies under its name waits for that in one of a few other places.
+//
 // Of several gateways one has a client: the one whose connection the control lets ask for it. What another one finds to refuse before it knows that, for example
 // because it comes late and to many requests at once, it keeps until then, and forgets it when the client is not its own.
 //
@@ -38,6 +41,8 @@ namespace nc::dds {
 class ServiceGateway {
  public:
   static constexpr std::size_t kClients = 16;
+  static constexpr std::size_t kNewcomers = 16;               // clients without a place: their reader has not been found, or there is no place
+  static constexpr std::int64_t kUndisturbedNs = 1'000'000'000;  // for which a newcomer is not sent away for the next one, unless its participant has more of them
   static constexpr std::size_t kOpen = 8;                   // requests of a client without an answer, as of a local client
   static constexpr std::size_t kMostWaiting = 256 * 1024;   // bytes of replies; above that nothing more is read from the connection of this client
   static constexpr std::int64_t kPatienceNs = 10'000'000'000;
@@ -63,6 +68,8 @@ class ServiceGateway {
   using ParticipantKey = std::array<unsigned char, 16>;
   struct Client {
     std::string name;
+    bool served = false;                            // has a place
+    std::int64_t came_ns = 0, heard_ns = 0;         // heard: when it has asked or read something
     std::array<dds_instance_handle_t, kTopics> instance{};  // on each topic; 0 = it has no writer there
     ParticipantKey participant{};
     std::set<dds_instance_handle_t> writers;
@@ -72,7 +79,7 @@ class ServiceGateway {
     std::uint64_t session = 0;                     // number of the connection
     struct Open {
       std::uint64_t number;  // that the client has given it
-      bool asks_rights;      // the reply is narrowed to what this client may
+      const rt::services::ServiceRow* row;  // null = there is none of this name
     };
     std::map<std::uint64_t, Open> open;            // by the number of the request in the connection
     std::deque<ServiceMessage> replies;
@@ -84,6 +91,11 @@ class ServiceGateway {
   };
   void serve();
   void serve_clients();
+  void admit_newcomers();
+  bool make_place(const Client& newcomer);
+  bool make_room_for_newcomer(const Client& newcomer);
+  std::string owner_of(const Client& client);
+  void give_up(Client* client);
   void wait();
   bool take_request(unsigned topic, dds_sample_info_t* info);
   void take(unsigned topic, const dds_sample_info_t& info);
@@ -129,6 +141,7 @@ class ServiceGateway {
   std::set<std::pair<dds_instance_handle_t, dds_time_t>> taken_;  // requests, by writer and time, that may come here but were taken by the gateway before this one
   std::int64_t next_miss_ns_ = 0;
   std::map<std::string, std::unique_ptr<Client>> clients_;
+  std::string controls_;                   // the last client that has taken control through this gateway and not given it back
   std::vector<std::future<void>> ending_;  // writers of clients that have gone
   std::uint64_t next_id_ = 1, next_session_ = 1;
   std::unique_ptr<nc_ServiceRequest> request_;

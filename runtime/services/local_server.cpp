@@ -19,6 +19,7 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/services/places.hpp"
 #include "runtime/services/system_error.hpp"
 
 namespace nc::rt::services {
@@ -47,6 +48,14 @@ bool answers(const sockaddr_un& address) {
 }
 
 std::int64_t now_ns() { return RealClock().now_ns(); }
+
+// Of a peer, for its place. Who may ask for others is root or the user of ncrtd.
+constexpr unsigned kRankOfOperating = 2, kHighestRank = 3;
+unsigned rank_of(const Session& session) {
+  if (session.may_speak) return kHighestRank;
+  if (session.rights.has(Right::kOperate)) return kRankOfOperating;
+  return session.rights.has(Right::kSetUp) || session.rights.has(Right::kMaintain) ? 1 : 0;
+}
 
 }  // namespace
 
@@ -166,6 +175,34 @@ bool LocalServer::late(const Connection& connection, std::int64_t now) const {
   return frame || reader;
 }
 
+// Whether there is room for one connection more, after one has been closed for it where that must be.
+bool LocalServer::make_room(const Session& session, unsigned rank) {
+  std::vector<Connection*> held;
+  unsigned same = 0, without = 0;
+  for (const auto& connection : connections_) {
+    if (connection->socket < 0) continue;
+    held.push_back(connection.get());
+    same += connection->session->user == session.user;
+    without += connection->rank < kRankOfOperating;
+  }
+  if (same >= kPerUser) return false;
+  const bool of_those_without = rank < kRankOfOperating && without >= kWithoutOperate;
+  if (held.size() < kConnections && !of_those_without) return true;
+  const std::string controls = services_.controlling();
+  std::vector<Place> taken;
+  for (const Connection* connection : held) {
+    const bool kept = connection->rank == kHighestRank || connection->session->client == controls;
+    taken.push_back({std::to_string(connection->session->user), connection->rank, std::max(connection->read_ns, connection->written_ns), kept});
+  }
+  const auto given = place_to_give_up(taken, std::to_string(session.user), rank);
+  if (!given) return false;
+  Connection* last = held[*given];
+  put(last, encode_reply(0, Outcome::refused(Refused::kBusy, "this connection ends: another user needs its place")));
+  send_out(last);
+  close_connection(last);
+  return true;
+}
+
 // Lets in one peer.
 void LocalServer::greet() {
   const int client = accept4(listen_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
@@ -179,17 +216,16 @@ void LocalServer::greet() {
   connection->session = std::make_shared<Session>();
   Session& session = *connection->session;
   std::string why;
-  if (!credentials_of(client, &peer)) why = "the system does not say who you are";
+  if (!witness_(client, &peer)) why = "the system does not say who you are";
   session.number = next_session_++;
   session.user = peer.user;
   session.client = "uid" + std::to_string(peer.user) + "/" + std::to_string(peer.process) + "." + std::to_string(session.number % 1'000'000);
   session.may_speak = peer.user == 0 || peer.user == geteuid();
   if (why.empty()) session.rights = judge_(peer);
   if (why.empty() && session.rights.none()) why = "this user has none of the rights to view, operate, set up and maintain";
-  unsigned same = 0;
-  for (const auto& other : connections_) same += other->session->user == peer.user;
+  connection->rank = rank_of(session);
   Refused refused = Refused::kNoRight;
-  if (why.empty() && (connections_.size() >= kConnections || same >= kPerUser)) {
+  if (why.empty() && !make_room(session, connection->rank)) {
     why = "too many clients";
     refused = Refused::kBusy;
   }

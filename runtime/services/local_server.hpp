@@ -5,6 +5,9 @@
 // requests without an answer, and at most kMostOut bytes of answers that it has not read; above that nothing more is read from it. One that does not read its
 // answers, or does not end a frame that it has begun, is closed after kPatienceNs. A frame that is too long ends the connection. What a client has begun ends
 // with it: control, jogs, uploads.
+//
+// Connections are bounded, and nobody keeps others out by holding them: a user has at most kPerUser, those without the right to operate have at most kWithoutOperate
+// together, and when there is no room a connection is closed that has to make room for the newcomer (places.hpp). Never one of root or the user of ncrtd, nor that of the client with control.
 #pragma once
 
 #include <atomic>
@@ -16,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/rt_thread.hpp"
@@ -34,8 +38,10 @@ class LocalServer {
  public:
   // What rights a peer has.
   using Judge = std::function<RightSet(const Credentials&)>;
+  // Who is at the other end of a socket, as credentials_of().
+  using Witness = std::function<bool(int socket, Credentials* peer)>;
 
-  static constexpr unsigned kConnections = 64, kPerUser = 24, kOutstanding = 8;
+  static constexpr unsigned kConnections = 64, kPerUser = 24, kWithoutOperate = 48, kOutstanding = 8;
   static constexpr std::size_t kMostOut = 1u << 20;
   static constexpr int kMostUnread = 32 * 1024;  // bytes on their way to a client that it has not read; above that it gets no update of a watch list
   static constexpr std::int64_t kPatienceNs = 10'000'000'000;
@@ -47,6 +53,8 @@ class LocalServer {
   LocalServer(const LocalServer&) = delete;
   LocalServer& operator=(const LocalServer&) = delete;
 
+  // Who is asked for the credentials of peers in place of the kernel. Before start().
+  void set_witness(Witness witness) { witness_ = std::move(witness); }
   // Makes the socket. A path at which a living process listens is refused. False with a sentence in *error.
   bool open(const std::string& path, std::string* error);
   // Starts the threads. False with a sentence in *error.
@@ -68,6 +76,7 @@ class LocalServer {
     std::int64_t read_ns = 0, written_ns = 0;  // since when the rest of a frame, or a reader, is waited for
     std::map<std::uint32_t, std::uint64_t> left_out;  // updates of its watch lists that were left out since the last one
     bool closing = false;      // nothing more is read; the connection ends when everything was sent
+    unsigned rank = 0;         // of its peer, when it came (rank_of)
   };
   struct Job {
     std::shared_ptr<Session> session;
@@ -93,6 +102,7 @@ class LocalServer {
 
   void serve();
   void greet();
+  bool make_room(const Session& session, unsigned rank);
   void turn(Connection* connection, short events);
   void receive(Connection* connection);
   void take_frames(Connection* connection);
@@ -118,6 +128,7 @@ class LocalServer {
   Services& services_;
   const std::string control_;
   const Judge judge_;
+  Witness witness_ = credentials_of;
   std::string path_;
   int listen_ = -1, wake_ = -1;
   bool started_ = false;

@@ -67,6 +67,8 @@ class Services {
   std::int64_t next_update_ns() const { return watch_.next_ns(); }
   std::vector<Update> updates(std::int64_t now_ns) { return watch_.updates(now_ns); }
 
+  // The client that has control, "" = nobody. Any thread.
+  std::string controlling() const { return desk_.controlling(); }
   static Outcome outcome_of(const share::Ack& ack);
   // Where commands are written down, and who was refused.
   ActionNotes* notes() { return &notes_; }

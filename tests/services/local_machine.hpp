@@ -14,6 +14,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -174,6 +175,12 @@ class LocalMachine : public testing::Test {
       const std::lock_guard lock(mutex_);
       return rights_;
     });
+    server_->set_witness([this](int socket, rt::services::Credentials* peer) {
+      const std::lock_guard lock(mutex_);
+      const bool known = rt::services::credentials_of(socket, peer);
+      if (user_) peer->user = *user_;
+      return known;
+    });
     ASSERT_TRUE(server_->open(path_, &error)) << error;
     share_->desk()->set_local([this](const rt::share::Ack& ack) { server_->settled(ack); });
     ASSERT_TRUE(runtime_->start(&error)) << error;
@@ -228,6 +235,7 @@ class LocalMachine : public testing::Test {
   std::unique_ptr<rt::services::LocalServer> server_;
   std::mutex mutex_;
   rt::services::RightSet rights_ = rt::services::RightSet::all();
+  std::optional<uid_t> user_;  // clients that connect from now on are this one, and not who runs the test
 };
 
 }  // namespace nc::test
