@@ -141,14 +141,15 @@ void check_point_uses(TableReader* root, const Config& config) {
   uses.reserve(config.point_uses.size());
   for (const PointUse& use : config.point_uses) uses.push_back(&use);
   std::stable_sort(uses.begin(), uses.end(), [](const PointUse* one, const PointUse* other) { return one->role < other->role; });
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    for (std::size_t j = i + 1; j < uses.size(); ++j) {
+  for (std::size_t j = 1; j < uses.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
       const PointUse &one = *uses[i], &other = *uses[j];
       if (one.point != other.point) continue;
       const char* const trouble = trouble_of(config, one, other);
       if (trouble == nullptr) continue;
       root->errors()->add_twice(one.place, other.place,
                                 "point \"" + config.points.at(static_cast<unsigned>(one.point)).name + "\" " + trouble + ": " + words_of(config, one) + ", and " + words_of(config, other));
+      break;  // once for each use is enough
     }
   }
   check_drives_hear(root, config);

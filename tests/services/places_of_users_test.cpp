@@ -76,7 +76,7 @@ TEST_F(PlacesOfUsers, OperatorsKeepNoOperatorOutAndNotRoot) {
     roots.push_back(as(kRoot, {Right::kView, Right::kOperate, Right::kSetUp, Right::kMaintain}));
     ASSERT_EQ(roots.back()->outcome("status"), "");
   }
-  EXPECT_EQ(as(kOperator + 1, {Right::kOperate})->outcome("status"), "");
+  EXPECT_EQ(as(kOperator + 100, {Right::kOperate})->outcome("status"), "");
   EXPECT_EQ(controls->outcome("mode", {{"mode", "manual"}}), "") << "it was silent longer than all others, and has control";
   for (const auto& root : roots) EXPECT_EQ(root->outcome("status"), "");
 }
