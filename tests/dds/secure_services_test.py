@@ -167,7 +167,7 @@ def by_ncctl(plant):
     for right in ("view", "operate", "setup"):
         check("do not have the right to maintain" in ncctl(plant, right, "trace", "record", "nc.ready", "--samples", "10", status=NO_RIGHT), "and is told why")
     ncctl(plant, "view", "jog", "X", "1", "--for", "0.1", status=NO_RIGHT)
-    for words in (("ladder", "write", "M100", "1"), ("force", "M100", "1"), ("release", "M100")):
+    for words in (("ladder", "write", "M100", "1"), ("force", "M100", "1"), ("release", "--device", "M100")):
         ncctl(plant, "maintain", *words)
         check("right to maintain" in ncctl(plant, "operate", *words, status=NO_RIGHT), "who operates has not the right to it")
     check("right to operate" in ncctl(plant, "maintain", "start", status=NO_RIGHT), "who maintains starts nothing, in control or not")
