@@ -25,7 +25,7 @@ constexpr EncodingRow kEncodings[] = {
     {Encoding::kShiftJis, "shift-jis", "CP932"},
 };
 
-const iconv_t kNone = reinterpret_cast<iconv_t>(-1);  // NOLINT(performance-no-int-to-ptr): the value that iconv_open() returns on failure
+const iconv_t kNoConverter = reinterpret_cast<iconv_t>(-1);  // NOLINT(performance-no-int-to-ptr): the value that iconv_open() returns on failure
 
 // Eight characters are looked at together, because nearly all of a program is ASCII.
 std::size_t ascii_length(std::string_view text) {
@@ -88,16 +88,16 @@ void make_valid(char* text, std::size_t size) {
   text[kept.size()] = 0;
 }
 
-Decoder::Decoder(Encoding encoding) : encoding_(encoding), converter_(kNone) {
+Decoder::Decoder(Encoding encoding) : encoding_(encoding), converter_(kNoConverter) {
   for (const EncodingRow& row : kEncodings)
     if (row.encoding == encoding && encoding != Encoding::kUtf8) converter_ = iconv_open("UTF-8", row.charset);
 }
 
 Decoder::~Decoder() {
-  if (converter_ != kNone) iconv_close(converter_);
+  if (converter_ != kNoConverter) iconv_close(converter_);
 }
 
-bool Decoder::usable() const { return encoding_ == Encoding::kUtf8 || converter_ != kNone; }
+bool Decoder::usable() const { return encoding_ == Encoding::kUtf8 || converter_ != kNoConverter; }
 
 std::size_t Decoder::take(std::string_view piece, bool last, std::string* out) {
   std::size_t used = 0;

@@ -23,7 +23,7 @@ namespace nc::rt {
 namespace {
 
 constexpr const char* kPlaceHead = "ncplace 1";
-constexpr const char* kNone = "-";
+constexpr const char* kNoText = "-";
 
 // A name without what would end its line.
 std::string one_line(std::string text) {
@@ -85,7 +85,7 @@ bool read_line(const std::string& line, std::vector<ProgramPlace>* places) {
   if (key == "mirrored") {
     CoordinatesBegun& begun = place.coordinates;
     begun.mirror_known = static_cast<bool>(words >> begun.mirrored) && begun.mirrored.size() <= NC_MAX_AXES;
-    if (begun.mirrored == kNone) begun.mirrored.clear();
+    if (begun.mirrored == kNoText) begun.mirrored.clear();
     return begun.mirror_known;
   }
   if (key == "coordinate") return read_coordinate(&words, &place.coordinates);
@@ -103,11 +103,11 @@ std::string encode_places(const std::vector<ProgramPlace>& places) {
     text << "system " << place.system << "\nprogram " << one_line(place.program) << "\nblock " << place.line << ' ' << place.number << ' '
          << place.depth << ' ' << place.main_line << '\n';
     for (const auto& [axis, value] : place.at) text << "at " << axis << ' ' << number("%.9g", value) << '\n';
-    if (place.restartable) text << "restart " << place.blocks << ' ' << place.size << ' ' << (place.hash.empty() ? kNone : place.hash) << '\n';
+    if (place.restartable) text << "restart " << place.blocks << ' ' << place.size << ' ' << (place.hash.empty() ? kNoText : place.hash) << '\n';
     for (const auto& [axis, value] : place.begun) text << "begun " << axis << ' ' << number("%.17g", value) << '\n';
     if (place.coordinates.known) text << "coordinates " << place.coordinates.polar << '\n';
     for (const CoordinateRow& row : place.coordinates.rows) text << "coordinate " << row.of << ' ' << row.axis << ' ' << number("%.17g", row.value) << '\n';
-    if (place.coordinates.mirror_known) text << "mirrored " << (place.coordinates.mirrored.empty() ? kNone : place.coordinates.mirrored) << '\n';
+    if (place.coordinates.mirror_known) text << "mirrored " << (place.coordinates.mirrored.empty() ? kNoText : place.coordinates.mirrored) << '\n';
     if (!place.cause.empty()) text << "cause " << place.cause << '\n';
   }
   text << "end\n";

@@ -19,9 +19,9 @@ bool is_control(std::string_view character) {
 }  // namespace
 
 const ToolLabel& label_of(const ToolLabels& labels, unsigned tool) {
-  static const ToolLabel kNone;
+  static const ToolLabel kNoLabel;
   const auto found = labels.find(tool);
-  return found == labels.end() ? kNone : found->second;
+  return found == labels.end() ? kNoLabel : found->second;
 }
 
 std::string tool_name_trouble(std::string_view name) {
