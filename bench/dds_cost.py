@@ -101,14 +101,13 @@ def main():
         with open(os.path.join(root, "etc/machine.toml"), encoding="utf-8") as file:
             text = file.read()
         for key, value in {"programs": f'"{folder}/programs"', "socket": f'"{folder}/control.sock"', "changes": f'"{folder}/changes"', "history": f'"{folder}/history"', "policy": '"other"',
-                           "lock_memory": "false"}.items():
+                           "lock_memory": "false", "check": '"off"'}.items():
             text = re.sub(rf"^{key} = (\"[^\"]*\"|\w+)", f"{key} = {value}", text, count=1, flags=re.M)
-        text = text.replace("[services]\n", "[services]\ncheck = \"off\"\n", 1)
         with open(os.path.join(folder, "machine.toml"), "w", encoding="utf-8") as file:
             file.write(text)
         with open(os.path.join(root, "etc/mill.il"), encoding="utf-8") as source, open(os.path.join(folder, "mill.il"), "w", encoding="utf-8") as file:
             file.write(source.read())
-        control = subprocess.Popen([program("ncrtd"), "--machine", os.path.join(folder, "machine.toml"), "serve", "--share", share], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        control = subprocess.Popen([program("ncrtd"), "--machine", os.path.join(folder, "machine.toml"), "serve", "--share", share], stdout=subprocess.DEVNULL)
         gateway = subprocess.Popen([program("ncdds"), "--share", share, "--domain", domain, "--services", os.path.join(folder, "control.sock")], stderr=subprocess.DEVNULL)
         try:
             until = time.monotonic() + 30
