@@ -230,6 +230,7 @@ class Cyclic {
   std::uint64_t serial_ = 0;
   std::uint64_t given_[2] = {};  // serial numbers of the commands that went to the drives after the last SYNC and after the one before
   bool fresh_command_ = false;
+  unsigned late_syncs_ = 0;  // SYNCs in a row without one
   bool bus_off_ = false;
 };
 

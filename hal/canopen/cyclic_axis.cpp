@@ -70,6 +70,7 @@ bool Cyclic::take_wanted(std::int64_t now_ns) noexcept {
   wanted_.take();
   fresh_command_ = wanted_.front().serial != serial_;
   serial_ = wanted_.front().serial;
+  late_syncs_ = fresh_command_ ? 0 : late_syncs_ + 1;
   if (fresh_command_) command_ns_ = now_ns;
   else if (serial_ != 0) statistics_.missed_commands.fetch_add(1, std::memory_order_relaxed);
   return serial_ != 0 && now_ns - command_ns_ <= command_limit_ns_;
@@ -141,10 +142,11 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
 }
 
 // The set-point for this SYNC. When the command of the scan is missing, the axis goes on for one SYNC as in the last one, or with a longer SYNC keeps the last
-// set-point; command_timeout_ms ends that. A jump that the axis can never follow is a fault, and the last set-point stays.
+// set-point. Then it stays: the time of the program stands still while there is no scan, so what the axis went on meanwhile it would have to go back in one SYNC.
+// command_timeout_ms ends that. A jump that the axis can never follow is a fault, and the last set-point stays.
 std::int64_t Cyclic::target_of(Axis* axis, const AxisWanted& wanted) noexcept {
   const std::int64_t last = axis->target[1];
-  if (!fresh_command_) return bus_.sync_us > bus_.cycle_us ? wanted.target : last + (last - axis->target[2]);
+  if (!fresh_command_) return bus_.sync_us > bus_.cycle_us || late_syncs_ > 1 ? last : last + (last - axis->target[2]);
   const double most = (axis->map->max_velocity * kJumpFactor * bus_.sync_us * 1e-6 + kJumpSlack) * std::abs(axis->map->increments_per_unit);
   if (axis->map->max_velocity <= 0 || std::abs(static_cast<double>(wanted.target - last)) <= most) return wanted.target;
   fault(axis, DriveTrouble::kJump);

@@ -245,6 +245,40 @@ TEST(CanFault, AScanThatIsLateByOneCycleIsBridged) {
   EXPECT_EQ(rig.alarms(), "");
 }
 
+// The time of the program stands still while the scan does. So an axis that went on would have to go back by a jump when the scan is there again.
+TEST(CanFault, AScanThatIsLateByManyCyclesSendsNoAxisBack) {
+  for (const char* const mode : {"", "mode = \"velocity\"\nvelocity_delay = 2.0\n"}) {
+    for (const int late : {2, 3, 8, 15}) {
+      SCOPED_TRACE(std::string(mode) + std::to_string(late));
+      CanRig rig(can_toml("", mode));
+      start_moving(&rig);
+      double at = rig.plant_mm(0), least = 0, most = 0;
+      rig.step();
+      const double per_cycle = rig.plant_mm(0) - at;
+      at = rig.plant_mm(0);
+      const auto look = [&] {
+        const double way = rig.plant_mm(0) - at;
+        least = std::min(least, way);
+        most = std::max(most, way);
+        at = rig.plant_mm(0);
+      };
+      const double begin = at;
+      for (int i = 0; i < late; ++i) {
+        rig.bus_step();
+        look();
+      }
+      EXPECT_LE(at - begin, 2.5 * per_cycle) << "what was on its way, and one cycle that is bridged";
+      for (int i = 0; i < 50; ++i) {
+        rig.step();
+        look();
+      }
+      EXPECT_GE(least, -0.002);
+      EXPECT_LE(most, per_cycle * 1.2);
+      EXPECT_EQ(rig.alarms(), "");
+    }
+  }
+}
+
 TEST(CanFault, AResetInMotionIsAnOrderlyStopOnThePath) {
   CanRig rig;
   start_moving(&rig);
