@@ -34,7 +34,7 @@ const char* homing_fault_text(HomingFault fault);
 class AxisHoming {
  public:
   struct Seen {
-    double actual = 0;       // measured, mm or deg
+    double actual = 0;       // measured, mm or deg; what the drive says, with what it got for its screw
     double velocity = 0;     // commanded, mm/s or deg/s
     bool all_stand = false;  // no axis of its part system is commanded to move
     bool readable = true;    // its switches
@@ -58,8 +58,8 @@ class AxisHoming {
   bool active() const noexcept { return phase_ != Phase::kIdle; }
   // It does not know yet where it stands.
   bool searching() const noexcept { return active() && phase_ != Phase::kReturn; }
-  // Motion towards its own limit switch, and standing on it, belongs to the search.
-  bool uses_limit() const noexcept { return active() && config_.kind == HomingKind::kLimit; }
+  // Motion towards its own limit switch, and standing on it, belongs to the search. The way to the reference position does not: an offset may lead through the switch.
+  bool uses_limit() const noexcept { return searching() && config_.kind == HomingKind::kLimit; }
   Wish step(const Seen& seen) noexcept;
 
  private:

@@ -53,6 +53,22 @@ TEST_F(Homing, TheSameMarkIsFoundFromAnywhere) {
   }
 }
 
+// The offset has the wrong sign: the reference position is behind the switch. The search may stand on it, the way to the reference position may not.
+TEST_F(Homing, BehindItsSearchALimitSwitchActsAgain) {
+  build(changed({{"offset = -320.0", "offset = 40.0"}, {"name = \"Y\"\nstands_at = 12.25\nminus = -320.0\nplus = 320.0", "name = \"Y\"\nstands_at = 12.25\nminus = -400.0\nplus = 320.0"}}));
+  manual_mode();
+  ASSERT_EQ(ask(CommandKind::kHome, kY), Answer::kDone);
+  ASSERT_GE(until([&] { return stopped_by_alarm() || (flags().homed >> kY & 1u) != 0; }), 0);
+  EXPECT_EQ(alarm(), "");
+  double furthest = 0;
+  for (int n = 0; n < 3000; ++n) {
+    furthest = std::max(furthest, place(kY));
+    steps(1);
+  }
+  EXPECT_NE(alarm().find("Limit switch in +, axis Y"), std::string::npos) << alarm();
+  EXPECT_LE(furthest, 320 + 150.0 * 150 / (2 * 1500) + 150 * 0.01);
+}
+
 TEST_F(Homing, ADogThatIsShorterThanTheBrakingWayIsFoundOnTheWayBack) {
   build(changed({{"dog = [-310.0, -290.0]", "dog = [-290.2, -290.0]"}}));  // 40 mm/s stop within 0.4 mm
   manual_mode();
