@@ -12,6 +12,7 @@ constexpr double kMostError = 1;       // mm or deg: more is no error of a screw
 constexpr double kSteepest = 0.01;     // of the step: as much faster the drive goes than the axis
 constexpr std::size_t kMostPlaces = 4096;
 constexpr double kSameTurn = 1e-6;     // deg
+constexpr double kSpeedShare = 0.25;   // of max_velocity: so much faster the drive turns where the axis reverses; its motor can do that (docs/connecting-a-machine.md)
 
 // Between two neighbours, and between the last and the first one of a turn.
 bool is_smooth(const ScrewConfig& screw, const std::vector<double>& error) {
@@ -55,6 +56,7 @@ void read_table(TableReader* reader, ScrewConfig* screw) {
 void read_screw(TableReader* reader, const nc_axis_config& axis, ScrewConfig* screw) {
   screw->turns = axis.rotary;
   screw->acceleration = axis.max_acceleration;
+  screw->velocity = kSpeedShare * axis.max_velocity;
   reader->number("backlash", &screw->backlash, 0, kMostError);
   if (reader->find("error") != nullptr) {
     read_table(reader, screw);

@@ -184,6 +184,7 @@ class Scan {
     bool waits_for_homing = false;  // home all has not come to it yet
     bool sets = false;     // its position is set in this scan ...
     double set_by = 0;     // ... by so much
+    double set_screw = 0;  // of that what the drive got for its screw
     bool sets_back = false;  // and that takes back what was counted in a machine lock
     bool locked = false;     // machine lock (scan_lock.cpp)
     double beside = 0;       // what was counted in it: machine position = drive + shift + that
@@ -283,6 +284,7 @@ class Scan {
   void home(unsigned system, unsigned axis) noexcept;
   void set_positions(unsigned system) noexcept;
   void take_positions() noexcept;
+  static void take_mark(AxisWork* axis) noexcept;
   void publish_axes(unsigned system) noexcept;
 
   void follow_locks(unsigned system) noexcept;

@@ -131,8 +131,8 @@ AxisHoming::Seen Scan::homing_sight(unsigned s, unsigned a) const noexcept {
   const HomingConfig& homing = config_.equipment[s][a].homing;
   AxisHoming::Seen seen;
   const auto sees = [this](int point) { return point < 0 || readable(point); };
-  // Without a measuring system an axis is where it is commanded to be.
-  seen.actual = feedback_.system[s].actual_valid ? feedback_.system[s].actual.v[a] : out_[s].command.v[a];
+  // Without a measuring system an axis is where it is commanded to be. A mark is a place of the drive: what is compensated goes by the place that the axis believes in.
+  seen.actual = (feedback_.system[s].actual_valid ? feedback_.system[s].actual.v[a] : out_[s].command.v[a]) + axes_[s][a].screw.value();
   seen.velocity = out_[s].velocity.v[a];
   seen.all_stand = out_[s].distance_zero && out_[s].state == NC_STATE_IDLE;
   seen.readable = sees(homing.dog.point) && sees(homing.index.point) && sees(homing.done);
@@ -173,7 +173,8 @@ void Scan::home(unsigned s, unsigned a) noexcept {
   if (!wish.set) return;
   const HomingConfig& homing = config_.equipment[s][a].homing;
   axis.sets = true;
-  axis.set_by = config_.nc.system[s].axis[a].reference[0] - homing.offset - wish.mark;
+  axis.set_screw = axis.screw.value();
+  axis.set_by = config_.nc.system[s].axis[a].reference[0] - homing.offset - wish.mark + axis.set_screw;
 }
 
 // In the cycle in which they are set, the commands of the other axes stay.
@@ -189,6 +190,13 @@ void Scan::set_positions(unsigned s) noexcept {
   }
 }
 
+// The drive stays where it is: what it got for its screw is a part of its place now, and comes in anew from there.
+void Scan::take_mark(AxisWork* axis) noexcept {
+  axis->shift += axis->set_by - axis->set_screw;
+  axis->drive += axis->set_screw;
+  axis->screw.come_in_anew();
+}
+
 // Behind the cycle of libnc: it has taken them, or it is asked again with the next scan.
 void Scan::take_positions() noexcept {
   for (unsigned s = 0; s < systems_; ++s) {
@@ -196,7 +204,7 @@ void Scan::take_positions() noexcept {
       AxisWork& axis = axes_[s][a];
       if (!axis.sets || std::abs(out_[s].command.v[a] - in_[s].actual.v[a]) > kSame) continue;
       if (axis.sets_back) axis.beside = 0;
-      else axis.shift += axis.set_by;
+      else take_mark(&axis);
       axis.homed |= !axis.sets_back;
       feedback_.system[s].actual.v[a] += axis.set_by;
       last_command_[s].v[a] += axis.set_by;

@@ -11,12 +11,12 @@ namespace nc::rt {
 namespace {
 
 constexpr double kReversal = 1e-5;  // mm or deg: less is the rounding of a command that stands
-constexpr double kComesInS = 0.5;   // the compensation of an axis that has been homed comes in within that
+constexpr double kComesInS = 0.5;   // the compensation of an axis that has been homed comes in within that, where its limits allow it
 constexpr double kFullTurn = 360;   // deg
 
-// From 0 to 1 with neither velocity nor acceleration at both ends. Its largest second derivative is 10/sqrt(3).
+// From 0 to 1 with neither velocity nor acceleration at both ends. Its largest second derivative is 10/sqrt(3), its largest first one 15/8.
 double smooth(double t) { return t * t * t * (10 + t * (6 * t - 15)); }
-constexpr double kSmoothPeak = 5.7735026918962573;
+constexpr double kSmoothPeak = 5.7735026918962573, kSmoothSpeed = 1.875;
 
 }  // namespace
 
@@ -28,7 +28,21 @@ void ScrewCompensation::create(const ScrewConfig& config, double zero, int direc
   zero_error_ = error_at(side_, zero);
   double apart = config.backlash;
   for (std::size_t n = 0; n < config.error[0].size(); ++n) apart = std::max(apart, std::abs(config.error[0][n] - config.error[1][n]));
-  turn_s_ = std::sqrt(kSmoothPeak * apart / config.acceleration);
+  turn_s_ = time_for(apart);
+  comes_in_s_ = std::max(kComesInS, time_for(most_error() + std::abs(zero_error_)));
+}
+
+// So long the drive needs for this way beside the motion of its axis.
+double ScrewCompensation::time_for(double way) const noexcept {
+  const double by_speed = config_->velocity > 0 ? kSmoothSpeed * way / config_->velocity : 0;
+  return std::max(std::sqrt(kSmoothPeak * way / config_->acceleration), by_speed);
+}
+
+double ScrewCompensation::most_error() const noexcept {
+  double most = 0;
+  for (const std::vector<double>& side : config_->error)
+    for (const double error : side) most = std::max(most, std::abs(error));
+  return most + config_->backlash;
 }
 
 // Linear between the places of the table; outside of it what stands at its end. Without a table of its own the way in - has the error of the way in + and the backlash.
@@ -66,7 +80,7 @@ double ScrewCompensation::step(double place, bool known, bool measured, double c
   if (config_ == nullptr) return 0;
   turn_round(place, measured);
   turned_ = turn_s_ > cycle_s ? std::min(1.0, turned_ + cycle_s / turn_s_) : 1;
-  weight_ = std::clamp(weight_ + (known ? 1 : -1) * cycle_s / kComesInS, 0.0, 1.0);
+  weight_ = std::clamp(weight_ + (known ? 1 : -1) * cycle_s / comes_in_s_, 0.0, 1.0);
   const double here = error_at(side_, place);
   const double error = turned_ < 1 ? here + (1 - smooth(turned_)) * (error_at(1 - side_, place) - here) : here;
   return value_ = smooth(weight_) * (zero_error_ - error);

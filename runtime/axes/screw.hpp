@@ -13,6 +13,7 @@ struct ScrewConfig {
   std::vector<double> error[2];       // at these places, on the way in -, in +; empty: none
   double backlash = 0;                // the drive goes so far without the table where the axis reverses, mm or deg
   double acceleration = 0;            // the drive may get so much more where the axis reverses, mm/s^2 or deg/s^2
+  double velocity = 0;                // and so much more speed, mm/s or deg/s; 0: as fast as it accelerates
   bool turns = false;                 // a rotary axis: the table is one turn
 
   bool present() const { return backlash > 0 || !error[1].empty(); }
@@ -27,14 +28,19 @@ class ScrewCompensation {
   // drive and not the other way round, so that its changes say nothing about the side on which the screw lies.
   double step(double place, bool known, bool measured, double cycle_s) noexcept;
   double value() const noexcept { return value_; }
+  // The measuring system was set where the drive stands: what it got is a part of that place.
+  void come_in_anew() noexcept { weight_ = value_ = 0; }
 
  private:
+  double time_for(double way) const noexcept;
+  double most_error() const noexcept;
   double error_at(unsigned side, double place) const noexcept;
   void turn_round(double place, bool measured) noexcept;
 
   const ScrewConfig* config_ = nullptr;
   double zero_error_ = 0;   // the measured error where nothing is compensated
   double turn_s_ = 0;       // the change from one side to the other takes so long
+  double comes_in_s_ = 0;   // and so long until an axis that has been homed has all of it
   unsigned side_ = 1;       // on which the screw lies or goes to lie: 0 -, 1 +
   double turned_ = 1;       // so much of the way from the other side is behind it, 0 to 1
   double weight_ = 0;       // as much of the compensation is in force, 0 to 1: it comes with the knowledge of the place, and not in a step

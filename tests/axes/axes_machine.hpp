@@ -31,7 +31,13 @@ class MeasuredMachine final : public hal::Hal {
   void stop() noexcept override { machine_->stop(); }
 
   hal::SystemCommand last{};
-  double fastest = 0, hardest = 0;
+  double fastest = 0, hardest = 0;  // of all; set back with forget()
+  double fastest_of[NC_MAX_AXES] = {}, hardest_of[NC_MAX_AXES] = {};
+  void forget() {
+    fastest = hardest = 0;
+    std::fill(std::begin(fastest_of), std::end(fastest_of), 0.0);
+    std::fill(std::begin(hardest_of), std::end(hardest_of), 0.0);
+  }
   std::uint64_t moved = 0;  // scans in which a drive was given another place
 
  private:
@@ -41,8 +47,10 @@ class MeasuredMachine final : public hal::Hal {
     const bool on = command.enable && (command.off >> a & 1u) == 0;
     if (!on) return void(known_[a] = 0);
     const double velocity = (command.position.v[a] - at_[a]) / dt;
-    if (known_[a] >= 1) fastest = std::max(fastest, std::abs(velocity) / axis.max_velocity);
-    if (known_[a] >= 2) hardest = std::max(hardest, std::abs(velocity - velocity_[a]) / dt / axis.max_acceleration);
+    if (known_[a] >= 1) fastest_of[a] = std::max(fastest_of[a], std::abs(velocity) / axis.max_velocity);
+    if (known_[a] >= 2) hardest_of[a] = std::max(hardest_of[a], std::abs(velocity - velocity_[a]) / dt / axis.max_acceleration);
+    fastest = std::max(fastest, fastest_of[a]);
+    hardest = std::max(hardest, hardest_of[a]);
     moved += known_[a] >= 1 && velocity != 0;
     at_[a] = command.position.v[a];
     velocity_[a] = velocity;

@@ -120,6 +120,19 @@ TEST_F(ScrewOfX, TheDriveIsGivenNoStep) {
   EXPECT_EQ(alarm(), "");
 }
 
+// A table whose play is large and an acceleration that nobody has: the drive turns no faster than it can.
+TEST_F(ScrewOfX, AReversalKeepsTheSpeedOfTheDrive) {
+  build(changed({{"limit_switches = { minus = \"x_min\"", "screw = { backlash = 1.0, acceleration = 1000000.0 }\nlimit_switches = { minus = \"x_min\""}}));
+  home();
+  measured->forget();
+  load("G21 G90 G94\nG0 X20.\nX-20.\nX20.\nG1 X19. F100\nX20.\nM30\n");
+  ASSERT_EQ(ask(CommandKind::kCycleStart), Answer::kDone);
+  ASSERT_GE(until([&] { return out().state == NC_STATE_RUNNING; }), 0);
+  ASSERT_GE(until([&] { return out().state == NC_STATE_IDLE; }), 0);
+  EXPECT_LE(measured->fastest, 1.25 * 1.001);
+  EXPECT_EQ(alarm(), "");
+}
+
 TEST_F(ScrewOfX, AnotherHomingFindsTheSamePlace) {
   build(with_screw());
   home();
@@ -129,6 +142,38 @@ TEST_F(ScrewOfX, AnotherHomingFindsTheSamePlace) {
     ASSERT_TRUE(let_go(kX));
     home();
     EXPECT_NEAR(off(), zero, 0.0041) << to;
+  }
+}
+
+// The axis believes that it stands elsewhere, with what its table says of that place in its drive. Where it is homed once more nothing is compensated, and its drive stands.
+TEST_F(ScrewOfX, ASecondHomingElsewhereMovesNoDrive) {
+  std::string text = with_screw();
+  for (const auto& [from, to] : {std::pair{"homing = { kind = \"switch\", direction = \"-\", fast = 40.0, creep = 2.0, dog = \"x_dog\", offset = 290.0, order = 2 }", "homing = { kind = \"here\" }"},
+                                 std::pair{"dog = [-310.0, -290.0]\n", ""}}) {
+    ASSERT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), std::string(from).size(), to);
+  }
+  build(text);
+  manual_mode();
+  const auto home_x = [&] {
+    ASSERT_EQ(ask(CommandKind::kHome, kX), Answer::kDone);
+    ASSERT_GE(until([&] { return (flags().homed & 1) != 0 && out().state == NC_STATE_IDLE && out().distance_zero && (flags().homing & 1) == 0; }), 0) << alarm() << refusal();
+    steps(700);
+  };
+  home_x();
+  for (const double way : {60.0, -90.0, 50.0}) {
+    jog(kX, way, 1000);
+    ASSERT_TRUE(let_go(kX));
+    steps(100);
+    const double stood = measured->last.position.v[kX], value = flags().screw[kX];
+    EXPECT_GT(std::abs(value), 1e-4) << way;
+    measured->forget();
+    ASSERT_EQ(ask(CommandKind::kHome, kX), Answer::kDone);
+    ASSERT_GE(until([&] { EXPECT_NEAR(measured->last.position.v[kX], stood, 1e-7); return std::abs(out().command.v[kX]) < 0.1 || HasFailure(); }), 0) << alarm() << refusal();
+    steps(5);
+    EXPECT_LE(measured->hardest, 1.001) << way;
+    home_x();
+    EXPECT_NEAR(out().command.v[kX], 0, 1e-9);
   }
 }
 
