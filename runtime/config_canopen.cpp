@@ -23,6 +23,8 @@ using hal::canopen::NodeMap;
 using hal::canopen::ObjectValue;
 
 constexpr double kMaxIncrements = 2147483647.0;  // the position of a drive is a signed number of 32 bits
+constexpr double kMostUnsigned = 4294967295.0;   // speeds and acceleration of its homing have no sign
+constexpr unsigned kLastPdo = 512;
 constexpr double kMostCanSeconds = 600;
 
 void milliseconds(TableReader* reader, const char* key, unsigned* ms, double least) {
@@ -53,6 +55,18 @@ void read_bus(TableReader* reader, Config* config) {
   bus.completes_functions = config->ladder.program.empty();
 }
 
+// What the drive is told of its homing are whole numbers of its own units, in 32 bits.
+void check_homing_numbers(TableReader* reader, const AxisMap& map) {
+  const double scale = std::abs(map.increments_per_unit);
+  const std::string with = "with " + number_text(scale) + " increments per unit ";
+  for (const auto& [key, value] : {std::pair{"fast", map.homing_fast}, {"slow", map.homing_slow}, {"acceleration", map.homing_acceleration}}) {
+    if (reader->find(key) == nullptr || !(value > 0)) continue;
+    if (value * scale > kMostUnsigned) reader->error(key, with + "is beyond the 32 bits that a drive takes");
+    else if (value * scale < 0.5) reader->error(key, with + "is 0 for the drive, which would not move");
+  }
+  if (std::abs((map.homing_position - map.zero) * scale) > kMaxIncrements) reader->error("position", with + "is beyond the 32 bits of a drive's position");
+}
+
 void read_homing(TableReader* axis, Config* config, AxisMap* map) {
   axis->table("homing", [&](TableReader& reader) {
     for (const char* key : {"method", "fast", "slow", "acceleration", "request", "done"}) reader.require(key);
@@ -62,6 +76,7 @@ void read_homing(TableReader* axis, Config* config, AxisMap* map) {
     reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
     reader.number("position", &map->homing_position, -1e6, 1e6);
     reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
+    check_homing_numbers(&reader, *map);
     read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kDriveHoming, *map, config, &map->homing_request);
     read_drive_point(&reader, "done", hal::PointType::kBit, hal::PointDirection::kInput, PointRole::kDriveHomed, *map, config, &map->homed);
   });
@@ -178,8 +193,8 @@ void read_drive_place(TableReader* reader, const NodeMap& node, AxisMap* map) {
   map->slot = static_cast<unsigned>(node.axes.size());
   reader->integer("slot", &map->slot, 0, 7);
   map->rpdo = map->tpdo = 64 * map->slot + 1;  // default: the numbering that is usual for drives with several axes
-  reader->integer("rpdo", &map->rpdo, 1, 512);
-  reader->integer("tpdo", &map->tpdo, 1, 512);
+  reader->integer("rpdo", &map->rpdo, 1, kLastPdo);
+  reader->integer("tpdo", &map->tpdo, 1, kLastPdo);
   for (const AxisMap& other : node.axes)
     if (other.slot == map->slot) reader->error("slot", (other.spindle ? "" : "axis ") + other.name + " of this drive has it already");
 }
@@ -236,6 +251,21 @@ std::vector<std::string> eds_errors(const std::string& name, const Config& confi
 
 namespace {
 
+// A PDO of the drive carries one axis; the probe of an axis is in the one behind its own.
+void check_pdo_numbers(TableReader* reader, const NodeMap& node) {
+  const auto last = [](const AxisMap& map) { return map.tpdo + (map.has_probe() ? 1 : 0); };
+  for (std::size_t n = 0; n < node.axes.size(); ++n) {
+    const AxisMap& map = node.axes[n];
+    if (last(map) > kLastPdo) reader->error("axis", map.name + " needs TPDO " + std::to_string(last(map)) + " for its probe, and the last one is " + std::to_string(kLastPdo));
+    for (std::size_t before = 0; before < n; ++before) {
+      const AxisMap& other = node.axes[before];
+      const std::string both = other.name + " and " + map.name + " would have ";
+      if (map.rpdo == other.rpdo) reader->error("axis", both + "RPDO " + std::to_string(map.rpdo) + " of this drive: rpdo");
+      if (map.tpdo <= last(other) && other.tpdo <= last(map)) reader->error("axis", both + "TPDO " + std::to_string(std::max(map.tpdo, other.tpdo)) + " of this drive: tpdo");
+    }
+  }
+}
+
 void read_drive(TableReader* reader, Config* config) {
   NodeMap node;
   BusMap& bus = config->canopen;
@@ -257,6 +287,7 @@ void read_drive(TableReader* reader, Config* config) {
   if (numbered && node.id == bus.own_id) reader->error("node", "is the control's own number: canopen.node_id");
   for (const NodeMap& other : bus.nodes)
     if (numbered && other.id == node.id) reader->error("node", (other.module ? "module \"" : "drive \"") + other.name + "\" has this number already");
+  check_pdo_numbers(reader, node);
   unsigned sends = 0;
   for (const AxisMap& axis : node.axes) sends += axis.has_probe() ? 2 : 1;
   if (node.axes.size() > hal::canopen::kMaxAxesPerNode || sends > hal::canopen::kMaxAxesPerNode)

@@ -129,6 +129,29 @@ TEST(CanConfig, WhatIsMissingOrWrongIsNamed) {
   expect_in(only_error(none), "machine: hal = \"canopen\" needs a section [canopen] that names the bus and its drives");
 }
 
+// A drive with 23 bits a turn: what it would be told of its homing does not fit into its objects.
+TEST(CanConfig, WhatADriveIsToldOfItsHomingFitsIntoItsObjects) {
+  const auto with = [](const std::string& encoder, const std::string& homing) {
+    return replaced(replaced(can_toml("", "homing = { method = 1, " + homing + ", request = \"home_x\", done = \"x_homed\" }\n"), "encoder = 10000", "encoder = " + encoder), "gear = [2, 1]", "gear = [1, 1]");
+  };
+  EXPECT_TRUE(errors_of(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 5000.0")).empty());
+  expect_in(only_error(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 6000.0")), "axis[1].homing.acceleration: with 838860.8 increments per unit is beyond the 32 bits that a drive takes");
+  expect_in(only_error(with("8388608", "fast = 6000.0, slow = 5.0, acceleration = 500.0")), "axis[1].homing.fast: with 838860.8");
+  expect_in(only_error(with("8388608", "fast = 50.0, slow = 5.0, acceleration = 500.0, position = 2600.0")), "axis[1].homing.position: with 838860.8 increments per unit is beyond the 32 bits of a drive's position");
+  expect_in(only_error(with("100", "fast = 50.0, slow = 0.01, acceleration = 500.0")), "axis[1].homing.slow: with 10 increments per unit is 0 for the drive, which would not move");
+}
+
+TEST(CanConfig, APdoCarriesOneAxis) {
+  const auto with = [](const std::string& first, const std::string& second) {
+    return replaced(replaced(replaced(can_toml("sync_us = 4000\n", first), "[[point]]", can_axis("A") + "[[point]]"),
+                             "[[canopen.drive]]\nname = \"Y drive\"", "[[canopen.drive.axis]]\nname = \"A\"\nslot = 1\nencoder = 10000\npitch = 10.0\n" + second + "[[canopen.drive]]\nname = \"Y drive\""), "", "");
+  };
+  EXPECT_TRUE(errors_of(with("", "rpdo = 2\ntpdo = 2\n")).empty());
+  expect_in(only_error(with("", "rpdo = 1\n")), "canopen.drive[1].axis: X and A would have RPDO 1 of this drive: rpdo");
+  expect_in(only_error(with("probe = { skip_signal = 1 }\n", "rpdo = 2\ntpdo = 2\n")), "canopen.drive[1].axis: X and A would have TPDO 2 of this drive: tpdo");
+  expect_in(only_error(with("", "tpdo = 512\nprobe = { skip_signal = 1 }\n")), "canopen.drive[1].axis: A needs TPDO 513 for its probe");
+}
+
 TEST(CanConfig, FourAxesOfOneNodeAreAllThatItHasIdentifiersFor) {
   std::string text = can_toml("sync_us = 4000\n", "probe = { skip_signal = 1 }\n");
   for (const char* name : {"A", "B", "C"}) {
