@@ -725,6 +725,32 @@ TEST(ContourCheck, AWayStraightOnIsAsLongAsTheToolIsThick) {
   }
 }
 
+// Half a disc has two blocks, with corners of a right angle: the way in and the way out, at right angles to their own walls, lie on the line of the other one. They lead away from the end of
+// both, and however short they are they cut nothing. The same way the other way round leads back over the disc.
+TEST(ContourCheck, AWayOnTheLineOfTheOtherWallThatEndsThereIsNotStraightOn) {
+  const uint64_t first = wish("NC_FIRST_SEED", 1), count = seeds(200, 20);
+  for (uint64_t seed = first; seed < first + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double turned = number(0, kTurn), radius = number(0.5, 4), disc = radius * number(1.3, 4), in = radius * number(1.02, 1.95), out = radius * number(1.02, 1.95);
+    const bool mirrored = random() % 2 == 0, line_first = random() % 2 == 0;
+    const auto words = [&](const char* h, const char* v, double x, double y) {
+      if (mirrored) x = -x;
+      char text[64];
+      std::snprintf(text, sizeof text, " %s%.4f %s%.4f", h, std::cos(turned) * x - std::sin(turned) * y, v, std::sin(turned) * x + std::cos(turned) * y);
+      return std::string(text);
+    };
+    const auto program = [&](double to) {
+      const std::string round = mirrored ? "G2" : "G3", line = "G1";
+      const std::string begin = line_first ? words("X", "Y", -in, disc) : words("X", "Y", 0, disc + in), end = line_first ? words("X", "Y", 0, disc + to) : words("X", "Y", to, disc);
+      return "G0" + begin + "\n" + line + (mirrored ? " G41 D1" : " G42 D1") + words("X", "Y", 0, disc) + " F1000\n" + (line_first ? line : round) + words("X", "Y", 0, -disc) +
+             (line_first ? "" : words("I", "J", 0, -disc)) + "\n" + (line_first ? round : line) + words("X", "Y", 0, disc) + (line_first ? words("I", "J", 0, disc) : "") + "\n" + line + " G40" + end + "\nM30\n";
+    };
+    EXPECT_EQ(alarm_of_program(program(out), radius, {{"CONTOUR_CHECK", "1"}}), "") << "seed " << seed << "\n" << program(out);
+    EXPECT_EQ(alarm_of_program(program(-out), radius, {{"CONTOUR_CHECK", "1"}}), "P153") << "seed " << seed << "\n" << program(-out);
+  }
+}
+
 TEST(ContourCheck, TheSentenceNamesTheLineOfAWayStraightOn) {
   Bench bench;
   bench.tool(1, 8).param("CONTOUR_CHECK", "1");

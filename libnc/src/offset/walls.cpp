@@ -137,9 +137,9 @@ bool leads_straight_on(Vec2 far, const Piece& wall, Vec2 end) {
 bool cuts_end(const WayPast& way, const Piece& wall, Vec2 end) {
   const Vec2 beside = way.comes ? way.path.to : way.path.from, far = (way.comes ? way.path.from : way.path.to) - end;
   const double amount = std::min(way.amount, norm(beside - end)), least = amount - way.margin;
-  if (norm(far) < least) return true;  // the tool stands in the wall's end there, whichever way it has come
-  if (leads_straight_on(far, wall, end)) return norm(far) < kStraightRadii * amount - way.margin;
-  return std::min({to_inside(way.path, end), norm(way.path.from - end), norm(way.path.to - end)}) < least;
+  if (std::min({to_inside(way.path, end), norm(way.path.from - end), norm(way.path.to - end)}) >= least) return false;
+  // Straight on it is the manual's own way. But one that leads away from the end of another wall, along the line of this one, cuts nothing of it and is no such way.
+  return !leads_straight_on(far, wall, end) || norm(far) < kStraightRadii * amount - way.margin;
 }
 
 /// How far its points may lie beside the arc of its mean radius.
