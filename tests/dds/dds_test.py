@@ -5,7 +5,6 @@
 The first half makes a virtual environment in build/ and starts the second half in it. Exit status 77 = skipped: no Python
 packages can be had here, or the programs are not built.
 """
-import fcntl
 import inspect
 import json
 import mmap
@@ -18,40 +17,10 @@ import sys
 import tempfile
 import time
 
-SKIPPED = 77
-BINDING = "cyclonedds==11.0.1"
-root = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-build = os.environ.get("NC_BINARY_DIR") or os.path.join(root, "build/release")
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from dds_environment import PATIENCE, build, check, root, start, until  # noqa: E402
 
-
-def skip(text):
-    print("skipped:", text)
-    sys.exit(SKIPPED)
-
-
-def environment():
-    """The Python of a virtual environment that has the binding."""
-    folder = os.path.join(root, "build", "venv-dds")
-    python = os.path.join(folder, "bin", "python")
-    os.makedirs(os.path.dirname(folder), exist_ok=True)
-    with open(folder + ".lock", "w", encoding="ascii") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if os.path.exists(python) and subprocess.run([python, "-c", "import cyclonedds"], capture_output=True).returncode == 0:
-            return python
-        for command in ([sys.executable, "-m", "venv", "--clear", folder], [python, "-m", "pip", "install", "-q", "--retries", "1", "--timeout", "20", BINDING]):
-            done = subprocess.run(command, capture_output=True, text=True)
-            if done.returncode != 0:
-                skip(f"{' '.join(command[1:4])}: {(done.stderr or done.stdout).strip()[-300:]}")
-    return python
-
-
-if __name__ == "__main__" and os.environ.get("NC_DDS_INSIDE") is None:
-    for program in ("ncrtd", "ncdds", "ncmon"):
-        if not os.path.exists(os.path.join(build, "bin", program)):
-            skip(f"{program} is not built")
-    if "thread" in os.environ.get("NC_SANITIZE", ""):
-        skip("Cyclone DDS is not built for the thread sanitizer")
-    sys.exit(subprocess.run([environment(), os.path.abspath(__file__)], env={**os.environ, "NC_DDS_INSIDE": "1"}).returncode)
+start(__file__, ("ncrtd", "ncdds", "ncmon"))
 
 # ---- inside the environment ----
 
@@ -68,7 +37,6 @@ from cyclonedds.topic import Topic  # noqa: E402
 from cyclonedds.util import duration  # noqa: E402
 from dataclasses import dataclass  # noqa: E402
 
-PATIENCE = 30.0  # s for anything to come; only a failure takes so long
 MACHINE = """
 [machine]
 name = "Test"
@@ -108,24 +76,6 @@ program = "own.il"
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nLD M100\nOUT plc.alarm.1\nEND\n"
 PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
 BAD = "G90 G54\nG1 X10. F1000 G150\nM30\n"
-
-
-def check(condition, text):
-    if not condition:
-        raise AssertionError(text)
-    print("ok:", text, flush=True)
-
-
-def until(function, text, patience=PATIENCE):
-    """Calls a function until its result is true; returns that result."""
-    end = time.monotonic() + patience
-    while True:
-        if answer := function():
-            print("ok:", text, flush=True)
-            return answer
-        if time.monotonic() > end:
-            raise AssertionError(f"not within {patience} s: {text}")
-        time.sleep(0.02)
 
 
 class Plant:

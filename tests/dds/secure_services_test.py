@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The services over a secured DDS: who may use the topic of which right, in whose name, and what a renewal of the gateway's keys leaves as it was.
 
-Peers are secure_peer.c with Debian's plug-ins of DDS Security. Exit status 77 = skipped: as secure_test.py, from which the processes are.
+Peers are secure_peer.c with Debian's plug-ins of DDS Security. Exit status 77 = skipped: see secured_plant.py.
 """
 import base64
 import hashlib
@@ -11,11 +11,10 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from secure_test import PATIENCE, SILENCE, SKIPPED, Peer, Plant, Process, check, check_time, plugins_or_reason, program, until  # noqa: E402
+from dds_environment import PATIENCE, check, until
+from secured_plant import SILENCE, Peer, Plant, Process, check_time, program, run
 
 MACHINE = """
 [machine]
@@ -41,6 +40,7 @@ program = "own.il"
 """
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD M100\nOUT M101\nEND\n"
 TOPICS = ["nc_ServiceView", "nc_ServiceOperate", "nc_ServiceSetUp", "nc_ServiceMaintain"]
+PROGRAMS = ("ncrtd", "ncdds", "ncctl", "nc-keys", "secure_peer")
 RIGHTS = ["view", "operate", "setup", "maintain"]
 DONE, REFUSED, UPDATE = 0, 1, 2  # ServiceStatus
 # A request that needs the right of each topic, and does something.
@@ -302,43 +302,27 @@ def ends(plant, viewer, boss, gateway):
     until(lambda: viewer.call("nc_ServiceView", "rights")["control"] == "", "and has it no more when he is revoked")
 
 
-def main():
-    plugins, reason = plugins_or_reason(("ncrtd", "ncdds", "ncctl", "nc-keys", "secure_peer"))
-    if not plugins:
-        print("skipped:", reason)
-        return SKIPPED
-    with tempfile.TemporaryDirectory() as folder:
-        plant = ServicePlant(folder, plugins)
-        try:
-            plant.make("init")
-            plant.make("identity", "gateway", "--gateway", "--machine", plant.share)
-            for right in RIGHTS:
-                plant.make("identity", right, "--right", right, "--machine", plant.share)
-            plant.make("identity", "boss", "--right", "operate,setup,maintain")
-            for name in ("revoked", "guest"):
-                plant.make("identity", name, "--right", "operate")
-            plant.make("revoke", "revoked")
-            plant.control()
-            gateway = plant.gateway(plant.identity("gateway"))
-            gateway.wait_for("publishes .*takes commands", "the secured gateway publishes")
-            walk(plant)
-            by_ncctl(plant)
-            viewer = Client(plant, plant.identity("view"), "view@watches")
-            viewer.heard("nc_ServiceView", "a viewer")
-            boss = hostile(plant, viewer)
-            renewal(plant, viewer, boss, gateway)
-            ends(plant, viewer, boss, gateway)
-            check(viewer.leave() == 0 and gateway.end() == 0, "a peer and the gateway end in order")
-        except AssertionError as error:
-            print("FAILED:", error)
-            for process in Process.all:
-                print(process.log, *process.last(12), sep="\n  ")
-            return 1
-        finally:
-            for process in Process.all:
-                process.end()
-    return 0
+def secured_services(plant):
+    plant.make("init")
+    plant.make("identity", "gateway", "--gateway", "--machine", plant.share)
+    for right in RIGHTS:
+        plant.make("identity", right, "--right", right, "--machine", plant.share)
+    plant.make("identity", "boss", "--right", "operate,setup,maintain")
+    for name in ("revoked", "guest"):
+        plant.make("identity", name, "--right", "operate")
+    plant.make("revoke", "revoked")
+    plant.control()
+    gateway = plant.gateway(plant.identity("gateway"))
+    gateway.wait_for("publishes .*takes commands", "the secured gateway publishes")
+    walk(plant)
+    by_ncctl(plant)
+    viewer = Client(plant, plant.identity("view"), "view@watches")
+    viewer.heard("nc_ServiceView", "a viewer")
+    boss = hostile(plant, viewer)
+    renewal(plant, viewer, boss, gateway)
+    ends(plant, viewer, boss, gateway)
+    check(viewer.leave() == 0 and gateway.end() == 0, "a peer and the gateway end in order")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run(secured_services, PROGRAMS, ServicePlant))

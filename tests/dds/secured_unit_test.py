@@ -4,8 +4,8 @@
 ncdds does with the options of the drop-in, while clients are served and its keys are renewed, is what the sandbox of the unit lets it do.
 
 The gateway runs under strace, and each of its calls is held against the directives: system calls, families of sockets, addresses, files that are written, memory that can be
-written and executed, namespaces, real-time priorities. The interface is lo in place of that of the drop-in, so multicast is not tried. Exit status 77 = skipped: as
-secure_test.py, or strace or systemd-analyze is not there or may not be used.
+written and executed, namespaces, real-time priorities. The interface is lo in place of that of the drop-in, so multicast is not tried. Exit status 77 = skipped: see
+secured_plant.py, or strace or systemd-analyze is not there or may not be used.
 """
 import ipaddress
 import os
@@ -14,11 +14,10 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from secure_services_test import ServicePlant, ncctl  # noqa: E402
-from secure_test import SKIPPED, Process, check, plugins_or_reason, program, root, until  # noqa: E402
+from dds_environment import check, root, skip, until
+from secure_services_test import PROGRAMS, ServicePlant, ncctl
+from secured_plant import Process, program, run
 
 UNITS = os.path.join(root, "packaging", "systemd")
 # MemoryDenyWriteExecute= forbids the first three, RestrictNamespaces= the fourth, RestrictRealtime= the fifth, LockPersonality= the last one.
@@ -158,33 +157,23 @@ def may_trace():
     return subprocess.run(["strace", "-qq", "-o", "/dev/null", "true"], capture_output=True).returncode == 0
 
 
+def secured_unit(plant):
+    verify(os.path.join(plant.folder, "units"))
+    directives = Directives(os.path.join(UNITS, "ncdds.service"), os.path.join(UNITS, "ncdds-secured.conf"))
+    plant.make("init")
+    plant.make("identity", "gateway", "--gateway", "--machine", plant.share)
+    plant.make("identity", "boss", "--right", "operate,setup,maintain")
+    plant.control()
+    wrong, seen = within_sandbox(serve(plant, directives), directives)
+    check(seen["calls"] > 1000 and seen["sockets"] > 3 and seen["addresses"] > 100, f"{seen['calls']} calls, {seen['sockets']} sockets, {seen['addresses']} addresses that something is sent to")
+    check(not wrong, f"nothing that the unit forbids: {len(wrong)} calls\n" + "\n".join(sorted(set(wrong))[:20]))
+
+
 def main():
-    plugins, reason = plugins_or_reason(("ncrtd", "ncdds", "ncctl", "nc-keys", "secure_peer"))
     missing = [tool for tool in ("systemd-analyze", "strace", "pgrep") if shutil.which(tool) is None]
-    if not plugins or missing or not may_trace() or os.environ.get("NC_SANITIZE"):
-        print("skipped:", reason if not plugins else f"{missing[0]} is not here" if missing else "a process may not be traced here, or is built with a sanitizer, which makes calls of its own")
-        return SKIPPED
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            verify(os.path.join(folder, "units"))
-            directives = Directives(os.path.join(UNITS, "ncdds.service"), os.path.join(UNITS, "ncdds-secured.conf"))
-            plant = ServicePlant(folder, plugins)
-            plant.make("init")
-            plant.make("identity", "gateway", "--gateway", "--machine", plant.share)
-            plant.make("identity", "boss", "--right", "operate,setup,maintain")
-            plant.control()
-            wrong, seen = within_sandbox(serve(plant, directives), directives)
-            check(seen["calls"] > 1000 and seen["sockets"] > 3 and seen["addresses"] > 100, f"{seen['calls']} calls, {seen['sockets']} sockets, {seen['addresses']} addresses that something is sent to")
-            check(not wrong, f"nothing that the unit forbids: {len(wrong)} calls\n" + "\n".join(sorted(set(wrong))[:20]))
-        except AssertionError as error:
-            print("FAILED:", error)
-            for process in Process.all:
-                print(process.log, *process.last(12), sep="\n  ")
-            return 1
-        finally:
-            for process in Process.all:
-                process.end()
-    return 0
+    if missing or not may_trace() or os.environ.get("NC_SANITIZE"):
+        skip(f"{missing[0]} is not here" if missing else "a process may not be traced here, or is built with a sanitizer, which makes calls of its own")
+    return run(secured_unit, PROGRAMS, ServicePlant)
 
 
 if __name__ == "__main__":
