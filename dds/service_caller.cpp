@@ -49,10 +49,16 @@ bool ServiceCaller::open(const Access& access, const std::string& control, const
   return false;
 }
 
-// A writer that a gateway hears.
-ServiceCaller::Result ServiceCaller::writer_of(rt::services::Right right, dds_entity_t* writer, std::string* error) {
+// The writer on the topic of a right, or why there is none.
+dds_entity_t ServiceCaller::made_writer(rt::services::Right right, std::string* error) {
   dds_entity_t& made = writers_[static_cast<unsigned>(right)];
   if (made <= 0) made = make_writer(participant_.get(), topic_for(right), control_, 1, error);
+  return made;
+}
+
+// A writer that a gateway hears.
+ServiceCaller::Result ServiceCaller::writer_of(rt::services::Right right, dds_entity_t* writer, std::string* error) {
+  const dds_entity_t made = made_writer(right, error);
   if (made <= 0) return made == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY ? Result::kNotAllowed : Result::kNobody;
   *writer = made;
   for (const std::int64_t end = now() + kFindNs; now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(5))) {

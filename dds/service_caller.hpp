@@ -25,6 +25,8 @@ class ServiceCaller {
 
   // `control`: name of the control. `client`: that of this client, which no other one has. False with a sentence in *error.
   bool open(const Access& access, const std::string& control, const std::string& client, std::string* error);
+  // False when the permissions of DDS Security do not let this identity ask on the topic of the right, with a sentence in *error.
+  bool may_ask(rt::services::Right right, std::string* error) { return made_writer(right, error) != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY; }
   // Asks on the topic of the right, with the arguments as JSON, and waits for the reply. Without one *error has a sentence.
   Result call(rt::services::Right right, const std::string& service, const std::string& args, ServiceReplyText* reply, std::string* error);
   // Waits for the next update of a watch list.
@@ -36,6 +38,7 @@ class ServiceCaller {
     std::uint32_t count = 0;
     std::string text;
   };
+  dds_entity_t made_writer(rt::services::Right right, std::string* error);
   Result writer_of(rt::services::Right right, dds_entity_t* writer, std::string* error);
   void take();
   void add_part(const nc_ServiceReply& sample, dds_instance_handle_t writer);

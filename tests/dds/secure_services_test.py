@@ -166,7 +166,8 @@ def by_ncctl(plant):
         check([line.rstrip().split(",") for line in file] == rows, "a viewer reads the same recording afterwards")
     for right in ("view", "operate", "setup"):
         check("do not have the right to maintain" in ncctl(plant, right, "trace", "record", "nc.ready", "--samples", "10", status=NO_RIGHT), "and is told why")
-    ncctl(plant, "view", "jog", "X", "1", "--for", "0.1", status=NO_RIGHT)
+    for words, right in ((("jog", "X", "1", "--for", "0.1"), "operate"), (("start",), "operate"), (("force", "M100", "1"), "maintain")):
+        check(f"the right to {right}\n" in ncctl(plant, "view", *words, status=NO_RIGHT), "and is told which right that needs, and not what control needs")
     for words in (("ladder", "write", "M100", "1"), ("force", "M100", "1"), ("release", "--device", "M100")):
         ncctl(plant, "maintain", *words)
         check("right to maintain" in ncctl(plant, "operate", *words, status=NO_RIGHT), "who operates has not the right to it")

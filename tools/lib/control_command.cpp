@@ -28,6 +28,7 @@ namespace nc::tools {
 namespace {
 
 using rt::services::Lane;
+using rt::services::Service;
 using rt::services::ServiceRow;
 using Clock = std::chrono::steady_clock;
 
@@ -120,9 +121,10 @@ class Command {
     ServiceRefusal refusal;
     return client_->call(service, args, reply, &refusal) || failed(refusal) == 0;
   }
-  bool take_control() {
+  // For a service. Who lacks the right to it asks for it without control, so that the control tells him what the service needs, which is not what control needs.
+  bool take_control(Service service) {
     Json reply;
-    return call("control.take", Json::object(), &reply);
+    return !client_->may_use(rt::services::row_of(service)) || call("control.take", Json::object(), &reply);
   }
 
   // False when the output cannot be written, which is no success of the command.
@@ -134,7 +136,7 @@ class Command {
   // A command needs control, which ends with this connection. A hold does not: it is taken from everyone.
   int service() {
     const ServiceRow& row = *rt::services::find_service(command_.service);
-    if (row.lane == Lane::kCommand && row.service != rt::services::Service::kHold && !take_control()) return status_;
+    if (row.lane == Lane::kCommand && row.service != Service::kHold && !take_control(row.service)) return status_;
     Json whole;
     Json args = command_.args;
     for (;;) {
@@ -161,7 +163,7 @@ class Command {
   }
 
   int watch() {
-    const ServiceRow& row = rt::services::row_of(rt::services::Service::kStatus);
+    const ServiceRow& row = rt::services::row_of(Service::kStatus);
     const auto begin = Clock::now();
     for (std::uint64_t line = 0; rt::end_signal() == 0; ++line) {
       Json reply;
@@ -203,7 +205,7 @@ class Command {
 
   // The axis stops at the end, after a signal, and when this process is killed: a jog that is not repeated ends.
   int jog() {
-    if (!take_control()) return status_;
+    if (!take_control(Service::kJog)) return status_;
     const auto end = Clock::now() + std::chrono::duration<double>(command_.seconds);
     Json reply;
     while (rt::end_signal() == 0 && Clock::now() < end) {
@@ -212,12 +214,12 @@ class Command {
     }
     Json stop = command_.args;
     stop["velocity"] = 0;
-    return call("jog", stop, &reply) ? 0 : status_;
+    return call("jog", stop, &reply) && print(rt::services::row_of(Service::kJog), reply) ? 0 : status_;
   }
 
   // Until the axis is there, a signal, or a refusal. When this process is killed the axis stops, as a jog does.
   int approach() {
-    if (!take_control()) return status_;
+    if (!take_control(Service::kRestartApproach)) return status_;
     Json system = Json::object(), reply;
     if (command_.args.contains("system")) system["system"] = command_.args["system"];
     bool away = true;
@@ -233,16 +235,17 @@ class Command {
     stop["axis"] = command_.args["axis"];
     stop["velocity"] = 0;
     if (!call("jog", stop, &reply)) return status_;
-    return away ? failed(kControlFailed, "the axis was stopped before it was there") : 0;
+    if (away) return failed(kControlFailed, "the axis was stopped before it was there");
+    return print(rt::services::row_of(Service::kRestartApproach), reply) ? 0 : status_;
   }
 
   int mdi() {
     Json reply;
-    if (!take_control() || !call("mdi", command_.args, &reply)) return status_;
+    if (!take_control(Service::kMdi) || !call("mdi", command_.args, &reply)) return status_;
     Json system = Json::object();
     if (command_.args.contains("system")) system["system"] = command_.args["system"];
     if (command_.start && !call("start", system, &reply)) return status_;
-    return print(rt::services::row_of(rt::services::Service::kMdi), reply) ? 0 : status_;
+    return print(rt::services::row_of(Service::kMdi), reply) ? 0 : status_;
   }
 
   // ---- programs ----
@@ -297,7 +300,7 @@ class Command {
       (void)call("programs.abandon", {{"upload", upload}}, &reply);  // when this is refused, the end of the connection drops it
       return failed(kControlFailed, command_.file + ": was not sent");
     }
-    return call("programs.finish", {{"upload", upload}}, &reply) ? 0 : status_;
+    return call("programs.finish", {{"upload", upload}}, &reply) && print(rt::services::row_of(Service::kProgramFinish), reply) ? 0 : status_;
   }
 
   int get() {
@@ -375,7 +378,7 @@ class Command {
     if (!read_text(rt::services::kMostLadder, &text)) return status_;
     args["program"] = std::move(text);
     if (!call("ladder.swap", args, &reply)) return status_;
-    return print(rt::services::row_of(rt::services::Service::kLadderSwap), reply) ? 0 : status_;
+    return print(rt::services::row_of(Service::kLadderSwap), reply) ? 0 : status_;
   }
 
   // Records, waits for the end, and writes what there is. A signal ends the recording, and not only the waiting for it.

@@ -58,10 +58,12 @@ class LocalClient : public ServiceClient {
   bool open(const std::string& path, ServiceRefusal* refusal);
   bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) override;
   bool next_update(Json* update, ServiceRefusal* refusal) override;
+  bool may_use(const rt::services::ServiceRow& row) override { return row.allows(rights_); }
 
  private:
   bool receive(Json* message, ServiceRefusal* refusal);
   int socket_ = -1;
+  rt::services::RightSet rights_;  // as the greeting names them; they stay until the connection ends
   std::uint64_t next_id_ = 1;
   rt::services::FrameReader in_;
 };
@@ -108,6 +110,8 @@ bool LocalClient::open(const std::string& path, ServiceRefusal* refusal) {
     *refusal = no_connection(path + ": it speaks another protocol");
     return false;
   }
+  for (const Json& name : greeting.value("rights", Json::array()))
+    if (const auto right = name.is_string() ? rt::services::find_right(name.get_ref<const std::string&>()) : std::nullopt) rights_.add(*right);
   if (greeting.value("ok", false)) return true;
   *refusal = refusal_of(greeting);
   return false;

@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace nc::rt::services {
+struct ServiceRow;
+}
+
 namespace nc::tools {
 
 using Json = nlohmann::json;
@@ -40,6 +44,8 @@ class ServiceClient {
   virtual bool call(const std::string& service, const Json& args, Json* reply, ServiceRefusal* refusal) = 0;
   /** Waits for the next update of a watch list, at most 30 s. On failure `refusal` says why. */
   virtual bool next_update(Json* update, ServiceRefusal* refusal) = 0;
+  /** False when this client is known to lack the right to a service, which the control then refuses. */
+  virtual bool may_use(const rt::services::ServiceRow& row) = 0;
 };
 
 /** Connects to the socket and reads the greeting; null with the reason in *refusal. */

@@ -44,6 +44,10 @@ class RemoteClient : public ServiceClient {
     *refusal = no_connection(error);
     return false;
   }
+  bool may_use(const rt::services::ServiceRow& row) override {
+    std::string error;
+    return caller_.may_ask(row.right, &error) || (row.or_right && caller_.may_ask(*row.or_right, &error));
+  }
 
  private:
   static bool read(const dds::ServiceReplyText& text, Json* reply, ServiceRefusal* refusal) {
