@@ -175,6 +175,10 @@ bool is_program_name(std::string_view name) {
 
 // Parses without exceptions, and refuses a key that stands twice in one object: of two values nobody knows which one is meant.
 bool read_json(std::string_view text, Json* out, std::string* why) {
+  if (text.find('\0') != std::string_view::npos) {  // the parser would take it for the end of the text
+    *why = "is no JSON: it has a NUL";
+    return false;
+  }
   std::vector<std::vector<std::string>> keys;
   bool deep = false, twice = false;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {

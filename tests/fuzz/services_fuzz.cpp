@@ -40,6 +40,7 @@ void read_frame(const std::string& frame) {
   Outcome outcome;
   if (decode_call(frame, &call, &outcome)) {
     require_taken(call);
+    require(frame.find('\0') == std::string::npos);  // what stands behind it would not be read
     return;
   }
   require(!outcome.ok && !outcome.text.empty());

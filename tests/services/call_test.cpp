@@ -80,6 +80,19 @@ TEST(ServiceCall, WhatIsWrongIsNamed) {
   }
 }
 
+// A NUL is no end: what stands behind it would be neither read nor refused.
+TEST(ServiceCall, NothingIsHiddenBehindANul) {
+  const std::string good = R"({"id": 1, "service": "status"})";
+  ASSERT_TRUE(decode(good).good);
+  for (const std::string& behind : {std::string(1, '\0'), std::string("\0x", 2), std::string(" \0", 2), std::string("\0{\"id\": 2}", 10)}) {
+    const Decoded result = decode(good + behind);
+    EXPECT_FALSE(result.good);
+    EXPECT_EQ(result.outcome.why, Refused::kMalformed);
+    EXPECT_EQ(result.outcome.text, "the request is no JSON: it has a NUL");
+  }
+  EXPECT_FALSE(decode(std::string("{\"id\": 1, \0\"service\": \"status\"}", 30)).good);
+}
+
 TEST(ServiceCall, NamesOfProgramsStayInTheirFolder) {
   for (const char* good : {"part.nc", "O1000", "Fräser 2.nc", "a..b", "日本.nc"}) EXPECT_TRUE(is_program_name(good)) << good;
   for (const char* bad : {"", ".", "..", ".hidden", "/etc/passwd", "a/b", "..\\x", "a\nb", "a\x7f", "M\xfcller.nc", "\x83\x8f.nc"}) EXPECT_FALSE(is_program_name(bad)) << bad;
