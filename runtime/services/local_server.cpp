@@ -354,6 +354,8 @@ void LocalServer::put(Connection* connection, const std::string& text) {
 
 // An update is left out, as a whole, while the client has not read what it has got before: so what it gets is fresh, and nobody waits for it.
 void LocalServer::give_update(Connection* connection, const Answer& update) {
+  send_out(connection);  // a reply, or the update of another list, that has come just now is nothing that the client does not read
+  if (connection->socket < 0) return;
   std::uint64_t& left_out = connection->left_out[update.watch];
   int unread = 0;
   if (connection->sent < connection->out.size() || (ioctl(connection->socket, SIOCOUTQ, &unread) == 0 && unread > kMostUnread)) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -311,6 +312,22 @@ TEST_F(LadderServices, WatchListsAreBounded) {
 }
 
 // A client that does not read gets no update until it has read, then the next one, which says how many there were in between. None is torn, and nobody else feels it.
+// All lists of a client are due at the same ticks, and what one of them has just got is not what the client has not read.
+TEST_F(LadderServices, EachListOfAClientHasItsUpdates) {
+  ServiceClient client(path_);
+  for (unsigned n = 0; n < WatchDesk::kLists; ++n) ASSERT_TRUE(client.ask(n + 1, "watch.begin", {{"devices", {"D" + std::to_string(n)}}, {"interval_ms", 20}}));
+  std::map<unsigned, unsigned> updates;
+  unsigned left_out = 0;
+  while (updates[1] < 50) {
+    const Json message = client.receive();
+    if (message.contains("id")) continue;
+    ++updates[message["watch"].get<unsigned>()];
+    left_out += message["left_out"].get<unsigned>();
+  }
+  for (unsigned n = 2; n <= WatchDesk::kLists; ++n) EXPECT_GT(updates[n], 40u) << "list " << n;
+  EXPECT_LT(left_out, 80u) << "of 400";
+}
+
 TEST_F(LadderServices, ASlowReaderLosesWholeUpdatesAndOthersNone) {
   std::vector<std::string> names = {"D0"};
   for (unsigned n = 1; n < kMostWatched; ++n) names.push_back("D" + std::to_string(100 + n));
