@@ -385,12 +385,7 @@ void LocalServer::close_connection(Connection* connection) {
   close(connection->socket);
   connection->socket = -1;
   connection->session->open = false;
-  for (const Lane lane : {Lane::kCommand, Lane::kData}) {
-    Job job;
-    job.session = connection->session;
-    job.gone = true;
-    post(lane, std::move(job));
-  }
+  for (const Lane lane : {Lane::kCommand, Lane::kData}) end_session(connection->session, lane);
   const std::lock_guard lock(mutex_);
   std::erase_if(waiting_, [&](const auto& entry) { return entry.first.first == connection->session->number; });
 }
@@ -423,8 +418,23 @@ void LocalServer::post(Lane lane, Job job) {
   {
     const std::lock_guard lock(worker.mutex);
     worker.jobs.push_back(std::move(job));
+    most_queued_.store(std::max(most_queued_.load(), worker.jobs.size()));
   }
   worker.wake.notify_one();
+}
+
+// What a client has asked and has not had its turn yet is dropped; what it has begun ends. So whoever comes and goes leaves nothing in a queue that does not go on.
+void LocalServer::end_session(const std::shared_ptr<Session>& session, Lane lane) {
+  Worker& worker = lane == Lane::kCommand ? command_ : data_;
+  {
+    const std::lock_guard lock(worker.mutex);
+    std::erase_if(worker.jobs, [&](const Job& job) { return job.session->number == session->number && !job.denied; });
+    if (worker.begun.erase(session->number) == 0) return;
+  }
+  Job job;
+  job.session = session;
+  job.gone = true;
+  post(lane, std::move(job));
 }
 
 void LocalServer::work(Worker* worker, Lane lane) {
@@ -446,6 +456,7 @@ void LocalServer::work(Worker* worker, Lane lane) {
       if (worker->jobs.empty()) return;  // it stops only when everything was executed, so that uploads are removed
       job = std::move(worker->jobs.front());
       worker->jobs.pop_front();
+      if (!job.gone && !job.denied) worker->begun.insert(job.session->number);
     }
     execute(job, lane);
   }

@@ -18,6 +18,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +63,8 @@ class LocalServer {
   void stop();
   // The most bytes that have waited for one client since the start. Any thread.
   std::size_t most_waiting() const { return most_waiting_.load(); }
+  // The most jobs that have waited for a thread since the start. Any thread.
+  std::size_t most_queued() const { return most_queued_.load(); }
   // The commands of local clients that were answered later. Any thread.
   void settled(const share::Ack& ack);
 
@@ -86,12 +89,13 @@ class LocalServer {
     bool denied = false;  // it had not the right; `more` refusals to its user before this one were not written down
     unsigned more = 0;
   };
-  // A thread with a queue. It is bounded, because each connection has a bounded number of requests.
+  // A thread with a queue. It is bounded, because each connection has a bounded number of requests, which are dropped at its end.
   struct Worker {
     RtThread thread;
     std::mutex mutex;
     std::condition_variable wake;
     std::deque<Job> jobs;
+    std::set<std::uint64_t> begun;  // sessions of which something was executed, so that it has to be told when they are gone
     bool stop = false;
   };
   struct Answer {
@@ -122,6 +126,7 @@ class LocalServer {
   void execute_command(const Job& job);
   void answer(std::uint64_t session, std::uint64_t id, const Outcome& outcome);
   void post(Lane lane, Job job);
+  void end_session(const std::shared_ptr<Session>& session, Lane lane);
   void post_updates();
   void wake_up();
 
@@ -141,7 +146,7 @@ class LocalServer {
     unsigned more = 0;
   };
   std::map<uid_t, Denied> denied_;  // who was refused, so that nobody fills the history by it
-  std::atomic<std::size_t> most_waiting_{0};
+  std::atomic<std::size_t> most_waiting_{0}, most_queued_{0};
   bool full_ = false;  // no descriptors are left: nobody is let in for a while
 
   std::mutex mutex_;  // guards what follows

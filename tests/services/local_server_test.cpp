@@ -357,6 +357,21 @@ TEST_F(LocalServices, ManyRequestsAtOnceAreAllAnswered) {
   EXPECT_EQ(answered.size(), 200u);
 }
 
+// While the thread of the data waits (here for a scan that does not run), whoever comes, asks and goes leaves nothing behind in its queue.
+TEST_F(LocalServices, WhoComesAndGoesFillsNoQueue) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("trace.arm", {{"signals", {"nc.feed"}}, {"trigger", "nc.feed"}, {"level", 1000000}}), "");
+  runtime_->stop();
+  for (unsigned n = 1; n <= 4; ++n) ASSERT_TRUE(client.ask(n, "trace.stop"));
+  for (unsigned n = 0; n < 2000; ++n) {
+    ServiceClient other(path_);
+    if (n % 2 == 0) other.ask(1, "tools.list");
+  }
+  give({});
+  for (unsigned n = 0; n < 1000; ++n) ServiceClient none(path_);
+  EXPECT_LT(server_->most_queued(), std::size_t{LocalServer::kConnections} * LocalServer::kOutstanding);
+}
+
 TEST_F(LocalServices, OneUserCannotTakeAllPlaces) {
   std::vector<std::unique_ptr<ServiceClient>> clients;
   for (unsigned i = 0; i < LocalServer::kPerUser; ++i) {
