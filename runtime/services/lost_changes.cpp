@@ -2,6 +2,7 @@
 // See lost_changes.hpp.
 #include "runtime/services/lost_changes.hpp"
 
+#include <algorithm>
 #include <map>
 #include <vector>
 
@@ -33,15 +34,24 @@ void mark_history(const History& history, std::string now) {
   }
 }
 
-// Undos that nothing has followed on the same values. What was done behind another one has counted on it.
-void forget_lost_undos(std::deque<Change>* changes, const std::map<std::string, History>& histories) {
-  for (const Change& undo : *changes) {
-    if (undo.undoes == 0 || !is_lost(undo)) continue;
-    bool last = true;
-    for (const ValueChange& value : undo.values) last = last && histories.at(place_key(value.place)).back() == &value;
-    for (Change& change : *changes)
-      if (last && change.undone_by == undo.number) change.undone_by = 0;
-  }
+// Whether nothing that is in force has followed on the same value. What was done behind a change has counted on it.
+bool is_last_in_force(const History& history, const ValueChange* value) {
+  for (std::size_t i = history.size(); i-- > 0 && history[i] != value;)
+    if (!history[i]->lost) return false;
+  return true;
+}
+
+// What an undo has taken back is there again where the undo is lost; where it is not, it stays taken back, and is no part of the change any more.
+void forget_lost_undo(const Change& undo, Change* undone, const std::map<std::string, History>& histories) {
+  const auto is_there_again = [&](const ValueChange& value) {
+    if (value.lost) return false;
+    for (const ValueChange& back : undo.values)
+      if (place_key(back.place) == place_key(value.place)) return back.lost && is_last_in_force(histories.at(place_key(back.place)), &back);
+    return false;
+  };
+  if (std::none_of(undone->values.begin(), undone->values.end(), is_there_again)) return;
+  undone->undone_by = 0;
+  for (ValueChange& value : undone->values) value.lost = !is_there_again(value);
 }
 
 }  // namespace
@@ -54,7 +64,9 @@ void mark_lost(std::deque<Change>* changes, const ValueOf& value_of) {
     std::string now;
     if (value_of(history.back()->place, &now)) mark_history(history, std::move(now));
   }
-  forget_lost_undos(changes, histories);
+  for (const Change& undo : *changes)
+    for (Change& change : *changes)
+      if (undo.undoes == change.number && change.undone_by == undo.number) forget_lost_undo(undo, &change, histories);
 }
 
 }  // namespace nc::rt::services

@@ -19,7 +19,7 @@ struct Change;
 // The value that a place has now. False when it cannot be read.
 using ValueOf = std::function<bool(const TablePlace& place, std::string* value)>;
 
-// Marks what is lost of these changes, the oldest of which comes first. A change that a lost one has taken back is not taken back any more. To be called at the start of
+// Marks what is lost of these changes, the oldest of which comes first. What a lost one has taken back is not taken back any more. To be called at the start of
 // ncrtd, before anything changes a table.
 void mark_lost(std::deque<Change>* changes, const ValueOf& value_of);
 

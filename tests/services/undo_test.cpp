@@ -2,8 +2,11 @@
 // Changes of tables are taken back: by whom, when it is refused, and behind a restart.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <string>
 
 #include "services/local_machine.hpp"
 
@@ -219,6 +222,89 @@ TEST_F(LostChanges, AnUndoThatIsLostIsDoneAgain) {
   EXPECT_EQ(newest(&client)["what"], "undo of 2: tool 3 length");
   EXPECT_EQ(client.outcome("undo"), "");
   EXPECT_EQ(length(&client, 3), 0);
+}
+
+TEST_F(LostChanges, AnUndoIsDoneAgainThatIsLostWithWhatCameBehindIt) {
+  for (const int length : {10, 20}) ASSERT_EQ(ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", length}}), "");
+  keep({"offsets"});
+  ASSERT_EQ(ServiceClient(path_).outcome("undo"), "");
+  ASSERT_EQ(ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 30}}), "");
+  cut_the_power();
+  ServiceClient client(path_);
+  ASSERT_EQ(length(&client, 3), 20);
+  EXPECT_EQ(client.call("undo")["reply"]["text"], "undo of 2: tool 3 length; lost before the last start, and so left out: 4 (tool 3 length)");
+  EXPECT_EQ(length(&client, 3), 10);
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(length(&client, 3), 0);
+}
+
+// Of an undo that has two files one was written in time: the other half of what it has taken back is taken back then.
+TEST_F(LostChanges, TheHalfOfAnUndoThatIsLostIsDoneAgain) {
+  ASSERT_EQ(ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 10}, {"pocket", 4}}), "");
+  ASSERT_EQ(ServiceClient(path_).outcome("tools.set", {{"number", 3}, {"length", 20}, {"pocket", 7}}), "");
+  keep({"offsets.tools"});
+  ASSERT_EQ(ServiceClient(path_).outcome("undo"), "");
+  cut_the_power();
+  ServiceClient client(path_);
+  const auto tool = [&] { return client.call("tools.list", {{"from", 3}, {"count", 1}})["reply"]["tools"][0]; };
+  ASSERT_EQ(tool()["length"], 10);
+  ASSERT_EQ(tool()["pocket"], 7);
+  EXPECT_EQ(client.call("undo")["reply"]["text"], "undo of 2: tool 3 pocket");
+  EXPECT_EQ(tool()["pocket"], 4);
+  EXPECT_EQ(tool()["length"], 10);
+  EXPECT_EQ(client.outcome("undo"), "");
+  EXPECT_EQ(tool()["length"], 0);
+  EXPECT_EQ(tool()["pocket"], 0);
+  EXPECT_EQ(client.outcome("undo"), "not found");
+}
+
+// Whatever was changed and taken back, and whatever a power cut has left of the files: undo after undo leads to what was there at the beginning.
+TEST_F(LostChanges, UndoLeadsToTheBeginningBehindAnyCut) {
+  const char* of_environment = std::getenv("NC_SEEDS");
+  const unsigned seeds = of_environment == nullptr ? 12 : static_cast<unsigned>(std::atoi(of_environment));
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto any = [&](unsigned least, unsigned most) { return least + random() % (most - least + 1); };
+    const auto change = [&](unsigned count) {
+      ServiceClient client(path_);
+      for (unsigned n = 0; n < count; ++n) {
+        const unsigned what = any(0, 5), number = any(1, 3);
+        if (what < 2) client.call("tools.set", {{"number", number}, {"length", any(1, 1000)}, {"pocket", 3 * any(1, 3000) + number}});
+        else if (what == 2) client.call("tools.set", {{"number", number}, {"length", any(1, 1000)}});
+        else if (what == 3) client.call("variables.set", {{"number", 500 + number}, {"value", any(1, 1000)}});
+        else client.call("undo");
+      }
+    };
+    change(any(1, 12));
+    ServiceClient(path_).call("variables.set", {{"number", 510}, {"value", seed}});  // so that each of the files is there
+    ServiceClient(path_).call("tools.set", {{"number", 5}, {"length", seed}, {"pocket", 9990}});
+    switch (any(0, 3)) {
+      case 0: keep({"offsets"}); break;
+      case 1: keep({"offsets.tools"}); break;
+      case 2: keep({"offsets", "variables"}); break;
+      default: keep({"offsets", "offsets.tools", "variables"}); break;
+    }
+    change(any(1, 12));
+    cut_the_power();
+    ServiceClient client(path_);
+    std::string outcome;
+    while (outcome.empty()) {
+      const Json reply = client.call("undo");
+      outcome = reply.value("error", "");
+      EXPECT_NE(outcome, "refused") << reply << "\n" << client.call("changes")["reply"].dump(1);
+    }
+    for (unsigned number = 1; number <= 3; ++number) {
+      const Json tool = client.call("tools.list", {{"from", number}, {"count", 1}})["reply"]["tools"][0];
+      EXPECT_EQ(tool["length"], 0) << tool;
+      EXPECT_EQ(tool["pocket"], 0) << tool;
+      EXPECT_TRUE(variable(&client, 500 + number).is_null());
+    }
+    client.leave();
+    stop();
+    for (const char* file : {"changes", "offsets", "offsets.old", "offsets.tools", "offsets.tools.old", "variables", "variables.old"}) std::filesystem::remove(folder_ + "/" + file);
+    start();
+  }
 }
 
 // Values of one change stand in two files, of which one was written in time.
