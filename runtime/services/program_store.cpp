@@ -39,6 +39,7 @@ bool read_digest(const std::string& text, std::string* digest) {
 Outcome failed(const std::string& what) {
   const int code = errno;
   if (code == ENOSPC || code == EDQUOT) return Outcome::refused(Refused::kNoSpace, what + ": the disk is full");
+  if (code == ELOOP) return Outcome::refused(Refused::kNotFound, what + ": is a link, and no program");
   if (code == ENOENT) return Outcome::refused(Refused::kNotFound, what + ": there is no such program");
   return Outcome::refused(Refused::kFailed, what + ": " + std::strerror(code));
 }

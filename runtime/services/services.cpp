@@ -385,6 +385,15 @@ Outcome Services::removed(const Call& call) {
   return outcome;
 }
 
+// A machine runs the text that was selected, until something is selected again: who has put another one in its place is told so.
+void Services::warn_of_selected(const std::string& name, Outcome* outcome) const {
+  const ProgramStore::Use now = use({});
+  if (std::find(now.selected.begin(), now.selected.end(), name) == now.selected.end()) return;
+  std::string text = outcome->reply.value("text", "");
+  text += (text.empty() ? "" : "; ") + name + " is selected: a start does not know of this change before a program is selected again";
+  outcome->reply["text"] = std::move(text);
+}
+
 Outcome Services::list_programs(const Call& call) const {
   Outcome outcome = store_.list(call);
   if (outcome.ok)
@@ -395,8 +404,9 @@ Outcome Services::list_programs(const Call& call) const {
 
 Outcome Services::program(const Session& session, const Call& call) {
   Change done;
-  const auto noted = [&](Outcome outcome) {
+  const auto noted = [&](Outcome outcome, const std::string& name) {
     if (outcome.ok) note(session, call, done, &outcome);
+    if (outcome.ok) warn_of_selected(name, &outcome);
     return outcome;
   };
   done.what = "program " + call.words(Field::kFile);
@@ -416,16 +426,16 @@ Outcome Services::program(const Session& session, const Call& call) {
         checks_->arrived(name);
         look_at_heads();
       }
-      return noted(outcome);
+      return noted(outcome, name);
     }
     case Service::kProgramRename:
       done.before = call.words(Field::kFile);
       done.after = call.words(Field::kNewName);
-      return noted(renamed(call));
-    case Service::kProgramDelete: return noted(removed(call));
+      return noted(renamed(call), done.before);
+    case Service::kProgramDelete: return noted(removed(call), call.words(Field::kFile));
     case Service::kProgramProtect:
       done.after = call.flag(Field::kOn) ? "protected" : "not protected";
-      return noted(store_.protect(call));
+      return noted(store_.protect(call), "");
     default: return Outcome::refused(Refused::kUnknownService, "there is no such service");
   }
 }

@@ -83,6 +83,7 @@ class Services {
   Outcome renamed(const Call& call);
   Outcome removed(const Call& call);
   Outcome list_changes(const Call& call);
+  void warn_of_selected(const std::string& name, Outcome* outcome) const;
   Outcome list_programs(const Call& call) const;
   Outcome program(const Session& session, const Call& call);
   void note(const Session& session, const Call& call, Change change, Outcome* outcome);

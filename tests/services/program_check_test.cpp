@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "runtime/services/sha256.hpp"
 #include "services/local_machine.hpp"
 
 namespace nc::test {
@@ -191,6 +192,33 @@ TEST_F(ProgramCheckServices, TheRunningCopyIsNotTheOneOfTheFile) {
   EXPECT_EQ(client.call("programs.recheck", {{"name", "part.nc"}})["ok"], true);
   EXPECT_EQ(checked(&client, "part.nc")["state"], "refused");
   EXPECT_EQ(start(&client), "") << "what was selected has passed";
+}
+
+// Who has changed a program that is selected is told that a start goes on with the text of before.
+TEST_F(ProgramCheckServices, AChangeOfASelectedProgramSaysThatItIsSelected) {
+  ServiceClient client(path_);
+  take_control(&client);
+  const auto text = [&](const char* service, const Json& args) {
+    const Json reply = client.call(service, args);
+    EXPECT_EQ(reply["ok"], true) << reply;
+    return reply["reply"].value("text", "?");
+  };
+  const auto empty = [&](const std::string& name) {
+    const Json begun = client.call("programs.begin", {{"name", name}, {"size", 0}, {"sha256", rt::services::Sha256().finish()}, {"replace", true}});
+    return text("programs.finish", {{"upload", begun["reply"]["upload"]}});
+  };
+  const std::string warning = "part.nc is selected: a start does not know of this change before a program is selected again";
+  ASSERT_EQ(put(&client, "part.nc", "G0 X1.\nM30\n"), "");
+  EXPECT_EQ(empty("part.nc"), "") << "nothing is selected";
+  ASSERT_EQ(put(&client, "part.nc", "G0 X1.\nM30\n", true), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "part.nc"}}), "");
+  EXPECT_EQ(empty("part.nc"), warning);
+  EXPECT_EQ(empty("other.nc"), "");
+  EXPECT_EQ(text("programs.protect", {{"name", "part.nc"}, {"on", false}}), "");
+  EXPECT_EQ(text("programs.rename", {{"name", "part.nc"}, {"new_name", "next.nc"}}), warning);
+  EXPECT_EQ(text("programs.rename", {{"name", "next.nc"}, {"new_name", "part.nc"}}), "");
+  EXPECT_EQ(text("programs.delete", {{"name", "part.nc"}}), warning);
+  ASSERT_EQ(start(&client), "") << "it has passed";
 }
 
 TEST_F(ProgramCheckServices, FollowsCallsIntoTheStore) {
