@@ -62,7 +62,7 @@ void Recorder::add(Entry entry) {
 void Recorder::work() {
   {
     const std::lock_guard lock(mutex_);
-    (void)open_store();
+    open_first();
   }
   for (unsigned look = 1;; ++look) {
     const bool last = stop_;
@@ -290,6 +290,11 @@ bool Recorder::open_store() {
   return true;
 }
 
+// Whoever comes first, the thread that writes or a client, opens the file: what is in it belongs to every answer.
+void Recorder::open_first() {
+  if (!opened_ && trouble_.empty()) (void)open_store();
+}
+
 // Writes what waits, and the counters when it is their time.
 void Recorder::write(bool last) {
   const std::int64_t now = RealClock().now_ns();
@@ -356,6 +361,7 @@ bool Recorder::programs(std::uint64_t from, unsigned count, std::vector<ProgramT
 bool Recorder::counters(std::vector<Counter>* counters, std::string* error) {
   std::unique_lock lock(mutex_, std::defer_lock);
   if (!lock_soon(&lock, error)) return false;
+  open_first();
   *counters = count();
   return true;
 }

@@ -77,6 +77,7 @@ class Recorder {
   void put(Entry* entry);
   void write(bool last);
   bool open_store();
+  void open_first();
   bool trouble(const std::string& why);
   std::vector<Counter> count() const;
   bool working();

@@ -33,6 +33,26 @@ class MachineHistory : public LocalMachine {
   }
 };
 
+// A client may ask before the thread that writes has opened the file.
+TEST_F(MachineHistory, CountsOverAllStartsFromTheFirstRequestOn) {
+  write_program("good.nc", "G4 X.3\nM30\n");
+  {
+    ServiceClient client(path_);
+    run_program(&client, "good.nc");
+  }
+  history_->stop();
+  Recorder next(runtime_.get(), programs_.get(), config_.history_path(), StoreLimits{}, [](const std::string& what) { ADD_FAILURE() << what; });
+  std::vector<Counter> counters;
+  std::string error;
+  ASSERT_TRUE(next.counters(&counters, &error)) << error;
+  double running = 0;
+  for (const Counter& counter : counters)
+    if (counter.name == "running") running = counter.value;
+  EXPECT_GE(running, 0.3);
+  ASSERT_TRUE(next.start(&error)) << error;
+  next.stop();
+}
+
 TEST_F(MachineHistory, RemembersRunsAlarmsAndWhoHasDoneWhatBehindARestart) {
   const std::string me = services::user_name(geteuid());
   write_program("good.nc", "G0 X1.\nG4 X.3\nM30\n");
