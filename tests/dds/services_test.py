@@ -324,6 +324,30 @@ def crowd(plant, anna):
     check(outcome(anna, "status") == ("", "") and anna.session == session, "nor do they take a place")
 
 
+EACH_WITH_ONE = """
+all = [me]
+while len(all) < 20:
+    one = nc_dds.Services(DomainParticipant({domain}), {share!r}, f"kurt-{{len(all)}}", 3.0)
+    try:
+        one.call("status")
+    except nc_dds.ServiceRefused:
+        break
+    all.append(one)
+"""
+
+
+def no_users(plant, anna):
+    """What docs/security.md says of DDS without security: one user with as many participants as there are places keeps others out, but nobody who has a place or is on the socket."""
+    process = child(plant, "kurt", EACH_WITH_ONE.format(domain=plant.domain, share=plant.share))
+    ludwig = plant.client("ludwig", 3.0)
+    check(outcome(ludwig, "status")[0] == "no connection", "with all places taken a newcomer gets no answer")
+    check(outcome(anna, "status") == ("", ""), "who has a place keeps it")
+    done = subprocess.run([os.path.join(build, "bin/ncctl"), "--socket", plant.socket, "status"], capture_output=True, text=True)
+    check(done.returncode == 0, "and the socket has places of its own")
+    process.kill()
+    until(lambda: outcome(ludwig, "status") == ("", ""), "when they are gone the newcomer is answered")
+
+
 def restarted(plant, anna, gateway, control):
     """The gateway, then the control, is killed and comes back."""
     session = anna.session
@@ -481,6 +505,7 @@ def main():
             vanished(plant, anna)
             slow_reader(plant, anna)
             crowd(plant, anna)
+            no_users(plant, anna)
             traces(plant, anna)
             second_gateway(plant, anna, gateway)
             gateway, control = restarted(plant, anna, gateway, control)
