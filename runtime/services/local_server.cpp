@@ -30,6 +30,9 @@ constexpr int kLookMs = 500;                // interval at which clients that do
 constexpr std::size_t kReadBytes = 65536;
 constexpr std::size_t kMostDenied = 1000;     // users whose refusals are counted
 
+// What makes the machine safer counts although its client has gone.
+bool stops(const Call& call) { return call.row != nullptr && (call.row->service == Service::kHold || call.row->service == Service::kReset); }
+
 bool address_of(const std::string& path, sockaddr_un* address) {
   *address = {};
   address->sun_family = AF_UNIX;
@@ -424,12 +427,19 @@ void LocalServer::post(Lane lane, Job job) {
 }
 
 // What a client has asked and has not had its turn yet is dropped; what it has begun ends. So whoever comes and goes leaves nothing in a queue that does not go on.
+// A hold or a reset counts although its client has gone; of those that wait one of a kind is enough, which bounds them as well.
 void LocalServer::end_session(const std::shared_ptr<Session>& session, Lane lane) {
   Worker& worker = lane == Lane::kCommand ? command_ : data_;
+  bool wanted = false;
   {
     const std::lock_guard lock(worker.mutex);
-    std::erase_if(worker.jobs, [&](const Job& job) { return job.session->number == session->number && !job.denied; });
-    if (worker.begun.erase(session->number) == 0) return;
+    std::set<std::pair<Service, double>> waiting;  // stops of clients that have gone, and their part system
+    std::erase_if(worker.jobs, [&](const Job& job) {
+      if (job.gone || job.denied || job.session->open) return false;
+      return !stops(job.call) || !waiting.emplace(job.call.row->service, job.call.value_or(Field::kSystem, 0)).second;
+    });
+    wanted = std::any_of(worker.jobs.begin(), worker.jobs.end(), [&](const Job& job) { return job.session->number == session->number && !job.denied; });
+    if (worker.begun.erase(session->number) == 0 && !wanted) return;
   }
   Job job;
   job.session = session;
@@ -456,7 +466,8 @@ void LocalServer::work(Worker* worker, Lane lane) {
       if (worker->jobs.empty()) return;  // it stops only when everything was executed, so that uploads are removed
       job = std::move(worker->jobs.front());
       worker->jobs.pop_front();
-      if (!job.gone && !job.denied) worker->begun.insert(job.session->number);
+      if (job.gone) worker->begun.erase(job.session->number);
+      else if (!job.denied) worker->begun.insert(job.session->number);
     }
     execute(job, lane);
   }
@@ -475,7 +486,7 @@ void LocalServer::post_updates() {
 void LocalServer::execute(const Job& job, Lane lane) {
   if (job.gone) return lane == Lane::kCommand ? services_.command_gone(*job.session) : services_.data_gone(*job.session);
   if (job.denied) return services_.notes()->denied(job.session->user, job.session->behalf, job.session->client, job.call.row == nullptr ? "" : job.call.row->name, job.more);
-  if (!job.session->open) return;  // its client has gone before its turn came
+  if (!job.session->open && !stops(job.call)) return;  // its client has gone before its turn came
   if (lane == Lane::kCommand) return execute_command(job);
   answer(job.session->number, job.call.id, services_.data(*job.session, job.call));
 }

@@ -372,6 +372,25 @@ TEST_F(LocalServices, WhoComesAndGoesFillsNoQueue) {
   EXPECT_LT(server_->most_queued(), std::size_t{LocalServer::kConnections} * LocalServer::kOutstanding);
 }
 
+// A script that sends a hold and goes at once has stopped the machine, although the commands of others came before it.
+TEST_F(LocalServices, AHoldCountsAlthoughItsClientHasGone) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "mdi"}}), "");
+  ASSERT_EQ(client.outcome("mdi", {{"blocks", "G91 G1 X100. F1."}}), "");
+  for (unsigned n = 0; n < 50; ++n) {
+    ASSERT_EQ(client.outcome("start"), "") << n;
+    for (unsigned id = 1; id <= 16; ++id) ASSERT_TRUE(client.ask(id, "override.feed", {{"percent", 100}}));
+    {
+      ServiceClient other(path_);
+      ASSERT_TRUE(other.ask(1, "hold"));
+    }
+    for (unsigned id = 1; id <= 16; ++id) client.receive();
+    until(&client, "status", [](const Json& now) { return now["systems"][0]["state"] == "hold"; });
+    ASSERT_FALSE(HasFailure()) << n;
+  }
+}
+
 TEST_F(LocalServices, OneUserCannotTakeAllPlaces) {
   std::vector<std::unique_ptr<ServiceClient>> clients;
   for (unsigned i = 0; i < LocalServer::kPerUser; ++i) {
