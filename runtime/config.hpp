@@ -111,6 +111,7 @@ struct SpindleFeedback {
   By by = By::kSimulation;
   Sign sign = Sign::kAsPoint;
   bool given = false;       // the file names the feedback; else read_spindle_feedback() chooses it
+  ConfigPlace given_place;  // where it stands; else what makes the spindle one that is not simulated
   int point = -1;           // word input that gives the speed
   double rpm_per_count = 1;
   ConfigPlace place;        // where the name of the point stands
@@ -149,6 +150,7 @@ struct PointBusConfig {
   std::string name;
   std::string device;     // what is at its other end, for the alarm of its loss: "chip pinctrl-bcm2711", "192.168.1.20 port 502", "node 10"
   unsigned ok_point = 0;  // the input point "<name>.ok"
+  ConfigPlace named_at;   // where its name stands
   bool alarm = false;     // the loss of this bus is alarm R18
 };
 inline constexpr std::size_t kMaxPointBuses = 32;  // the scan keeps a bit for each in a word; each has a thread of its own
@@ -258,6 +260,7 @@ struct Config {
   std::vector<CanIoConfig> can_io;
   LadderConfig ladder;
   PowerConfig power;
+  ConfigPlace stop_s_place;  // where power.stop_s stands; else the section, or the line of the input
   std::vector<HandwheelConfig> handwheels;
   std::vector<JoystickConfig> joysticks;
   std::string place;           // file of the places in the programs when the power failed, relative like `print`; empty = see place_path()
@@ -309,6 +312,8 @@ std::vector<std::string> spindle_warnings(const Config& config);
 
 // What the configuration promises of a failing supply and cannot keep, each as a sentence with its line.
 std::vector<std::string> power_warnings(const Config& config);
+// A sentence of nc_parameter_note_row() about this part system, with the line of the parameter that it speaks of.
+std::string parameter_note_text(const Config& config, unsigned system, std::string_view note);
 
 // Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);

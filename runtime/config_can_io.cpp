@@ -27,7 +27,7 @@ bool valid_module_name(const std::string& name) {
 void add_module(TableReader* reader, NodeMap node, CanIoConfig entry, PointBusConfig bus, Config* config) {
   if (!valid_module_name(node.name)) return reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
   for (const PointBusConfig& other : config->buses)
-    if (other.name == node.name) return reader->error("name", "a bus \"" + node.name + "\" is already there");
+    if (other.name == node.name) return reader->errors()->add_twice({reader->line("name"), reader->path("name")}, other.named_at, "a bus \"" + node.name + "\" is already there");
   for (const NodeMap& other : config->canopen.nodes)
     if (other.id == node.id) return reader->error("node", "module \"" + other.name + "\" has this number already");
   if (config->can_io.size() == hal::canopen::kMaxModules) return reader->error("name", "there can be " + std::to_string(hal::canopen::kMaxModules) + " modules");
@@ -41,6 +41,7 @@ void add_module(TableReader* reader, NodeMap node, CanIoConfig entry, PointBusCo
   bus.name = entry.name = node.name;
   bus.device = "node " + std::to_string(node.id);
   bus.place = config->can_io.size();
+  bus.named_at = {reader->line("name"), reader->path("name")};
   entry.node = config->canopen.nodes.size();
   config->canopen.nodes.push_back(std::move(node));
   config->buses.push_back(std::move(bus));

@@ -86,7 +86,7 @@ void read_bank(TableReader* reader, Config* config) {
   if (!named) return;
   if (!valid_bank_name(bank.name)) return reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
   for (const PointBusConfig& other : config->buses)
-    if (other.name == bank.name) return reader->error("name", "a bus \"" + bank.name + "\" is already there");
+    if (other.name == bank.name) return reader->errors()->add_twice(entry.place, other.named_at, "a bus \"" + bank.name + "\" is already there");
   for (const GpioBankConfig& other : config->gpio)
     if (has_chip && other.bank.chip == bank.chip) return reader->error("chip", "\"" + bank.chip + "\" is the chip of \"" + other.bank.name + "\" already: its lines are one bank");
   if (config->buses.size() == kMaxPointBuses) return reader->error("name", "there are more than " + std::to_string(kMaxPointBuses) + " buses");
@@ -99,6 +99,7 @@ void read_bank(TableReader* reader, Config* config) {
   bus.name = bank.name;
   bus.device = "chip " + bank.chip;
   bus.place = config->gpio.size();
+  bus.named_at = entry.place;
   config->buses.push_back(std::move(bus));
   config->gpio.push_back(std::move(entry));
 }

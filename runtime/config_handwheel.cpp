@@ -6,19 +6,31 @@
 namespace nc::rt {
 namespace {
 
-// Why this input can never choose: it would choose another axis of the wheel, or two wheels on the axis, at the same time. "" = it can.
-std::string chosen_twice(const Config& config, const HandwheelConfig& wheel, unsigned system, unsigned axis, int point) {
-  const std::string input = "\"" + config.points.at(static_cast<unsigned>(point)).name + "\"";
-  for (const HandwheelConfig::Choice& other : wheel.axes)
-    if (other.point == point) return input + " chooses another axis of this wheel, too: neither would ever turn";
-  for (std::size_t n = 0; n < config.handwheels.size(); ++n)
-    for (const HandwheelConfig::Choice& other : config.handwheels[n].axes)
-      if (other.point == point && other.system == system && other.axis == axis)
-        return input + " chooses this axis for handwheel[" + std::to_string(n + 1) + "], too: it would be turned by neither";
-  return "";
+// An entry of `axes` of some wheel, with its place in the file.
+struct ChosenAxis {
+  HandwheelConfig::Choice choice;
+  std::size_t wheel = 0;  // from 0
+  ConfigPlace place;
+};
+
+// True where this one can never choose, which is told with the lines of both: its axis stands under its other name already ("X" and "X1"), or its input would choose another
+// axis of the wheel, or two wheels on the axis, at the same time.
+bool chosen_twice(const Config& config, const std::vector<ChosenAxis>& others, const ChosenAxis& one, ErrorList* errors) {
+  const std::string input = "\"" + config.points.at(static_cast<unsigned>(one.choice.point)).name + "\"";
+  for (const ChosenAxis& other : others) {
+    const bool same_axis = other.choice.system == one.choice.system && other.choice.axis == one.choice.axis, same_point = other.choice.point == one.choice.point;
+    std::string what;
+    if (other.wheel == one.wheel && same_axis) what = "this wheel has this axis already";
+    else if (other.wheel == one.wheel && same_point) what = input + " chooses another axis of this wheel, too: neither would ever turn";
+    else if (same_axis && same_point) what = input + " chooses this axis for handwheel[" + std::to_string(other.wheel + 1) + "], too: it would be turned by neither";
+    else continue;
+    errors->add_twice(one.place, other.place, what);
+    return true;
+  }
+  return false;
 }
 
-void read_axes_of(TableReader* wheel, Config* config, HandwheelConfig* entry) {
+void read_axes_of(TableReader* wheel, Config* config, HandwheelConfig* entry, std::vector<ChosenAxis>* chosen) {
   wheel->require("axes");
   wheel->table("axes", [&](TableReader& reader) {
     reader.each([&](const std::string& key, const toml::node&) {
@@ -26,14 +38,15 @@ void read_axes_of(TableReader* wheel, Config* config, HandwheelConfig* entry) {
       if (!find_axis(*config, key, &system, &axis)) return reader.error(key, "no axis has this name");
       const int point = read_input(&reader, key, hal::PointType::kBit, PointRole::kFree, 0, config);
       if (point < 0) return;
-      const std::string twice = chosen_twice(*config, *entry, system, axis, point);
-      if (!twice.empty()) return reader.error(key, twice);
-      entry->axes.push_back({static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point});
+      const ChosenAxis one{{static_cast<std::uint8_t>(system), static_cast<std::uint8_t>(axis), point}, config->handwheels.size(), {reader.line(key), reader.path(key)}};
+      if (chosen_twice(*config, *chosen, one, reader.errors())) return;
+      entry->axes.push_back(one.choice);
+      chosen->push_back(one);
     });
   });
 }
 
-void read_wheel(TableReader* reader, Config* config) {
+void read_wheel(TableReader* reader, Config* config, std::vector<ChosenAxis>* chosen) {
   HandwheelConfig entry;
   const auto number = static_cast<std::uint8_t>(config->handwheels.size());
   reader->require("counter");
@@ -44,7 +57,7 @@ void read_wheel(TableReader* reader, Config* config) {
   if (reader->integer("bits", &bits, 8, 32)) entry.bits = bits;
   entry.times_10 = read_input(reader, "times_10", hal::PointType::kBit, PointRole::kWheelTimes10, number, config);
   entry.times_100 = read_input(reader, "times_100", hal::PointType::kBit, PointRole::kWheelTimes100, number, config);
-  read_axes_of(reader, config, &entry);
+  read_axes_of(reader, config, &entry, chosen);
   if (config->handwheels.size() == kMostHandwheels) return reader->error("counter", "there are more than " + std::to_string(kMostHandwheels) + " handwheels");
   config->handwheels.push_back(std::move(entry));
 }
@@ -64,7 +77,8 @@ int read_input(TableReader* reader, const std::string& key, hal::PointType type,
 }
 
 void read_handwheels(TableReader* root, Config* config) {
-  root->tables("handwheel", [&](TableReader& reader, std::size_t) { read_wheel(&reader, config); });
+  std::vector<ChosenAxis> chosen;
+  root->tables("handwheel", [&](TableReader& reader, std::size_t) { read_wheel(&reader, config, &chosen); });
 }
 
 }  // namespace nc::rt

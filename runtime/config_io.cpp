@@ -2,6 +2,7 @@
 // Configuration sections [[point]], [macro_interface], [sim].
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 
 #include "runtime/config_equipment.hpp"
@@ -170,16 +171,29 @@ int* slot(MacroMap* map, const InterfaceNumber& number) {
   return &(number.output ? map->output_bit : map->input_bit)[number.bank][number.bit];
 }
 
-// A word and its bits are one image: only one of them may be mapped.
-bool overlaps(const MacroMap& map, const InterfaceNumber& number) {
-  const auto& words = number.output ? map.output_word : map.input_word;
-  const auto& bits = (number.output ? map.output_bit : map.input_bit)[number.bank];
-  if (!number.word) return words[number.bank] >= 0;
-  return std::any_of(bits.begin(), bits.end(), [](int point) { return point >= 0; });
+// What is mapped, and where that stands.
+struct MappedNumber {
+  InterfaceNumber number;
+  int point = -1;
+  ConfigPlace place;
+};
+
+// True where the number cannot be mapped beside this one, which is told with the lines of both. A word and its bits are one image: only one of them may be mapped, and a
+// number has two spellings ("#1000" and "#01000"). check_point_uses() finds two outputs that are one point.
+bool mapped_twice(const MappedNumber& one, const MappedNumber& other, const std::string& point, ErrorList* errors) {
+  const InterfaceNumber &number = one.number, &before = other.number;
+  std::string what;
+  if (number.output != before.output) return false;
+  if (one.point == other.point && !number.output) what = "point \"" + point + "\" is mapped twice";
+  else if (number.bank != before.bank) return false;
+  else if (number.word != before.word) what = "a word and a bit of the same word are both mapped";
+  else if (number.bit == before.bit) what = "is mapped twice";
+  else return false;
+  errors->add_twice(one.place, other.place, what);
+  return true;
 }
 
-void map_number(TableReader* reader, const std::string& key, Config* config,
-                std::vector<std::string>* mapped_by) {
+void map_number(TableReader* reader, const std::string& key, Config* config, std::vector<MappedNumber>* mapped) {
   std::string name;
   if (!reader->string(key, &name)) return;
   const auto dialect = static_cast<nc_dialect>(config->nc.dialect);
@@ -207,22 +221,11 @@ void map_number(TableReader* reader, const std::string& key, Config* config,
                                     : "is one bit, but point \"" + name + "\" is a word");
     return;
   }
-  std::string& owner = (*mapped_by)[static_cast<std::size_t>(index)];
-  if (!owner.empty() && !number->output) {  // check_point_uses() finds two outputs that are one
-    reader->error(key, "point \"" + name + "\" is mapped twice (also by " + owner + ")");
-    return;
-  }
-  if (overlaps(config->macro, *number)) {
-    reader->error(key, "a word and a bit of the same word are both mapped");
-    return;
-  }
-  int* place = slot(&config->macro, *number);
-  if (*place >= 0) {  // the same number under two spellings: "#1000" and "#01000"
-    reader->error(key, "is mapped twice");
-    return;
-  }
-  *place = index;
-  owner = key;
+  const MappedNumber one{*number, index, {reader->line(key), reader->path(key)}};
+  for (const MappedNumber& other : *mapped)
+    if (mapped_twice(one, other, name, reader->errors())) return;
+  *slot(&config->macro, *number) = index;
+  mapped->push_back(one);
   config->point_uses.push_back({number->output ? PointRole::kMacroOutput : PointRole::kFree, index, {reader->line(key), reader->path(key)}});
 }
 
@@ -250,11 +253,13 @@ void read_solid(TableReader* reader, Config* config) {
 }  // namespace
 
 void read_points(TableReader* root, Config* config) {
+  std::map<std::string, ConfigPlace> named;  // without those of buses
   root->tables("point", [&](TableReader& reader, std::size_t) {
     hal::Point point;
     unsigned word = 0;
     for (const char* key : {"name", "direction"}) reader.require(key);
-    const bool named = reader.string("name", &point.name);
+    const bool has_name = reader.string("name", &point.name);
+    const ConfigPlace named_at{reader.line("name"), reader.path("name")};
     if (reader.choice("type", {"bit", "word"}, &word))
       point.type = word == 0 ? hal::PointType::kBit : hal::PointType::kWord;
     if (reader.choice("direction", {"input", "output"}, &word))
@@ -265,7 +270,7 @@ void read_points(TableReader* root, Config* config) {
       reader.error("meaning", "is longer than " + std::to_string(kMaxMeaning) + " bytes");
     const PlaceOnBus place = read_place_on_bus(&reader, point_bus_kinds(), point, config);
     point.bus = place.bus;
-    if (!named) return;
+    if (!has_name) return;
     if (!valid_point_name(point.name))
       reader.error("name", "must be 1 to 55 letters, digits, '_', '-' or '.'");
     else if (is_device_name(point.name) || is_digit_group(point.name))
@@ -276,20 +281,23 @@ void read_points(TableReader* root, Config* config) {
       reader.error("name", "names that begin with nc. and plc. belong to the signals between NC and ladder");
     else if (is_bit_name(point.name))
       reader.error("name", "\"" + point.name + "\" would be bit " + point.name.back() + " of a word in the ladder");
+    else if (const auto other = named.find(point.name); other != named.end())
+      reader.errors()->add_twice(named_at, other->second, "point \"" + point.name + "\" is already there");
     else if (config->points.find(point.name) >= 0)
       reader.error("name", "point \"" + point.name + "\" is already there");
     else if (!config->points.add(point))
       reader.error("name", "there are more than " + std::to_string(hal::kMaxPoints) + " points");
-    else if (place.bus != 0)
-      place.add(config);
+    else {
+      named.emplace(point.name, named_at);
+      if (place.bus != 0) place.add(config);
+    }
   });
 }
 
 void read_macro_interface(TableReader* root, Config* config) {
   root->table("macro_interface", [&](TableReader& reader) {
-    std::vector<std::string> mapped_by(config->points.size());
-    reader.each(
-        [&](const std::string& key, const toml::node&) { map_number(&reader, key, config, &mapped_by); });
+    std::vector<MappedNumber> mapped;
+    reader.each([&](const std::string& key, const toml::node&) { map_number(&reader, key, config, &mapped); });
   });
 }
 

@@ -115,11 +115,8 @@ void read_link(TableReader* reader, Config* config) {
     reader->error("name", "must be 1 to 32 letters, digits, '_' or '-'");
     return;
   }
-  const auto same = [&](const PointBusConfig& other) { return other.name == link.name; };
-  if (std::any_of(config->buses.begin(), config->buses.end(), same)) {
-    reader->error("name", "link \"" + link.name + "\" is already there");
-    return;
-  }
+  for (const PointBusConfig& other : config->buses)
+    if (other.name == link.name) return reader->errors()->add_twice({reader->line("name"), reader->path("name")}, other.named_at, "link \"" + link.name + "\" is already there");
   if (config->buses.size() == kMaxPointBuses) {
     reader->error("name", "there are more than " + std::to_string(kMaxPointBuses) + " links");
     return;
@@ -133,6 +130,7 @@ void read_link(TableReader* reader, Config* config) {
   bus.name = link.name;
   bus.device = link.serial.device.empty() ? link.host + " port " + std::to_string(link.port) : link.serial.device;
   bus.place = config->modbus.size();
+  bus.named_at = {reader->line("name"), reader->path("name")};
   config->buses.push_back(std::move(bus));
   config->modbus.push_back(std::move(entry));
 }

@@ -19,8 +19,11 @@ bool is_wired(const Config& config) {
 }  // namespace
 
 void read_power(TableReader* root, Config* config) {
+  for (const PointUse& use : config->point_uses)
+    if (use.place.key.find("plc.power_fail_n") != std::string::npos) config->stop_s_place = use.place;
   root->table("power", [&](TableReader& reader) {
     PowerConfig& power = config->power;
+    config->stop_s_place = {reader.line("stop_s"), reader.path("stop_s")};
     reader.number("stop_s", &power.stop_s, 0.001, 60);
     reader.number("delay_s", &power.delay_s, 0, 10);
     reader.number("settle_s", &power.settle_s, 0.001, 60);
@@ -44,7 +47,7 @@ std::vector<std::string> power_warnings(const Config& config) {
       const nc_axis_config& axis = config.nc.system[s].axis[a];
       const double needs = axis.max_velocity / axis.max_acceleration + (axis.max_jerk > 0 ? axis.max_acceleration / axis.max_jerk : 0) + kBrakesWithin_s;
       if (needs <= config.power.stop_s) continue;
-      warnings.push_back(ConfigError{config.file, 0, "power.stop_s", "axis " + std::string(1, axis.name) + " needs up to " + number_text(std::ceil(needs * 1000) / 1000) +
+      warnings.push_back(ConfigError{config.file, config.stop_s_place.line, config.stop_s_place.key, "axis " + std::string(1, axis.name) + " needs up to " + number_text(std::ceil(needs * 1000) / 1000) +
                                                                          " s to stop: when the power fails its drive goes off after " + number_text(config.power.stop_s) + " s"}.text());
     }
   }

@@ -61,6 +61,10 @@ std::vector<std::string> spindle_warnings(const Config& config) {
   for (unsigned s = 0; s < config.nc.system_count; ++s)
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
       const SpindleFeedback& feedback = config.spindle_feedback[s][n];
+      if (feedback.by == SpindleFeedback::By::kNothing && n < std::max(config.nc.system[s].spindle_count, std::uint8_t{1}))
+        warnings.push_back(ConfigError{config.file, feedback.given_place.line, feedback.given_place.key,
+                                       "nothing measures spindle " + std::to_string(n + 1) + " of part system " + std::to_string(s + 1) +
+                                           ": feed per revolution (G95), threads and dwells in revolutions will wait; [[spindle]] feedback"}.text());
       if (feedback.sign == SpindleFeedback::Sign::kNo || !point_without_sign(config, feedback)) continue;
       const hal::Point& point = config.points.at(static_cast<unsigned>(feedback.point));
       warnings.push_back(ConfigError{config.file, feedback.place.line, feedback.place.key,
@@ -80,8 +84,11 @@ void read_spindle_feedback(TableReader* root, Config* config) {
     const unsigned count = config->nc.system[system - 1].spindle_count;
     reader.integer("number", &number, 1, count == 0 ? 1 : count);
     SpindleFeedback& feedback = config->spindle_feedback[system - 1][number - 1];
-    if (feedback.given) return reader.errors()->add(reader.line(), reader.path(), "this spindle is there already");
+    const ConfigPlace given{reader.line("feedback"), reader.path("feedback")};
+    for (const char* key : {"feedback", "rpm_per_count", "signed"}) (void)reader.find(key);  // these keys are known, even when the table is one too many
+    if (feedback.given) return reader.errors()->add_twice(given, feedback.given_place, "spindle " + std::to_string(number) + " of part system " + std::to_string(system) + " is there already");
     feedback.given = true;
+    feedback.given_place = given;
     read_feedback(&reader, *config, &feedback);
     if (feedback.point >= 0) config->point_uses.push_back({PointRole::kMeasuredSpeed, feedback.point, feedback.place, static_cast<std::uint8_t>(system - 1), static_cast<std::uint8_t>(number - 1)});
     if (is_on_drive(*config, system - 1, number - 1)) reader.error("feedback", "spindle " + std::to_string(number) + " is on a drive, which measures it: without this table");
@@ -94,7 +101,10 @@ void read_spindle_feedback(TableReader* root, Config* config) {
     for (unsigned n = 0; n < NC_MAX_SPINDLES; ++n) {
       SpindleFeedback& feedback = config->spindle_feedback[s][n];
       const bool driven = is_on_drive(*config, s, n) || (s == 0 && config->sim.plant.spindle[n].driven);
-      if (!feedback.given && !driven && !config->buses.empty()) feedback.by = SpindleFeedback::By::kNothing;
+      if (!feedback.given && !driven && !config->buses.empty()) {
+        feedback.by = SpindleFeedback::By::kNothing;
+        feedback.given_place = config->buses.front().named_at;
+      }
       const bool no_sign = feedback.sign == SpindleFeedback::Sign::kNo || (feedback.sign == SpindleFeedback::Sign::kAsPoint && point_without_sign(*config, feedback));
       if (no_sign) config->nc.system[s].spindle_unsigned |= std::uint64_t{1} << n;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Configuration sections [parameters], [work_offsets], [tool_offsets].
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -32,6 +33,19 @@ void read_label(TableReader* columns, const Config& config, ToolOffsetSetting* s
     if (pocket != 0 && other.pocket == pocket) columns->error("pocket", "pocket " + std::to_string(pocket) + " has tool " + std::to_string(other.number) + (other.name.value_or("").empty() ? "" : " (" + *other.name + ")"));
 }
 
+// "X" and "X1" are one axis. Where this parameter of the axis stands already, null: nowhere.
+const ConfigPlace* place_of_parameter(const Config& config, const std::string& key, char axis, unsigned system) {
+  for (const ParameterSetting& other : config.parameters)
+    if (other.key == key && other.axis == axis && other.system == system) return &other.place;
+  return nullptr;
+}
+
+const ConfigPlace* place_of_offset(const Config& config, const WorkOffsetSetting& setting) {
+  for (const WorkOffsetSetting& other : config.work_offsets)
+    if (other.index == setting.index && other.system == setting.system && other.axis == setting.axis) return &other.place;
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<std::string> parameter_text(const toml::node& node) {
@@ -43,6 +57,25 @@ std::optional<std::string> parameter_text(const toml::node& node) {
   }
   if (const auto* text = node.as_string()) return text->get();
   return {};
+}
+
+// A note names its axis and its parameters: "X: #2007 #2008 let ...", "#1206: ...". The line is that of the first of them that is set for this axis or for all, else of
+// one that is set for another axis, which is what makes the difference.
+std::string parameter_note_text(const Config& config, unsigned system, std::string_view note) {
+  const char axis = note.size() > 2 && note[1] == ':' ? note[0] : '\0';
+  const ParameterSetting* found = nullptr;
+  bool exact = false;
+  for (std::size_t at = note.find('#'); at != std::string_view::npos && !exact; at = note.find('#', at + 1)) {
+    const std::string_view rest = note.substr(at + 1);
+    const std::string_view key = rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
+    for (const ParameterSetting& parameter : config.parameters) {
+      if (exact || parameter.key != key || (parameter.axis != 0 && parameter.system != system)) continue;
+      exact = axis == 0 || parameter.axis == 0 || parameter.axis == axis;
+      if (exact || found == nullptr) found = &parameter;
+    }
+  }
+  const ConfigPlace place = found != nullptr ? found->place : ConfigPlace{0, "parameters"};
+  return ConfigError{config.file, place.line, place.key, std::string(note)}.text();
 }
 
 void read_parameters(TableReader* root, Config* config) {
@@ -58,6 +91,8 @@ void read_parameters(TableReader* root, Config* config) {
           else if (!text)
             reader.errors()->add(place.line, place.key,
                                  std::string("must be a finite number or a word, not ") + shown_type(value));
+          else if (const ConfigPlace* const other = place_of_parameter(*config, key, axis_name.str()[0], system); other != nullptr)
+            reader.errors()->add_twice(place, *other, "parameter " + key + " of this axis is already there");
           else
             config->parameters.push_back({key, axis_name.str()[0], system, *text, place});
         }
@@ -94,6 +129,8 @@ void read_work_offsets(TableReader* root, Config* config) {
         setting.place = {line_of(value), by_axis.path(axis_name)};
         if (!find_axis(*config, axis_name, &setting.system, &setting.axis))
           by_axis.error(axis_name, no_axis(axis_name));
+        else if (const ConfigPlace* const other = place_of_offset(*config, setting); other != nullptr)
+          by_axis.errors()->add_twice(setting.place, *other, name + " of this axis is already there");
         else if (by_axis.number(axis_name, &setting.value, -kMaxOffset, kMaxOffset))
           config->work_offsets.push_back(setting);
       });

@@ -99,15 +99,7 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
   char note[200];
   for (unsigned s = 0; runtime->control_ != nullptr && s < config.nc.system_count; ++s)
     for (unsigned i = 0; nc_parameter_note_row(runtime->control_, api_system(s), i, note, sizeof note) == NC_OK; ++i)
-      runtime->warnings_.push_back(ConfigError{config.file, 0, "parameters", note}.text());
-  for (unsigned s = 0; s < config.nc.system_count; ++s) {
-    const unsigned spindles = config.nc.system[s].spindle_count;
-    for (unsigned n = 0; n < (spindles == 0 ? 1u : spindles); ++n)
-      if (config.spindle_feedback[s][n].by == SpindleFeedback::By::kNothing)
-        runtime->warnings_.push_back(ConfigError{config.file, 0, "spindle",
-                                                 "nothing measures spindle " + std::to_string(n + 1) + " of part system " + std::to_string(s + 1) +
-                                                     ": feed per revolution (G95), threads and dwells in revolutions will wait; [[spindle]] feedback"}.text());
-  }
+      runtime->warnings_.push_back(parameter_note_text(config, s, note));
   for (const std::string& warning : spindle_warnings(config)) runtime->warnings_.push_back(warning);
   for (const std::string& warning : power_warnings(config)) runtime->warnings_.push_back(warning);
   if (runtime->own_ladder_ != nullptr) {
