@@ -269,6 +269,8 @@ void Scan::hold(std::uint32_t systems) noexcept {
 Answer Scan::set_mode(Mode mode) noexcept {
   if (mode == mode_) return Answer::kDone;
   const bool active = program_active();
+  // A start that was accepted: the NC gets it with this scan or the next one.
+  if (start_pulse_ != 0 || std::any_of(in_, in_ + systems_, [](const nc_inputs& in) { return in.cycle_start; })) return Answer::kNotWhileRunning;
   if (!at_rest()) return active ? Answer::kNotWhileRunning : Answer::kAxesMove;
   for (unsigned s = 0; s < systems_; ++s) {
     const std::uint8_t state = out_[s].state;

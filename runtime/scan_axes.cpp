@@ -193,7 +193,7 @@ void Scan::hold_positions(unsigned s) noexcept {
 std::uint32_t Scan::power_axes(unsigned s) noexcept {
   std::uint32_t off = 0;
   flags_[s].brake_open = flags_[s].servo_off = 0;
-  const bool active = (active_systems() >> s & 1u) != 0;
+  const bool active = ((active_systems() | start_pulse_) >> s & 1u) != 0;  // a start that goes to the NC with the next scan was judged with the drives on
   for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
     AxisPower& power = axes_[s][a].power;
     const bool asked = (last_requests_.system[s].servo_off >> a & 1u) != 0;
