@@ -112,6 +112,15 @@ struct ActiveAlarm {
   bool acknowledged = false;  // a warning, or a limit switch, whose cause goes on: a reset has been made since, and it stops nothing any more
 };
 
+// What the machine does by an alarm, so which gives way when the list is full: an acknowledged one and a warning stop nothing, one that stops brings to rest on the path, at
+// some the drives go off, and what the control does in a failure of the power goes on until its alarm is acknowledged.
+constexpr unsigned alarm_weight(const ActiveAlarm& alarm) {
+  if (alarm.id == AlarmId::kPowerFails) return 4;
+  if (alarm.id == AlarmId::kDriveFault || alarm.id == AlarmId::kHalLost) return 3;
+  if (!alarm_row(alarm.id).stops) return 1;
+  return alarm.acknowledged ? 0 : 2;
+}
+
 inline constexpr unsigned kMaxActiveAlarms = 16;
 
 struct AlarmList {

@@ -294,7 +294,9 @@ class Scan {
   void give_to_drive(unsigned system, unsigned axis) noexcept;
   void publish_lock(unsigned system, unsigned axis) noexcept;
 
-  void raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
+  bool raise(AlarmId id, unsigned system, int axis, std::uint32_t detail = 0, std::uint32_t code = 0) noexcept;
+  ActiveAlarm* alarm_to_replace(const ActiveAlarm& by) noexcept;
+  void tell_later(const ActiveAlarm& alarm) noexcept;
   void acknowledge_alarms() noexcept;
   bool holds_still(const ActiveAlarm& alarm) const noexcept;
   template <class Gone>

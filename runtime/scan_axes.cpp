@@ -72,8 +72,7 @@ void Scan::look_at_limits(unsigned s, unsigned a) noexcept {
   }
   for (unsigned side = 0; side < 2; ++side) {
     if (!axis.limit[side] || axis.limit_told[side] || static_cast<int>(side) == search) continue;
-    axis.limit_told[side] = true;
-    raise(AlarmId::kLimitSwitch, s, static_cast<int>(a), side == 0 ? kLimitMinus : kLimitPlus);
+    axis.limit_told[side] = raise(AlarmId::kLimitSwitch, s, static_cast<int>(a), side == 0 ? kLimitMinus : kLimitPlus);
   }
 }
 

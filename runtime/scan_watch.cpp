@@ -157,19 +157,20 @@ bool Scan::is_of_lost_link(unsigned ladder_alarm) const noexcept {
   return bus != 0 && points_.good[point] == 0 && is_raised(AlarmId::kLinkLost, bus - 1);
 }
 
-// Raises the alarms that the thread of the retained data has reported. A trouble that comes again after it had ended needs another reset, even when its
+// Raises the alarms that the thread of the retained data has reported, those without room in the list later. A trouble that comes again after it had ended needs another reset, even when its
 // first occurrence had been acknowledged.
 void Scan::watch_retained() noexcept {
   std::uint32_t found = 0;
   if (retain_trouble_.load(std::memory_order_relaxed) != 0) found = retain_trouble_.exchange(0, std::memory_order_acquire);
-  if (found_place_.load(std::memory_order_relaxed) && found_place_.exchange(false, std::memory_order_acquire)) raise(AlarmId::kPowerFailedBefore, 0, -1);
+  if (found_place_.load(std::memory_order_relaxed) && found_place_.exchange(false, std::memory_order_acquire) && !raise(AlarmId::kPowerFailedBefore, 0, -1)) post_found_place();
   const auto comes_again = [found](const ActiveAlarm& alarm) {
     return alarm.id == AlarmId::kRetainedUnwritable && (found >> alarm.detail & 1u) != 0;
   };
   remove_alarms([&](const ActiveAlarm& alarm) { return alarm.acknowledged && (!holds_still(alarm) || comes_again(alarm)); });
   for (unsigned detail = 0; found != 0 && detail < 4 * kRetainedData; ++detail) {
     if ((found >> detail & 1u) == 0) continue;
-    raise(is_lost(static_cast<RetainTrouble>(detail % 4)) ? AlarmId::kRetainedLost : AlarmId::kRetainedUnwritable, 0, -1, detail);
+    const AlarmId id = is_lost(static_cast<RetainTrouble>(detail % 4)) ? AlarmId::kRetainedLost : AlarmId::kRetainedUnwritable;
+    if (!raise(id, 0, -1, detail)) retain_trouble_.fetch_or(1u << detail, std::memory_order_relaxed);
   }
 }
 
@@ -177,7 +178,7 @@ void Scan::watch_printer() noexcept {
   std::uint32_t found = 0;
   if (print_trouble_.load(std::memory_order_relaxed) != 0) found = print_trouble_.exchange(0, std::memory_order_acquire);
   for (unsigned s = 0; s < systems_; ++s)
-    if ((found >> s & 1u) != 0) raise(AlarmId::kPrinter, s, -1);
+    if ((found >> s & 1u) != 0 && !raise(AlarmId::kPrinter, s, -1)) post_print_trouble(s);
 }
 
 // True when the cause of an acknowledged alarm is known to last. Only R20 needs this: the thread of the retained data reports it once, whereas the causes of
@@ -237,15 +238,37 @@ void Scan::watch_clamps(std::uint64_t most) noexcept {
   }
 }
 
-// Each cause is in the list once. The list is long enough for all causes that come together in practice; an alarm that does not
-// fit is dropped, because sixteen others are active then.
-void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, std::uint32_t code) noexcept {
+// Where another alarm goes when sixteen are in the list: in place of the newest of those that matter least to what the machine does, null when it matters no more than they
+// do. An alarm that gives way comes back when there is room, as long as its cause is there.
+ActiveAlarm* Scan::alarm_to_replace(const ActiveAlarm& by) noexcept {
+  ActiveAlarm* least = &alarms_.alarm[0];
+  for (ActiveAlarm& other : alarms_.alarm)
+    if (alarm_weight(other) <= alarm_weight(*least)) least = &other;
+  return alarm_weight(*least) < alarm_weight(by) ? least : nullptr;
+}
+
+// What is told once and gives way to another alarm is told again when there is room.
+void Scan::tell_later(const ActiveAlarm& alarm) noexcept {
+  if (alarm.id == AlarmId::kRetainedLost || alarm.id == AlarmId::kRetainedUnwritable) retain_trouble_.fetch_or(1u << alarm.detail, std::memory_order_relaxed);
+  if (alarm.id == AlarmId::kPowerFailedBefore) post_found_place();
+  if (alarm.id == AlarmId::kPrinter) post_print_trouble(alarm.system);
+  if (alarm.id == AlarmId::kLimitSwitch) axes_[alarm.system][alarm.axis].limit_told[0] = axes_[alarm.system][alarm.axis].limit_told[1] = false;
+}
+
+// Each cause is in the list once. False when there is no room for it.
+bool Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, std::uint32_t code) noexcept {
   for (unsigned i = 0; i < alarms_.count; ++i) {
     const ActiveAlarm& other = alarms_.alarm[i];
-    if (other.id == id && other.system == system && other.axis == axis && other.detail == detail) return;
+    if (other.id == id && other.system == system && other.axis == axis && other.detail == detail) return true;
   }
-  if (alarms_.count == kMaxActiveAlarms) return;
-  ActiveAlarm& alarm = alarms_.alarm[alarms_.count++];
+  ActiveAlarm fresh;
+  fresh.id = id;
+  const bool full = alarms_.count == kMaxActiveAlarms;
+  ActiveAlarm* const place = full ? alarm_to_replace(fresh) : &alarms_.alarm[alarms_.count++];
+  if (place == nullptr) return false;
+  if (full) tell_later(*place);
+  ActiveAlarm& alarm = *place;
+  alarm = fresh;
   alarm.id = id;
   alarm.axis = static_cast<std::int8_t>(axis);
   alarm.system = static_cast<std::uint8_t>(system);
@@ -255,6 +278,7 @@ void Scan::raise(AlarmId id, unsigned system, int axis, std::uint32_t detail, st
   alarm.acknowledged = false;
   // Alarms that belong to no block, or are found only after their block has been executed, get no source.
   if (id != AlarmId::kRetainedLost && id != AlarmId::kRetainedUnwritable && id != AlarmId::kPrinter && id != AlarmId::kPowerFailedBefore) alarm.source = out_[system].source;
+  return true;
 }
 
 void Scan::acknowledge_alarms() noexcept {
