@@ -59,6 +59,7 @@ struct SystemCommand {
   bool idle = false;         // no program is in execution or interrupted
   std::uint32_t unclamp = 0;  // bit per axis: the index table is to be unclamped
   std::uint16_t current_limit[NC_MAX_AXES] = {};  // percent of the rated current of each drive, 0 = the drive's own limit
+  std::uint32_t stop_homing = 0;  // bit per axis: a drive that homes by itself comes to rest and gives that up
 };
 
 struct Command {

@@ -483,6 +483,7 @@ void Scan::write_outputs() noexcept {
     machine.idle = out.state == NC_STATE_IDLE;
     machine.unclamp = out.unclamp;
     std::copy(std::begin(out.current_limit), std::end(out.current_limit), machine.current_limit);
+    machine.stop_homing = drives_to_stop(s);
     if (out.message && !message_seen_[s] && !messages_.push({s, out.message_text, out.message_port}) && out.message_port != 0)
       post_print_trouble(s);  // the queue is full, so this line is lost
     message_seen_[s] = out.message;

@@ -182,6 +182,7 @@ class Scan {
     double shift = 0;      // machine position = that + this
     bool homed = false;
     bool waits_for_homing = false;  // home all has not come to it yet
+    unsigned stop_scans = 0;        // so long its drive, which homes by itself, is told to stop
     bool sets = false;     // its position is set in this scan ...
     double set_by = 0;     // ... by so much
     double set_screw = 0;  // of that what the drive got for its screw
@@ -285,6 +286,10 @@ class Scan {
   void set_positions(unsigned system) noexcept;
   void take_positions() noexcept;
   static void take_mark(AxisWork* axis) noexcept;
+  void end_search(unsigned system, unsigned axis) noexcept;
+  bool homes_by_drive(unsigned system, unsigned axis) const noexcept;
+  bool any_homes_by_drive() const noexcept;
+  std::uint32_t drives_to_stop(unsigned system) noexcept;
   void publish_axes(unsigned system) noexcept;
 
   void follow_locks(unsigned system) noexcept;

@@ -147,7 +147,7 @@ void Scan::limit_by_hand(unsigned s, unsigned a) noexcept {
   hindered_[s][a] = why;
   // Nothing of it goes on by itself later.
   if (axes_[s][a].homing.active()) {
-    axes_[s][a].homing.stop();
+    end_search(s, a);
     forget_order();
   }
   if (on_its_way_[s][a] != Asked::kNothing) give_up_way(s, a, why);
@@ -198,7 +198,7 @@ std::uint32_t Scan::power_axes(unsigned s) noexcept {
     const bool asked = (last_requests_.system[s].servo_off >> a & 1u) != 0;
     AxisPower::Seen seen;
     // A drive that goes off in a program would take the axis from its path.
-    seen.off = asked && (!power.free() || (!active && out_[s].distance_zero));
+    seen.off = asked && (!power.free() || (!active && out_[s].distance_zero && !homes_by_drive(s, a)));
     seen.off |= drives_off_ && power.has_brake();
     const hal::SystemFeedback& machine = feedback_.system[s];
     const std::uint32_t let_go = machine.following_fault & machine.not_following;  // by a drive whose position loop is lost

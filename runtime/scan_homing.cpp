@@ -13,6 +13,7 @@ namespace nc::rt {
 namespace {
 
 constexpr double kSame = 1e-9;  // mm or deg
+constexpr unsigned kStopScans = 200;
 
 }  // namespace
 
@@ -76,6 +77,7 @@ Answer Scan::begin_homing(unsigned s, unsigned a) noexcept {
   const Answer why = homing_hindrance(s, a);
   if (why != Answer::kDone) return why;
   jog_[s][a] = {};
+  axes_[s][a].stop_scans = 0;
   axes_[s][a].homing.begin(config_.equipment[s][a].homing, homing_sight(s, a));
   on_its_way_[s][a] = Asked::kReference;
   return Answer::kDone;
@@ -144,11 +146,45 @@ AxisHoming::Seen Scan::homing_sight(unsigned s, unsigned a) const noexcept {
   return seen;
 }
 
-// What keeps axes from moving by hand ends a search. A drive that homes by itself does not follow meanwhile.
+// What keeps axes from moving by hand ends a search. A drive that homes by itself does not follow meanwhile, and all else counts for it as well.
 Answer Scan::search_hindrance(unsigned s, unsigned a) const noexcept {
   const Answer why = hand_hindrance(s, a);
-  const bool by_drive = why == Answer::kDrivesOff && config_.equipment[s][a].homing.kind == HomingKind::kDrive;
-  return by_drive ? Answer::kDone : why;
+  if (why != Answer::kDrivesOff || config_.equipment[s][a].homing.kind != HomingKind::kDrive || is_powerless(s, a)) return why;
+  if (in_[s].interlock) return Answer::kInterlock;
+  return machine_holds_[s] ? Answer::kFeedHold : Answer::kDone;
+}
+
+// A search that is given up. A drive that homes by itself does not go by what the axis is commanded, so it is told to stop, for so long that also a bus with a slow SYNC
+// has passed that on, and until it follows again.
+void Scan::end_search(unsigned s, unsigned a) noexcept {
+  axes_[s][a].homing.stop();
+  if (config_.equipment[s][a].homing.kind == HomingKind::kDrive) axes_[s][a].stop_scans = kStopScans;
+}
+
+// The drive moves this axis by itself, or may do so yet.
+bool Scan::homes_by_drive(unsigned s, unsigned a) const noexcept {
+  const AxisWork& axis = axes_[s][a];
+  if (config_.equipment[s][a].homing.kind != HomingKind::kDrive || (!axis.homing.active() && axis.stop_scans == 0)) return false;
+  return !feedback_.lost && ((feedback_.system[s].not_following & ~feedback_.system[s].drive_fault) >> a & 1u) != 0;
+}
+
+bool Scan::any_homes_by_drive() const noexcept {
+  for (unsigned s = 0; s < systems_; ++s)
+    for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a)
+      if (homes_by_drive(s, a)) return true;
+  return false;
+}
+
+// Bit per axis: its drive is to give up its homing.
+std::uint32_t Scan::drives_to_stop(unsigned s) noexcept {
+  std::uint32_t stop = 0;
+  for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+    AxisWork& axis = axes_[s][a];
+    if (axis.stop_scans == 0) continue;
+    stop |= 1u << a;
+    if (axis.stop_scans > 1 || !homes_by_drive(s, a)) --axis.stop_scans;
+  }
+  return stop;
 }
 
 void Scan::home(unsigned s, unsigned a) noexcept {
@@ -158,7 +194,7 @@ void Scan::home(unsigned s, unsigned a) noexcept {
   if (request >= 0) points_.value[request] = 0;
   if (!axis.homing.active()) return;
   if (search_hindrance(s, a) != Answer::kDone) {  // watch_way() notes it
-    axis.homing.stop();
+    end_search(s, a);
     forget_order();
     return;
   }
@@ -166,6 +202,7 @@ void Scan::home(unsigned s, unsigned a) noexcept {
   in_[s].manual[a] = wish.manual;
   if (request >= 0) points_.value[request] = wish.request ? 1 : 0;
   if (wish.fault != HomingFault::kNone) {
+    end_search(s, a);
     forget_order();
     raise(AlarmId::kHoming, s, static_cast<int>(a), static_cast<std::uint32_t>(wish.fault));
     return;

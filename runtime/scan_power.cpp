@@ -25,7 +25,7 @@ void Scan::watch_power(bool fails) noexcept {
   const std::uint32_t answered = save_answered_.load(std::memory_order_acquire), asked = save_asked_.load(std::memory_order_relaxed);
   PowerWatch::Seen seen;
   seen.fails = fails;
-  seen.at_rest = at_rest();
+  seen.at_rest = at_rest() && !any_homes_by_drive();
   seen.braked = all_braked();
   seen.saved = answered / kSaveResults == asked;
   seen.result = static_cast<SaveResult>(answered % kSaveResults);

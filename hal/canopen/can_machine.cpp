@@ -343,6 +343,7 @@ void CanMachine::write(const Command& command, const PointImage& image) noexcept
     axis.on = system.enable && (system.off >> map.axis & 1u) == 0;
     axis.reset = system.reset;
     axis.home = asks_for_homing(i, map, image) && system.idle;
+    axis.stop_homing = (system.stop_homing >> map.axis & 1u) != 0;
   }
   for (unsigned s = 0; s < NC_MAX_SYSTEMS; ++s) strobe_[s] = command.system[s].strobe != 0;
   wanted.serial = ++serial_;

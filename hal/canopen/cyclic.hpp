@@ -43,6 +43,7 @@ struct AxisWanted {
   bool on = false;
   bool reset = false;       // clear faults; if the drive has a fault, reset it, too
   bool home = false;        // homing begins at the rising edge
+  bool stop_homing = false; // homing that is under way is given up: the drive comes to rest and follows again
 };
 struct BusWanted {
   std::uint64_t serial = 0;  // number of the command; counts up with each scan
@@ -121,7 +122,7 @@ class Cyclic {
 
  private:
   static constexpr unsigned kTargets = kMostVelocityDelay + 2;
-  enum class Homing : std::uint8_t { kNo, kMode, kRuns, kBack };
+  enum class Homing : std::uint8_t { kNo, kMode, kRuns, kStops, kBack };
   struct Axis {
     const AxisMap* map = nullptr;
     unsigned node = 0;
@@ -148,6 +149,8 @@ class Cyclic {
     Homing homing = Homing::kNo;
     unsigned homing_syncs = 0;
     bool home_before = false, homed = false;
+    std::int64_t stop_place = 0;  // of a homing that is given up: where it was last seen to move
+    unsigned stood_syncs = 0;     // since then
     // touch probe
     std::uint16_t probe_status = 0, probe_function = 0;
     std::int32_t probe_raw = 0;
@@ -188,6 +191,7 @@ class Cyclic {
   void check_way(Axis* axis, bool led) noexcept;
   std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
   bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;
+  void give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept;
   void work_probe(Axis* axis) noexcept;
   void note_edges() noexcept;
   void note_edge(const Axis& probe) noexcept;

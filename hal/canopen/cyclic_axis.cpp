@@ -12,6 +12,7 @@ namespace {
 constexpr int kAheadLimit = 20;   // positions more than SYNCs until that is a fault
 constexpr int kMostOwed = 200;    // positions fewer than SYNCs that are remembered: as late as a drive can be without looking like two
 constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which the status may still be that of the previous homing
+constexpr double kStandsWithin = 0.005;   // mm or deg in kHomingSettle SYNCs: an axis that stands
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
 constexpr double kProbeSlack = 0.1;       // mm or deg beside its way at which an axis may have been when its drive latched the place
 constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
@@ -118,7 +119,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   const bool in_mode = mode_[index].load(std::memory_order_acquire) == axis.map->mode;
   const bool homing = home_axis(index, &axis, wanted);
   if (wish == DriveWish::kOn) {
-    if (axis.was_on && !homing && drive_state(axis.status) != DriveState::kOperationEnabled) fault(&axis, DriveTrouble::kLeftEnabled);
+    if (axis.was_on && drive_state(axis.status) != DriveState::kOperationEnabled) fault(&axis, DriveTrouble::kLeftEnabled);  // also one that homes: nothing holds its axis
     axis.was_on |= followed;
     if (!axis.was_on && !homing && ++axis.on_syncs > syncs_of(bus_.enable_timeout_ms)) fault(&axis, DriveTrouble::kNotEnabled);
   } else {
@@ -137,6 +138,7 @@ void Cyclic::move_axis(unsigned index, bool commanded) noexcept {
   axis.watch.give(axis.speed / axis.map->velocity_per_increment * bus_.sync_us * 1e-6);
   axis.control = now == DriveWish::kOn && !in_mode && !homing ? kShutdown : axis.way.next(axis.status, now);
   if (axis.homing == Homing::kRuns && axis.control == kEnableOperation) axis.control |= kStartHoming;
+  if (axis.homing == Homing::kStops && axis.control == kEnableOperation) axis.control |= kHalt;
   if (axis.map->has_probe()) work_probe(&axis);
   send_rpdo(axis);
 }
@@ -194,25 +196,43 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
     wanted_mode_[index].store(kModeHoming, std::memory_order_release);
   }
   if (axis->homing == Homing::kNo) return false;
+  give_up_homing(axis, wanted);
   const std::int8_t mode = mode_[index].load(std::memory_order_acquire);
   if (axis->homing == Homing::kMode && mode == kModeHoming) {
     axis->homing = Homing::kRuns;
     axis->homing_syncs = 0;
   }
   ++axis->homing_syncs;
-  const bool late = axis->homing_syncs > syncs_of(static_cast<unsigned>(axis->map->homing_timeout_s * 1000));
+  const unsigned most_ms = axis->homing == Homing::kStops ? bus_.stop_timeout_ms : static_cast<unsigned>(axis->map->homing_timeout_s * 1000);
+  const bool late = axis->homing_syncs > syncs_of(most_ms);
+  const bool stopped = axis->homing == Homing::kStops && axis->stood_syncs > kHomingSettle;
   const bool settled = axis->homing == Homing::kRuns && axis->homing_syncs > kHomingSettle;
   const bool error = settled && (axis->status & kStatusError) != 0;
   const bool done = settled && !error && (axis->status & (kStatusFollows | kStatusReached)) == (kStatusFollows | kStatusReached);
   if (late || error) fault(axis, DriveTrouble::kHoming);
   if (done) axis->homed = true;
-  if (done || axis->faulty || !wanted.on) {
+  if (done || stopped || axis->faulty || !wanted.on) {
     if (axis->homing != Homing::kBack) axis->homing_syncs = 0;
     axis->homing = Homing::kBack;
     wanted_mode_[index].store(axis->map->mode, std::memory_order_release);
   }
   if (axis->homing == Homing::kBack && mode == axis->map->mode) axis->homing = Homing::kNo;
   return axis->homing != Homing::kNo;
+}
+
+// Bit 4 of the control word off interrupts a homing, and bit 8 brings the axis to rest; in the drive's next mode, whose first set-point is where it stands, it must not move.
+void Cyclic::give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept {
+  if (wanted.stop_homing && (axis->homing == Homing::kMode || axis->homing == Homing::kRuns)) {
+    axis->homing = Homing::kStops;
+    axis->homing_syncs = axis->stood_syncs = 0;
+    axis->stop_place = axis->position;
+  }
+  if (axis->homing != Homing::kStops || axis->missed != 0) return;
+  const auto still = std::max<std::int64_t>(2, std::llround(kStandsWithin * std::abs(axis->map->increments_per_unit)));
+  ++axis->stood_syncs;
+  if (std::abs(axis->position - axis->stop_place) <= still) return;
+  axis->stop_place = axis->position;
+  axis->stood_syncs = 0;
 }
 
 // The drive latches the position of its axis at the edge of the probe. The skip signal is then on for some SYNCs, and after that the probe is made ready for

@@ -28,7 +28,7 @@ inline constexpr std::uint16_t kStatusRemote = 1u << 9, kStatusReached = 1u << 1
 
 // Control words (CiA 402-2, "command coding").
 inline constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown = 0x0006, kSwitchOn = 0x0007, kEnableOperation = 0x000F,
-                               kFaultReset = 0x0080, kStartHoming = 0x0010;
+                               kFaultReset = 0x0080, kStartHoming = 0x0010, kHalt = 0x0100;
 
 enum class DriveWish : std::uint8_t {
   kOff,     // stop by the drive's quick stop, then no torque

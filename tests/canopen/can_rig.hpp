@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -138,11 +139,13 @@ class CanRig {
     hal::canopen::CanMachine* inner = nullptr;
     CanRig* rig = nullptr;
     std::vector<hal::canopen::ModuleBus> modules;
+    std::map<unsigned, std::uint32_t> inputs;  // of points that no bus carries, as the machine gives them
     int held_on = -1;  // an output that is on, whatever the runtime makes of it, as a ladder program would have it
     bool start(const hal::PointImage&, std::string*) override { return true; }
     void read(hal::Feedback* feedback, hal::PointImage* image) noexcept override {
       inner->read(feedback, image);
       for (hal::canopen::ModuleBus& module : modules) module.read(image);
+      for (const auto& [point, value] : inputs) image->value[point] = value;
     }
     void write(const hal::Command& command, const hal::PointImage& given) noexcept override {
       hal::PointImage image = given;

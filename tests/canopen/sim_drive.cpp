@@ -414,16 +414,18 @@ void SimDrive::move(Axis& axis, unsigned number) {
 // A drive that homes moves for a while, then its position becomes the value of 607Ch.
 void SimDrive::home(Axis& axis, unsigned number) {
   const bool start = (axis.control & 0x10) != 0;
-  if (!start) {
-    axis.homing_left = -1;
-    axis.homing_done = axis.homing_error = false;
+  if (!start || (axis.control & 0x100) != 0) {  // it comes to rest by its ramp
+    axis.plant.coast *= 0.9;
+    if (std::abs(axis.plant.coast) < 0.5) axis.plant.coast = 0;
+    axis.plant.position += axis.plant.coast;
+    if (!start) axis.homing_left = -1, axis.homing_done = axis.homing_error = false;
     return;
   }
-  if (axis.homing_left < 0) axis.homing_left = 50;
+  if (axis.homing_left < 0) axis.homing_left = homing_syncs;
   if (axis.homing_left > 0) {
     --axis.homing_left;
     axis.plant.position -= 10;
-    axis.plant.coast = 0;
+    axis.plant.coast = axis.homing_left == 0 ? 0 : -10;
     if (axis.homing_left == 0 && homing_fails) axis.homing_error = true;
     else if (axis.homing_left == 0) {
       axis.plant.position = static_cast<std::int32_t>(object(base(number) + 0x7C, 0));

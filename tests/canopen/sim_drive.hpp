@@ -63,6 +63,7 @@ class SimDrive {
   std::map<unsigned, std::uint32_t> refuses;  // index << 8 | sub -> abort code of a write
   int answers_as = -1;             // node number in its SDO answers; -1: its own
   bool homing_fails = false;
+  int homing_syncs = 50;           // so many SYNCs a homing takes
   void trip(unsigned axis, std::uint16_t code, std::uint8_t error_register);  // fault, and EMCY
   void emergency(std::uint16_t code, std::uint8_t error_register);
   void power_cycle();
