@@ -20,6 +20,7 @@ const char* asked_text(Asked asked) {
     case Asked::kStep: return "step";
     case Asked::kHandle: return "handle";
     case Asked::kApproach: return "return to the path";
+    case Asked::kTapRetract: return "drawing out of the tap";
   }
   return "";
 }

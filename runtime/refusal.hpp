@@ -12,7 +12,7 @@ namespace nc::rt {
 
 struct Config;
 
-enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference, kStep, kHandle, kApproach };
+enum class Asked : std::uint8_t { kNothing, kCycleStart, kMode, kJog, kReference, kStep, kHandle, kApproach, kTapRetract };
 
 // The last refusal of a part system.
 struct Refusal {

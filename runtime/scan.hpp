@@ -279,17 +279,19 @@ class Scan {
   Answer begin_homing(unsigned system, unsigned axis) noexcept;
   Answer home_command(const Command& command) noexcept;
   Answer draw_tap(unsigned system, bool on) noexcept;
+  Answer tap_hindrance(unsigned system) const noexcept;
+  void follow_tap(unsigned system) noexcept;
   void begin_next_homing() noexcept;
   void forget_order() noexcept;
   AxisHoming::Seen homing_sight(unsigned system, unsigned axis) const noexcept;
   void home(unsigned system, unsigned axis) noexcept;
-  void set_positions(unsigned system) noexcept;
-  void take_positions() noexcept;
-  static void take_mark(AxisWork* axis) noexcept;
   void end_search(unsigned system, unsigned axis) noexcept;
   bool homes_by_drive(unsigned system, unsigned axis) const noexcept;
   bool any_homes_by_drive() const noexcept;
   std::uint32_t drives_to_stop(unsigned system) noexcept;
+  void set_positions(unsigned system) noexcept;
+  void take_positions() noexcept;
+  static void take_mark(AxisWork* axis) noexcept;
   void publish_axes(unsigned system) noexcept;
 
   void follow_locks(unsigned system) noexcept;
@@ -395,6 +397,8 @@ class Scan {
   std::uint32_t hands_held_ = 0;    // bit per part system: what moves by hand is to come to rest and to be given up; until it stands
   std::uint32_t hold_request_ = 0;  // bit per part system: its program is to be held, until it stands
   std::uint32_t taps_drawn_ = 0;    // bit per part system: a command draws its tap out of the hole
+  std::uint32_t taps_asked_ = 0;    // bit per part system: a signal or a command has asked for that in the scan before
+  std::uint32_t taps_refused_ = 0;  // bit per part system: it was refused or stopped, and has been asked for since
   std::uint32_t held_now_ = 0;      // bit per part system: a command of this scan has held it
   bool ending_ = false;  // the control is being ended, and nothing starts any more
   Refusal refusal_[NC_MAX_SYSTEMS];

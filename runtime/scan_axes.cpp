@@ -120,6 +120,7 @@ void Scan::run_axes() noexcept {
       limit_by_hand(s, a);
       in_[s].unlimited |= static_cast<std::uint64_t>(!limits_known(s, a)) << a;
     }
+    follow_tap(s);
     hold_at_interlock(s);
     hold_positions(s);
     set_back(s);

@@ -283,8 +283,41 @@ Answer Scan::draw_tap(unsigned system, bool on) noexcept {
   }
   if (mode_ != Mode::kManual) return Answer::kNotInThisMode;
   if (!out_[system].tap_retract_possible) return Answer::kRefusedByControl;
+  if (const Answer why = tap_hindrance(system); why != Answer::kDone) return why;
   taps_drawn_ |= 1u << system;
   return Answer::kDone;
+}
+
+// What keeps the tap in its hole: what keeps any axis of its part system from motion by hand, and, since the NC alone knows which one the tap's is, a drive or a brake of any of
+// them, and a way that is barred as soon as an axis goes it.
+Answer Scan::tap_hindrance(unsigned s) const noexcept {
+  for (unsigned a = 0; a < config_.nc.system[s].axis_count; ++a) {
+    if (is_spindle_now(s, a)) continue;
+    Answer why = hand_hindrance(s, a);
+    if (why == Answer::kTapInHole) why = Answer::kDone;  // of the others
+    if (why == Answer::kDone && out_[s].state == NC_STATE_MANUAL) why = way_hindrance(s, a, direction_of(out_[s].velocity.v[a]));
+    if (why != Answer::kDone) return why;
+  }
+  return Answer::kDone;
+}
+
+// Behind the ladder. It is drawn out as long as it is asked for, from when that rises; what was refused or stopped acts again when it was let go.
+void Scan::follow_tap(unsigned s) noexcept {
+  const std::uint32_t bit = 1u << s;
+  const bool asked = in_[s].tap_retract;
+  const bool begins = asked && (taps_asked_ & bit) == 0;
+  taps_asked_ = asked ? taps_asked_ | bit : taps_asked_ & ~bit;
+  if (!asked) taps_refused_ &= ~bit;
+  if (!asked || (!begins && (taps_refused_ & bit) != 0)) {
+    in_[s].tap_retract = false;
+    return;
+  }
+  const Answer why = out_[s].tap_retract_possible || out_[s].state == NC_STATE_MANUAL ? tap_hindrance(s) : Answer::kDone;
+  if (why == Answer::kDone) return;
+  taps_refused_ |= bit;
+  taps_drawn_ &= ~bit;
+  in_[s].tap_retract = false;
+  refuse(s, Asked::kTapRetract, why, -1, out_[s].state == NC_STATE_MANUAL);
 }
 
 }  // namespace nc::rt
