@@ -98,6 +98,30 @@ TEST(Terraces, AWayOutThroughTheLastContourCutsIt) {
       }
 }
 
+// From a disc that has been cut in two half circles the way to the other side leads through it, and the next level begins there: in the joint of the half circles, one of the first three behind
+// the start. The contour has closed before, so nothing of it is a way in, whatever comes back to this joint later; and the machine stops in front of the line, not when all is cut.
+TEST(Terraces, AWayThroughAContourThatHasClosedCutsIt) {
+  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(60, 10);
+  for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::round(1000 * std::uniform_real_distribution<double>(low, high)(random)) / 1000; };
+    const double radius = number(1, 5), disc = number(2, 8) * radius, lead = number(1.05, 1.6) * radius, away = disc + 2 * radius;
+    for (const bool round_it : {false, true}) {
+      const auto word = [](char letter, double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%c%.3f ", letter, value);
+        return std::string(text);
+      };
+      const double far = disc + lead;
+      const std::string start = "G90 G17 G0 " + word('X', away) + "Y0\nG1 Z-1. F500\nG42 D1 " + word('X', disc) + "\n", halves = "G3 " + word('X', -disc) + word('I', -disc) + "\n" + word('X', disc) + word('I', disc) + "\n";
+      const std::string way = "G2 " + word('X', far) + word('Y', lead) + word('I', lead) + "J0\n", across = (round_it ? "G3 " + word('R', -1.05 * far) : std::string("G1 ")) + word('X', -far) + word('Y', lead) + "\n";
+      const std::string back = "G2 " + word('X', -disc) + "Y0 I0 " + word('J', -lead) + "\nG3 " + word('X', disc) + word('I', disc) + "\n" + word('X', -disc) + word('I', -disc) + "\nG1 G40 " + word('X', -away) + "\nM30\n";
+      const std::string text = start + halves + way + across + "G1 Z-2.\n" + back;
+      EXPECT_EQ(alarm_of_terraces(text, radius).substr(0, 7), round_it ? "" : "P153 L7") << "seed " << seed << "\n" << text;
+    }
+  }
+}
+
 // A wall that stands above the tip, since it has been cut before, is one: a lower contour that leads back under the terrace above it cuts that.
 TEST(Terraces, ALowerContourCutsTheWallsAboveIt) {
   for (const Down down : {Down::plunge, Down::first_side, Down::round})

@@ -83,7 +83,7 @@ void ContourMemory::follow(const Section& section, uint64_t number) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
     if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm) continue;
-    if (first || state_.closure == number) {  // the way in ends where the contour first closes
+    if (first) {  // the way in ends where the contour first closes
       state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
       for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
     } else if ((2u << i) <= state_.closed) {  // a point of the way in, where the way out ends
@@ -155,7 +155,8 @@ bool ContourMemory::blame(uint64_t number, const Path& path) {
   if (is_way_in(number)) return false;
   const uint64_t place = behind_start(number);
   const Culprit culprit{path.source, path.starts || path.cancels};
-  if (place <= kWay) {  // the contour may still come back to where it ends
+  const bool open_way = state_.closure == 0 || state_.turned || number > state_.closure;
+  if (place <= kWay && open_way) {  // the contour may still come back to where it ends
     if ((state_.suspects >> place & 1) == 0) state_.culprit[place] = culprit;
     state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
     return false;
