@@ -335,6 +335,7 @@ class Scan {
   void watch_way(unsigned system, unsigned axis) noexcept;
   bool is_held(int point) const noexcept;
   void turn_handwheels(LadderRequests* requests) noexcept;
+  bool wheel_jumped(unsigned system, unsigned axis) const noexcept;
   int chosen_axis(const HandwheelConfig& wheel, bool* alone) const noexcept;
   void move_joysticks(LadderRequests* requests) noexcept;
   void watch_handle(unsigned system, unsigned axis) noexcept;

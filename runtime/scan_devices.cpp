@@ -53,6 +53,19 @@ void Scan::turn_handwheels(LadderRequests* requests) noexcept {
   }
 }
 
+// The counter of the wheel that has chosen this axis has jumped in this scan.
+bool Scan::wheel_jumped(unsigned system, unsigned axis) const noexcept {
+  for (std::size_t n = 0; n < config_.handwheels.size(); ++n) {
+    if (!handwheel_[n].jumped() || mode_ != Mode::kManual) continue;
+    bool alone = true;
+    const int choice = chosen_axis(config_.handwheels[n], &alone);
+    if (choice < 0 || !alone) continue;
+    const HandwheelConfig::Choice& chosen = config_.handwheels[n].axes[static_cast<std::size_t>(choice)];
+    if (chosen.system == system && chosen.axis == axis) return true;
+  }
+  return false;
+}
+
 // A stick is a jog button whose speed is how far it is out. With a button of the other direction the axis stands.
 void Scan::move_joysticks(LadderRequests* requests) noexcept {
   for (std::size_t n = 0; n < config_.joysticks.size(); ++n) {

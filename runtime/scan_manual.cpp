@@ -245,9 +245,11 @@ void Scan::give_up_way(unsigned s, unsigned a, Answer why) noexcept {
 // Of pulses that do not become motion each reason once, until pulses act again.
 void Scan::watch_handle(unsigned s, unsigned a) noexcept {
   Answer& noted = handle_noted_[s][a];
-  if ((wheels_clash_[s] >> a & 1u) != 0) {
-    if (noted != Answer::kTwoWheels) refuse(s, Asked::kHandle, Answer::kTwoWheels, static_cast<int>(a));
-    noted = Answer::kTwoWheels;
+  const bool clash = (wheels_clash_[s] >> a & 1u) != 0;
+  if (clash || wheel_jumped(s, a)) {
+    const Answer wheel = clash ? Answer::kTwoWheels : Answer::kHandleTooFar;
+    if (noted != wheel) refuse(s, Asked::kHandle, wheel, static_cast<int>(a));
+    noted = wheel;
     return;
   }
   const nc_manual& given = in_[s].manual[a];

@@ -8,6 +8,7 @@
 namespace nc::rt {
 
 inline constexpr unsigned kMostHandwheels = 3;  // M700 has three handles
+inline constexpr unsigned kMostDivisions = 200;  // two turns of a usual wheel: no hand makes them from one reading to the next
 
 // What the configuration says of one wheel; points are indices of the point table, -1 = none.
 struct HandwheelConfig {
@@ -25,15 +26,16 @@ struct HandwheelConfig {
 // The way of one wheel from scan to scan, in divisions.
 class Handwheel {
  public:
-  // Divisions since the scan before. A count that is not good, and the first one behind that, are no way. The counts of a division that is not complete are kept,
-  // until another axis is chosen. NC_RT.
+  // Divisions since the scan before. A count that is not good, and the first one behind that, are no way, and neither is a jump: its counter has begun anew, or is
+  // disturbed. The counts of a division that is not complete are kept, until another axis is chosen. NC_RT.
   std::int32_t step(std::uint32_t count, bool good, unsigned bits, unsigned counts, int choice) noexcept {
     const unsigned unused = 32 - bits;
     const auto way = static_cast<std::int32_t>((count - before_) << unused) >> unused;
-    const bool moved = good && known_;
+    jumped_ = good && known_ && (way < 0 ? -std::int64_t{way} : std::int64_t{way}) > std::int64_t{kMostDivisions} * counts;
+    const bool moved = good && known_ && !jumped_;
     known_ = good;
     before_ = count;
-    if (choice != choice_ || !good) rest_ = 0;
+    if (choice != choice_ || !good || jumped_) rest_ = 0;
     choice_ = choice;
     if (!moved || choice < 0) return 0;
     rest_ += way;
@@ -41,11 +43,13 @@ class Handwheel {
     rest_ -= divisions * counts;
     return static_cast<std::int32_t>(divisions);
   }
+  // In the last step.
+  bool jumped() const noexcept { return jumped_; }
 
  private:
   std::uint32_t before_ = 0;
   std::int64_t rest_ = 0;
-  bool known_ = false;
+  bool known_ = false, jumped_ = false;
   int choice_ = -1;  // axis that was chosen
 };
 

@@ -46,6 +46,22 @@ TEST(Handwheel, CountsOfADivisionThatIsNotCompleteAreKeptForTheAxis) {
   EXPECT_EQ(wheel.step(51, true, 32, 4, 0), 0);
 }
 
+// The counter of an I/O module that has begun anew says nothing of a hand.
+TEST(Handwheel, AJumpIsNoWay) {
+  Handwheel wheel;
+  (void)wheel.step(40'000, true, 16, 4, 0);
+  EXPECT_EQ(wheel.step(0, true, 16, 4, 0), 0);
+  EXPECT_TRUE(wheel.jumped());
+  EXPECT_EQ(wheel.step(800, true, 16, 4, 0), 200) << "as far as a hand goes";
+  EXPECT_FALSE(wheel.jumped());
+  EXPECT_EQ(wheel.step(1604, true, 16, 4, 0), 0);
+  EXPECT_EQ(wheel.step(1600, true, 16, 4, 0), -1);
+  Handwheel whole;
+  (void)whole.step(0, true, 32, 1, 0);
+  EXPECT_EQ(whole.step(0x80000000u, true, 32, 1, 0), 0);
+  EXPECT_TRUE(whole.jumped());
+}
+
 class HandwheelMachine : public nc::test::SwitchMachine {
  protected:
   void by_hand(const std::string& wheels) {
@@ -123,6 +139,19 @@ TEST_F(HandwheelMachine, ThreeWheelsWithFactorsOfTheirOwn) {
   turn("wheel3", 4);
   at_rest(0.2, 0.03);
   EXPECT_NEAR(counted(2), 0.004, 1e-9);
+  EXPECT_EQ(refused(), "");
+}
+
+TEST_F(HandwheelMachine, ACounterThatJumpsTurnsNothingAndThatIsSaid) {
+  by_hand(kWheel);
+  turn("sel_x", 1);
+  turn("hundred", 1);
+  steps(3);
+  turn("wheel", 7000);
+  at_rest(0, 0);
+  EXPECT_EQ(refused(), "handle X refused: more than the axis follows: it does not end where the wheel says");
+  turn("wheel", 7002);
+  at_rest(0.2, 0);
   EXPECT_EQ(refused(), "");
 }
 
