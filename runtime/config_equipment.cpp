@@ -175,7 +175,7 @@ void read_equipment(TableReader* axis, Config* config, unsigned s, unsigned a) {
     reader.number("close_s", &equipment.brake.close_s, 0, 10);
     if (config->nc.system[s].axis[a].spindle != 0) reader.error("point", "the axis is a spindle, whose servo goes off by itself");
   });
-  axis->table("screw", [&](TableReader& reader) { read_screw(&reader, config->nc.system[s].axis[a], &equipment.screw); });
+  axis->table("screw", [&](TableReader& reader) { read_screw(&reader, config->nc.system[s].axis[a], config->nc.cycle_s, &equipment.screw); });
 }
 
 void resolve_equipment(TableReader* root, Config* config) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Key of [[axis]]: screw, the backlash of an axis and the error of its pitch. docs/homing.md.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -19,6 +20,26 @@ bool is_smooth(const ScrewConfig& screw, const std::vector<double>& error) {
   for (std::size_t n = 0; n + (screw.turns ? 0 : 1) < error.size(); ++n)
     if (std::abs(error[(n + 1) % error.size()] - error[n]) > kSteepest * screw.step) return false;
   return true;
+}
+
+// The largest change of its slope; outside of the table it has none. There the drive changes its speed within a cycle.
+double sharpest_bend(const ScrewConfig& screw, const std::vector<double>& error) {
+  double bend = 0;
+  for (std::size_t n = 0; n < error.size(); ++n) {
+    const double before = n > 0 ? error[n - 1] : screw.turns ? error.back() : error[n];
+    const double after = n + 1 < error.size() ? error[n + 1] : screw.turns ? error.front() : error[n];
+    bend = std::max(bend, std::abs(after - 2 * error[n] + before) / screw.step);
+  }
+  return bend;
+}
+
+// A table may not ask more of the drive where it bends than a reversal does.
+void check_bends(TableReader* reader, const ScrewConfig& screw, double max_velocity, double cycle_s) {
+  for (const unsigned side : {1u, 0u}) {
+    const double needs = sharpest_bend(screw, screw.error[side]) * max_velocity / cycle_s;
+    if (needs <= screw.acceleration) continue;
+    reader->error(side == 1 ? "error" : "error_minus", "bends so sharply that the drive would need " + number_text(std::round(needs)) + " there at max_velocity, and acceleration is " + number_text(screw.acceleration) + ": places further apart, or smaller errors");
+  }
 }
 
 bool read_errors(TableReader* reader, const char* key, const ScrewConfig& screw, std::vector<double>* error) {
@@ -53,7 +74,7 @@ void read_table(TableReader* reader, ScrewConfig* screw) {
 
 }  // namespace
 
-void read_screw(TableReader* reader, const nc_axis_config& axis, ScrewConfig* screw) {
+void read_screw(TableReader* reader, const nc_axis_config& axis, double cycle_s, ScrewConfig* screw) {
   screw->turns = axis.rotary;
   screw->acceleration = axis.max_acceleration;
   screw->velocity = kSpeedShare * axis.max_velocity;
@@ -67,6 +88,7 @@ void read_screw(TableReader* reader, const nc_axis_config& axis, ScrewConfig* sc
   }
   reader->number("acceleration", &screw->acceleration, 1, 1e6);
   if (!(screw->acceleration > 0)) reader->error("acceleration", "is missing, and the axis has no max_acceleration");
+  if (screw->acceleration > 0) check_bends(reader, *screw, axis.max_velocity, cycle_s);
   if (axis.spindle != 0) reader->error("backlash", "the axis is a spindle, whose encoder has no screw");
 }
 

@@ -298,6 +298,8 @@ TEST_F(ScrewKeys, EachErrorNamesItsPlace) {
                          {"{ from = 0.0, step = 10.0, error = [0.0, 0.01], error_minus = [0.0, 0.01, 0.0] }", "axis[1].screw.error_minus: must have as many numbers as error (2)"},
                          {"{ from = 0.0, step = 10.0, error = [0.0, 0.01], error_minus = [0.0, 0.01], backlash = 0.1 }",
                           "axis[1].screw.backlash: is in the difference of error and error_minus already"},
+                         {"{ from = 0.0, step = 4.0, error = [0.0, 0.04, 0.0, 0.04] }", "axis[1].screw.error: bends so sharply that the drive would need 4000 there at max_velocity, and acceleration is 2000"},
+                         {"{ from = 0.0, step = 4.0, error = [0.0, 0.0, 0.0], error_minus = [0.0, 0.04, 0.0] }", "axis[1].screw.error_minus: bends so sharply"},
                          {"{ backlash = 0.01, acceleration = 0.0 }", "axis[1].screw.acceleration: "}}) {
     SCOPED_TRACE(row.screw);
     const std::string key = std::string("screw = ") + row.screw + "\nlimit_switches = { minus = \"x_min\"";
