@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Homing: every kind finds its mark within what a scan at creep speed is, no drive is given a jump, and what may be done before it is refused by name.
+#include <random>
+
 #include "axes_machine.hpp"
 #include "runtime/has_bus.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -256,6 +259,60 @@ TEST_F(Homing, WhatStopsMotionByHandEndsItAndItDoesNotGoOnByItself) {
     EXPECT_NEAR(place(kZ), stands, 1e-3);
     EXPECT_EQ(flags().homed & 1u << kZ, 0u);
     expect_limits_kept();
+  }
+}
+
+// In each of its phases, by whatever ends it: nothing goes on by itself, and the next homing finds the same marks. NC_SEEDS for more.
+TEST_F(Homing, EndedAnywhereItIsFoundTheNextTime) {
+  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(20, 4));
+  for (unsigned seed = 1; seed <= seeds && !HasFailure(); ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&random](unsigned n) { return static_cast<int>(random() % n); };
+    build(changed({{"stands_at = -37.5", ("stands_at = " + std::to_string(below(560) - 280)).c_str()}, {"stands_at = 12.25", ("stands_at = " + std::to_string(below(560) - 280)).c_str()}}));
+    manual_mode();
+    for (int ends = 1 + below(3); ends > 0 && !HasFailure(); --ends) {
+      ASSERT_EQ(home_all(), Answer::kDone) << refusal();
+      const int scans = 1 + below(30'000), what = below(8);
+      const unsigned axis = static_cast<unsigned>(below(3));
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", " + std::to_string(what) + " behind " + std::to_string(scans) + " scans");
+      for (int n = 0; n < scans && (n < 3 || flags().homing != 0); ++n) steps(1);
+      switch (what) {
+        case 0: ASSERT_EQ(ask(CommandKind::kReset), Answer::kDone); break;
+        case 1: machine->fail_drive(0, axis, true); break;
+        case 2: machine->fail_bus(true); break;
+        case 3: in("x_go", 0); break;
+        case 4: (void)ask(CommandKind::kSetMode, 0, static_cast<double>(Mode::kAuto)); break;
+        case 5: in(below(2) == 0 ? "x_free_p" : "x_free_m", 0); break;
+        case 6: machine->block_axis(0, axis, true); break;
+        case 7: in("z_servo_off", 1); break;
+      }
+      steps(1 + below(100));
+      machine->fail_drive(0, axis, false);
+      machine->block_axis(0, axis, false);
+      machine->fail_bus(false);
+      for (const char* name : {"x_go", "x_free_p", "x_free_m"}) in(name, 1);
+      in("z_servo_off", 0);
+      steps(400);
+      if (what == 5 || what == 6 || what == 7) (void)until([&] { return flags().homing == 0; });  // what was asked of another axis goes on
+      reset();
+      steps(400);
+      manual_mode();
+      const std::uint64_t moved = measured->moved;
+      steps(500);
+      EXPECT_EQ(measured->moved, moved) << "by itself";
+      for (unsigned a = 0; a < 3; ++a) {  // from the limit switches, and from behind the dogs
+        const double at = place(a);
+        if (std::abs(at) < (a == kZ ? 100 : 285)) continue;
+        jog(a, at > 0 ? -20 : 20, (a == kZ ? 2500 : 2000));
+        ASSERT_TRUE(let_go(a));
+        reset();
+        steps(300);
+      }
+    }
+    home_machine();
+    for (unsigned a = 0; a < 3; ++a) expect_homed(a, a == kY ? 3 : 2);
+    expect_limits_kept();
+    EXPECT_EQ(alarm(), "");
   }
 }
 

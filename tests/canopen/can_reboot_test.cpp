@@ -157,7 +157,9 @@ unsigned long setting(const char* name, unsigned long otherwise) {
 
 class Session {
  public:
-  explicit Session(unsigned long seed) : seed_(seed), random_(seed), log_(std::getenv("NC_LOG") != nullptr) {}
+  // With `speed` the drive of X is given a speed, and its position is held by the control.
+  Session(unsigned long seed, bool speed)
+      : seed_(seed), random_(seed), log_(std::getenv("NC_LOG") != nullptr), tried_(speed ? 0 : 2), rig_(nc::test::can_toml("", speed ? "mode = \"velocity\"\nvelocity_delay = 2.0\n" : "")) {}
 
   void run(unsigned incidents) {
     rig_.bring_up();
@@ -317,17 +319,18 @@ class Session {
     (void)rig_.run(CommandKind::kReset);
     ASSERT_TRUE(rig_.until([&] { return rig_.idle() && rig_.following(); }, 4000)) << where_ << rig_.alarms();
     step(30);
-    const double from = rig_.plant_mm(2);
-    ASSERT_EQ(rig_.mdi("G91 G01 Z" + std::string(from > 0 ? "-" : "") + "2. F9000"), Answer::kDone) << where_;
+    const double from = rig_.plant_mm(tried_);
+    ASSERT_EQ(rig_.mdi(std::string("G91 G01 ") + "XYZ"[tried_] + (from > 0 ? "-" : "") + "2. F9000"), Answer::kDone) << where_;
     step(20);
     ASSERT_TRUE(rig_.until([&] { return rig_.idle(); }, 3000)) << where_ << rig_.alarms();
     step(20);
-    EXPECT_NEAR(rig_.plant_mm(2), from + (from > 0 ? -2 : 2), 0.002) << where_;
+    EXPECT_NEAR(rig_.plant_mm(tried_), from + (from > 0 ? -2 : 2), 0.002) << where_;
   }
 
   const unsigned long seed_;
   std::mt19937_64 random_;
   const bool log_;
+  const unsigned tried_;  // axis that moves behind each incident
   CanRig rig_;
   std::string where_, said_;
   unsigned frames_ = 0, loser_ = 0, loss_percent_ = 0;
@@ -336,7 +339,7 @@ class Session {
 
 TEST(CanReboot, AnyOfThemAtAnyInstantEndsBehindResets) {
   const unsigned long first = setting("NC_FIRST_SEED", 1), seeds = nc::test::seeds(6, 2);
-  for (unsigned long seed = first; seed < first + seeds && !HasFailure(); ++seed) Session(seed).run(10);
+  for (unsigned long seed = first; seed < first + seeds && !HasFailure(); ++seed) Session(seed, seed % 2 == 0).run(10);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "can_rig.hpp"
+#include "support/seeds.hpp"
 
 namespace {
 
@@ -151,6 +152,60 @@ TEST(CanVelocity, AnyOperator) {
     EXPECT_NEAR(rig.plant_mm(0), rig.command(0), 2 * kIncrement) << "seed " << seed;
     EXPECT_NEAR(rig.plant_mm(1), rig.command(1), kIncrement) << "seed " << seed;
     EXPECT_EQ(rig.alarms(), "") << "seed " << seed;
+  }
+}
+
+// The same with hands and with a screw, while scans come late by any number of cycles that is allowed: a sound machine has no alarm, its motor never turns faster than it can,
+// and stands where the control says, with what its screw needs.
+TEST(CanVelocity, AnyHandAndLateScans) {
+  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(12, 3));
+  for (unsigned seed = 1; seed <= seeds && !testing::Test::HasFailure(); ++seed) {
+    std::mt19937 random(seed);
+    const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+    std::string text = can_toml("", velocity("velocity_gain = " + std::to_string(5 + below(95)) + ".0\n"));
+    const std::string axis = "name = \"X\"\nmax_velocity";
+    text.replace(text.find(axis), axis.size(), "name = \"X\"\nscrew = { backlash = 0.04, from = -200.0, step = 10.0, error = [0.0, 0.02, 0.0, -0.02, 0.01] }\nmax_velocity");
+    CanRig rig(text);
+    rig.bring_up();
+    ASSERT_EQ(rig.run(nc::rt::CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+    double worst = 0, jog = 0;
+    unsigned left = 0, late = 0;
+    const auto look = [&] {
+      worst = std::max(worst, std::abs(rig.drives[0]->plant().coast) / kIncrementsPerMm);  // in one SYNC
+    };
+    for (unsigned n = 0; n < 15'000 && rig.alarms().empty(); ++n) {
+      nc::rt::Command command;
+      command.axis = 0;
+      if (below(300) == 0) jog = (below(2) == 0 ? 1 : -1) * (1.0 + below(200)), left = 1 + below(800);
+      if (left > 0 && --left % 40 == 0) {
+        command.kind = nc::rt::CommandKind::kJog;
+        command.value = left == 0 ? 0 : jog;
+        (void)rig.runtime->execute(command);
+      }
+      if (below(400) == 0) {
+        command.kind = nc::rt::CommandKind::kStep;
+        command.value = (static_cast<int>(below(201)) - 100) / 10.0;
+        (void)rig.runtime->execute(command);
+      }
+      if (below(3000) == 0) (void)rig.run(nc::rt::CommandKind::kReset);
+      if (below(500) == 0) {
+        ++late;
+        for (unsigned cycles = 1 + below(18); cycles > 0; --cycles) {
+          rig.bus_step();
+          look();
+        }
+      }
+      rig.step();
+      look();
+    }
+    EXPECT_EQ(rig.alarms(), "") << "seed " << seed;
+    EXPECT_GT(late, 10u);
+    EXPECT_LE(worst, 0.25 + kIncrement) << "seed " << seed << ": 1.25 times the largest velocity";
+    ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 3000)) << "seed " << seed;
+    rig.step(1500);
+    const double screw = rig.runtime->snapshot().system[0].axes.screw[0];
+    EXPECT_NEAR(rig.plant_mm(0) - screw, rig.command(0), 2 * kIncrement) << "seed " << seed;
+    EXPECT_NEAR(rig.actual(0), rig.command(0), 2 * kIncrement) << "seed " << seed;
   }
 }
 
