@@ -119,6 +119,40 @@ TEST_F(TapRetract, WhatStopsMotionByHandStopsIt) {
   }
 }
 
+// Given up anywhere in the hole, axis and spindle come to rest, and stay there.
+TEST_F(TapRetract, InItsHoleTheTapRests) {
+  build();
+  steps(300);
+  start(kTapping);
+  for (unsigned n = 0; n < 60; ++n) {
+    SCOPED_TRACE(n);
+    ASSERT_EQ(runtime->execute(CommandKind::kSetMode, 0, static_cast<std::uint32_t>(Mode::kAuto)), Answer::kDone);
+    if (n > 0) {
+      ASSERT_EQ(runtime->execute(CommandKind::kCycleStart), Answer::kDone);
+    }
+    ASSERT_GE(until([&] { return out().tapping && z() < 1; }), 0);
+    steps(17 * n + n % 5);
+    if (!out().tapping) break;
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    ASSERT_GE(until([&] { return out().state == NC_STATE_IDLE && !runtime->snapshot().resetting; }), 0);
+    steps(700);
+    stood = z();
+    unsigned moved = 0;
+    for (unsigned scan = 0; scan < 300; ++scan) {
+      runtime->step();
+      moved += !out().distance_zero;
+    }
+    EXPECT_EQ(moved, 0u);
+    EXPECT_EQ(z(), stood);
+    if (!out().tap_retract_possible) continue;
+    manual_mode();
+    ASSERT_EQ(command(true), Answer::kDone);
+    ASSERT_GE(until([&] { return !out().tap_retract_possible && out().state == NC_STATE_IDLE; }, 20000), 0);
+    (void)command(false);
+    steps(200);
+  }
+}
+
 // The way out of the hole leads on to a switch that is on already.
 TEST_F(TapRetract, DoesNotGoOnToALimitSwitch) {
   into_the_hole();

@@ -73,8 +73,9 @@ class TapFollower {
   Trouble trouble() const NC_RT { return active_ ? trouble_ : Trouble::none; }
   /// The spindle does not come to the place where it is let go.
   void say_apart() NC_RT { trouble_ = Trouble::apart; }
-  /// Axis and spindle have come to rest beside the path, or where the spindle could not be followed any more.
-  bool rests_beside() const NC_RT { return active_ && stands_ && speed_ == 0 && (beside_ != 0 || trouble_ != Trouble::none); }
+  /// Axis and spindle have come to rest beside the path, or where the spindle could not be followed any more. What a spindle that counts as standing may turn is no such place:
+  /// to take both there gives the spindle another command, behind which it turns as little again, and so on without end.
+  bool rests_beside() const NC_RT { return active_ && stands_ && speed_ == 0 && (std::fabs(beside_) > kTaken || trouble_ != Trouble::none); }
   /// Both rest, but for rounding.
   bool rests() const NC_RT { return active_ && stands_ && std::fabs(speed_) <= kRests; }
 
@@ -222,6 +223,7 @@ class TapFollower {
   static constexpr double kArrived = 1e-3;        ///< mm
   static constexpr double kRests = 1e-6;          ///< mm/s
   static constexpr double kStill = 1e-6;          ///< revolutions in one cycle
+  static constexpr double kTaken = 1e-5;          ///< mm: more than that of any lead
   static constexpr double kUnfelt = 3e-4;         ///< share of the limits of the axis that is not felt ...
   static constexpr double kAtRest = 0.25;         ///< ... and that it may have of them alone; each of three parts has so much
   static constexpr double kFaded = 0.05, kSlow = 0.1, kSteady = 3;  ///< mm, mm/s, mm/s^2: what may fade
