@@ -37,7 +37,7 @@ said err "nothing in the control asks for this parameter"
 # And for a time constant that makes an axis slower than it could be.
 sed "s#^mode = .*#mode = \"trapezoid\"#; s#^programs = .*#programs = \"$work\"#; s#^\[parameters\].*#&\n\"2007\" = 60#" "$machine" >"$work/slow.toml"
 expect 0 "$ncrtd" --config "$work/slow.toml" check
-said err "parameters: X: #2007 #2008 let cuts go at 9000 mm/min, the axis could go at 30000"
+said err "parameters.2007: X: #2007 #2008 let cuts go at 9000 mm/min, the axis could go at 30000"
 rm "$work/mill.il"
 
 # A whole part on virtual time, with its plots.
