@@ -3,6 +3,7 @@
 // operator moves it, and no step of an axis is larger than it can be.
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <random>
 
 #include "support/random_program.hpp"
@@ -741,6 +742,116 @@ TEST_P(Restart, AnywhereInRandomPrograms) {
   }
   EXPECT_GT(begun, 5u);
   std::printf("%u begun inside, %u where blocks hang together\n", begun, hang_together);
+}
+
+/// Programs in which each block may change a mode, and each move is another one under it: planes, units, offsets, shifts, rotation, scaling, polar coordinates, lengths,
+/// compensation, cycles, loops and sub programs.
+class ModesMaker {
+ public:
+  explicit ModesMaker(uint32_t seed) : random_(seed) {}
+  RandomProgram make() {
+    RandomProgram p;
+    for (int i = 1; i <= 2; ++i) {
+      text_ = "O" + std::to_string(i) + "\n";
+      in_sub_ = true;
+      for (int n = number(2, 5); n > 0; --n) block();
+      p.subs.push_back(text_ + "M99\n");
+    }
+    in_sub_ = false;
+    text_ = "G90 G54 G17 G21 G94 G0 X0 Y0 Z5. F800\nM3 S900\nG10 L2 P2 X3. Y-4. Z1.\nG10 L10 P2 R2.5\n";
+    for (int n = number(15, 40); n > 0; --n) block();
+    p.main = text_ + "G40 G80 G69 G50 G15 G49 G21 G90 G94\nG0 Z20.\nM30\n";
+    return p;
+  }
+
+ private:
+  int number(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  std::string place(int reach = 6) { return std::to_string(number(-reach * 1000, reach * 1000) / 1000.0); }
+  std::string xy() { return " X" + place() + " Y" + place(); }
+  void block() {
+    switch (number(0, 27)) {
+      case 0: text_ += "G68" + xy() + " R" + place(90) + "\n"; break;
+      case 1: text_ += "G69\n"; break;
+      case 2: text_ += "G20 F" + std::to_string(number(10, 40)) + ".\n"; break;
+      case 3: text_ += "G21 F" + std::to_string(number(300, 900)) + ".\n"; break;
+      case 4: text_ += "G43 H2 Z" + place(4) + "\n"; break;
+      case 5: text_ += "G49\n"; break;
+      case 6: text_ += "G92 X" + place() + "\n"; break;
+      case 7: text_ += "G52 Y" + place() + "\n"; break;
+      case 8: text_ += "G51 X0 Y0 Z0 P" + std::to_string(number(5, 15) / 10.0) + "\n"; break;
+      case 9: text_ += "G50\n"; break;
+      case 10: text_ += std::string(number(0, 1) == 0 ? "G18" : "G19") + " G0 X" + place() + " Z" + place() + "\nG17\n"; break;
+      case 11: text_ += "G91 G1" + xy() + "\nZ" + place(1) + "\nG90\n"; break;
+      case 12: text_ += "G5" + std::to_string(number(4, 6)) + " G0" + xy() + "\n"; break;
+      case 13: text_ += "G16 G0 X" + std::to_string(number(1, 6)) + ". Y" + place(90) + "\nY" + place(90) + "\nG15\n"; break;
+      case 14: text_ += "G95 G1" + xy() + " F0." + std::to_string(number(1, 9)) + "\nG94 F" + std::to_string(number(20, 800)) + ".\n"; break;
+      case 15: text_ += "G81" + xy() + " Z-2. R1. F200.\n" + xy() + "\nG80\n"; break;
+      case 16: text_ += "S" + std::to_string(number(500, 1500)) + "\n"; break;
+      case 17: text_ += "M" + std::to_string(number(7, 9)) + "\n"; break;
+      case 18:
+        if (!in_sub_) text_ += "M98 P" + std::to_string(number(1, 2)) + " L" + std::to_string(number(1, 2)) + "\n";
+        break;
+      case 19: text_ += "#101=#101+1\nG1 X#101 F500.\n"; break;
+      case 20: text_ += "G2 X" + place() + " Y" + place() + " R9.\n"; break;
+      case 21: text_ += "G53 G0 Z" + place(9) + "\n"; break;
+      default: text_ += std::string(number(0, 1) == 0 ? "G0" : "G1") + xy() + (number(0, 2) == 0 ? " Z" + place(3) : "") + "\n"; break;
+    }
+  }
+  std::mt19937 random_;
+  std::string text_;
+  bool in_sub_ = false;
+};
+
+/// As AnywhereInRandomPrograms: from the place on the moves are those of the whole run, whatever modes are in force there.
+TEST_P(Restart, AnywhereAmidModes) {
+  unsigned begun = 0, alarms = 0, nowhere = 0;
+  const auto from = static_cast<uint32_t>(wish("NC_FIRST_SEED", 1));
+  for (uint32_t seed = from; seed < from + seeds(60, 20); ++seed) {
+    SCOPED_TRACE(seed);
+    const RandomProgram program = ModesMaker(seed).make();
+    WholeRun run;
+    {
+      Bench bench(NC_DIALECT_M700, [](nc_config& c) { axes("XYZ")(c); });
+      bench.tool(1, 4).param("1084", "0.1").var(101, 1);
+      load_subs(bench, program);
+      const Outcome done = bench.run(program.main);
+      if (!done.alarm.empty() || done.steps.empty()) {
+        ++alarms;
+        continue;
+      }
+      for (const Step& step : done.steps) {
+        if (step.item.kind == NC_ITEM_MOVE) run.moves.push_back(step.item);
+        if (step.item.kind == NC_ITEM_MARK && step.item.u.mark.report) run.behind.push_back(run.moves.size());
+      }
+    }
+    RestartMachine part(GetParam(), program.main);
+    part.bench.var(101, 1);
+    load_subs(part.bench, program);
+    std::mt19937 random(seed);
+    const uint64_t blocks = std::uniform_int_distribution<uint64_t>(1, run.behind.size() - 2)(random);
+    nc_restart_place place = at_block(blocks);
+    place.start_given = true;
+    const nc_status status = part.find(place);
+    if (status == NC_E_NOT_FOUND || status == NC_ENDED) {  // blocks hang together; between the end of what was called and that of the block that has called it
+      ++nowhere;
+      continue;
+    }
+    ASSERT_EQ(status, NC_OK) << part.drive->alarm() << " behind " << blocks << " blocks\n" << program.main;
+    ++begun;
+    part.enter();
+    part.bring_axes();
+    ASSERT_TRUE(part.at(part.found.machine));
+    ASSERT_TRUE(part.to_end()) << part.drive->alarm() << " line " << part.drive->out.source.line << " cause " << int{part.drive->out.cause} << "\n" << program.main;
+    EXPECT_LT(part.worst, 1.001);
+    const std::vector<nc_axes> ends = part.drive->ends();
+    const size_t first = run.behind[blocks - 1];
+    ASSERT_EQ(ends.size(), run.moves.size() - first) << program.main;
+    for (size_t i = 0; i < ends.size(); ++i)
+      for (unsigned a = 0; a < kAxes; ++a) ASSERT_NEAR(ends[i].v[a], run.moves[first + i].u.move.machine.v[a], GetParam() ? 0.021 : 1e-6) << "move " << i << " line " << run.moves[first + i].source.line << "\n" << program.main;
+  }
+  EXPECT_GT(begun, 5u);
+  EXPECT_LT(nowhere, begun / 4);
+  std::printf("%u begun inside, %u programs with alarms, %u places between two blocks\n", begun, alarms, nowhere);
 }
 
 }  // namespace
