@@ -241,7 +241,7 @@ constexpr Sentence kSentences[] = {
     {C::geometric_no_line, "Behind a block without an end the block that meets it must move: a line ({linear}) or an arc.", nullptr},
     {C::geometric_address, "{word}: 0 or 1 chooses one of the two places in which the blocks meet.", "0 or 1 chooses one of the two places in which the blocks meet.", nullptr, of_meeting_choice},
     {C::geometric_address, "A line at this angle does not come to {word}. Give the other coordinate of its end in place of it.", "A line at this angle does not come to the coordinate. Give the other one in place of it.", nullptr, of_coordinate},
-    {C::geometric_address, "The words do not fit a line by its angle, or two blocks that meet: leave out others, and give the second its whole end.", nullptr},
+    {C::geometric_address, "The words do not fit a line by its angle, or two blocks that meet. Give the second its whole end, a line its A, and no other.", nullptr},
     {C::geometric_plane, "The plane cannot change between a block without an end and the one that meets it. Select it in front of both.", nullptr},
     {C::geometric_contact, "The two blocks do not meet: check the centre, the radius, the angle and the ends.", nullptr},
     {C::space_compensation, "Three-dimensional radius compensation ({vector_x} {vector_y} {vector_z} together) starts from {rapid} or {linear}, in no other mode.", nullptr},
