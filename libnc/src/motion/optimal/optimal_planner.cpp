@@ -161,6 +161,7 @@ bool OptimalPlanner::called(const Following& f) const {
 void OptimalPlanner::give_up_law() {
   if (!law_work_->open()) return;
   law_work_->give_up();
+  searching_ = false;
   if (round_ == Round::law) builder_.give_up();
   if (!open_) write_ = law_first_;
 }
@@ -205,6 +206,12 @@ Task<bool> OptimalPlanner::law(Work& work, bool answer) {
   co_return true;
 }
 
+/// A call ends with nothing left of what it was given.
+bool OptimalPlanner::unfinished() {
+  pace_.spent();
+  return false;
+}
+
 bool OptimalPlanner::answer(int64_t* instructions) {
   now_ = following_.read();
   if (now_.generation != generation_) {
@@ -212,9 +219,12 @@ bool OptimalPlanner::answer(int64_t* instructions) {
     follow_generation(now_);
     return true;
   }
-  if (called(now_) && !(answering_ && now_.brake == heard_.brake)) {
+  pace_.begins(scan_at(), *instructions);
+  const bool late = search_is_late();
+  if (late) begin_later(2 * search_lead_);
+  if (late || (called(now_) && !(answering_ && now_.brake == heard_.brake))) {
     // Only a hold or its end breaks off an answer: an override that never stands still gets one, and then the path is gone on with.
-    turn_over_ = turn_over_ || now_.brake == heard_.brake;
+    turn_over_ = turn_over_ || (!late && now_.brake == heard_.brake);
     heard_ = now_;
     if (law_work_->open()) {
       give_up_law();
@@ -229,7 +239,7 @@ bool OptimalPlanner::answer(int64_t* instructions) {
     return true;
   }
   *instructions = law_work_->go_on(*instructions);
-  if (law_work_->open()) return false;
+  if (law_work_->open()) return unfinished();
   answering_ = false;
   publish();
   return true;
@@ -252,7 +262,7 @@ bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
   }
   if (round_ == Round::path) {
     *instructions = path_work_->go_on(*instructions);
-    if (path_work_->open()) return false;
+    if (path_work_->open()) return unfinished();
     round_ = Round::law_due;
   }
   if (round_ == Round::law_due && answered(now_)) {
@@ -262,7 +272,7 @@ bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
   }
   if (round_ == Round::law) {
     *instructions = law_work_->go_on(*instructions);
-    if (law_work_->open()) return false;
+    if (law_work_->open()) return unfinished();
   }
   round_ = Round::none;
   turn_over_ = false;
@@ -334,6 +344,12 @@ double OptimalPlanner::ahead(const Following& f, CellIndex cell) const {
   if (f.cell == kNoCell || cell < f.cell) return 0;
   const double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
   return time + chain_end_[cell & store_.cell_mask] - chain_end_[f.cell & store_.cell_mask];
+}
+
+/// Seconds from the start of the chain to the scan.
+double OptimalPlanner::scan_at() const {
+  if (fresh_ || now_.cell == kNoCell) return 0;
+  return chain_end_[now_.cell & store_.cell_mask] - (now_.at_end ? 0 : store_.at(now_.cell).seconds - now_.t);
 }
 
 /// The first place at least `lead` seconds ahead where a law may begin, or the next rest. False when that is the end of the chain.
@@ -740,12 +756,12 @@ bool OptimalPlanner::stroke_waits(const Following& f) const {
 /// What is asked for of the scan that moves is not what the chain does, and it has not been tried in vain just before.
 bool OptimalPlanner::must_change(const Following& f) {
   if (fresh_ || !moving(f)) {
-    chain_.stops = false;
+    chain_.stops = chain_.hurried = false;
     return false;
   }
   const bool scales = !same(limits_.scale, chain_.scale) || stroke_waits(f), blocks = f.block_rests && !chain_.block_rests;
   if (!f.brake) offer_.rests = kNoCell;
-  if (!(f.brake ? !chain_.stops && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return false;
+  if (!(f.brake ? (!chain_.stops || chain_.hurried) && offer_.rests == kNoCell : scales || blocks || chain_.stops)) return false;
   if (f.waits) return !f.brake;
   // At rest no cell goes by, and what was tried in vain from a moving start may be found from here: a thread waits for it.
   if (!f.at_end && tried_at_ != kNoCell && f.cell - tried_at_ < (f.brake ? 1 : kRetry)) return false;
@@ -765,7 +781,7 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
     co_await extend(work, f, start, block_most(f, start), nullptr);
     co_return true;
   }
-  if (!find_ahead(f, lead_, &start)) {  // it comes to rest before anything could be changed
+  if (!find_ahead(f, f.brake ? stop_lead() : lead_, &start)) {  // it comes to rest before anything could be changed
     if (f.brake) offer_.rests = chain_.last;
     co_return true;
   }
@@ -784,7 +800,7 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
 Task<bool> OptimalPlanner::change_from(Work& work, const Following& f, const Start& start) {
   bool done = false;
   if (f.brake || stands(store_.piece_at(start.piece), limits_)) {
-    if (!chain_.stops) co_await stop_soon(work, f, start);
+    if (!chain_.stops || chain_.hurried) co_await stop_soon(work, f, start);
   } else if (f.block_rests && !chain_.block_rests) {
     co_await stop_at_block(work, f, start);
   } else if (lower(limits_.scale, chain_.scale)) {

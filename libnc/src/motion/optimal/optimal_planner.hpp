@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/triple_buffer.hpp"
+#include "motion/optimal/feeder_pace.hpp"
 #include "motion/optimal/line_law.hpp"
 #include "motion/optimal/path_builder.hpp"
 #include "motion/optimal/windows.hpp"
@@ -61,6 +62,7 @@ class OptimalPlanner {
     double x = 0, u = 0;
     Scales scale;
     bool block_rests = false, stops = false;
+    bool hurried = false;     ///< it stops, but there was no time to look for a shorter way to rest
   };
 
   bool heard(const Following& f) const;
@@ -105,6 +107,7 @@ class OptimalPlanner {
   Task<bool> find_cells_behind(Work& work, const Start& start, double most);
   Task<bool> one_stop(Work& work, const Start& start, double reach, double period);
   Task<bool> shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which);
+  Task<bool> shorter_stop(Work& work, const Start& start, double none, double some, double period);
   Task<bool> stop_law(Work& work, const Start& start, double most, Stops which);
   double ahead_of_end(const Start& start) const;
   struct Along {
@@ -144,6 +147,10 @@ class OptimalPlanner {
   bool time_for_two(const Start& start) const;
   void begin_later();
   void begin_later(double lead);
+  double stop_lead() const;
+  bool search_is_late() const;
+  double scan_at() const;
+  bool unfinished();
   Task<bool> stop_at_block(Work& work, const Following& f, const Start& start);
   Task<bool> stop_between(Work& work, const Following& f, const Start& start, double none, double some);
   Task<bool> slow_down(Work& work, const Following& f, const Start& start);
@@ -181,10 +188,17 @@ class OptimalPlanner {
   bool told_failed_ = false;
   CellIndex told_rests_ = kNoCell;
   bool urgent_ = false;   ///< any law is better than what the chain does
+  FeederPace pace_;
+  bool searching_ = false; ///< a law for a stop is under way that begins ...
+  Start search_from_;      ///< ... here,
+  double search_lead_ = 0; ///< s: and was so far ahead when the search began
+  double none_u_ = 0;      ///< no stop before this place of the path is found
+  bool hurried_ = false;   ///< the search ended because there was no more time
   bool late_ = false;     ///< the scan has passed the place from which a stop was looked for
-  double search_s_ = 0;   ///< by how much it has come nearer to that place since the search began ...
-  double longest_s_ = 0;  ///< ... and in the longest of the laws that were tried, which are ...
-  unsigned searched_ = 0; ///< ... so many
+  double search_s_ = 0;   ///< by how much it has come nearer to that place since the search began, ...
+  double longest_s_ = 0;  ///< in the longest of the laws that were tried ...
+  double found_s_ = 0;    ///< ... and in those of them that there are, which are ...
+  unsigned times_found_ = 0;  ///< ... so many
   bool no_room_ = false;  ///< the stop that was not found last would hardly have been shorter than the chain
   CellIndex write_ = 0;         ///< next free cell
   CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan

@@ -26,7 +26,10 @@ constexpr unsigned kStopSteps = 18;  ///< the solver makes so many steps, after 
 constexpr unsigned kStopStepsFollowed = 30;  ///< the same on the cells of what is followed, where most of what is none ends sooner
 constexpr double kStopPeriod = 0.5;    ///< of the cells of other laws: in a bend that takes all there is, a stop begins between them
 constexpr double kCloseStops = 1.02;  ///< the halving ends when the two distances differ by no more than this factor
+constexpr double kShorter = 1.1;  ///< ... or the looking for a shorter stop than the one that is gone, by no more than this one
 constexpr double kFarEnd = 1.5;       ///< times the way to the end of a block: farther is the next one, so that a law to this one is worth all its time
+constexpr double kLongestStopLead = 0.2;  ///< s: no stop is looked for farther ahead
+constexpr double kStopCost = 20e6;  ///< instructions, as Work counts them, in which a stop amid curves is found behind one or two that are none
 // Instructions: of a stop on a straight line, of a record that is looked at, and of a cell of what is followed.
 constexpr int64_t kLineCost = 15000, kRecordCost = 20, kBehindCost = 150;
 
@@ -110,22 +113,31 @@ double OptimalPlanner::left_to(const Start& start) const {
   return ahead(now_, start.after) - (start.cut > 0 ? store_.at(start.after).seconds - start.cut : 0);
 }
 
+/// A stop is looked for so far ahead of the scan that there is the time to find it.
+double OptimalPlanner::stop_lead() const { return std::min(std::max(lead_, pace_.seconds(kStopCost)), kLongestStopLead); }
+
+/// The scan has come to the place from which a stop is looked for, so what is found would be refused.
+bool OptimalPlanner::search_is_late() const { return searching_ && law_work_->open() && !(left_to(search_from_) > 0); }
+
 /// The same, in the time that the scan needs to the place where the law begins. Behind that it would be refused, so nothing more is looked for from there, and the next
 /// search begins as far ahead as this one would have needed.
 Task<bool> OptimalPlanner::timely_stop(Work& work, const Start& start, double reach, double period) {
   const double before = left_to(start);
+  searching_ = now_.brake;
+  search_from_ = start;
   const bool found = co_await one_stop(work, start, reach, period);
+  searching_ = false;
   const double left = left_to(start), took = start.fresh ? 0 : before - left;
   search_s_ += took;
   longest_s_ = std::max(longest_s_, took);
-  ++searched_;
+  if (found) found_s_ += took, ++times_found_;
   late_ = !(left > 0);
   if (late_) begin_later(search_s_ + longest_s_);
   co_return found && !late_;
 }
 
-/// Two more laws as those of this search can be tried: the next one, and where it is none the last one that was found once more.
-bool OptimalPlanner::time_for_two(const Start& start) const { return left_to(start) * searched_ > 2 * search_s_; }
+/// Two more laws can be looked for that take as long as those that were found, longer than those that are none: the next one, and where it is none the last one again.
+bool OptimalPlanner::time_for_two(const Start& start) const { return left_to(start) * times_found_ > 2 * found_s_; }
 
 /// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
 Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which) {
@@ -134,8 +146,12 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   cells_behind_ = 0;
   if (which != Stops::gentle) co_await find_cells_behind(work, start, std::min(most, distance * *std::rbegin(kFarther)));
   const bool behind = cells_behind_ > 0;
-  search_s_ = longest_s_ = 0;
-  searched_ = 0;
+  search_s_ = longest_s_ = found_s_ = 0;
+  times_found_ = 0;
+  if (chain_.hurried && which != Stops::gentle) {
+    const bool shorter = co_await shorter_stop(work, start, std::max(distance, none_u_ - start.u), most, period);
+    co_return shorter;
+  }
   const double* const farther = behind ? kFartherFollowed : kFarther;
   const size_t count = behind ? std::size(kFartherFollowed) : std::size(kFarther);
   for (size_t n = 0; n < count; ++n) {
@@ -151,14 +167,35 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   }
   if (!(some > 0)) co_return false;
   bool last = true;
-  for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none && time_for_two(start); ++n) {
+  for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none; ++n) {
+    hurried_ = !time_for_two(start);
+    if (hurried_) break;
     const double reach = std::sqrt(none * some);
     last = co_await timely_stop(work, start, reach, period);
     if (late_) co_return false;
     (last ? some : none) = reach;
   }
+  none_u_ = start.u + none;
   if (!last) last = co_await timely_stop(work, start, some, period);
   co_return last;
+}
+
+/// There was no time to look for a shorter way to rest than that of the chain, which is followed meanwhile: this is one between the longest way that is none and that of
+/// the chain, `some`.
+Task<bool> OptimalPlanner::shorter_stop(Work& work, const Start& start, double none, double some, double period) {
+  while (some > kShorter * none) {
+    const double reach = std::sqrt(none * some);
+    const bool found = co_await timely_stop(work, start, reach, period);
+    if (late_) co_return false;
+    if (found) {
+      hurried_ = reach > kShorter * none;
+      co_return true;
+    }
+    none = reach;
+    none_u_ = std::max(none_u_, start.u + none);
+  }
+  chain_.hurried = false;
+  co_return false;
 }
 
 /// The shortest way to rest that is found, shorter than `most`.
@@ -229,13 +266,18 @@ Limits OptimalPlanner::unbound(const Start& start) const {
 /// that is gone then, or from its end.
 Task<bool> OptimalPlanner::stop_soon(Work& work, const Following& f, const Start& start) {
   Start at;
+  search_lead_ = stop_lead();
   if (find_amid(f, line_lead_, &at) && !at.from_rest) {
     const bool done = co_await stop_there(work, at, Stops::line);
     if (done) co_return true;
   }
-  if (find_amid(f, lead_, &at) && at.cut > 0) {
+  if (find_amid(f, search_lead_, &at) && at.cut > 0) {
     const bool done = co_await stop_there(work, at, Stops::solved);
-    if (done || late_) co_return done;
+    if (done || late_ || chain_.stops) co_return done;
+  }
+  if (chain_.stops) {
+    const bool shorter = co_await stop_there(work, start, Stops::solved);
+    co_return shorter;
   }
   const bool done = co_await stop_there(work, start, Stops::any);
   if (done || late_) co_return done;
@@ -269,16 +311,18 @@ Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
 /// Offers the shortest way to rest, if there is one shorter than the chain.
 Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, Stops which) {
   const Limits now = limits_;
+  hurried_ = false;
   limits_ = unbound(start);
   const bool found = co_await stop_law(work, start, 0.99 * (chain_.u - start.u), which);
   limits_ = now;
   if (!found) co_return false;
-  if (!start.fresh && !start.from_rest && !(law_seconds() < rests_in(start))) {  // it comes to rest no later by itself
+  if (!start.fresh && !start.from_rest && !(law_seconds() * (chain_.stops ? kCloseStops : 1) < rests_in(start))) {  // it comes to rest no later by itself
     no_room_ = true;
     co_return false;
   }
   offer_first_ = write_;
   next_chain_ = {};
+  next_chain_.hurried = hurried_;
   if (start.cut > 0) cut_cell(start);
   Start end;
   const bool copied = co_await copy_law(work, start, &end);
