@@ -76,7 +76,7 @@ NC_PARTS(SpindleControl, surface, axis, held)
 NC_PARTS(Compensation, side, transparent, has_vector, hold_vector, corner_arc, type_b, cancel_vector, check, walls, avoid, axis, arc_cos, radius, vector, by_hand)
 NC_PARTS(CycleState, kind, drill_axis, has_z, has_r, has_p, z, r, z_incremental, r_incremental, q, tap_q, p, shift, third, has_third, third_incremental, in_position,
          initial_level, tap, synchronous, returned, has_first, pitch, return_speed, first, in_hole, way_out)
-NC_PARTS(LifeInput, kind, flags, group, life)
+NC_PARTS(LifeInput, kind, flags, group, life, registered)
 NC_PARTS(NurbsState, first, knots, points, order, axes)
 NC_PARTS(SplineWay, joined, moved, back)
 NC_PARTS(MeetingFirst, kind, ccw, by_radius, choice, angle_deg, center, radius, start)

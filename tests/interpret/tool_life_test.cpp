@@ -55,9 +55,21 @@ TEST_F(ToolLifeTest, GroupsAreAddedAndRemoved) {
   EXPECT_EQ(table(), "10 111 0 9 0 0 0");
 }
 
+/// One input names a group once; what was registered before it is registered anew.
+TEST_F(ToolLifeTest, AGroupIsGivenOnceInAnInput) {
+  EXPECT_EQ(alarm_of(kTwoGroups), "");
+  EXPECT_EQ(alarm_of("G10 L3 P1\nP10 L9\nT111\nP30 L1\nT301\nP10 L8\nT112\nG11"), "P179");
+  EXPECT_EQ(table(), "10 111 0 9 0 0 0, 30 301 0 1 0 0 0, 20 201 0 5 0 3 13") << "the first one stays";
+  for (unsigned n = 0; n < 2; ++n) EXPECT_EQ(alarm_of("G10 L3 P1\nP30 L4\nT302\nP10 L7\nT113\nG11"), "") << "another input";
+  EXPECT_EQ(table(), "10 113 0 7 0 0 0, 30 302 0 4 0 0 0, 20 201 0 5 0 3 13");
+}
+
 TEST_F(ToolLifeTest, WrongDataAreAlarms) {
   const std::pair<const char*, const char*> cases[] = {
       {"P179", "G10 L3\nP1 L1\nT1\nP1 L1"},          // appendix 1: commanded in duplicate
+      {"P179", "G10 L3 P1\nP1 L1\nT1\nP1 L1"},
+      {"P179", "G10 L3 P1\nP1 L1\nP1 L1"},
+      {"P179", "G10 L3 P1\nP1 L1\nT1\nP2 L1\nT2\nP1 L1"},
       {"P179", "G10 L3 P2\nP77"},                    // not registered
       {"P33", "G10 L3\nT1"},                         // a tool without a group
       {"P33", "G10 L3\nP1 Q1"},                      // no life

@@ -158,6 +158,7 @@ struct LifeInput {
   LifeMethod method = LifeMethod::time;  ///< of the tools that follow
   uint32_t group = 0;          ///< their group, 0 = not said yet
   uint32_t life = 0;
+  uint8_t registered[(kLifeTools + 7) / 8] = {};  ///< a bit for each slot that has got its tool by this input
 };
 
 /// What a spline has to know of the block before.

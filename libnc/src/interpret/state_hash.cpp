@@ -77,8 +77,9 @@ class Hash {
     add(first, knots, points, order, axes);
   }
   void add_one(const LifeInput& input) {
-    const auto& [kind, method, group, life] = input;
+    const auto& [kind, method, group, life, registered] = input;
     add(kind, method, group, life);
+    if (kind != LifeInput::Kind::none) add(registered);
   }
   void add_one(const SplineWay& way) {
     const auto& [joined, moved, back] = way;

@@ -39,6 +39,14 @@ void clear_group(InForce& in, uint32_t group) {
     if (in.lives->tool[slot].group == group) clear_slot(in, slot);
 }
 
+/// The group has got tools by the input that is under way.
+bool given_before(const InForce& in, uint32_t group) {
+  const uint8_t* const registered = in.state.life_input.registered;
+  for (unsigned slot = 0; slot < kLifeTools; ++slot)
+    if ((registered[slot / 8] >> slot % 8 & 1) != 0 && in.lives->tool[slot].is_of(group)) return true;
+  return false;
+}
+
 Execution number_of(BlockInHand& in, Role word, uint32_t least, uint32_t most, uint32_t* number) {
   if (!in.words.has(word)) return in.raise(Condition::words_missing, word);
   if (whole_number(in.words.get(word), number) && *number >= least && *number <= most) return Execution::done;
@@ -63,7 +71,8 @@ Execution take_group(BlockContext& in) {
     clear_group(in, group);
     return Execution::done;
   }
-  if (input.kind == LifeInput::Kind::anew && (known || group == input.group)) return in.raise(Condition::life_group, Role::life_group, group);
+  // Appendix 1, P179: commanded in duplicate. What was registered before this input may be registered anew.
+  if (group == input.group || (input.kind == LifeInput::Kind::anew ? known : given_before(in, group))) return in.raise(Condition::life_group, Role::life_group, group);
   if (w.has(Role::life_method)) {
     did = number_of(in, Role::life_method, 1, 3, &method);
     if (did != Execution::done) return did;
@@ -82,7 +91,7 @@ Execution take_group(BlockContext& in) {
 /// T H D: the next tool of the group.
 Execution take_tool(BlockInHand& in) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);  // another part system may register a tool in the same place
-  const LifeInput& input = in.state.life_input;
+  LifeInput& input = in.state.life_input;
   uint32_t tool = 0, length = 0, radius = 0;
   if (!input.group) return in.raise(Condition::words_missing, Role::life_group);
   if (input.kind == LifeInput::Kind::remove) return in.raise(Condition::format_error, Role::life_group);
@@ -100,6 +109,7 @@ Execution take_tool(BlockInHand& in) {
   registered.length = length;
   registered.radius = radius;
   register_tool(in, slot, registered);
+  input.registered[slot / 8] = static_cast<uint8_t>(input.registered[slot / 8] | 1U << slot % 8);
   return Execution::done;
 }
 
