@@ -128,6 +128,48 @@ TEST_F(LadderSignals, InputsAndOutputsOfTheMacroInterface) {
   EXPECT_EQ(static_cast<std::uint16_t>(device("D1")), 0x8001) << "#1316 and #1331";
 }
 
+/// Tool life management by minutes: the ladder hears that a life has ended in the second in which it does, takes the next tool, and says that one is broken.
+TEST_F(LadderSignals, ToolLifeByMinutes) {
+  use("LD nc.tool_life_ended\nOUT M0\nLD nc.tool_group_ended\nOUT M1\nLD SM400\nDMOV nc.tool_group D0\nLD in0\nOUT plc.tool_broken\n"
+      "LD nc.m_strobe\nOR nc.t_strobe\nOUT plc.fin2\nEND\n");
+  build();
+  ASSERT_EQ(nc_parameter_set(runtime->control(), 0, "1103", 0, "1"), NC_OK);
+  const auto run_program = [&](const char* text) {
+    start(text);
+    ASSERT_GE(until_end(), 0) << alarm();
+    EXPECT_EQ(alarm(), "");
+    steps(50);
+  };
+  const auto told = [&] { return std::to_string(device("M0")) + std::to_string(device("M1")) + " " + std::to_string(device("D0")) + " T" + std::to_string(out().t); };
+  const auto breaks = [&] {
+    in("in0", 1);
+    steps(50);
+    in("in0", 0);
+    steps(50);
+  };
+  run_program("G10 L3\nP7 L1 Q2\nT11\nT12\nT13\nG11\nT7 M6\nG91 G1 X59. F60\nM30\n");
+  EXPECT_EQ(told(), "00 7 T11") << "59 s";
+  start("G91 G1 X-4. F60\nM30\n");
+  const double from = x();
+  ASSERT_GE(until([&] { return device("M0") != 0; }, 10000), 0);
+  EXPECT_NEAR(from - x(), 1, 1.05) << "mm at 1 mm/s: in the second behind the end of its life, or before that what was not told in the first program";
+  ASSERT_GE(until_end(), 0);
+  EXPECT_EQ(told(), "10 7 T11") << "two more are left";
+  run_program("T7 M6\nM30\n");
+  EXPECT_EQ(told(), "00 7 T12");
+  breaks();
+  EXPECT_EQ(told(), "10 7 T12");
+  in("in0", 1);  // it stays on while the next one comes into the spindle
+  run_program("T7 M6\nM30\n");
+  EXPECT_EQ(told(), "00 7 T13") << "acts when it rises";
+  in("in0", 0);
+  steps(50);
+  breaks();
+  EXPECT_EQ(told(), "11 7 T13") << "none is left";
+  run_program("T0 M6\nM30\n");
+  EXPECT_EQ(told(), "00 0 T0");
+}
+
 TEST_F(LadderSignals, JogButtons) {
   run("LD in0\nOUT plc.jog_p.X\nLD in1\nOUT plc.jog_m.X\nLD SM400\nDMOV word_in plc.jog_feed\n");
   in("word_in", 600);

@@ -10,14 +10,12 @@
 namespace nc {
 namespace {
 
-/// A block that removes more tools than these may write to more places than any other block does. It waits for the machine to come to it, so that the
-/// journal has no older blocks to take back.
-constexpr unsigned kRemovedAhead = 40;
-static_assert(kRemovedAhead * kLifeColumns + 100 < Variables::kMostWrites);
-
+/// A block that removes tools waits for the machine to come to it: until then the machine counts in their rows, and what is taken back of a block that was only read (a
+/// reset, the tables as the executed blocks have left them) would take the minutes of cutting with it. The journal has no older blocks to take back then, so all tools
+/// may go at once.
 Execution wait_for_removal(BlockInHand& in, unsigned tools) {
   if (!in.shared_known()) return in.need(NC_SYNC_SHARED);
-  return tools > kRemovedAhead && !in.world_fresh ? in.need(NC_SYNC_STOPPED) : Execution::done;
+  return tools > 0 && !in.world_fresh ? in.need(NC_SYNC_STOPPED) : Execution::done;
 }
 
 /// The tool with number `slot` from 0 is in the spindle, and its life is managed from here on.
