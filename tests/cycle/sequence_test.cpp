@@ -66,7 +66,6 @@ class Writer {
   }
   void change_distance() {
     g91_ = !g91_;
-    levels_needed_ = true;  // R as a coordinate and Z from R, or the other way round, are not the matter here
   }
   void change_system() {
     system_ = 1 - system_;
@@ -113,14 +112,15 @@ class Writer {
     }
     if (levels_needed_ || chance(0.2)) {
       z_ = {g91_ ? -number(3, 12) : -number(1, 9), g91_};
-      r_ = {g91_ ? number(-4, 4) : number(0.5, 4), g91_};  // the sign of R is that of Z
+      r_ = {g91_ ? number(-4, 4) : number(0.5, 4), g91_};  // the sign of R is that of Z, also of one that is a coordinate
       block += word('Z', z_.first) + word('R', r_.first);
       levels_needed_ = false;
-      drills = true;
-    }
-    if (!drills) {  // Z as it was
+    } else if (chance(0.1)) {  // R alone, with a Z of the other mode, too
+      r_ = {g91_ ? number(-4, 4) : number(0.5, 4), g91_};
+      block += word('R', r_.first);
+    } else if (!drills || chance(0.1)) {  // Z alone
+      if (z_.second != g91_ || chance(0.5)) z_ = {g91_ ? -number(3, 12) : -number(1, 9), g91_};
       block += word('Z', z_.first);
-      if (z_.second != g91_) return;
     }
     if (pecks && (q_ == 0 || chance(0.3))) q_ = number(1, 6), block += word('Q', q_);
     if (code_ == 75 && (std::fabs(q_) < 2 * kOfTool || chance(0.3))) q_ = (chance(0.5) ? 1 : -1) * number(3, 6), block += word('Q', q_);

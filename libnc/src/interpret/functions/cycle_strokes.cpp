@@ -29,10 +29,12 @@ uint32_t stroke_plane(const InForce& in) {
   return axes & ~(1u << in.state.cycle.drill_axis);
 }
 
-/// M700 13.1.1, "absolute/incremental": where R is incremental it has the sign of Z, of back boring the other one.
-double incremental_r(const InForce& in) {
+/// M700 13.1.1, "absolute/incremental": where R is incremental its sign is ignored. It has that of Z, of back boring the other one; where Z is a coordinate R lies on
+/// the side of the initial level where the bottom does, with either.
+double incremental_r(const InForce& in, double initial) {
   const CycleState& c = in.state.cycle;
-  if (!in.dialect->rules.cycle.r_takes_sign_of_z || !c.z_incremental || !c.has_z) return c.r;
+  if (!in.dialect->rules.cycle.r_takes_sign_of_z || !c.has_z) return c.r;
+  if (!c.z_incremental) return c.z == initial ? c.r : std::copysign(c.r, c.z - initial);
   return std::copysign(c.r, c.kind == CycleKind::back_bore ? -c.z : c.z);
 }
 
@@ -67,7 +69,7 @@ void resolve_levels(BlockInHand& in) {
   if (!c.has_r) {
     h.r = h.initial;  // DGSHAPE: omitted R = initial level
   } else {
-    h.r = c.r_incremental ? h.initial + incremental_r(in) : c.r;
+    h.r = c.r_incremental ? h.initial + incremental_r(in, h.initial) : c.r;
   }
   h.bottom = !c.has_z ? h.r : c.z_incremental ? h.r + c.z : c.z;
   h.third = c.third_incremental ? h.bottom + c.third : c.third;
