@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <random>
 
 #include "online_helpers.hpp"
@@ -20,6 +21,7 @@ namespace {
 constexpr double kInitialLevel = 10, kLevelR = 2, kFastest = 150, kUnderR = kLevelR - 1e-6;
 constexpr double kInACycle = 0.03;  ///< mm: it may turn back within a cycle
 constexpr double kRoundedBy = 0.0101;  ///< mm: between the half circles and the circle
+constexpr double kDegree = std::numbers::pi / 180, kAtHole = 1e-5;  ///< mm
 constexpr double kCircle = 3;  // Q5 and an offset of 2
 
 struct MadeHole {
@@ -100,13 +102,45 @@ class PartWriter {
     for (unsigned n = 0; n < repeats; ++n) y_ += by, hole(code);
     line("G90");
   }
-  /// G35 along X.
+  /// M700 13.2: the places as the figures have them. The tool is over the last one behind it.
   void pattern(int code) {
-    const double interval = number(0.5, 8);
-    x_ = number(-30, 30), y_ = number(-30, 30);
-    line("G35 X" + with_point(x_) + " Y" + with_point(y_) + " I" + with_point(interval) + " J0. K3", code);
-    for (unsigned n = 0; n < 3; ++n) hole(code), x_ += interval;
-    x_ -= interval;
+    const double x = number(-30, 30), y = number(-30, 30), first = number(-180, 180), radius = number(2, 15);
+    const int sign = pick(2) == 0 ? 1 : -1;
+    const unsigned count = 1 + pick(5);
+    const std::string at = " X" + with_point(x) + " Y" + with_point(y), turned = " J" + with_point(first);
+    const auto on_circle = [&](double angle) { hole_at(code, x + radius * std::cos(angle * kDegree), y + radius * std::sin(angle * kDegree)); };
+    switch (pick(4)) {
+      case 0: {
+        line("G34" + at + " I" + with_point(radius) + turned + " K" + std::to_string(sign * static_cast<int>(count)), code);
+        for (unsigned n = 0; n < count; ++n) on_circle(first + sign * 360. * n / count);
+        break;
+      }
+      case 1: {
+        const double interval = sign * number(0.5, 8);
+        line("G35" + at + " I" + with_point(interval) + turned + " K" + std::to_string(count), code);
+        for (unsigned n = 0; n < count; ++n) hole_at(code, x + interval * n * std::cos(first * kDegree), y + interval * n * std::sin(first * kDegree));
+        break;
+      }
+      case 2: {
+        const double apart = sign * number(5, 60);
+        line("G36" + at + " I" + with_point(radius) + turned + " P" + with_point(apart) + " K" + std::to_string(count), code);
+        for (unsigned n = 0; n < count; ++n) on_circle(first + apart * n);
+        break;
+      }
+      default: grid(code, at, x, y);
+    }
+  }
+  /// Rows to and fro, as docs/decisions.md has them.
+  void grid(int code, const std::string& at, double x, double y) {
+    const double dx = number(0.5, 6), dy = -number(0.5, 6);
+    const unsigned columns = 1 + pick(3), rows = 1 + pick(3);
+    line("G37.1" + at + " I" + with_point(dx) + " P" + std::to_string(columns) + " J" + with_point(dy) + " K" + std::to_string(rows), code);
+    for (unsigned row = 0; row < rows; ++row)
+      for (unsigned n = 0; n < columns; ++n) hole_at(code, x + dx * (row % 2 == 0 ? n : columns - 1 - n), y + dy * row);
+  }
+  void hole_at(int code, double x, double y) {
+    x_ = x, y_ = y;
+    hole(code);
   }
 
   std::mt19937_64& random_;
@@ -216,7 +250,7 @@ class CycleSession {
   /// The next hole has come to its bottom.
   void bottom(int code) {
     const MadeHole& hole = part_.holes[made_];
-    if (hole.code == code && std::fabs(at_[2] - hole.bottom) < kInACycle && std::hypot(at_[0] - hole.x, at_[1] - hole.y) < 1e-6) ++made_;
+    if (hole.code == code && std::fabs(at_[2] - hole.bottom) < kInACycle && std::hypot(at_[0] - hole.x, at_[1] - hole.y) < kAtHole) ++made_;
   }
   void below(int code, double dz) {
     if (code == 0 || made_ > part_.holes.size()) return;

@@ -74,6 +74,14 @@ Part random_part(Draw& draw) {
     part.text += block + "\n";
     part.holes.push_back(hole);
   }
+  if (draw.chance(0.4)) {  // M700 13.2: places of a pattern, each with the tap that is in force
+    Hole hole = part.holes.back();
+    hole.line = 3 + count;
+    const std::string many = std::to_string(1 + draw.pick(3)), radius = word(draw.rounded(2, 9, 0.5));
+    const std::string patterns[] = {"G34 " + std::string(1, aside) + "20. I" + radius + " J30. K" + many, "G35 I" + radius + " J0. K" + many, "G36 I" + radius + " J0. P40. K" + many, "G37.1 I" + radius + " P2 J-3. K" + many};
+    part.text += patterns[draw.pick(4)] + "\n";
+    part.holes.push_back(hole);
+  }
   part.text += "G80\nM30";
   return part;
 }
