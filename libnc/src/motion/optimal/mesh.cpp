@@ -469,6 +469,7 @@ Task<bool> Mesher::find_levels(Work& work) {
   Mesh& m = *mesh_;
   m.levels = 0;
   std::fill(m.level, m.level + m.cells, false);
+  std::fill(m.kept, m.kept + m.cells, false);
   if (in_->down != nullptr) co_return true;
   unsigned from = 0;
   for (unsigned k = 0; k <= m.cells; ++k) {

@@ -75,13 +75,14 @@ void TimeLaw::forms() {
   weight_[n_ - 2] += 3 * m.h[n_ - 1] / std::sqrt(share_end);
 }
 
-/// The first and the last control value are given, and those of level cells.
+/// The first and the last control value are given, and those of level cells and of cells that are kept.
 void TimeLaw::find_runs() {
   runs_ = 0;
   for (unsigned k = 1; k + 1 < n_; ++k) {
-    if (mesh_->level[k]) continue;
+    const auto given = [this](unsigned cell) { return mesh_->level[cell] || mesh_->kept[cell]; };
+    if (given(k)) continue;
     const unsigned from = k;
-    while (k + 1 < n_ && !mesh_->level[k]) ++k;
+    while (k + 1 < n_ && !given(k)) ++k;
     Run& run = run_[runs_++];
     run.from = from;
     run.to = std::min(k, n_ - 1);
@@ -423,8 +424,8 @@ bool TimeLaw::levels_hold(double mu) const {
       const double c = c_[k + kPad];
       return 0.5 * weight_[k] / (c * std::sqrt(c)) + run->side[side] + mu * run->side_mu[side];
     };
-    if (run->from > 1 && gain(0, run->from - 1) < 0) return false;
-    if (run->to + 1 < n_ && gain(1, run->to) < 0) return false;
+    if (run->from > 1 && mesh_->level[run->from - 1] && gain(0, run->from - 1) < 0) return false;
+    if (run->to + 1 < n_ && mesh_->level[run->to] && gain(1, run->to) < 0) return false;
   }
   return true;
 }
@@ -449,13 +450,13 @@ void TimeLaw::finish(Law* law) {
   }
   for (unsigned k = 0; k < n_; ++k) law->half2[k] = value(half2_[k], k + kPad - 1);
   law->seconds = time_;
-  for (unsigned k = 1; k + 1 < n_; ++k) law->seconds += m.level[k] ? weight_[k] / std::sqrt(c_[k + kPad]) : 0;
+  for (unsigned k = 1; k + 1 < n_; ++k) law->seconds += m.level[k] || m.kept[k] ? weight_[k] / std::sqrt(c_[k + kPad]) : 0;
 }
 
 /// All that is known of the rows and does not hang on c, and where c begins.
-void TimeLaw::begin(const Mesh& mesh, bool again) {
+void TimeLaw::begin(const Mesh& mesh, Begins begins) {
   for (unsigned k = 0; k < kPad; ++k) c_[k] = c_[n_ + kPad + k] = 0;
-  for (unsigned k = 0; k < n_ && !again; ++k) c_[k + kPad] = mesh.level[k] ? mesh.cap[k] : mesh.guess[k];
+  for (unsigned k = 0; k < n_ && begins == Begins::anew; ++k) c_[k + kPad] = mesh.level[k] ? mesh.cap[k] : mesh.guess[k];
   c_[kPad] = mesh.from_rest ? 0 : mesh.b0 + 0.5 * mesh.slope0 * mesh.h[0];
   c_[kPad - 1] = mesh.from_rest ? 0 : mesh.b0 - 0.5 * mesh.slope0 * mesh.h[0];
   c_[n_ - 1 + kPad] = 0;
@@ -463,37 +464,49 @@ void TimeLaw::begin(const Mesh& mesh, bool again) {
   find_time();
 }
 
-Task<bool> TimeLaw::solve(Work& work, const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most) {
+Task<bool> TimeLaw::solve(Work& work, const Mesh& mesh, const Limits& limits, Begins begins, Law* law, unsigned most) {
   mesh_ = &mesh;
   limits_ = &limits;
   law->ok = false;
   law->cells = 0;
   law->iterations = 0;
   if (mesh.cells < 4 || mesh.cells > kMaxCells) co_return false;
-  forms();
+  if (begins == Begins::anew) forms();
   find_runs();
-  moving_axes();
+  if (begins == Begins::anew) moving_axes();
+  if (begins == Begins::nearby) std::copy(c_, c_ + n_ + 2 * kPad, before_);
   co_await work.pause(kBeginCost * n_);
+  const bool found = co_await find(work, begins, law, most);
+  if (!found && begins == Begins::nearby) std::copy(before_, before_ + n_ + 2 * kPad, c_);
+  co_return found;
+}
+
+/// The steps of the solver. How small the gap is to be goes by the time of the whole law and its rows, also where some of its cells are solved once more.
+Task<bool> TimeLaw::find(Work& work, Begins begins, Law* law, unsigned most) {
+  const Mesh& mesh = *mesh_;
   co_await fill_rows(work);
-  begin(mesh, again);
+  begin(mesh, begins);
   co_await work.pause(kStepCost * n_);
-  begin_pass(true, (again ? kGapAgain : kGapFirst) * time_ / rows_, again ? kSlackAgain : kSmallestSlack);
+  const bool nearby = begins == Begins::nearby, anew = begins == Begins::anew;
+  const auto time = [&] { return nearby ? time_per_row_ * rows_ : time_; };
+  begin_pass(true, (anew ? kGapFirst : kGapAgain) * time() / rows_, anew ? kSmallestSlack : kSlackAgain);
   co_await all_rows(work);
   Sums sums = this->sums();
   for (unsigned n = 0, more = 0; n < most; ++n) {
     law->iterations = n;
     law->worst = sums.worst * kInside;
-    if (sums.gap < (mesh.stops ? kGapOfStop : kGap) * time_ && sums.worst < 1.0005 && (mesh.stops || sums.gap < kGapOfDip * time_ || more++ == kDipSteps || !dips())) {
+    if (sums.gap < (mesh.stops ? kGapOfStop : kGap) * time() && sums.worst < 1.0005 && (mesh.stops || sums.gap < kGapOfDip * time() || more++ == kDipSteps || !dips())) {
       law->ok = levels_hold(sums.gap / rows_);
       if (law->ok) finish(law);
+      if (!nearby) time_per_row_ = time_ / rows_;
       work.spend(kStepCost * n_);
       co_return law->ok;
     }
-    if (mesh.stops && !(sums.gap < kNoStop * time_)) co_return false;
-    const double average = sums.gap / rows_, least = mesh.stops && !(sums.worst < 1.0005) ? kGapUnkept * kGapOfStop * time_ / rows_ : 0;
+    if (mesh.stops && !(sums.gap < kNoStop * time())) co_return false;
+    const double average = sums.gap / rows_, least = mesh.stops && !(sums.worst < 1.0005) ? kGapUnkept * kGapOfStop * time() / rows_ : 0;
     // Not nearer to the walls than the rows are to being kept: else the steps become short.
     const double part = sums.residual > 0.3 ? 0.5 : sums.residual > 1e-3 ? 0.3 : 0.1;
-    const double target = std::max({part * average, kResidual * sums.residual * time_ / rows_, least});
+    const double target = std::max({part * average, kResidual * sums.residual * time() / rows_, least});
     if (!step(target)) co_return false;
     co_await work.pause(kStepCost * n_);
     begin_pass(false, target, 0);

@@ -43,6 +43,7 @@ struct Mesh {
   double use_a[kMaxCells];  ///< the same of the acceleration limits
   bool level[kMaxCells];    ///< the control value of the cell is its cap: it is known that the speed stays there
   unsigned levels = 0;      ///< cells that are level
+  bool kept[kMaxCells];     ///< of a law that is solved once more: the control value stays what it was
   Knot knot[kMaxCells + 1];
   Inside inside[kMaxCells];
   bool from_rest = true;  ///< else b and b' at the start are given
@@ -63,10 +64,12 @@ struct Law {
 
 class TimeLaw {
  public:
-  /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it.
-  /// `again`: the mesh is that of the last law, some limits are a little lower; it begins with that law.
+  /// anew: it begins with the guess of the mesh. again: the mesh is that of the last law, some limits are a little lower; it begins with that law. nearby: the
+  /// same, and the cells that are kept stay what they are.
+  enum class Begins : uint8_t { anew, again, nearby };
+  /// The law of least time that ends at rest. !law->ok when none was found; nothing may then be done with it but to solve again, from where that one began.
   /// `most`: steps until it gives up. @return law->ok
-  Task<bool> solve(Work& work, const Mesh& mesh, const Limits& limits, bool again, Law* law, unsigned most = kMaxSteps);
+  Task<bool> solve(Work& work, const Mesh& mesh, const Limits& limits, Begins begins, Law* law, unsigned most = kMaxSteps);
 
  private:
   static constexpr unsigned kPad = 2;
@@ -138,7 +141,8 @@ class TimeLaw {
   Task<bool> all_rows(Work& work);
   Sums sums() const;
   int64_t cost_of(unsigned cells) const;
-  void begin(const Mesh& mesh, bool again);
+  void begin(const Mesh& mesh, Begins begins);
+  Task<bool> find(Work& work, Begins begins, Law* law, unsigned most);
   double roots(unsigned k);
   void find_time();
   bool step(double mu);
@@ -157,9 +161,11 @@ class TimeLaw {
   unsigned axes_ = 0, axis_[kMaxAxes];  ///< that move
   unsigned rows_ = 0;
   double time_ = 0;
+  double time_per_row_ = 0;  ///< of the last law that was solved as a whole
   double weight_[kMaxCells];
   // Padded by kPad on either side: control value k is c_[k + kPad].
   double c_[kMaxCells + 2 * kPad], dc_[kMaxCells + 2 * kPad];
+  double before_[kMaxCells + 2 * kPad];  ///< c of the law that some cells of are solved once more
   double side_[kMaxCells + 2 * kPad], side_mu_[kMaxCells + 2 * kPad];  ///< eliminated: the right side is the one and mu times the other
   double lower1_[kMaxCells + 2 * kPad], lower2_[kMaxCells + 2 * kPad];
   Form at_[kMaxCells + 1], slope_[kMaxCells + 1];  ///< of knot k, on c_(k-1), c_k

@@ -14,6 +14,9 @@ constexpr double kFiner = 4;  ///< a short path from rest to rest has cells of o
 constexpr double kFinerAgain = 2;  ///< the same for a path for which no law was found
 constexpr double kOfMost = 0.95;  ///< a mesh has at most this part of the cells that a law may have
 constexpr unsigned kTightened = 6;  ///< a law that exceeds a limit is corrected at most so often
+constexpr unsigned kNearby = 32;    ///< cells on either side of one that is to use less, whose speeds become others: those farther away feel next to nothing of it
+constexpr unsigned kStepsNearby = 15;  ///< of the solver: where it is found, four to eight do
+constexpr unsigned kFewestKept = 8;  ///< between two of them at least so many stay what they are, or none
 constexpr double kExcess = 1.0003;  ///< inside its cells a law may use this many times a limit
 constexpr double kExcessOfStop = 1.0006;  ///< the same of a stop: what it leaves may use as much as any law, on other cells, and there may be no other way
 constexpr double kTighter = 1.001, kTighterStop = 0.9998;  ///< a cell that uses too much may use so many times less than what it is too much by
@@ -108,16 +111,26 @@ struct Windows::Moments {
 
 namespace {
 
-/// The jerk of an axis by the place x in a cell, and its first two derivatives. With r = sqrt(b) and Q = q' w + 3 q'' u'' + q''' b it is r Q, where
-/// r' = u''/r, r'' = (w - u''^2/b)/r, and on a cubic Q' = 4 q'' w + 5 q''' u'', Q'' = 9 q''' w.
+/// r = sqrt(b) at a place of a cell, with b the squared speed, a = b'/2 and w = b''/2 in it, and its first two derivatives by the place: r' = a/r,
+/// r'' = (w - a^2/b)/r. It is the same for all axes.
+struct RootShape {
+  double b, a, w, r, slope, bend;
+};
+[[gnu::always_inline]] inline RootShape root_shape(double b, double a, double w) {
+  const double r = std::sqrt(b), per = 1 / r, slope = a * per;
+  return {b, a, w, r, slope, (w - slope * slope) * per};
+}
+
+/// The jerk of an axis by the place x in a cell, and its first two derivatives. With Q = q' w + 3 q'' a + q''' b it is r Q, where on a cubic
+/// Q' = 4 q'' w + 5 q''' a, Q'' = 9 q''' w.
 struct JerkShape {
   double jerk = 0, slope = 0, bend = 0;
 };
-JerkShape jerk_on_cubic(const Piece& p, double x, double b, double a, double w, unsigned axis) {
+[[gnu::always_inline]] inline JerkShape jerk_on_cubic(const Piece& p, double x, const RootShape& root, unsigned axis) {
   const double c1 = p.c[1][axis], c2 = 2 * p.c[2][axis], d3 = 6 * p.c[3][axis];
-  const double d2 = c2 + d3 * x, d1 = c1 + x * (c2 + 0.5 * d3 * x), r = std::sqrt(b);
-  const double q = d1 * w + 3 * d2 * a + d3 * b, slope = 4 * d2 * w + 5 * d3 * a, r1 = a / r, r2 = (w - a * a / b) / r;
-  return {r * q, r1 * q + r * slope, r2 * q + 2 * r1 * slope + 9 * r * d3 * w};
+  const double d2 = c2 + d3 * x, d1 = c1 + x * (c2 + 0.5 * d3 * x);
+  const double q = d1 * root.w + 3 * d2 * root.a + d3 * root.b, slope = 4 * d2 * root.w + 5 * d3 * root.a;
+  return {root.r * q, root.slope * q + root.r * slope, root.bend * q + 2 * root.slope * slope + 9 * root.r * d3 * root.w};
 }
 
 /// What the looks at a cell on a cubic have seen: places from x0 on, `step` apart, with the squared speed and u'' there.
@@ -128,12 +141,12 @@ struct JerkLooks {
 };
 /// The largest jerk of an axis in a cell, between the looks, too: where its derivative changes its sign, the peak of the cubic that has the jerk and its
 /// derivative at both of them.
-[[gnu::noinline]] double peak_jerk(const Piece& p, const JerkLooks& looks, unsigned axis) {
+NC_BESIDE_WIDE_VECTORS double peak_jerk(const Piece& p, const JerkLooks& looks, unsigned axis) {
   double worst = 0;
   JerkShape last;
   for (unsigned n = 0; n < looks.count; ++n) {
     const unsigned f = n / 4, e = n % 4;
-    const JerkShape now = jerk_on_cubic(p, looks.x0 + looks.x[f][e], looks.v2[f][e], looks.a[f][e], looks.w, axis);
+    const JerkShape now = jerk_on_cubic(p, looks.x0 + looks.x[f][e], root_shape(looks.v2[f][e], looks.a[f][e], looks.w), axis);
     worst = std::max(worst, std::fabs(now.jerk));
     if (n > 0 && (now.slope > 0) != (last.slope > 0)) worst = std::max(worst, peaks_between({last.jerk, last.slope}, {now.jerk, now.slope}, looks.step).a);
     last = now;
@@ -152,6 +165,7 @@ struct JerkLooks {
   if (p.curve != nullptr || p.quintic) return excess_on_curve(k, m);
   const bool rests = (k == 0 && mesh_.from_rest) || k + 1 == law_.cells;
   const double h = mesh_.h[k], x0 = place(k).x, w = law_.half2[k], a0 = 0.5 * law_.slope[k], a1 = a0 + w * h;
+  const RootShape root0 = root_shape(law_.b[k], a0, w), root1 = root_shape(law_.b[k + 1], a1, w);
   double bulge = 0, bulge_j = 0;  // largest second derivative by x of an acceleration and of a jerk at the ends, as a share of its limit
   Four velocity{}, acceleration{}, jerk{};
   for (unsigned i = 0; i < limits_.axis_count; ++i) {
@@ -166,7 +180,7 @@ struct JerkLooks {
     const double start = c2[0] + d3[0] * x0, end = start + d3[0] * h;  // q''
     bulge = std::max({bulge, std::fabs(4 * start * w + 5 * d3[0] * a0) * per_a[0], std::fabs(4 * end * w + 5 * d3[0] * a1) * per_a[0]});
     if (rests) continue;
-    const JerkShape s0 = jerk_on_cubic(p, x0, law_.b[k], a0, w, i), s1 = jerk_on_cubic(p, x0 + h, law_.b[k + 1], a1, w, i);
+    const JerkShape s0 = jerk_on_cubic(p, x0, root0, i), s1 = jerk_on_cubic(p, x0 + h, root1, i);
     bulge_j = std::max({bulge_j, std::fabs(s0.bend) * per_j[0], std::fabs(s1.bend) * per_j[0]});
   }
   Excess worst{largest(acceleration), largest(jerk), largest(velocity)};
@@ -212,7 +226,7 @@ class Windows::AccelerationPeaks {
   Rates last_[kMaxAxes];
 };
 
-[[gnu::noinline]] double Windows::peak_acceleration(unsigned k, const Moments& m) const {
+NC_BESIDE_WIDE_VECTORS double Windows::peak_acceleration(unsigned k, const Moments& m) const {
   const Piece& p = piece_of(k);
   AccelerationPeaks peaks(*this, k, m);
   CurvePoint q;
@@ -248,7 +262,7 @@ inline bool Windows::looks_on_quintic(unsigned k, const Moments& m, double secon
   return least > 0 && out->acceleration + out->jerk * seconds / least <= 1;
 }
 
-[[gnu::noinline]] Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
+NC_BESIDE_WIDE_VECTORS Windows::Excess Windows::excess_on_curve(unsigned k, const Moments& m) const {
   const Piece& p = piece_of(k);
   if (p.quintic && !(k == 0 && mesh_.from_rest) && k + 1 != law_.cells) {
     double slowest = HUGE_VAL;
@@ -286,13 +300,17 @@ NC_FOR_WIDE_VECTORS double Windows::tighten(unsigned from, unsigned to) {
   double worst = 0;
   const double tighter = mesh_.stops ? kTighterStop : kTighter;
   for (unsigned k = from; k < to; ++k) {
-    if (k > 0 && mesh_.level[k - 1] && mesh_.level[k] && mesh_.level[k + 1]) continue;  // the mesh has looked at it
+    exceeds_[k] = false;
+    const unsigned before = k > 0 ? k - 1 : 0, behind = std::min(k + 1, mesh_.cells - 1);
+    if (mesh_.level[before] && mesh_.level[k] && mesh_.level[behind]) continue;  // the mesh has looked at it
+    if (mesh_.kept[before] && mesh_.kept[k] && mesh_.kept[behind]) continue;     // it is as it was
     const Excess share = excess(k);
     worst = std::max({worst, share.acceleration, share.jerk, share.velocity});
     if (share.velocity > kExcess) lower_caps(k, 1.001 * share.velocity);
     const double most = std::max(share.jerk, share.acceleration);
     if (most > kExcess) mesh_.use[k] /= tighter * most;
     if (share.acceleration > kExcess) mesh_.use_a[k] /= tighter * share.acceleration;
+    exceeds_[k] = std::max(most, share.velocity) > kExcess;
   }
   return worst;
 }
@@ -314,11 +332,43 @@ Task<double> Windows::tighten(Work& work) {
   co_return worst;
 }
 
+/// Only the cells about those that are to use less become others.
+void Windows::keep_others() {
+  std::fill(mesh_.kept, mesh_.kept + mesh_.cells, false);
+  unsigned end = 0;  // of the cells that become others
+  for (unsigned k = 0; k <= mesh_.cells; ++k) {
+    if (k < mesh_.cells && !exceeds_[k]) continue;
+    const unsigned from = k < mesh_.cells ? (k > kNearby ? k - kNearby : 0) : mesh_.cells;
+    if (from >= end + kFewestKept) std::fill(mesh_.kept + end, mesh_.kept + from, true);
+    end = std::max(end, std::min(mesh_.cells, k + kNearby + 1));
+  }
+}
+
+/// The law of the mesh once more, where some cells are to use less of a limit.
+Task<bool> Windows::solve_again(Work& work) {
+  if (!mesh_.stops) {
+    keep_others();
+    const bool solved = co_await time_law_.solve(work, mesh_, limits_, TimeLaw::Begins::nearby, &law_, std::min(steps_, kStepsNearby));
+    iterations_ += law_.iterations;
+    if (solved) co_return true;
+    std::fill(mesh_.kept, mesh_.kept + mesh_.cells, false);
+  }
+  const bool solved = co_await time_law_.solve(work, mesh_, limits_, TimeLaw::Begins::again, &law_, steps_);
+  iterations_ += law_.iterations;
+  co_return solved;
+}
+
 /// The law of the mesh, with less of the limits where it uses more than all of them.
 Task<bool> Windows::corrected(Work& work) {
+  std::fill(mesh_.kept, mesh_.kept + mesh_.cells, false);
   for (unsigned n = 0; n < kTightened; ++n) {
-    const bool solved = co_await time_law_.solve(work, mesh_, limits_, n > 0, &law_, steps_);
-    iterations_ += law_.iterations;
+    bool solved = false;
+    if (n == 0) {
+      solved = co_await time_law_.solve(work, mesh_, limits_, TimeLaw::Begins::anew, &law_, steps_);
+      iterations_ += law_.iterations;
+    } else {
+      solved = co_await solve_again(work);
+    }
     solved_ += mesh_.cells;
     if (!solved) co_return false;
     const double share = co_await tighten(work);

@@ -82,6 +82,8 @@ class Windows {
   bool phase_keeps_limits(const MeshRequest& request, const LineState& s, double jerk, double step, PhaseLook* look) const;
   Task<bool> phases_keep_limits(Work& work, const MeshRequest& request);
   Task<bool> rest_earlier(Work& work, const MeshRequest& request, double share);
+  void keep_others();
+  Task<bool> solve_again(Work& work);
   Task<bool> corrected(Work& work);
   void settle();
   double stopping_time() const;
@@ -111,6 +113,7 @@ class Windows {
   bool more_ = false, failed_ = false;
   Mesher mesher_;
   Mesh mesh_;
+  bool exceeds_[kMaxCells];  ///< the cell uses more than a limit
   TimeLaw time_law_;
   PhaseLaw phases_;
   KnownLaw known_;
