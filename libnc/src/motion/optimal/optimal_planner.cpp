@@ -12,6 +12,7 @@ constexpr double kHungry = 0.5;  ///< the chain is made longer when it lasts for
 /// The chain is made longer when this part of what was made is left, where no more of the path could be gone through at once.
 constexpr double kPartLeft = 0.5;
 constexpr double kEnough = 1.0;  ///< s of chain that are made at once where there are many rests
+constexpr double kPathFirst = 0.1;  ///< s sooner all records become path, so that the law goes as far as it can
 constexpr double kNew = 0.1;  ///< a law is solved anew when this part of the path that is left has been added to it
 constexpr double kDown = 1.06;  ///< the way down to a lower feed has this many times the squared speed of the stop that was found last
 constexpr double kLater = 1.25;  ///< a law that came too late begins at least so many times as far ahead
@@ -257,7 +258,7 @@ bool OptimalPlanner::replan(uint32_t head, int64_t* instructions) {
     }
     unanswered_ = false;
     if (now_.cell != kNoCell && !fresh_) builder_.free_pieces(store_.at(now_.cell).piece);
-    path_work_->begin(builder_.take(*path_work_, head));
+    path_work_->begin(builder_.take(*path_work_, head, wants_path(now_)));
     round_ = Round::path;
   }
   if (round_ == Round::path) {
@@ -854,6 +855,14 @@ Task<bool> OptimalPlanner::slow_down(Work& work, const Following& f, const Start
   co_return done;
 }
 
+/// Seconds of chain that may be left before it is to be made longer: so many.
+double OptimalPlanner::hungry() const { return chain_.keep == chain_.last ? kHungry : std::min(kHungry, chain_.enough_s); }
+
+/// The chain is to be made longer soon.
+bool OptimalPlanner::wants_path(const Following& f) const {
+  return fresh_ || !moving(f) || ahead(f, chain_.keep) < hungry() + kPathFirst;
+}
+
 /// A longer chain.
 Task<bool> OptimalPlanner::go_on(Work& work, const Following& f, bool idle) {
   const bool rests = fresh_ || !moving(f);
@@ -864,10 +873,10 @@ Task<bool> OptimalPlanner::go_on(Work& work, const Following& f, bool idle) {
     co_return done;
   }
   if (rests || chain_.keep == chain_.last) {
-    if (rests || ahead(f, chain_.last) < kHungry) done = co_await extend(work, f, end, block_most(f, end), nullptr);
+    if (rests || ahead(f, chain_.last) < hungry()) done = co_await extend(work, f, end, block_most(f, end), nullptr);
     co_return done;
   }
-  if (ahead(f, chain_.keep) >= std::min(kHungry, chain_.enough_s)) co_return false;
+  if (ahead(f, chain_.keep) >= hungry()) co_return false;
   const double more = builder_.end_u() - chain_.u;
   const bool whole = store_.piece_at(builder_.head() - 1).rest_behind;
   if (!(more > kNew * (chain_.u - store_.at(f.cell).u)) && !(whole && more > kTiny)) co_return false;

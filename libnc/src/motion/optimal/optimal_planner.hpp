@@ -75,6 +75,8 @@ class OptimalPlanner {
   void rebuild(const Following& f);
   void begin_again(const Following& f);
   bool answered(const Following& f);
+  double hungry() const;
+  bool wants_path(const Following& f) const;
   Task<bool> go_on(Work& work, const Following& f, bool idle);
   bool stroke_waits(const Following& f) const;
   bool must_change(const Following& f);

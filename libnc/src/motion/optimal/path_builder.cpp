@@ -15,7 +15,9 @@ constexpr double kLeastLength = 1e-6;  ///< mm: what is left of a record is take
 constexpr unsigned kOfRing = 32;  ///< the ring of records holds the lines for at least so many knots
 constexpr unsigned kWorthwhile = 16;  ///< a line is smoothed again when at least so many vertices more have come ...
 constexpr unsigned kOfWaiting = 5;  ///< ... and one for so many of those that wait already
-constexpr unsigned kGathered = 64;     ///< the same while more records lie in the ring
+// The same while more records lie in the ring, or nobody waits for the path: what has been smoothed and is not settled is smoothed once more, so twice as many
+// vertices come together first, and so many at least and at most.
+constexpr unsigned kOfUnsettled = 2, kGathered = 64, kMostGathered = 1024;
 constexpr unsigned kFewest = 3;  ///< where more vertices would need too many knots, fewer are smoothed at once, but at least so many
 constexpr unsigned kAhead = 128;       ///< vertices that are gathered while there is no room for their pieces
 constexpr unsigned kMostAtOnce = 512;  ///< one smoothing makes at most so many pieces
@@ -156,8 +158,12 @@ bool PathBuilder::joins(const Record& r) const {
 }
 
 /// What waits is smoothed again each time, so more of it has to come before that pays.
-bool PathBuilder::worthwhile(unsigned least) const {
-  return count_ >= tried_ + std::max(tried_ / kOfWaiting, least);
+bool PathBuilder::worthwhile() const {
+  return count_ >= tried_ + std::max(tried_ / kOfWaiting, kWorthwhile);
+}
+
+bool PathBuilder::gathered() const {
+  return count_ >= tried_ + std::min(std::max(kOfUnsettled * tried_, kGathered), kMostGathered);
 }
 
 void PathBuilder::add_line(const Record& r) {
@@ -705,7 +711,7 @@ PathBuilder::Next PathBuilder::gather_line(const Record& r) {
   add_line(r);
   closing_ = r.segment.exact_stop;
   store_->passed[read_ & store_->record_mask] = line_u_;
-  return !closing_ && worthwhile(kGathered) ? Next::settle : Next::go_on;
+  return !closing_ && gathered() ? Next::settle : Next::go_on;
 }
 
 /// Rapid traverse goes on at speed only into rapid traverse or a cut that is passed at speed, and of these only where the path does not bend
@@ -806,7 +812,7 @@ PathBuilder::Next PathBuilder::gather(Work& work, uint32_t head) {
   return Next::go_on;
 }
 
-Task<bool> PathBuilder::take(Work& work, uint32_t head) {
+Task<bool> PathBuilder::take(Work& work, uint32_t head, bool wanted) {
   bool more = false, done = false;
   for (;;) {
     Next next = gather(work, head);
@@ -823,7 +829,7 @@ Task<bool> PathBuilder::take(Work& work, uint32_t head) {
     }
     if (next == Next::line_full && count_ + 2 >= kVertices) co_return more;
   }
-  if (count_ > 1 && worthwhile(kWorthwhile)) {
+  if (wanted && count_ > 1 && worthwhile()) {
     done = co_await smooth_line(work, false);
     more = more || done;
   }

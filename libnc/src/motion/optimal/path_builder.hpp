@@ -19,8 +19,9 @@ class PathBuilder {
 
   void create(const Limits& limits, double tolerance, double period, const Record* records, PlanStore* store, Arena& arena);
 
-  /// Takes records from the ring up to `head`, as far as there is room. @return true when there is more path than before.
-  Task<bool> take(Work& work, uint32_t head);
+  /// Takes records from the ring up to `head`, as far as there is room. `wanted`: as much of them becomes path as can, else what is cheaper to be made together
+  /// with records that come later waits for these. @return true when there is more path than before.
+  Task<bool> take(Work& work, uint32_t head, bool wanted = true);
   /// Nothing more comes for the time being: what waits ends here, at rest.
   Task<bool> finish(Work& work);
   /// From here on anew: nothing is left of the path but the room that records [from, …) take. The first of them is a move that has been gone
@@ -87,7 +88,8 @@ class PathBuilder {
   bool one_edge();
   bool turns_at(unsigned vertex) const;
   void drop(unsigned vertices);
-  bool worthwhile(unsigned least) const;
+  bool worthwhile() const;
+  bool gathered() const;
   Task<bool> give_out(Work& work, unsigned count, bool rest);
   void go_on(const Border& border);
   void begin_line(const AxisVec& at, double u);
