@@ -11,6 +11,11 @@ constexpr unsigned kSteps = 15;  ///< steps of a fit
 constexpr unsigned kMoreSteps = 10;  ///< steps of a fit whose places have been told to come nearer to the line
 constexpr unsigned kTrials = 12;  ///< trials that are made until all cells are near enough
 constexpr double kWorthwhile = 0.97;  ///< of the time of a run: less is not worth a path that uses more of the limits, since a hold stops later on it
+constexpr double kAtFeed = 1.03;  ///< times the time at the feed: a run that is gone in less has nothing to gain
+/// What a fit makes smaller shows soon whether it is worth it: after the first step and after some more the sum has to be below so many times what it was, the
+/// second where cells were halved. Of 16,500 fits that were worth it eight were not below.
+constexpr unsigned kSome = 4;
+constexpr double kAfterFirst[] = {0.9, 0.98}, kAfterSome[] = {0.9, 0.95};
 constexpr double kWithin = 0.96;  ///< a fit keeps its places within this part of the tolerance ...
 constexpr double kTighter = 0.93;  ///< ... and within this part of that in each further trial
 constexpr double kBetween = 0.1;      ///< of the tolerance: a cell that bends by more between two places has twice as many
@@ -18,8 +23,8 @@ constexpr unsigned kVertices = 8;     ///< of a cell that a fit looks at, at mos
 constexpr unsigned kFewest = 8;  ///< a fit is worth it for at least so many control points
 constexpr unsigned kCellsAtOnce = 8;  ///< cells that are looked at before others may have their turn
 constexpr unsigned kPlacesAtOnce = 64;
-// Instructions: to add a place; for each axis, to pass a place, to solve for a control point, and to measure the distance of a cell.
-constexpr int64_t kAddCost = 400, kPassCost = 30, kSolveCost = 40, kCellCost = 500;
+// Instructions: to add a place; for each axis, to pass a place, to solve for a control point, to make a piece, and to measure the distance of a cell; of a run.
+constexpr int64_t kAddCost = 400, kPassCost = 30, kSolveCost = 40, kPieceCost = 120, kLookCost = 400, kRunCost = 500;
 
 }  // namespace
 
@@ -91,6 +96,13 @@ bool Smoother::add_cell(unsigned k, Relaxation* room) const {
   return room_left;
 }
 
+/// The speed goes with the cubic root of the third derivative. With v^3 its square is that of the jerk at a speed v of the path, with the time that
+/// the cell takes, and less weight of the fastest cells than by v^5.
+double Smoother::bend_weight(const Relaxation& room, unsigned cell) const {
+  const double speed = room.speed[cell].speed;
+  return (room_.knot[cell + 1] - room_.knot[cell]) * speed * speed * speed;
+}
+
 /// The fit of control points from `from` on: as many, up to `to`, as there is room for. @return how many
 Task<unsigned> Smoother::begin_fit(Work& work, Relaxation* room, unsigned from, unsigned to) const {
   unsigned end = from - 3;
@@ -102,12 +114,9 @@ Task<unsigned> Smoother::begin_fit(Work& work, Relaxation* room, unsigned from, 
   TubeFit& fit = room->fit;
   fit.begin(from, end - from, in_.axis_count);
   for (unsigned k = from - 3; k < end; ++k) {
-    const double speed = room->speed[k].speed;
     double row[4];
     third(k, row);
-    // The speed goes with the cubic root of the third derivative. With v^3 this is the square of the jerk at a speed v of the path, with the time that
-    // the cell takes, and less weight of the fastest cells than by v^5.
-    fit.add_third(k, row, (room_.knot[k + 1] - room_.knot[k]) * speed * speed * speed, room_.control);
+    fit.add_third(k, row, bend_weight(*room, k), room_.control);
     add_cell(k, room);
     co_await work.pause(kAddCost * (2 * kLooks + kVertices));
   }
@@ -116,20 +125,64 @@ Task<unsigned> Smoother::begin_fit(Work& work, Relaxation* room, unsigned from, 
   co_return solvable ? end - from : 0;
 }
 
+/// Cells [from, to) as their control points are now.
+Task<bool> Smoother::pieces_again(Work& work, unsigned from, unsigned to) {
+  unsigned edge = room_.cell[from].first_edge;
+  for (unsigned k = from; k < to; k += kCellsAtOnce) {
+    pieces(k, std::min(k + kCellsAtOnce, to), &edge);
+    co_await work.pause(kCellsAtOnce * in_.axis_count * kPieceCost);
+  }
+  co_return true;
+}
+
 /// Cells that are too far from the line shall come nearer. True: there are none.
 Task<bool> Smoother::tightened(Work& work, Relaxation* room, unsigned from, unsigned to) {
   bool near = true;
-  unsigned vertex = 1, place = 0, edge = room_.cell[from].first_edge, line_edge = edge;
+  unsigned vertex = 1, place = 0, edge = room_.cell[from].first_edge;
   for (unsigned k = from; k < to; ++k) {
-    pieces(k, k + 1, &line_edge);
     const double most = (in_.from != nullptr && k < kStartCells ? kUseStart : kUseMost) * in_.tolerance;
     if (far(k, most * most, &vertex, &edge)) {
       near = false;
       room->fit.tighten(k, kTighter, &place);
     }
-    co_await work.pause(in_.axis_count * kCellCost);
+    co_await work.pause(in_.axis_count * kLookCost);
   }
   co_return near;
+}
+
+/// What a fit of control points [from, from + count) makes as small as it can.
+double Smoother::bending(const Relaxation& room, unsigned from, unsigned count) const {
+  double sum = 0;
+  for (unsigned k = from - 3; k < from + count; ++k) {
+    double row[4], square = 0;
+    third(k, row);
+    for (unsigned i = 0; i < in_.axis_count; ++i) {
+      double bend = 0;
+      for (unsigned n = 0; n < 4; ++n) bend += row[n] * room_.control[k + n][i];
+      square += bend * bend;
+    }
+    sum += bend_weight(room, k) * square;
+  }
+  return sum;
+}
+
+/// The steps of a fit. False where it is not worth it: then it has been broken off.
+Task<bool> Smoother::fit_steps(Work& work, Relaxation* room, unsigned steps, bool look, unsigned from, unsigned count) {
+  const double before = look ? bending(*room, from, count) : 0;
+  bool halved = false;
+  for (unsigned k = from; k < from + count; ++k) halved = halved || (room_.cell[k].halved & kTimes) > 0;
+  for (unsigned step = 1; step <= steps; ++step) {
+    room->fit.begin_step();
+    for (unsigned m = 0; m < room->fit.places(); m += kPlacesAtOnce) {
+      room->fit.pass(m, m + kPlacesAtOnce, room_.control);
+      co_await work.pause(kPlacesAtOnce * in_.axis_count * kPassCost);
+    }
+    room->fit.solve(room_.control);
+    co_await work.pause(count * in_.axis_count * kSolveCost);
+    if (!look || (step != 1 && step != kSome)) continue;
+    if (!(bending(*room, from, count) < (step == 1 ? kAfterFirst : kAfterSome)[halved] * before)) co_return false;
+  }
+  co_return true;
 }
 
 /// Control points from `from` on, which may all be moved. Where they end in no tube, or hardly faster, they stay. @return how many of them this was about
@@ -140,68 +193,63 @@ Task<unsigned> Smoother::relax_run(Work& work, Relaxation* room, const Relaxing&
   const double before = co_await path_speeds(work, out_ + from - 3, count + 3, *how.limits, how.turns, room->of_run);
   std::copy(control + from, control + from + count, room->kept);
   for (unsigned trial = 0; trial < kTrials; ++trial) {
-    for (unsigned step = 0; step < (trial == 0 ? kSteps : kMoreSteps); ++step) {
-      room->fit.begin_step();
-      for (unsigned m = 0; m < room->fit.places(); m += kPlacesAtOnce) {
-        room->fit.pass(m, m + kPlacesAtOnce, control);
-        co_await work.pause(kPlacesAtOnce * in_.axis_count * kPassCost);
-      }
-      room->fit.solve(control);
-      co_await work.pause(count * in_.axis_count * kSolveCost);
-    }
+    const bool worth = co_await fit_steps(work, room, trial == 0 ? kSteps : kMoreSteps, first && trial == 0, from, count);
+    if (!worth) break;
+    co_await pieces_again(work, from - 3, from + count);
+    const double now = co_await path_speeds(work, out_ + from - 3, count + 3, *how.limits, how.turns, room->of_run);
+    if (!(now < before)) break;  // nearer to the line it would hardly be faster
     const bool near = co_await tightened(work, room, from - 3, from + count);
     if (!near) continue;
-    const double now = co_await path_speeds(work, out_ + from - 3, count + 3, *how.limits, how.turns, room->of_run);
     if (now < (first ? kWorthwhile : 1) * before) co_return count;
     break;
   }
   room_.cell[from].stays = true;
   std::copy(room->kept, room->kept + count, control + from);
-  unsigned edge = room_.cell[from - 3].first_edge;
-  for (unsigned k = from - 3; k < from + count; ++k) {
-    pieces(k, k + 1, &edge);
-    co_await work.pause(in_.axis_count * kCellCost);
-  }
+  co_await pieces_again(work, from - 3, from + count);
   co_return count;
 }
 
-/// Every run of control points that may be moved and has cells that were halved.
+/// Control points [from, to) make cells that are gone more slowly than at their feed.
+bool Smoother::below_feed(const Relaxation& room, double turns, unsigned from, unsigned to) const {
+  double seconds = 0, at_feed = 0;
+  for (unsigned k = from - 3; k < to; ++k) {
+    seconds += out_[k].length / room.speed[k].speed;
+    at_feed += out_[k].length / (turns * out_[k].feed);
+  }
+  return seconds > kAtFeed * at_feed;
+}
+
+/// Every run of control points that may be moved and is worth it. @return some have been moved
 Task<bool> Smoother::relax_once(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned to) {
+  bool any = false;
   for (unsigned j = 3; j < to;) {
     unsigned end = j;
-    bool halved = false;
-    for (; end < to && end - j < TubeFit::kControls && moves(end); ++end) halved = halved || (room_.cell[end].halved & kTimes) > 0;
+    while (end < to && end - j < TubeFit::kControls && moves(end)) ++end;
     unsigned count = 0;
-    if (halved && (first || !room_.cell[j].stays)) count = co_await relax_run(work, room, how, first, j, end);
+    if (end > j && (first ? below_feed(*room, how.turns, j, end) : !room_.cell[j].stays)) count = co_await relax_run(work, room, how, first, j, end);
+    if (count == 0) room_.cell[j].stays = true;
+    any = any || !room_.cell[j].stays;
     j = count > 0 ? j + count : std::max(end, j + 1);
-    co_await work.pause(kCellCost);
+    co_await work.pause(kRunCost);
   }
-  co_return true;
+  co_return any;
 }
 
 Task<bool> Smoother::relax(Work& work, Relaxation* room, const Relaxing& how, unsigned cells, unsigned to) {
   last_ = cells;
-  bool halved = false;
-  for (unsigned k = 0; k < to; ++k) {
-    room_.cell[k].stays = false;
-    halved = halved || (room_.cell[k].halved & kTimes) > 0;
-  }
-  if (!halved) co_return false;
+  for (unsigned k = 0; k < to; ++k) room_.cell[k].stays = false;
   const double* const feed = in_.line.feed;
   for (unsigned k = 0; k + 1 < in_.line.count && feed != nullptr; ++k) one_feed_ = one_feed_ && feed[k] == feed[0];
   double best = co_await path_speeds(work, out_, to, *how.limits, how.turns, room->speed);
   bool changed = false;
   for (unsigned round = 0; round < kRounds; ++round) {
     std::copy(room_.control, room_.control + cells + 3, room->before);
-    co_await relax_once(work, room, how, round == 0, to);
+    const bool any = co_await relax_once(work, room, how, round == 0, to);
+    if (!any) break;
     const double seconds = co_await path_speeds(work, out_, to, *how.limits, how.turns, room->speed);
     if (!(seconds < best)) {
       std::copy(room->before, room->before + cells + 3, room_.control);
-      unsigned edge = 0;
-      for (unsigned k = 0; k < to; k += kCellsAtOnce) {
-        pieces(k, std::min(k + kCellsAtOnce, to), &edge);
-        co_await work.pause(kCellsAtOnce * in_.axis_count * kCellCost);
-      }
+      co_await pieces_again(work, 0, to);
       break;
     }
     best = seconds;

@@ -86,9 +86,14 @@ class Smoother {
   bool moves(unsigned j) const;
   void third(unsigned cell, double* out) const;
   void basis(unsigned cell, double x, double* out) const;
+  double bend_weight(const Relaxation& room, unsigned cell) const;
+  double bending(const Relaxation& room, unsigned from, unsigned count) const;
+  bool below_feed(const Relaxation& room, double turns, unsigned from, unsigned to) const;
+  Task<bool> fit_steps(Work& work, Relaxation* room, unsigned steps, bool look, unsigned from, unsigned count);
   bool add_cell(unsigned cell, Relaxation* room) const;
   Task<unsigned> begin_fit(Work& work, Relaxation* room, unsigned from, unsigned to) const;
   Task<unsigned> relax_run(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned from, unsigned to);
+  Task<bool> pieces_again(Work& work, unsigned from, unsigned to);
   Task<bool> tightened(Work& work, Relaxation* room, unsigned from, unsigned to);
   Task<bool> relax_once(Work& work, Relaxation* room, const Relaxing& how, bool first, unsigned to);
 

@@ -13,6 +13,12 @@ constexpr double kPenalty = 2;
 
 }  // namespace
 
+TubeFit::Wide TubeFit::wide(const AxisVec& v) {
+  Wide out;
+  for (unsigned i = 0; i < kMaxAxes; ++i) out.group[i / 4][i % 4] = v[i];
+  return out;
+}
+
 void TubeFit::begin(unsigned first, unsigned count, unsigned axis_count) {
   first_ = first;
   count_ = std::min(count, kControls);
@@ -20,7 +26,7 @@ void TubeFit::begin(unsigned first, unsigned count, unsigned axis_count) {
   places_ = 0;
   for (unsigned n = 0; n < count_; ++n) {
     for (double& b : band_[n]) b = 0;
-    for (unsigned i = 0; i < axis_count_; ++i) known_[n][i] = 0;
+    known_[n] = {};
   }
 }
 
@@ -34,7 +40,8 @@ void TubeFit::add(unsigned cell, const double row[4], double weight, const AxisV
       if (moves(cell + b)) {
         if (b <= a) band_[n][a - b] += both;
       } else {
-        for (unsigned i = 0; i < axis_count_; ++i) known_[n][i] -= both * control[cell + b][i];
+        const Wide at = wide(control[cell + b]);
+        for (unsigned g = 0; g < kGroups; ++g) known_[n].group[g] -= all(both) * at.group[g];
       }
     }
   }
@@ -48,7 +55,7 @@ bool TubeFit::add_place(unsigned cell, const double basis[4], const AxisVec& lin
   if (places_ == kPlaces) return false;
   Place& p = place_[places_++];
   std::copy(basis, basis + 4, p.basis);
-  p.line = line;
+  p.line = wide(line);
   p.dual = {};
   p.radius = radius;
   p.cell = cell;
@@ -93,39 +100,51 @@ bool TubeFit::prepare(const AxisVec* control) {
 void TubeFit::begin_step() { std::copy(known_, known_ + count_, right_); }
 
 /// Each place goes to the nearest point of its ball, with what it was moved by before (its multiplier).
-void TubeFit::pass(unsigned from, unsigned to, const AxisVec* control) {
-  for (unsigned m = from; m < std::min(to, places_); ++m) {
+template <unsigned groups>
+[[gnu::always_inline]] inline void TubeFit::pass_of(unsigned from, unsigned to, const AxisVec* control) {
+  for (unsigned m = from; m < to; ++m) {
     Place& p = place_[m];
-    double off[kMaxAxes], size = 0;
-    for (unsigned i = 0; i < axis_count_; ++i) {
-      off[i] = p.dual[i] - p.line[i];
-      for (unsigned b = 0; b < 4; ++b) off[i] += p.basis[b] * control[p.cell + b][i];
-      size += off[i] * off[i];
+    Four off[groups], size{};
+    for (unsigned g = 0; g < groups; ++g) {
+      off[g] = p.dual.group[g] - p.line.group[g];
+      for (unsigned b = 0; b < 4; ++b) off[g] += all(p.basis[b]) * four_of(control[p.cell + b].v + 4 * g);
+      size += off[g] * off[g];
     }
-    const double share = size > p.radius * p.radius ? p.radius / std::sqrt(size) : 1;
-    for (unsigned i = 0; i < axis_count_; ++i) {
-      p.dual[i] = off[i] * (1 - share);
-      const double wanted = p.weight * (p.line[i] + off[i] * share - p.dual[i]);
+    const double size2 = sum(size), share = size2 > p.radius * p.radius ? p.radius / std::sqrt(size2) : 1;
+    for (unsigned g = 0; g < groups; ++g) {
+      p.dual.group[g] = off[g] * all(1 - share);
+      const Four wanted = all(p.weight) * (p.line.group[g] + off[g] * all(share) - p.dual.group[g]);
       for (unsigned b = 0; b < 4; ++b)
-        if (moves(p.cell + b)) right_[p.cell + b - first_][i] += p.basis[b] * wanted;
+        if (moves(p.cell + b)) right_[p.cell + b - first_].group[g] += all(p.basis[b]) * wanted;
     }
   }
 }
 
-void TubeFit::solve(AxisVec* control) {
-  for (unsigned n = 0; n < count_; ++n)
-    for (unsigned i = 0; i < axis_count_; ++i) {
-      double sum = right_[n][i];
-      for (unsigned d = 1; d <= std::min(n, 3u); ++d) sum -= band_[n][d] * right_[n - d][i];
-      right_[n][i] = sum / band_[n][0];
+NC_FOR_WIDE_VECTORS void TubeFit::pass(unsigned from, unsigned to, const AxisVec* control) {
+  static_assert(kMaxAxes % 4 == 0);
+  to = std::min(to, places_);
+  axis_count_ <= 4 ? pass_of<1>(from, to, control) : pass_of<kGroups>(from, to, control);
+}
+
+NC_FOR_WIDE_VECTORS void TubeFit::solve(AxisVec* control) {
+  const unsigned groups = (axis_count_ + 3) / 4;
+  for (unsigned n = 0; n < count_; ++n) {
+    const double per = 1 / band_[n][0];
+    for (unsigned g = 0; g < groups; ++g) {
+      Four sum = right_[n].group[g];
+      for (unsigned d = 1; d <= std::min(n, 3u); ++d) sum -= all(band_[n][d]) * right_[n - d].group[g];
+      right_[n].group[g] = sum * all(per);
     }
-  for (unsigned n = count_; n-- > 0;)
-    for (unsigned i = 0; i < axis_count_; ++i) {
-      double sum = right_[n][i];
-      for (unsigned d = 1; d <= 3 && n + d < count_; ++d) sum -= band_[n + d][d] * right_[n + d][i];
-      right_[n][i] = sum / band_[n][0];
-      control[first_ + n][i] = right_[n][i];
+  }
+  for (unsigned n = count_; n-- > 0;) {
+    const double per = 1 / band_[n][0];
+    for (unsigned g = 0; g < groups; ++g) {
+      Four sum = right_[n].group[g];
+      for (unsigned d = 1; d <= 3 && n + d < count_; ++d) sum -= all(band_[n + d][d]) * right_[n + d].group[g];
+      right_[n].group[g] = sum * all(per);
+      for (unsigned i = 4 * g; i < std::min(axis_count_, 4 * g + 4); ++i) control[first_ + n][i] = right_[n].group[g][i % 4];
     }
+  }
 }
 
 void TubeFit::tighten(unsigned cell, double share, unsigned* place) {

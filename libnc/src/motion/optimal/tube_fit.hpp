@@ -5,6 +5,7 @@
 // (docs/motion-optimal.md, "Geometry").
 #pragma once
 
+#include "motion/optimal/four.hpp"
 #include "motion/optimal/piece.hpp"
 
 namespace nc::optimal {
@@ -32,12 +33,20 @@ class TubeFit {
   void tighten(unsigned cell, double share, unsigned* place);
 
  private:
+  /// A place of all axes, four to a vector; what stands behind the last axis is 0.
+  static constexpr unsigned kGroups = (kMaxAxes + 3) / 4;
+  struct Wide {
+    Four group[kGroups] = {};
+  };
+  static Wide wide(const AxisVec& v);
   struct Place {
     double basis[4];
-    AxisVec line, dual;
+    Wide line, dual;
     double radius, weight;
     unsigned cell;
   };
+  template <unsigned groups>
+  void pass_of(unsigned from, unsigned to, const AxisVec* control);
   bool moves(unsigned j) const { return j >= first_ && j < first_ + count_; }
   void add(unsigned cell, const double row[4], double weight, const AxisVec* control);
   void weigh();
@@ -45,8 +54,8 @@ class TubeFit {
 
   unsigned first_ = 0, count_ = 0, axis_count_ = 0, places_ = 0;
   double band_[kControls][4];  ///< the matrix, then its factor: the diagonal and what stands left of it
-  AxisVec known_[kControls];   ///< right side that comes of the control points that stay
-  AxisVec right_[kControls];
+  Wide known_[kControls];  ///< right side that comes of the control points that stay
+  Wide right_[kControls];
   Place place_[kPlaces];
 };
 
