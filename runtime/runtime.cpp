@@ -325,7 +325,23 @@ bool Runtime::is_still_checked() {
   return true;
 }
 
+std::uint64_t Runtime::ask_hold(unsigned system) {
+  const unsigned count = config_.nc.system_count;
+  if (!running_ || (system != kAllSystems && system >= count)) return 0;
+  return scan_->hold_door().ask(system == kAllSystems ? (1u << count) - 1 : 1u << system);
+}
+
+Answer Runtime::await_hold(std::uint64_t number) {
+  const auto give_up = std::chrono::steady_clock::now() + kAnswerTime;
+  while (!scan_->hold_door().is_answered(number)) {
+    if (std::chrono::steady_clock::now() > give_up) return Answer::kNoAnswer;
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  return Answer::kDone;
+}
+
 Answer Runtime::execute(Command command) {
+  if (const std::uint64_t hold = command.kind == CommandKind::kFeedHold ? ask_hold(command.system) : 0; hold != 0) return await_hold(hold);
   if (command.kind == CommandKind::kCycleStart && !is_still_checked()) return Answer::kNotChecked;
   const std::lock_guard lock(operator_);
   return execute_alone(command);

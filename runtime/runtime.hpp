@@ -98,6 +98,11 @@ class Runtime {
   // ---- operator ----
   // Hands over the command and waits for the answer; on virtual time it calls step() meanwhile.
   Answer execute(Command command);
+  // A feed hold waits for no other command, as for a selection whose disk does not answer: the scan holds with its next run. The number of the request; 0 = there is no such part system, or
+  // no scan runs in real time. Any thread.
+  std::uint64_t ask_hold(unsigned system);
+  // Waits until the scan has done it. Any thread.
+  Answer await_hold(std::uint64_t number);
   // The command is for all part systems if that is possible (takes_all_systems()), as from a button of the panel; otherwise it is for the first one.
   Answer execute(CommandKind kind, double value = 0, std::uint32_t number = 0);
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }
@@ -173,7 +178,8 @@ class Runtime {
   std::atomic<bool> thread_warnings_ready_{false};
   std::vector<std::string> warnings_, thread_warnings_;
   int wake_fd_ = -1;
-  bool running_ = false, stepping_ = false;
+  std::atomic<bool> running_{false};
+  bool stepping_ = false;
   mutable std::mutex operator_;       // one command at a time; never taken by the scan or the feeder
   std::uint64_t next_ticket_ = 1;
 };

@@ -171,6 +171,14 @@ void Scan::take_commands() noexcept {
   held_now_ = 0;
   Command command;
   while (answered_count_ < std::size(answered_) && commands_.pop(&command)) answered_[answered_count_++] = {command.ticket, apply(command)};
+  // Behind the commands, so that a start that was given before the hold is taken back.
+  if (const std::uint32_t systems = hold_door_.take(); systems != 0) hold_as_asked(systems);
+}
+
+// Holds what runs, or in manual mode what moves by hand.
+void Scan::hold_as_asked(std::uint32_t systems) noexcept {
+  if (mode_ == Mode::kManual) hands_held_ |= systems;
+  else hold(systems);
 }
 
 // Called after the snapshot is published. So a client that has its answer finds the effect of the command in the snapshot, and so does the feeder before
@@ -180,6 +188,7 @@ void Scan::answer_commands() noexcept {
   // commands.
   for (unsigned n = 0; n < answered_count_; ++n) (void)answers_.push(answered_[n]);
   answered_count_ = 0;
+  hold_door_.answer();
 }
 
 // The part systems that a command names, one bit each; 0 = the part system does not exist.
@@ -202,8 +211,7 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kCycleStart:
       return start_cycle(systems, command.system == kAllSystems, command.by);
     case CommandKind::kFeedHold:
-      if (mode_ == Mode::kManual) hands_held_ |= systems;
-      else hold(systems);
+      hold_as_asked(systems);
       return Answer::kDone;
     case CommandKind::kEnd:
       ending_ = true;

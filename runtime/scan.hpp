@@ -26,6 +26,7 @@
 #include "runtime/config.hpp"
 #include "runtime/histogram.hpp"
 #include "runtime/history/scan_tap.hpp"
+#include "runtime/hold_door.hpp"
 #include "runtime/ladder_hook.hpp"
 #include "runtime/macro_interface.hpp"
 #include "runtime/nc_port.hpp"
@@ -76,6 +77,7 @@ class Scan {
   bool poll_answer(CommandAnswer* answer) noexcept { return answers_.pop(answer); }
 
   // ---- any thread ----
+  HoldDoor& hold_door() { return hold_door_; }
   Snapshot snapshot() const { return snapshot_.load(); }
   const ScanStatistics& statistics() const { return statistics_; }
 
@@ -200,6 +202,7 @@ class Scan {
   void tell_found_outputs(const std::uint32_t found[NC_WORDS]) noexcept;
   void bind_spindles() noexcept;
   void take_commands() noexcept;
+  void hold_as_asked(std::uint32_t systems) noexcept;
   Answer apply(const Command& command) noexcept;
   std::uint32_t named_systems(const Command& command) const noexcept;
   std::uint32_t all_systems() const noexcept { return (1u << systems_) - 1; }
@@ -437,6 +440,7 @@ class Scan {
   std::uint64_t missed_since_reset_ = 0;
 
   SpscQueue<Command, 64> commands_;
+  HoldDoor hold_door_;
   SpscQueue<CommandAnswer, 128> answers_;
   CommandAnswer answered_[64];  // answers to the commands of this scan
   unsigned answered_count_ = 0;

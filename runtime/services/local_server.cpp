@@ -309,6 +309,7 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   ++connection->outstanding;
   job.session = connection->session;
   job.came_ns = now_ns() - job.call.age_ns;
+  job.held = services_.hold_at_once(session, job.call, job.came_ns);
   const Lane lane = job.call.row->lane;
   post(lane, std::move(job));
 }
@@ -500,7 +501,7 @@ void LocalServer::execute_command(const Job& job) {
     waiting_[{session->number, number}] = job.call.id;
   };
   Outcome outcome;
-  if (!services_.command(session, job.call, job.came_ns, expect, &outcome)) return;
+  if (!services_.command(session, job.call, job.came_ns, expect, &outcome, job.held)) return;
   {
     const std::lock_guard lock(mutex_);
     waiting_.erase({session->number, sequence});

@@ -85,6 +85,7 @@ class LocalServer {
     std::shared_ptr<Session> session;
     Call call;
     std::int64_t came_ns = 0;
+    bool held = false;  // a hold that the machine has already (Services::hold_at_once())
     bool gone = false;  // the client has gone, and there is no call
     bool denied = false;  // it had not the right; `more` refusals to its user before this one were not written down
     unsigned more = 0;

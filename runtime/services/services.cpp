@@ -197,7 +197,18 @@ bool Services::fill(const Call& call, share::Request* request, Outcome* outcome)
   return true;
 }
 
-bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome) {
+bool Services::hold_at_once(const Session& session, const Call& call, std::int64_t came_ns) {
+  const auto request = std::make_unique<share::Request>();
+  Outcome refused;
+  if (call.row->service != Service::kHold || !lack(session, call).empty() || !fill(call, request.get(), &refused)) return false;
+  share::set_text(&request->client, session.client);
+  request->sequence = 1;  // any: its own comes with its turn
+  const share::Now now{share::wall_ns(), RealClock().now_ns()};
+  request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
+  return desk_.hold_at_once(*request, now);
+}
+
+bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, bool held) {
   if (const std::string lacks = lack(*session, call); !lacks.empty()) {
     *outcome = Outcome::refused(Refused::kNoRight, lacks);
     return true;
@@ -212,7 +223,7 @@ bool Services::command(Session* session, const Call& call, std::int64_t came_ns,
   expect(request->sequence);
   notes_.came(session->number, session->user, session->behalf);
   std::vector<share::Ack> acks;
-  desk_.take(*request, now, share::Way::kLocal, &acks);
+  desk_.take(*request, now, share::Way::kLocal, &acks, held);
   if (acks.empty()) {
     *outcome = Outcome::refused(Refused::kFailed, "the intake does not answer");
     return true;

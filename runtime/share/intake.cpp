@@ -39,6 +39,8 @@ bool is_device_name(std::string_view text) {
   return !text.empty() && text.size() <= 64 && is_graphic(text);
 }
 
+bool has_client(const Request& request) { return is_ended(request.client) && !text_of(request.client).empty() && is_graphic(text_of(request.client)); }
+
 constexpr bool is_from_gateway(RequestKind kind) {
   return kind == RequestKind::kClientGone || kind == RequestKind::kGatewayBegan;
 }
@@ -366,15 +368,21 @@ Intake::Verdict Intake::execute(const Request& request) {
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
 }
 
-// `client`: null for a hold without a place.
-Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now) {
-  const auto kind = static_cast<RequestKind>(request.kind);
+// Rule 4.
+Intake::Verdict Intake::check_time(const Request& request, const Now& now) {
   const std::int64_t lifespan_ns = std::int64_t{request.lifespan_ms} * 1'000'000;
   // The lifespan is subtracted from our own time and not from issued_ns: that comes from outside, so the subtraction could overflow.
   if (request.issued_ns < now.wall_ns - lifespan_ns)
     return {AckState::kRejected, AckReason::kLate, "older than its lifespan"};
   if (request.issued_ns > now.wall_ns + kClockSkewNs)
     return {AckState::kRejected, AckReason::kLate, "from the future: the clocks of client and control differ"};
+  return {};
+}
+
+// `client`: null for a hold without a place.
+Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, bool held) {
+  const auto kind = static_cast<RequestKind>(request.kind);
+  if (const Verdict late = check_time(request, now); late.state != AckState::kDone && !held) return late;
   if (kind == RequestKind::kTakeControl) return take_control(client, request, now.steady_ns);
   const bool has_control = client != nullptr && control_ == client;
   if (kind == RequestKind::kReleaseControl) {
@@ -387,7 +395,7 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, 
             control_ == nullptr ? "take control first" : "client " + controlling() + " has control"};
   if (has_control) lease_end_ns_ = now.steady_ns + lease_ns_;
   std::string text;
-  if (!expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
+  if (!held && !expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
   Verdict verdict = execute(request);
   if (verdict.state != AckState::kRejected && verdict.text.empty()) verdict.text = scope_text(request, state.system_count);
   if (verdict.state == AckState::kAccepted && !wait_for(request, way, now.steady_ns, state)) verdict.state = AckState::kDone;
@@ -396,20 +404,28 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, 
 
 // ---- one command ----
 
-Intake::Verdict Intake::hold_without_place(const Request& request, Way way, const Now& now) {
+Intake::Verdict Intake::hold_without_place(const Request& request, Way way, const Now& now, bool held) {
   const Machine::State state = machine_.state();
   Verdict form = check_form(request, state);
-  return form.state == AckState::kDone ? decide(nullptr, request, way, state, now) : form;
+  return form.state == AckState::kDone ? decide(nullptr, request, way, state, now, held) : form;
 }
 
-void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way) {
+bool Intake::hold_at_once(const Request& request, const Now& now) {
+  if (static_cast<RequestKind>(request.kind) != RequestKind::kFeedHold || !has_client(request) || check_time(request, now).state != AckState::kDone) return false;
+  const Machine::State state = machine_.state();
+  std::string text;
+  if (check_form(request, state).state != AckState::kDone || !expected(request, state, &text)) return false;
+  return machine_.hold_at_once(request.system == kEverySystem ? kAllSystems : request.system);
+}
+
+void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way, bool held) {
   const auto kind = static_cast<RequestKind>(request.kind);
   if (is_from_gateway(kind)) {
     gone(request, way, kind == RequestKind::kGatewayBegan);
     return;
   }
   // A request without a valid name of a client can neither be answered nor remembered.
-  if (!is_ended(request.client) || text_of(request.client).empty() || !is_graphic(text_of(request.client))) return;
+  if (!has_client(request)) return;
   Ack ack = make_ack(request, way, now.wall_ns);
   const auto answer = [&](const Verdict& verdict) {
     ack.state = static_cast<std::uint32_t>(verdict.state);
@@ -420,7 +436,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
   };
   Client* client = client_of(request, way, now.steady_ns);
   if (kind == RequestKind::kFeedHold && (client == nullptr || client->writer != request.writer)) {
-    answer(hold_without_place(request, way, now));
+    answer(hold_without_place(request, way, now, held));
     return;
   }
   if (client == nullptr) {
@@ -456,7 +472,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     return;
   }
   client->last_sequence = request.sequence;
-  const Verdict verdict = decide(client, request, way, state, now);
+  const Verdict verdict = decide(client, request, way, state, now, held);
   client->executed = client->executed || (verdict.state != AckState::kRejected && kind != RequestKind::kFeedHold);
   answer(verdict);
   remember(client, ack);

@@ -53,6 +53,8 @@ class Machine {
   virtual ~Machine() = default;
   virtual State state() = 0;
   virtual Answer execute(const Command& command) = 0;
+  // A feed hold that waits for no other command, from any thread. False when it cannot be given so.
+  virtual bool hold_at_once(unsigned /*system*/) { return false; }
   virtual Answer load_mdi(unsigned system, const std::string& blocks) = 0;
   virtual Answer select_program(unsigned system, const std::string& file) = 0;
   // Devices of the ladder; "" releases all of them.
@@ -80,7 +82,11 @@ class Intake {
   explicit Intake(Machine* machine) : machine_(*machine) {}
 
   // Takes one command and adds its acknowledgement to *acks.
-  void take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way = Way::kGateway);
+  // `held`: hold_at_once() has given this request to the machine, so that it cannot be late.
+  void take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way = Way::kGateway, bool held = false);
+  // Gives a hold to the machine when it comes, and not when its turn among the commands does, which a selection may keep for seconds. False when it is no hold, or take() has to say what is wrong with
+  // it. At its turn it is given once more: a start that came before it is then executed, and must not outrun it. Any thread, also while another one is in take().
+  bool hold_at_once(const Request& request, const Now& now);
   // Ends leases, and answers accepted commands whose state has been reached. To be called every few ms.
   void tick(const Now& now, std::vector<Ack>* acks);
 
@@ -121,8 +127,9 @@ class Intake {
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;
-  Verdict decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now);
-  Verdict hold_without_place(const Request& request, Way way, const Now& now);
+  Verdict decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, bool held);
+  static Verdict check_time(const Request& request, const Now& now);
+  Verdict hold_without_place(const Request& request, Way way, const Now& now, bool held);
   Verdict execute(const Request& request);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;

@@ -23,11 +23,19 @@ class IntakeDesk {
   // Called with each answer: with the request in the thread of take(), or with null in that of tick(). To be set before the threads start.
   void set_witness(std::function<void(const Request*, const Ack&)> witness) { witness_ = std::move(witness); }
 
-  void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks) {
+  // As Intake::hold_at_once(), whatever another thread waits for here. Any thread.
+  bool hold_at_once(const Request& request, const Now& now) { return intake_.hold_at_once(request, now); }
+
+  // `held`: what hold_at_once() has said of this request.
+  void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks, bool held = false) {
     const std::size_t before = acks->size();
     {
-      const std::lock_guard lock(mutex_);
-      intake_.take(request, now, acks, way);
+      std::unique_lock lock(mutex_, std::try_to_lock);
+      if (!lock.owns_lock()) {  // a command of another way takes its time, as a selection does
+        held = held || hold_at_once(request, now);
+        lock.lock();
+      }
+      intake_.take(request, now, acks, way, held);
       show();
     }
     if (witness_)

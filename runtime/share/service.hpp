@@ -29,6 +29,7 @@ class RuntimeMachine final : public Machine {
   RuntimeMachine(Runtime* runtime, ProgramTable* programs) : runtime_(*runtime), programs_(*programs) {}
   State state() override;
   Answer execute(const Command& command) override { return runtime_.execute(command); }
+  bool hold_at_once(unsigned system) override { return runtime_.ask_hold(system) != 0; }
   Answer load_mdi(unsigned system, const std::string& blocks) override;
   Answer select_program(unsigned system, const std::string& file) override {
     return runtime_.select_program(system, file);

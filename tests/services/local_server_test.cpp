@@ -6,7 +6,10 @@
 
 #include <sys/stat.h>
 
+#include <atomic>
+#include <chrono>
 #include <set>
+#include <thread>
 
 #include "services/local_machine.hpp"
 #include "services/service_arguments.hpp"
@@ -258,6 +261,57 @@ TEST_F(LocalServices, ACommandThatTakesTimeIsAnsweredWhenItsStateIsThere) {
   EXPECT_EQ(refused["error"], "malformed") << refused;
   EXPECT_EQ(client.outcome("override.feed", {{"percent", 50}}), "");
   EXPECT_EQ(client.outcome("override.feed", {{"percent", 900}}), "malformed");
+}
+
+// Whatever the thread that reads programs waits for, and who waits for it: a hold does not.
+TEST_F(LocalServices, AHoldWaitsForNobody) {
+  write_program("long.nc", "G1 X50. F60.\nM30\n");
+  ServiceClient client(path_), other(path_), third(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "long.nc"}}), "");
+  ASSERT_EQ(client.outcome("start"), "");
+  std::atomic<bool> waits{false}, goes_on{false};
+  std::thread asks([&] {
+    (void)runtime_->look([&](nc_control*) {
+      waits = true;
+      while (!goes_on) usleep(1000);
+    });
+  });
+  while (!waits) usleep(1000);
+  ASSERT_TRUE(third.ask(1, "programs.list"));                // the thread of the data waits
+  ASSERT_TRUE(client.ask(1, "mdi", {{"blocks", "G0 X1."}}));  // and that of the commands
+  usleep(20000);
+  ASSERT_TRUE(other.ask(1, "hold"));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(5);  // only a failure takes so long
+  while (runtime_->snapshot().system[0].nc.state != NC_STATE_HOLD && std::chrono::steady_clock::now() < give_up) usleep(1000);
+  EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_HOLD);
+  goes_on = true;
+  asks.join();
+  EXPECT_EQ(other.receive()["ok"], true);
+  EXPECT_EQ(client.receive()["ok"], false);
+}
+
+// A hold does not get past a start that the same client has sent before it.
+TEST_F(LocalServices, AStartDoesNotOutrunTheHoldBehindIt) {
+  write_program("long.nc", "G1 X50. F60.\nM30\n");
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  ASSERT_EQ(client.outcome("select", {{"name", "long.nc"}}), "");
+  const auto reply_to = [&](unsigned id) {  // that to a start which is held before it has begun comes much later
+    Json reply = client.receive();
+    while (reply["id"] != id) reply = client.receive();
+    return reply;
+  };
+  for (unsigned n = 0; n < 6; ++n) {
+    ASSERT_TRUE(client.ask(100 + n, "start"));
+    ASSERT_TRUE(client.ask(200 + n, "hold"));
+    ASSERT_EQ(reply_to(200 + n)["ok"], true);
+    EXPECT_NE(runtime_->snapshot().system[0].nc.state, NC_STATE_RUNNING) << n;
+    ASSERT_TRUE(client.ask(300 + n, "reset"));
+    ASSERT_EQ(reply_to(300 + n)["ok"], true);
+  }
 }
 
 // The lifespan of a command counts from its arrival, and commands wait for those before them: here for a large program that is read.

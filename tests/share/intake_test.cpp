@@ -22,6 +22,11 @@ struct FakeMachine final : Machine {
   std::vector<std::string> mdi, selected, forced, released;
   std::vector<nc::rt::RestartWish> places;
   std::string why;
+  std::vector<unsigned> held;  // at once
+  bool hold_at_once(unsigned system) override {
+    held.push_back(system);
+    return true;
+  }
   FakeMachine() {
     now.axis_count[0] = 3;
     now.program[0] = "part.nc";
@@ -347,6 +352,37 @@ TEST_F(IntakeRules, ClientIdBelongsToItsParticipant) {
   thief.writer = 77;
   expect_rejected(give(thief), AckReason::kClientInUse);
   EXPECT_EQ(machine_.total(), 0u);
+}
+
+// What a hold asks for is given to the machine when it comes, when nothing is wrong with it; at its turn it is given once more, behind what came before it, and is not late any more.
+TEST_F(IntakeRules, AHoldIsGivenToTheMachineWhenItComes) {
+  Request r = request(RequestKind::kFeedHold, 1, "other");
+  EXPECT_TRUE(intake_.hold_at_once(r, now_));
+  EXPECT_EQ(machine_.held, std::vector<unsigned>{0});
+  EXPECT_EQ(machine_.total(), 0u);
+  now_ += 5000 * kMs;
+  acks_.clear();
+  intake_.take(r, now_, &acks_, Way::kLocal, true);
+  EXPECT_EQ(acks_.back().state, state(AckState::kAccepted)) << text_of(acks_.back().text);
+  ASSERT_EQ(machine_.executed.size(), 1u);
+  EXPECT_EQ(machine_.executed[0].kind, CommandKind::kFeedHold);
+  r = request(RequestKind::kFeedHold, 2);
+  r.system = kEverySystem;
+  EXPECT_TRUE(intake_.hold_at_once(r, now_));
+  EXPECT_EQ(machine_.held.back(), unsigned{kAllSystems});
+  machine_.held.clear();
+  EXPECT_FALSE(intake_.hold_at_once(request(RequestKind::kReset, 3), now_)) << "no hold";
+  r = request(RequestKind::kFeedHold, 4);
+  r.issued_ns = now_ - 1001 * kMs;
+  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "late";
+  r = request(RequestKind::kFeedHold, 5);
+  r.system = 7;
+  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "malformed";
+  r = request(RequestKind::kFeedHold, 6);
+  r.expected_mode = static_cast<std::int32_t>(Mode::kMdi);
+  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "another mode is expected";
+  EXPECT_FALSE(intake_.hold_at_once(request(RequestKind::kFeedHold, 7, ""), now_)) << "from nobody";
+  EXPECT_TRUE(machine_.held.empty());
 }
 
 TEST_F(IntakeRules, AHoldIsTakenUnderANameInUse) {
