@@ -264,7 +264,7 @@ TEST_F(Homing, WhatStopsMotionByHandEndsItAndItDoesNotGoOnByItself) {
 
 // In each of its phases, by whatever ends it: nothing goes on by itself, and the next homing finds the same marks. NC_SEEDS for more.
 TEST_F(Homing, EndedAnywhereItIsFoundTheNextTime) {
-  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(20, 4));
+  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(12, 3));
   for (unsigned seed = 1; seed <= seeds && !HasFailure(); ++seed) {
     std::mt19937 random(seed);
     const auto below = [&random](unsigned n) { return static_cast<int>(random() % n); };

@@ -158,7 +158,7 @@ TEST(CanVelocity, AnyOperator) {
 // The same with hands and with a screw, while scans come late by any number of cycles that is allowed: a sound machine has no alarm, its motor never turns faster than it can,
 // and stands where the control says, with what its screw needs.
 TEST(CanVelocity, AnyHandAndLateScans) {
-  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(12, 3));
+  const unsigned seeds = static_cast<unsigned>(nc::test::seeds(6, 2));
   for (unsigned seed = 1; seed <= seeds && !testing::Test::HasFailure(); ++seed) {
     std::mt19937 random(seed);
     const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
