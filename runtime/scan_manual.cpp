@@ -314,11 +314,13 @@ void Scan::follow_tap(unsigned s) noexcept {
     in_[s].tap_retract = false;
     return;
   }
-  const Answer why = out_[s].tap_retract_possible || out_[s].state == NC_STATE_MANUAL ? tap_hindrance(s) : Answer::kDone;
+  const bool possible = out_[s].tap_retract_possible || out_[s].state == NC_STATE_MANUAL;
+  const Answer why = possible ? tap_hindrance(s) : Answer::kRefusedByControl;
   if (why == Answer::kDone) return;
   taps_refused_ |= bit;
   taps_drawn_ &= ~bit;
   in_[s].tap_retract = false;
+  if (!possible) return;  // there is none in its hole, or not yet for the NC: it may be so in this cycle
   refuse(s, Asked::kTapRetract, why, -1, out_[s].state == NC_STATE_MANUAL);
 }
 

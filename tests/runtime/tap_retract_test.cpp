@@ -72,6 +72,25 @@ TEST_F(TapRetract, InAnotherModeThanManualNothingMoves) {
   expect_out(false);
 }
 
+// A reset makes it possible: the press that comes in just that scan counts no more than one before.
+TEST_F(TapRetract, APressThatMeetsTheEndOfAResetMovesNothingInAnotherMode) {
+  into_the_hole();
+  for (unsigned later = 0; later < 40; ++later) {
+    SCOPED_TRACE(later);
+    in("contact", 1);
+    steps(20);
+    in("contact", 0);
+    steps(3);
+    ASSERT_EQ(runtime->execute(CommandKind::kReset), Answer::kDone);
+    steps(later);
+    in("out_of_hole", 1);
+    steps(50);
+    in("out_of_hole", 0);
+    steps(100);
+    ASSERT_EQ(z(), stood);
+  }
+}
+
 TEST_F(TapRetract, WaitsForTheBrake) {
   for (const bool by_command : {false, true}) {
     SCOPED_TRACE(by_command);
