@@ -122,6 +122,28 @@ TEST(Terraces, AWayThroughAContourThatHasClosedCutsIt) {
   }
 }
 
+// A second contour on the level of the first, larger and round it: the way to its first corner leads out of it again through its last side. It has closed when the cancel comes, so none of its
+// sides is a way out.
+TEST(Terraces, AWayThroughTheLastSideOfASecondContourCutsIt) {
+  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(60, 10);
+  for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+    const double radius = number(1, 4), size = number(4, 8) * radius, large = size + number(3.4, 4) * radius, lead = 1.5 * radius;
+    const auto at = [](const char* code, double x, double y) {
+      char block[80];
+      std::snprintf(block, sizeof block, "%s X%.3f Y%.3f\n", code, x, y);
+      return std::string(block);
+    };
+    const std::string in = at("G90 G17 G0", -size - 3 * lead, -size - lead) + "G1 Z-1. F500\n" + at("G41 D1", -size - lead, -size - lead) + at("G3", -size, -size) + "I0 J" + brief(lead) + "\n";
+    const std::string first_ring = at("G1", -size, size) + at("", size, size) + at("", size, -size) + at("", -size, -size);
+    const std::string way = at("", large, -large), second = at("", -large, -large) + at("", -large, large) + at("", large, large) + at("", large, -large);
+    std::string program = in + first_ring + way + second + at("G40", large + 3 * radius, -large) + "M30\n";
+    program.erase(program.find("\nI0"), 1);
+    EXPECT_EQ(alarm_of_terraces(program, radius).substr(0, 4), "P153") << "seed " << seed << "\n" << program;
+  }
+}
+
 // A wall that stands above the tip, since it has been cut before, is one: a lower contour that leads back under the terrace above it cuts that.
 TEST(Terraces, ALowerContourCutsTheWallsAboveIt) {
   for (const Down down : {Down::plunge, Down::first_side, Down::round})

@@ -109,25 +109,39 @@ bool ContourMemory::goes_to_another_depth(const Section& section) {
   return another;
 }
 
-/// Does this block, the last one that has been read, come back to the start of one on its level?
-bool ContourMemory::closes_on_level(uint64_t number, uint64_t* ring) const {
-  if (state_.level_first > number) return false;
+/// Does this block, the last one that has been read, come back to the start of one on its level, from block `from` on?
+bool ContourMemory::comes_back(uint64_t number, uint64_t from, uint64_t* ring) const {
   const Piece& last = walls_[number].piece;
-  *ring = number;
-  if (last.round && std::abs(last.sweep) > kPi && norm(last.to - last.from) <= kCloses_mm) return last.radius > kAway_mm;
   Box end;
   end.take(last.to);
-  return walls_.any(std::max(state_.level_first, state_.level_ring), end.grown(kCloses_mm), [&](uint64_t first, const Wall& wall) {
+  return walls_.any(from, end.grown(kCloses_mm), [&](uint64_t first, const Wall& wall) {
     const Piece& piece = wall.piece;
     *ring = first;
     return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && (norm(piece.to - piece.from) > kAway_mm || (piece.round && piece.radius > kAway_mm));
   });
 }
 
+bool ContourMemory::closes_on_level(uint64_t number, uint64_t* ring) const {
+  if (state_.level_first > number) return false;
+  const Piece& last = walls_[number].piece;
+  *ring = number;
+  if (last.round && std::abs(last.sweep) > kPi && norm(last.to - last.from) <= kCloses_mm) return last.radius > kAway_mm;
+  return comes_back(number, std::max(state_.level_first, state_.level_ring), ring);
+}
+
+/// Another contour behind the first one, on the level of all: where it has closed it is no way out. One of fewer than three blocks may be a turn of a way out.
+void ContourMemory::note_another(uint64_t number) {
+  uint64_t ring = 0;
+  if (state_.closure == 0 || state_.turned || number <= state_.closure + 2 || !comes_back(number, state_.closure + 1, &ring) || number < ring + 2) return;
+  leads_across(state_.closure + 1, ring);
+  state_.closure = number;
+}
+
 void ContourMemory::note_closed_level(uint64_t number) {
   uint64_t ring = 0;
   const bool from_start = state_.level_first <= state_.first + 1;  // where the first contour closes is known (follow()), which spares nearly all programs the search
-  if (from_start ? state_.closure != number : !closes_on_level(number, &ring)) return;
+  if (from_start && state_.closure != number) return note_another(number);
+  if (!from_start && !closes_on_level(number, &ring)) return;
   if (state_.level_closed == 0) {
     state_.level_ring = ring;
     if (state_.level_terrace) {  // the first contour has its own ways in, and closes as they say (follow())

@@ -142,7 +142,9 @@ class ContourMemory {
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   void follow(const Section& section, uint64_t number);
   bool goes_to_another_depth(const Section& section);
+  bool comes_back(uint64_t number, uint64_t from, uint64_t* ring) const;
   bool closes_on_level(uint64_t number, uint64_t* ring) const;
+  void note_another(uint64_t number);
   void note_closed_level(uint64_t number);
   void leads_across(uint64_t from, uint64_t to);
   bool is_way_in(uint64_t number) const;
