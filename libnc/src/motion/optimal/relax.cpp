@@ -13,7 +13,7 @@ constexpr unsigned kTrials = 12;  ///< trials that are made until all cells are 
 constexpr double kWorthwhile = 0.97;  ///< of the time of a run: less is not worth a path that uses more of the limits, since a hold stops later on it
 constexpr double kAtFeed = 1.03;  ///< times the time at the feed: a run that is gone in less has nothing to gain
 /// What a fit makes smaller shows soon whether it is worth it: after the first step and after some more the sum has to be below so many times what it was, the
-/// second where cells were halved. Of 16,500 fits that were worth it eight were not below.
+/// second where cells were halved. Of 16,500 fits that were worth it four were not below.
 constexpr unsigned kSome = 4;
 constexpr double kAfterFirst[] = {0.9, 0.98}, kAfterSome[] = {0.9, 0.95};
 constexpr double kWithin = 0.96;  ///< a fit keeps its places within this part of the tolerance ...
