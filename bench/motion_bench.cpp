@@ -213,7 +213,9 @@ void plan_optimal(benchmark::State& state, const std::vector<Record>& records, u
 void BM_PlanOptimal(benchmark::State& state) {
   plan_optimal(state, surface(static_cast<double>(state.range(0)) * 1e-3, 100), 4096);
 }
-BENCHMARK(BM_PlanOptimal)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
+// Laws reach over seconds, so a few of them would decide a run of ten.
+BENCHMARK(BM_PlanOptimal)->Arg(200)->Arg(50)->Arg(10)->UseManualTime()->Iterations(31000);
+BENCHMARK(BM_PlanOptimal)->Arg(1)->UseManualTime()->Iterations(11000);
 
 /// A circle of radius 10 mm in lines, on which the full feed is reached. Argument: segment length in um.
 void BM_PlanOptimalCircle(benchmark::State& state) {
@@ -235,7 +237,8 @@ void BM_PlanOptimalCircle(benchmark::State& state) {
   }
   plan_optimal(state, records, 65536);
 }
-BENCHMARK(BM_PlanOptimalCircle)->Arg(200)->Arg(50)->Arg(10)->Arg(1)->UseManualTime()->Iterations(3000);
+BENCHMARK(BM_PlanOptimalCircle)->Arg(200)->Arg(50)->Arg(10)->UseManualTime()->Iterations(7000);
+BENCHMARK(BM_PlanOptimalCircle)->Arg(1)->UseManualTime()->Iterations(2500);
 
 /// One servo cycle on an endless path; feeding the executor is not measured. Argument: segment length in um.
 void BM_Cycle(benchmark::State& state, bool arcs) {
