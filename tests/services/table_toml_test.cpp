@@ -81,7 +81,7 @@ TEST_F(TableToml, AllOfItOrNothing) {
       {"2 = \"long\"", "malformed", "line 3"},
       {"[work_offsets]\nG60 = { X = 1 }", "malformed", "line 4: work_offsets.G60: must be EXT, G54 to G59"},
       {"[work_offsets]\nG54 = { Q = 1 }", "malformed", "no axis \"Q\" is configured"},
-      {"[work_offsets]\nG54 = { X = 1, X1 = 2 }", "malformed", "stands twice, also in this line as work_offsets.G54"},
+      {"[work_offsets]\nG54 = { X = 1, X1 = 2 }", "malformed", "G54 of this axis is already there, also in this line as work_offsets.G54.X"},
       {"[variables]\n500 = true", "malformed", "must be a finite number, or \"vacant\", not a boolean"},
       {"[variables]\n500 = \"empty\"", "malformed", "vacant"},
       {"[variables]\nA = 1", "malformed", "must be the number of a common variable"},
