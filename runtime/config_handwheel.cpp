@@ -6,6 +6,21 @@
 namespace nc::rt {
 namespace {
 
+constexpr unsigned kBitsOfRegister = 16, kMostCounterBits = 32;
+
+// As many bits of an input word come over its bus: the counter behind it wraps there, or earlier. A register, and an analog channel of a CAN module, have 16.
+unsigned bits_of_word(const Config& config, unsigned point) {
+  for (const ModbusLinkConfig& link : config.modbus)
+    for (const hal::modbus::PointMap& map : link.link.points)
+      if (map.point == point && map.width() == 1) return kBitsOfRegister;
+  for (const hal::canopen::NodeMap& node : config.canopen.nodes) {
+    if (!node.module) continue;
+    for (const hal::canopen::IoPoint& io : node.module->points)
+      if (io.point == point && io.analog && !io.output) return kBitsOfRegister;
+  }
+  return kMostCounterBits;
+}
+
 // An entry of `axes` of some wheel, with its place in the file.
 struct ChosenAxis {
   HandwheelConfig::Choice choice;
@@ -53,8 +68,12 @@ void read_wheel(TableReader* reader, Config* config, std::vector<ChosenAxis>* ch
   const int counter = read_input(reader, "counter", hal::PointType::kWord, PointRole::kWheelCounter, number, config);
   if (counter >= 0) entry.counter = static_cast<unsigned>(counter);
   reader->integer("counts", &entry.counts, 1, 1000);
-  unsigned bits = entry.bits;
-  if (reader->integer("bits", &bits, 8, 32)) entry.bits = bits;
+  const unsigned most = counter >= 0 ? bits_of_word(*config, entry.counter) : kMostCounterBits;
+  unsigned bits = entry.bits = most;
+  if (reader->integer("bits", &bits, 8, kMostCounterBits)) {
+    if (bits > most) reader->error("bits", "the counter is an input of " + std::to_string(most) + " bits");
+    entry.bits = bits;
+  }
   entry.times_10 = read_input(reader, "times_10", hal::PointType::kBit, PointRole::kWheelTimes10, number, config);
   entry.times_100 = read_input(reader, "times_100", hal::PointType::kBit, PointRole::kWheelTimes100, number, config);
   read_axes_of(reader, config, &entry, chosen);

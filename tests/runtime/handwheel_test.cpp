@@ -196,4 +196,27 @@ TEST(HandwheelConfigErrors, AreNamedWithTheirKeys) {
   }
 }
 
+// A counter in one register has 16 bits. With 32 of them each wrap would be a jump, which turns nothing.
+TEST(HandwheelConfig, TheCounterIsAsWideAsItsInput) {
+  const auto wheel_at = [](const std::string& modbus, const std::string& more) {
+    return nc::test::base_toml() + point("sel_x") + "[[modbus]]\nname = \"io\"\nhost = \"localhost\"\n[[point]]\nname = \"wheel\"\ntype = \"word\"\ndirection = \"input\"\nmodbus = { link = \"io\", table = \"input\", address = 0" +
+           modbus + " }\n[[handwheel]]\ncounter = \"wheel\"\naxes = { X = \"sel_x\" }\n" + more;
+  };
+  const struct {
+    const char *modbus, *more;
+    unsigned bits;
+  } good[] = {{"", "", 16}, {"", "bits = 12\n", 12}, {", words = \"ABCD\"", "", 32}, {", words = \"ABCD\"", "bits = 24\n", 24}};
+  for (const auto& one : good) {
+    nc::rt::Config config;
+    for (const nc::rt::ConfigError& error : nc::rt::parse_config(wheel_at(one.modbus, one.more), "m.toml", &config)) ADD_FAILURE() << error.text();
+    ASSERT_EQ(config.handwheels.size(), 1u);
+    EXPECT_EQ(config.handwheels[0].bits, one.bits) << one.modbus << one.more;
+  }
+  nc::rt::Config config;
+  const auto errors = nc::rt::parse_config(wheel_at("", "bits = 17\n"), "m.toml", &config);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].key, "handwheel[1].bits");
+  EXPECT_NE(errors[0].message.find("an input of 16 bits"), std::string::npos) << errors[0].text();
+}
+
 }  // namespace
