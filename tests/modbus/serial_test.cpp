@@ -185,6 +185,8 @@ TEST(ModbusSerial, BytesThatNobodyAskedForAreAnErrorAndGoAway) {
 // shown is what the units have, or the value for a loss; and with the noise gone both are there again.
 TEST(ModbusSerial, AnyDamageShowsNoWrongValueAndHeals) {
   constexpr unsigned kAnswers = 400;
+  std::mt19937 random(20260404);  // in front of the device, whose thread uses them until its end
+  std::atomic<unsigned> answers{0};
   SerialDevice device;
   device.tables().with([](auto& units) {
     units[1].holding = {{0, 500}};
@@ -198,8 +200,6 @@ TEST(ModbusSerial, AnyDamageShowsNoWrongValueAndHeals) {
   rig.map().on_loss = OnLoss::kValue;
   rig.map().loss_value = 99;
   const unsigned second = rig.add(Table::kHolding, 0, Format::kU16, false, 2);
-  std::mt19937 random(20260404);
-  std::atomic<unsigned> answers{0};
   device.set_fault([&](const Bytes&, Answer right) {
     const auto pick = [&](std::size_t n) { return static_cast<unsigned>(random() % n); };
     if (right.bytes.empty() || answers.fetch_add(1) >= kAnswers) return right;
