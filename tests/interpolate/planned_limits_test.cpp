@@ -178,6 +178,13 @@ TEST(PlannedLimits, LateFeedingKeepsThem) {
 TEST(PlannedLimits, EverythingAtOnceKeepsThem) {
   run_many(500000, {.overrides = true, .holds = true, .single_block = true, .dribble = true});
 }
+// A hold that came to rest 2 nm in front of the end of a line on which a rotary axis turns by 20 degrees in 2.7 um left 0.00001 degrees of it.
+TEST(PlannedLimits, AStopRightInFrontOfTheEndOfATurnLeavesNothing) {
+  constexpr uint64_t kSeed = 500751;
+  LimitChecker worst{random_config(kSeed)};
+  double farthest = 0;
+  EXPECT_EQ(run_seed(kSeed, {.overrides = true, .holds = true, .single_block = true, .dribble = true}, 3, &worst, &farthest), "");
+}
 TEST(PlannedLimits, HoldsWithoutAFeederKeepThem) {
   run_many(600000, {.overrides = true, .holds = true, .hangs = true});
 }

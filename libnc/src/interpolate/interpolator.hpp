@@ -241,6 +241,7 @@ class Interpolator {
   bool misses(const AxisVec& stop) const NC_RT;
   Done passed(const Record& record, const nc_inputs& in) NC_RT;
   bool would_jump(const AxisVec& place) const NC_RT;
+  bool rests_at(const AxisVec& place) const NC_RT;
   bool path_stops(const nc_inputs& in) const NC_RT;
   nc_stop_cause standing(const Segment& segment, const nc_inputs& in) NC_RT;
   void tell_planner(const nc_inputs& in, const ScanStatus& status) NC_RT;

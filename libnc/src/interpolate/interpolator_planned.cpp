@@ -43,6 +43,13 @@ bool Interpolator::would_jump(const AxisVec& place) const {
   return false;
 }
 
+/// A path at rest has come to the end of the record in front. A stop so little before it that is no rest of the path has done so only where no axis shows it: along a line that is
+/// short for the turn of a rotary axis, nanometres are many of its degrees, and they are gone when the path goes on.
+bool Interpolator::rests_at(const AxisVec& place) const {
+  const double end = optimal_->store().passed[tail_ & mask_];
+  return follower_.u() >= end || (follower_.u() >= nearly(end) && (follower_.at_path_end() || !would_jump(place)));
+}
+
 /// Why a move does not go on, when there is nothing to follow.
 nc_stop_cause Interpolator::standing(const Segment& s, const nc_inputs& in) {
   if (s.rapid && !(in.rapid_override > 0)) return NC_CAUSE_OVERRIDE_ZERO;
@@ -71,7 +78,7 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
       return wait(braking() ? cause_ : NC_CAUSE_OVERRIDE_ZERO);
     }
     // The path may rest at the end of several records, and a hold may have come before all of them were counted off.
-    if (follower_.rests_behind(tail_) && follower_.u() >= nearly(optimal_->store().passed[tail_ & mask_])) return passed(r, in);
+    if (follower_.rests_behind(tail_) && rests_at(s.curve.end)) return passed(r, in);
     if (follower_.idle()) {
       return wait(no_law_ ? NC_CAUSE_NO_LAW : standing(s, in));
     }
@@ -97,7 +104,7 @@ Interpolator::Done Interpolator::follow_plan(const Record& r, const nc_inputs& i
   passing_ = passing_ && u > end + kPassed;
   // Where a stop happens to end right in front of a place that is no rest of the path, what is left is gone when the path goes on.
   const bool beside = follower_.halted() && !follower_.at_path_end();
-  if (follower_.at_rest() ? u < (beside ? end : nearly(end)) : !(u > end + kPassed)) return Done::no;
+  if (follower_.at_rest() ? (beside ? u < end : !rests_at(s.curve.end)) : !(u > end + kPassed)) return Done::no;
   return passed(r, in);
 }
 
