@@ -197,15 +197,20 @@ bool Services::fill(const Call& call, share::Request* request, Outcome* outcome)
   return true;
 }
 
+// Who has sent a request, and when on the clock of requests. Now, on both clocks.
+static share::Now sent_by(const Session& session, std::int64_t came_ns, share::Request* request) {
+  share::set_text(&request->client, session.client);
+  const share::Now now{share::wall_ns(), RealClock().now_ns()};
+  request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
+  return now;
+}
+
 bool Services::hold_at_once(const Session& session, const Call& call, std::int64_t came_ns) {
   const auto request = std::make_unique<share::Request>();
   Outcome refused;
   if (call.row->service != Service::kHold || !lack(session, call).empty() || !fill(call, request.get(), &refused)) return false;
-  share::set_text(&request->client, session.client);
   request->sequence = 1;  // any: its own comes with its turn
-  const share::Now now{share::wall_ns(), RealClock().now_ns()};
-  request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
-  return desk_.hold_at_once(*request, now);
+  return desk_.hold_at_once(*request, sent_by(session, came_ns, request.get()));
 }
 
 bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, bool held) {
@@ -215,11 +220,9 @@ bool Services::command(Session* session, const Call& call, std::int64_t came_ns,
   }
   const auto request = std::make_unique<share::Request>();
   if (!fill(call, request.get(), outcome)) return true;
-  share::set_text(&request->client, session->client);
   request->writer = session->number;
   request->sequence = ++session->sequence;
-  const share::Now now{share::wall_ns(), RealClock().now_ns()};
-  request->issued_ns = now.wall_ns - (now.steady_ns - came_ns);
+  const share::Now now = sent_by(*session, came_ns, request.get());
   expect(request->sequence);
   notes_.came(session->number, session->user, session->behalf);
   std::vector<share::Ack> acks;

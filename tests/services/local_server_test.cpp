@@ -445,6 +445,25 @@ TEST_F(LocalServices, AHoldCountsAlthoughItsClientHasGone) {
   }
 }
 
+// The same of a reset, whose client has control, amid its own commands, which are dropped.
+TEST_F(LocalServices, AResetCountsAlthoughItsClientHasGone) {
+  for (unsigned n = 0; n < 30; ++n) {
+    {
+      ServiceClient other(path_);
+      ASSERT_EQ(other.outcome("control.take", {{"lease_ms", 60000}}), "") << n;
+      ASSERT_EQ(other.outcome("mode", {{"mode", "mdi"}}), "");
+      ASSERT_EQ(other.outcome("mdi", {{"blocks", "G91 G1 X100. F1."}}), "");
+      ASSERT_EQ(other.outcome("start"), "");
+      std::string frames;
+      for (unsigned id = 1; id <= 6; ++id) frames += frame_of(Json{{"id", id}, {"service", "override.feed"}, {"args", {{"percent", 100}}}}.dump());
+      ASSERT_TRUE(other.send_bytes(frames + frame_of(Json{{"id", 7}, {"service", "reset"}, {"args", Json::object()}}.dump())));
+    }
+    const auto state = [this] { return runtime_->snapshot().system[0].nc.state; };
+    for (unsigned look = 0; look < 2000 && state() != NC_STATE_IDLE; ++look) usleep(5000);
+    ASSERT_EQ(state(), NC_STATE_IDLE) << n;
+  }
+}
+
 TEST_F(LocalServices, OneUserCannotTakeAllPlaces) {
   std::vector<std::unique_ptr<ServiceClient>> clients;
   for (unsigned i = 0; i < LocalServer::kPerUser; ++i) {
