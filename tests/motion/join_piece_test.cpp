@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "at_once.hpp"
+#include "builder_rig.hpp"
 #include "interpolate/test_machine.hpp"
-#include "motion/optimal/path_builder.hpp"
 
 namespace nc::test {
 namespace {
@@ -26,29 +26,12 @@ std::vector<Piece> pieces(double radius, double length, std::vector<Curve>* curv
   to[1] += 10 * std::sin(sweep);
   p.line(to, 50);
   p.end();
-  constexpr uint32_t kRing = 64;
-  std::vector<Record> ring(kRing);
-  std::copy(p.records.begin(), p.records.end(), ring.begin());
-  std::vector<double> passed(kRing);
-  optimal::PlanStore store;
-  store.passed = passed.data();
-  store.record_mask = kRing - 1;
-  optimal::Limits limits;
-  for (unsigned i = 0; i < 3; ++i) {
-    limits.velocity[i] = limits.rapid[i] = 250;
-    limits.acceleration[i] = 2000;
-    limits.jerk[i] = 50000;
-  }
-  std::vector<std::byte> memory(8u << 20);
-  Arena arena(memory.data(), memory.size());
-  optimal::PathBuilder builder;
-  builder.create(limits, 0.01, 0.005, ring.data(), &store, arena);
-  EXPECT_FALSE(arena.overflowed());
-  builder.restart(0, 0, AxisVec{}, 0, 0);
-  for (unsigned n = 0; n < 10; ++n) at_once([&](optimal::Work& work) { return builder.take(work, static_cast<uint32_t>(p.records.size())); });
-  at_once([&](optimal::Work& work) { return builder.finish(work); });
+  BuilderRig rig(64);
+  std::copy(p.records.begin(), p.records.end(), rig.ring.begin());
+  for (unsigned n = 0; n < 10; ++n) at_once([&](optimal::Work& work) { return rig.builder.take(work, static_cast<uint32_t>(p.records.size())); });
+  at_once([&](optimal::Work& work) { return rig.builder.finish(work); });
   std::vector<Piece> all;
-  for (uint32_t k = 0; k != builder.head(); ++k) all.push_back(store.piece_at(k));
+  for (uint32_t k = 0; k != rig.builder.head(); ++k) all.push_back(rig.store.piece_at(k));
   curves->clear();
   curves->reserve(all.size());
   for (Piece& piece : all) {

@@ -8,34 +8,21 @@
 #include <vector>
 
 #include "at_once.hpp"
+#include "builder_rig.hpp"
 #include "interpolate/line_program.hpp"
-#include "motion/optimal/path_builder.hpp"
 
 namespace nc::test {
 namespace {
 
-using optimal::PathBuilder;
 using optimal::Piece;
 
 constexpr uint32_t kCapacity = 256;
 constexpr unsigned kMostPauses = 400;
 
 /// A builder that has taken all lines of a wave, and waits for what comes behind them.
-class Wave {
+class Wave : private BuilderRig {
  public:
-  explicit Wave(double tolerance) : memory_(8u << 20), ring_(kCapacity), passed_(kCapacity) {
-    store_.passed = passed_.data();
-    store_.record_mask = kCapacity - 1;
-    optimal::Limits limits;
-    for (unsigned i = 0; i < 3; ++i) {
-      limits.velocity[i] = limits.rapid[i] = 250;
-      limits.acceleration[i] = 2000;
-      limits.jerk[i] = 50000;
-    }
-    Arena arena(memory_.data(), memory_.size());
-    builder.create(limits, tolerance, 0.005, ring_.data(), &store_, arena);
-    EXPECT_FALSE(arena.overflowed());
-    builder.restart(0, 0, {}, 0, 0);
+  explicit Wave(double tolerance) : BuilderRig(kCapacity, tolerance) {
     Program p(standard_config(3));
     for (unsigned n = 1; n <= 12; ++n) {
       AxisVec end;
@@ -43,21 +30,15 @@ class Wave {
       end[1] = n % 2 == 0 ? 0.4 : 0.0;
       p.line(end, 50);
     }
-    for (size_t n = 0; n < p.records.size(); ++n) ring_[n] = p.records[n];
+    for (size_t n = 0; n < p.records.size(); ++n) ring[n] = p.records[n];
     const auto count = static_cast<uint32_t>(p.records.size());
     at_once([&](optimal::Work& work) { return builder.take(work, count); });
     begun = builder.head();
   }
-  const Piece& piece(uint32_t k) const { return store_.piece_at(k); }
+  const Piece& piece(uint32_t k) const { return store.piece_at(k); }
 
-  PathBuilder builder;
+  using BuilderRig::builder;
   uint32_t begun = 0;  ///< pieces in front of the end
-
- private:
-  std::vector<std::byte> memory_;
-  std::vector<Record> ring_;
-  std::vector<double> passed_;
-  optimal::PlanStore store_;
 };
 
 /// Ends the path but for `pauses` pauses of the end. @return it was broken off

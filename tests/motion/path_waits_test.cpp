@@ -5,12 +5,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <vector>
 
 #include "at_once.hpp"
+#include "builder_rig.hpp"
 #include "interpolate/line_program.hpp"
-#include "motion/optimal/path_builder.hpp"
 
 namespace nc::test {
 namespace {
@@ -24,23 +22,7 @@ struct Grown {
 
 /// A wave in lines of 0.1 mm that come by twenties. The path is wanted each time, or only with the last of them.
 Grown grow(bool wanted) {
-  std::vector<std::byte> memory(8u << 20);
-  std::vector<Record> ring(kRing);
-  std::vector<double> passed(kRing);
-  optimal::PlanStore store;
-  store.passed = passed.data();
-  store.record_mask = kRing - 1;
-  optimal::Limits limits;
-  for (unsigned i = 0; i < 3; ++i) {
-    limits.velocity[i] = limits.rapid[i] = 250;
-    limits.acceleration[i] = 2000;
-    limits.jerk[i] = 50000;
-  }
-  Arena arena(memory.data(), memory.size());
-  optimal::PathBuilder builder;
-  builder.create(limits, 0.01, 0.005, ring.data(), &store, arena);
-  EXPECT_FALSE(arena.overflowed());
-  builder.restart(0, 0, {}, 0, 0);
+  BuilderRig rig(kRing);
   Program p(standard_config(3));
   for (unsigned n = 1; n <= kLines; ++n) {
     AxisVec end;
@@ -50,12 +32,12 @@ Grown grow(bool wanted) {
   }
   Grown out;
   for (uint32_t head = kAtATime; head <= kLines; head += kAtATime) {
-    std::copy(p.records.begin() + (head - kAtATime), p.records.begin() + head, ring.begin() + (head - kAtATime));
-    const double before = builder.end_u();
-    at_once([&](optimal::Work& work) { return builder.take(work, head, wanted || head == kLines); });
-    out.times += builder.end_u() > before ? 1u : 0u;
-    if (head != kLines) out.most_waiting = std::max(out.most_waiting, passed[head - 1] - builder.end_u());
-    out.end = builder.end_u();
+    std::copy(p.records.begin() + (head - kAtATime), p.records.begin() + head, rig.ring.begin() + (head - kAtATime));
+    const double before = rig.builder.end_u();
+    at_once([&](optimal::Work& work) { return rig.builder.take(work, head, wanted || head == kLines); });
+    out.times += rig.builder.end_u() > before ? 1u : 0u;
+    if (head != kLines) out.most_waiting = std::max(out.most_waiting, rig.passed[head - 1] - rig.builder.end_u());
+    out.end = rig.builder.end_u();
   }
   return out;
 }
