@@ -11,10 +11,8 @@ import sys
 import tempfile
 import time
 
-SKIPPED = 77
-PATIENCE = 30.0  # s for anything to come; only a failure takes so long
-root = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-build = os.environ.get("NC_BINARY_DIR") or os.path.join(root, "build/release")
+from dds_environment import PATIENCE, SKIPPED, build
+
 MACHINE = """
 [machine]
 name = "Other make"
