@@ -203,6 +203,16 @@ TEST(CanModule, TheLoadOfTheBusCountsIt) {
   EXPECT_NE(errors_of(replaced(full, "alarm = true", "every = 40")).find("where the PDOs of all modules come together the bus would be fuller than 95 %"), std::string::npos);
 }
 
+// A channel has 16 bits, and so has the counter of a handwheel behind it.
+TEST(CanModule, ACounterOfAHandwheelIsAsWideAsItsChannel) {
+  const std::string wheel = with_module() + "[[handwheel]]\ncounter = \"load\"\naxes = { X = \"door\" }\n";
+  Config config;
+  for (const auto& error : nc::rt::parse_config(wheel, "can.toml", &config)) ADD_FAILURE() << error.text();
+  ASSERT_EQ(config.handwheels.size(), 1u);
+  EXPECT_EQ(config.handwheels[0].bits, 16u);
+  EXPECT_NE(errors_of(wheel + "bits = 32\n").find("handwheel[1].bits: the counter is an input of 16 bits"), std::string::npos);
+}
+
 TEST(CanModule, WhatIsWrongInTheFileIsNamed) {
   const std::string good = with_module();
   const struct {
