@@ -56,6 +56,8 @@ class Follower {
   int planned_turning_axis() const NC_RT { return store_->at(at_end_ ? store_->next[cell_ & store_->cell_mask] : cell_).turning_axis; }
   /// At rest at a place where the path itself rests, and not only the plan.
   bool at_path_end() const { return at_end_ && (cell_ != optimal::kNoCell ? store_->at(cell_).path_ends : halted_ && halt_ends_); }
+  /// At rest at the end of the plan, right in front of a place where the path itself rests.
+  bool before_path_end() const { return at_end_ && cell_ != optimal::kNoCell && store_->at(cell_).before_rest; }
   /// At rest at the end of the plan, and the record at ring index k lies on the path of that plan.
   bool rests_behind(uint32_t k) const { return at_end_ && cell_ != optimal::kNoCell && static_cast<int32_t>(k - taken_to_) < 0; }
   /// At rest at a place of the path where no plan ends: a stop that brake() has found has come to its end, and nothing further is planned.

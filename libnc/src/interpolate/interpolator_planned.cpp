@@ -43,11 +43,12 @@ bool Interpolator::would_jump(const AxisVec& place) const {
   return false;
 }
 
-/// A path at rest has come to the end of the record in front. A stop so little before it that is no rest of the path has done so only where no axis shows it: along a line that is
-/// short for the turn of a rotary axis, nanometres are many of its degrees, and they are gone when the path goes on.
+/// A path at rest has come to the end of the record in front, at `place`. Where the plan rests a little before a place where the path itself rests, it has done so only if no axis
+/// shows it: along a line that is short for the turn of a rotary axis, nanometres are many of its degrees, and they would be gone when the path goes on. Elsewhere the path goes on
+/// from where it is, be it at the end of a block, which a rounded corner passes at some distance.
 bool Interpolator::rests_at(const AxisVec& place) const {
   const double end = optimal_->store().passed[tail_ & mask_];
-  return follower_.u() >= end || (follower_.u() >= nearly(end) && (follower_.at_path_end() || !would_jump(place)));
+  return follower_.u() >= end || (follower_.u() >= nearly(end) && !(follower_.before_path_end() && would_jump(place)));
 }
 
 /// Why a move does not go on, when there is nothing to follow.

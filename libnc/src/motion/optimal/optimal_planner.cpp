@@ -545,6 +545,17 @@ bool OptimalPlanner::path_ends() const {
   return last.rest_behind && place.x >= last.length - unseen(last, limits_, last.length);
 }
 
+/// The path rests no more than kBeforeRest behind `at`.
+bool OptimalPlanner::rests_soon(const Start& at) const {
+  double left = -at.x;
+  for (uint32_t k = at.piece; k != builder_.head(); ++k) {
+    left += store_.piece_at(k).length;
+    if (left > kBeforeRest) return false;
+    if (store_.piece_at(k).rest_behind) return true;
+  }
+  return false;
+}
+
 /// Where the next law begins behind one that ends in piece `piece`.
 OptimalPlanner::Start OptimalPlanner::behind_law(uint32_t piece, double x, double u, double way) const {
   Start s;
@@ -582,6 +593,7 @@ Task<bool> OptimalPlanner::copy_law(Work& work, const Start& start, Start* end) 
   }
   const PathPlace& place = windows_->place(law.cells);
   *end = behind_law(start.piece + place.piece, place.x, builder_.start_of(start.piece + place.piece) + place.x, place.x);
+  store_.cell[end->after & store_.cell_mask].before_rest = !ends && rests_soon(*end);
   co_return true;
 }
 

@@ -120,6 +120,7 @@ class OptimalPlanner {
   double next_block_end(double u, uint32_t tail) const;
   unsigned pieces_from(uint32_t piece, unsigned most) const;
   bool path_ends() const;
+  bool rests_soon(const Start& at) const;
   Task<bool> copy_law(Work& work, const Start& start, Start* end);
   void copy_cell(const Start& start, unsigned cell, bool path_ends, double* time);
   Start behind_law(uint32_t piece, double x, double u, double way) const;

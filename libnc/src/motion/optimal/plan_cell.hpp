@@ -13,6 +13,8 @@ namespace nc::optimal {
 using CellIndex = uint64_t;
 inline constexpr CellIndex kNoCell = ~CellIndex{0};
 
+constexpr double kBeforeRest = 2e-7;  ///< mm: PlanCell::before_rest
+
 struct PlanCell {
   /// level: u'' is linear in u. ramp: constant u''', as in the cells from rest and to rest.
   enum class Kind : uint8_t { level, launch, land, ramp };
@@ -26,6 +28,7 @@ struct PlanCell {
   uint32_t piece = 0;
   Kind kind = Kind::level;
   bool path_ends = false;  ///< the path rests at its end, not the plan alone
+  bool before_rest = false;  ///< the plan ends with it, at most kBeforeRest in front of a place where the path rests
   int8_t turning_axis = -1;  ///< Scales::turning_axis for which it was planned
   static constexpr float kInDryRun = -1;
 };

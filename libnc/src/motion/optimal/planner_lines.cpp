@@ -245,8 +245,10 @@ Task<bool> OptimalPlanner::copy_phases(Work& work, const PhasesOf& law, const St
   }
   const Piece& p = store_.piece_at(piece);
   const double x = law.distance() - begun;
-  store_.cell[(write_ - 1) & store_.cell_mask].path_ends = p.rest_behind && x >= p.length - unseen(p, limits_, way);
+  PlanCell& last = store_.cell[(write_ - 1) & store_.cell_mask];
+  last.path_ends = p.rest_behind && x >= p.length - unseen(p, limits_, way);
   *end = behind_law(piece, x, start.u + law.distance(), way);
+  last.before_rest = !last.path_ends && rests_soon(*end);
   co_return true;
 }
 
