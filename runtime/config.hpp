@@ -312,8 +312,8 @@ std::vector<std::string> spindle_warnings(const Config& config);
 
 // What the configuration promises of a failing supply and cannot keep, each as a sentence with its line.
 std::vector<std::string> power_warnings(const Config& config);
-// A sentence of nc_parameter_note_row() about this part system, with the line of the parameter that it speaks of.
-std::string parameter_note_text(const Config& config, unsigned system, std::string_view note);
+// What nc_parameter_note_row() says about this part system, with the line of the parameter that it speaks of.
+std::string parameter_note_text(const Config& config, unsigned system, const nc_parameter_note& note);
 
 // Read and parse a file.
 std::vector<ConfigError> load_config(const std::string& path, Config* config, Config* partial = nullptr);

@@ -59,23 +59,19 @@ std::optional<std::string> parameter_text(const toml::node& node) {
   return {};
 }
 
-// A note names its axis and its parameters: "X: #2007 #2008 let ...", "#1206: ...". The line is that of the first of them that is set for this axis or for all, else of
-// one that is set for another axis, which is what makes the difference.
-std::string parameter_note_text(const Config& config, unsigned system, std::string_view note) {
-  const char axis = note.size() > 2 && note[1] == ':' ? note[0] : '\0';
+// The line is that of the first of the note's parameters that is set for its axis or for all, else of one that is set for another axis, which is what makes the difference.
+std::string parameter_note_text(const Config& config, unsigned system, const nc_parameter_note& note) {
   const ParameterSetting* found = nullptr;
   bool exact = false;
-  for (std::size_t at = note.find('#'); at != std::string_view::npos && !exact; at = note.find('#', at + 1)) {
-    const std::string_view rest = note.substr(at + 1);
-    const std::string_view key = rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
+  for (unsigned k = 0; k < note.key_count && !exact; ++k) {
     for (const ParameterSetting& parameter : config.parameters) {
-      if (exact || parameter.key != key || (parameter.axis != 0 && parameter.system != system)) continue;
-      exact = axis == 0 || parameter.axis == 0 || parameter.axis == axis;
+      if (exact || parameter.key != note.key[k] || (parameter.axis != 0 && parameter.system != system)) continue;
+      exact = note.axis == 0 || parameter.axis == 0 || parameter.axis == note.axis;
       if (exact || found == nullptr) found = &parameter;
     }
   }
   const ConfigPlace place = found != nullptr ? found->place : ConfigPlace{0, "parameters"};
-  return ConfigError{config.file, place.line, place.key, std::string(note)}.text();
+  return ConfigError{config.file, place.line, place.key, note.text}.text();
 }
 
 void read_parameters(TableReader* root, Config* config) {

@@ -96,9 +96,9 @@ std::unique_ptr<Runtime> Runtime::create(const Config& config, const RuntimePart
     if (!nc_parameter_used(static_cast<nc_dialect>(config.nc.dialect), parameter.key.c_str()))
       runtime->warnings_.push_back(ConfigError{config.file, parameter.place.line, parameter.place.key,
                                                "nothing in the control asks for this parameter: it is kept for programs that read it"}.text());
-  char note[200];
+  nc_parameter_note note;
   for (unsigned s = 0; runtime->control_ != nullptr && s < config.nc.system_count; ++s)
-    for (unsigned i = 0; nc_parameter_note_row(runtime->control_, api_system(s), i, note, sizeof note) == NC_OK; ++i)
+    for (unsigned i = 0; nc_parameter_note_row(runtime->control_, api_system(s), i, &note) == NC_OK; ++i)
       runtime->warnings_.push_back(parameter_note_text(config, s, note));
   for (const std::string& warning : spindle_warnings(config)) runtime->warnings_.push_back(warning);
   for (const std::string& warning : power_warnings(config)) runtime->warnings_.push_back(warning);

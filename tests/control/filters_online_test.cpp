@@ -294,8 +294,8 @@ TEST(FiltersOnline, RapidBeforeInterpolationIsForTheFirstPartSystem) {  // 13.15
 
 std::vector<std::string> notes(Bench& bench) {
   std::vector<std::string> all;
-  char text[200];
-  for (unsigned i = 0; nc_parameter_note_row(bench.control(), 0, i, text, sizeof text) == NC_OK; ++i) all.push_back(text);
+  nc_parameter_note note;
+  for (unsigned i = 0; nc_parameter_note_row(bench.control(), 0, i, &note) == NC_OK; ++i) all.push_back(note.text);
   return all;
 }
 
@@ -307,6 +307,30 @@ TEST(FiltersOnline, NotesSayWhatLimitsTheMachine) {
             (std::vector<std::string>{"X: #2007 #2008 let cuts go at 6000 mm/min, the axis could go at 12000: faster would break its limit of acceleration",
                                       "Z: #2007 #2008 not set, of other axes they are: cuts of this axis are accelerated before interpolation, and the "
                                       "path rests beside them"}));
+}
+
+// A host that shows a note beside what was set needs no look into the sentence.
+TEST(FiltersOnline, ANoteNamesItsAxisAndItsParameters) {
+  Bench bench(NC_DIALECT_M700, machine);
+  bench.param("2007", "250", 'Y').param("8107", "1").param("2069", "0.01");
+  nc_parameter_note note;
+  ASSERT_EQ(nc_parameter_note_row(bench.control(), 0, 1, &note), NC_OK);
+  EXPECT_STREQ(note.text, "#2069: no effect while #8107 and #8108 are not both 1");
+  ASSERT_EQ(note.key_count, 3u);
+  EXPECT_STREQ(note.key[0], "2069");
+  EXPECT_STREQ(note.key[1], "8107");
+  EXPECT_STREQ(note.key[2], "8108");
+  EXPECT_EQ(note.axis, 0);
+  ASSERT_EQ(nc_parameter_note_row(bench.control(), 0, 2, &note), NC_OK);
+  EXPECT_EQ(note.axis, 'X');
+  ASSERT_EQ(note.key_count, 2u);
+  EXPECT_STREQ(note.key[0], "2007");
+  EXPECT_STREQ(note.key[1], "2008");
+  nc_parameter_note old = NC_INIT(nc_parameter_note);
+  old.struct_size = 2;
+  EXPECT_EQ(nc_parameter_note_row(bench.control(), 0, 0, &old), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_note_row(bench.control(), 0, 0, nullptr), NC_E_ARGUMENT);
+  EXPECT_EQ(nc_parameter_note_row(bench.control(), 1, 0, &note), NC_E_ARGUMENT);
 }
 
 TEST(FiltersOnline, NotesSayWhatHasNoEffect) {

@@ -278,9 +278,9 @@ int check_command(const SessionOptions& options, const RunLimits& limits, std::F
     return complain(err, error);
   if (session.machine() != nullptr)
     std::fprintf(err, "note: motion: %s\n", rt::motion_text(session.config(), session.machine()->motion_given).c_str());
-  char note[200];
-  for (unsigned i = 0; nc_parameter_note_row(session.control(), kPartSystem, i, note, sizeof note) == NC_OK; ++i)
-    std::fprintf(err, "note: %s\n", note);
+  nc_parameter_note note;
+  for (unsigned i = 0; nc_parameter_note_row(session.control(), kPartSystem, i, &note) == NC_OK; ++i)
+    std::fprintf(err, "note: %s\n", note.text);
   if (result.how == RunResult::How::kFailed) return complain(err, options.program + ": " + result.error);
   if (result.how == RunResult::How::kEndless) complain(err, options.program + ": " + result.error);
   note_parameters(session, static_cast<nc_dialect>(session.config().dialect), err);

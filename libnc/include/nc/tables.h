@@ -85,19 +85,29 @@ NC_API nc_status nc_undotted_get(const nc_control* control, unsigned system, boo
 NC_API nc_status nc_parameter_next(const nc_control* control, unsigned system, unsigned from, unsigned* place, char key[24], char* axis,
                                    double* value, char text[64]);
 
+#define NC_NOTE_KEYS 4 /**< most parameters that one note names */
+
+/** A note about parameters that are set. */
+typedef struct nc_parameter_note {
+  NC_STRUCT_SIZE(nc_parameter_note); /**< see NC_STRUCT_SIZE */
+  char text[200];             /**< the sentence */
+  char axis;                  /**< name of the axis that it is about, 0 = of none in particular */
+  uint8_t key_count;          /**< parameters that the sentence names, 1 to NC_NOTE_KEYS */
+  char key[NC_NOTE_KEYS][24]; /**< their keys in the order of the sentence, as nc_parameter_set() takes them, without the bit: "2007" */
+} nc_parameter_note;
+
 /**
  * Notes about the parameters that are set, one sentence each: which of them have no effect on this machine, and where a time constant and not
  * the feed limits the speed (docs/motion.md, "Behind interpolation"). They come in the order of the parameter numbers, then of the axes. Feeder
  * thread.
  * @param control the control
  * @param system part system, from 0
- * @param index of the sentence, from 0
- * @param text receives the sentence, cut to `size` bytes with its NUL; 200 bytes are enough
- * @param size bytes of `text`
- * @return NC_OK; NC_E_NOT_FOUND: there is no such sentence, `index` is behind the last one; NC_E_ARGUMENT: no such part system, `text` is NULL, or
- *         `size` is 0
+ * @param index of the note, from 0
+ * @param note receives it
+ * @return NC_OK; NC_E_NOT_FOUND: there is no such note, `index` is behind the last one; NC_E_ARGUMENT: no such part system, or `note` is NULL or its
+ *         struct_size is not valid
  */
-NC_API nc_status nc_parameter_note_row(const nc_control* control, unsigned system, unsigned index, char* text, size_t size);
+NC_API nc_status nc_parameter_note_row(const nc_control* control, unsigned system, unsigned index, nc_parameter_note* note);
 
 /* ---- offsets -------------------------------------------------------------------------------------------------- */
 

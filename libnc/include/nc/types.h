@@ -40,7 +40,7 @@ extern "C" {
 /**
  * Structs that may grow in a later version begin with their size in bytes as their user was compiled with it, so that program and library
  * may be of different versions: nc_config, nc_config_fault, nc_inputs, nc_outputs, nc_world, nc_item, nc_event, nc_alarm, nc_modal,
- * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics, nc_function, nc_block_text, nc_system_variable, nc_parameter, nc_tap,
+ * nc_program_info, nc_vendor_code, nc_vendor_block, nc_kinematics, nc_function, nc_block_text, nc_system_variable, nc_parameter, nc_parameter_note, nc_tap,
  * nc_restart_place, nc_restart_found, nc_passed. Every other struct stays as it
  * is, for as long as the SONAME of the library does.
  *

@@ -59,6 +59,8 @@ inline constexpr uint32_t kFirstSize<nc_system_variable> = padded<nc_system_vari
 template <>
 inline constexpr uint32_t kFirstSize<nc_parameter> = padded<nc_parameter>(NC_END_OF(nc_parameter, section));
 template <>
+inline constexpr uint32_t kFirstSize<nc_parameter_note> = padded<nc_parameter_note>(NC_END_OF(nc_parameter_note, key));
+template <>
 inline constexpr uint32_t kFirstSize<nc_restart_place> = padded<nc_restart_place>(NC_END_OF(nc_restart_place, start));
 template <>
 inline constexpr uint32_t kFirstSize<nc_restart_found> = padded<nc_restart_found>(NC_END_OF(nc_restart_found, output_written));

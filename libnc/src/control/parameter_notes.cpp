@@ -2,7 +2,9 @@
 // Sentences for the person who sets a machine up: which parameters that act behind interpolation have no effect on it, and where such a parameter
 // and not the feed limits its speed.
 #include <cmath>
+#include <cstring>
 
+#include "base/struct_size.hpp"
 #include "control/control.hpp"
 #include "dialect/dialect.hpp"
 #include "dialect/text.hpp"
@@ -15,8 +17,8 @@ using P = Parameter;
 /// Goes through the notes in their order and writes the one whose number is asked for.
 class ParameterNotes {
  public:
-  ParameterNotes(const nc_control& control, unsigned system, unsigned wanted, char* text, size_t size)
-      : config_(control.config), system_(control.config.system[system]), dialect_(*control.dialect), in_(control.system[system].interpreter.tables()), left_(wanted), text_(text, size) {}
+  ParameterNotes(const nc_control& control, unsigned system, unsigned wanted, nc_parameter_note* note)
+      : config_(control.config), system_(control.config.system[system]), dialect_(*control.dialect), in_(control.system[system].interpreter.tables()), left_(wanted), note_(*note), text_(note->text, sizeof note->text) {}
 
   bool find() {
     return without_effect() || axes();
@@ -36,7 +38,10 @@ class ParameterNotes {
   void put(ParameterOf parameter) {
     char key[kParameterKeySize];
     int bit = -1;
-    if (parameter_place(dialect_, parameter, key, &bit)) text_.put('#').put(key);
+    if (!parameter_place(dialect_, parameter, key, &bit)) return;
+    text_.put('#').put(key);
+    static_assert(sizeof key == sizeof note_.key[0]);
+    if (note_.key_count < NC_NOTE_KEYS) std::memcpy(note_.key[note_.key_count++], key, sizeof key);
   }
   /// Writes a sentence about `parameter`, in which {1} and {2} stand for the parameters `first` and `second`.
   bool say(ParameterOf parameter, const char* sentence, ParameterOf first = Parameter::none, ParameterOf second = Parameter::none) {
@@ -53,6 +58,7 @@ class ParameterNotes {
     return true;
   }
   void about(char axis, const Parameter (&keys)[2], const char* sentence) {
+    note_.axis = axis;
     text_.put(axis).put(": ");
     put(keys[0]);
     text_.put(' ');
@@ -138,13 +144,17 @@ class ParameterNotes {
   const Dialect& dialect_;
   const HostTables in_;
   unsigned left_;
+  nc_parameter_note& note_;
   TextWriter text_;
 };
 
 }  // namespace
 }  // namespace nc
 
-nc_status nc_parameter_note_row(const nc_control* c, unsigned system, unsigned index, char* text, size_t size) {
-  if (c == nullptr || system >= c->config.system_count || text == nullptr || size == 0) return NC_E_ARGUMENT;
-  return nc::ParameterNotes(*c, system, index, text, size).find() ? NC_OK : NC_E_NOT_FOUND;
+nc_status nc_parameter_note_row(const nc_control* c, unsigned system, unsigned index, nc_parameter_note* note) {
+  if (c == nullptr || system >= c->config.system_count || note == nullptr || nc::caller_bytes(note) == 0) return NC_E_ARGUMENT;
+  nc_parameter_note found{};
+  if (!nc::ParameterNotes(*c, system, index, &found).find()) return NC_E_NOT_FOUND;
+  nc::give_struct(found, note);
+  return NC_OK;
 }
