@@ -214,7 +214,7 @@ void Cyclic::watch_nodes(std::int64_t now_ns) noexcept {
         axis.status = 0;
         axis.fresh = true;
         axis.probe_status = axis.probe_function = 0;
-        axis.probe_on = false;
+        axis.probe_on = axis.edge_waits = false;
         axis.track.clear();
       }
       if (silent) fault(&axis, DriveTrouble::kHeartbeat);

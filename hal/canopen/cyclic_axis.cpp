@@ -48,7 +48,7 @@ void Cyclic::watch_axis(unsigned index) noexcept {
   axis.ahead = std::max(axis.ahead - 1, -kMostOwed);
   if (!axis.fresh) statistics_.missed_positions.fetch_add(1, std::memory_order_relaxed);
   axis.fresh = false;
-  if (axis.known && axis.homing == Homing::kNo) axis.track.note(axis.position);
+  if (axis.known && axis.homing == Homing::kNo) axis.track.note(axis.position, axis.missed == 0);
   else axis.track.clear();  // a drive that homes changes its position without moving
   if (axis.missed >= bus_.lost_after) fault(&axis, DriveTrouble::kNoPosition);
   if (silent_for_good(axis) && !axis.set_up_again) {
@@ -238,7 +238,7 @@ void Cyclic::give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept {
 // The drive latches the position of its axis at the edge of the probe. The skip signal is then on for some SYNCs, and after that the probe is made ready for
 // the next edge.
 void Cyclic::work_probe(Axis* axis) noexcept {
-  axis->edge_now = false;
+  if (axis->edge_waits) return;
   const bool falling = axis->map->skip_falling;
   const bool stored = (axis->probe_status & (falling ? kStoredFalling : kStoredRising)) != 0;
   if (axis->probe_on) {
@@ -250,22 +250,29 @@ void Cyclic::work_probe(Axis* axis) noexcept {
   } else if (stored) {
     const auto back = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis->probe_raw) - static_cast<std::uint32_t>(axis->raw));
     axis->probe = axis->position + back;
-    axis->probe_on = axis->edge_now = true;
-    axis->probe_syncs = kProbeHold;
+    axis->edge_waits = true;
   }
 }
 
-// Where all axes of a part system were at the edge of a probe. When probes with different signals come with one SYNC, the first one has its place, and the
-// other signal counts as not latched.
+// The positions that the axes of a part system had with the newest SYNC have come. One that stays away is a fault soon, and then nobody waits for it.
+bool Cyclic::knows_places(unsigned system) const noexcept {
+  for (const Axis& axis : axes_)
+    if (axis.map->system == system && !axis.faulty && nodes_[axis.node].operational && !axis.track.up_to_date()) return false;
+  return true;
+}
+
+// Where all axes of a part system were at the edge of a probe: the signal waits until that is known, which is one SYNC longer where an answer is late or lost. When
+// probes with different signals come with one SYNC, the first one has its place, and the other signal counts as not latched.
 void Cyclic::note_edges() noexcept {
   std::uint32_t noted = 0;
   for (Axis& axis : axes_) {
+    if (!axis.edge_waits || !knows_places(axis.map->system)) continue;
+    axis.probe_on = true;
+    axis.probe_syncs = kProbeHold;
     const std::uint32_t system = 1u << axis.map->system;
-    if (axis.edge_now && (noted & system) == 0) {
-      note_edge(axis);
-      noted |= system;
-    }
-    axis.edge_now = false;
+    if ((noted & system) == 0) note_edge(axis);
+    noted |= system;
+    axis.edge_waits = false;
   }
 }
 
@@ -279,7 +286,7 @@ void Cyclic::note_edge(const Axis& probe) noexcept {
   if (since < 0) return fault(&axes_[static_cast<std::size_t>(&probe - axes_.data())], DriveTrouble::kProbe);
   for (Axis& axis : axes_) {
     if (axis.map->system != map.system) continue;
-    const bool own = axis.probe_on && axis.map->skip_signal == map.skip_signal;
+    const bool own = (axis.probe_on || axis.edge_waits) && axis.map->skip_signal == map.skip_signal;
     axis.edge = own ? axis.probe : axis.track.at(since);
   }
   latched_[map.system] = 1u << (map.skip_signal - 1);

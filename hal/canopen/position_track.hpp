@@ -15,22 +15,27 @@ class PositionTrack {
   static constexpr unsigned kSyncs = 32;
 
   void clear() noexcept { count_ = 0; }
-  void note(std::int64_t position) noexcept {
+  // `measured`: the position came with this SYNC; else it is the last one, and where the axis was says the next that comes.
+  void note(std::int64_t position, bool measured) noexcept {
     newest_ = (newest_ + 1) % kSyncs;
     position_[newest_] = position;
+    measured_[newest_] = measured;
     count_ = std::min(count_ + 1, kSyncs);
   }
   bool empty() const noexcept { return count_ == 0; }
+  // The newest position has come with its SYNC.
+  bool up_to_date() const noexcept { return count_ == 0 || measured_[newest_]; }
 
   // The time since the axis was at `place` for the last time, in SYNCs. A place that is not farther from the newest position than the way of the last SYNC and
   // `slack` counts as the newest, because a drive may latch it behind the moment in which it measures its position. Negative when the axis was not there.
   double since(std::int64_t place, std::int64_t slack) const noexcept {
-    for (unsigned i = 0; i + 1 < count_; ++i) {
-      const std::int64_t newer = back(i), older = back(i + 1);
-      if (place < std::min(newer, older) || place > std::max(newer, older)) continue;
-      return newer == older ? i : i + static_cast<double>(newer - place) / static_cast<double>(newer - older);
+    for (unsigned i = 0, k = 0; i + 1 < count_; i = k) {
+      k = older(i + 1);
+      const std::int64_t to = back(i), from = back(k);
+      if (place < std::min(to, from) || place > std::max(to, from)) continue;
+      return to == from ? i : i + static_cast<double>(to - place) / static_cast<double>(to - from) * (k - i);
     }
-    const std::int64_t step = count_ > 1 ? std::abs(back(0) - back(1)) : 0;
+    const std::int64_t step = count_ > 1 ? std::abs(back(0) - back(older(1))) : 0;
     return count_ > 0 && std::abs(place - back(0)) <= step + slack ? 0 : -1;
   }
 
@@ -40,14 +45,26 @@ class PositionTrack {
     const double last = count_ - 1;
     const double time = std::clamp(since, 0.0, last);
     const auto whole = static_cast<unsigned>(time);
-    const std::int64_t newer = back(whole), older = back(std::min(whole + 1, count_ - 1));
-    return newer + std::llround(static_cast<double>(older - newer) * (time - whole));
+    const unsigned to = newer(whole), from = older(std::min(whole + 1, count_ - 1));
+    if (from == to) return back(to);
+    return back(to) + std::llround(static_cast<double>(back(from) - back(to)) * (time - to) / (from - to));
   }
 
  private:
-  std::int64_t back(unsigned syncs) const noexcept { return position_[(newest_ + kSyncs - syncs) % kSyncs]; }
+  unsigned place_of(unsigned syncs) const noexcept { return (newest_ + kSyncs - syncs) % kSyncs; }
+  std::int64_t back(unsigned syncs) const noexcept { return position_[place_of(syncs)]; }
+  // The nearest SYNC with a measured position from there on, towards the oldest and towards the newest; that one itself counts where there is none.
+  unsigned older(unsigned syncs) const noexcept {
+    while (syncs + 1 < count_ && !measured_[place_of(syncs)]) ++syncs;
+    return syncs;
+  }
+  unsigned newer(unsigned syncs) const noexcept {
+    while (syncs > 0 && !measured_[place_of(syncs)]) --syncs;
+    return syncs;
+  }
 
   std::array<std::int64_t, kSyncs> position_{};
+  std::array<bool, kSyncs> measured_{};
   unsigned newest_ = 0, count_ = 0;
 };
 

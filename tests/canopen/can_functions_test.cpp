@@ -195,6 +195,30 @@ TEST(CanFunctions, ASkipMoveHasThePlaceThatTheDriveHasLatched) {
   EXPECT_EQ(rig.alarms(), "");
 }
 
+// The same where the other drive's answer to that SYNC is late, and comes with the next one: the signal waits for it. With the last position that was known Y would be
+// up to a SYNC's way beside the line.
+TEST(CanFunctions, ASkipSignalWaitsForTheAnswerThatSaysWhereTheOtherAxisWas) {
+  CanRig rig(can_toml("sync_us = 2000\n", "probe = { skip_signal = 1 }\n"));
+  rig.bring_up();
+  rig.step(50);
+  ASSERT_EQ(rig.mdi(kSkipMove), Answer::kDone);
+  rig.step(300);
+  ASSERT_FALSE(rig.idle());
+  const double x = rig.plant_mm(0), y = rig.plant_mm(1);
+  int of_y = 0;
+  rig.bus.late = [&of_y](const nc::hal::canopen::CanFrame& frame) { return frame.id == 0x182 && of_y++ == 0 ? 2u : 0u; };
+  rig.step(2);
+  const double x1 = rig.plant_mm(0), y1 = rig.plant_mm(1);
+  ASSERT_NEAR(x1 - x, 0.1, 0.001);
+  ASSERT_EQ(of_y, 1);
+  rig.drives[0]->probe_edge(0, std::lround((x + 0.25 * (x1 - x)) * nc::test::kIncrementsPerMm));
+  ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 1000)) << rig.alarms();
+  EXPECT_GT(of_y, 10);
+  EXPECT_NEAR(common(&rig, 500), x + 0.25 * (x1 - x), 0.0006);
+  EXPECT_NEAR(common(&rig, 501), y + 0.25 * (y1 - y), 0.0012);
+  EXPECT_EQ(rig.alarms(), "");
+}
+
 // A probe that is wired to all drives: each latches its own axis.
 TEST(CanFunctions, EachDriveOfTheSignalLatchesItsOwnAxis) {
   std::string toml = can_toml("sync_us = 2000\n", "probe = { skip_signal = 1 }\n");

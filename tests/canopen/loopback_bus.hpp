@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "hal/canopen/can_port.hpp"
@@ -21,13 +22,18 @@ class LoopbackBus {
   }
   void from_drive(const CanFrame& frame) {
     if (off) return;
-    on_the_way_.push_back(frame);
+    if (const unsigned cycles = late ? late(frame) : 0; cycles > 0) late_.push_back({frame, cycles});
+    else on_the_way_.push_back(frame);
     ++frames;
   }
   void tick(std::int64_t now_ns) {
     for (SimDrive* drive : drives_) drive->tick(now_ns);
     to_control_.insert(to_control_.end(), on_the_way_.begin(), on_the_way_.end());
     on_the_way_.clear();
+    for (auto of = late_.begin(); of != late_.end();) {
+      if (--of->second == 0) on_the_way_.push_back(of->first);
+      of = of->second == 0 ? late_.erase(of) : of + 1;
+    }
   }
   // The controller of the control goes off the bus, and comes back.
   void go_off() {
@@ -47,6 +53,7 @@ class LoopbackBus {
   std::size_t frames = 0;
   std::vector<CanFrame> sent;  // frames of the control, collected while `records` is true
   bool records = false;
+  std::function<unsigned(const CanFrame&)> late;  // by how many cycles of the bus a frame of a drive comes later
   std::function<void()> behind_frame;  // is called behind each frame of the control
 
   class Port final : public hal::canopen::CanPort {
@@ -79,6 +86,7 @@ class LoopbackBus {
  private:
   std::vector<SimDrive*> drives_;
   std::deque<CanFrame> to_control_, on_the_way_;
+  std::deque<std::pair<CanFrame, unsigned>> late_;
 };
 
 }  // namespace nc::test
