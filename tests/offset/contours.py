@@ -333,17 +333,17 @@ def divide(rng, elements):
 
 
 def misses(a, b, of_a, of_b):
-    """By how much the path `of_a` to the left of one block misses that `of_b` to the left of the other, both lengthened; negative: they cross."""
+    """By how much the path `of_a` to the left of one block misses that `of_b` to the left of the one behind it, both lengthened; negative: they cross. An arc of two radii has at
+    the corner that of its end there."""
     if a.center is None and b.center is None:
         return -1.0
-    if a.center is None:
-        a, b, of_a, of_b = b, a, of_b, of_a
-    beside = abs(a.radius() - (of_a if a.ccw else -of_a))
-    if b.center is None:
-        ux, uy = b.at(0)[1]
-        return abs((a.center[1] - b.start[1]) * ux - (a.center[0] - b.start[0]) * uy - of_b) - beside
-    apart, other = math.dist(a.center, b.center), abs(b.radius() - (of_b if b.ccw else -of_b))
-    return max(apart - beside - other, abs(beside - other) - apart)
+    beside = [abs(math.dist(e.center, corner) - (of if e.ccw else -of)) if e.center else None for e, corner, of in ((a, a.end, of_a), (b, b.start, of_b))]
+    if None not in beside:
+        apart = math.dist(a.center, b.center)
+        return max(apart - sum(beside), abs(beside[0] - beside[1]) - apart)
+    (line, of_line), arc, left = ((a, of_a), b, beside[1]) if a.center is None else ((b, of_b), a, beside[0])
+    ux, uy = line.at(0)[1]
+    return abs((arc.center[1] - line.start[1]) * ux - (arc.center[0] - line.start[0]) * uy - of_line) - left
 
 
 class Contour:
