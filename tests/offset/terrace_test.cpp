@@ -144,6 +144,61 @@ TEST(Terraces, AWayThroughTheLastSideOfASecondContourCutsIt) {
   }
 }
 
+/// A word of a program in mm.
+std::string word(char letter, double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%c%.3f ", letter, value);
+  return text;
+}
+
+// Behind a square, on its level, a disc of one or two arcs: no turn of a way out, since the tool goes round its outside, or comes to it in a corner. A cancel through it is P153, one away from it is none.
+TEST(Terraces, AWayThroughASecondContourOfArcsCutsIt) {
+  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(60, 10);
+  for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::round(1000 * std::uniform_real_distribution<double>(low, high)(random)) / 1000; };
+    const double radius = number(1, 4), size = number(3, 8) * radius, disc = number(1.5, 5) * radius, lead = 1.2 * radius, center = size + disc + number(4.5, 9) * radius;
+    const std::string start = "G90 G17 G0 " + word('X', -size - lead) + word('Y', -lead) + "\nG1 Z-1. F500\nG41 D1 " + word('Y', 0) + "\nG1 " + word('X', -size) + "\n";
+    const std::string square = word('Y', size) + "\n" + word('X', size) + "\n" + word('Y', -size) + "\n" + word('X', -size) + "\nY0\n";
+    for (const char* const link : {"G0 ", "G1 "})
+      for (const bool halves : {false, true})
+        for (const bool through : {false, true}) {
+          const std::string way = link + word('Y', size + 3 * radius) + "\n" + word('X', center) + "\nG1 " + word('Y', disc) + "\n";
+          const std::string ring = halves ? "G2 " + word('Y', -disc) + word('J', -disc) + "\n" + word('Y', disc) + word('J', disc) + "\n" : "G2 " + word('J', -disc) + "\n";
+          const std::string text = start + square + way + ring + "G1 G40 " + word('Y', through ? -disc - 3 * radius : disc + 1.5 * radius) + "\nM30\n";
+          EXPECT_EQ(alarm_of_terraces(text, radius).substr(0, 4), through ? "P153" : "") << "seed " << seed << "\n" << text;
+        }
+  }
+}
+
+// From one contour to another on its level lead up to three blocks in cutting feed: they are no walls, whatever the paths of the two come near to.
+TEST(Terraces, ALinkBetweenTwoContoursOnOneLevelIsNoWall) {
+  const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(60, 10);
+  for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](double low, double high) { return std::round(1000 * std::uniform_real_distribution<double>(low, high)(random)) / 1000; };
+    const double radius = number(1, 4), size = number(3, 8) * radius, lead = number(1.1, 2) * radius, far = 2 * size + number(4.5, 9) * radius;
+    const auto square = [&](double x) { return "G1 " + word('X', x + size) + "\n" + word('Y', -size) + "\n" + word('X', x - size) + "\n" + word('Y', size) + "\n" + word('X', x) + "\n"; };
+    const auto out = [&](double x) { return "G3 " + word('X', x + lead) + word('Y', size + lead) + word('J', lead) + "\n"; };
+    const auto in = [&](double x) { return "G1 " + word('X', x - lead) + "\nG3 " + word('X', x) + word('Y', size) + word('I', lead) + "\n"; };
+    std::string text = "G90 G17 G0 X0 " + word('Y', size + lead) + "\nG1 Z-1. F500\nG41 D1 ";
+    text += in(0).substr(3);
+    for (unsigned k = 0; k < 3; ++k) text += (k == 0 ? "" : in(k * far)) + square(k * far) + out(k * far);
+    text += "G1 G40 " + word('X', 2 * far) + "\nM30\n";
+    EXPECT_EQ(alarm_of_terraces(text, radius), "") << "seed " << seed << "\n" << text;
+  }
+}
+
+// A spike behind the start comes back to it, and is no contour: what lies behind it is an open profile, all of it walls.
+TEST(Terraces, ASpikeBehindTheStartIsNoContour) {
+  for (const char* const spike : {"X0.04\nX0\n", "Y0.04\nY0\n", "X5.\nX0\n", "X0.04 Y0.001\nX0 Y0\n", "X-0.04 Y0.02\nX-0.04 Y0\nX0\n", ""})
+    for (const char* const profile : {"X60.\nX30. Y40.\nY-40.\n", "X60.\nX30. Y-40.\nY40.\n", "Y60.\nX60. Y30.\nX-60.\n"})
+      for (const double radius : {1.0, 3.0}) {
+        const std::string text = std::string("G90 G17 G0 X-20. Y20.\nG1 Z-1. F500\nG41 D1 X0 Y0\n") + spike + profile + "G40 X150.\nM30\n";
+        EXPECT_EQ(alarm_of_terraces(text, radius).substr(0, 4), "P153") << text;
+      }
+}
+
 // A wall that stands above the tip, since it has been cut before, is one: a lower contour that leads back under the terrace above it cuts that.
 TEST(Terraces, ALowerContourCutsTheWallsAboveIt) {
   for (const Down down : {Down::plunge, Down::first_side, Down::round})

@@ -2,6 +2,7 @@
 #include "offset/contour_memory.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <type_traits>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// Ends of walls this near to where the tool comes to the contour belong to that joint.
 constexpr double kSameJoint_mm = 0.01;
+/// A part is at least as large as the square of so many radii of the tool.
+constexpr double kLeastPart = 0.05;
 
 uint64_t apart(uint64_t a, uint64_t b) { return a > b ? a - b : b - a; }
 
@@ -36,23 +39,25 @@ ContourMemory::State ContourMemory::with(State state, const Doubt& doubt) {
     state.suspects = static_cast<uint8_t>(state.suspects | 1u << place);
     state.culprit[place] = doubt.culprit[place];
   }
-  if (doubt.out != 0 && doubt.out < state.end) {
-    state.out = doubt.out;
-    state.culprit[kOut] = doubt.culprit[kOut];
+  for (unsigned i = 0; i < kWay; ++i) {
+    const uint64_t number = doubt.ways + i, place = number - state.ways;
+    if ((doubt.doubts >> i & 1) == 0 || state.ways == 0 || number < state.ways || number >= state.end || place >= kWay || (state.doubts >> place & 1) != 0) continue;
+    state.doubts = static_cast<uint8_t>(state.doubts | 1u << place);
+    state.culprit[kBehind + place] = doubt.culprit[kBehind + i];
   }
   return state;
 }
 
 ContourMemory::Doubt ContourMemory::doubt() const {
-  Doubt doubt{state_.first, state_.out, state_.suspects, {}};
-  if (doubt.out != 0 || doubt.suspects != 0) std::copy_n(state_.culprit, kOut + 1, doubt.culprit);
+  Doubt doubt{state_.first, state_.ways, state_.suspects, state_.doubts, {}};
+  if (doubt.doubts != 0 || doubt.suspects != 0) std::copy_n(state_.culprit, kCulprits, doubt.culprit);
   return doubt;
 }
 
 const ContourMemory::Culprit* ContourMemory::suspect() const {
   for (unsigned place = 0; place <= kWay; ++place)
     if ((state_.suspects >> place & 1) != 0) return &state_.culprit[place];
-  return state_.out != 0 ? &state_.culprit[kOut] : nullptr;
+  return state_.doubts != 0 ? &state_.culprit[kBehind + static_cast<unsigned>(std::countr_zero(state_.doubts))] : nullptr;
 }
 
 void ContourMemory::restore(const State& state) {
@@ -72,29 +77,79 @@ void ContourMemory::restore(const State& state) {
   paths_.cut(kept);
 }
 
+/// To the end of a block; gives what has been swept at its start.
+ContourMemory::Swept ContourMemory::go_on(const Section& section) {
+  const Vec2 start = state_.at + section.approach, end = start + section.delta;
+  Swept& swept = state_.swept;
+  swept.area += 0.5 * cross(state_.at, start);
+  const Swept before = swept;
+  swept.area += 0.5 * cross(start, end);
+  if (section.begin.curvature != 0) {
+    const double radius = 0.5 * (std::abs(1 / section.begin.curvature) + std::abs(1 / section.end.curvature));
+    swept.area += 0.5 * radius * radius * (section.sweep - std::sin(section.sweep));
+    swept.way += radius * std::abs(section.sweep);
+  } else {
+    swept.way += norm(section.delta);
+  }
+  state_.at = end;
+  return before;
+}
+
+/// Has it gone round something since, from where it is back again? A spike, out and back on one line, is wider than the last digits by nothing, and what is as small as a burr to the tool is no part.
+bool ContourMemory::goes_round(const Swept& since) const {
+  const double least = kLeastPart * std::abs(state_.offset);
+  return std::abs(state_.swept.area - since.area) > std::max(kCloses_mm * (state_.swept.way - since.way), least * least);
+}
+
 /// The joint at the end of a block: where the contour is, and whether it has closed.
-void ContourMemory::follow(const Section& section, uint64_t number) {
-  const Vec2 start = state_.at + section.approach;
-  state_.at = start + section.delta;
-  const uint64_t place = behind_start(number);
+void ContourMemory::follow(const Section& section, uint64_t number, Vec2 start, const Swept& before) {
+  if (section.cancel && !section.transparent) return;
   const bool round = std::abs(section.sweep) > kPi && norm(start - wall_of(section, start).center) > kAway_mm;
   const bool first = state_.closure == 0 || state_.turned;
+  bool closes = false;
   for (unsigned i = 0; i < state_.joints; ++i) {
     const double from_joint = norm(state_.at - state_.joint[i]);
     if (from_joint > kAway_mm || (round && norm(start - state_.joint[i]) <= kAway_mm)) state_.away = static_cast<uint8_t>(state_.away | 1u << i);
-    if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm) continue;
+    if ((state_.away >> i & 1) == 0 || from_joint > kCloses_mm || !goes_round(state_.at_joint[i])) continue;
     if (first) {  // the way in ends where the contour first closes
       state_.closed = static_cast<uint8_t>(state_.closed | 1u << i);
       for (unsigned k = 1; k <= i; ++k) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << k));
     } else if ((2u << i) <= state_.closed) {  // a point of the way in, where the way out ends
       continue;
+    } else {  // one behind the first contour: what leads there is a link (note_another())
+      leads_across(state_.ways, state_.first + i + (state_.with_start ? 1 : 0));
     }
-    state_.closure = number;  // of another round, too: what is behind the last one may be a way out
+    closes = true;  // of another round, too: what is behind the last one may be a way out
   }
-  if (state_.closure == number) state_.turned = first && round && norm(section.delta) <= kCloses_mm && std::abs(section.level_end - section.level) > kLevel_mm;
-  if (place > kWay) return;
-  for (uint64_t i = state_.joints; i <= place; ++i) state_.joint[i] = i < place ? start : state_.at;
+  if (closes) {
+    note_closed(number);
+    state_.turned = first && round && norm(section.delta) <= kCloses_mm && std::abs(section.level_end - section.level) > kLevel_mm;
+  }
+  if (behind_start(number) <= kWay) add_joints(behind_start(number), start, before);
+}
+
+void ContourMemory::add_joints(uint64_t place, Vec2 start, const Swept& before) {
+  for (uint64_t i = state_.joints; i <= place; ++i) {
+    state_.joint[i] = i < place ? start : state_.at;
+    state_.at_joint[i] = i < place ? before : state_.swept;
+  }
   state_.joints = static_cast<uint8_t>(place + 1);
+}
+
+/// A contour ends with this block. What is in doubt in front of it is neither a way out nor one to another contour.
+void ContourMemory::note_closed(uint64_t number) {
+  state_.closure = number;
+  wait_from(number + 1);
+}
+
+/// From this block on it is not known whether a few of them are a way. Those before that are still in doubt are none.
+void ContourMemory::wait_from(uint64_t number) {
+  if (state_.doubts != 0 && !certain_) {
+    certain_ = true;
+    in_front_ = state_.culprit[kBehind + static_cast<unsigned>(std::countr_zero(state_.doubts))];
+  }
+  state_.ways = number;
+  state_.doubts = 0;
 }
 
 /// By a plunge, up, or down from a contour that has closed on its level: that one is a terrace with a depth of its own, and what lies below it ends there.
@@ -102,8 +157,13 @@ bool ContourMemory::goes_to_another_depth(const Section& section) {
   const bool by_itself = std::abs(section.level - state_.level) > kLevel_mm, up = section.level_end > section.level + kLevel_mm, down = section.level_end < section.level - kLevel_mm;
   if (!by_itself && !up && !down) return false;
   const bool another = by_itself || up || state_.level_closed != 0;
-  if (state_.level_closed != 0 && state_.closure != 0) leads_across(std::max(state_.level_closed, state_.closure) + 1, section.number);
   state_.level_first = section.number + (up || down ? 1 : 0);
+  if (state_.level_closed != 0 && state_.closure != 0) {
+    leads_across(state_.ways, section.number);
+    wait_from(up ? section.number : state_.level_first);  // what leads up may be a way out
+  } else if (state_.closure != 0 && by_itself && state_.doubts == 0) {  // to the level of the next contour in more than one step
+    wait_from(section.number);
+  }
   state_.level_ring = state_.level_closed = 0;
   state_.level_terrace = state_.closure != 0;
   return another;
@@ -117,7 +177,7 @@ bool ContourMemory::comes_back(uint64_t number, uint64_t from, uint64_t* ring) c
   return walls_.any(from, end.grown(kCloses_mm), [&](uint64_t first, const Wall& wall) {
     const Piece& piece = wall.piece;
     *ring = first;
-    return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && (norm(piece.to - piece.from) > kAway_mm || (piece.round && piece.radius > kAway_mm));
+    return wall.offset != 0 && norm(piece.from - last.to) <= kCloses_mm && goes_round(wall.swept) && (norm(piece.to - piece.from) > kAway_mm || (piece.round && piece.radius > kAway_mm));
   });
 }
 
@@ -129,24 +189,44 @@ bool ContourMemory::closes_on_level(uint64_t number, uint64_t* ring) const {
   return comes_back(number, std::max(state_.level_first, state_.level_ring), ring);
 }
 
-/// Another contour behind the first one, on the level of all: where it has closed it is no way out. One of fewer than three blocks may be a turn of a way out.
+/// Are these blocks, which come back to where they began, the turn of a way out? It bends to the side of the tool, and comes out of what is in front of it without a corner.
+bool ContourMemory::turns_out(uint64_t ring, uint64_t number) const {
+  if (number > ring + 1) return false;
+  for (uint64_t k = ring; k <= number; ++k) {
+    const Piece& piece = walls_[k].piece;
+    if (!piece.round || piece.sweep * walls_[k].offset <= 0 || !goes_straight_on(walls_[k - 1].piece, piece)) return false;
+  }
+  return walls_[ring - 1].offset != 0;
+}
+
+/// Does a block go along the contour once more, behind where it has closed?
+bool ContourMemory::goes_along(uint64_t number) const {
+  if (number != state_.ways || state_.closure == 0 || walls_[number].offset == 0) return false;
+  const Piece& piece = walls_[number].piece;
+  Box start;
+  start.take(piece.from);
+  return walls_.any(state_.first, start.grown(kAway_mm), [&](uint64_t earlier, const Wall& wall) { return earlier <= state_.closure && !is_way_in(earlier) && !wall.across && wall.offset * walls_[number].offset > 0 && lies_along(piece, wall.piece); });
+}
+
+/// Another contour behind one that has closed on its level: up to three blocks lead there from the one before, and where it has closed, it is no way out.
 void ContourMemory::note_another(uint64_t number) {
   uint64_t ring = 0;
-  if (state_.closure == 0 || state_.turned || number <= state_.closure + 2 || !comes_back(number, state_.closure + 1, &ring) || number < ring + 2) return;
-  leads_across(state_.closure + 1, ring);
-  state_.closure = number;
+  if (state_.closure == 0 || state_.turned || number <= state_.closure || !comes_back(number, state_.closure + 1, &ring) || turns_out(ring, number)) return;
+  leads_across(state_.ways, ring);
+  note_closed(number);
+  if (state_.level_closed != 0) state_.level_closed = number;
 }
 
 void ContourMemory::note_closed_level(uint64_t number) {
   uint64_t ring = 0;
   const bool from_start = state_.level_first <= state_.first + 1;  // where the first contour closes is known (follow()), which spares nearly all programs the search
-  if (from_start && state_.closure != number) return note_another(number);
+  if (from_start ? state_.closure != number : state_.level_closed != 0) return note_another(number);
   if (!from_start && !closes_on_level(number, &ring)) return;
   if (state_.level_closed == 0) {
     state_.level_ring = ring;
     if (state_.level_terrace) {  // the first contour has its own ways in, and closes as they say (follow())
       leads_across(state_.level_first, ring);
-      state_.closure = number;
+      note_closed(number);
     }
   }
   state_.level_closed = number;
@@ -159,7 +239,7 @@ void ContourMemory::leads_across(uint64_t from, uint64_t to) {
     walls_.at(number).across = true;
     if (behind_start(number) <= kWay) state_.suspects = static_cast<uint8_t>(state_.suspects & ~(1u << behind_start(number)));
   }
-  if (state_.out >= from && state_.out < to) state_.out = 0;
+  for (uint64_t number = std::max(from, state_.ways); number < std::min(to, state_.ways + kWay); ++number) state_.doubts = static_cast<uint8_t>(state_.doubts & ~(1u << (number - state_.ways)));
 }
 
 bool ContourMemory::is_way_in(uint64_t number) const { return behind_start(number) <= kWay && state_.closed >> behind_start(number) != 0; }
@@ -169,34 +249,32 @@ bool ContourMemory::blame(uint64_t number, const Path& path) {
   if (is_way_in(number)) return false;
   const uint64_t place = behind_start(number);
   const Culprit culprit{path.source, path.starts || path.cancels};
-  const bool open_way = state_.closure == 0 || state_.turned || number > state_.closure;
-  if (place <= kWay && open_way) {  // the contour may still come back to where it ends
+  if (place <= kWay && (state_.closure == 0 || state_.turned)) {  // the contour may still come back to where it ends
     if ((state_.suspects >> place & 1) == 0) state_.culprit[place] = culprit;
     state_.suspects = static_cast<uint8_t>(state_.suspects | 1u << place);
     return false;
   }
-  if (state_.closure == 0 || number <= state_.closure) {
+  if (state_.closure == 0 || number < state_.ways || number >= state_.ways + kWay) {
     in_front_ = culprit;
     return true;
   }
-  if (state_.out == 0 || number < state_.out) {
-    state_.out = number;
-    state_.culprit[kOut] = culprit;
-  }
+  const uint64_t behind = number - state_.ways;
+  if ((state_.doubts >> behind & 1) == 0) state_.culprit[kBehind + behind] = culprit;
+  state_.doubts = static_cast<uint8_t>(state_.doubts | 1u << behind);
   return false;
 }
 
-/// At the end of the contour: blocks in doubt behind its start that are neither a way in nor one out.
+/// At the end of the contour: blocks in doubt that are neither a way in nor one out. A way out begins where the contour has closed, or where it goes along it no more.
 bool ContourMemory::no_way(uint64_t cancel) {
+  const bool way_out = state_.closure != 0 && cancel <= state_.ways + kWay;
   for (unsigned place = 0; place <= kWay; ++place) {
     if ((state_.suspects >> place & 1) == 0) continue;
-    const uint64_t number = state_.first + place - (state_.with_start ? 0 : 1);
-    if (state_.closure != 0 && number > state_.closure && cancel - number <= kWay) continue;
+    if (way_out && state_.first + place - (state_.with_start ? 0 : 1) >= state_.ways) continue;
     culprit_ = &state_.culprit[place];
     return true;
   }
-  if (state_.out == 0 || (state_.out > state_.closure && cancel - state_.out <= kWay)) return false;
-  culprit_ = &state_.culprit[kOut];
+  if (way_out || state_.doubts == 0) return false;
+  culprit_ = suspect();
   return true;
 }
 
@@ -241,7 +319,7 @@ double ContourMemory::amount_before(const Section& section) const {
 
 Clearance ContourMemory::read(Section* section) {
   culprit_ = nullptr;
-  const bool ends = section->cancel && !section->transparent;
+  certain_ = false;
   if (state_.open && section->start && no_way(state_.end)) return Clearance::enters;  // G40 without a movement has ended the contour in front of it
   if (!state_.open || section->start) begin(section->start);
   section->number = walls_.end();
@@ -250,13 +328,10 @@ Clearance ContourMemory::read(Section* section) {
     return Clearance::full;
   }
   const bool another_depth = goes_to_another_depth(*section);
-  if (state_.out != 0 && !ends && section->number - state_.out >= kWay) {  // it leads on: no way out
-    culprit_ = &state_.culprit[kOut];
-    return Clearance::enters;
-  }
   const Vec2 start = state_.at + section->approach;
   section->contour_start = start;
-  follow(*section, section->number);
+  const Swept swept = go_on(*section);
+  follow(*section, section->number, start, swept);
   state_.end = section->number + 1;
   state_.steps = 0;
   Wall wall;
@@ -270,10 +345,16 @@ Clearance ContourMemory::read(Section* section) {
   if (section->offset != 0 && !section->cancel) state_.offset = section->offset;
   if (!section->start && !section->cancel && section->cuts) wall.offset = section->offset;
   wall.slop = slop_of(wall.piece);
+  wall.swept = swept;
   const Box box = box_of(wall.piece);
   walls_.push(wall, box);
+  if (wall.offset != 0) note_closed_level(section->number);
+  if (certain_) {
+    culprit_ = &in_front_;
+    return Clearance::enters;
+  }
   if (wall.offset == 0) return Clearance::fits;
-  note_closed_level(section->number);
+  if (goes_along(section->number)) ++state_.ways;
   const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) {
     if (!enters(path, section->number, wall)) return false;
     if (blame(section->number, path)) culprit_ = &in_front_;

@@ -40,7 +40,13 @@ class ContourMemory {
     nc_source source{};
     bool way = false;  ///< it starts compensation, or ends it
   };
-  static constexpr unsigned kOut = kWay + 1;  ///< place of the way out among the culprits, behind those of `suspects`
+  static constexpr unsigned kBehind = kWay + 1;  ///< place of the first of `doubts` among the culprits, behind those of `suspects`
+  static constexpr unsigned kCulprits = kBehind + kWay;
+
+  /// What the ray from the start of the contour to its end has swept up to some point, which tells whether it goes round something between two of them.
+  struct Swept {
+    double area = 0, way = 0;
+  };
 
   /// What a checkpoint keeps: the contour as far as it has been read.
   struct State {
@@ -52,13 +58,14 @@ class ContourMemory {
     bool turned = false;     ///< it has closed by whole turns of a helix alone, which are a way in where it closes again
     uint64_t end = 0;        ///< ... of the next block
     uint64_t closure = 0;    ///< of the block in which the contour has closed last; 0: not yet
-    uint64_t out = 0;        ///< of a block behind it that a path comes too near to: it has to be a way out; 0: none
+    uint64_t ways = 0;       ///< of the first block behind it that does not go along the contour once more: up to kWay blocks from there on may be a way out, or one to another contour
     uint32_t steps = 0;      ///< steps in front of the next block (step())
     uint8_t joints = 0;      ///< how many of `joint` are there
     uint8_t away = 0;        ///< bit i: the contour has left joint i
     uint8_t closed = 0;      ///< bit i: ... and has come back to it, when it first closed
     uint8_t suspects = 0;    ///< bit i: a path comes too near to block i behind the start, which has to be a way in, or out
-    Culprit culprit[kOut + 1];  ///< whose path it is, of each of the suspects, and of `out`
+    uint8_t doubts = 0;      ///< bit i: ... to block `ways` + i
+    Culprit culprit[kCulprits];  ///< whose path it is, of each of the suspects and of the doubts
     double offset = 0;       ///< of the last block that has one
     double level = 0;        ///< across the plane, at its end
     uint32_t descent = 0;    ///< counts the ways down along the contour, which end where it goes up, changes its level by itself, or goes on down from a level on which it has closed
@@ -67,7 +74,9 @@ class ContourMemory {
     uint64_t level_ring = 0;    ///< number of the block to whose start they have come back first,
     uint64_t level_closed = 0;  ///< ... and of the one with which they have done so last; 0: not yet
     Vec2 at;                 ///< programmed end of the last block; the contour counts from its own start
+    Swept swept;             ///< ... at its end
     Vec2 joint[kWay + 1];    ///< ends of the start block and of the first three behind it
+    Swept at_joint[kWay + 1];
   };
 
   void create(unsigned blocks, Arena& arena) {
@@ -81,15 +90,15 @@ class ContourMemory {
   /// What of the blocks in front is in doubt when a path has been settled. That is later than the end of its block has been read.
   struct Doubt {
     uint64_t first = 0;    ///< the contour that it is about
-    uint64_t out = 0;
-    uint8_t suspects = 0;
-    Culprit culprit[kOut + 1];
+    uint64_t ways = 0;
+    uint8_t suspects = 0, doubts = 0;
+    Culprit culprit[kCulprits];
   };
   Doubt doubt() const;
   /// The state at the end of a block, with what is in doubt since: of blocks behind it nothing.
   static State with(State state, const Doubt& doubt);
   /// A path has come too near to blocks that have to be a way in or out, which is not known yet.
-  bool suspects() const { return state_.open && (state_.suspects != 0 || state_.out != 0); }
+  bool suspects() const { return state_.open && (state_.suspects != 0 || state_.doubts != 0); }
   /// Whose path that is; nullptr: of none.
   const Culprit* suspect() const;
   /// What the last call has found too near is another block's path; nullptr: that of the block itself.
@@ -118,6 +127,7 @@ class ContourMemory {
     double slop = 0;
     double low = 0, high = 0;
     uint32_t descent = 0;
+    Swept swept;            ///< at its start
     bool across = false;    ///< it leads to a contour that has closed on its level, or from there to another depth
   };
   struct Path {
@@ -140,9 +150,16 @@ class ContourMemory {
 
   void begin(bool with_start);
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
-  void follow(const Section& section, uint64_t number);
+  Swept go_on(const Section& section);
+  void follow(const Section& section, uint64_t number, Vec2 start, const Swept& before);
+  void add_joints(uint64_t place, Vec2 start, const Swept& before);
   bool goes_to_another_depth(const Section& section);
   bool comes_back(uint64_t number, uint64_t from, uint64_t* ring) const;
+  bool goes_round(const Swept& since) const;
+  bool turns_out(uint64_t ring, uint64_t number) const;
+  bool goes_along(uint64_t number) const;
+  void note_closed(uint64_t number);
+  void wait_from(uint64_t number);
   bool closes_on_level(uint64_t number, uint64_t* ring) const;
   void note_another(uint64_t number);
   void note_closed_level(uint64_t number);
@@ -160,6 +177,7 @@ class ContourMemory {
   BoxRow<Path> paths_;
   State state_;
   const Culprit* culprit_ = nullptr;
+  bool certain_ = false;  ///< with the block that is read it has shown that one in doubt is a wall
   Culprit in_front_;  ///< one that has nothing to do with ways in and out
 };
 

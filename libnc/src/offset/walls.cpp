@@ -127,9 +127,12 @@ void halve(const Piece& arc, Piece half[2]) {
 /// The direction of travel at one of its ends.
 Vec2 tangent(const Piece& wall, Vec2 end) { return wall.round ? std::copysign(1.0, wall.sweep) * left_of(unit(end - wall.center)) : unit(wall.to - wall.from); }
 
+/// The sine by which a direction at one of its ends may be off.
+double unsure_direction(const Piece& wall) { return kStraightOn + kLastDigit_mm / (wall.round ? mean_radius(wall) : norm(wall.to - wall.from)); }
+
 // Straight on along the wall, beyond its end, the manual's own ways lead (12.4.1): what they cut of the end is theirs.
 bool leads_straight_on(Vec2 far, const Piece& wall, Vec2 end) {
-  const double straight_on = kStraightOn + kLastDigit_mm / (wall.round ? mean_radius(wall) : norm(wall.to - wall.from));
+  const double straight_on = unsure_direction(wall);
   const Vec2 beyond = norm(end - wall.to) <= norm(end - wall.from) ? tangent(wall, end) : -1.0 * tangent(wall, end);
   return dot(far, beyond) > 0 && std::abs(dot(far, left_of(beyond))) <= straight_on * norm(far);
 }
@@ -222,6 +225,23 @@ double distance(const Piece& path, const Piece& wall, OpenEnds open) {
   if (path.round && wall.round) return std::min(best, arc_to_arc(path, wall));
   if (path.round || wall.round) return std::min(best, path.round ? line_to_arc(wall, path) : line_to_arc(path, wall));
   return lines_cross(path, wall) ? 0 : best;
+}
+
+bool goes_straight_on(const Piece& before, const Piece& behind) {
+  const Vec2 u = tangent(before, before.to), w = tangent(behind, behind.from);
+  return dot(u, w) > 0 && std::abs(cross(u, w)) <= std::max(unsure_direction(before), unsure_direction(behind));
+}
+
+bool lies_along(const Piece& block, const Piece& wall) {
+  if (block.round != wall.round) return false;
+  if (block.round && (block.sweep * wall.sweep < 0 || std::abs(block.sweep) > std::abs(wall.sweep) + kStraightOn || norm(block.center - wall.center) > kAway_mm)) return false;
+  if (!block.round && dot(block.to - block.from, wall.to - wall.from) <= 0) return false;
+  const auto on_it = [&](Vec2 point) {
+    Piece place;
+    place.from = place.to = point;
+    return distance(place, wall) <= kAway_mm;
+  };
+  return on_it(block.from) && on_it(block.to);
 }
 
 bool cuts_end(const WayPast& way, const Piece& wall, OpenEnds open) { return (open.from && cuts_end(way, wall, wall.from)) || (open.to && cuts_end(way, wall, wall.to)); }

@@ -47,6 +47,10 @@ struct WayPast {
 /// Does it come nearer to that end than `amount`, and than the place beside the wall where it ends or begins, by more than `margin`? Straight on along the wall it may, where it leads
 /// on by the tool's diameter: a shorter way sinks into the wall more than it leaves it.
 bool cuts_end(const WayPast& way, const Piece& wall, OpenEnds open);
+/// Does the one lead on into the other, without a corner?
+bool goes_straight_on(const Piece& before, const Piece& behind);
+/// Does a block lie along the wall from its start to its end, in the same direction?
+bool lies_along(const Piece& block, const Piece& wall);
 /// Shortest distance of two pieces, 0 where they cross. An arc counts with the mean of its radii.
 double distance(const Piece& path, const Piece& wall, OpenEnds open = {});
 /// Whether they come nearer to each other than `least`, also where radii change, to a tenth of a micrometre.
