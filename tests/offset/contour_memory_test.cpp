@@ -526,6 +526,9 @@ TEST(ContourCheck, WholeTurnsOfAHelixOnTheWayIn) {
   EXPECT_EQ(alarm_of_program(hole("", plate), 5, check), "");
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z0\n", plate), 5, check), "");
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z2.\nG3 X-6. Y24. I0 J6. Z0\n", plate), 5, check), "");
+  EXPECT_EQ(alarm_of_program(hole("G3 Y36. J6. Z2.\nG3 Y24. J-6. Z0\n", plate), 5, check), "");  // in two arcs
+  EXPECT_EQ(alarm_of_program(hole("G3 Y36. J6. Z2.\nG3 Y24. J-6.\n", plate), 5, check), "");
+  EXPECT_EQ(alarm_of_program(hole("G3 Y36. J6.\nG3 Y24. J-6.\n", plate), 5, check), "P153");
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6.\n", plate), 5, check), "P153");  // on one level it is a contour of its own
   EXPECT_EQ(alarm_of_program(hole("G3 X-6. Y24. I0 J6. Z0\n", "G1 Y60.\nX40.\nY30.\nX5.\nY20.\nX-12.\nY30.\nX0\n"), 5, check), "P153");  // through the way in's own walls no less
 }

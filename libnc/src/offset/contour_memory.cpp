@@ -123,9 +123,21 @@ void ContourMemory::follow(const Section& section, uint64_t number, Vec2 start, 
   }
   if (closes) {
     note_closed(number);
-    state_.turned = first && round && norm(section.delta) <= kCloses_mm && std::abs(section.level_end - section.level) > kLevel_mm;
+    state_.turned = first && ends_turn(section, start, number);
   }
   if (behind_start(number) <= kWay) add_joints(behind_start(number), start, before);
+}
+
+/// Is it a whole turn of a helix, or the second arc of one?
+bool ContourMemory::ends_turn(const Section& section, Vec2 start, uint64_t number) const {
+  const Piece last = wall_of(section, start);
+  const bool climbs = std::abs(section.level_end - section.level) > kLevel_mm;
+  if (!last.round || norm(section.delta) <= kCloses_mm) return last.round && climbs;
+  if (number == state_.first) return false;
+  const Wall& before = walls_[number - 1];
+  const Piece& other = before.piece;
+  if (!other.round || norm(other.from - last.to) > kCloses_mm || norm(other.center - last.center) > kAway_mm || other.sweep * last.sweep <= 0) return false;
+  return climbs || before.high - before.low > kLevel_mm;
 }
 
 void ContourMemory::add_joints(uint64_t place, Vec2 start, const Swept& before) {

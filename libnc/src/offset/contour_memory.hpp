@@ -5,7 +5,7 @@
 //
 // What is a wall. Every cutting block between the start and the end of compensation, but for the way in and the way out, which the path of the
 // contour crosses: up to three blocks behind the start, if the contour later comes back to where they end (then it is closed there), and up to
-// three blocks behind a point where the contour has closed, in front of the block that ends compensation. Until that is known a path that comes too
+// three blocks between a point where the contour has closed and the block that ends compensation, or the start of another contour, which closes, too. Until that is known a path that comes too
 // near to such blocks is kept in mind, and is an alarm at the end of the contour at the latest.
 //
 // A contour that closes on another level behind that one, a terrace, has ways in and out of its own: up to three blocks on its level in front of where it closes, and up to three behind
@@ -152,6 +152,7 @@ class ContourMemory {
   uint64_t behind_start(uint64_t number) const { return number - state_.first + (state_.with_start ? 0 : 1); }
   Swept go_on(const Section& section);
   void follow(const Section& section, uint64_t number, Vec2 start, const Swept& before);
+  bool ends_turn(const Section& section, Vec2 start, uint64_t number) const;
   void add_joints(uint64_t place, Vec2 start, const Swept& before);
   bool goes_to_another_depth(const Section& section);
   bool comes_back(uint64_t number, uint64_t from, uint64_t* ring) const;
