@@ -2,6 +2,7 @@
 // The inputs of a bank whose edges the kernel notes. See edge_lines.hpp.
 #include "hal/gpio/edge_lines.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace nc::hal::gpio {
@@ -20,7 +21,10 @@ EdgeLines::EdgeLines(const std::vector<LineSetup>& setup, std::span<const std::i
 }
 
 void EdgeLines::restart() {
-  for (Line& line : line_) line.known = line.differs = false;
+  for (Line& line : line_) {
+    line.known = line.differs = false;
+    line.last_ns = 0;
+  }
 }
 
 void EdgeLines::poll(std::int64_t now_ns, const std::vector<std::uint8_t>& levels, std::span<const LineEdge> edges, std::vector<LineChange>* changes) {
@@ -44,8 +48,11 @@ void EdgeLines::poll(std::int64_t now_ns, const std::vector<std::uint8_t>& level
   }
 }
 
+// The edges of a line come in their order. One whose time is before that of the edge before it has none: it would be put before that one.
 void EdgeLines::take(std::size_t index, bool level, std::int64_t time_ns, bool timed, std::vector<LineChange>* changes) {
   Line& line = line_[index];
+  timed &= time_ns >= line.last_ns;
+  time_ns = line.last_ns = std::max(line.last_ns, time_ns);
   settle(index, time_ns, changes);
   if (line.filter.raw() == line.filter.shown()) line.timed = timed;
   if (!line.filter.edge(level, time_ns)) lose(index, time_ns, changes);

@@ -45,6 +45,7 @@ class EdgeLines {
     bool timed = false;   // the first edge away from the level that counts has a time
     bool differs = false;  // the level that was read did not fit in the poll before
     bool had_edge = false;
+    std::int64_t last_ns = 0;  // time of the newest edge
     EdgeFilter filter;
   };
 

@@ -13,12 +13,20 @@ class Quadrature {
   Quadrature(unsigned counts, unsigned bits) : divisor_(4 / counts), mask_(bits >= 32 ? 0xffffffffu : (1u << bits) - 1) {}
 
   // The levels of the lines, without a way: it counts on from here.
-  void begin(bool a, bool b) { state_ = place_of(a, b); }
+  void begin(bool a, bool b) {
+    const unsigned now = place_of(a, b);
+    if (begun_) turn_phase((now - state_) & 3);
+    begun_ = true;
+    state_ = now;
+  }
   // Levels behind an edge.
   void step(bool a, bool b) {
     const unsigned now = place_of(a, b), way = (now - state_) & 3;
     state_ = now;
-    if (way == 2) return fault();
+    if (way == 2) {
+      turn_phase(way);
+      return fault();
+    }
     if (way != 0) quarters_ += way == 1 ? 1 : -1;
   }
   void fault() { ++faults_; }
@@ -32,6 +40,13 @@ class Quadrature {
   std::uint32_t faults() const { return faults_; }
 
  private:
+  // The lines have another phase, by a way that nobody knows. The count stays, and the place within it is that of the phase: else the standstill between two detents would
+  // from here on be at the end of a count.
+  void turn_phase(unsigned by) {
+    const std::int64_t within = ((quarters_ + divisor_ / 2) % divisor_ + divisor_) % divisor_;
+    quarters_ += (within + by) % divisor_ - within;
+  }
+
   // 00, 10, 11, 01 of A and B become 0, 1, 2, 3.
   static unsigned place_of(bool a, bool b) { return b ? (a ? 2 : 3) : (a ? 1 : 0); }
 
@@ -39,6 +54,7 @@ class Quadrature {
   std::uint32_t mask_;
   std::int64_t quarters_ = 0;
   unsigned state_ = 0;
+  bool begun_ = false;
   std::uint32_t faults_ = 0;
 };
 

@@ -110,6 +110,32 @@ TEST(Quadrature, AWheelThatTremblesInItsDetentDoesNotCount) {
   EXPECT_EQ(wheel.count(), 2u);
 }
 
+// Nobody knows how far it went in a fault or while its chip was away, but where in a period it stands its lines say: so it does not tremble behind that either, and no
+// count is added by it.
+TEST(Quadrature, BehindAFaultOrALossItDoesNotTrembleEither) {
+  for (const bool lost_chip : {false, true})
+    for (const std::int64_t stood : {0, 1, 2, 3, 4, 5, -1, -2, -3})
+      for (const std::int64_t jump : {0, 1, 2, 3}) {
+        if (!lost_chip && jump != 2) continue;  // what one edge does is no fault
+        SCOPED_TRACE(std::to_string(stood) + " + " + std::to_string(jump) + (lost_chip ? " lost" : ""));
+        Quadrature wheel(1, 32);
+        wheel.begin(false, false);
+        std::int64_t place = 0;
+        for (; place != stood; wheel.step(a_at(place), b_at(place))) place += stood > 0 ? 1 : -1;
+        const std::uint32_t count = wheel.count();
+        place += jump;
+        if (lost_chip) wheel.begin(a_at(place), b_at(place));
+        else wheel.step(a_at(place), b_at(place));
+        EXPECT_EQ(wheel.count(), count);
+        while (place % 4 != 0) ++place, wheel.step(a_at(place), b_at(place));  // to its next detent
+        const std::uint32_t rests = wheel.count();
+        for (const std::int64_t by : {1, 0, -1, 0}) {
+          wheel.step(a_at(place + by), b_at(place + by));
+          EXPECT_EQ(wheel.count(), rests) << by;
+        }
+      }
+}
+
 // ---- the place at a time ----
 
 nc_axes at(double x, double y = 0) {

@@ -413,6 +413,24 @@ TEST_F(GpioEdges, TimesOfAnotherClockAreNone) {
   EXPECT_EQ(log, "board: the kernel does not give the times of edges by CLOCK_MONOTONIC, as Linux does from 5.7 on: skip positions are those of the scan\n");
 }
 
+TEST_F(GpioEdges, TimesThatGoBackAreNone) {
+  ASSERT_TRUE(open());
+  poll();
+  board.turn("stop", true, ns(0.7));
+  board.turn("stop", false, ns(0.8));
+  board.turn("stop", true, ns(0.1));
+  board.turn("a", true, ns(0.6));
+  board.turn("a", false, ns(0.4));
+  poll();
+  EXPECT_EQ(bank->shown(0), 1);
+  EXPECT_EQ(bank->probe(0).count, 2u);
+  EXPECT_EQ(last_edge(), 0) << "the skip position would be where the axes were not";
+  poll();
+  EXPECT_EQ(bank->count(0), 0u) << "the wheel has gone to and fro";
+  EXPECT_TRUE(bank->count_good(0));
+  EXPECT_EQ(log, "");
+}
+
 TEST_F(GpioEdges, AnEncoderCountsToAndFroInTheOrderOfTheTimes) {
   board.level["a"] = 1;  // amid a period
   place = 1;
