@@ -67,6 +67,7 @@ const char* trouble_text(DriveTrouble trouble) {
     case DriveTrouble::kTwice: return "two nodes send under its identifier";
     case DriveTrouble::kJump: return "the scan asks for a jump that the axis cannot do";
     case DriveTrouble::kProbe: return "its touch probe has latched a place at which the axis was not";
+    case DriveTrouble::kHomingNotBegun: return "its homing does not begin: its status stays that of the one before";
     case DriveTrouble::kNone:
     case DriveTrouble::kEmergency: break;
   }

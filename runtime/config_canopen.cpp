@@ -64,7 +64,15 @@ void check_homing_numbers(TableReader* reader, const AxisMap& map) {
     if (value * scale > kMostUnsigned) reader->error(key, with + "is beyond the 32 bits that a drive takes");
     else if (value * scale < 0.5) reader->error(key, with + "is 0 for the drive, which would not move");
   }
-  if (std::abs((map.homing_position - map.zero) * scale) > kMaxIncrements) reader->error("position", with + "is beyond the 32 bits of a drive's position");
+}
+
+// A drive that has homed says 0 at its mark (setup_plan.cpp), so `position` of the mark and `zero` are the same.
+void read_mark(TableReader* axis, TableReader* homing, AxisMap* map) {
+  double mark = 0;
+  homing->number("position", &mark, -1e6, 1e6);
+  if (axis->find("zero") != nullptr && map->zero != mark)
+    axis->error("zero", "is not homing.position: the drive says 0 at the mark of its homing, so leave zero out");
+  map->zero = mark;
 }
 
 void read_homing(TableReader* axis, Config* config, AxisMap* map) {
@@ -74,7 +82,7 @@ void read_homing(TableReader* axis, Config* config, AxisMap* map) {
     reader.number("fast", &map->homing_fast, 1e-6, 1e6);
     reader.number("slow", &map->homing_slow, 1e-6, 1e6);
     reader.number("acceleration", &map->homing_acceleration, 1e-6, 1e9);
-    reader.number("position", &map->homing_position, -1e6, 1e6);
+    read_mark(axis, &reader, map);
     reader.number("timeout_s", &map->homing_timeout_s, 0.1, 3600);
     check_homing_numbers(&reader, *map);
     read_drive_point(&reader, "request", hal::PointType::kBit, hal::PointDirection::kOutput, PointRole::kDriveHoming, *map, config, &map->homing_request);

@@ -51,13 +51,12 @@ struct AxisMap {
   unsigned slot = 0;              // number of the axis in the node; its objects begin at 6000h + 800h * slot (CiA 402)
   unsigned rpdo = 1, tpdo = 1;    // number of the PDO in the drive, from 1
   double increments_per_unit = 1;  // negative: the axis counts against the drive
-  double zero = 0;                 // machine position at which the position of the drive is 0
+  double zero = 0;                 // machine position at which the position of the drive is 0: of one that homes by itself its mark
   double following_limit = 0;      // mm or deg; 0 = only the drive itself checks the following error
   double max_velocity = 0;         // mm/s or deg/s: a set-point that needs more than twice of it is a fault and is not sent; 0 = not checked
   // Homing by the drive (6098h); 0 = none.
   std::int8_t homing_method = 0;
   double homing_fast = 0, homing_slow = 0, homing_acceleration = 0;  // mm/s, mm/s^2
-  double homing_position = 0;                                        // machine position of the reference mark
   double homing_timeout_s = 120;
   int homing_request = -1, homed = -1;  // points: the output whose rising edge starts homing; the input that is on when it is done
   std::int8_t mode = kModeCyclicPosition;

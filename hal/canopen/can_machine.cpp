@@ -79,7 +79,10 @@ bool CanMachine::start(const PointImage& initial, std::string* error) {
   while (cyclic_.ready() && !service_.all_operational() && !service_.refused() && monotonic_ns() < modules) sleep_until(monotonic_ns() + kServiceNs);
   if (cyclic_.ready() && !service_.refused()) return true;
   const std::string missing = service_.missing();
-  *error = "CANopen on " + bus_.interface + ": " + (missing.empty() ? "a drive is operational and sends no positions" : missing);
+  // No node of a bus with another bit rate is ever heard, and all that its controller says of that are errors.
+  const bool deaf = cyclic_.statistics().received.load() == 0;
+  *error = "CANopen on " + bus_.interface + ": " + (missing.empty() ? "a drive is operational and sends no positions" : missing) +
+           (deaf ? "; nothing at all has come from the bus: look at its bit rate, wires and terminators" : "");
   return false;
 }
 

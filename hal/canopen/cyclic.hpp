@@ -19,6 +19,7 @@
 #include "hal/canopen/bus_map.hpp"
 #include "hal/canopen/can_port.hpp"
 #include "hal/canopen/drive_state.hpp"
+#include "hal/canopen/homing_answer.hpp"
 #include "hal/canopen/lost_loop.hpp"
 #include "hal/canopen/module_io.hpp"
 #include "hal/canopen/position_track.hpp"
@@ -148,9 +149,10 @@ class Cyclic {
     unsigned reset_left = 0;     // SYNCs in which a fault is still being reset
     Homing homing = Homing::kNo;
     unsigned homing_syncs = 0;
+    HomingAnswer answer;
     bool home_before = false, homed = false;
     std::int64_t stop_place = 0;  // of a homing that is given up: where it was last seen to move
-    unsigned stood_syncs = 0;     // since then
+    unsigned stood_syncs = 0;     // since then; of one that waits for its mode: SYNCs in it
     // touch probe
     std::uint16_t probe_status = 0, probe_function = 0;
     std::int32_t probe_raw = 0;
@@ -191,6 +193,8 @@ class Cyclic {
   void check_way(Axis* axis, bool led) noexcept;
   std::int64_t syncs_of(unsigned ms) const noexcept { return std::int64_t{ms} * 1000 / bus_.sync_us; }
   bool home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noexcept;
+  void begin_homing(Axis* axis, std::int8_t mode) noexcept;
+  bool judge_homing(Axis* axis) noexcept;
   void give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept;
   void work_probe(Axis* axis) noexcept;
   void note_edges() noexcept;
@@ -203,6 +207,7 @@ class Cyclic {
   void publish() noexcept;
   bool follows(unsigned index) const noexcept;
   bool has_torque(const Axis& axis) const noexcept;
+  static std::int64_t still_of(const Axis& axis) noexcept;
 
   const BusMap bus_;
   CanPort* port_;

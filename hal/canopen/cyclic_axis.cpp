@@ -11,7 +11,8 @@ namespace {
 // A drive answers each SYNC with one position, so it never sends more of them than there were SYNCs, however late they come. Two drives under one identifier do.
 constexpr int kAheadLimit = 20;   // positions more than SYNCs until that is a fault
 constexpr int kMostOwed = 200;    // positions fewer than SYNCs that are remembered: as late as a drive can be without looking like two
-constexpr unsigned kHomingSettle = 10;    // SYNCs after the start bit in which the status may still be that of the previous homing
+constexpr unsigned kHomingSettle = 10;    // SYNCs in the homing mode behind which the status is that of this mode
+constexpr unsigned kHomingBeginMs = 2000;  // time within which a homing has to begin
 constexpr double kStandsWithin = 0.005;   // mm or deg in kHomingSettle SYNCs: an axis that stands
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
 constexpr double kProbeSlack = 0.1;       // mm or deg beside its way at which an axis may have been when its drive latched the place
@@ -191,26 +192,21 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   axis->home_before = wanted.home;
   if (rises && follows(index) && axis->map->has_homing()) {
     axis->homing = Homing::kMode;
-    axis->homing_syncs = 0;
+    axis->homing_syncs = axis->stood_syncs = 0;
     axis->homed = false;
     wanted_mode_[index].store(kModeHoming, std::memory_order_release);
   }
   if (axis->homing == Homing::kNo) return false;
   give_up_homing(axis, wanted);
   const std::int8_t mode = mode_[index].load(std::memory_order_acquire);
-  if (axis->homing == Homing::kMode && mode == kModeHoming) {
-    axis->homing = Homing::kRuns;
-    axis->homing_syncs = 0;
-  }
+  const bool done = axis->homing == Homing::kRuns && judge_homing(axis);
+  if (axis->homing == Homing::kMode) begin_homing(axis, mode);
   ++axis->homing_syncs;
   const unsigned most_ms = axis->homing == Homing::kStops ? bus_.stop_timeout_ms : static_cast<unsigned>(axis->map->homing_timeout_s * 1000);
   const bool late = axis->homing_syncs > syncs_of(most_ms);
   const bool stopped = axis->homing == Homing::kStops && axis->stood_syncs > kHomingSettle;
-  const bool settled = axis->homing == Homing::kRuns && axis->homing_syncs > kHomingSettle;
-  const bool error = settled && (axis->status & kStatusError) != 0;
-  const bool done = settled && !error && (axis->status & (kStatusFollows | kStatusReached)) == (kStatusFollows | kStatusReached);
-  if (late || error) fault(axis, DriveTrouble::kHoming);
-  if (done) axis->homed = true;
+  if (late) fault(axis, DriveTrouble::kHoming);
+  if (done && !axis->faulty) axis->homed = true;
   if (done || stopped || axis->faulty || !wanted.on) {
     if (axis->homing != Homing::kBack) axis->homing_syncs = 0;
     axis->homing = Homing::kBack;
@@ -220,6 +216,26 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   return axis->homing != Homing::kNo;
 }
 
+// The start bit follows when the drive has been in the homing mode for so long that the status is no longer that of its mode before.
+void Cyclic::begin_homing(Axis* axis, std::int8_t mode) noexcept {
+  if (mode != kModeHoming || axis->missed != 0 || ++axis->stood_syncs <= kHomingSettle) return;
+  axis->homing = Homing::kRuns;
+  axis->homing_syncs = 0;
+  axis->answer.start(axis->status, axis->map->homing_method);
+}
+
+// True when the drive has attained its mark.
+bool Cyclic::judge_homing(Axis* axis) noexcept {
+  if (axis->missed != 0) return false;  // a status of before says nothing
+  const HomingAnswer::Says says = axis->answer.step(axis->status, axis->position, still_of(*axis), syncs_of(kHomingBeginMs));
+  if (says == HomingAnswer::Says::kFailed) fault(axis, DriveTrouble::kHoming);
+  if (says == HomingAnswer::Says::kNotBegun) fault(axis, DriveTrouble::kHomingNotBegun);
+  return says == HomingAnswer::Says::kAttained;
+}
+
+// Increments within which an axis that stands keeps its place.
+std::int64_t Cyclic::still_of(const Axis& axis) noexcept { return std::max<std::int64_t>(2, std::llround(kStandsWithin * std::abs(axis.map->increments_per_unit))); }
+
 // Bit 4 of the control word off interrupts a homing, and bit 8 brings the axis to rest; in the drive's next mode, whose first set-point is where it stands, it must not move.
 void Cyclic::give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept {
   if (wanted.stop_homing && (axis->homing == Homing::kMode || axis->homing == Homing::kRuns)) {
@@ -228,9 +244,8 @@ void Cyclic::give_up_homing(Axis* axis, const AxisWanted& wanted) noexcept {
     axis->stop_place = axis->position;
   }
   if (axis->homing != Homing::kStops || axis->missed != 0) return;
-  const auto still = std::max<std::int64_t>(2, std::llround(kStandsWithin * std::abs(axis->map->increments_per_unit)));
   ++axis->stood_syncs;
-  if (std::abs(axis->position - axis->stop_place) <= still) return;
+  if (std::abs(axis->position - axis->stop_place) <= still_of(*axis)) return;
   axis->stop_place = axis->position;
   axis->stood_syncs = 0;
 }

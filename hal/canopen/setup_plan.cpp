@@ -61,7 +61,7 @@ void homing(Plan* plan, const AxisMap& axis) {
   plan->write(axis.object(0x6099), 1, 4, increments(axis.homing_fast * scale));
   plan->write(axis.object(0x6099), 2, 4, increments(axis.homing_slow * scale));
   plan->write(axis.object(0x609A), 0, 4, increments(axis.homing_acceleration * scale));
-  plan->write(axis.object(0x607C), 0, 4, static_cast<std::uint32_t>(static_cast<std::int32_t>(std::llround((axis.homing_position - axis.zero) * axis.increments_per_unit))));
+  plan->write(axis.object(0x607C), 0, 4, 0);  // its sign is not the same in all drives, so the place of the mark is AxisMap::zero
 }
 
 // CiA 401: what the digital outputs become when the module does not hear the control any more. 1029h:1 = 0: it goes to "pre-operational" then; 6206h: an output

@@ -19,7 +19,7 @@ TEST(CanFunctions, TheDriveHomesAndTheControlIsWhereItSays) {
   rig.bring_up();
   EXPECT_EQ(rig.drives[0]->object(0x6098, 0), 17u);
   EXPECT_EQ(rig.drives[0]->object(0x6099, 1), 40'000u);
-  EXPECT_EQ(rig.drives[0]->object(0x607C, 0), static_cast<std::uint32_t>(-60'000));
+  EXPECT_EQ(rig.drives[0]->object(0x607C, 0), 0u);
   ASSERT_EQ(rig.mdi("#1100 = 1"), Answer::kDone);
   rig.step(200);
   EXPECT_EQ(rig.drives[0]->object(0x6061, 0), 8u);  // back in cyclic position
@@ -27,13 +27,29 @@ TEST(CanFunctions, TheDriveHomesAndTheControlIsWhereItSays) {
   rig.step(10);
   EXPECT_EQ(rig.alarms(), "");
   EXPECT_NEAR(rig.command(0), -30.0, 0.001);
-  EXPECT_NEAR(rig.plant_mm(0), -30.0, 0.001);
+  EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001);
   EXPECT_EQ(rig.runtime->snapshot().interface_input[0] & 1u, 1u);  // x_homed
   ASSERT_EQ(rig.mdi("G90 G01 X0. F6000"), Answer::kDone);
   rig.step(20);
   ASSERT_TRUE(rig.until([&] { return rig.idle(); }, 3000));
   rig.step(20);
-  EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001);
+  EXPECT_NEAR(rig.plant_mm(0), 30.0, 0.001);
+}
+
+// CiA 402 adds the home offset to the mark to get the zero (6064h = -607Ch at the mark), and many makers have 6064h = 607Ch there.
+TEST(CanFunctions, TheMarkIsWhereItIsWhicheverSignTheDriveGivesItsOffset) {
+  for (const bool subtracts : {false, true}) {
+    SCOPED_TRACE(subtracts);
+    CanRig rig(can_toml("", kHoming));
+    rig.drives[0]->offset_subtracts = subtracts;
+    rig.bring_up();
+    ASSERT_EQ(rig.mdi("#1100 = 1"), Answer::kDone);
+    rig.step(200);
+    ASSERT_TRUE(rig.until([&] { return rig.following() && rig.idle(); }, 3000)) << rig.alarms();
+    rig.step(10);
+    EXPECT_NEAR(rig.command(0), -30.0, 0.001);
+    EXPECT_NEAR(rig.actual(0), -30.0, 0.001);
+  }
 }
 
 // ---- the control asks for it: homing of the axis itself, docs/homing.md ----
@@ -73,7 +89,62 @@ TEST(CanFunctions, TheControlAsksTheDriveAndWatchesWhatIsNotHomed) {
     EXPECT_EQ(flags().homed, 0b111u);
     rig.step(30);
     EXPECT_NEAR(rig.command(0), -30.0, 0.001);
-    EXPECT_NEAR(rig.plant_mm(0), -30.0, 0.001);
+    EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001);
+  }
+}
+
+// A drive clears "homing attained" of the homing before when it begins, and that may be late.
+TEST(CanFunctions, WhatADriveHasSaidOfTheHomingBeforeDoesNotCount) {
+  CanRig rig(asked_by_the_control());
+  rig.bring_up();
+  ASSERT_EQ(rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+  const auto flags = [&] { return rig.runtime->snapshot().system[0].axes; };
+  const auto homes = [&] {
+    ASSERT_EQ(home_all(&rig), Answer::kDone) << rig.alarms();
+    rig.step(5);
+    ASSERT_TRUE(rig.until([&] { return flags().homing == 0; }, 6000)) << rig.alarms();
+  };
+  homes();
+  ASSERT_EQ(flags().homed, 0b111u) << rig.alarms();
+  for (const int begins : {0, 1, 9, 10, 11, 100, 1500}) {
+    SCOPED_TRACE(begins);
+    rig.step(100);
+    rig.drives[0]->homing_begins = begins;
+    rig.drives[0]->plant().position += 5 * nc::test::kIncrementsPerMm;  // its encoder has slipped
+    rig.step(100);
+    homes();
+    EXPECT_EQ(rig.alarms(), "");
+    EXPECT_EQ(flags().homed, 0b111u);
+    rig.step(30);
+    EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001) << "it counts as homed, and has not found its mark";
+  }
+  rig.step(100);
+  rig.drives[0]->homing_begins = -1;
+  homes();
+  EXPECT_NE(rig.alarms().find("its homing does not begin"), std::string::npos) << rig.alarms();
+  EXPECT_EQ(flags().homed, 0b110u);
+}
+
+// Its place becomes the mark: that may be over between two SYNCs, so nothing of it is seen in the status but its end.
+TEST(CanFunctions, ADriveThatHomesWhereItStandsMayDoThatAtOnce) {
+  std::string text = asked_by_the_control();
+  text.replace(text.find("method = 17"), 11, "method = 37");
+  CanRig rig(text);
+  rig.drives[0]->homing_syncs = 1;
+  rig.bring_up();
+  ASSERT_EQ(rig.run(CommandKind::kSetMode, static_cast<std::uint32_t>(nc::rt::Mode::kManual)), Answer::kDone);
+  for (int times = 0; times < 3; ++times) {
+    SCOPED_TRACE(times);
+    rig.step(100);
+    rig.drives[0]->plant().position += 5 * nc::test::kIncrementsPerMm;
+    rig.step(100);
+    ASSERT_EQ(home_all(&rig), Answer::kDone) << rig.alarms();
+    rig.step(5);
+    ASSERT_TRUE(rig.until([&] { return rig.runtime->snapshot().system[0].axes.homing == 0; }, 6000)) << rig.alarms();
+    EXPECT_EQ(rig.alarms(), "");
+    rig.step(30);
+    EXPECT_NEAR(rig.plant_mm(0), 0.0, 0.001);
+    EXPECT_NEAR(rig.command(0), -30.0, 0.001);
   }
 }
 
@@ -128,7 +199,7 @@ TEST(CanFunctions, NothingHomesInAProgram) {
   rig.step(300);
   EXPECT_TRUE(rig.following());
   EXPECT_EQ(rig.drives[0]->object(0x6061, 0), 8u);
-  EXPECT_NEAR(rig.plant_mm(0), 50.0, 0.001);
+  EXPECT_NEAR(rig.command(0), 50.0, 0.001);
 }
 
 TEST(CanFunctions, AHomingThatFailsIsAFaultOfItsAxis) {

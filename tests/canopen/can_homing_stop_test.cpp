@@ -84,7 +84,8 @@ class DriveHoming : public testing::Test {
     EXPECT_EQ(rig->alarms(), "");
     EXPECT_EQ(rig->runtime->snapshot().system[0].axes.homed & 1u, 1u);
     rig->step(50);
-    EXPECT_NEAR(rig->plant_mm(0), -30, 1e-3);
+    EXPECT_NEAR(rig->plant_mm(0), 0, 1e-3);
+    EXPECT_NEAR(rig->command(0), -30, 1e-3);
   }
   std::unique_ptr<CanRig> rig;
 };

@@ -85,6 +85,17 @@ TEST(CanThreads, AMachineWithoutADriveDoesNotStartAndSaysWhich) {
   EXPECT_FALSE(rig.machine->start(image, &error));
   EXPECT_NE(error.find("CANopen on test: "), std::string::npos) << error;
   EXPECT_NE(error.find("node 3 (Z drive): 1000h:0: no answer"), std::string::npos) << error;
+  EXPECT_EQ(error.find("bit rate"), std::string::npos) << "the others are heard: " << error;
+  rig.machine->stop();
+}
+
+// As with another bit rate than the drives have, or with a wire that is not there.
+TEST(CanThreads, ABusOnWhichNothingIsHeardSaysWhereToLook) {
+  Machine rig(0, "boot_timeout_s = 1.0\nsdo_timeout_ms = 100\n");
+  PointImage image;
+  std::string error;
+  EXPECT_FALSE(rig.machine->start(image, &error));
+  EXPECT_NE(error.find("nothing at all has come from the bus: look at its bit rate, wires and terminators"), std::string::npos) << error;
   rig.machine->stop();
 }
 

@@ -418,17 +418,25 @@ void SimDrive::home(Axis& axis, unsigned number) {
     axis.plant.coast *= 0.9;
     if (std::abs(axis.plant.coast) < 0.5) axis.plant.coast = 0;
     axis.plant.position += axis.plant.coast;
-    if (!start) axis.homing_left = -1, axis.homing_done = axis.homing_error = false;
+    if (!start) axis.homing_left = -1, axis.homing_waits = homing_begins;
     return;
   }
-  if (axis.homing_left < 0) axis.homing_left = homing_syncs;
+  if (axis.homing_left < 0) {
+    if (axis.homing_waits != 0) {
+      axis.homing_waits -= axis.homing_waits > 0;
+      return;
+    }
+    axis.homing_left = homing_syncs;
+    axis.homing_done = axis.homing_error = false;
+  }
   if (axis.homing_left > 0) {
     --axis.homing_left;
     axis.plant.position -= 10;
     axis.plant.coast = axis.homing_left == 0 ? 0 : -10;
     if (axis.homing_left == 0 && homing_fails) axis.homing_error = true;
     else if (axis.homing_left == 0) {
-      axis.plant.position = static_cast<std::int32_t>(object(base(number) + 0x7C, 0));
+      const auto offset = static_cast<std::int32_t>(object(base(number) + 0x7C, 0));
+      axis.plant.position = offset_subtracts ? -offset : offset;
       axis.homing_done = true;
     }
   }

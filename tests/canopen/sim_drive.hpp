@@ -64,6 +64,8 @@ class SimDrive {
   int answers_as = -1;             // node number in its SDO answers; -1: its own
   bool homing_fails = false;
   int homing_syncs = 50;           // so many SYNCs a homing takes
+  int homing_begins = 0;           // so many SYNCs behind the start bit the status is that of the homing before, and the axis stands; -1: for ever
+  bool offset_subtracts = false;   // at the mark its position is -607Ch, as the figure of CiA 402 draws it, in place of 607Ch
   void trip(unsigned axis, std::uint16_t code, std::uint8_t error_register);  // fault, and EMCY
   void emergency(std::uint16_t code, std::uint8_t error_register);
   void power_cycle();
@@ -92,7 +94,7 @@ class SimDrive {
     std::uint16_t pending_probe = 0, probe_before = 0;
     bool pending = false;
     unsigned delay = 0;
-    int homing_left = -1;
+    int homing_left = -1, homing_waits = 0;
     bool homing_done = false, homing_error = false;
     bool probe_stored = false;
     std::int32_t probe_position = 0;
