@@ -149,6 +149,7 @@ Outcome ProgramStore::list(const Call& call) const {
   return Outcome::with({{"programs", std::move(programs)},
                         {"bytes", bytes},
                         {"most_bytes", limits_.total_bytes},
+                        {"most_bytes_of_one", limits_.program_bytes},
                         {"next", from + count < files.size() ? from + count : 0}});
 }
 

@@ -369,6 +369,7 @@ constexpr ReplyRow kProgramsReply[] = {{"programs[].name", "text", "name of the 
                                        {"programs[].check", "text", "unchecked, checking, passed or refused: its check in part system 1"},
                                        {"bytes", "whole", "of all programs together"},
                                        {"most_bytes", "whole", "that all programs may have together"},
+                                       {"most_bytes_of_one", "whole", "that one program may have"},
                                        {"next", "whole", "`from` of the next request, 0 = the list is complete"}};
 constexpr ReplyRow kReadReply[] = {{"data", "data", "bytes in base64"},
                                    {"size", "whole", "bytes of the whole program"},

@@ -59,6 +59,17 @@ cp "$disk/keep.toml" "$work/keep.toml"
 sleep 0.3
 known=$(number_of_changes)
 
+# ---- a program that is too long for the machine, or for its disk, is refused by its size: no byte of it is read or sent ----
+announced() { printf '{"service":"programs.begin","args":{"name":"huge.nc","size":%s,"sha256":"%064d"}}\n' "$1" 0 | "$ncctl" pipe; }
+expect 2 announced 10000000000
+said out "a program may have 4294967296 bytes, not 10000000000"
+expect 2 announced 2000000000
+said out "the disk is full"
+truncate -s 10G "$work/huge.nc"
+expect 2 "$ncctl" programs put "$work/huge.nc"
+said err "a program may have 4294967296 bytes, not 10737418240"
+is_as_before "a huge program"
+
 # ---- no byte is left ----
 fill
 head -c 30000 /dev/zero | tr '\0' 'G' >"$work/new.nc"

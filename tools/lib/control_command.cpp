@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -275,11 +276,21 @@ class Command {
     return std::ferror(file) == 0 && std::fseek(file, 0, SEEK_SET) == 0;
   }
 
+  // Asked before the file is read, which takes a minute when it is far too long.
+  bool has_room_for(std::FILE* file) {
+    struct stat info {};
+    Json reply;
+    if (fstat(fileno(file), &info) != 0 || !call("programs.list", {{"count", 1}}, &reply)) return false;
+    const std::uint64_t size = static_cast<std::uint64_t>(info.st_size), most = reply.value("most_bytes_of_one", std::numeric_limits<std::uint64_t>::max());
+    return size <= most || failed(refusal_named("no space", "a program may have " + std::to_string(most) + " bytes, not " + std::to_string(size))) == 0;
+  }
+
   int put() {
     const File file = regular_file(command_.file);
     std::uint64_t size = 0;
     std::string hash;
     if (file == nullptr && errno == ENODEV) return failed(kControlUsage, command_.file + ": is no regular file");
+    if (file != nullptr && !has_room_for(file.get())) return status_;
     if (file == nullptr || !hash_of(file.get(), &size, &hash)) return failed(kControlUsage, command_.file + ": " + std::strerror(errno));
     if (rt::end_signal() != 0) return failed(kControlFailed, command_.file + ": was not sent");
     Json begin = command_.args, reply;
