@@ -11,6 +11,7 @@
 
 #include "runtime/clock.hpp"
 #include "runtime/refusal.hpp"
+#include "runtime/services/service_table.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::dds {
@@ -33,8 +34,8 @@ std::int64_t now() {
 
 // Who may write nc_Command may operate, and DDS does not tell whether he may do more. Devices of the ladder need the right to maintain.
 bool needs_maintain(const share::Request& request) {
-  const auto kind = static_cast<share::RequestKind>(request.kind);
-  return kind == share::RequestKind::kForce || kind == share::RequestKind::kReleaseForce || kind == share::RequestKind::kWriteDevice;
+  const auto* row = rt::services::find_service(static_cast<share::RequestKind>(request.kind));
+  return row != nullptr && row->right == Right::kMaintain;
 }
 
 }  // namespace

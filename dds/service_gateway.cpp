@@ -366,7 +366,9 @@ void ServiceGateway::receive(Client* client, ServiceRequest request) {
   const bool same = std::any_of(client->open.begin(), client->open.end(), [&](const auto& open) { return open.second.number == number; }) ||
                     std::any_of(client->early.begin(), client->early.end(), [&](const ServiceRequest& early) { return early.number == number; });
   if (number != 0 && same) return say("client " + client->name + " gives a number to two requests: the second one is not taken");
-  if (client->open.size() + client->early.size() >= kOpen)
+  const rt::services::ServiceRow* row = rt::services::find_service(request.service);
+  const std::size_t most = row != nullptr && row->of_command().stops() ? 2 * kOpen : kOpen;  // what stops the machine has room behind other requests
+  if (client->open.size() + client->early.size() >= most)
     return reply(client, refusal_message(number, Outcome::refused(Refused::kBusy, "a client has at most " + std::to_string(kOpen) + " requests without an answer")));
   client->early.push_back(std::move(request));
   pass_early(client);

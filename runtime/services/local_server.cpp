@@ -31,7 +31,7 @@ constexpr std::size_t kReadBytes = 65536;
 constexpr std::size_t kMostDenied = 1000;     // users whose refusals are counted
 
 // What makes the machine safer counts although its client has gone.
-bool stops(const Call& call) { return call.row != nullptr && (call.row->service == Service::kHold || call.row->service == Service::kReset); }
+bool stops(const Call& call) { return call.row != nullptr && call.row->of_command().stops(); }
 
 bool address_of(const std::string& path, sockaddr_un* address) {
   *address = {};
@@ -150,7 +150,7 @@ void LocalServer::serve() {
     }
     ready.assign({{wake_, POLLIN, 0}, {full_ ? -1 : listen_, POLLIN, 0}});
     for (const auto& connection : connections_) {
-      const bool reads = !connection->closing && connection->outstanding < kOutstanding && has_room(*connection);
+      const bool reads = !connection->closing && (takes_more(*connection) || connection->in.waiting() < kMostAhead);
       const bool writes = connection->sent < connection->out.size();
       ready.push_back({connection->socket, static_cast<short>((reads ? POLLIN : 0) | (writes ? POLLOUT : 0)), 0});
     }
@@ -276,7 +276,19 @@ void LocalServer::take_frames(Connection* connection) {
     send_out(connection);
     more = more && has_room(*connection);  // else it goes on when the client has read
   }
+  if (connection->socket >= 0 && !connection->closing && !takes_more(*connection)) look_ahead(connection);
 }
+
+// A hold does not wait until its client may have one request more. It keeps its turn, as a start before it must not outrun it.
+void LocalServer::look_ahead(Connection* connection) {
+  connection->in.look_ahead([&](std::string_view frame) {
+    Call call;
+    Outcome outcome;
+    if (decode_call(frame, &call, &outcome)) (void)services_.hold_at_once(*connection->session, call, now_ns() - call.age_ns);
+  });
+}
+
+bool LocalServer::takes_more(const Connection& connection) { return connection.outstanding < kOutstanding && has_room(connection); }
 
 // True when there was no more room for answers.
 bool LocalServer::take_while_room(Connection* connection) {

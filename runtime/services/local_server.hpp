@@ -2,7 +2,8 @@
 // The services on a local socket. Each connection has the rights of its peer (rights.hpp) until it ends; a peer without any right is told so and put out.
 //
 // Nothing here waits for a client. One thread moves the bytes of all connections, two others execute what takes time (Lane). A connection has at most kOutstanding
-// requests without an answer, and at most kMostOut bytes of answers that it has not read; above that nothing more is read from it. One that does not read its
+// requests without an answer, and at most kMostOut bytes of answers that it has not read; above that no more are taken from it, but a hold among the next
+// kMostAhead bytes is given to the machine. One that does not read its
 // answers, or does not end a frame that it has begun, is closed after kPatienceNs. A frame that is too long ends the connection. What a client has begun ends
 // with it: control, jogs, uploads.
 //
@@ -44,6 +45,7 @@ class LocalServer {
 
   static constexpr unsigned kConnections = 64, kPerUser = 24, kWithoutOperate = 48, kOutstanding = 8;
   static constexpr std::size_t kMostOut = 1u << 20;
+  static constexpr std::size_t kMostAhead = 64 * 1024;  // bytes that are read from a client which may have no more requests, to find a hold in them
   static constexpr int kMostUnread = 32 * 1024;  // bytes on their way to a client that it has not read; above that it gets no update of a watch list
   static constexpr std::int64_t kPatienceNs = 10'000'000'000;
   static constexpr std::int64_t kDenyNs = 60'000'000'000;  // a user's refusals are written down once in this time
@@ -112,6 +114,8 @@ class LocalServer {
   void receive(Connection* connection);
   void take_frames(Connection* connection);
   bool take_while_room(Connection* connection);
+  void look_ahead(Connection* connection);
+  static bool takes_more(const Connection& connection);
   void take(Connection* connection, const std::string& frame);
   Outcome limit(Connection* connection, const Call& call);
   void send_out(Connection* connection);

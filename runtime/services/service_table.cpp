@@ -555,6 +555,12 @@ const ServiceRow* find_service(std::string_view name) {
   return nullptr;
 }
 
+const ServiceRow* find_service(RequestKind command) {
+  for (const ServiceRow& row : kRows)
+    if (row.command == command && command != kNo) return &row;
+  return nullptr;
+}
+
 const ServiceRow& row_of(Service service) { return kRows[static_cast<unsigned>(service)]; }
 const FieldInfo& row_of(Field field) { return kFieldTable[static_cast<unsigned>(field)]; }
 

@@ -12,6 +12,7 @@
 
 #include "runtime/services/rights.hpp"
 #include "runtime/share/layout.hpp"
+#include "runtime/share/request_table.hpp"
 
 namespace nc::rt::services {
 
@@ -75,6 +76,8 @@ struct ServiceRow {
 
   bool allows(RightSet rights) const { return rights.has(right) || (or_right && rights.has(*or_right)); }
   bool is_of(Right which) const { return which == right || which == or_right; }
+  // What is said of the command that it gives; nothing of a service that gives none.
+  const share::RequestRow& of_command() const { return share::request_row(command); }
 };
 // The rights of which one is needed, in words: "operate or maintain".
 std::string rights_text(const ServiceRow& row);
@@ -84,6 +87,8 @@ const char* topic_of(Right right);
 
 std::span<const ServiceRow> service_table();
 const ServiceRow* find_service(std::string_view name);
+// The service that gives this command.
+const ServiceRow* find_service(share::RequestKind command);
 const ServiceRow& row_of(Service service);
 const FieldInfo& row_of(Field field);
 

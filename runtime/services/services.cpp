@@ -43,11 +43,6 @@ Refused refused_of(const share::Ack& ack) {
   }
 }
 
-bool is_of_restart(share::RequestKind kind) {
-  using share::RequestKind;
-  return kind == RequestKind::kRestartFind || kind == RequestKind::kRestartConfirm || kind == RequestKind::kRestartApproach || kind == RequestKind::kRestartCancel;
-}
-
 Json rights_json(const Session& session) {
   Json rights = Json::array();
   for (unsigned right = 0; right < kRightCount; ++right)
@@ -165,7 +160,7 @@ Outcome Services::show(const Session& session, const Call& call) const {
 bool Services::fill(const Call& call, share::Request* request, Outcome* outcome) const {
   const Config& config = runtime_.config();
   const share::RequestKind kind = call.row->command;
-  const bool one = kind == share::RequestKind::kJog || kind == share::RequestKind::kMdi || kind == share::RequestKind::kSelectProgram || is_of_restart(kind);
+  const bool one = share::request_row(kind).scope == share::Scope::kOne;
   if (kind == share::RequestKind::kRestartFind && !fill_place(call, request, outcome)) return false;
   if (kind == share::RequestKind::kRestartConfirm) request->number = call.has(Field::kEntry) ? static_cast<std::uint32_t>(call.value(Field::kEntry)) - 1 : kEveryEntry;
   if (call.has(Field::kSpeed)) request->value = call.value(Field::kSpeed);
@@ -208,7 +203,7 @@ static share::Now sent_by(const Session& session, std::int64_t came_ns, share::R
 bool Services::hold_at_once(const Session& session, const Call& call, std::int64_t came_ns) {
   const auto request = std::make_unique<share::Request>();
   Outcome refused;
-  if (call.row->service != Service::kHold || !lack(session, call).empty() || !fill(call, request.get(), &refused)) return false;
+  if (!call.row->of_command().stops_at_once() || !lack(session, call).empty() || !fill(call, request.get(), &refused)) return false;
   request->sequence = 1;  // any: its own comes with its turn
   return desk_.hold_at_once(*request, sent_by(session, came_ns, request.get()));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nc/run.h"
+#include "runtime/share/request_table.hpp"
 #include "runtime/share/text.hpp"
 
 namespace nc::rt::share {
@@ -41,36 +42,6 @@ bool is_device_name(std::string_view text) {
 
 bool has_client(const Request& request) { return is_ended(request.client) && !text_of(request.client).empty() && is_graphic(text_of(request.client)); }
 
-constexpr bool is_from_gateway(RequestKind kind) {
-  return kind == RequestKind::kClientGone || kind == RequestKind::kGatewayBegan;
-}
-
-struct Row {
-  RequestKind kind;
-  CommandKind command;
-  bool takes_time;  // answered with `accepted` first, and with `done` or `failed` later
-};
-constexpr Row kRows[] = {
-    {RequestKind::kCycleStart, CommandKind::kCycleStart, true},
-    {RequestKind::kFeedHold, CommandKind::kFeedHold, true},
-    {RequestKind::kReset, CommandKind::kReset, true},
-    {RequestKind::kSetMode, CommandKind::kSetMode, true},
-    {RequestKind::kFeedOverride, CommandKind::kFeedOverride, false},
-    {RequestKind::kRapidOverride, CommandKind::kRapidOverride, false},
-    {RequestKind::kSingleBlock, CommandKind::kSingleBlock, false},
-    {RequestKind::kOptionalStop, CommandKind::kOptionalStop, false},
-    {RequestKind::kJog, CommandKind::kJog, false},
-    {RequestKind::kRestartConfirm, CommandKind::kConfirmRestart, false},
-    {RequestKind::kRestartApproach, CommandKind::kApproach, false},
-    {RequestKind::kRestartCancel, CommandKind::kCancelRestart, false},
-};
-
-const Row* row_of(RequestKind kind) {
-  for (const Row& row : kRows)
-    if (row.kind == kind) return &row;
-  return nullptr;
-}
-
 Ack make_ack(const Request& request, Way way, std::int64_t now_ns) {
   Ack ack{};
   set_text(&ack.client, text_of(request.client));
@@ -82,24 +53,13 @@ Ack make_ack(const Request& request, Way way, std::int64_t now_ns) {
   return ack;
 }
 
-// Commands that must name one part system.
-constexpr bool is_of_one_system(RequestKind kind) {
-  return kind == RequestKind::kJog || kind == RequestKind::kMdi || kind == RequestKind::kSelectProgram || kind == RequestKind::kRestartFind ||
-         kind == RequestKind::kRestartConfirm || kind == RequestKind::kRestartApproach || kind == RequestKind::kRestartCancel;
-}
-
-// Commands that act on the whole control, whichever part system is named.
-constexpr bool is_of_the_control(RequestKind kind) {
-  return kind == RequestKind::kReset || kind == RequestKind::kSetMode;
-}
-
 bool is_named(const Request& request, unsigned system) {
   return request.system == kEverySystem || request.system == system;
 }
 
 // The text of the answer to a client that has named one part system in a command that acts on all of them.
 const char* scope_text(const Request& request, unsigned systems) {
-  const bool more = systems > 1 && request.system != kEverySystem && is_of_the_control(static_cast<RequestKind>(request.kind));
+  const bool more = systems > 1 && request.system != kEverySystem && request_row(request).scope == Scope::kControl;
   return more ? "of all part systems" : "";
 }
 
@@ -151,6 +111,14 @@ const char* reason_text(AckReason reason) {
   return "?";
 }
 
+Ack refusal_of(const Request& request, std::int64_t now_ns, AckReason reason, const char* text) {
+  Ack ack = make_ack(request, Way::kGateway, now_ns);
+  ack.state = static_cast<std::uint32_t>(AckState::kRejected);
+  ack.reason = static_cast<std::uint32_t>(reason);
+  set_text(&ack.text, text);
+  return ack;
+}
+
 std::string Intake::controlling() const {
   return control_ == nullptr ? std::string() : std::string(text_of(control_->name));
 }
@@ -165,7 +133,7 @@ Intake::Verdict Intake::check_form(const Request& r, const Machine::State& state
   if (r.lease_ms != 0 && (r.lease_ms < kMinLeaseMs || r.lease_ms > kMaxLeaseMs))
     return bad("lease must be 100 to 60000 ms");
   if (!std::isfinite(r.value)) return bad("value is not a number");
-  const bool all = r.system == kEverySystem && !is_of_one_system(static_cast<RequestKind>(r.kind));
+  const bool all = r.system == kEverySystem && request_row(r).scope != Scope::kOne;
   if (r.system >= state.system_count && !all) return bad("no such part system");
   if (r.expected_mode < kAny || r.expected_mode > static_cast<std::int32_t>(Mode::kManual))
     return bad("expected mode is unknown");
@@ -350,16 +318,16 @@ Intake::Verdict Intake::execute(const Request& request) {
     answer = machine_.select_program(request.system, std::string(text_of(request.text)));
     takes_time = answer == Answer::kDone && machine_.checks(request.system);  // who is told that it is selected may start it at once
     if (answer == Answer::kDone && !takes_time) return {AckState::kDone, AckReason::kNone, machine_.remark(request.system)};
-  } else if (const Row* row = row_of(kind); row != nullptr) {
+  } else if (const RequestRow& row = request_row(kind); row.command) {
     Command command;
-    command.kind = row->command;
+    command.kind = *row.command;
     command.system = request.system == kEverySystem ? kAllSystems : static_cast<std::uint8_t>(request.system);
     command.axis = static_cast<std::uint8_t>(request.axis);
     command.number = request.number;
     command.value = request.value;
     command.by = Asker::kClient;
     answer = machine_.execute(command);
-    takes_time = row->takes_time;
+    takes_time = row.takes_time;
     if (kind == RequestKind::kJog && answer == Answer::kDone)
       jogging_[request.system][request.axis] = request.value != 0;
     if (kind == RequestKind::kRestartApproach && answer == Answer::kDone) jogging_[request.system][request.axis] = true;
@@ -390,7 +358,7 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, 
     lose_control();
     return {};
   }
-  if (!has_control && kind != RequestKind::kFeedHold)
+  if (!has_control && !request_row(kind).stops_at_once())
     return {AckState::kRejected, AckReason::kNoControl,
             control_ == nullptr ? "take control first" : "client " + controlling() + " has control"};
   if (has_control) lease_end_ns_ = now.steady_ns + lease_ns_;
@@ -411,7 +379,7 @@ Intake::Verdict Intake::hold_without_place(const Request& request, Way way, cons
 }
 
 bool Intake::hold_at_once(const Request& request, const Now& now) {
-  if (static_cast<RequestKind>(request.kind) != RequestKind::kFeedHold || !has_client(request) || check_time(request, now).state != AckState::kDone) return false;
+  if (!request_row(request).stops_at_once() || !has_client(request) || check_time(request, now).state != AckState::kDone) return false;
   const Machine::State state = machine_.state();
   std::string text;
   if (check_form(request, state).state != AckState::kDone || !expected(request, state, &text)) return false;
@@ -420,7 +388,7 @@ bool Intake::hold_at_once(const Request& request, const Now& now) {
 
 void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way, bool held) {
   const auto kind = static_cast<RequestKind>(request.kind);
-  if (is_from_gateway(kind)) {
+  if (is_from_gateway(request)) {
     gone(request, way, kind == RequestKind::kGatewayBegan);
     return;
   }
@@ -435,7 +403,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     acks->push_back(ack);
   };
   Client* client = client_of(request, way, now.steady_ns);
-  if (kind == RequestKind::kFeedHold && (client == nullptr || client->writer != request.writer)) {
+  if (request_row(kind).stops_at_once() && (client == nullptr || client->writer != request.writer)) {
     answer(hold_without_place(request, way, now, held));
     return;
   }
@@ -473,7 +441,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
   }
   client->last_sequence = request.sequence;
   const Verdict verdict = decide(client, request, way, state, now, held);
-  client->executed = client->executed || (verdict.state != AckState::kRejected && kind != RequestKind::kFeedHold);
+  client->executed = client->executed || (verdict.state != AckState::kRejected && !request_row(kind).stops_at_once());
   answer(verdict);
   remember(client, ack);
 }

@@ -151,5 +151,7 @@ class Intake {
 };
 
 const char* reason_text(AckReason reason);
+// The answer to a command of the gateway that was not asked of the intake.
+Ack refusal_of(const Request& request, std::int64_t now_ns, AckReason reason, const char* text);
 
 }  // namespace nc::rt::share

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kPublishNs = 10'000'000;
 constexpr std::int64_t kIntakeNs = 5'000'000;  // interval at which leases and pending commands are looked at; a new command wakes the thread at once
+constexpr std::int64_t kLookNs = 100'000'000;   // a gateway that ends between a command and its wake costs no more
 constexpr unsigned kCommandsPerTurn = 32;
 
 void sleep_until(std::int64_t when_ns) {
@@ -65,6 +66,7 @@ bool Service::start(std::string* error) {
   started_ = true;
   publisher_->publish();
   if (!publisher_thread_.start([this] { publisher_thread(); }, error)) return false;
+  if (options_.commands && !arrival_thread_.start([this] { arrival_thread(); }, error)) return false;
   return !(options_.commands || options_.local) || intake_thread_.start([this] { intake_thread(); }, error);
 }
 
@@ -73,6 +75,8 @@ void Service::stop() {
   started_ = false;
   stop_ = true;
   wake(&segment_.get()->wake_intake);
+  arrival_thread_.join();
+  waiting_.wake();
   intake_thread_.join();
   publisher_thread_.join();
   publisher_->publish();
@@ -90,21 +94,46 @@ void Service::publisher_thread() {
   }
 }
 
-void Service::intake_thread() {
+// A hold does not wait for the commands before it. It keeps its turn behind them, as a start that came before it must not outrun it.
+void Service::arrived(const Request& request) {
+  const bool held = desk_.hold_at_once(request, {wall_ns(), RealClock().now_ns()});
+  if (waiting_.push(request, held) || is_from_gateway(request)) return;
+  answers_.add_if_room(refusal_of(request, wall_ns(), AckReason::kOverflow, "too many commands at once"));
+}
+
+void Service::arrival_thread() {
   Segment& segment = *segment_.get();
-  std::vector<Ack> acks;
+  const auto request = std::make_unique<Request>();
   while (!stop_) {
     const std::uint32_t seen = segment.wake_intake.load(std::memory_order_acquire);
-    Request request;
-    // Answers are never lost: while some of them wait for room in the ring, no more commands are taken.
-    for (unsigned i = 0; acks.size() < kCommandsPerTurn && i < kCommandsPerTurn && options_.commands && segment.commands.pop(&request); ++i)
-      desk_.take(request, {wall_ns(), RealClock().now_ns()}, Way::kGateway, &acks);
+    bool any = false;
+    for (unsigned i = 0; i < kCommandRing && segment.commands.pop(request.get()); ++i) {
+      arrived(*request);
+      any = true;
+    }
+    if (any) give_answers();
+    else wait_for_change(&segment.wake_intake, seen, kLookNs);
+  }
+}
+
+void Service::give_answers() {
+  if (answers_.give(&segment_.get()->acks)) wake(&segment_.get()->wake_reader);
+}
+
+void Service::intake_thread() {
+  std::vector<Ack> acks;
+  RequestQueue::Waiting next;
+  while (!stop_) {
+    // Answers are never lost: while many of them wait for room in the ring, no more commands are executed.
+    for (unsigned i = 0; i < kCommandsPerTurn && answers_.size() < kCommandsPerTurn && waiting_.pop(&next); ++i) {
+      desk_.take(next.request, {wall_ns(), RealClock().now_ns()}, Way::kGateway, &acks, next.held);
+      answers_.add(&acks);
+    }
     desk_.tick({wall_ns(), RealClock().now_ns()}, &acks);
-    std::size_t given = 0;
-    while (given < acks.size() && segment.acks.push(acks[given])) ++given;
-    if (given != 0) wake(&segment.wake_reader);
-    acks.erase(acks.begin(), acks.begin() + static_cast<std::ptrdiff_t>(given));
-    if (segment.commands.size() == 0 || !options_.commands || !acks.empty()) wait_for_change(&segment.wake_intake, seen, kIntakeNs);
+    answers_.add(&acks);
+    give_answers();
+    if (answers_.size() >= kCommandsPerTurn) sleep_until(RealClock().now_ns() + kIntakeNs);
+    else waiting_.wait(std::chrono::nanoseconds(kIntakeNs));
   }
 }
 

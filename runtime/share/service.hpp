@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ncrtd's side of the segment: makes it, publishes every 10 ms, and takes commands if that is allowed. Its
-// threads are ordinary ones.
+// threads are ordinary ones. One of them takes commands from the segment as soon as they come and gives the machine those that stop it at once; another one executes
+// them in their order, for which some need seconds.
 #pragma once
 
 #include <atomic>
@@ -13,6 +14,7 @@
 #include "runtime/share/point_tap.hpp"
 #include "runtime/share/program_table.hpp"
 #include "runtime/share/publisher.hpp"
+#include "runtime/share/request_queue.hpp"
 #include "runtime/share/segment.hpp"
 
 namespace nc::rt::share {
@@ -64,7 +66,10 @@ class Service {
 
  private:
   void publisher_thread();
+  void arrival_thread();
   void intake_thread();
+  void arrived(const Request& request);
+  void give_answers();
 
   Runtime& runtime_;
   const ServiceOptions options_;
@@ -74,7 +79,9 @@ class Service {
   ProgramTable& programs_;
   PointTap* tap_;
   std::unique_ptr<Publisher> publisher_;
-  RtThread publisher_thread_, intake_thread_;
+  RequestQueue waiting_;
+  AnswerQueue answers_;
+  RtThread publisher_thread_, arrival_thread_, intake_thread_;
   std::atomic<bool> stop_{false};
   bool started_ = false;
 };

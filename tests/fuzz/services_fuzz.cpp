@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes on the socket of the services: they are cut into frames and read as requests. What is taken holds all that the table wants, in its range; what is
 // refused has a sentence; a frame is never longer than it may be.
+#include <cstdlib>
+
 #include "fuzz/input.hpp"
 #include "runtime/services/call.hpp"
 #include "runtime/services/frames.hpp"
@@ -65,6 +67,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     FrameReader::Next next;
     while ((next = reader.next(&text)) == FrameReader::Next::kFrame) read_frame(text);
     if (next == FrameReader::Next::kTooLong) break;
+    reader.look_ahead([](std::string_view) { std::abort(); });  // what is whole was taken
   }
   return 0;
 }

@@ -130,6 +130,30 @@ TEST(ServiceCall, FramesComeInAnyPieces) {
   EXPECT_EQ(reader.next(&text), FrameReader::Next::kTooLong);
 }
 
+// Whoever looks ahead sees each frame that was not taken before, once, and takes them all in their order.
+TEST(ServiceCall, FramesAreSeenAheadOnce) {
+  const std::vector<std::string> all{"one", "", "three", "four", "5", "six"};
+  std::string stream;
+  for (const std::string& text : all) stream += frame_of(text);
+  for (std::size_t piece = 1; piece <= stream.size(); ++piece) {
+    for (std::size_t every = 1; every < 5; ++every) {
+      FrameReader reader;
+      std::vector<std::string> taken;
+      std::size_t seen = 0, turn = 0;  // seen: of `all`, behind those that were taken when it was looked
+      std::string text;
+      for (std::size_t at = 0; at < stream.size(); at += piece) {
+        reader.add(std::string_view(stream).substr(at, piece));
+        if (turn++ % every == 0 && reader.next(&text) == FrameReader::Next::kFrame) taken.push_back(text);
+        seen = std::max(seen, taken.size());
+        reader.look_ahead([&](std::string_view frame) { EXPECT_EQ(frame, all.at(seen++)); });
+      }
+      while (reader.next(&text) == FrameReader::Next::kFrame) taken.push_back(text);
+      EXPECT_EQ(taken, all) << piece << " " << every;
+      EXPECT_EQ(seen, all.size());
+    }
+  }
+}
+
 TEST(ServiceCall, AReplyThatIsTooLongIsARefusal) {
   const Json reply = Json::parse(encode_reply(3, Outcome::done(std::string(kMostFrameBytes, 'x'))));
   EXPECT_EQ(reply["ok"], false);

@@ -132,6 +132,8 @@ class LocalMachine : public testing::Test {
   virtual std::string machine_text() {
     return base_toml() + "[scheduling]\npolicy = \"other\"\nlock_memory = false\noverrun = \"count\"\n[services]\nchanges = \"changes\"\nhistory = \"history\"\nprogram_mb = 4\nprograms_mb = 8\n" + check_text();
   }
+  // Whether commands come through the segment, too.
+  virtual bool has_commands() { return false; }
   // Whether programs are checked; most tests start those that they have just written.
   virtual std::string check_text() { return "check = \"off\"\n"; }
   void start() {
@@ -155,6 +157,7 @@ class LocalMachine : public testing::Test {
     rt::share::ServiceOptions options;
     options.name = "unit-s" + std::to_string(getpid());
     options.local = true;
+    options.commands = has_commands();
     share_ = std::make_unique<rt::share::Service>(runtime_.get(), programs_.get(), nullptr, options);
     std::string error;
     ASSERT_TRUE(share_->create(&error)) << error;

@@ -137,7 +137,7 @@ class Command {
   // A command needs control, which ends with this connection. A hold does not: it is taken from everyone.
   int service() {
     const ServiceRow& row = *rt::services::find_service(command_.service);
-    if (row.lane == Lane::kCommand && row.service != Service::kHold && !take_control(row.service)) return status_;
+    if (row.lane == Lane::kCommand && !row.of_command().stops_at_once() && !take_control(row.service)) return status_;
     Json whole;
     Json args = command_.args;
     for (;;) {
