@@ -74,7 +74,7 @@ bool node_number(const toml::node& node, double* value) {
   }
   if (const auto* real = node.as_floating_point()) {
     if (!std::isfinite(real->get())) return false;
-    *value = real->get();
+    *value = real->get() + 0.0;  // zero has no sign
     return true;
   }
   return false;
@@ -82,7 +82,7 @@ bool node_number(const toml::node& node, double* value) {
 
 std::string number_text(double value) {
   char buffer[40];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value + 0.0);  // zero has no sign
   return std::string(buffer, result.ptr);
 }
 

@@ -95,7 +95,7 @@ std::string take(const FieldInfo& row, const Json& value, Call* call) {
       const double number = value.get<double>();
       if (!std::isfinite(number) || number < row.least || number > row.most) return "must be " + range_text(row);
       if (row.kind == Kind::kWhole && number != std::floor(number)) return "must be a whole number";
-      call->number[at] = number;
+      call->number[at] = number + 0.0;  // zero has no sign
       return "";
     }
     case Kind::kText:

@@ -101,6 +101,22 @@ Refusals taken_pockets(const ToolLabels& labels, const std::vector<TableValue>& 
   return refusals;
 }
 
+// Those of the values that have given a variable the name of another one: a program that asks by the name would find one of the two. They are looked at when all are written,
+// so that two variables can change names.
+Refusals taken_names(const nc_control* control, const std::vector<TableValue>& wanted) {
+  Refusals refusals;
+  nc_variable_range named{};
+  (void)nc_variable_kind_get(nc_control_dialect(control), NC_VARIABLES_NAMED, &named);
+  char name[8] = "";
+  for (const TableValue& value : wanted) {
+    if (value.place.table != Table::kVariableName || value.value.empty()) continue;
+    for (std::uint32_t other = named.first; other != 0 && other <= named.last; ++other)
+      if (other != value.place.number && nc_variable_name_get(control, other, name) == NC_OK && value.value == name)
+        refusals.add(value, Outcome::refused(Refused::kState, "#" + std::to_string(other) + " has the name " + value.value));
+  }
+  return refusals;
+}
+
 // In the feeder thread.
 void write_all(nc_control* control, ValueJob* job) {
   Tables tables{control, *job->config, job->labels->read()};
@@ -108,6 +124,7 @@ void write_all(nc_control* control, ValueJob* job) {
   if (!read_all(tables, job, &all)) return;
   Refusals refusals = write_in_any_order(&tables, job->wanted);
   if (refusals.empty()) refusals = taken_pockets(tables.labels, job->wanted);
+  if (refusals.empty()) refusals = taken_names(control, job->wanted);
   if (!refusals.empty()) {
     give_back(&tables, all);
     job->outcome = refusals.outcome();

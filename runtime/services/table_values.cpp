@@ -238,7 +238,7 @@ Outcome write_value(nc_control* control, const nc_config& config, const TablePla
     case Table::kToolLabel: break;
   }
   if (status == NC_OK) return Outcome::done();
-  if (place.table == Table::kVariableName) return Outcome::refused(Refused::kState, "the variable can have no name, or not this one: at most 7 capital letters and digits, a letter first");
+  if (place.table == Table::kVariableName) return Outcome::refused(Refused::kState, "the variable can have no name, or not this one: at most 7 capital letters and digits, a letter first, and not the name of a function at the beginning");
   if (place.table == Table::kToolLife) return Outcome::refused(Refused::kState, "out of the range of the column: a life and what is used of it have at most 4000 minutes or 9999 times");
   return Outcome::refused(Refused::kState, "refused by the control");
 }

@@ -18,6 +18,9 @@ namespace {
 
 constexpr unsigned kDefaultRows = 500;
 
+// A program may have left the zero that has a sign; there is one for those who read the tables.
+double unsigned_zero(double value) { return value + 0.0; }
+
 // What a job in the feeder thread has found. The job may outlive the one who waits for it, so both own this.
 struct Found {
   Outcome outcome = Outcome::refused(Refused::kFailed, "?");
@@ -80,7 +83,7 @@ Outcome list_tools(Runtime* runtime, const Call& call) {
       Json tool = {{"number", number}};
       double value = 0;
       for (unsigned c = 0; c < std::size(kToolColumns); ++c)
-        if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK) tool[row_of(kToolColumns[c]).name] = value;
+        if (nc_tool_offset_get(control, number, static_cast<nc_tool_column>(c), &value) == NC_OK) tool[row_of(kToolColumns[c]).name] = unsigned_zero(value);
       const ToolLabel& label = label_of(labels, number);
       tool[row_of(Field::kToolName).name] = label.name;
       tool[row_of(Field::kPocket).name] = label.pocket;
@@ -101,7 +104,7 @@ Outcome list_lives(Runtime* runtime, const Call& call) {
       double value[std::size(kLifeColumns)] = {};
       for (unsigned c = 0; c < std::size(kLifeColumns); ++c) {
         (void)nc_tool_life_get(control, number, static_cast<nc_life_column>(c), &value[c]);
-        life[row_of(kLifeColumns[c]).name] = value[c];
+        life[row_of(kLifeColumns[c]).name] = unsigned_zero(value[c]);
       }
       life["counts"] = kCounts[static_cast<unsigned>(value[NC_LIFE_FLAGS]) >> 4 & 3u];
       life["state"] = kStates[std::min(static_cast<std::size_t>(value[NC_LIFE_STATUS]), std::size(kStates) - 1)];
@@ -125,7 +128,7 @@ Outcome list_offsets(Runtime* runtime, const Call& call) {
       double value = 0;
       for (unsigned a = 0; a < config.system[system].axis_count; ++a)
         if (nc_work_offset_get(control, api_system(system), index, a, &value) == NC_OK)
-          axes.push_back({{"name", std::string(1, config.system[system].axis[a].name)}, {"value", value}});
+          axes.push_back({{"name", std::string(1, config.system[system].axis[a].name)}, {"value", unsigned_zero(value)}});
       offsets.push_back({{"system", system + 1}, {"index", index}, {"axes", std::move(axes)}});
     }
     return Json{{"offsets", std::move(offsets)}, {"next", set < sets ? set : 0}};
@@ -146,7 +149,7 @@ Outcome list_variables(Runtime* runtime, const Call& call) {
       }
       char name[8] = "";
       (void)nc_variable_name_get(control, number, name);
-      variables.push_back({{"number", number}, {"value", value}, {"name", std::string(name)}});
+      variables.push_back({{"number", number}, {"value", unsigned_zero(value)}, {"name", std::string(name)}});
     }
     return Json{{"variables", std::move(variables)}, {"next", next}};
   });

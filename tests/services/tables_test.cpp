@@ -164,6 +164,43 @@ TEST_F(TableServices, AVariableGetsAName) {
   EXPECT_EQ(name_of(), "");
 }
 
+// A program asks for a variable by its name, so two of them have not the same one, as with SETVN (M700 P301).
+TEST_F(TableServices, TwoVariablesHaveNotOneName) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", "DEPTH"}}), "");
+  Json refused = client.call("variables.set", {{"number", 502}, {"value", 7}, {"name", "DEPTH"}});
+  EXPECT_EQ(refused["text"], "name of #502: #501 has the name DEPTH");
+  EXPECT_NE(variable(&client, 502), 7) << "all of it or nothing";
+  EXPECT_EQ(client.outcome("variables.set", {{"number", 501}, {"name", "DEPTH"}}), "") << "its own name";
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 502}, {"name", "WIDTH"}}), "");
+  ASSERT_EQ(client.outcome("tables.import", {{"toml", "[variable_names]\n501 = \"WIDTH\"\n502 = \"DEPTH\"\n"}}), "") << "two change names";
+  const auto exported = [&] { return client.call("tables.export", {{"table", "variables"}})["reply"]["toml"].get<std::string>(); };
+  EXPECT_NE(exported().find("501 = \"WIDTH\"\n502 = \"DEPTH\"\n"), std::string::npos) << exported();
+  ASSERT_EQ(client.outcome("undo"), "") << "and change them back";
+  EXPECT_NE(exported().find("501 = \"DEPTH\"\n502 = \"WIDTH\"\n"), std::string::npos) << exported();
+  refused = client.call("tables.import", {{"toml", "[variable_names]\n503 = \"TOP\"\n504 = \"TOP\"\n"}});
+  EXPECT_EQ(refused["text"], "line 2: name of #503: #504 has the name TOP; line 3: name of #504: #503 has the name TOP");
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 502}, {"name", "TOP"}}), "");
+  ASSERT_EQ(client.outcome("variables.set", {{"number", 505}, {"name", "WIDTH"}}), "") << "a name that is free again";
+  refused = client.call("undo", {{"change", client.call("changes", {{"of", "name 502"}, {"count", 1}})["reply"]["changes"][0]["number"]}});
+  EXPECT_EQ(refused["text"], "name of #502: #505 has the name WIDTH") << "an undo makes no second one either";
+  EXPECT_EQ(client.outcome("variables.set", {{"number", 506}, {"name", "SINUS"}}), "refused") << "the name of a function stands at its beginning";
+}
+
+// A program, a screen and a file know one zero.
+TEST_F(TableServices, ZeroHasNoSign) {
+  ServiceClient client(path_);
+  const std::string minus = "{\"id\":1,\"service\":\"variables.set\",\"args\":{\"number\":501,\"value\":-0.0}}";
+  ASSERT_TRUE(client.send_bytes(rt::services::frame_of(minus)));
+  EXPECT_EQ(client.receive()["ok"], true);
+  ASSERT_EQ(client.outcome("tools.set", {{"number", 1}, {"length", -0.0}}), "");
+  ASSERT_EQ(client.outcome("offsets.set", {{"index", 1}, {"axis", "X"}, {"value", -0.0}}), "");
+  ASSERT_EQ(client.outcome("tables.import", {{"toml", "[variables]\n502 = -0.0\n[tool_offsets]\n2 = { length = -0.0 }\n[work_offsets]\n\"G55\" = { X = -0.0 }\n"}}), "");
+  run(&client, "#503=-0\n#504=0*-1\nG10 L2 P3 X-0.0");
+  EXPECT_EQ(client.call("tables.export")["reply"]["toml"].get<std::string>().find("-0"), std::string::npos) << client.call("tables.export")["reply"]["toml"].get<std::string>();
+  for (const char* list : {"tools.list", "offsets.list", "variables.list", "changes"}) EXPECT_EQ(client.call(list).dump().find("-0"), std::string::npos) << list;
+}
+
 TEST_F(TableServices, ParametersHaveTheirMeaningAndRange) {
   ServiceClient client(path_);
   ASSERT_EQ(client.outcome("parameters.set", {{"key", "1078"}, {"value", "1"}}), "");

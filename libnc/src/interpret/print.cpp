@@ -6,6 +6,7 @@
 #include "dialect/text.hpp"
 #include "interpret/calls.hpp"
 #include "interpret/interpreter.hpp"
+#include "macro/variable_name.hpp"
 #include "program/cursor.hpp"
 
 namespace nc {
@@ -13,19 +14,6 @@ namespace {
 
 constexpr uint32_t kPort = 1;              ///< the external output; 0 is the message line of the operator
 constexpr char kDc2 = 0x12, kDc4 = 0x14;   ///< characters that switch the punch of the external device on and off
-
-/// A name may not begin with the name of a function or operator (M700 13.5.5, note). Those of two letters, except LN, are left out here, so that ORIGIN,
-/// LENGTH or NEXT can be names; within [#NAME] they cannot be confused.
-constexpr const char* kReserved[] = {"SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ATN", "SQRT", "SQR", "ABS", "BIN", "BCD",
-                                     "ROUND", "RND", "FIX", "FUP", "LN", "EXP", "MOD", "AND", "XOR"};
-
-bool begins_reserved(const char* name, size_t length) {
-  for (const char* word : kReserved) {
-    const size_t n = std::strlen(word);
-    if (n <= length && std::memcmp(word, name, n) == 0) return true;
-  }
-  return false;
-}
 
 Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, size_t length) {
   char name[kNameLength];
@@ -35,7 +23,7 @@ Execution set_one_name(Interpreter& in, uint32_t variable, const char* from, siz
     name[i] = upper(from[i]);
     if (!is_letter(name[i]) && (i == 0 || !is_digit(name[i]))) return in.raise(Condition::variable_name, Sign::variable, variable);
   }
-  if (begins_reserved(name, length)) return in.raise(Condition::variable_name, Sign::variable, variable);
+  if (is_reserved_name(name, length)) return in.raise(Condition::variable_name, Sign::variable, variable);
   uint32_t other = 0;
   if (in.variables.find_name(name, length, &other) && other != variable) return in.raise(Condition::variable_name_twice, Sign::variable, variable);
   if (!in.variables.set_name(variable, name, length, in.state.seq + 1)) return in.raise(Condition::variable_number, Sign::variable, variable);

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "macro/variable_name.hpp"
+
 namespace nc {
 namespace {
 
@@ -180,7 +182,7 @@ bool Variables::name_from_outside(uint32_t number, const char* name) {
     const bool good = (c >= 'A' && c <= 'Z') || (length > 0 && c >= '0' && c <= '9');
     if (!good || length == kNameLength) return false;
   }
-  if (!name_place(number, &index)) return false;
+  if (is_reserved_name(name, length) || !name_place(number, &index)) return false;
   const VariableName given = name_of_text(name, length);
   common_->set_name(index, given);
   journal_.replace(name_key(number), JournalValue::of(given));
