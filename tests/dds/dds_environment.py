@@ -51,6 +51,23 @@ def start(script, programs, name="venv-dds", packages=(BINDING,), probe="import 
     sys.exit(subprocess.run([python, os.path.abspath(script)], env={**os.environ, "NC_DDS_INSIDE": "1"}).returncode)
 
 
+def machine_text(name, axes="X", programs=".", machine="", services="", more=""):
+    """The file of a simulated machine that any computer can run. `machine` and `services` are more lines of these sections."""
+    text = f'[machine]\nname = "{name}"\nprograms = "{programs}"\n{machine}[scheduling]\npolicy = "other"\nlock_memory = false\noverrun = "count"\n'
+    if services:
+        text += f"[services]\n{services}"
+    for axis in axes:
+        text += f'[[axis]]\nname = "{axis}"\nmax_velocity = 200.0\nmax_acceleration = 2000.0\n'
+        if axis == "X":
+            text += "soft_limits = [-500.0, 500.0]\n"
+    return text + more
+
+
+def services_text(socket):
+    """The lines of [services] for a control whose files and socket have names, and whose programs are begun unchecked."""
+    return f'socket = "{socket}"\nchanges = "changes"\nhistory = "history"\ncheck = "off"\n'
+
+
 def check(condition, text):
     if not condition:
         raise AssertionError(text)

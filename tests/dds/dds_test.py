@@ -18,7 +18,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from dds_environment import PATIENCE, build, check, root, start, until  # noqa: E402
+from dds_environment import PATIENCE, build, check, machine_text, root, start, until  # noqa: E402
 
 start(__file__, ("ncrtd", "ncdds", "ncmon"))
 
@@ -37,25 +37,7 @@ from cyclonedds.topic import Topic  # noqa: E402
 from cyclonedds.util import duration  # noqa: E402
 from dataclasses import dataclass  # noqa: E402
 
-MACHINE = """
-[machine]
-name = "Test"
-programs = "."
-[scheduling]
-policy = "other"
-lock_memory = false
-overrun = "count"
-[services]
-check = "off"       # bad.nc is to come to its alarm
-[[axis]]
-name = "X"
-max_velocity = 200.0
-max_acceleration = 2000.0
-soft_limits = [-500.0, 500.0]
-[[axis]]
-name = "Y"
-max_velocity = 200.0
-max_acceleration = 2000.0
+MORE = """
 [[point]]
 name = "clamp"
 direction = "output"
@@ -73,6 +55,9 @@ G54 = { X = 0.0, Y = 0.0 }
 [ladder]
 program = "own.il"
 """
+# Programs are not checked: bad.nc is to come to its alarm.
+MACHINE = machine_text("Test", "XY", machine='variables = "kept"\n', services='check = "off"\n', more=MORE)
+OTHER = machine_text("Test", "XY", services='check = "off"\n', more=MORE + '[[spindle]]\nfeedback = "none"\n')
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD SM400\nDMOV pallet D0\nLD M100\nOUT plc.alarm.1\nEND\n"
 PART = "G90 G54 G17\n#1=0\n#1100=1\nWHILE [#1 LT 5] DO1\nN20 G1 X20. Y10. F3000.\nG3 X20. Y30. J10.\nG1 X0. Y0.\n#1=#1+1\nEND1\nM30\n"
 BAD = "G90 G54\nG1 X10. F1000 G150\nM30\n"
@@ -701,7 +686,7 @@ def main():
         return
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, "folder"))
-        for name, text in (("machine.toml", MACHINE.replace('programs = "."', 'programs = "."\nvariables = "kept"')), ("other.toml", MACHINE + '[[spindle]]\nfeedback = "none"\n'), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
+        for name, text in (("machine.toml", MACHINE), ("other.toml", OTHER), ("part.nc", PART), ("bad.nc", BAD), ("own.il", LADDER)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         plant = Plant(folder)

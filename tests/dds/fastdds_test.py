@@ -11,25 +11,8 @@ import sys
 import tempfile
 import time
 
-from dds_environment import PATIENCE, SKIPPED, build
+from dds_environment import PATIENCE, SKIPPED, build, machine_text
 
-MACHINE = """
-[machine]
-name = "Other make"
-programs = "."
-[scheduling]
-policy = "other"
-lock_memory = false
-overrun = "count"
-[[axis]]
-name = "X"
-max_velocity = 200.0
-max_acceleration = 2000.0
-[[axis]]
-name = "Y"
-max_velocity = 200.0
-max_acceleration = 2000.0
-"""
 # Y stands at 7.25, X goes back and forth between 1 and 3, and then the program raises an alarm.
 PART = "G90 G54 G17 G0 X1. Y7.25\n#1=0\nWHILE [#1 LT 60] DO1\nG1 X3. F6000.\nX1.\n#1=#1+1\nEND1\n#3000=41(COOLANT)\n"
 
@@ -80,7 +63,7 @@ def main():
         sys.exit(SKIPPED)
     share, domain = f"other-{os.getpid()}", str(1 + os.getpid() % 100)  # below the ports that the system hands out
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (("machine.toml", MACHINE), ("part.nc", PART)):
+        for name, text in (("machine.toml", machine_text("Other make", "XY")), ("part.nc", PART)):
             with open(os.path.join(folder, name), "w", encoding="ascii") as file:
                 file.write(text)
         listener = Process(folder, "peer", peer, domain, "600")

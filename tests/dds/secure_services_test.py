@@ -13,31 +13,9 @@ import subprocess
 import sys
 import time
 
-from dds_environment import PATIENCE, check, until
+from dds_environment import PATIENCE, check, machine_text, services_text, until
 from secured_plant import SILENCE, Peer, Plant, Process, check_time, program, run
 
-MACHINE = """
-[machine]
-name = "Secured"
-programs = "programs"
-[scheduling]
-policy = "other"
-lock_memory = false
-overrun = "count"
-[share]
-commands = true
-[services]
-socket = "{socket}"
-changes = "changes"
-history = "history"
-check = "off"
-[[axis]]
-name = "X"
-max_velocity = 200.0
-max_acceleration = 2000.0
-[ladder]
-program = "own.il"
-"""
 LADDER = "LD nc.m_strobe\nOUT plc.fin2\nLD M100\nOUT M101\nEND\n"
 TOPICS = ["nc_ServiceView", "nc_ServiceOperate", "nc_ServiceSetUp", "nc_ServiceMaintain"]
 PROGRAMS = ("ncrtd", "ncdds", "ncctl", "nc-keys", "secure_peer")
@@ -102,7 +80,7 @@ class ServicePlant(Plant):
         self.socket = os.path.join(folder, "control.sock")
         os.mkdir(os.path.join(folder, "programs"))
         with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
-            file.write(MACHINE.format(socket=self.socket))
+            file.write(machine_text("Secured", programs="programs", services=services_text(self.socket), more='[share]\ncommands = true\n[ladder]\nprogram = "own.il"\n'))
         with open(os.path.join(folder, "own.il"), "w", encoding="ascii") as file:
             file.write(LADDER)
 

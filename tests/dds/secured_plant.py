@@ -11,22 +11,9 @@ import subprocess
 import tempfile
 import time
 
-from dds_environment import PATIENCE, SKIPPED, build, check
+from dds_environment import PATIENCE, SKIPPED, build, check, machine_text
 
 SILENCE = 4.0  # s in which nothing may come to somebody who may not have it; an allowed peer has it within 1 s
-MACHINE = """
-[machine]
-name = "Secured"
-programs = "."
-[scheduling]
-policy = "other"
-lock_memory = false
-overrun = "count"
-[[axis]]
-name = "X"
-max_velocity = 200.0
-max_acceleration = 2000.0
-"""
 
 
 def program(name):
@@ -131,7 +118,7 @@ class Plant:
             os.symlink(os.path.join(plugins, f"libdds_security_{name}.so"), os.path.join(self.hostile, f"libdds_security_{name}.so"))
         os.symlink(library("hostile_ac"), os.path.join(self.hostile, "libdds_security_ac.so"))
         with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
-            file.write(MACHINE)
+            file.write(machine_text("Secured"))
 
     def make(self, *arguments, keys=None):
         done = subprocess.run([program("nc-keys"), "--folder", keys or self.keys, *arguments], capture_output=True, text=True)

@@ -12,46 +12,23 @@ import time
 root = os.environ.get("NC_SOURCE_DIR") or os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(root, "tests/dds"))
 sys.path.insert(0, os.path.join(root, "dds"))
-from dds_environment import BINDING, build, check, environment, start, until  # noqa: E402
+from dds_environment import BINDING, build, check, environment, machine_text, services_text, start, until  # noqa: E402
 
 start(__file__, ("ncrtd", "ncdds", "ncctl"))
 
 import nc_dds  # noqa: E402
 from cyclonedds.domain import DomainParticipant  # noqa: E402
 
-MACHINE = """
-[machine]
-name = "Test"
-programs = "programs"
-variables = "variables"
-offsets = "offsets"
-[scheduling]
-policy = "other"
-lock_memory = false
-overrun = "count"
+MORE = """
 [share]
 commands = true
-[services]
-socket = "{socket}"
-changes = "changes"
-history = "history"
-check = "off"
-[[axis]]
-name = "X"
-max_velocity = 200.0
-max_acceleration = 2000.0
-soft_limits = [-500.0, 500.0]
-[[axis]]
-name = "Y"
-max_velocity = 200.0
-max_acceleration = 2000.0
 [[point]]
 name = "pallet"
 type = "word"
 direction = "input"
 initial = 7
 [work_offsets]
-G54 = {{ X = 0.0, Y = 0.0 }}
+G54 = { X = 0.0, Y = 0.0 }
 [ladder]
 program = "own.il"
 """
@@ -142,6 +119,7 @@ def correlation(client):
     for number, i in reversed(numbers.items()):
         check(client.answer(number)["variables"][0]["value"] == i, f"request {number} has its own reply")
     many = [client.send("tools.list", count=500) for _ in range(40)]
+    holds = [client.send("hold") for _ in range(3)]
     errors = []
     for number in many:
         try:
@@ -150,6 +128,9 @@ def correlation(client):
         except nc_dds.ServiceRefused as refusal:
             errors.append(refusal.error)
     check(set(errors) <= {"", "busy"} and errors[:8] == [""] * 8 and "busy" in errors, f"{errors.count('busy')} of 40 at once are busy, the others answered")
+    for number in holds:
+        client.answer(number)
+    check(True, "but holds have room behind them")
     check(outcome(client, "status") == ("", ""), "and the client goes on")
 
 
@@ -484,7 +465,7 @@ def main():
         plant = Plant(folder)
         os.mkdir(os.path.join(folder, "programs"))
         with open(os.path.join(folder, "machine.toml"), "w", encoding="ascii") as file:
-            file.write(MACHINE.format(socket=plant.socket))
+            file.write(machine_text("Test", "XY", programs="programs", machine='variables = "variables"\noffsets = "offsets"\n', services=services_text(plant.socket), more=MORE))
         with open(os.path.join(folder, "own.il"), "w", encoding="ascii") as file:
             file.write(LADDER)
         try:
