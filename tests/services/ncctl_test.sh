@@ -287,6 +287,30 @@ expect 0 "$ncctl" mode mdi
 expect 0 "$ncctl" mdi --start "G90 G53 G0 X-1."
 expect 0 "$ncctl" override feed 50
 expect 1 "$ncctl" override feed 100000
+expect 0 "$ncctl" override rapid 25
+expect 1 "$ncctl" override rapid 101
+expect 0 "$ncctl" single on
+expect 0 "$ncctl" single off
+expect 0 "$ncctl" optional on
+expect 0 "$ncctl" optional off
+expect 1 "$ncctl" optional perhaps
+expect 0 "$ncctl" restart status
+expect 0 "$ncctl" machine
+said out "X"
+expect 0 "$ncctl" services
+said out "control.take"
+until_true "$ncctl" parameters set 1078 0  # when the block of MDI has come to its end
+expect 0 "$ncctl" parameters set 1078 1
+expect 0 "$ncctl" parameters undo
+expect 0 "$ncctl" parameters export
+grep -qE '^"?1078"? = 0$' "$work/out" || { fail "a parameter is not taken back"; cat "$work/out"; }
+expect 0 "$ncctl" trace arm nc.alarm --trigger nc.alarm
+expect 0 "$ncctl" trace status
+grep -qE '^state +waiting' "$work/out" || { fail "a recording does not wait for its trigger"; cat "$work/out"; }
+expect 0 "$ncctl" trace stop
+expect 0 "$ncctl" trace status
+grep -qE '^state +stopped' "$work/out" || { fail "a recording is not stopped"; cat "$work/out"; }
+expect 0 "$ncctl" ladder write M100 1
 expect 0 "$ncctl" force M100 1
 until_true says '^forced M100 = 1$' "$ncctl" status  # the status is up to 10 ms old
 expect 0 "$ncctl" release
@@ -377,6 +401,13 @@ if [ "$(id -u)" = 0 ] && command -v setpriv >/dev/null && getent group games >/d
 else
   echo "note: not root: the rights of other users are not tried"
 fi
+
+# Each command that the completion knows is executed in one of these tests, with success.
+sed -n "s/^    '\([a-z ]*[a-z]\) \{0,1\}'\*\{0,1\}) used=.*/\1/p" "$source/packaging/completion/ncctl" >"$work/commands"
+[ "$(wc -l <"$work/commands")" -gt 50 ] || fail "only $(wc -l <"$work/commands") commands"
+while read -r command; do
+  grep -qE "expect 0 \"?\\\$ncctl\"?( --json)? $command( |\$)" "$source"/tests/services/*.sh "$source"/tests/restart/*.sh || fail "no test executes ncctl $command"
+done <"$work/commands"
 
 kill "$server"
 wait "$server"
