@@ -65,9 +65,9 @@ class ServiceClient {
     const int least = 1;  // the system makes more of it
     EXPECT_EQ(setsockopt(socket_, SOL_SOCKET, SO_SNDBUF, &least, sizeof least), 0);
   }
-  // Sends a request without waiting. False when there is no room for it, as the server has not read those before.
+  // Sends a request of some size without waiting. False when there is no room for it, as the server has not read those before.
   bool offer(std::uint64_t id, const std::string& service) {
-    const std::string frame = rt::services::frame_of(Json{{"id", id}, {"service", service}}.dump());
+    const std::string frame = rt::services::frame_of(Json{{"id", id}, {"service", service}}.dump() + std::string(1000, ' '));
     return send(socket_, frame.data(), frame.size(), MSG_NOSIGNAL | MSG_DONTWAIT) == static_cast<ssize_t>(frame.size());
   }
   // The next message as it has come. False when the connection has ended.

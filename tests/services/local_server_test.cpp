@@ -420,13 +420,13 @@ TEST_F(LocalServices, WhoDoesNotReadIsNotReadFromAndHoldsUpNobody) {
   ServiceClient slow(path_), other(path_);
   slow.queue_little();
   unsigned sent = 0;
-  for (unsigned without_room = 0; without_room < 5 && sent < 20'000;) {
+  for (unsigned without_room = 0; without_room < 5 && sent < 1000;) {
     const bool offered = slow.offer(sent, "services");
     sent += offered;
     without_room = offered ? 0 : without_room + 1;
     EXPECT_EQ(other.outcome("status"), "");
   }
-  ASSERT_LT(sent, 20'000u) << "the server goes on reading although its answers are not read";
+  ASSERT_LT(sent, 1000u) << "the server goes on reading although its answers are not read";
   EXPECT_EQ(other.outcome("tools.list"), "");
   std::size_t bytes = 0;
   for (unsigned i = 0; i < sent; ++i) {
