@@ -171,7 +171,7 @@ TEST(Terraces, AWayThroughASecondContourOfArcsCutsIt) {
   }
 }
 
-// From one contour to another on its level lead up to three blocks in cutting feed: they are no walls, whatever the paths of the two come near to.
+// From one contour to another on its level lead up to three blocks in cutting feed, on it or above it: they are no walls, whatever the paths of the two come near to.
 TEST(Terraces, ALinkBetweenTwoContoursOnOneLevelIsNoWall) {
   const uint64_t first_seed = wish("NC_FIRST_SEED", 1), count = seeds(60, 10);
   for (uint64_t seed = first_seed; seed < first_seed + count; ++seed) {
@@ -180,12 +180,14 @@ TEST(Terraces, ALinkBetweenTwoContoursOnOneLevelIsNoWall) {
     const double radius = number(1, 4), size = number(3, 8) * radius, lead = number(1.1, 2) * radius, far = 2 * size + number(4.5, 9) * radius;
     const auto square = [&](double x) { return "G1 " + word('X', x + size) + "\n" + word('Y', -size) + "\n" + word('X', x - size) + "\n" + word('Y', size) + "\n" + word('X', x) + "\n"; };
     const auto out = [&](double x) { return "G3 " + word('X', x + lead) + word('Y', size + lead) + word('J', lead) + "\n"; };
-    const auto in = [&](double x) { return "G1 " + word('X', x - lead) + "\nG3 " + word('X', x) + word('Y', size) + word('I', lead) + "\n"; };
-    std::string text = "G90 G17 G0 X0 " + word('Y', size + lead) + "\nG1 Z-1. F500\nG41 D1 ";
-    text += in(0).substr(3);
-    for (unsigned k = 0; k < 3; ++k) text += (k == 0 ? "" : in(k * far)) + square(k * far) + out(k * far);
-    text += "G1 G40 " + word('X', 2 * far) + "\nM30\n";
-    EXPECT_EQ(alarm_of_terraces(text, radius), "") << "seed " << seed << "\n" << text;
+    const auto in = [&](double x, const char* up = "", const char* down = "") { return up + ("G1 " + word('X', x - lead)) + "\n" + down + "G3 " + word('X', x) + word('Y', size) + word('I', lead) + "\n"; };
+    const std::string start = "G90 G17 G0 X0 " + word('Y', size + lead) + "\nG1 Z-1. F500\nG41 D1 " + in(0).substr(3);
+    for (const bool above : {false, true}) {
+      std::string text = start;
+      for (unsigned k = 0; k < 3; ++k) text += (k == 0 ? "" : above ? in(k * far, "G1 Z5.\n", "G1 Z-1.\n") : in(k * far)) + square(k * far) + out(k * far);
+      text += "G1 G40 " + word('X', 2 * far) + "\nM30\n";
+      EXPECT_EQ(alarm_of_terraces(text, radius), "") << "seed " << seed << "\n" << text;
+    }
   }
 }
 

@@ -173,8 +173,6 @@ bool ContourMemory::goes_to_another_depth(const Section& section) {
   if (state_.level_closed != 0 && state_.closure != 0) {
     leads_across(state_.ways, section.number);
     wait_from(up ? section.number : state_.level_first);  // what leads up may be a way out
-  } else if (state_.closure != 0 && by_itself && state_.doubts == 0) {  // to the level of the next contour in more than one step
-    wait_from(section.number);
   }
   state_.level_ring = state_.level_closed = 0;
   state_.level_terrace = state_.closure != 0;
@@ -213,7 +211,7 @@ bool ContourMemory::turns_out(uint64_t ring, uint64_t number) const {
 
 /// Does a block go along the contour once more, behind where it has closed?
 bool ContourMemory::goes_along(uint64_t number) const {
-  if (number != state_.ways || state_.closure == 0 || walls_[number].offset == 0) return false;
+  if (state_.closure == 0 || walls_[number].offset == 0) return false;
   const Piece& piece = walls_[number].piece;
   Box start;
   start.take(piece.from);
@@ -237,7 +235,7 @@ void ContourMemory::note_closed_level(uint64_t number) {
   if (state_.level_closed == 0) {
     state_.level_ring = ring;
     if (state_.level_terrace) {  // the first contour has its own ways in, and closes as they say (follow())
-      leads_across(state_.level_first, ring);
+      leads_across(ring - state_.ways <= kWay ? state_.ways : state_.level_first, ring);  // on another level between the two, too
       note_closed(number);
     }
   }
@@ -365,8 +363,8 @@ Clearance ContourMemory::read(Section* section) {
     culprit_ = &in_front_;
     return Clearance::enters;
   }
+  if (section->number == state_.ways && (!section->cuts || goes_along(section->number))) ++state_.ways;
   if (wall.offset == 0) return Clearance::fits;
-  if (goes_along(section->number)) ++state_.ways;
   const bool near = paths_.any(state_.first_path, box.grown(std::max(std::abs(wall.offset), std::abs(wall.before))), [&](uint64_t, const Path& path) {
     if (!enters(path, section->number, wall)) return false;
     if (blame(section->number, path)) culprit_ = &in_front_;

@@ -58,7 +58,7 @@ class ContourMemory {
     bool turned = false;     ///< it has closed by whole turns of a helix alone, which are a way in where it closes again
     uint64_t end = 0;        ///< ... of the next block
     uint64_t closure = 0;    ///< of the block in which the contour has closed last; 0: not yet
-    uint64_t ways = 0;       ///< of the first block behind it that does not go along the contour once more: up to kWay blocks from there on may be a way out, or one to another contour
+    uint64_t ways = 0;       ///< of the first block behind it that neither goes along the contour once more nor is a rapid: up to kWay blocks from there on may be a way out, or one to another contour
     uint32_t steps = 0;      ///< steps in front of the next block (step())
     uint8_t joints = 0;      ///< how many of `joint` are there
     uint8_t away = 0;        ///< bit i: the contour has left joint i

@@ -18,6 +18,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kOneRadius_mm = 1e-4;
 /// So do amounts.
 constexpr double kOneAmount_mm = 1e-4;
+/// Blocks that are programmed twice differ by the last digits of their words, in inch 2.54 um.
+constexpr double kOneBlock_mm = 2.54 * kCloses_mm;
 /// Vectors whose lengths differ by less end on one circle about the corner.
 constexpr double kBends_mm = 1e-6;
 /// A way that leads from the lengthened wall by no more than this sine leads straight on along it: a hundredth is more than what the three digits of its words make of it, and of a tangent.
@@ -234,12 +236,12 @@ bool goes_straight_on(const Piece& before, const Piece& behind) {
 
 bool lies_along(const Piece& block, const Piece& wall) {
   if (block.round != wall.round) return false;
-  if (block.round && (block.sweep * wall.sweep < 0 || std::abs(block.sweep) > std::abs(wall.sweep) + kStraightOn || norm(block.center - wall.center) > kAway_mm)) return false;
+  if (block.round && (block.sweep * wall.sweep < 0 || std::abs(block.sweep) > std::abs(wall.sweep) + kStraightOn || norm(block.center - wall.center) > kOneBlock_mm)) return false;
   if (!block.round && dot(block.to - block.from, wall.to - wall.from) <= 0) return false;
   const auto on_it = [&](Vec2 point) {
     Piece place;
     place.from = place.to = point;
-    return distance(place, wall) <= kAway_mm;
+    return distance(place, wall) <= kOneBlock_mm;
   };
   return on_it(block.from) && on_it(block.to);
 }
