@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An operator who turns the switches of a machine at any scan of a program that runs: dry run, machine lock of all axes and of one, auxiliary lock, manual absolute,
+// An operator who turns the switches of a machine at any scan of a program that runs, in cycles, threads and taps, too: dry run, machine lock of all axes and of one, auxiliary lock, manual absolute,
 // interlocks of the machine, of an axis and of a direction, codes of the overrides, FIN by group, feed hold, single block; and who jogs, steps, turns a wheel, changes
 // the mode, starts and resets. In every scan: no drive is given more than its axis may do, a locked one stands, and what is held or interlocked comes to rest and
 // stays there. When everything is let go the program ends where it is written.
@@ -19,7 +19,8 @@ using nc::rt::Mode;
 const char* const kLetsGo[] = {"feed_hold_n", "interlock_n", "interlock_p_n.X", "interlock_m_n.X", "interlock_p_n.Y", "interlock_m_n.Y", "interlock_p_n.Z", "interlock_m_n.Z", "manual_absolute_n"};
 const char* const kWords[] = {"feed_override", "rapid_override"};
 const char* const kSwitches[] = {"machine_lock", "axis_lock.X", "axis_lock.Z", "auxiliary_lock", "dry_run", "jog_rapid", "single_block", "mfin", "sfin", "tfin"};
-constexpr int kStopScans = 500;  // within these every path comes to rest, of 200 mm/s, 1000 mm/s2, with jerk
+constexpr int kStopScans = 500;  // within these every path comes to rest, of 200 mm/s, 1000 mm/s2, with jerk ...
+constexpr int kThreadScans = 3000;  // ... and a thread or a tap, which is not stopped, comes to its end
 
 class RandomSwitches : public nc::test::SwitchMachine {
  protected:
@@ -40,6 +41,8 @@ class RandomSwitches : public nc::test::SwitchMachine {
     for (const char* signal : kSwitches) on_[signal] = 0;
     for (auto& scans : off_for_) scans.second = 0;
     shifts_ = below(3) == 0;
+    threads_ = below(2) == 0;
+    stop_scans_ = threads_ ? kThreadScans : kStopScans;
     jogged_ = false;
     known_ = 0;
     put("jog_feed", 1200);
@@ -57,7 +60,7 @@ class RandomSwitches : public nc::test::SwitchMachine {
   std::string program() {
     std::string text = "G90 G54 G17 G21 G94 F" + std::to_string(500 + below(8000)) + "\n";
     const auto place = [this] { return std::to_string(static_cast<int>(below(80)) - 40) + "."; };
-    for (unsigned n = 6 + below(10); n > 0; --n) switch (below(9)) {
+    for (unsigned n = 6 + below(10); n > 0; --n) switch (below(threads_ ? 15 : 12)) {
         case 0: text += "G90 G0 X" + place() + " Y" + place() + "\n"; break;
         case 1: text += "G90 G0 Z" + place() + "\n"; break;
         case 2:
@@ -67,6 +70,12 @@ class RandomSwitches : public nc::test::SwitchMachine {
         case 6: text += "M8 S" + std::to_string(100 + below(900)) + "\n"; break;
         case 7: text += "T" + std::to_string(1 + below(9)) + " M6\n"; break;
         case 8: text += "G4 P" + std::to_string(below(200)) + "\n"; break;
+        case 9: text += "G90 G" + std::string(below(2) == 0 ? "98" : "99") + " G81 X" + place() + " Y" + place() + " Z-15. R-5. F" + std::to_string(1000 + below(5000)) + "\nX" + place() + "\nG80\n"; break;
+        case 10: text += "G91 G83 X4. Y-2. Z-9. R-3. Q2.5 F3000 L2\nG80 G90\n"; break;
+        case 11: text += "G91 G1 X5. ,R1.\nY4.\nX-3.\nG90\n"; break;
+        case 12:
+        case 13: text += "S2000 M3\nG4 X0.1\nG91 G33 Z-" + std::to_string(4 + below(8)) + ". F1.5\nG90 G0 Z2.\nM5\n"; break;
+        case 14: text += "G90 G84 X" + place() + " Y" + place() + " Z-8. R-2. S1500 F1. ,R1\nG80\n"; break;
       }
     text += "G90 G1 X7. Y-3. Z2.\nM30\n";
     lines_ = static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
@@ -181,9 +190,9 @@ class RandomSwitches : public nc::test::SwitchMachine {
   void follow_interlock(unsigned a, unsigned side, bool goes) {
     int& scans = goes_[a][side];
     scans = goes ? scans + 1 : 0;
-    ASSERT_LE(scans, out().state == NC_STATE_MANUAL ? 0 : kStopScans) << "axis " << a << " is interlocked in " << (side == 0 ? "+" : "-");
+    ASSERT_LE(scans, out().state == NC_STATE_MANUAL ? 0 : stop_scans_) << "axis " << a << " is interlocked in " << (side == 0 ? "+" : "-");
   }
-  bool off_long(const std::string& signal) { return off_for_[signal] > kStopScans; }
+  bool off_long(const std::string& signal) { return off_for_[signal] > stop_scans_; }
 
   // An alarm of a block that begins where a hand has put the axes is the program's: an arc whose ends do not fit, an increment that leads beyond a limit.
   bool alarm_is_of_the_hand() const { return jogged_ && (alarm().rfind("P7", 0) == 0 || alarm().find("M01") != std::string::npos); }
@@ -246,7 +255,8 @@ class RandomSwitches : public nc::test::SwitchMachine {
  private:
   std::map<std::string, std::uint32_t> on_;
   std::map<std::string, int> off_for_;  // scans for which it has been 0
-  bool shifts_ = false, jogged_ = false;
+  bool shifts_ = false, jogged_ = false, threads_ = false;
+  int stop_scans_ = kStopScans;
   std::uint32_t locked_ = 0, lines_ = 0;
   int known_ = 0, goes_[3][2] = {};  // goes_: scans in a row in which an axis has gone where it may not
   double at_[3] = {}, velocity_[3] = {};
