@@ -19,7 +19,7 @@ class HomingAnswer {
   // The start bit goes out behind this status.
   void start(std::uint16_t status, std::int8_t method) noexcept {
     begun_ = is_clear(status);
-    stands_ = method == 35 || method == 37;
+    stands_ = method == kStands || method == kStandsBefore;
     syncs_ = 0;
   }
 
@@ -34,6 +34,8 @@ class HomingAnswer {
   }
 
  private:
+  static constexpr std::int8_t kStands = 37, kStandsBefore = 35;  // of CiA 402, and of its versions before 3
+
   static bool is_clear(std::uint16_t status) noexcept { return (status & (kStatusFollows | kStatusError)) == 0; }
 
   bool begun_ = false, stands_ = false;
