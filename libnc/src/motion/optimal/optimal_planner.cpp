@@ -545,12 +545,13 @@ bool OptimalPlanner::path_ends() const {
   return last.rest_behind && place.x >= last.length - unseen(last, limits_, last.length);
 }
 
-/// The path rests no more than kBeforeRest behind `at`.
+/// The path rests right behind `at` (kBeforeRest).
 bool OptimalPlanner::rests_soon(const Start& at) const {
+  const double most = kBeforeRest + kBeforeRestShare * std::fabs(at.u);
   double left = -at.x;
   for (uint32_t k = at.piece; k != builder_.head(); ++k) {
     left += store_.piece_at(k).length;
-    if (left > kBeforeRest) return false;
+    if (left > most) return false;
     if (store_.piece_at(k).rest_behind) return true;
   }
   return false;

@@ -13,7 +13,9 @@ namespace nc::optimal {
 using CellIndex = uint64_t;
 inline constexpr CellIndex kNoCell = ~CellIndex{0};
 
-constexpr double kBeforeRest = 2e-7;  ///< mm: PlanCell::before_rest
+/// PlanCell::before_rest. Both are more than the scan takes for the rounding of a place (nearly() in interpolator_planned.cpp), on a path of any length.
+constexpr double kBeforeRest = 2e-7;          ///< mm ...
+constexpr double kBeforeRestShare = 1e-12;    ///< ... plus this share of the path length
 
 struct PlanCell {
   /// level: u'' is linear in u. ramp: constant u''', as in the cells from rest and to rest.
@@ -28,7 +30,7 @@ struct PlanCell {
   uint32_t piece = 0;
   Kind kind = Kind::level;
   bool path_ends = false;  ///< the path rests at its end, not the plan alone
-  bool before_rest = false;  ///< the plan ends with it, at most kBeforeRest in front of a place where the path rests
+  bool before_rest = false;  ///< the plan ends with it, right in front of a place where the path rests
   int8_t turning_axis = -1;  ///< Scales::turning_axis for which it was planned
   static constexpr float kInDryRun = -1;
 };
