@@ -103,7 +103,7 @@ def fewer_rights(plant, viewer):
     peers = {"": Peer(plant, home, "read", "command"), ", whose DDS does not obey,": Peer(plant, home, "read", "command", hostile=True)}
     for who, peer in peers.items():
         peer.wait_for("^made nc_Command$|^refused participant", f"who has kept the permissions that he had{who} begins")
-        if peer.process.poll() is None:
+        if peer.lines("^made nc_Command$"):  # who is refused ends by himself
             peer.command(TAKE_CONTROL)
             peer.command(FEED_OVERRIDE, value=0.1)
     time.sleep(SILENCE)
