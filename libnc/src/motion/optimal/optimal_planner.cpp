@@ -25,7 +25,6 @@ constexpr double kUrgent = 0.15;       ///< s of chain that are left when a law 
 constexpr double kMostJerk = 8;        ///< of an acceleration by a cycle: more cannot be seen in one position a cycle, and only makes laws hard to find
 constexpr double kSameScale = 1e-9;
 constexpr double kTiny = 1e-9;  ///< mm: places that are nearer to each other are the same
-constexpr double kLeastPart = 0.25;    ///< of a cycle, that either part of a cell takes at least that is cut in two
 // Instructions: of a law in closed form, of a cell that is copied, and of one of the chain that is looked at.
 constexpr int64_t kLineCost = 15000, kCopyCost = 300, kChainCost = 20;
 
@@ -162,7 +161,7 @@ bool OptimalPlanner::called(const Following& f) const {
 void OptimalPlanner::give_up_law() {
   if (!law_work_->open()) return;
   law_work_->give_up();
-  searching_ = false;
+  search_.under_way = false;
   if (round_ == Round::law) builder_.give_up();
   if (!open_) write_ = law_first_;
 }
@@ -222,7 +221,7 @@ bool OptimalPlanner::answer(int64_t* instructions) {
   }
   pace_.begins(scan_at(), *instructions);
   const bool late = search_is_late();
-  if (late) begin_later(2 * search_lead_);
+  if (late) begin_later(2 * search_.lead);
   if (late || (called(now_) && !(answering_ && now_.brake == heard_.brake))) {
     // Only a hold or its end breaks off an answer: an override that never stands still gets one, and then the path is gone on with.
     turn_over_ = turn_over_ || (!late && now_.brake == heard_.brake);
@@ -306,129 +305,8 @@ void OptimalPlanner::publish() {
   offers_.write(offer_);
 }
 
-// ---- places
-// ------------------------------------------------------------------------------------------------------------------------
-
-OptimalPlanner::Start OptimalPlanner::at_end() const {
-  Start s;
-  if (fresh_) {
-    s.fresh = true;
-    s.piece = fresh_piece_;
-    s.x = fresh_x_;
-    s.u = fresh_piece_ != builder_.head() ? builder_.start_of(fresh_piece_) + fresh_x_ : 0;
-    return s;
-  }
-  s.after = chain_.last;
-  s.piece = chain_.piece;
-  s.x = chain_.x;
-  s.u = chain_.u;
-  return s;
-}
-
-/// The state behind a cell of the chain.
-OptimalPlanner::Start OptimalPlanner::behind(CellIndex cell) const {
-  if (cell == chain_.last) return at_end();
-  const PlanCell& next = store_.at(chain_next_[cell & store_.cell_mask]);
-  Start s;
-  s.after = cell;
-  s.piece = next.piece;
-  s.x = next.x;
-  s.u = next.u;
-  s.from_rest = next.kind == PlanCell::Kind::launch;
-  s.v = s.from_rest ? 0 : next.v;
-  s.a = next.a;
-  return s;
-}
-
-/// Seconds until the scan leaves the cell of the chain; 0 when it has.
-double OptimalPlanner::ahead(const Following& f, CellIndex cell) const {
-  if (f.cell == kNoCell || cell < f.cell) return 0;
-  const double time = f.at_end ? 0 : store_.at(f.cell).seconds - f.t;
-  return time + chain_end_[cell & store_.cell_mask] - chain_end_[f.cell & store_.cell_mask];
-}
-
-/// Seconds from the start of the chain to the scan.
-double OptimalPlanner::scan_at() const {
-  if (fresh_ || now_.cell == kNoCell) return 0;
-  return chain_end_[now_.cell & store_.cell_mask] - (now_.at_end ? 0 : store_.at(now_.cell).seconds - now_.t);
-}
-
-/// The first place at least `lead` seconds ahead where a law may begin, or the next rest. False when that is the end of the chain.
-bool OptimalPlanner::find_ahead(const Following& f, double lead, Start* start) const {
-  if (!moving(f)) return false;
-  CellIndex k = f.cell;
-  double time = f.at_end ? 0 : store_.at(k).seconds - f.t;
-  while (k != chain_.last) {
-    const bool rests = store_.at(k).kind == PlanCell::Kind::land;
-    if (time >= lead || (rests && (time > 0 || f.at_end))) {
-      *start = behind(k);
-      return true;
-    }
-    k = chain_next_[k & store_.cell_mask];
-    time += store_.at(k).seconds;
-  }
-  return false;
-}
-
-/// The place `lead` seconds ahead, in the midst of a cell or, where that is as good as one, at its end; or the next rest, as above.
-bool OptimalPlanner::find_amid(const Following& f, double lead, Start* start) const {
-  if (!find_ahead(f, lead, start)) return false;
-  if (start->from_rest || start->after == chain_.last) return true;
-  const CellIndex k = start->after;
-  const PlanCell& c = store_.at(k);
-  const double cut = c.seconds - (ahead(f, k) - lead), least = kLeastPart * setup_.cycle_s;
-  CellIndex before = kNoCell;
-  for (CellIndex n = f.cell; n != k; n = chain_next_[n & store_.cell_mask]) before = n;
-  if (cut < least && before != kNoCell) {
-    const Start sooner = behind(before);
-    if (!sooner.from_rest) *start = sooner;
-    return true;
-  }
-  if (!can_be_cut(c) || !(cut > least) || !(cut < c.seconds - least)) return true;
-  const CellState q = state_in(c, cut);
-  if (!(q.v > 0) || !(q.x > 0) || !(q.x < c.h)) return true;
-  start->cut = cut;
-  start->before = before;
-  start->piece = c.piece;
-  start->x = c.x + q.x;
-  start->u = c.u + q.x;
-  start->v = q.v;
-  start->a = q.a;
-  return true;
-}
-
-/// Writes the part of a cell of the chain that is gone before a law that begins amid it.
-void OptimalPlanner::cut_cell(const Start& start) {
-  PlanCell& c = store_.cell[write_ & store_.cell_mask];
-  c = store_.at(start.after);
-  c.seconds = start.cut;
-  c.h = start.x - c.x;
-  chain_next_[write_ & store_.cell_mask] = write_ + 1;
-  chain_end_[write_ & store_.cell_mask] = begins_at(start);
-  ++write_;
-}
-
-/// Seconds from the start of the chain to a place of it.
-double OptimalPlanner::begins_at(const Start& start) const {
-  if (start.fresh) return 0;
-  return chain_end_[start.after & store_.cell_mask] - (start.cut > 0 ? store_.at(start.after).seconds - start.cut : 0);
-}
-
-/// Seconds from a place that is passed at speed to the next rest of the chain.
-double OptimalPlanner::rests_in(const Start& start) const {
-  CellIndex k = start.after;
-  while (k != chain_.last && store_.at(k).kind != PlanCell::Kind::land) k = chain_next_[k & store_.cell_mask];
-  return chain_end_[k & store_.cell_mask] - begins_at(start);
-}
-
-/// The cell of the chain that lies `count` cells before another one, not before the one in execution.
-CellIndex OptimalPlanner::before(const Following& f, CellIndex cell, unsigned count) const {
-  unsigned between = 0;
-  for (CellIndex k = f.cell; k != cell && k != chain_.last; k = chain_next_[k & store_.cell_mask]) ++between;
-  CellIndex k = f.cell;
-  for (; between > count; --between) k = chain_next_[k & store_.cell_mask];
-  return k;
-}
+// ---- laws
+// --------------------------------------------------------------------------------------------------------------------------
 
 /// Pieces from `piece` on that one law may go through, to the next rest; no more than `most`.
 unsigned OptimalPlanner::pieces_from(uint32_t piece, unsigned most) const {
@@ -456,9 +334,6 @@ double OptimalPlanner::next_block_end(double u, uint32_t tail) const {
   }
   return HUGE_VAL;
 }
-
-// ---- laws
-// --------------------------------------------------------------------------------------------------------------------------
 
 MeshRequest OptimalPlanner::request_from(const Start& start, double reach, const WayDown* down) const {
   MeshRequest request;
@@ -805,9 +680,9 @@ Task<bool> OptimalPlanner::change(Work& work, const Following& f) {
     if (!f.brake) co_await extend(work, f, start, block_most(f, start), nullptr);
     co_return true;  // the scan stops there by itself
   }
-  late_ = false;
+  search_.late = false;
   co_await change_from(work, f, start);
-  tried_at_ = open_ || late_ ? kNoCell : f.cell;  // a search that came too late is begun anew at once
+  tried_at_ = open_ || search_.late ? kNoCell : f.cell;  // a search that came too late is begun anew at once
   co_return true;
 }
 

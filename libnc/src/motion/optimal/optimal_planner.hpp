@@ -192,17 +192,21 @@ class OptimalPlanner {
   CellIndex told_rests_ = kNoCell;
   bool urgent_ = false;   ///< any law is better than what the chain does
   FeederPace pace_;
-  bool searching_ = false; ///< a law for a stop is under way that begins ...
-  Start search_from_;      ///< ... here,
-  double search_lead_ = 0; ///< s: and was so far ahead when the search began
-  double none_u_ = 0;      ///< no stop before this place of the path is found
-  bool hurried_ = false;   ///< the search ended because there was no more time
-  bool late_ = false;     ///< the scan has passed the place from which a stop was looked for
-  double search_s_ = 0;   ///< by how much it has come nearer to that place since the search began, ...
-  double longest_s_ = 0;  ///< in the longest of the laws that were tried ...
-  double found_s_ = 0;    ///< ... and in those of them that there are, which are ...
-  unsigned times_found_ = 0;  ///< ... so many
-  bool no_room_ = false;  ///< the stop that was not found last would hardly have been shorter than the chain
+  /// What is known of the search for a stop: how near the scan has come to the place from which it is looked for, and how long each try takes.
+  struct StopSearch {
+    bool under_way = false;    ///< a law for a stop is under way that begins ...
+    Start from;                ///< ... here,
+    double lead = 0;           ///< s: and was so far ahead when the search began
+    double none_u = 0;         ///< no stop before this place of the path is found
+    bool hurried = false;      ///< the search ended because there was no more time
+    bool late = false;         ///< the scan has passed the place from which a stop was looked for
+    double passed_s = 0;       ///< by how much it has come nearer to that place since the search began, ...
+    double longest_s = 0;      ///< in the longest of the laws that were tried ...
+    double found_s = 0;        ///< ... and in those of them that there are, which are ...
+    unsigned times_found = 0;  ///< ... so many
+    bool no_room = false;      ///< the stop that was not found last would hardly have been shorter than the chain
+  };
+  StopSearch search_;
   CellIndex write_ = 0;         ///< next free cell
   CellIndex free_from_ = 0;     ///< cells from here on may be looked at by the scan
   uint32_t generation_ = 0;

@@ -117,27 +117,27 @@ double OptimalPlanner::left_to(const Start& start) const {
 double OptimalPlanner::stop_lead() const { return std::min(std::max(lead_, pace_.seconds(kStopCost)), kLongestStopLead); }
 
 /// The scan has come to the place from which a stop is looked for, so what is found would be refused.
-bool OptimalPlanner::search_is_late() const { return searching_ && law_work_->open() && !(left_to(search_from_) > 0); }
+bool OptimalPlanner::search_is_late() const { return search_.under_way && law_work_->open() && !(left_to(search_.from) > 0); }
 
 /// The same, in the time that the scan needs to the place where the law begins. Behind that it would be refused, so nothing more is looked for from there, and the next
 /// search begins as far ahead as this one would have needed.
 Task<bool> OptimalPlanner::timely_stop(Work& work, const Start& start, double reach, double period) {
   const double before = left_to(start);
-  searching_ = now_.brake;
-  search_from_ = start;
+  search_.under_way = now_.brake;
+  search_.from = start;
   const bool found = co_await one_stop(work, start, reach, period);
-  searching_ = false;
+  search_.under_way = false;
   const double left = left_to(start), took = start.fresh ? 0 : before - left;
-  search_s_ += took;
-  longest_s_ = std::max(longest_s_, took);
-  if (found) found_s_ += took, ++times_found_;
-  late_ = !(left > 0);
-  if (late_) begin_later(search_s_ + longest_s_);
-  co_return found && !late_;
+  search_.passed_s += took;
+  search_.longest_s = std::max(search_.longest_s, took);
+  if (found) search_.found_s += took, ++search_.times_found;
+  search_.late = !(left > 0);
+  if (search_.late) begin_later(search_.passed_s + search_.longest_s);
+  co_return found && !search_.late;
 }
 
 /// Two more laws can be looked for that take as long as those that were found, longer than those that are none: the next one, and where it is none the last one again.
-bool OptimalPlanner::time_for_two(const Start& start) const { return left_to(start) * times_found_ > 2 * found_s_; }
+bool OptimalPlanner::time_for_two(const Start& start) const { return left_to(start) * search_.times_found > 2 * search_.found_s; }
 
 /// The way to rest of the solver that ends the soonest: ever longer ones until there is one, and then those between the last two.
 Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double distance, double most, double seconds, Stops which) {
@@ -146,10 +146,10 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   cells_behind_ = 0;
   if (which != Stops::gentle) co_await find_cells_behind(work, start, std::min(most, distance * *std::rbegin(kFarther)));
   const bool behind = cells_behind_ > 0;
-  search_s_ = longest_s_ = found_s_ = 0;
-  times_found_ = 0;
+  search_.passed_s = search_.longest_s = search_.found_s = 0;
+  search_.times_found = 0;
   if (chain_.hurried && which != Stops::gentle) {
-    const bool shorter = co_await shorter_stop(work, start, std::max(distance, none_u_ - start.u), most, period);
+    const bool shorter = co_await shorter_stop(work, start, std::max(distance, search_.none_u - start.u), most, period);
     co_return shorter;
   }
   const double* const farther = behind ? kFartherFollowed : kFarther;
@@ -158,7 +158,7 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
     const double reach = std::min(distance * farther[n], most);
     if (!(reach > none)) break;
     const bool found = co_await timely_stop(work, start, reach, period);
-    if (late_) co_return false;
+    if (search_.late) co_return false;
     if (found) {
       some = reach;
       break;
@@ -168,14 +168,14 @@ Task<bool> OptimalPlanner::shortest_stop(Work& work, const Start& start, double 
   if (!(some > 0)) co_return false;
   bool last = true;
   for (unsigned n = 0; n < (behind ? kNearerFollowed : kNearer) && some > kCloseStops * none; ++n) {
-    hurried_ = !time_for_two(start);
-    if (hurried_) break;
+    search_.hurried = !time_for_two(start);
+    if (search_.hurried) break;
     const double reach = std::sqrt(none * some);
     last = co_await timely_stop(work, start, reach, period);
-    if (late_) co_return false;
+    if (search_.late) co_return false;
     (last ? some : none) = reach;
   }
-  none_u_ = start.u + none;
+  search_.none_u = start.u + none;
   if (!last) last = co_await timely_stop(work, start, some, period);
   co_return last;
 }
@@ -186,13 +186,13 @@ Task<bool> OptimalPlanner::shorter_stop(Work& work, const Start& start, double n
   while (some > kShorter * none) {
     const double reach = std::sqrt(none * some);
     const bool found = co_await timely_stop(work, start, reach, period);
-    if (late_) co_return false;
+    if (search_.late) co_return false;
     if (found) {
-      hurried_ = reach > kShorter * none;
+      search_.hurried = reach > kShorter * none;
       co_return true;
     }
     none = reach;
-    none_u_ = std::max(none_u_, start.u + none);
+    search_.none_u = std::max(search_.none_u, start.u + none);
   }
   chain_.hurried = false;
   co_return false;
@@ -202,7 +202,7 @@ Task<bool> OptimalPlanner::shorter_stop(Work& work, const Start& start, double n
 Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most, Stops which) {
   double seconds = 0;
   const double distance = stopping_distance(start, &seconds);
-  no_room_ = false;
+  search_.no_room = false;
   if (!(distance > 0)) co_return false;
   const bool on_a_line = find_line_stop(start, most);
   co_await work.pause(kLineCost);
@@ -215,9 +215,9 @@ Task<bool> OptimalPlanner::stop_law(Work& work, const Start& start, double most,
   const bool closed = which == Stops::closed;
   if (!closed && seconds > kAtOnce) {
     const bool found = co_await shortest_stop(work, start, distance, which == Stops::solved ? std::min(most, kFarthestAmid * distance) : most, seconds, which);
-    if (found || late_) co_return found;
+    if (found || search_.late) co_return found;
   }
-  if (!closed && distance * *std::rbegin(kFarther) > most) no_room_ = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
+  if (!closed && distance * *std::rbegin(kFarther) > most) search_.no_room = ahead_of_end(start) < kHardlyLonger * seconds + kAtOnce;
   if (which == Stops::solved) co_return false;
   found_ = Found::phases;
   for (const double farther : kFartherPhases) {
@@ -266,22 +266,22 @@ Limits OptimalPlanner::unbound(const Start& start) const {
 /// that is gone then, or from its end.
 Task<bool> OptimalPlanner::stop_soon(Work& work, const Following& f, const Start& start) {
   Start at;
-  search_lead_ = stop_lead();
+  search_.lead = stop_lead();
   if (find_amid(f, line_lead_, &at) && !at.from_rest) {
     const bool done = co_await stop_there(work, at, Stops::line);
     if (done) co_return true;
   }
-  if (find_amid(f, search_lead_, &at) && at.cut > 0) {
+  if (find_amid(f, search_.lead, &at) && at.cut > 0) {
     const bool done = co_await stop_there(work, at, Stops::solved);
-    if (done || late_ || chain_.stops) co_return done;
+    if (done || search_.late || chain_.stops) co_return done;
   }
   if (chain_.stops) {
     const bool shorter = co_await stop_there(work, start, Stops::solved);
     co_return shorter;
   }
   const bool done = co_await stop_there(work, start, Stops::any);
-  if (done || late_) co_return done;
-  if (f.brake && no_room_) {
+  if (done || search_.late) co_return done;
+  if (f.brake && search_.no_room) {
     offer_.rests = chain_.last;
     co_return false;
   }
@@ -303,7 +303,7 @@ Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
     }
     const bool closed = std::find(std::begin(kSolvedStops), std::end(kSolvedStops), n) == std::end(kSolvedStops);
     const bool stopped = co_await stop_there(work, start, closed ? Stops::closed : Stops::any);
-    if (stopped || late_) co_return stopped;
+    if (stopped || search_.late) co_return stopped;
   }
   co_return false;
 }
@@ -311,18 +311,18 @@ Task<bool> OptimalPlanner::stop_later(Work& work, const Start& from) {
 /// Offers the shortest way to rest, if there is one shorter than the chain.
 Task<bool> OptimalPlanner::stop_there(Work& work, const Start& start, Stops which) {
   const Limits now = limits_;
-  hurried_ = false;
+  search_.hurried = false;
   limits_ = unbound(start);
   const bool found = co_await stop_law(work, start, 0.99 * (chain_.u - start.u), which);
   limits_ = now;
   if (!found) co_return false;
   if (!start.fresh && !start.from_rest && !(law_seconds() * (chain_.stops ? kCloseStops : 1) < rests_in(start))) {  // it comes to rest no later by itself
-    no_room_ = true;
+    search_.no_room = true;
     co_return false;
   }
   offer_first_ = write_;
   next_chain_ = {};
-  next_chain_.hurried = hurried_;
+  next_chain_.hurried = search_.hurried;
   if (start.cut > 0) cut_cell(start);
   Start end;
   const bool copied = co_await copy_law(work, start, &end);
