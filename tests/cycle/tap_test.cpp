@@ -136,6 +136,21 @@ TEST(Tap, ShiftByQWhereTheDrillingAxisIsAlwaysZ) {  // G76, G87, note
   EXPECT_EQ(path("G83 Z-8. R2. Q0.5 F100 L0\nG76 X1.", "0", "0").at(3), "line 1.5 0.5 -8 F100");  // one modal Q
 }
 
+// M700 13.1.1, G76 and G87: the shift is one in the plane. Where #1080 makes Z drill in a plane that has it, a word along Z is none, and without another one the bar
+// would go down through the work.
+TEST(Tap, AShiftAlongTheAxisThatDrillsIsNone) {
+  const auto run = [](const char* block, const char* ignored = "0") {
+    Bench bench;
+    bench.param("1080", "1").param("8207", ignored, 'X').param("8207", ignored, 'Y').at(0, 0, 10);
+    return bench.run(std::string("G0 F100\n") + block + "\nG80\nM30");
+  };
+  for (const char* block : {"G18 G76 Z-8. R2. K0.5", "G19 G76 Z-8. R2. K0.5", "G18 G87 Z-3. R-12. K0.5", "G17 G87 Z-3. R-12. I0 J0"}) EXPECT_EQ(run(block).alarm, "P33") << block;
+  EXPECT_EQ(run("G18 G76 Z-8. R2. K0.5 I0.25").path().at(2), "line 0.25 0 -8 F100");
+  EXPECT_EQ(run("G19 G76 Z-8. R2. K0.5 J0.25").path().at(2), "line 0 0.25 -8 F100");
+  EXPECT_EQ(run("G18 G76 Z-8. R2. Q0.5").path().at(2), "line 0.5 0 -8 F100");
+  EXPECT_EQ(run("G17 G76 Z-8. R2. Q0.5", "1").path().at(2), "rapid 0 0 10") << "#8207: no shift";
+}
+
 TEST(Tap, Alarms) {
   EXPECT_EQ(tap("G84 Z-8. R2. F900", {}, "").alarm, "P181");                            // no S so far
   EXPECT_EQ(tap("G84 Z-8. R2. F1. ,R1").alarm, "P181");                                 // none in the block of a synchronous tap

@@ -250,10 +250,8 @@ namespace {
 
 /// M700 13.1.1, G76 (5), G87 (3): without a shift the tool is drawn out along the wall, and a bar for back boring goes down through the work.
 bool has_shift(const InForce& in) {
-  const CycleState& c = in.state.cycle;
-  if (c.shift[0] != 0 || c.shift[1] != 0 || c.shift[2] != 0) return true;
-  const bool by_parameter = in.settings.shift_axis >= 0 && in.settings.shift_direction != 0;  // HX 12.3.9
-  return c.q != 0 && (by_parameter || in.settings.drilling_axis_z);  // 13.1.1, note: Q is the shift where #1080 makes Z the drilling axis
+  const ShiftInPlane by = shift_in_plane(in);
+  return by.way[0] != 0 || by.way[1] != 0 || by.none_by_parameter;
 }
 
 /// Back boring from below cuts towards the level from which the tool has come, in an increment by the sign rule of R (13.1.1).

@@ -20,6 +20,14 @@ void position_over_hole(BlockContext& in);
 /// Axes that are positioned over the hole: those of the plane that is selected, and the basic axes that are not parallel to the drilling axis.
 uint32_t positioning_axes(const InForce& in);
 
+/// The way beside the hole along the axes of the plane that move there: I J K, or Q with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87). A word along the axis that
+/// drills is none of it.
+struct ShiftInPlane {
+  double way[2] = {0, 0};
+  bool none_by_parameter = false;  ///< an axis has no shift because #8207 says so
+};
+ShiftInPlane shift_in_plane(const InForce& in);
+
 /// retract_overlap.cpp, an option of the machine (nc_config::retract_overlap): strokes along the drilling axis go on at speed where they can.
 bool strokes_flow(const BlockInHand& in);
 /// The direction in which the hole in hand has been left along the drilling axis, 1 or -1; 0 where that was not in rapid traverse out of the hole.

@@ -80,25 +80,13 @@ void resolve_levels(BlockInHand& in) {
   h.return_to = rules.ends_at_r || in.state.modal.is(Function::return_r) ? h.r : h.initial;
 }
 
-/// Beside the hole: I J K of the block, or Q along the axes of the plane with #1080, #8207 and #8208 (M700 13.1.1, G76 and G87). The shift is that of the spindle,
-/// which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88), or the tip would be drawn along the wall.
+/// Beside the hole. The shift is that of the spindle, which stands oriented: no map of the program scales, mirrors or turns it (HX 15.2.2, Series 8 G88), or the tip
+/// would be drawn along the wall.
 AxisVec place_beside(BlockInHand& in) {
-  const CycleState& c = in.state.cycle;
-  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
-  double shift[2] = {c.shift[pair.first], c.shift[pair.second]};
-  const bool by_words = shift[0] != 0 || shift[1] != 0;
-  if (!by_words && in.settings.shift_axis >= 0 && in.settings.shift_direction != 0) {  // HX 12.3.9
-    const bool second = in.settings.shift_axis != 0;
-    shift[second ? 1 : 0] = in.settings.shift_direction * std::fabs(c.q);
-  }
+  const ShiftInPlane by = shift_in_plane(in);
   AxisVec place = in.jobs.holes.over;
-  for (unsigned i = 0; i < 2; ++i) {
-    const int axis = in.state.plane_axis[i];
-    if (axis < 0) continue;
-    if (!by_words && in.settings.drilling_axis_z && (in.settings.shift_ignored >> axis & 1) == 0)
-      shift[i] = (in.settings.shift_minus >> axis & 1) != 0 ? -std::fabs(c.q) : std::fabs(c.q);
-    place[static_cast<unsigned>(axis)] += shift[i];
-  }
+  for (unsigned i = 0; i < 2; ++i)
+    if (by.way[i] != 0) place[static_cast<unsigned>(in.state.plane_axis[i])] += by.way[i];
   return place;
 }
 
@@ -284,6 +272,31 @@ void note_tapping(BlockContext& in, bool strokes) {
 bool ends_tapping(const CycleStep& step) { return (step.flags & (kStrokeTaps | kWhilePecking)) == kStrokeTaps && (step.level == Level::r || step.level == Level::exit); }
 
 }  // namespace
+
+ShiftInPlane shift_in_plane(const InForce& in) {
+  const CycleState& c = in.state.cycle;
+  const PlanePair pair = pair_of(in.state.modal.of(Mode::plane));
+  const unsigned along[2] = {pair.first, pair.second};
+  ShiftInPlane by;
+  bool moves[2];
+  for (unsigned i = 0; i < 2; ++i) {
+    moves[i] = in.state.plane_axis[i] >= 0 && in.state.plane_axis[i] != c.drill_axis;  // with #1080 the plane may have Z, which drills
+    if (moves[i]) by.way[i] = c.shift[along[i]];
+  }
+  if (by.way[0] != 0 || by.way[1] != 0 || c.q == 0) return by;
+  const Settings& s = in.settings;
+  for (unsigned i = 0; i < 2; ++i) {
+    if (!moves[i]) continue;
+    const auto axis = static_cast<unsigned>(in.state.plane_axis[i]);
+    const bool of_hx = s.shift_axis >= 0 && s.shift_direction != 0 && (s.shift_axis != 0) == (i != 0);  // HX 12.3.9
+    if (of_hx) by.way[i] = s.shift_direction * std::fabs(c.q);
+    if (!s.drilling_axis_z) continue;
+    const bool ignored = (s.shift_ignored >> axis & 1) != 0;
+    by.none_by_parameter = by.none_by_parameter || ignored;
+    if (!ignored) by.way[i] = (s.shift_minus >> axis & 1) != 0 ? -std::fabs(c.q) : std::fabs(c.q);
+  }
+  return by;
+}
 
 /// The move to the hole. Axes that neither drill nor are of the plane go first (M700 13.1.1 precaution (6)), by the motion from
 /// before the cycle (13.1.2, example 2, N012): rapid by G00, else a line with the feed, which is what such an axis does beside an arc, too.
