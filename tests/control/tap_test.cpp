@@ -742,6 +742,29 @@ TEST(TapData, OnlyATapThatCanBeIsTaken) {
   EXPECT_EQ(nc_tap_set(bench.control(), 0, &tap), NC_E_STATE) << "the scan runs";
 }
 
+// Series 8 G84 taps in the direction in which the spindle turns, also at the places of a pattern behind another direction.
+TEST(TapDirection, IsThatOfTheSpindleAtTheHole) {
+  Bench bench(NC_DIALECT_SERIES8, tapping_machine(false));
+  bench.at(0, 0, 10);
+  Drive drive(bench, "S600M03\nG84X0Y0Z-8R2K1.5\nM04\nG49X20Y0I10J10\nG80\nM30");
+  unsigned holes[2][2] = {};  // [before, at the pattern][forward, reverse]
+  bool in_hole = false;
+  for (unsigned n = 0; n < 20000 && !drive.ended; ++n) {
+    drive.press_start();
+    drive.in.spindle[0] = {};
+    drive.in.spindle[0].turns_valid = true;
+    drive.in.spindle[0].turns = drive.out.spindle_turns;
+    drive.step(50);
+    const bool deep = drive.out.command.v[2] < -2;
+    if (deep && !in_hole) ++holes[drive.out.command.v[0] > 10 ? 1 : 0][drive.out.spindle_rev_min[0] < 0 ? 1 : 0];
+    in_hole = deep;
+  }
+  EXPECT_TRUE(drive.ended);
+  EXPECT_EQ(holes[0][0], 1U);
+  EXPECT_EQ(holes[1][0], 0U);
+  EXPECT_EQ(holes[1][1], 4U);
+}
+
 // ---- several spindles, and one that is an axis -------------------------------------------------------------------------------------
 
 TEST(TapSpindles, EverySelectedSpindleTurnsWithTheTap) {  // 10.6

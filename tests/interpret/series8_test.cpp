@@ -376,6 +376,13 @@ TEST(Series8Pattern, LiesOnTheSidesOfARectangle) {  // G49, G50
   for (const char* block : {"G49I30J-1", "G49I30J10K1"}) EXPECT_EQ(alarm_of(block), "NC-RANGE") << block;
 }
 
+// The holes of a pattern need what every other hole needs: without R and Z its places were gone to, and nothing was drilled.
+TEST(Series8Pattern, NeedsTheLevelsOfItsCycle) {
+  EXPECT_EQ(alarm_of("F10\nG81\nG49I30J10\nG80\nM30"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("S600M03\nG84\nG50I30J10\nG80\nM30"), "NC-WORDS");
+  EXPECT_EQ(alarm_of("F10\nG81X0Y0Z-1R1\nG82\nG49I30J10\nG80\nM30"), "");
+}
+
 TEST(Series8Cavity, ItsNumberOfTheOffsetHoldsBehindIt) {
   Bench bench(NC_DIALECT_SERIES8);
   bench.tool(1, 2, NC_TOOL_RADIUS);

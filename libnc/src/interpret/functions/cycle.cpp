@@ -265,8 +265,10 @@ bool back_bores_downwards(const InForce& in) {
 
 Execution check_hole(BlockInHand& in) {
   const Command& w = in.words;
-  const CycleState& c = in.state.cycle;
+  CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
+  if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
+  if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
   if ((w.target.axes() & in.rotary) != 0 && !rules.takes_rotary_axes) return in.raise_axis(Condition::illegal_axis, first_of(w.target.axes() & in.rotary));
   Execution did = check_spindle(in);
   if (did != Execution::done) return did;
@@ -324,14 +326,11 @@ Execution do_cycle(BlockContext& in) {
   uint32_t count = 1;
   if (did == Execution::done) did = hole_count(in, &count);
   if (did != Execution::done) return did;
-  CycleState& c = in.state.cycle;
-  if (is_tap(c.kind) && rules.tap_follows_spindle) c.kind = in.state.spindle_reverse ? CycleKind::reverse_tap : CycleKind::tap;
   if (count == 0) return Execution::done;  // data only
   in.jobs.holes.begin();
   in.jobs.holes.target = w.target;
   if (in.state.modal.is(Function::polar_command_on)) in.jobs.holes.polar = in.jobs.polar_holes;
-  if (rules.begins_with_both_levels && !(c.has_z && c.has_r)) return in.raise_mode(Condition::words_missing, Mode::cycle);
-  in.jobs.holes.places_only = !c.has_z && rules.without_bottom_positions;
+  in.jobs.holes.places_only = !in.state.cycle.has_z && rules.without_bottom_positions;
   if (!in.jobs.holes.places_only) did = check_hole(in);
   if (did != Execution::done) return did;
   in.jobs.holes.left = count;
