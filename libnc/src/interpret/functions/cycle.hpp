@@ -38,8 +38,12 @@ bool traverse_beyond_level(BlockContext& in, const AxisVec& target, uint32_t axe
 /// tap.cpp: what the block says of tapping, kept in State::cycle; and whether a tap can be made.
 Execution take_tap_words(BlockInHand& in);
 Execution check_tap(BlockInHand& in);
-/// Highest acceleration of the spindle for a stroke of a synchronous tap with this speed, rev/s^2; 0 = the parameters say nothing.
-double tap_slope(const InForce& in, double rev_min);
+/// With what the spindle makes a stroke of a synchronous tap of so many turns at this speed at most: its highest speed and acceleration, by #3005 to #3045.
+struct TapLaw {
+  double rev_min = 0;
+  double slope = 0;  ///< rev/s^2; 0 = the parameters say nothing
+};
+TapLaw tap_law(const InForce& in, double rev_min, double turns);
 /// The tap of the cycle in force, made in cuts where it has a depth for them.
 CycleKind tap_in_cuts(const InForce& in, CycleKind kind);
 

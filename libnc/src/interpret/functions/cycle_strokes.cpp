@@ -184,19 +184,20 @@ void move_in_plane(BlockContext& in, const CycleStep& step) {
 
 /// A stroke of a tap that goes with the spindle: the lead, and the speed that the spindle is to have (M700 13.1.1 (6) (c): on the way back not
 /// below that of the way in).
-void set_tap(const InForce& in, const CycleStep& step, LinearStyle* style) {
+void set_tap(const BlockInHand& in, const CycleStep& step, LinearStyle* style) {
   const CycleState& c = in.state.cycle;
   const bool back = step.level != Level::bottom && step.level != Level::peck;
   // #1172 is the return override of the family; precaution (15): ,S switches it off.
   const double s = in.state.modal.spindle, by_override = in.settings.tap_return > 0 ? in.settings.tap_return * s : s;
   const double speed = !back ? s : c.return_speed > 0 ? std::fmax(c.return_speed, s) : by_override;
+  const TapLaw law = tap_law(in, speed, std::fabs(step.to - in.position()[c.drill_axis]) / c.pitch);
   const double hand = taps_left_hand(c.kind) != back ? -1.0 : 1.0;
   style->kind = NC_MOVE_TAP;
   style->special_feed = false;
   style->feed_mm_rev = c.pitch;
-  style->feed_mm_min = c.pitch * speed;
-  style->tap_speed = hand * speed;
-  style->tap_slope = tap_slope(in, speed);
+  style->feed_mm_min = c.pitch * law.rev_min;
+  style->tap_speed = hand * law.rev_min;
+  style->tap_slope = law.slope;
 }
 
 void move_along(BlockContext& in, const CycleStep& step) {

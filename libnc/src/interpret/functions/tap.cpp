@@ -116,21 +116,37 @@ Execution check_tap(BlockInHand& in) {
   return Execution::done;
 }
 
-/// M700 13.1.1, "acceleration/deceleration pattern": up to three stages, none of them steeper than the one before (precaution (13)), no speed
-/// above the highest (14). The whole stroke has the slope of the last stage that its speed reaches: that keeps each of them.
-double tap_slope(const InForce& in, double rev_min) {
+namespace {
+
+/// From rest to rest with this highest speed and slope, s.
+double stroke_time(const TapLaw& law, double turns) {
+  const double speed = law.rev_min / 60;
+  return speed * speed <= law.slope * turns ? turns / speed + speed / law.slope : 2 * std::sqrt(turns / law.slope);
+}
+
+}  // namespace
+
+/// M700 13.1.1, "acceleration/deceleration pattern": up to three stages, none of them steeper than the one before (precaution (13)), no speed above the highest
+/// (14). A stroke has one slope: with the last stage that its speed would reach it keeps each of them, and so it does with an earlier one up to the end of that. The
+/// higher speed would make a short hole slower, which never comes to it and would have its slope all the same.
+TapLaw tap_law(const InForce& in, double rev_min, double turns) {
   const TapStage* const stage = in.settings.tap_stage;
-  const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL;
-  double from = 0, slope = 0;
-  for (unsigned i = 0; i < 3; ++i) {
+  const double most = in.settings.tap_most_rev_min > 0 ? in.settings.tap_most_rev_min : HUGE_VAL, wanted = std::fmin(rev_min, most);
+  double from = 0;
+  TapLaw best{wanted, 0}, law{wanted, 0};
+  for (unsigned i = 0; i < 3 && from < wanted; ++i) {
     const double to = i == 2 ? most : std::fmin(stage[i].rev_min, most);
-    if (!(to > from) || !(stage[i].seconds > 0) || to == HUGE_VAL) break;
-    const double own = (to - from) / 60 / stage[i].seconds;
-    slope = slope > 0 ? std::fmin(slope, own) : own;
-    if (rev_min <= to) break;
+    if (!(to > from) || to == HUGE_VAL) continue;  // the machine has no such stage
+    if (stage[i].seconds > 0) {
+      const double own = (to - from) / 60 / stage[i].seconds;
+      law.slope = law.slope > 0 ? std::fmin(law.slope, own) : own;
+    }
+    law.rev_min = std::fmin(wanted, to);
+    if (law.slope > 0 && (best.slope == 0 || stroke_time(law, turns) <= stroke_time(best, turns))) best = law;
     from = to;
   }
-  return slope;
+  law.rev_min = wanted;  // above the end of the last stage goes its slope on
+  return best.slope == 0 || stroke_time(law, turns) <= stroke_time(best, turns) ? law : best;
 }
 
 CycleKind tap_in_cuts(const InForce& in, CycleKind kind) {
