@@ -109,8 +109,30 @@ TEST(Tap, ChecksOfASynchronousTap) {  // "setting values of synchronous tap in-p
   EXPECT_EQ(path(on | approach, "P0"), (Path{"rapid 2", "check", "tap -8", "tap 2", "rapid 10"}));
   EXPECT_EQ(path(on | bottom | r | approach, ""), (Path{"rapid 2", "tap -8", "tap 2", "rapid 10"}));  // no P: no checks
   EXPECT_EQ(path(bottom | r | approach, "P0"), (Path{"rapid 2", "tap -8", "tap 2", "rapid 10"}));
-  EXPECT_EQ(path(on | bottom, "P100", "250"), (Path{"rapid 2", "tap -8", "check", "dwell 0.25", "tap 2", "dwell 0.25", "rapid 10"}));
   EXPECT_EQ(path(0, "P100", "250"), (Path{"rapid 2", "tap -8", "dwell 0.1", "tap 2", "dwell 0.1", "rapid 10"}));
+  // #1313 is a "hole bottom wait time"; back at R there is P, "G4 Pp1".
+  EXPECT_EQ(path(on | bottom, "P100", "250"), (Path{"rapid 2", "tap -8", "check", "dwell 0.25", "tap 2", "dwell 0.1", "rapid 10"}));
+  EXPECT_EQ(path(on, "", "250"), (Path{"rapid 2", "tap -8", "dwell 0.25", "tap 2", "rapid 10"}));
+  EXPECT_EQ(path(on, "P400", "250"), (Path{"rapid 2", "tap -8", "dwell 0.4", "tap 2", "dwell 0.4", "rapid 10"}));
+  // The last cut of a tap in cuts is the one that ends at the bottom.
+  EXPECT_EQ(path(on | bottom | r | approach, "P0 Q6."), (Path{"rapid 2", "check", "tap -4", "tap -8", "check", "tap 2", "check", "rapid 10"}));
+}
+
+// Without bit 3 all three places are checked, "determined by inpos (#1193) and aux07 (#1223) bit 1", G61 or not; with it these parameters say nothing there, as they
+// go on to do for the way to the initial level.
+TEST(Tap, ChecksByTheParametersOfEveryMove) {
+  const auto path = [](unsigned bits, const std::string& block, const char* rapid) {
+    return strokes(tap(block, {{"1223", std::to_string(bits)}, {"1193", rapid}}, ""));
+  };
+  const std::string words = "G84 Z-8. R2. S800 F1.5 ,R1 P0";
+  const unsigned cutting = 2, approach = 4, on = 8, bottom = 16;
+  EXPECT_EQ(path(cutting, words, "1"), (Path{"rapid 2", "check", "tap -8", "check", "tap 2", "check", "rapid 10", "check"}));
+  EXPECT_EQ(path(cutting, words, "0"), (Path{"rapid 2", "tap -8", "check", "tap 2", "check", "rapid 10"}));
+  EXPECT_EQ(path(0, words, "1"), (Path{"rapid 2", "check", "tap -8", "tap 2", "rapid 10", "check"}));
+  EXPECT_EQ(path(0, "G61 " + words, "0"), (Path{"rapid 2", "tap -8", "tap 2", "rapid 10"}));
+  EXPECT_EQ(path(cutting | on, "G61 " + words, "1"), (Path{"rapid 2", "tap -8", "tap 2", "rapid 10", "check"}));
+  EXPECT_EQ(path(cutting | on | approach | bottom, words, "1"), (Path{"rapid 2", "check", "tap -8", "check", "tap 2", "rapid 10", "check"}));
+  EXPECT_EQ(path(cutting, "G84 Z-8. R2. F900 S800 P0", "0"), (Path{"S800", "rapid 2", "line -8", "M4", "line 2", "M3", "rapid 10"})) << "a floating holder: cuts as any";
 }
 
 TEST(Tap, InCuts) {

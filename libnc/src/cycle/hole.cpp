@@ -35,7 +35,7 @@ double coordinate(const Hole& hole, Level level, HoleProgress& progress) {
 
 /// M700 13.1.1: during synchronous tapping no M code of the spindle goes out.
 bool does_nothing(const Hole& hole, const Stroke& stroke) {
-  if (stroke.kind == StrokeKind::dwell) return !(hole.dwell_s > 0);
+  if (stroke.kind == StrokeKind::dwell) return !(dwell_of(hole, stroke.to) > 0);
   return stroke.kind == StrokeKind::spindle && hole.synchronous;
 }
 
@@ -47,6 +47,8 @@ uint32_t first_cut(const CycleTable& table) {
 }
 
 }  // namespace
+
+double dwell_of(const Hole& hole, Level level) { return level == Level::r ? hole.dwell_at_r_s : hole.dwell_s; }
 
 HoleProgress begin_strokes(const Hole& hole) { return {0, hole.r}; }
 
@@ -61,6 +63,7 @@ bool next_stroke(const Hole& hole, HoleProgress& progress, CycleStep* step) {
     }
     if (does_nothing(hole, stroke)) continue;
     *step = {stroke.kind, stroke.to, stroke.spindle, stroke.flags, coordinate(hole, stroke.to, progress)};
+    if (stroke.to == Level::peck && progress.depth == hole.bottom) step->level = Level::bottom;  // the last cut is the one that the figures have at the bottom
     return true;
   }
   return false;

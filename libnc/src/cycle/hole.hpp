@@ -49,7 +49,8 @@ struct Hole {
   bool has_first = false;                  ///< the first of them ends ...
   double first = 0;                        ///< ... at this coordinate
   double clearance = 0;                    ///< of the cuts: #8013, #8012, DGSHAPE 1 mm
-  double dwell_s = 0;
+  double dwell_s = 0;                      ///< at the bottom
+  double dwell_at_r_s = 0;                 ///< of a tap, where it has come back to R
 };
 
 /// One stroke of a hole, with numbers.
@@ -67,6 +68,8 @@ struct HoleProgress {
   double depth = 0;     ///< bottom reached so far (coordinate), pecks
 };
 
+/// How long the dwell of a stroke is that has this level, s.
+double dwell_of(const Hole& hole, Level level);
 HoleProgress begin_strokes(const Hole& hole);
 /// The next stroke of the hole; false: it is done. Positioning in the plane has been done before. Strokes that do nothing (a dwell without time)
 /// are left out.

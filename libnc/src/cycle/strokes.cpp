@@ -13,7 +13,7 @@ using L = Level;
 // Every tool comes to R in rapid, and single block stops there: "(1), (2) and ...".
 constexpr Stroke kToR{rapid, L::r, S::none, kStrokeStops};
 constexpr Stroke kToBottom{feed, L::bottom};
-constexpr Stroke kDwell{dwell};
+constexpr Stroke kDwell{dwell}, kDwellAtR{dwell, L::r};
 constexpr Stroke kReturn{rapid, L::exit, S::none, kStrokeReturns};  // at R nothing moves: "G99 mode: no movement"
 constexpr Stroke kStop{spindle, L::none, S::stop}, kOrient{spindle, L::none, S::orient}, kForward{spindle, L::none, S::forward};
 constexpr Stroke kAgain{again, L::none, S::none, kWhilePecking};
@@ -50,7 +50,7 @@ constexpr Stroke kTap[] = {
     kDwell,              // 4
     turn(out),           // 5
     tap_cut(L::r),       // 6
-    kDwell,              // 7
+    kDwellAtR,           // 7
     turn(in),            // 8
     kReturn,             // 9
 };
@@ -66,7 +66,7 @@ constexpr Stroke kTapInCuts[] = {
     kDwell,
     turn(out),
     tap_cut(L::r),
-    kDwell,
+    kDwellAtR,
     turn(in),
     kReturn,
 };

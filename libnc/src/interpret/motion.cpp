@@ -332,7 +332,7 @@ void move_linear_mapped(BlockContext& in, const AxisVec& target, uint32_t comman
   Move& move = begin_move(in, frame.to_machine, frame.start, frame.end);
   set_style(in, move, style);
   finish_mapped(in, frame, before, move);
-  check_deceleration(in, style.kind, style.in_position);
+  if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
 
 }  // namespace
@@ -349,7 +349,7 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
   if (same_place(start, end, in.axis_count)) return;
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
-  check_deceleration(in, style.kind, style.in_position);
+  if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
 
 void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style) {
@@ -366,7 +366,7 @@ void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& st
   const AxisVec end = with_one(axis, to, start);
   Move& move = begin_moved(in, offset, start, end);
   set_style(in, move, style);
-  check_deceleration(in, style.kind, style.in_position);
+  if (!style.checks_itself) check_deceleration(in, style.kind, style.in_position);
 }
 
 void move_nowhere(BlockContext& in) {

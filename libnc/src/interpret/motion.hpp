@@ -25,6 +25,7 @@ struct LinearStyle {
   Corner corner = Corner::none;  ///< at its end ...
   double corner_mm = 0;       ///< ... of this size
   double in_position = 0;     ///< ,I ,J: what comes behind waits until each axis is as near to its end as this, mm; 0 = by the parameters
+  bool checks_itself = false; ///< whether the axes are waited for behind it is not for the parameters to say: who makes the move adds the check
 };
 /// Makes a straight move to `target` in the active coordinates; `commanded`: the axes named in the block, to which tool length is applied.
 void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, const LinearStyle& style);

@@ -45,13 +45,15 @@ double clearance(const InForce& in, CycleKind kind) {
   return kind == CycleKind::step ? in.settings.step_clearance : in.settings.peck_clearance;
 }
 
-/// The time at the bottom. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of it where the checks are chosen by bits.
-double dwell_s(const InForce& in) {
+/// The times of the hole. M700 13.1.1, "synchronous tap in-position check": #1313 is the least of the "hole bottom wait time" where the checks are chosen by
+/// bits, and back at R there is P alone.
+void resolve_dwells(const InForce& in, Hole* hole) {
   const CycleState& c = in.state.cycle;
   const CycleRules& rules = in.dialect->rules.cycle;
   const bool takes_p = c.kind != CycleKind::circle && (c.kind != CycleKind::bore_stop || rules.bore_stop_dwells) && (c.kind != CycleKind::step || rules.step_dwells);
   const double p = c.has_p && takes_p ? c.p / 1000 : 0;
-  return c.synchronous && in.settings.tap_checks ? std::fmax(p, in.settings.tap_dwell_s) : p;
+  hole->dwell_s = c.synchronous && in.settings.tap_checks ? std::fmax(p, in.settings.tap_dwell_s) : p;
+  hole->dwell_at_r_s = p;
 }
 
 /// Levels of this hole from the hole data (M700 13.1.1 "Absolute/incremental").
@@ -95,7 +97,7 @@ void resolve_hole(BlockInHand& in) {
   Hole& h = in.jobs.holes.hole;
   resolve_levels(in);
   h.q = in.jobs.holes.whole ? 0 : is_tap(c.kind) ? c.tap_q : std::fabs(c.q);
-  h.dwell_s = dwell_s(in);
+  resolve_dwells(in, &h);
   h.clearance = clearance(in, c.kind);
   in.jobs.holes.over = in.position();
   if (strokes_of(c.kind).shifts) in.jobs.holes.beside = place_beside(in);
@@ -200,6 +202,12 @@ void set_tap(const BlockInHand& in, const CycleStep& step, LinearStyle* style) {
   style->tap_slope = law.slope;
 }
 
+/// A stroke of a synchronous tap to R or to the bottom, whose check is the tap's and not that of a move.
+bool checks_itself(const InForce& in, const CycleStep& step) {
+  if (!in.state.cycle.synchronous) return false;
+  return (step.kind == StrokeKind::rapid && step.level == Level::r) || (step.kind == StrokeKind::feed && (step.level == Level::r || step.level == Level::bottom));
+}
+
 void move_along(BlockContext& in, const CycleStep& step) {
   const CycleState& c = in.state.cycle;
   LinearStyle style;
@@ -211,6 +219,7 @@ void move_along(BlockContext& in, const CycleStep& step) {
   if (style.tapping && c.synchronous) set_tap(in, step, &style);
   const double width = (step.flags & kStrokeReturns) != 0 && strokes_of(c.kind).takes_widths ? c.in_position : 0;
   style.in_position = width;
+  style.checks_itself = checks_itself(in, step);
   const bool taps_next = is_tap(c.kind) && step.level == Level::r;  // a hold on the way in comes to rest in front of the thread, or behind the way back
   style.flows = in.retract_overlap > 0 && style.kind == NC_MOVE_RAPID && width == 0 && !taps_next && strokes_flow(in);
   move_axis(in, c.drill_axis, step.to, style);
@@ -229,22 +238,23 @@ void turn_spindle(BlockContext& in, CycleSpindle turn) {
   give_out_spindle(in, function, out);
 }
 
-/// M700 13.1.1, "in-position check during synchronous tapping": with P and bit 3 each of three places has a bit of its own.
+/// M700 13.1.1, "in-position check during synchronous tapping": at R on the way in, at the bottom, and back at R. With #1223 bit 3 each of the three has a bit of
+/// its own, and there is none without P; else all of them are made where the parameters of 7.9 ask for them, without G09 and G61.
 void check_tap_position(BlockContext& in, const CycleStep& step) {
   const Settings& s = in.settings;
-  if (!in.state.cycle.synchronous || !s.tap_checks || !in.state.cycle.has_p) return;
-  const bool approach = step.kind == StrokeKind::rapid && step.level == Level::r && s.tap_check_approach;
-  const bool bottom = step.kind == StrokeKind::feed && step.level == Level::bottom && s.tap_check_bottom;
-  const bool back = step.kind == StrokeKind::feed && step.level == Level::r && s.tap_check_r;
-  if (approach || bottom || back) in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
+  if (!checks_itself(in, step)) return;
+  const bool approach = step.kind == StrokeKind::rapid, bottom = step.level == Level::bottom;
+  const bool by_bit = in.state.cycle.has_p && (approach ? s.tap_check_approach : bottom ? s.tap_check_bottom : s.tap_check_r);
+  const bool by_method = approach ? s.check_rapid : s.check_cutting;
+  if (s.tap_checks ? by_bit : by_method) in.emit(ItemKind::gate).gate.kind = NC_GATE_IN_POSITION;
 }
 
-void emit_dwell(BlockContext& in) {
-  if (!(in.jobs.holes.hole.dwell_s > 0)) return;
+void emit_dwell(BlockContext& in, double seconds) {
+  if (!(seconds > 0)) return;
   Gate& gate = in.emit(ItemKind::gate).gate;
   gate.kind = NC_GATE_DWELL_SECONDS;
   gate.announce = true;
-  gate.value = in.jobs.holes.hole.dwell_s;
+  gate.value = seconds;
 }
 
 void make_stroke(BlockContext& in, const CycleStep& step) {
@@ -256,7 +266,7 @@ void make_stroke(BlockContext& in, const CycleStep& step) {
     case StrokeKind::circle_in:
     case StrokeKind::circle:
     case StrokeKind::circle_out: move_on_circle(in, step.kind); break;
-    case StrokeKind::dwell: emit_dwell(in); break;
+    case StrokeKind::dwell: emit_dwell(in, dwell_of(in.jobs.holes.hole, step.level)); break;
     case StrokeKind::spindle: turn_spindle(in, step.spindle); break;
     case StrokeKind::program_stop: in.emit(ItemKind::gate).gate.kind = NC_GATE_STOP; break;
     case StrokeKind::again: break;
@@ -387,7 +397,7 @@ Execution begin_hole(BlockContext& in) {
   resolve_hole(in);
   if (!hole) {
     in.jobs.holes.hole.kind = CycleKind::none;
-    in.jobs.holes.hole.dwell_s = 0;
+    in.jobs.holes.hole.dwell_s = in.jobs.holes.hole.dwell_at_r_s = 0;
   }
   note_hole(in);
   in.jobs.holes.progress = begin_strokes(in.jobs.holes.hole);
