@@ -37,6 +37,14 @@ TEST(PositionOffset, OfAZeroTheSignCountsInIncrementsOnly) {  // precaution (3)
   EXPECT_EQ(bench.at(5, 0, 0).run("G90 G0\nG45 X5. D1\nM30").path(), Path{});
 }
 
+// What 2.458 and twice 0.708 add up to is not 1.042 in its last binary digit: that digit has no sign to count.
+TEST(PositionOffset, AnAbsoluteWordOfThePlaceThatAddingUpHasRoundedStaysThere) {
+  Bench bench;
+  bench.tool(1, -4.193).tool(2, 0.708);
+  EXPECT_EQ(bench.run("G90 G0\nG48 Z2.458 D2\nG48 X10. Z1.042 D1\nM30").path(), (Path{"rapid 0 0 1.042", "rapid 18.386 0 1.042"}));
+  bench.tool(1, 0.1).tool(2, 0.2);
+  EXPECT_EQ(bench.at(0, 0, 0).run("G90 G0\nG45 X0.1 D2\nG47 G2 X0.3 Y-10. J-5. F100 D1\nM30").path(), (Path{"rapid 0.3 0 0", "cw 0.3 -10.2 0 c0.3,-5.1 F100"}));
+}
 TEST(PositionOffset, AnAbsoluteWordCountsFromTheEndOfTheBlockBefore) {
   Bench bench;
   bench.tool(1, 2).at(50, 0, 0);

@@ -2,6 +2,7 @@
 // G45 to G48: the way of the block is made longer or shorter by an offset (M700 12.6).
 #include <cmath>
 
+#include "base/same_place.hpp"
 #include "base/units.hpp"
 #include "interpret/feed.hpp"
 #include "interpret/functions/functions.hpp"
@@ -42,8 +43,8 @@ void lengthen_ways(BlockInHand& in, double amount, bool arc) {
     const bool by_increment = w.target.counts_on(i);
     const double way = by_increment ? w.target[i] : target[i] - position[i];
     // Precaution (3): the sign of an incremental 0 counts; an absolute word without a way stays, and so does the axis on which a half circle ends where it
-    // began.
-    const bool stays = way == 0 && (!by_increment || arc);
+    // began. A way between two coordinates is none up to what adding them up has rounded.
+    const bool stays = by_increment ? arc && way == 0 : std::fabs(way) <= kAddingUp;
     w.target.set(i, TargetKind::incremental, stays ? 0 : longer(way, ways / std::fabs(scale_of(in, i))));
   }
 }
