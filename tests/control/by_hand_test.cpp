@@ -237,6 +237,43 @@ TEST_P(ByHand, RadiusCompensationWithManualAbsolute) {  // M700 12.4.4: back on 
   }
 }
 
+// CONTOUR_CHECK goes by where the contour and the tool are on the table: a plate is closed where it is programmed, and a way back from where the axes have been
+// moved to is compared with it before anything moves.
+TEST_P(ByHand, TheCheckOfAContourKnowsWhereTheToolIs) {
+  const char* const blocks = "G17 G90 G0 X10. Y-10.\nG42 D4 G1 X10. Y0 F6000\nX30. Y0\nX30. Y20.\nX0 Y20.\nX0 Y0\nX10. Y0\nG40 X10. Y-10.\nM30";
+  const char* const single = "G17 G90 G0 X10. Y-10.\nG42 D4 G1 X10. Y0 F6000\nX30.\nY20.\nX0\nY0\nX10.\nG40 Y-10.\nM30";
+  struct {
+    const char* program;
+    unsigned stop, axis;
+    double by;
+    std::string alarm;
+  } const cases[] = {{blocks, 2, 1, 0.3, ""}, {blocks, 2, 0, 0.3, ""}, {single, 2, 1, 0.3, ""}, {single, 3, 0, 2, ""}, {blocks, 2, 1, -5, ""},
+      {blocks, 2, 0, -20, "P153 L4"}, {blocks, 6, 1, 5, "P153 L8"}, {single, 2, 0, -0.5, "P153 L4"}};
+  for (const auto& part : cases) {
+    SCOPED_TRACE(std::string(part.program == single ? "single " : "") + std::to_string(part.stop) + " by " + std::to_string(part.by));
+    HandMachine m(GetParam());
+    m.bench.param("CONTOUR_CHECK", "1");
+    m.start(part.program);
+    nc_axes moved{};
+    for (unsigned stop = 0; stop < 10 && !m.drive->ended; ++stop) {
+      ASSERT_TRUE(m.until_stop());
+      if (m.drive->out.state != NC_STATE_STOPPED) break;
+      if (stop == part.stop) m.move(part.axis, part.by), moved = m.drive->out.command;
+      m.press();
+    }
+    nc_alarm alarm{};
+    const bool alarmed = nc_alarm_get(m.bench.control(), 0, &alarm) == NC_OK;
+    EXPECT_EQ(alarmed ? std::string(alarm.code) + " L" + std::to_string(alarm.source.line) : "", part.alarm);
+    if (part.alarm.empty()) {
+      EXPECT_TRUE(m.drive->ended);
+    } else {
+      EXPECT_NEAR(m.at(0), moved.v[0], 1e-6);
+      EXPECT_NEAR(m.at(1), moved.v[1], 1e-6);
+    }
+    EXPECT_LT(m.worst, 1.001);
+  }
+}
+
 /// MDI keeps its modes from block to block; between two of them the axes are moved by hand.
 TEST_P(ByHand, BetweenBlocksOfMdi) {
   for (const char* on : {"G12.1", "G19;G07.1 C15."}) {

@@ -424,25 +424,44 @@ void PartSystem::add_by_handle(double way) {
   executor.tell_along_tool(added, interpreter.along_tool());
 }
 
+/// What the check of a contour has seen stays where it is when the axes are moved by hand (M700 12.4.4). A map of axes (G12.1) has no such way in its plane.
+void PartSystem::displace_contour(const AxisVec& by_hand) {
+  const OffsetStage& stage = stages_.stage<OffsetStage>();
+  if (stage.idle() || interpreter.maps().other_axes) return;
+  OffsetResume resume = stage.resume_point();
+  const AxisVec& machine = interpreter.machine();
+  double way[2] = {0, 0};
+  for (unsigned k = 0; k < 2; ++k) {
+    const double along[2] = {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0};
+    const AxisVec end = interpreter.beside_end(resume.comp.axis, along);
+    for (unsigned i = 0; i < axis_count_; ++i) way[k] += (end[i] - machine[i]) * by_hand[i];
+  }
+  resume.contour.at = resume.contour.at + Vec2{way[0], way[1]};
+  stages_.go_on_from<OffsetStage>(resume);
+  commit_.change_stage<OffsetStage>(resume);
+}
+
 /// The axes were moved by hand in a block stop, and what follows starts where the machine is. An axis that the next block does not name stays
 /// there, and an incremental word counts from there; under radius compensation the vector in force is kept.
 /// M700 12.4.4, 14.12: with manual absolute on, the coordinate systems stay, and an absolute word goes to its programmed position. With it off they
 /// are moved along by `shift`, so the rest of the program is shifted until G92.1. `left_at` is where the program had left the axes. In the time-optimal
 /// mode that may be beside the end of the block, within the tolerance: the program knows nothing of it, only the next move begins there.
 void PartSystem::displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift) {
-  AxisVec programmed = interpreter.machine(), beside_program;
+  AxisVec programmed = interpreter.machine(), beside_program, by_hand;
   bool any = false;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (shift[i] != 0) interpreter.shift_coordinates(i, shift[i]);
     const double moved = machine[i] - left_at[i], beside = left_at[i] - commit_.machine()[i];
     if (moved == 0) continue;
     any = true;
+    by_hand[i] = moved;
     beside_program[i] = moved - shift[i];
     programmed[i] = stages_.idle() ? machine[i] - beside : programmed[i] + moved;
   }
   if (any) {
     commit_.forget_stages(stages_.displaced());
     interpreter.move_to(programmed, beside_program);
+    displace_contour(by_hand);
   }
   commit_.displace(machine);
 }

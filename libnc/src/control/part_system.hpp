@@ -174,6 +174,7 @@ class PartSystem {
   bool put_off(const Item& item);
   static bool stops(const Gate& gate) { return gate.kind == NC_GATE_STOP || gate.kind == NC_GATE_OPTIONAL_STOP; }
   bool read_again(Serial last);
+  void displace_contour(const AxisVec& by_hand);
   void displace(const AxisVec& machine, const AxisVec& left_at, const AxisVec& shift);
   void add_by_handle(double way);
   void take_returned();

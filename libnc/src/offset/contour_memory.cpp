@@ -373,6 +373,16 @@ Clearance ContourMemory::read(Section* section) {
   return near && culprit_ != nullptr ? Clearance::enters : Clearance::fits;
 }
 
+Clearance ContourMemory::read_by_hand(Section* section, Vec2 beside) {
+  const Vec2 way = section->delta;
+  state_.at = state_.at - beside;
+  section->delta = way + beside;
+  const Clearance found = read(section);
+  section->delta = way;
+  section->contour_start = section->contour_start + beside;
+  return found;
+}
+
 Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_given, const nc_source& source) {
   culprit_ = nullptr;
   Path path;
@@ -413,7 +423,7 @@ Clearance ContourMemory::settle(const Section& section, Vec2 from, bool from_giv
     ahead.to_contour = from_given;
     add(ahead, lead);
   }
-  path.crosses_own = (from_given && !path.from_contour) || (to_given && !path.to_contour) || section.oblique;
+  path.crosses_own = (from_given && !path.from_contour) || (to_given && !path.to_contour) || section.oblique || section.by_hand;
   add(path, path_of(section, start, from, section.joint.v[0]));
   path.from_contour = path.crosses_own = false;
   path.before = path.offset;

@@ -106,6 +106,9 @@ class ContourMemory {
 
   /// A block has been read; `section->number` becomes its number. Its path comes later.
   Clearance read(Section* section);
+  /// The same of a line that begins this far beside its programmed start, because the axes were moved by hand there: the wall is the programmed line, and the
+  /// path leads back to its end.
+  Clearance read_by_hand(Section* section, Vec2 beside);
   /// The path of the block is settled: it begins with this vector, which the program may have given.
   Clearance settle(const Section& section, Vec2 from, bool from_given, const nc_source& source);
   /// A block without movement has given a vector (I J K, M700 12.4.3 (4); G39 of DGSHAPE): the tool goes there from the one before, where the contour stands.

@@ -45,6 +45,7 @@ struct Section {
   bool led_turns = false;     ///< ... which is one of another contour on the same side
   bool settled = false;       ///< its path has been looked at
   bool inch : 1 = false;      ///< its words are in inch (unsure_of())
+  bool by_hand : 1 = false;   ///< it begins where the axes were moved by hand, and leads back to its end
   bool part : 1 = false;      ///< a line of micrometres that is a part of what goes on before and behind it (tiny_line.hpp): it has no direction to keep
   uint32_t descent = 0;       ///< of the contour, which it belongs to
   uint64_t number = 0;        ///< in that memory

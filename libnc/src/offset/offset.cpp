@@ -513,6 +513,7 @@ void OffsetStage::intake_section(Held* held, const Leg& begin, const Leg& end) {
   section.led_turns = section.led && held->lead_from != Vec2{} && !held->lead_crosses;
   section.avoid = comp.avoid;
   section.inch = move.inch;
+  section.by_hand = stands_beside(comp);
   if (comp.corner_arc) bend_ = {section.index, nc_source(held->item.source)};
   if (!section.cancel && !section.start) {
     // It begins with the amount of the block before (M700 12.4.6).
@@ -698,7 +699,8 @@ unsigned OffsetStage::first_too_near(unsigned sections, Clearance* found) {
 
 // The section as a wall, against the paths in front of it.
 void OffsetStage::read_wall(Section* section, const nc_source& source) {
-  const Clearance found = memory_.read(section);
+  const Compensation& comp = held_at(section->index).item.move.comp;
+  const Clearance found = section->by_hand ? memory_.read_by_hand(section, {comp.by_hand[0], comp.by_hand[1]}) : memory_.read(section);
   const ContourMemory::Culprit* const culprit = memory_.culprit();  // which stays where it is: no more is read
   if (found == Clearance::fits || !check_joints(chain_.size())) return;
   stop_by(section->index, alarm_by(source, found, culprit));
