@@ -77,7 +77,7 @@ void read_mark(TableReader* axis, TableReader* homing, AxisMap* map) {
 
 void read_homing(TableReader* axis, Config* config, AxisMap* map) {
   axis->table("homing", [&](TableReader& reader) {
-    for (const char* key : {"method", "fast", "slow", "acceleration", "request", "done"}) reader.require(key);
+    for (const char* key : {"method", "fast", "slow", "request", "done"}) reader.require(key);
     if (reader.integer("method", &map->homing_method, -128, 127) && map->homing_method == 0) reader.error("method", "0 is no homing: leave the table out");
     reader.number("fast", &map->homing_fast, 1e-6, 1e6);
     reader.number("slow", &map->homing_slow, 1e-6, 1e6);

@@ -56,7 +56,7 @@ struct AxisMap {
   double max_velocity = 0;         // mm/s or deg/s: a set-point that needs more than twice of it is a fault and is not sent; 0 = not checked
   // Homing by the drive (6098h); 0 = none.
   std::int8_t homing_method = 0;
-  double homing_fast = 0, homing_slow = 0, homing_acceleration = 0;  // mm/s, mm/s^2
+  double homing_fast = 0, homing_slow = 0, homing_acceleration = 0;  // mm/s, mm/s^2; acceleration 0: the drive's own
   double homing_timeout_s = 120;
   int homing_request = -1, homed = -1;  // points: the output whose rising edge starts homing; the input that is on when it is done
   std::int8_t mode = kModeCyclicPosition;

@@ -112,6 +112,7 @@ class Reader {
  private:
   void take_line(std::string_view line);
   void take_key(const std::string& key, std::string_view value);
+  void take_device(const std::string& key, std::string_view value);
   void finish_object();
   void error(const std::string& text) {
     if (errors_.size() < kMostErrors) errors_.push_back({line_, text});
@@ -123,7 +124,8 @@ class Reader {
   EdsObject object_;
   unsigned compact_ = 0;   // number of sub-objects that share one description
   bool has_subs_ = false;  // an array or a record: the section without a sub-index only describes the whole
-  bool any_ = false;
+  bool any_ = false, compact_pdos_ = false;
+  unsigned takes_ = 0, sends_ = 0;  // number of PDOs by [DeviceInfo]
   unsigned line_ = 0;
 };
 
@@ -139,12 +141,19 @@ void Reader::finish_object() {
   if (compact_ != 0) eds_->objects[section_.key] = {object_.line, 0x05, 8, "ro", false};
 }
 
+void Reader::take_device(const std::string& key, std::string_view value) {
+  const bool counted = key == "vendornumber" || key == "productnumber" || key == "compactpdo" || key == "nrofrxpdo" || key == "nroftxpdo";
+  const auto number = counted ? number_of(value) : std::optional<std::uint32_t>(0);
+  if (!number && !value.empty()) return error(key + " is no number: " + quoted(value));
+  if (key == "vendornumber") eds_->vendor = number.value_or(0);
+  if (key == "productnumber") eds_->product = number.value_or(0);
+  if (key == "compactpdo") compact_pdos_ = number.value_or(0) != 0;
+  if (key == "nrofrxpdo") takes_ = number.value_or(0);
+  if (key == "nroftxpdo") sends_ = number.value_or(0);
+}
+
 void Reader::take_key(const std::string& key, std::string_view value) {
-  if (section_.kind == Section::Kind::kDeviceInfo && (key == "vendornumber" || key == "productnumber")) {
-    const auto number = number_of(value);
-    if (!number && !value.empty()) return error(key + " is no number: " + quoted(value));
-    (key == "vendornumber" ? eds_->vendor : eds_->product) = number.value_or(0);
-  }
+  if (section_.kind == Section::Kind::kDeviceInfo) return take_device(key, value);
   if (section_.kind != Section::Kind::kObject) return;
   const bool counted = key == "datatype" || key == "pdomapping" || key == "objecttype" || key == "compactsubobj" || key == "subnumber";
   const auto number = counted ? number_of(value) : std::optional<std::uint32_t>(0);
@@ -181,11 +190,14 @@ void Reader::take_line(std::string_view raw) {
   const std::size_t equal = line.find('=');
   if (equal == std::string_view::npos) return error("neither [section] nor key=value: " + quoted(line));
   if (!any_) return error("a key in front of the first [section]");
-  take_key(lower(trimmed(line.substr(0, equal))), trimmed(line.substr(equal + 1)));
+  const std::string_view value = line.substr(equal + 1);
+  take_key(lower(trimmed(line.substr(0, equal))), trimmed(value.substr(0, value.find(';'))));  // no key that is read here has a text with a semicolon
 }
 
 std::vector<EdsError> Reader::read(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // with which some editors begin UTF-8
   if (text.size() > kMostEdsBytes) return {{0, "is larger than 4 MiB: no data sheet"}};
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
   while (!text.empty() && errors_.size() < kMostErrors) {
     ++line_;
     const std::size_t end = text.find('\n');
@@ -193,6 +205,7 @@ std::vector<EdsError> Reader::read(std::string_view text) {
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
   }
   finish_object();
+  if (compact_pdos_) eds_->compact_takes = takes_, eds_->compact_sends = sends_;
   if (errors_.empty() && eds_->objects.empty()) errors_.push_back({0, "describes no object"});
   return errors_;
 }
@@ -220,6 +233,34 @@ void check_exists(const Eds& eds, unsigned index, unsigned sub, const char* devi
   if (eds.find(index, sub) == nullptr) errors->push_back({0, object_text(index, sub) + " does not exist in this " + device});
 }
 
+// A PDO has to be there, and its mapping not for reading only: it is written.
+void check_pdo_exists(const Eds& eds, bool taken, unsigned number, const char* device, std::vector<EdsError>* errors) {
+  const unsigned index = (taken ? 0x1600u : 0x1A00u) + number - 1;
+  const EdsObject* found = eds.find(index, 0);
+  if (found == nullptr && number <= (taken ? eds.compact_takes : eds.compact_sends)) return;
+  check_exists(eds, index, 0, device, errors);
+  if (found != nullptr && (found->access == "ro" || found->access == "const"))
+    errors->push_back({found->line, object_text(index, 0) + " cannot be written (AccessType=" + found->access + "): the mapping of this PDO is fixed"});
+}
+
+// What the set-up writes has to be there with its size, and not for reading only.
+void check_written(const Eds& eds, const ObjectValue& object, const char* device, std::vector<EdsError>* errors) {
+  check_exists(eds, object.index, object.sub, device, errors);
+  const EdsObject* found = eds.find(object.index, object.sub);
+  if (found == nullptr) return;
+  const std::string name = object_text(object.index, object.sub);
+  if (found->bits != 8u * object.bytes) errors->push_back({found->line, name + " has " + std::to_string(found->bits) + " bits, not " + std::to_string(8 * object.bytes)});
+  if (found->access == "ro" || found->access == "const") errors->push_back({found->line, name + " cannot be written (AccessType=" + found->access + ")"});
+}
+
+// The objects 6000h to 9FFFh of the set-up of an axis that have to be there: of a step that may be skipped an object that is there has to fit all the same.
+void check_axis_setup(const Eds& eds, const AxisMap& axis, const char* device, std::vector<EdsError>* errors) {
+  for (const SetupStep& step : axis_setup(axis, 1000)) {
+    if (step.kind == SetupStep::Kind::kIsZero && eds.find(step.object.index, step.object.sub) == nullptr) continue;
+    if (step.kind != SetupStep::Kind::kWriteIfThere) check_written(eds, step.object, device, errors);
+  }
+}
+
 }  // namespace
 
 std::vector<EdsError> read_eds(std::string_view text, Eds* eds) {
@@ -234,28 +275,21 @@ std::vector<EdsError> check_eds(const Eds& eds, const NodeMap& node) {
     if (!node.module) break;
     for (const ModulePdo& pdo : module_pdos(*node.module, output)) {
       check_pdo(eds, pdo.mapping, output, device, &errors);
-      check_exists(eds, (output ? 0x1600u : 0x1A00u) + pdo.number - 1, 0, device, &errors);
+      check_pdo_exists(eds, output, pdo.number, device, &errors);
     }
   }
   for (const AxisMap& axis : node.axes) {
     check_pdo(eds, rpdo_mapping(axis), true, device, &errors);
     check_pdo(eds, tpdo_mapping(axis), false, device, &errors);
     if (axis.has_probe()) check_pdo(eds, probe_mapping(axis), false, device, &errors);
-    check_exists(eds, 0x1600 + axis.rpdo - 1, 0, device, &errors);
-    check_exists(eds, 0x1A00 + axis.tpdo - 1, 0, device, &errors);
-    if (axis.has_probe()) check_exists(eds, 0x1A00 + axis.tpdo, 0, device, &errors);
-    for (const unsigned index : {0x6060u, 0x6061u}) check_exists(eds, axis.object(index), 0, device, &errors);
-    for (const unsigned sub : {1u, 2u})
-      if (axis.mode != kModeProfileVelocity) check_exists(eds, axis.object(0x60C2), sub, device, &errors);
-    if (axis.has_homing())
-      for (const unsigned index : {0x6098u, 0x609Au, 0x607Cu}) check_exists(eds, axis.object(index), 0, device, &errors);
+    check_pdo_exists(eds, true, axis.rpdo, device, &errors);
+    check_pdo_exists(eds, false, axis.tpdo, device, &errors);
+    if (axis.has_probe()) check_pdo_exists(eds, false, axis.tpdo + 1, device, &errors);
+    check_written(eds, {static_cast<std::uint16_t>(axis.object(0x6060)), 0, 1, 0}, device, &errors);
+    check_exists(eds, axis.object(0x6061), 0, device, &errors);
+    check_axis_setup(eds, axis, device, &errors);
   }
-  for (const ObjectValue& object : node.objects) {
-    check_exists(eds, object.index, object.sub, device, &errors);
-    const EdsObject* found = eds.find(object.index, object.sub);
-    if (found != nullptr && found->bits != 8u * object.bytes)
-      errors.push_back({found->line, object_text(object.index, object.sub) + " has " + std::to_string(found->bits) + " bits, not " + std::to_string(8 * object.bytes)});
-  }
+  for (const ObjectValue& object : node.objects) check_written(eds, object, device, &errors);
   if (node.vendor != 0 && eds.vendor != 0 && node.vendor != eds.vendor) errors.push_back({0, std::string("is of another vendor (VendorNumber) than the ") + device + " is to be"});
   if (node.product != 0 && eds.product != 0 && node.product != eds.product) errors.push_back({0, std::string("is of another product (ProductNumber) than the ") + device + " is to be"});
   return errors;

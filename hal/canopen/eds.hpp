@@ -29,6 +29,8 @@ struct EdsError {
 struct Eds {
   std::map<std::uint32_t, EdsObject> objects;  // index << 8 | sub-index
   std::uint32_t vendor = 0, product = 0;        // from [DeviceInfo]; 0 = not given
+  // From [DeviceInfo], too: the first so many PDOs are there without sections of their own (CompactPDO).
+  unsigned compact_takes = 0, compact_sends = 0;
 
   const EdsObject* find(unsigned index, unsigned sub) const {
     const auto entry = objects.find(index << 8 | sub);

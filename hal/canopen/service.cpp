@@ -222,8 +222,9 @@ void Service::judge_plan_step(Node* node, std::int64_t now_ns) {
   const SdoClient& sdo = *node->sdo;
   if (sdo.state() == SdoClient::State::kFailed) {
     const std::uint32_t code = sdo.abort_code();
-    const bool absent = code == kNoObject || code == kNoSub || code == kNoAccess || code == kReadOnly;
-    if (done.kind == SetupStep::Kind::kWriteIfThere && absent) return;
+    const bool refused = code == kNoSub || code == kNoAccess || code == kReadOnly;
+    if (done.kind == SetupStep::Kind::kWriteIfThere && (code == kNoObject || refused)) return;
+    if (done.kind == SetupStep::Kind::kIsZero && code == kNoObject) return;
     const bool silent = was_silent(*node);
     node->silent |= silent;
     const std::string value = done.kind == SetupStep::Kind::kCheck ? "" : " (written: " + hex(done.object.value) + ")";

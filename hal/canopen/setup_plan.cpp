@@ -60,8 +60,15 @@ void homing(Plan* plan, const AxisMap& axis) {
   plan->write(axis.object(0x6098), 0, 1, static_cast<std::uint8_t>(axis.homing_method));
   plan->write(axis.object(0x6099), 1, 4, increments(axis.homing_fast * scale));
   plan->write(axis.object(0x6099), 2, 4, increments(axis.homing_slow * scale));
-  plan->write(axis.object(0x609A), 0, 4, increments(axis.homing_acceleration * scale));
-  plan->write(axis.object(0x607C), 0, 4, 0);  // its sign is not the same in all drives, so the place of the mark is AxisMap::zero
+  if (axis.homing_acceleration > 0) plan->write(axis.object(0x609A), 0, 4, increments(axis.homing_acceleration * scale));
+  plan->add(Kind::kIsZero, axis.object(0x607C), 0, 4, 0);  // its sign is not the same in all drives, so the place of the mark is AxisMap::zero
+}
+
+void set_up_axis(Plan* plan, const AxisMap& axis, unsigned sync_us) {
+  plan->try_write(axis.object(0x6007), 0, 2, 3);  // when the connection is lost: quick stop
+  plan->try_write(axis.object(0x605A), 0, 2, 2);  // at a quick stop: the drive's own ramp, then no torque
+  if (axis.mode != kModeProfileVelocity) interpolation_time(plan, axis, sync_us);
+  if (axis.has_homing()) homing(plan, axis);
 }
 
 // CiA 401: what the digital outputs become when the module does not hear the control any more. 1029h:1 = 0: it goes to "pre-operational" then; 6206h: an output
@@ -107,6 +114,12 @@ std::vector<std::uint32_t> probe_mapping(const AxisMap& axis) {
   return {map_entry(axis, 0x60B9, 16), map_entry(axis, axis.skip_falling ? 0x60BB : 0x60BA, 32)};
 }
 
+std::vector<SetupStep> axis_setup(const AxisMap& axis, unsigned sync_us) {
+  Plan plan;
+  set_up_axis(&plan, axis, sync_us);
+  return plan.steps;
+}
+
 std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
   Plan plan;
   plan.add(Kind::kCheck, 0x1000, 0, 4, node.module ? kProfile401 : kProfile402, 0xFFFF);
@@ -125,10 +138,7 @@ std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node) {
     plan.pdo(0x1400, 0x1600, axis.rpdo, kRpdoId + kPdoStep * takes++ + node.id, rpdo_mapping(axis));
     plan.pdo(0x1800, 0x1A00, axis.tpdo, kTpdoId + kPdoStep * sends++ + node.id, tpdo_mapping(axis));
     if (axis.has_probe()) plan.pdo(0x1800, 0x1A00, axis.tpdo + 1, kTpdoId + kPdoStep * sends++ + node.id, probe_mapping(axis));
-    plan.try_write(axis.object(0x6007), 0, 2, 3);  // when the connection is lost: quick stop
-    plan.try_write(axis.object(0x605A), 0, 2, 2);  // at a quick stop: the drive's own ramp, then no torque
-    if (axis.mode != kModeProfileVelocity) interpolation_time(&plan, axis, bus.sync_us);
-    if (axis.has_homing()) homing(&plan, axis);
+    set_up_axis(&plan, axis, bus.sync_us);
   }
   for (const ObjectValue& object : node.objects) plan.write(object.index, object.sub, object.bytes, object.value);
   plan.steps.insert(plan.steps.end(), plan.checks.begin(), plan.checks.end());

@@ -12,7 +12,8 @@ namespace nc::hal::canopen {
 struct SetupStep {
   enum class Kind : std::uint8_t {
     kWrite,
-    kWriteIfThere,  // skipped when the drive does not have this object
+    kWriteIfThere,  // skipped when the drive does not have this object, or does not let it be written
+    kIsZero,        // 0 is written; a drive that does not have this object has 0
     kCheck          // the object is read, and its bits in `mask` must be those of `value`
   };
   Kind kind = Kind::kWrite;
@@ -21,6 +22,9 @@ struct SetupStep {
 };
 
 std::vector<SetupStep> setup_plan(const BusMap& bus, const NodeMap& node);
+
+// Of that the objects 6000h to 9FFFh of one axis, without its PDOs.
+std::vector<SetupStep> axis_setup(const AxisMap& axis, unsigned sync_us);
 
 // 60C2h: a period as mantissa x 10^exponent seconds. The mantissa must fit into one byte.
 struct InterpolationTime {

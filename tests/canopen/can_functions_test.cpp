@@ -52,6 +52,41 @@ TEST(CanFunctions, TheMarkIsWhereItIsWhicheverSignTheDriveGivesItsOffset) {
   }
 }
 
+// CiA 402 lets a drive be without a home offset: then it is 0, which is all that the control asks for. One that cannot be set may be another value.
+TEST(CanFunctions, ADriveWithoutAHomeOffsetHomesAllTheSame) {
+  CanRig rig(can_toml("", kHoming));
+  rig.drives[0]->remove_object(0x607C, 0);
+  rig.bring_up();
+  ASSERT_EQ(rig.mdi("#1100 = 1"), Answer::kDone);
+  rig.step(200);
+  ASSERT_TRUE(rig.until([&] { return rig.following() && rig.idle(); }, 3000)) << rig.alarms();
+  rig.step(10);
+  EXPECT_NEAR(rig.command(0), -30.0, 0.001);
+  EXPECT_EQ(rig.alarms(), "");
+}
+
+TEST(CanFunctions, AHomeOffsetThatCannotBeSetIsRefused) {
+  for (const auto& [code, text] : {std::pair{0x06010002u, "the object can only be read"}, {0x08000022u, "not now: the state of the device forbids it"}, {0x06090011u, "the sub-index does not exist"}}) {
+    CanRig rig(can_toml("", kHoming));
+    rig.drives[0]->refuses[0x607C00] = code;
+    EXPECT_FALSE(rig.boot(3000));
+    EXPECT_NE(rig.machine->service().missing().find(std::string("node 1 (X drive): 607Ch:0: ") + text + " (written: 0h)"), std::string::npos) << rig.machine->service().missing();
+  }
+}
+
+// So is its acceleration, which is the drive's own where the file gives none.
+TEST(CanFunctions, WithoutAnAccelerationOfItsHomingTheDriveKeepsItsOwn) {
+  std::string homing = kHoming;
+  homing.replace(homing.find("acceleration = 200.0, "), 22, "");
+  CanRig rig(can_toml("", homing));
+  rig.drives[0]->remove_object(0x609A, 0);
+  rig.bring_up();
+  CanRig given(can_toml("", kHoming));
+  given.drives[0]->remove_object(0x609A, 0);
+  EXPECT_FALSE(given.boot(3000));
+  EXPECT_NE(given.machine->service().missing().find("609Ah:0: the object does not exist"), std::string::npos) << given.machine->service().missing();
+}
+
 // ---- the control asks for it: homing of the axis itself, docs/homing.md ----
 
 // Y has its servo off while X is homed.

@@ -71,7 +71,13 @@ TEST(Eds, WhatCannotBeMappedIsNamedWithItsLine) {
 TEST(Eds, WhatAnAxisNeedsBesidesIsLookedFor) {
   NodeMap map = node();
   map.axes[0].homing_method = 17;
-  EXPECT_EQ(wrong(good_eds(), map).size(), 3u);
+  EXPECT_EQ(wrong(good_eds(), map).size(), 3u);  // 6098h, 6099h:1 and :2
+  const std::string homes = good_eds() + object("6098", 2, "rw", 0) + object("6099sub1", 7, "rw", 0) + object("6099sub2", 7, "rw", 0);
+  EXPECT_TRUE(wrong(homes, map).empty());
+  map.axes[0].homing_acceleration = 100;
+  EXPECT_EQ(wrong(homes, map), std::vector<std::string>{"0: 609Ah:0 does not exist in this drive"});
+  EXPECT_TRUE(wrong(homes + object("609A", 7, "rw", 0) + object("607C", 4, "rw", 0), map).empty());
+  EXPECT_EQ(wrong(homes + object("609A", 7, "rw", 0) + object("607C", 4, "const", 0), map).size(), 1u) << "what it is set to may be another value than 0";
   map = node();
   map.axes[0].slot = 1;
   EXPECT_EQ(wrong(good_eds(), map).front(), "0: 6840h:0 does not exist in this drive");
@@ -95,6 +101,38 @@ TEST(Eds, ACompactArrayHasItsSubIndices) {
   EXPECT_EQ(eds.find(0x2000, 3)->bits, 32u);
   EXPECT_EQ(eds.find(0x2000, 0)->bits, 8u);
   EXPECT_EQ(eds.find(0x2000, 4), nullptr);
+}
+
+TEST(Eds, ASubIndexIsHexadecimal) {  // as CiA 306 writes it, without 0x
+  Eds eds;
+  EXPECT_TRUE(read_eds(object("2000subA", 4, "rw", 1) + object("2000sub10", 6, "rw", 1), &eds).empty());
+  ASSERT_NE(eds.find(0x2000, 10), nullptr);
+  EXPECT_EQ(eds.find(0x2000, 10)->bits, 32u);
+  ASSERT_NE(eds.find(0x2000, 16), nullptr);
+  EXPECT_EQ(eds.find(0x2000, 16)->bits, 16u);
+}
+
+TEST(Eds, MarksOfEncodingAndCommentsBehindANumberMeanNothing) {
+  EXPECT_TRUE(wrong("\xEF\xBB\xBF" + good_eds()).empty());
+  EXPECT_TRUE(wrong("\xEF\xBB\xBF" + replaced(good_eds(), "; a drive\n", "")).empty());
+  EXPECT_TRUE(wrong(replaced(good_eds(), "DataType=0x0004", "DataType=0x0004 ; INTEGER32")).empty());
+}
+
+// CiA 306: PDOs of a drive with many of them need no sections.
+TEST(Eds, CompactPdosAreThere) {
+  std::string text = good_eds();
+  for (const char* name : {"1600sub0", "1A00sub0", "1A01sub0"}) text = replaced(text, object(name, 5, "rw", 0), "");
+  EXPECT_EQ(wrong(text).size(), 2u);
+  const auto with = [&](const char* keys) { return replaced(text, "[DeviceInfo]\n", std::string("[DeviceInfo]\n") + keys); };
+  EXPECT_TRUE(wrong(with("CompactPDO=0x3\nNrOfRXPDO=4\nNrOfTXPDO=4\n")).empty());
+  EXPECT_EQ(wrong(with("CompactPDO=0\nNrOfRXPDO=4\nNrOfTXPDO=4\n")).size(), 2u);
+  NodeMap second = node();
+  second.axes[0].tpdo = 5;
+  EXPECT_EQ(wrong(with("NrOfRXPDO=4\nNrOfTXPDO=4\nCompactPDO=1\n"), second), std::vector<std::string>{"0: 1A04h:0 does not exist in this drive"});
+}
+
+TEST(Eds, AMappingThatIsFixedIsNamed) {
+  EXPECT_EQ(wrong(replaced(good_eds(), object("1600sub0", 5, "rw", 0), object("1600sub0", 5, "const", 0))).size(), 1u);
 }
 
 TEST(Eds, ATextThatIsNoneIsRefusedWithItsLines) {
