@@ -93,7 +93,7 @@ enum class PointRole : std::uint8_t {
   kMacroOutput, kSignalOutput, kHomingRequest, kBrake,                                        // sets an output
   kDriveHoming, kSpindleTurn, kSpindleOrient, kSpindleGear, kSimulatedCommand,                // obeys an output
   kDriveHomed, kSpindleOriented, kSimulatedAnswer,                                            // gives an input
-  kHomingDone, kDog, kIndex, kLimit, kWheelCounter, kWheelTimes10, kWheelTimes100, kStick, kMeasuredSpeed, kFree  // goes by an input
+  kHomingDone, kDog, kIndex, kLimit, kWheelCounter, kWheelTimes10, kWheelTimes100, kStick, kMeasuredSpeed, kSupply, kFree  // goes by an input
 };
 
 struct PointUse {

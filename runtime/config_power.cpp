@@ -4,23 +4,23 @@
 #include <cmath>
 
 #include "runtime/config_sections.hpp"
-#include "runtime/signals/signal_table.hpp"
 
 namespace nc::rt {
 namespace {
 
 constexpr double kBrakesWithin_s = 0.03;  // a law of motion begins to brake within that time (docs/motion-optimal.md)
 
-bool is_wired(const Config& config) {
-  const std::vector<Signal> signals = machine_signals(config.nc);
-  return std::any_of(config.wires.begin(), config.wires.end(), [&](const SignalWire& wire) { return signals[wire.signal].name == "plc.power_fail_n"; });
+// Null: no input says that the supply fails, or the ladder program does.
+const PointUse* supply_of(const Config& config) {
+  const auto found = std::find_if(config.point_uses.begin(), config.point_uses.end(), [](const PointUse& use) { return use.role == PointRole::kSupply; });
+  return found == config.point_uses.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 void read_power(TableReader* root, Config* config) {
-  for (const PointUse& use : config->point_uses)
-    if (use.place.key.find("plc.power_fail_n") != std::string::npos) config->stop_s_place = use.place;
+  const PointUse* const supply = supply_of(*config);
+  if (supply != nullptr) config->stop_s_place = supply->place;
   root->table("power", [&](TableReader& reader) {
     PowerConfig& power = config->power;
     config->stop_s_place = {reader.line("stop_s"), reader.path("stop_s")};
@@ -33,7 +33,7 @@ void read_power(TableReader* root, Config* config) {
                                       {config->offsets, "offsets too: [machine] offsets"},
                                       {config->ladder.retain, "devices of the ladder too: [ladder] retain"}})
       if (same_file(config->place, other)) reader.error("place", std::string("is the file of the ") + what);
-    if (config->ladder.program.empty() && !is_wired(*config))
+    if (config->ladder.program.empty() && supply == nullptr)
       reader.errors()->add(reader.line(), reader.path(), "nothing gives plc.power_fail_n: connect an input with it under [signals]");
   });
 }
@@ -41,7 +41,7 @@ void read_power(TableReader* root, Config* config) {
 // From its rapid rate an axis needs v/a, and a/j more with a limited jerk. In the corner of a path each axis has its own share of that.
 std::vector<std::string> power_warnings(const Config& config) {
   std::vector<std::string> warnings;
-  if (!is_wired(config)) return warnings;
+  if (supply_of(config) == nullptr) return warnings;
   for (unsigned s = 0; s < config.nc.system_count; ++s) {
     for (unsigned a = 0; a < config.nc.system[s].axis_count; ++a) {
       const nc_axis_config& axis = config.nc.system[s].axis[a];

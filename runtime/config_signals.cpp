@@ -9,6 +9,11 @@
 namespace nc::rt {
 namespace {
 
+PointRole role_of(const Signal& signal) {
+  if (signal.row->direction == SignalDirection::kFromNc) return PointRole::kSignalOutput;
+  return signal.name == "plc.power_fail_n" ? PointRole::kSupply : PointRole::kFree;
+}
+
 // `called`: the name of the signal, which a family may have a name of its own for, the key.
 void connect(TableReader* reader, const std::string& key, const std::string& called, const std::vector<Signal>& signals, Config* config) {
   std::string name;
@@ -30,7 +35,7 @@ void connect(TableReader* reader, const std::string& key, const std::string& cal
   if (to_nc && !config->ladder.program.empty())
     return reader->error(key, "is given by the ladder program: connect it there");
   config->wires.push_back({static_cast<unsigned>(signal - signals.begin()), static_cast<unsigned>(index)});
-  config->point_uses.push_back({to_nc ? PointRole::kFree : PointRole::kSignalOutput, index, {reader->line(key), reader->path(key)}});
+  config->point_uses.push_back({role_of(*signal), index, {reader->line(key), reader->path(key)}});
 }
 
 }  // namespace

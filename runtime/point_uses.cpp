@@ -41,7 +41,8 @@ constexpr PointRoleRow kPointRoles[] = {
     {Role::kWheelTimes100, Way::kReadsInput, "`[[handwheel]]` `times_100`", "the factor 100 of handwheel %", "of several wheels, not beside `times_10` of the same one"},
     {Role::kStick, Way::kReadsInput, "`[[joystick]]` `input`", "a joystick", "of several axes"},
     {Role::kMeasuredSpeed, Way::kReadsInput, "`[[spindle]]` `feedback`", "the measured speed of %", "of several spindles"},
-    {Role::kFree, Way::kReadsInput, "`[signals]` `plc.`, `[macro_interface]`, `[[handwheel]]` `axes`, `[[joystick]]` `dead_man` and `chosen_by`, the ladder program", "an input", kAnything},
+    {Role::kSupply, Way::kReadsInput, "`[signals]` `plc.power_fail_n`", "what the supply says", kAnything},
+    {Role::kFree, Way::kReadsInput, "`[signals]` other `plc.`, `[macro_interface]`, `[[handwheel]]` `axes`, `[[joystick]]` `dead_man` and `chosen_by`, the ladder program", "an input", kAnything},
 };
 
 constexpr bool point_roles_are_in_order() {

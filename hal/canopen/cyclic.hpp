@@ -151,8 +151,9 @@ class Cyclic {
     unsigned homing_syncs = 0;
     HomingAnswer answer;
     bool home_before = false, homed = false;
-    std::int64_t stop_place = 0;  // of a homing that is given up: where it was last seen to move
-    unsigned stood_syncs = 0;     // since then; of one that waits for its mode: SYNCs in it
+    unsigned mode_syncs = 0;      // of a homing that waits for its mode: SYNCs in it
+    std::int64_t stop_place = 0;  // of one that is given up: where it was last seen to move
+    unsigned stood_syncs = 0;     // since then
     // touch probe
     std::uint16_t probe_status = 0, probe_function = 0;
     std::int32_t probe_raw = 0;

@@ -12,8 +12,9 @@ namespace {
 constexpr int kAheadLimit = 20;   // positions more than SYNCs until that is a fault
 constexpr int kMostOwed = 200;    // positions fewer than SYNCs that are remembered: as late as a drive can be without looking like two
 constexpr unsigned kHomingSettle = 10;    // SYNCs in the homing mode behind which the status is that of this mode
+constexpr unsigned kStandsFor = 10;       // SYNCs in which an axis that comes to rest has not moved: it stands
 constexpr unsigned kHomingBeginMs = 2000;  // time within which a homing has to begin
-constexpr double kStandsWithin = 0.005;   // mm or deg in kHomingSettle SYNCs: an axis that stands
+constexpr double kStandsWithin = 0.005;   // mm or deg in kStandsFor SYNCs: an axis that stands
 constexpr unsigned kProbeHold = 20;       // SYNCs for which the skip signal stays on
 constexpr double kProbeSlack = 0.1;       // mm or deg beside its way at which an axis may have been when its drive latched the place
 constexpr double kJumpFactor = 2;         // a set-point may need at most this multiple of the largest velocity
@@ -192,7 +193,7 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   axis->home_before = wanted.home;
   if (rises && follows(index) && axis->map->has_homing()) {
     axis->homing = Homing::kMode;
-    axis->homing_syncs = axis->stood_syncs = 0;
+    axis->homing_syncs = axis->mode_syncs = 0;
     axis->homed = false;
     wanted_mode_[index].store(kModeHoming, std::memory_order_release);
   }
@@ -204,7 +205,7 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
   ++axis->homing_syncs;
   const unsigned most_ms = axis->homing == Homing::kStops ? bus_.stop_timeout_ms : static_cast<unsigned>(axis->map->homing_timeout_s * 1000);
   const bool late = axis->homing_syncs > syncs_of(most_ms);
-  const bool stopped = axis->homing == Homing::kStops && axis->stood_syncs > kHomingSettle;
+  const bool stopped = axis->homing == Homing::kStops && axis->stood_syncs > kStandsFor;
   if (late) fault(axis, DriveTrouble::kHoming);
   if (done && !axis->faulty) axis->homed = true;
   if (done || stopped || axis->faulty || !wanted.on) {
@@ -218,7 +219,7 @@ bool Cyclic::home_axis(unsigned index, Axis* axis, const AxisWanted& wanted) noe
 
 // The start bit follows when the drive has been in the homing mode for so long that the status is no longer that of its mode before.
 void Cyclic::begin_homing(Axis* axis, std::int8_t mode) noexcept {
-  if (mode != kModeHoming || axis->missed != 0 || ++axis->stood_syncs <= kHomingSettle) return;
+  if (mode != kModeHoming || axis->missed != 0 || ++axis->mode_syncs <= kHomingSettle) return;
   axis->homing = Homing::kRuns;
   axis->homing_syncs = 0;
   axis->answer.start(axis->status, axis->map->homing_method);
