@@ -57,6 +57,8 @@ constexpr bool takes_all_systems(CommandKind kind) {
   return kind <= CommandKind::kOptionalStop;
 }
 
+inline constexpr std::uint64_t kBehindAll = UINT64_MAX;
+
 struct Command {
   CommandKind kind = CommandKind::kReset;
   std::uint8_t system = 0;  // index, or kAllSystems
@@ -65,6 +67,8 @@ struct Command {
   double value = 0;
   std::uint64_t ticket = 0;  // number of the command; set by the runtime
   Asker by = Asker::kConsole;
+  // Of one that moves something: the feed holds that had been asked for when it was (HoldDoor). One that came behind it takes it back. kBehindAll = none does.
+  std::uint64_t holds = kBehindAll;
 };
 
 enum class Answer : std::uint8_t {
@@ -93,7 +97,7 @@ enum class Answer : std::uint8_t {
   kNoJogFeed,         // a jog while the jog feed is 0
   kLetGoFirst,        // the jog was on while something refused it: it must go off first
   kFeedHold,          // the machine gives a feed hold
-  kTakenBack,         // a cycle start was cancelled by a feed hold of the same scan, whoever gave the feed hold
+  kTakenBack,         // a feed hold came behind a cycle start or a motion by hand, before it was executed or in the same scan; whoever gave the feed hold
   kInterlock,
   kAxesMove,
   kWarningActive,     // R19, R20, printed lines are lost: reset first

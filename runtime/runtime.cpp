@@ -6,6 +6,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -325,15 +326,17 @@ bool Runtime::is_still_checked() {
   return true;
 }
 
+static std::uint32_t systems_of(unsigned system, unsigned count) { return system == kAllSystems ? (1u << count) - 1 : 1u << system; }
+
 std::uint64_t Runtime::ask_hold(unsigned system) {
   const unsigned count = config_.nc.system_count;
   if (!running_ || (system != kAllSystems && system >= count)) return 0;
-  return scan_->hold_door().ask(system == kAllSystems ? (1u << count) - 1 : 1u << system);
+  return scan_->hold_door().ask(systems_of(system, count));
 }
 
-Answer Runtime::await_hold(std::uint64_t number) {
+Answer Runtime::await_hold(std::uint64_t number, unsigned system) {
   const auto give_up = std::chrono::steady_clock::now() + kAnswerTime;
-  while (!scan_->hold_door().is_answered(number)) {
+  while (!scan_->hold_door().is_answered(number, systems_of(system, config_.nc.system_count))) {
     if (std::chrono::steady_clock::now() > give_up) return Answer::kNoAnswer;
     std::this_thread::sleep_for(std::chrono::microseconds(200));
   }
@@ -341,7 +344,8 @@ Answer Runtime::await_hold(std::uint64_t number) {
 }
 
 Answer Runtime::execute(Command command) {
-  if (const std::uint64_t hold = command.kind == CommandKind::kFeedHold ? ask_hold(command.system) : 0; hold != 0) return await_hold(hold);
+  if (const std::uint64_t hold = command.kind == CommandKind::kFeedHold ? ask_hold(command.system) : 0; hold != 0) return await_hold(hold, command.system);
+  command.holds = std::min(command.holds, holds());
   if (command.kind == CommandKind::kCycleStart && !is_still_checked()) return Answer::kNotChecked;
   const std::lock_guard lock(operator_);
   return execute_alone(command);

@@ -96,13 +96,17 @@ class Runtime {
   bool remembers(unsigned file) const { return feeder_->remembers(file); }
 
   // ---- operator ----
-  // Hands over the command and waits for the answer; on virtual time it calls step() meanwhile.
+  // Hands over the command and waits for the answer; on virtual time it calls step() meanwhile. One that moves something is taken back by a feed hold that comes
+  // from now on and before it is executed, or since Command::holds.
   Answer execute(Command command);
   // A feed hold waits for no other command, as for a selection whose disk does not answer: the scan holds with its next run. The number of the request; 0 = there is no such part system, or
   // no scan runs in real time. Any thread.
   std::uint64_t ask_hold(unsigned system);
   // Waits until the scan has done it. Any thread.
-  Answer await_hold(std::uint64_t number);
+  Answer await_hold(std::uint64_t number, unsigned system);
+  // The feed holds that have been asked for so far (Command::holds); the part systems of which one has come since it was so many, one bit each. Any thread.
+  std::uint64_t holds() const { return scan_->hold_door().asked(); }
+  std::uint32_t held_since(std::uint64_t holds) const { return scan_->hold_door().asked_since(holds); }
   // The command is for all part systems if that is possible (takes_all_systems()), as from a button of the panel; otherwise it is for the first one.
   Answer execute(CommandKind kind, double value = 0, std::uint32_t number = 0);
   Answer select_program(unsigned file) { return execute(CommandKind::kSelectProgram, 0, file); }

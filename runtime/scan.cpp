@@ -169,11 +169,14 @@ void Scan::bind_spindles() noexcept {
 
 void Scan::take_commands() noexcept {
   held_now_ = 0;
+  // In front of the commands: those that were asked for before the hold are taken back by their count, and a start behind it is wanted.
+  if (const std::uint32_t systems = hold_door_.take(); systems != 0) hold_as_asked(systems);
   Command command;
   while (answered_count_ < std::size(answered_) && commands_.pop(&command)) answered_[answered_count_++] = {command.ticket, apply(command)};
-  // Behind the commands, so that a start that was given before the hold is taken back.
-  if (const std::uint32_t systems = hold_door_.take(); systems != 0) hold_as_asked(systems);
 }
+
+// A feed hold of one of these part systems has come since the command was asked for.
+bool Scan::is_taken_back(const Command& command) const noexcept { return (hold_door_.asked_since(command.holds) & named_systems(command)) != 0; }
 
 // Holds what runs, or in manual mode what moves by hand.
 void Scan::hold_as_asked(std::uint32_t systems) noexcept {
@@ -209,7 +212,7 @@ Answer Scan::apply(const Command& command) noexcept {
       if (command.number > static_cast<std::uint32_t>(Mode::kManual)) return Answer::kOutOfRange;
       return set_mode(static_cast<Mode>(command.number));
     case CommandKind::kCycleStart:
-      return start_cycle(systems, command.system == kAllSystems, command.by);
+      return start_cycle(systems, command.system == kAllSystems, command.by, hold_door_.asked_since(command.holds));
     case CommandKind::kFeedHold:
       hold_as_asked(systems);
       return Answer::kDone;
@@ -236,9 +239,9 @@ Answer Scan::apply(const Command& command) noexcept {
     case CommandKind::kApproach:
       return approach(command);
     case CommandKind::kHome:
-      return home_command(command);
+      return is_taken_back(command) ? Answer::kTakenBack : home_command(command);
     case CommandKind::kTapRetract:
-      return draw_tap(command.system, command.number != 0);
+      return command.number != 0 && is_taken_back(command) ? Answer::kTakenBack : draw_tap(command.system, command.number != 0);
     case CommandKind::kForce:
       return ladder_->force(command.number, static_cast<std::int32_t>(command.value));
     case CommandKind::kRelease:
@@ -355,7 +358,8 @@ void Scan::follow_mdi() noexcept {
   mdi_runs_ &= active_systems();
 }
 
-Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
+// `held_since`: the part systems of which a feed hold has come since the start was asked for.
+Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by, std::uint32_t held_since) noexcept {
   if (ending_) return Answer::kEnding;
   if (mode_ == Mode::kManual) return Answer::kNotInThisMode;
   if (reset_phase_ != ResetPhase::kNone) return in_reset();
@@ -381,7 +385,7 @@ Answer Scan::start_cycle(std::uint32_t systems, bool all, Asker by) noexcept {
     if ((ready >> s & 1u) != 0 && out_[s].tap_holds != 0) return Answer::kTapInHole;  // the NC would refuse it without a word
   if (const Answer why = restart_hindrance(ready); why != Answer::kDone) return why;
   // Who commands a start behind his hold wants it. Whoever presses a button in that scan does not know of the hold.
-  const std::uint32_t taken_back = by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0, starts = ready & ~taken_back;
+  const std::uint32_t taken_back = held_since | (by == Asker::kPanel || by == Asker::kLadder ? held_now_ : 0), starts = ready & ~taken_back;
   if (starts == 0) return Answer::kTakenBack;
   if (active == 0) program_mode_ = mode_;
   for (unsigned s = 0; s < systems_; ++s)

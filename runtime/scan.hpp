@@ -78,6 +78,7 @@ class Scan {
 
   // ---- any thread ----
   HoldDoor& hold_door() { return hold_door_; }
+  const HoldDoor& hold_door() const { return hold_door_; }
   Snapshot snapshot() const { return snapshot_.load(); }
   const ScanStatistics& statistics() const { return statistics_; }
 
@@ -206,7 +207,8 @@ class Scan {
   Answer apply(const Command& command) noexcept;
   std::uint32_t named_systems(const Command& command) const noexcept;
   std::uint32_t all_systems() const noexcept { return (1u << systems_) - 1; }
-  Answer start_cycle(std::uint32_t systems, bool all, Asker by) noexcept;
+  bool is_taken_back(const Command& command) const noexcept;
+  Answer start_cycle(std::uint32_t systems, bool all, Asker by, std::uint32_t held_since = 0) noexcept;
   std::uint32_t ready_systems(std::uint32_t systems, bool all) const noexcept;
   std::uint32_t head_with(Loaded wanted, bool all) const noexcept;
   void hold(std::uint32_t systems) noexcept;

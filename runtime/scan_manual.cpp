@@ -76,6 +76,7 @@ Answer Scan::jog(const Command& command) noexcept {
     return Answer::kDone;
   }
   Answer why = hand_hindrance(command.system, command.axis);
+  if (why == Answer::kDone && is_taken_back(command)) why = Answer::kTakenBack;
   if (why == Answer::kDone && axes_[command.system][command.axis].homing.active()) why = Answer::kHoming;
   if (why == Answer::kDone) why = way_hindrance(command.system, command.axis, direction_of(command.value));
   const double most = config_.nc.system[command.system].axis[command.axis].max_velocity;
@@ -90,6 +91,7 @@ Answer Scan::jog(const Command& command) noexcept {
 Answer Scan::step_or_return(const Command& command) noexcept {
   const unsigned s = command.system, a = command.axis;
   if (const Answer why = hand_hindrance(s, a); why != Answer::kDone) return why;
+  if (is_taken_back(command)) return Answer::kTakenBack;
   if (axes_[s][a].homing.active()) return Answer::kHoming;
   if (command.kind == CommandKind::kReference && config_.equipment[s][a].homing.present() && !axes_[s][a].homed) return begin_homing(s, a);
   if (!at_rest()) return Answer::kAxesMove;

@@ -71,7 +71,8 @@ Answer Scan::approach(const Command& command) noexcept {
   const unsigned s = command.system, a = command.axis;
   if (s >= systems_ || a >= config_.nc.system[s].axis_count) return Answer::kAxisUnknown;
   Jog& jog = jog_[s][a];
-  const Answer why = approach_hindrance(s, a);
+  Answer why = approach_hindrance(s, a);
+  if (why == Answer::kDone && is_taken_back(command)) why = Answer::kTakenBack;
   const double velocity = command.value == 0 ? approach_feed(s, a, last_requests_) : command.value;
   if (!(velocity >= 0 && velocity <= config_.nc.system[s].axis[a].max_velocity)) return Answer::kOutOfRange;
   if (why == Answer::kDone && velocity == 0) return Answer::kNoJogFeed;

@@ -279,12 +279,13 @@ void LocalServer::take_frames(Connection* connection) {
   if (connection->socket >= 0 && !connection->closing && !takes_more(*connection)) look_ahead(connection);
 }
 
-// A hold does not wait until its client may have one request more. It keeps its turn, as a start before it must not outrun it.
+// A hold does not wait until its client may have one request more. What the client has sent before it, and is taken later, has come before it all the same.
 void LocalServer::look_ahead(Connection* connection) {
   connection->in.look_ahead([&](std::string_view frame) {
     Call call;
     Outcome outcome;
-    if (decode_call(frame, &call, &outcome)) (void)services_.hold_at_once(*connection->session, call, now_ns() - call.age_ns);
+    if (!decode_call(frame, &call, &outcome)) call.row = nullptr;
+    connection->ahead.add(services_.arrived(*connection->session, call, now_ns() - call.age_ns));
   });
 }
 
@@ -310,6 +311,7 @@ bool LocalServer::take_while_room(Connection* connection) {
 void LocalServer::take(Connection* connection, const std::string& frame) {
   Job job;
   Outcome outcome;
+  const bool was_ahead = connection->ahead.take(&job.arrival);
   if (!decode_call(frame, &job.call, &outcome)) return put(connection, encode_reply(job.call.id, outcome));
   const Session& session = *connection->session;
   if (const std::string lacks = Services::lack(session, job.call); !lacks.empty()) {
@@ -321,7 +323,7 @@ void LocalServer::take(Connection* connection, const std::string& frame) {
   ++connection->outstanding;
   job.session = connection->session;
   job.came_ns = now_ns() - job.call.age_ns;
-  job.held = services_.hold_at_once(session, job.call, job.came_ns);
+  if (!was_ahead) job.arrival = services_.arrived(session, job.call, job.came_ns);
   const Lane lane = job.call.row->lane;
   post(lane, std::move(job));
 }
@@ -513,7 +515,7 @@ void LocalServer::execute_command(const Job& job) {
     waiting_[{session->number, number}] = job.call.id;
   };
   Outcome outcome;
-  if (!services_.command(session, job.call, job.came_ns, expect, &outcome, job.held)) return;
+  if (!services_.command(session, job.call, job.came_ns, expect, &outcome, job.arrival)) return;
   {
     const std::lock_guard lock(mutex_);
     waiting_.erase({session->number, sequence});

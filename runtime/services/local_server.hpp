@@ -36,6 +36,30 @@ inline constexpr std::size_t kLongestSocketPath = 107;  // of sockaddr_un
 // (XDG_RUNTIME_DIR); "" = there is none. `share`: name of the control.
 std::string socket_path(const ServicesConfig& config, const std::string& share);
 
+// What is known of requests that were looked at before they are taken, in their order. A hold is one of its own; others are counted together as long as no hold comes,
+// so a client that sends the shortest frames does not fill it.
+class ArrivalsAhead {
+ public:
+  void add(const share::Arrival& arrival) {
+    if (!runs_.empty() && runs_.back().arrival == arrival) ++runs_.back().requests;
+    else runs_.push_back({arrival, 1});
+  }
+  // Of the next request that is taken; false when it was not looked at.
+  bool take(share::Arrival* arrival) {
+    if (runs_.empty()) return false;
+    *arrival = runs_.front().arrival;
+    if (--runs_.front().requests == 0) runs_.pop_front();
+    return true;
+  }
+
+ private:
+  struct Run {
+    share::Arrival arrival;
+    std::size_t requests;
+  };
+  std::deque<Run> runs_;
+};
+
 class LocalServer {
  public:
   // What rights a peer has.
@@ -75,6 +99,7 @@ class LocalServer {
     int socket = -1;
     std::shared_ptr<Session> session;
     FrameReader in;
+    ArrivalsAhead ahead;       // of the requests in `in` that were looked at before their turn
     std::string out;
     std::size_t sent = 0;      // bytes of `out` that were sent
     unsigned outstanding = 0;  // requests without an answer
@@ -87,7 +112,7 @@ class LocalServer {
     std::shared_ptr<Session> session;
     Call call;
     std::int64_t came_ns = 0;
-    bool held = false;  // a hold that the machine has already (Services::hold_at_once())
+    share::Arrival arrival{};
     bool gone = false;  // the client has gone, and there is no call
     bool denied = false;  // it had not the right; `more` refusals to its user before this one were not written down
     unsigned more = 0;

@@ -200,15 +200,17 @@ static share::Now sent_by(const Session& session, std::int64_t came_ns, share::R
   return now;
 }
 
-bool Services::hold_at_once(const Session& session, const Call& call, std::int64_t came_ns) {
+share::Arrival Services::arrived(const Session& session, const Call& call, std::int64_t came_ns) {
+  const share::Arrival waits{0, runtime_.holds()};
+  if (call.row == nullptr || !call.row->of_command().stops_at_once() || !lack(session, call).empty()) return waits;
   const auto request = std::make_unique<share::Request>();
   Outcome refused;
-  if (!call.row->of_command().stops_at_once() || !lack(session, call).empty() || !fill(call, request.get(), &refused)) return false;
+  if (!fill(call, request.get(), &refused)) return waits;
   request->sequence = 1;  // any: its own comes with its turn
-  return desk_.hold_at_once(*request, sent_by(session, came_ns, request.get()));
+  return desk_.arrived(*request, sent_by(session, came_ns, request.get()));
 }
 
-bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, bool held) {
+bool Services::command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, const share::Arrival& arrival) {
   if (const std::string lacks = lack(*session, call); !lacks.empty()) {
     *outcome = Outcome::refused(Refused::kNoRight, lacks);
     return true;
@@ -221,7 +223,7 @@ bool Services::command(Session* session, const Call& call, std::int64_t came_ns,
   expect(request->sequence);
   notes_.came(session->number, session->user, session->behalf);
   std::vector<share::Ack> acks;
-  desk_.take(*request, now, share::Way::kLocal, &acks, held);
+  desk_.take(*request, now, share::Way::kLocal, &acks, arrival);
   if (acks.empty()) {
     *outcome = Outcome::refused(Refused::kFailed, "the intake does not answer");
     return true;

@@ -55,9 +55,9 @@ class Services {
   void find_lost_changes();
   // `came_ns`: when the request came, on RealClock: its lifespan counts from there. False: the answer comes later, to IntakeDesk::set_local(), with the session's number as writer and the sequence *sequence. `expect` is called with the sequence
   // before the command is given, because that answer may come before this function returns.
-  bool command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, bool held = false);
-  // A hold is given to the machine when it comes, too, and not only when its turn among the commands does; `held` of command() is what this has said. False for every other service. Any thread.
-  bool hold_at_once(const Session& session, const Call& call, std::int64_t came_ns);
+  bool command(Session* session, const Call& call, std::int64_t came_ns, const std::function<void(std::uint64_t sequence)>& expect, Outcome* outcome, const share::Arrival& arrival);
+  // To be called when a request comes: a hold is given to the machine then, and not when its turn among the commands comes. For command(). Any thread.
+  share::Arrival arrived(const Session& session, const Call& call, std::int64_t came_ns);
 
   // The client is gone. In the thread of the lane.
   void command_gone(const Session& session);

@@ -72,7 +72,9 @@ bool any_system(const Machine::State& state, Is is) {
 
 // Whether the state that an accepted command asks for has been reached. A start is done when one of the named part systems runs or has run, because a start of
 // all part systems begins only those that are ready.
-bool reached(const Request& request, const Machine::State& state, const std::array<std::uint64_t, NC_MAX_SYSTEMS>& runs_before) {
+// `goes_on`: whether a part system moves by what was asked for behind this hold.
+template <class GoesOn>
+bool reached(const Request& request, const Machine::State& state, const std::array<std::uint64_t, NC_MAX_SYSTEMS>& runs_before, GoesOn goes_on) {
   const auto& run = state.run_state;
   switch (static_cast<RequestKind>(request.kind)) {
     case RequestKind::kCycleStart:
@@ -80,7 +82,7 @@ bool reached(const Request& request, const Machine::State& state, const std::arr
         return is_named(request, s) && (run[s] == NC_STATE_RUNNING || run[s] == NC_STATE_STOPPED || state.runs[s] != runs_before[s]);
       });
     case RequestKind::kFeedHold:
-      return !any_system(state, [&](unsigned s) { return is_named(request, s) && (run[s] == NC_STATE_RUNNING || state.moves[s]); });
+      return !any_system(state, [&](unsigned s) { return is_named(request, s) && (run[s] == NC_STATE_RUNNING || state.moves[s]) && !goes_on(s); });
     case RequestKind::kReset:
       return !state.resetting && !any_system(state, [&](unsigned s) { return run[s] != NC_STATE_IDLE && run[s] != NC_STATE_MANUAL; });
     case RequestKind::kSetMode:
@@ -300,7 +302,27 @@ bool Intake::expected(const Request& request, const Machine::State& state, std::
   return false;
 }
 
-Intake::Verdict Intake::execute(const Request& request) {
+// A command of the runtime.
+Answer Intake::give(const RequestRow& row, const Request& request, const Arrival& arrival) {
+  Command command;
+  command.kind = *row.command;
+  command.system = request.system == kEverySystem ? kAllSystems : static_cast<std::uint8_t>(request.system);
+  if (arrival.hold != 0) return machine_.await_hold(arrival.hold, command.system);  // what was asked for behind it goes on
+  command.axis = static_cast<std::uint8_t>(request.axis);
+  command.number = request.number;
+  command.value = request.value;
+  command.by = Asker::kClient;
+  command.holds = arrival.holds;
+  const Answer answer = machine_.execute(command);
+  if (answer != Answer::kDone) return answer;
+  if (row.kind == RequestKind::kJog) jogging_[request.system][request.axis] = request.value != 0;
+  if (row.kind == RequestKind::kRestartApproach) jogging_[request.system][request.axis] = true;
+  for (unsigned s = 0; row.moves() && s < NC_MAX_SYSTEMS; ++s)
+    if (is_named(request, s)) moved_[s] = std::max(moved_[s], arrival.holds);
+  return answer;
+}
+
+Intake::Verdict Intake::execute(const Request& request, const Arrival& arrival) {
   const auto kind = static_cast<RequestKind>(request.kind);
   Answer answer = Answer::kOutOfRange;
   bool takes_time = false;
@@ -319,18 +341,8 @@ Intake::Verdict Intake::execute(const Request& request) {
     takes_time = answer == Answer::kDone && machine_.checks(request.system);  // who is told that it is selected may start it at once
     if (answer == Answer::kDone && !takes_time) return {AckState::kDone, AckReason::kNone, machine_.remark(request.system)};
   } else if (const RequestRow& row = request_row(kind); row.command) {
-    Command command;
-    command.kind = *row.command;
-    command.system = request.system == kEverySystem ? kAllSystems : static_cast<std::uint8_t>(request.system);
-    command.axis = static_cast<std::uint8_t>(request.axis);
-    command.number = request.number;
-    command.value = request.value;
-    command.by = Asker::kClient;
-    answer = machine_.execute(command);
+    answer = give(row, request, arrival);
     takes_time = row.takes_time;
-    if (kind == RequestKind::kJog && answer == Answer::kDone)
-      jogging_[request.system][request.axis] = request.value != 0;
-    if (kind == RequestKind::kRestartApproach && answer == Answer::kDone) jogging_[request.system][request.axis] = true;
   }
   if (answer != Answer::kDone) return {AckState::kRejected, AckReason::kRefused, machine_.explain(answer), refusal_cause(answer)};
   return {takes_time ? AckState::kAccepted : AckState::kDone, AckReason::kNone, ""};
@@ -348,7 +360,8 @@ Intake::Verdict Intake::check_time(const Request& request, const Now& now) {
 }
 
 // `client`: null for a hold without a place.
-Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, bool held) {
+Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, const Arrival& arrival) {
+  const bool held = arrival.hold != 0;
   const auto kind = static_cast<RequestKind>(request.kind);
   if (const Verdict late = check_time(request, now); late.state != AckState::kDone && !held) return late;
   if (kind == RequestKind::kTakeControl) return take_control(client, request, now.steady_ns);
@@ -364,29 +377,32 @@ Intake::Verdict Intake::decide(Client* client, const Request& request, Way way, 
   if (has_control) lease_end_ns_ = now.steady_ns + lease_ns_;
   std::string text;
   if (!held && !expected(request, state, &text)) return {AckState::kRejected, AckReason::kExpectedState, text};
-  Verdict verdict = execute(request);
+  Verdict verdict = execute(request, arrival);
   if (verdict.state != AckState::kRejected && verdict.text.empty()) verdict.text = scope_text(request, state.system_count);
-  if (verdict.state == AckState::kAccepted && !wait_for(request, way, now.steady_ns, state)) verdict.state = AckState::kDone;
+  if (verdict.state == AckState::kAccepted && !wait_for(request, way, now.steady_ns, state, arrival)) verdict.state = AckState::kDone;
   return verdict;
 }
 
 // ---- one command ----
 
-Intake::Verdict Intake::hold_without_place(const Request& request, Way way, const Now& now, bool held) {
+Intake::Verdict Intake::hold_without_place(const Request& request, Way way, const Now& now, const Arrival& arrival) {
   const Machine::State state = machine_.state();
   Verdict form = check_form(request, state);
-  return form.state == AckState::kDone ? decide(nullptr, request, way, state, now, held) : form;
+  return form.state == AckState::kDone ? decide(nullptr, request, way, state, now, arrival) : form;
 }
 
-bool Intake::hold_at_once(const Request& request, const Now& now) {
-  if (!request_row(request).stops_at_once() || !has_client(request) || check_time(request, now).state != AckState::kDone) return false;
+Arrival Intake::arrived(const Request& request, const Now& now) {
+  Arrival arrival{0, machine_.holds()};
+  if (!request_row(request).stops_at_once() || !has_client(request) || check_time(request, now).state != AckState::kDone) return arrival;
   const Machine::State state = machine_.state();
   std::string text;
-  if (check_form(request, state).state != AckState::kDone || !expected(request, state, &text)) return false;
-  return machine_.hold_at_once(request.system == kEverySystem ? kAllSystems : request.system);
+  if (check_form(request, state).state != AckState::kDone || !expected(request, state, &text)) return arrival;
+  arrival.hold = machine_.hold_at_once(request.system == kEverySystem ? kAllSystems : request.system);
+  return arrival;
 }
 
-void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way, bool held) {
+void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way, const Arrival& known) {
+  const Arrival arrival{known.hold, std::min(known.holds, machine_.holds())};
   const auto kind = static_cast<RequestKind>(request.kind);
   if (is_from_gateway(request)) {
     gone(request, way, kind == RequestKind::kGatewayBegan);
@@ -404,7 +420,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
   };
   Client* client = client_of(request, way, now.steady_ns);
   if (request_row(kind).stops_at_once() && (client == nullptr || client->writer != request.writer)) {
-    answer(hold_without_place(request, way, now, held));
+    answer(hold_without_place(request, way, now, arrival));
     return;
   }
   if (client == nullptr) {
@@ -440,7 +456,7 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
     return;
   }
   client->last_sequence = request.sequence;
-  const Verdict verdict = decide(client, request, way, state, now, held);
+  const Verdict verdict = decide(client, request, way, state, now, arrival);
   client->executed = client->executed || (verdict.state != AckState::kRejected && !request_row(kind).stops_at_once());
   answer(verdict);
   remember(client, ack);
@@ -449,10 +465,10 @@ void Intake::take(const Request& request, const Now& now, std::vector<Ack>* acks
 // ---- what comes with time ----
 
 // Notes a command whose state comes later. False when the list is full: then the command has been executed all the same, and its answer is `done` at once.
-bool Intake::wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before) {
+bool Intake::wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before, const Arrival& arrival) {
   for (Pending& pending : pending_) {
     if (pending.used) continue;
-    pending = {true, way, request, now_ns, before.runs};
+    pending = {true, way, request, now_ns, arrival, before.runs};
     return true;
   }
   return false;
@@ -473,6 +489,16 @@ void Intake::settle(Pending* pending, const Verdict& verdict, std::int64_t now_n
   }
 }
 
+bool Intake::is_reached(const Pending& pending, const Machine::State& state) const {
+  return reached(pending.request, state, pending.runs, [&](unsigned s) { return pending.arrival.hold != 0 && moved_[s] >= pending.arrival.hold; });
+}
+
+// Whether a feed hold has come behind a start, which has then not begun, or stands already.
+bool Intake::is_held(const Pending& pending) {
+  const std::uint32_t since = machine_.held_since(pending.arrival.holds);
+  return static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && (pending.request.system == kEverySystem ? since : since >> pending.request.system & 1u) != 0;
+}
+
 void Intake::tick(const Now& now, std::vector<Ack>* acks) {
   if (control_ != nullptr && now.steady_ns > lease_end_ns_) lose_control();
   bool any = false;
@@ -487,10 +513,12 @@ void Intake::tick(const Now& now, std::vector<Ack>* acks) {
         settle(&pending, {AckState::kDone, AckReason::kNone, machine_.remark(system)}, now.wall_ns, acks);
       continue;
     }
-    if (reached(pending.request, state, pending.runs))
+    if (is_reached(pending, state))
       settle(&pending, {AckState::kDone, AckReason::kNone, scope_text(pending.request, state.system_count)}, now.wall_ns, acks);
     else if (static_cast<RequestKind>(pending.request.kind) == RequestKind::kCycleStart && state.alarmed)
       settle(&pending, {AckState::kFailed, AckReason::kRefused, "an alarm came", RefusalCause::kAlarm}, now.wall_ns, acks);
+    else if (is_held(pending))
+      settle(&pending, {AckState::kFailed, AckReason::kRefused, answer_text(Answer::kTakenBack), refusal_cause(Answer::kTakenBack)}, now.wall_ns, acks);
     else if (now.steady_ns - pending.since_ns > kReachNs)
       settle(&pending, {AckState::kFailed, AckReason::kNotReached, "not reached in time"}, now.wall_ns, acks);
   }

@@ -33,6 +33,7 @@
 #include "runtime/refusal.hpp"
 #include "runtime/restart/wish.hpp"
 #include "runtime/share/layout.hpp"
+#include "runtime/share/request_table.hpp"
 
 namespace nc::rt::share {
 
@@ -53,8 +54,12 @@ class Machine {
   virtual ~Machine() = default;
   virtual State state() = 0;
   virtual Answer execute(const Command& command) = 0;
-  // A feed hold that waits for no other command, from any thread. False when it cannot be given so.
-  virtual bool hold_at_once(unsigned /*system*/) { return false; }
+  // A feed hold that waits for no other command, from any thread: its number, 0 when it cannot be given so. And until the machine has done it.
+  virtual std::uint64_t hold_at_once(unsigned /*system*/) { return 0; }
+  virtual Answer await_hold(std::uint64_t /*number*/, unsigned /*system*/) { return Answer::kDone; }
+  // The feed holds that have been asked for so far, whoever has; the part systems of which one has come since it was so many. Any thread.
+  virtual std::uint64_t holds() { return 0; }
+  virtual std::uint32_t held_since(std::uint64_t /*holds*/) { return 0; }
   virtual Answer load_mdi(unsigned system, const std::string& blocks) = 0;
   virtual Answer select_program(unsigned system, const std::string& file) = 0;
   // Devices of the ladder; "" releases all of them.
@@ -77,16 +82,23 @@ struct Now {
   std::int64_t wall_ns, steady_ns;
 };
 
+// What is known of a request from when it came, which may be long before its turn.
+struct Arrival {
+  std::uint64_t hold = 0;           // the number of the feed hold that the machine has got for it (Intake::hold_at_once()), 0 = none
+  std::uint64_t holds = kBehindAll;  // the feed holds that had been asked for then (Machine::holds()); kBehindAll = it comes now
+  bool operator==(const Arrival&) const = default;
+};
+
 class Intake {
  public:
   explicit Intake(Machine* machine) : machine_(*machine) {}
 
   // Takes one command and adds its acknowledgement to *acks.
-  // `held`: hold_at_once() has given this request to the machine, so that it cannot be late.
-  void take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way = Way::kGateway, bool held = false);
-  // Gives a hold to the machine when it comes, and not when its turn among the commands does, which a selection may keep for seconds. False when it is no hold, or take() has to say what is wrong with
-  // it. At its turn it is given once more: a start that came before it is then executed, and must not outrun it. Any thread, also while another one is in take().
-  bool hold_at_once(const Request& request, const Now& now);
+  // A hold that the machine has got when it came cannot be late, and is only waited for.
+  void take(const Request& request, const Now& now, std::vector<Ack>* acks, Way way = Way::kGateway, const Arrival& arrival = {});
+  // To be called when a request comes. A hold is given to the machine then, and not when its turn among the commands comes, which a selection may keep for seconds; unless take() has to say what is
+  // wrong with it. It takes back what was asked for before it, and moves something, and has not had its turn. Any thread, also while another one is in take().
+  Arrival arrived(const Request& request, const Now& now);
   // Ends leases, and answers accepted commands whose state has been reached. To be called every few ms.
   void tick(const Now& now, std::vector<Ack>* acks);
 
@@ -117,6 +129,7 @@ class Intake {
     Way way = Way::kGateway;
     Request request{};
     std::int64_t since_ns = 0;
+    Arrival arrival{};
     std::array<std::uint64_t, NC_MAX_SYSTEMS> runs{};  // State::runs before the command
   };
   struct Verdict {
@@ -127,10 +140,13 @@ class Intake {
   };
 
   Verdict check_form(const Request& request, const Machine::State& state) const;
-  Verdict decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, bool held);
+  Verdict decide(Client* client, const Request& request, Way way, const Machine::State& state, const Now& now, const Arrival& arrival);
   static Verdict check_time(const Request& request, const Now& now);
-  Verdict hold_without_place(const Request& request, Way way, const Now& now, bool held);
-  Verdict execute(const Request& request);
+  Verdict hold_without_place(const Request& request, Way way, const Now& now, const Arrival& arrival);
+  Verdict execute(const Request& request, const Arrival& arrival);
+  Answer give(const RequestRow& row, const Request& request, const Arrival& arrival);
+  bool is_reached(const Pending& pending, const Machine::State& state) const;
+  bool is_held(const Pending& pending);
   Verdict take_control(Client* client, const Request& request, std::int64_t now_ns);
   bool expected(const Request& request, const Machine::State& state, std::string* text) const;
   Client* client_of(const Request& request, Way way, std::int64_t now_ns);
@@ -140,7 +156,7 @@ class Intake {
   void lose_control();
   void gone(const Request& request, Way way, bool everyone);
   void settle(Pending* pending, const Verdict& verdict, std::int64_t now_ns, std::vector<Ack>* acks);
-  bool wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before);
+  bool wait_for(const Request& request, Way way, std::int64_t now_ns, const Machine::State& before, const Arrival& arrival);
 
   Machine& machine_;
   std::array<Client, kClients> client_;
@@ -148,6 +164,7 @@ class Intake {
   Client* control_ = nullptr;
   std::int64_t lease_ns_ = 0, lease_end_ns_ = 0;
   bool jogging_[NC_MAX_SYSTEMS][NC_MAX_AXES] = {};
+  std::uint64_t moved_[NC_MAX_SYSTEMS] = {};  // Arrival::holds of the last command that was executed and moves something there
 };
 
 const char* reason_text(AckReason reason);

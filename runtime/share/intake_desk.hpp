@@ -23,24 +23,21 @@ class IntakeDesk {
   // Called with each answer: with the request in the thread of take(), or with null in that of tick(). To be set before the threads start.
   void set_witness(std::function<void(const Request*, const Ack&)> witness) { witness_ = std::move(witness); }
 
-  // As Intake::hold_at_once(), whatever another thread waits for here. Any thread.
-  bool hold_at_once(const Request& request, const Now& now) { return intake_.hold_at_once(request, now); }
+  // As Intake::arrived(), whatever another thread waits for here. Any thread.
+  Arrival arrived(const Request& request, const Now& now) { return intake_.arrived(request, now); }
 
-  // `held`: what hold_at_once() has said of this request.
-  void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks, bool held = false) {
+  // `arrival`: what arrived() has said of this request, when that was asked; a command of another way may take its time before it, as a selection does.
+  void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks, const Arrival& arrival) {
     const std::size_t before = acks->size();
     {
-      std::unique_lock lock(mutex_, std::try_to_lock);
-      if (!lock.owns_lock()) {  // a command of another way takes its time, as a selection does
-        held = held || hold_at_once(request, now);
-        lock.lock();
-      }
-      intake_.take(request, now, acks, way, held);
+      const std::lock_guard lock(mutex_);
+      intake_.take(request, now, acks, way, arrival);
       show();
     }
     if (witness_)
       for (std::size_t i = before; i < acks->size(); ++i) witness_(&request, (*acks)[i]);
   }
+  void take(const Request& request, const Now& now, Way way, std::vector<Ack>* acks) { take(request, now, way, acks, arrived(request, now)); }
   // As Intake::tick(). *acks gets the answers for the gateway.
   void tick(const Now& now, std::vector<Ack>* acks) {
     late_.clear();

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "runtime/share/intake.hpp"
 #include "runtime/share/layout.hpp"
 #include "runtime/share/request_table.hpp"
 
@@ -20,16 +21,16 @@ class RequestQueue {
   static constexpr std::size_t kMost = 64, kMostWithStops = 2 * kMost;
   struct Waiting {
     Request request{};
-    bool held = false;  // a hold that the machine has already
+    Arrival arrival{};
   };
 
   // False when there is no room.
-  bool push(const Request& request, bool held) {
+  bool push(const Request& request, const Arrival& arrival) {
     const bool kept = request_row(request).stops() || is_from_gateway(request);
     {
       const std::lock_guard lock(mutex_);
       if (waiting_.size() >= (kept ? kMostWithStops : kMost)) return false;
-      waiting_.push_back({request, held});
+      waiting_.push_back({request, arrival});
     }
     wake_.notify_one();
     return true;

@@ -14,7 +14,7 @@ namespace nc::rt::share {
 enum class Stop : std::uint8_t {
   kNo,
   kInTurn,  // when its turn comes, also when its client has gone before that
-  kAtOnce   // when it comes, and once more at its turn; it needs no control, no place and no name of its own
+  kAtOnce   // when it comes, and not at its turn; it needs no control, no place and no name of its own
 };
 
 // Which part systems a command concerns.
@@ -33,6 +33,8 @@ struct RequestRow {
 
   bool stops() const { return stop != Stop::kNo; }
   bool stops_at_once() const { return stop == Stop::kAtOnce; }
+  // It sets something in motion, and a feed hold behind it takes it back as long as that has not happened.
+  bool moves() const { return kind == RequestKind::kCycleStart || kind == RequestKind::kJog || kind == RequestKind::kRestartApproach; }
 };
 
 // The row of a kind; of one that does not exist, a row of which nothing is true.

@@ -94,10 +94,10 @@ void Service::publisher_thread() {
   }
 }
 
-// A hold does not wait for the commands before it. It keeps its turn behind them, as a start that came before it must not outrun it.
+// A hold does not wait for the commands before it: at its turn only its answer is left.
 void Service::arrived(const Request& request) {
-  const bool held = desk_.hold_at_once(request, {wall_ns(), RealClock().now_ns()});
-  if (waiting_.push(request, held) || is_from_gateway(request)) return;
+  const Arrival arrival = desk_.arrived(request, {wall_ns(), RealClock().now_ns()});
+  if (waiting_.push(request, arrival) || is_from_gateway(request)) return;
   answers_.add_if_room(refusal_of(request, wall_ns(), AckReason::kOverflow, "too many commands at once"));
 }
 
@@ -126,7 +126,7 @@ void Service::intake_thread() {
   while (!stop_) {
     // Answers are never lost: while many of them wait for room in the ring, no more commands are executed.
     for (unsigned i = 0; i < kCommandsPerTurn && answers_.size() < kCommandsPerTurn && waiting_.pop(&next); ++i) {
-      desk_.take(next.request, {wall_ns(), RealClock().now_ns()}, Way::kGateway, &acks, next.held);
+      desk_.take(next.request, {wall_ns(), RealClock().now_ns()}, Way::kGateway, &acks, next.arrival);
       answers_.add(&acks);
     }
     desk_.tick({wall_ns(), RealClock().now_ns()}, &acks);

@@ -31,7 +31,10 @@ class RuntimeMachine final : public Machine {
   RuntimeMachine(Runtime* runtime, ProgramTable* programs) : runtime_(*runtime), programs_(*programs) {}
   State state() override;
   Answer execute(const Command& command) override { return runtime_.execute(command); }
-  bool hold_at_once(unsigned system) override { return runtime_.ask_hold(system) != 0; }
+  std::uint64_t hold_at_once(unsigned system) override { return runtime_.ask_hold(system); }
+  Answer await_hold(std::uint64_t number, unsigned system) override { return runtime_.await_hold(number, system); }
+  std::uint64_t holds() override { return runtime_.holds(); }
+  std::uint32_t held_since(std::uint64_t holds) override { return runtime_.held_since(holds); }
   Answer load_mdi(unsigned system, const std::string& blocks) override;
   Answer select_program(unsigned system, const std::string& file) override {
     return runtime_.select_program(system, file);

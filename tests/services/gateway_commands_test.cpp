@@ -29,7 +29,7 @@ class GatewayCommands : public LocalMachine {
   bool has_commands() override { return true; }
 
   // False when the ring is full.
-  bool send(RequestKind kind, const char* client = "hmi", unsigned system = 0, const std::string& text = "", std::uint32_t number = 0) {
+  bool send(RequestKind kind, const char* client = "hmi", unsigned system = 0, const std::string& text = "", std::uint32_t number = 0, double value = 0) {
     Request request{};
     set_text(&request.client, client);
     request.sequence = ++sent_;
@@ -41,6 +41,7 @@ class GatewayCommands : public LocalMachine {
     request.expected_mode = request.expected_run_state = kAny;
     request.system = system;
     request.number = number;
+    request.value = value;
     set_text(&request.text, text);
     const bool given = reader_.get()->commands.push(request);
     wake(&reader_.get()->wake_intake);
@@ -127,6 +128,95 @@ TEST_F(GatewayCommands, AHoldHasRoomBehindAFlood) {
   EXPECT_EQ(ack.sequence, hold);
   EXPECT_EQ(ack.state, static_cast<std::uint32_t>(AckState::kDone)) << text_of(ack.text);
   EXPECT_GE(too_many, 4 * kCommandRing - RequestQueue::kMost) << "each of the others is answered";
+}
+
+// A hold acts when it comes, and not once more when what was before it has been executed: the start behind it is not held.
+TEST_F(GatewayCommands, AStartBehindAHoldIsNotHeldByIt) {
+  run_program();
+  block_reading();
+  ASSERT_TRUE(send(RequestKind::kMdi, "hmi", 0, "G0 X1."));
+  usleep(20000);
+  ASSERT_TRUE(send(RequestKind::kFeedHold, "other", kEverySystem));
+  const std::uint64_t hold = sent_;
+  ASSERT_TRUE(comes_to(NC_STATE_HOLD));
+  rt::Command start;  // of the console, which waits for nobody
+  start.kind = rt::CommandKind::kCycleStart;
+  start.system = rt::kAllSystems;
+  std::thread console([&] { EXPECT_EQ(runtime_->execute(start), rt::Answer::kDone); });
+  usleep(20000);
+  let_go();
+  console.join();
+  (void)answer_to(hold - 1);  // behind it the hold has its turn
+  usleep(50000);
+  EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_RUNNING);
+}
+
+// The same with a start of the other way, which may have its turn before the hold: both are done.
+TEST_F(GatewayCommands, AHoldIsDoneAlthoughAStartBehindItGoesOn) {
+  write_program("long.nc", "G1 X50. F60.\nM30\n");
+  ServiceClient local(path_);
+  ASSERT_EQ(local.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(local.outcome("mode", {{"mode", "auto"}}), "");
+  ASSERT_EQ(local.outcome("select", {{"name", "long.nc"}}), "");
+  ASSERT_EQ(local.outcome("start"), "");
+  block_reading();
+  ASSERT_TRUE(local.ask(100, "mdi", {{"blocks", "G0 X1."}}));
+  usleep(20000);
+  ASSERT_TRUE(send(RequestKind::kFeedHold, "other", kEverySystem));
+  ASSERT_TRUE(comes_to(NC_STATE_HOLD));
+  ASSERT_TRUE(local.ask(101, "start"));
+  usleep(20000);
+  let_go();
+  EXPECT_EQ(answer_to(sent_).state, static_cast<std::uint32_t>(AckState::kDone));
+  EXPECT_EQ(local.receive()["id"], 100);
+  EXPECT_EQ(local.receive()["ok"], true);
+  EXPECT_TRUE(comes_to(NC_STATE_RUNNING));
+}
+
+// A start that waits for its turn while a hold comes, from whomever, is taken back.
+TEST_F(GatewayCommands, AStartInFrontOfAHoldIsTakenBack) {
+  run_program();
+  ASSERT_TRUE(done(RequestKind::kReset, kEverySystem));
+  block_reading();
+  ASSERT_TRUE(send(RequestKind::kMdi, "hmi", 0, "G0 X1."));
+  ASSERT_TRUE(send(RequestKind::kCycleStart, "hmi", kEverySystem));
+  const std::uint64_t start = sent_;
+  usleep(20000);
+  rt::Command hold;  // by another way, which is answered before the start has its turn
+  hold.kind = rt::CommandKind::kFeedHold;
+  hold.system = rt::kAllSystems;
+  EXPECT_EQ(runtime_->execute(hold), rt::Answer::kDone);
+  let_go();
+  const Ack ack = answer_to(start);
+  EXPECT_EQ(ack.state, static_cast<std::uint32_t>(AckState::kRejected));
+  EXPECT_EQ(text_of(ack.text), "a feed hold has taken it back");
+  EXPECT_EQ(ack.refusal, static_cast<std::uint32_t>(rt::RefusalCause::kFeedHold));
+  EXPECT_EQ(runtime_->snapshot().system[0].nc.state, NC_STATE_IDLE);
+  ASSERT_TRUE(done(RequestKind::kCycleStart, kEverySystem)) << "the next one is free";
+  EXPECT_TRUE(comes_to(NC_STATE_RUNNING));
+}
+
+// The same of a jog: nobody's finger moves an axis behind a hold without being lifted.
+TEST_F(GatewayCommands, AJogInFrontOfAHoldIsTakenBack) {
+  ASSERT_TRUE(done(RequestKind::kTakeControl));
+  ASSERT_TRUE(done(RequestKind::kSetMode, 0, "", static_cast<std::uint32_t>(rt::Mode::kManual)));
+  block_reading();
+  ASSERT_TRUE(send(RequestKind::kMdi, "hmi", 0, "G0 X1."));
+  const auto jog = [&](double velocity) { return send(RequestKind::kJog, "hmi", 0, "", 0, velocity); };
+  ASSERT_TRUE(jog(20));
+  const std::uint64_t first = sent_;
+  usleep(20000);
+  ASSERT_TRUE(send(RequestKind::kFeedHold, "other", kEverySystem));
+  ASSERT_TRUE(jog(20));
+  const std::uint64_t second = sent_;
+  let_go();
+  EXPECT_EQ(text_of(answer_to(first).text), "a feed hold has taken it back");
+  EXPECT_EQ(answer_to(second).state, static_cast<std::uint32_t>(AckState::kRejected)) << "the button is on since before the hold";
+  EXPECT_EQ(runtime_->snapshot().system[0].nc.command.v[0], 0);
+  ASSERT_TRUE(jog(0));
+  ASSERT_EQ(answer_to(sent_).state, static_cast<std::uint32_t>(AckState::kDone));
+  ASSERT_TRUE(jog(20));
+  EXPECT_EQ(answer_to(sent_).state, static_cast<std::uint32_t>(AckState::kDone));
 }
 
 TEST_F(GatewayCommands, AStartDoesNotOutrunTheHoldBehindIt) {

@@ -23,9 +23,20 @@ struct FakeMachine final : Machine {
   std::vector<nc::rt::RestartWish> places;
   std::string why;
   std::vector<unsigned> held;  // at once
-  bool hold_at_once(unsigned system) override {
+  std::vector<std::uint64_t> awaited;  // holds, at their turns
+  std::uint64_t hold_at_once(unsigned system) override {
     held.push_back(system);
-    return true;
+    return held.size();
+  }
+  Answer await_hold(std::uint64_t number, unsigned) override {
+    awaited.push_back(number);
+    return answer;
+  }
+  std::uint64_t holds() override { return held.size(); }
+  std::uint32_t held_since(std::uint64_t count) override {
+    std::uint32_t systems = 0;
+    for (std::size_t n = count; n < held.size(); ++n) systems |= held[n] == kAllSystems ? 3u : 1u << held[n];
+    return systems;
   }
   FakeMachine() {
     now.axis_count[0] = 3;
@@ -354,35 +365,90 @@ TEST_F(IntakeRules, ClientIdBelongsToItsParticipant) {
   EXPECT_EQ(machine_.total(), 0u);
 }
 
-// What a hold asks for is given to the machine when it comes, when nothing is wrong with it; at its turn it is given once more, behind what came before it, and is not late any more.
+// What a hold asks for is given to the machine when it comes, when nothing is wrong with it; at its turn it is not late any more, and only waited for.
 TEST_F(IntakeRules, AHoldIsGivenToTheMachineWhenItComes) {
   Request r = request(RequestKind::kFeedHold, 1, "other");
-  EXPECT_TRUE(intake_.hold_at_once(r, now_));
+  const Arrival arrival = intake_.arrived(r, now_);
+  EXPECT_EQ(arrival.hold, 1u);
   EXPECT_EQ(machine_.held, std::vector<unsigned>{0});
   EXPECT_EQ(machine_.total(), 0u);
   now_ += 5000 * kMs;
   acks_.clear();
-  intake_.take(r, now_, &acks_, Way::kLocal, true);
+  intake_.take(r, now_, &acks_, Way::kLocal, arrival);
   EXPECT_EQ(acks_.back().state, state(AckState::kAccepted)) << text_of(acks_.back().text);
-  ASSERT_EQ(machine_.executed.size(), 1u);
-  EXPECT_EQ(machine_.executed[0].kind, CommandKind::kFeedHold);
+  EXPECT_EQ(machine_.awaited, std::vector<std::uint64_t>{1});
+  EXPECT_EQ(machine_.total(), 0u) << "a hold that has acted does not act once more";
   r = request(RequestKind::kFeedHold, 2);
   r.system = kEverySystem;
-  EXPECT_TRUE(intake_.hold_at_once(r, now_));
+  EXPECT_NE(intake_.arrived(r, now_).hold, 0u);
   EXPECT_EQ(machine_.held.back(), unsigned{kAllSystems});
-  machine_.held.clear();
-  EXPECT_FALSE(intake_.hold_at_once(request(RequestKind::kReset, 3), now_)) << "no hold";
+  const std::size_t before = machine_.held.size();
+  EXPECT_EQ(intake_.arrived(request(RequestKind::kReset, 3), now_).hold, 0u) << "no hold";
   r = request(RequestKind::kFeedHold, 4);
   r.issued_ns = now_ - 1001 * kMs;
-  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "late";
+  EXPECT_EQ(intake_.arrived(r, now_).hold, 0u) << "late";
   r = request(RequestKind::kFeedHold, 5);
   r.system = 7;
-  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "malformed";
+  EXPECT_EQ(intake_.arrived(r, now_).hold, 0u) << "malformed";
   r = request(RequestKind::kFeedHold, 6);
   r.expected_mode = static_cast<std::int32_t>(Mode::kMdi);
-  EXPECT_FALSE(intake_.hold_at_once(r, now_)) << "another mode is expected";
-  EXPECT_FALSE(intake_.hold_at_once(request(RequestKind::kFeedHold, 7, ""), now_)) << "from nobody";
-  EXPECT_TRUE(machine_.held.empty());
+  EXPECT_EQ(intake_.arrived(r, now_).hold, 0u) << "another mode is expected";
+  EXPECT_EQ(intake_.arrived(request(RequestKind::kFeedHold, 7, ""), now_).hold, 0u) << "from nobody";
+  EXPECT_EQ(machine_.held.size(), before);
+}
+
+// What moves something carries how many holds there were when it came, so that the machine can take it back.
+TEST_F(IntakeRules, WhatMovesIsGivenWithTheHoldsOfItsArrival) {
+  take_control();
+  std::uint64_t sequence = 1;
+  for (const RequestKind kind : {RequestKind::kCycleStart, RequestKind::kJog, RequestKind::kRestartApproach}) {
+    Request r = request(kind, ++sequence);
+    r.value = 1;
+    const Arrival arrival = intake_.arrived(r, now_);
+    (void)intake_.arrived(request(RequestKind::kFeedHold, 1, "other"), now_);
+    acks_.clear();
+    intake_.take(r, now_, &acks_, Way::kGateway, arrival);
+    ASSERT_FALSE(machine_.executed.empty());
+    EXPECT_EQ(machine_.executed.back().holds, machine_.holds() - 1);
+    EXPECT_EQ(give(request(RequestKind::kCycleStart, ++sequence)).reason, reason(AckReason::kNone));
+    EXPECT_EQ(machine_.executed.back().holds, machine_.holds()) << "it comes now";
+  }
+}
+
+// A start that was accepted and has not begun, or stands already, when a hold comes behind it.
+TEST_F(IntakeRules, AStartThatIsHeldIsAnsweredAtOnce) {
+  take_control();
+  ASSERT_EQ(give(RequestKind::kCycleStart, 2).state, state(AckState::kAccepted));
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty());
+  (void)intake_.arrived(request(RequestKind::kFeedHold, 1, "other"), now_);
+  intake_.tick(now_, &acks_);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].state, state(AckState::kFailed));
+  EXPECT_EQ(acks_[0].refusal, static_cast<std::uint32_t>(RefusalCause::kFeedHold));
+}
+
+// A hold is done when nothing moves any more by what was asked for before it, also where a start behind it has been executed before the hold had its turn.
+TEST_F(IntakeRules, AHoldIsDoneWhereAStartBehindItGoesOn) {
+  take_control();
+  machine_.now.run_state[0] = NC_STATE_RUNNING;
+  const Request hold = request(RequestKind::kFeedHold, 1, "other");
+  const Arrival arrival = intake_.arrived(hold, now_);
+  Request start = request(RequestKind::kCycleStart, 2);
+  acks_.clear();
+  intake_.take(start, now_, &acks_, Way::kGateway, intake_.arrived(start, now_));
+  intake_.take(hold, now_, &acks_, Way::kGateway, arrival);
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  bool done = false;
+  for (const Ack& ack : acks_) done |= text_of(ack.client) == "other" && ack.state == state(AckState::kDone);
+  EXPECT_TRUE(done);
+  const Request next = request(RequestKind::kFeedHold, 2, "other");
+  intake_.take(next, now_, &acks_, Way::kGateway, intake_.arrived(next, now_));
+  acks_.clear();
+  intake_.tick(now_, &acks_);
+  EXPECT_TRUE(acks_.empty()) << "that start was before this hold";
 }
 
 TEST_F(IntakeRules, AHoldIsTakenUnderANameInUse) {
