@@ -26,7 +26,9 @@ constexpr std::int64_t kClaimEveryNs = 500 * kMs;
 constexpr std::int64_t kMissEveryNs = 200 * kMs;
 constexpr std::chrono::milliseconds kBothReceive{20};  // far longer than one sample takes from one reader of this process to the next
 constexpr int kTaken = 16;
-constexpr std::size_t kAnswersWaiting = 256;  // when so many answers wait, no further command is taken
+constexpr std::size_t kAnswersWaiting = 256;       // when so many answers wait, or the first one for so long,
+constexpr std::int64_t kAnswersPatience = 200 * kMs;  // nobody is waited for any more
+constexpr int kNewestAnswers = 16;                   // of each client, for who does not take them as they come
 
 std::int64_t now() {
   return nc::rt::RealClock().now_ns();
@@ -73,6 +75,7 @@ bool Gateway::open(std::string* error) {
     *entry.writer = make_writer(participant_.get(), entry.topic, partition_, period_s, error);
     if (*entry.writer <= 0) return false;
   }
+  if (options_.commands && (newest_acks_ = make_writer(participant_.get(), Topic::kCommandAck, partition_, period_s, error, kNewestAnswers)) <= 0) return false;
   if (options_.services) {
     services_ = std::make_unique<ServiceGateway>(partition_, options_.socket);
     services_->set_gate(service_gate());
@@ -342,8 +345,9 @@ void Gateway::publish_signals(std::int64_t now_ns) {
 
 // ---- commands ----
 
-// Answers are not lost when a reader is slow: answers that the writer does not take wait here, then in the ring of the segment, and meanwhile no
-// further commands are taken. A dead reader stops blocking the writer when its lease ends.
+// Answers are not lost when a reader is slow: those that the writer does not take wait here. When a reader takes none for kAnswersPatience, because it stands still or has no
+// room, the next ones are written by a second writer, which keeps the newest of each client and waits for nobody: so all the others get theirs, and commands
+// are taken as before. When everything has been taken, the first writer goes on.
 void Gateway::answer(const share::Ack& ack) {
   const std::lock_guard lock(answers_mutex_);
   answers_.push_back(ack);
@@ -352,12 +356,34 @@ void Gateway::answer(const share::Ack& ack) {
 // Publishes the waiting answers as far as the writer takes them. True when so many still wait that there is no room. Both threads.
 bool Gateway::answers_wait() {
   const std::lock_guard lock(answers_mutex_);
-  while (!answers_.empty()) {
-    const nc_CommandAck sample = ack(answers_.front());
-    if (dds_write(ack_, &sample) == DDS_RETCODE_TIMEOUT) break;
-    answers_.pop_front();
-  }
+  while (!answers_.empty() && write_answer(answers_.front())) answers_.pop_front();
   return answers_.size() >= kAnswersWaiting;
+}
+
+// False when the answer has to wait. Behind answers_mutex_.
+bool Gateway::write_answer(const share::Ack& one) {
+  const nc_CommandAck sample = ack(one);
+  if (newest_only_ && dds_wait_for_acks(ack_, 0) == DDS_RETCODE_OK) {
+    newest_only_ = false;
+    std::fprintf(stderr, "ncdds: the answers to commands are taken again; %llu were not given to everybody\n", static_cast<unsigned long long>(lost_answers_));
+  }
+  if (newest_only_) return write_newest(sample);
+  if (dds_write(ack_, &sample) != DDS_RETCODE_TIMEOUT) {
+    untaken_since_ns_ = 0;
+    return true;
+  }
+  if (untaken_since_ns_ == 0) untaken_since_ns_ = now();
+  if (now() - untaken_since_ns_ < kAnswersPatience && answers_.size() < kAnswersWaiting) return false;
+  newest_only_ = true;
+  untaken_since_ns_ = 0;
+  lost_answers_ = 0;
+  std::fprintf(stderr, "ncdds: warning: a reader of nc_CommandAck does not take the answers to commands: it is not waited for, and gets the newest %d of each client when it goes on\n", kNewestAnswers);
+  return write_newest(sample);
+}
+
+bool Gateway::write_newest(const nc_CommandAck& sample) {
+  if (dds_write(newest_acks_, &sample) == DDS_RETCODE_TIMEOUT) ++lost_answers_;
+  return true;
 }
 
 void Gateway::publish_acks() {

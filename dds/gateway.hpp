@@ -69,6 +69,8 @@ class Gateway {
   void publish_acks();
   void answer(const share::Ack& ack);
   bool answers_wait();
+  bool write_answer(const share::Ack& ack);
+  bool write_newest(const nc_CommandAck& sample);
   void take_commands();
   bool take_samples();
   void miss_inherited();
@@ -87,6 +89,7 @@ class Gateway {
   Participant participant_;
   dds_entity_t machine_ = 0, status_ = 0, alarm_ = 0, history_ = 0, signals_ = 0, signal_table_ = 0, status_core_ = 0, alarm_core_ = 0;
   dds_entity_t command_ = 0, ack_ = 0, waitset_ = 0;
+  dds_entity_t newest_acks_ = 0;  // writes answers while a reader does not take those of ack_
 
   std::mutex segment_mutex_;  // the command thread must not write commands while run() closes the segment
   share::SegmentReader segment_;
@@ -112,6 +115,9 @@ class Gateway {
   std::mutex passing_mutex_;  // held by who passes commands or answers between DDS and the segment
   std::mutex answers_mutex_;
   std::deque<share::Ack> answers_;  // answers that are not published yet, in their order
+  std::int64_t untaken_since_ns_ = 0;  // since when ack_ has no room for the next answer, 0 = it has
+  bool newest_only_ = false;           // answers are written by newest_acks_
+  std::uint64_t lost_answers_ = 0;     // that it had no room for either, since it writes them
 
   struct Client {
     share::Text<32> name{};

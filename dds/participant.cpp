@@ -21,6 +21,7 @@ constexpr dds_duration_t kRequestBlocking = DDS_SECS(5);
 constexpr dds_duration_t kRequesterLiveliness = DDS_SECS(2);  // what a client has begun ends so long after its process stands still
 constexpr dds_duration_t kRequestLifespan = DDS_SECS(5);
 constexpr dds_duration_t kAckBlocking = DDS_MSECS(5);  // short, because an answer that is not taken is kept and tried again
+constexpr dds_duration_t kNewestAckBlocking = DDS_MSECS(1);
 
 struct Row {
   Topic topic;
@@ -226,18 +227,19 @@ const dds_topic_descriptor_t* topic_type(Topic topic) {
 }
 
 dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::string& partition, double period_s,
-                         std::string* error) {
+                         std::string* error, int newest) {
   const Row& row = row_of(topic);
   dds_entity_t type = 0, group = 0;
   if (!prepare(participant, row, partition, true, &type, &group, error)) return std::min(type, group);
   const Qos qos = common_qos(row);
+  if (newest > 0) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, newest);
   if (topic == Topic::kStatus) {
     dds_qset_deadline(qos.get(), static_cast<dds_duration_t>(3e9 * period_s));
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, kLiveliness);
   }
   if (topic == Topic::kCommandAck) {
     dds_qset_lifespan(qos.get(), kAckLifespan);
-    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kAckBlocking);
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, newest > 0 ? kNewestAckBlocking : kAckBlocking);
   }
   if (topic >= Topic::kServiceView && topic <= Topic::kServiceMaintain) {
     dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kRequestBlocking);

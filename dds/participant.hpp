@@ -71,10 +71,10 @@ const char* topic_name(Topic topic);
 const dds_topic_descriptor_t* topic_type(Topic topic);
 
 // Make a writer or a reader with the QoS of the topic, in the partition of a machine (for a reader "*" = all).
-// `period_s`: period of the status. Zero or less = failed, and *error says why. A partner with an incompatible QoS is reported on
+// `period_s`: period of the status. `newest`: so many samples of each instance are kept for readers that do not take them, 0 = as the topic has it. Zero or less = failed, and *error says why. A partner with an incompatible QoS is reported on
 // standard error, with the topic and the policy.
 dds_entity_t make_writer(dds_entity_t participant, Topic topic, const std::string& partition, double period_s,
-                         std::string* error);
+                         std::string* error, int newest = 0);
 dds_entity_t make_reader(dds_entity_t participant, Topic topic, const std::string& partition, std::string* error);
 
 }  // namespace nc::dds

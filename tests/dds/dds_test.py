@@ -214,6 +214,24 @@ def burst(operator):
           f"{done} of them executed, the others refused because there were too many at once")
 
 
+def answers_not_taken(plant, operator):
+    """A process that reads the answers to commands and stands still, and a client that is refused thousands of times: everybody else commands as before."""
+    reader = subprocess.Popen([sys.executable, os.path.abspath(__file__), "reader", str(plant.domain), plant.share], stdout=subprocess.PIPE, text=True)
+    plant.all.append(reader)
+    check(reader.stdout.readline().strip() == "there", "another process reads the answers")
+    reader.send_signal(signal.SIGSTOP)
+    flood = nc_dds.Client(DomainParticipant(plant.domain), plant.share, f"flood-{os.getpid()}")
+    for n in range(4000):
+        flood.send(CommandKind.CMD_MDI, text="G0\0" + "X" * 200)  # raises where the gateway does not take it within a second
+        if n % 100 == 0:
+            flood.acks.take(N=500)
+        if n % 1000 == 0:
+            check(operator.ask(CommandKind.CMD_FEED_HOLD).state == AckState.ACK_DONE, f"a hold beside it, behind {n} refusals")
+    check(operator.ask(CommandKind.CMD_TAKE_CONTROL, lease_ms=60000).state == AckState.ACK_DONE, "and control is taken")
+    reader.kill()
+    reader.wait()
+
+
 def program(plant, watch, operator, gateway):
     """A program with the gateway killed in its middle. Returns the new gateway."""
     ack = operator.ask(CommandKind.CMD_CYCLE_START, expected_program="part.nc", expected_mode=Mode.MODE_AUTO.value,
@@ -680,7 +698,21 @@ def client(domain, share):
     time.sleep(120)
 
 
+def reading(domain, share):
+    """Somebody who reads the answers to commands; its process is given up an hour after it stands still."""
+    os.environ["CYCLONEDDS_URI"] = os.environ["CYCLONEDDS_URI"].replace("<Discovery>", "<Discovery><LeaseDuration>3600 s</LeaseDuration>")
+    participant = DomainParticipant(domain)
+    acks = nc_dds.reader(participant, nc_dds.CommandAck, share)
+    while not acks.get_matched_publications():
+        time.sleep(0.02)
+    print("there", flush=True)
+    time.sleep(1000)
+
+
 def main():
+    if len(sys.argv) > 3 and sys.argv[1] == "reader":
+        reading(int(sys.argv[2]), sys.argv[3])
+        return
     if len(sys.argv) > 3 and sys.argv[1] == "client":
         client(int(sys.argv[2]), sys.argv[3])
         return
@@ -703,6 +735,7 @@ def main():
             other_clients(plant)
             commands(plant, watch, operator)
             burst(operator)
+            answers_not_taken(plant, operator)
             gateway = program(plant, watch, operator, gateway)
             until(lambda: answers(operator), "the new gateway answers")
             alarms(plant, watch, operator)
