@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "runtime/nc_system.hpp"
+#include "runtime/programs/encoding.hpp"
 
 namespace nc::rt {
 namespace {
@@ -202,7 +203,7 @@ std::vector<VariableChange> changed_variables(const std::string& before, const s
   return changes;
 }
 
-bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept) {
+bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept, std::vector<std::string>* left_out) {
   std::vector<Variable> variables;
   std::vector<Name> names;
   if (!decode(bytes, &variables, &names)) return false;
@@ -219,7 +220,9 @@ bool restore_variables(nc_control* control, const std::string& bytes, const std:
     if (std::any_of(not_kept.begin(), not_kept.end(), holds_number)) continue;
     (void)nc_variable_set(control, api_system(system), number, variable.value, false);
   }
-  for (const Name& name : names) (void)nc_variable_name_set(control, name.number, name.text);
+  for (const Name& name : names)
+    if (nc_variable_name_set(control, name.number, name.text) != NC_OK && left_out != nullptr)
+      left_out->push_back("#" + std::to_string(name.number) + " has lost its name " + valid_utf8(name.text) + ": the variable can have no name, or none that begins with that of a function");
   return true;
 }
 

@@ -20,8 +20,8 @@ std::string encode_variables(const nc_control* control);
 std::string executed_variables(nc_control* control);
 // False when the bytes are not such variables; nothing has changed then. Variables that the control does not have (any
 // more) are skipped, and so are those of `not_kept`, and NC_VARIABLES_CLEARED when a
-// parameter says so (M700 #1129 PwrVC1).
-bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {});
+// parameter says so (M700 #1129 PwrVC1). *left_out gets a sentence for each name that the control does not take, as one of an older release.
+bool restore_variables(nc_control* control, const std::string& bytes, const std::vector<VariableRangeSetting>& not_kept = {}, std::vector<std::string>* left_out = nullptr);
 // Sets all of them but the local ones, also those that would not be kept over power off.
 void set_variables(nc_control* control, const std::string& bytes);
 // What has changed from `before` to `after`, local variables left out, becomes what it was where it is still that of `after`.
@@ -46,7 +46,8 @@ class VariableData final : public RetainedData {
       : control_(control), feeder_(*feeder), not_kept_(std::move(not_kept)) {}
   const char* name() const override { return "common variables"; }
   const char* start() const override { return "are vacant"; }
-  bool restore(const std::string& bytes) override { return restore_variables(control_, bytes, not_kept_); }
+  bool restore(const std::string& bytes) override { return restore_variables(control_, bytes, not_kept_, &remarks_); }
+  std::vector<std::string> remarks() const override { return remarks_; }
   std::string now() override { return executed_variables(control_); }
   void want() override { feeder_.want(Feeder::kVariables); }
   bool take(std::string* bytes) override { return feeder_.take(Feeder::kVariables, bytes); }
@@ -55,6 +56,7 @@ class VariableData final : public RetainedData {
   nc_control* control_;
   Feeder& feeder_;
   std::vector<VariableRangeSetting> not_kept_;
+  std::vector<std::string> remarks_;
 };
 
 }  // namespace nc::rt

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "runtime/services/parameter_rehearsal.hpp"
@@ -105,14 +106,19 @@ Refusals taken_pockets(const ToolLabels& labels, const std::vector<TableValue>& 
 // so that two variables can change names.
 Refusals taken_names(const nc_control* control, const std::vector<TableValue>& wanted) {
   Refusals refusals;
+  const auto names_one = [](const TableValue& value) { return value.place.table == Table::kVariableName && !value.value.empty(); };
+  if (std::none_of(wanted.begin(), wanted.end(), names_one)) return refusals;
   nc_variable_range named{};
   (void)nc_variable_kind_get(nc_control_dialect(control), NC_VARIABLES_NAMED, &named);
+  std::multimap<std::string, std::uint32_t> by_name;
   char name[8] = "";
+  for (std::uint32_t number = named.first; number != 0 && number <= named.last; ++number)
+    if (nc_variable_name_get(control, number, name) == NC_OK && name[0] != 0) by_name.emplace(name, number);
   for (const TableValue& value : wanted) {
-    if (value.place.table != Table::kVariableName || value.value.empty()) continue;
-    for (std::uint32_t other = named.first; other != 0 && other <= named.last; ++other)
-      if (other != value.place.number && nc_variable_name_get(control, other, name) == NC_OK && value.value == name)
-        refusals.add(value, Outcome::refused(Refused::kState, "#" + std::to_string(other) + " has the name " + value.value));
+    if (!names_one(value)) continue;
+    const auto [first, last] = by_name.equal_range(value.value);
+    for (auto other = first; other != last; ++other)
+      if (other->second != value.place.number) refusals.add(value, Outcome::refused(Refused::kState, "#" + std::to_string(other->second) + " has the name " + value.value));
   }
   return refusals;
 }

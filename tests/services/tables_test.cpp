@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "runtime/retain/variables.hpp"
 #include "services/local_machine.hpp"
 
 namespace nc::rt::services {
@@ -185,6 +186,27 @@ TEST_F(TableServices, TwoVariablesHaveNotOneName) {
   refused = client.call("undo", {{"change", client.call("changes", {{"of", "name 502"}, {"count", 1}})["reply"]["changes"][0]["number"]}});
   EXPECT_EQ(refused["text"], "name of #502: #505 has the name WIDTH") << "an undo makes no second one either";
   EXPECT_EQ(client.outcome("variables.set", {{"number", 506}, {"name", "SINUS"}}), "refused") << "the name of a function stands at its beginning";
+}
+
+// What an older release has kept and this one does not take is said at the start.
+TEST_F(TableServices, ANameThatIsNotTakenOverIsNamed) {
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("tables.import", {{"toml", "[variable_names]\n501 = \"DEPTH\"\n502 = \"WIDTH\"\n"}}), "");
+  std::vector<std::string> left_out;
+  std::string name_of_502;
+  ASSERT_EQ(runtime_->look([&](nc_control* control) {
+    std::string kept = encode_variables(control);
+    kept.replace(kept.find("DEPTH"), 5, "SINUS");
+    (void)nc_variable_name_set(control, 501, "");
+    (void)nc_variable_name_set(control, 502, "");
+    EXPECT_TRUE(restore_variables(control, kept, {}, &left_out));
+    char name[8] = "";
+    (void)nc_variable_name_get(control, 502, name);
+    name_of_502 = name;
+  }), Answer::kDone);
+  ASSERT_EQ(left_out.size(), 1u);
+  EXPECT_EQ(left_out[0].find("#501 has lost its name SINUS: "), 0u) << left_out[0];
+  EXPECT_EQ(name_of_502, "WIDTH");
 }
 
 // A program, a screen and a file know one zero.

@@ -245,7 +245,7 @@ NC_API nc_status nc_variable_name_get(const nc_control* control, uint32_t number
  * Give a common variable a name, for example one that was kept while the power was off. Feeder thread.
  * @param control the control
  * @param number of the variable, one of NC_VARIABLES_NAMED
- * @param name at most 7 capital letters and digits, a letter first; "" takes the name away. Copied.
+ * @param name at most 7 capital letters and digits, a letter first, and not beginning with a function's (SINUS); "" takes it away. Copied.
  * @return NC_OK; NC_E_ARGUMENT: the variable can have no name, or the name is not a valid one
  */
 NC_API nc_status nc_variable_name_set(nc_control* control, uint32_t number, const char* name);
