@@ -97,6 +97,7 @@ std::vector<ConfigError> parse_config(std::string_view text, const std::string& 
   check_point_uses(&reader, read);
   read_share(&reader, &read);
   read_services(&reader, &read);
+  read.program_text.most_bytes = std::uint64_t{read.services.program_mb} << 20;
   reader.finish();
   nc_config_fault fault;
   if (errors.empty() && nc_config_check(&read.nc, &fault) != NC_OK)

@@ -107,6 +107,10 @@ std::shared_ptr<ProgramText> ProgramText::open(int descriptor, const std::string
       *error = std::generic_category().message(errno);
       return nullptr;
     }
+    if (const auto bytes = static_cast<std::uint64_t>(text->info_.st_size); bytes > options.most_bytes) {
+      *error = "has " + std::to_string(bytes) + " bytes, a program at most " + std::to_string(options.most_bytes) + " (program_mb)";
+      return nullptr;
+    }
     const nanoseconds wait = unrest(text->info_, writer == OpenForWriting::kNo ? kQuiet : kQuietNotTold);
     if (wait > nanoseconds(0)) {
       std::this_thread::sleep_for(std::min<nanoseconds>(wait, deadline - std::chrono::steady_clock::now()));

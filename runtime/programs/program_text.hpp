@@ -37,6 +37,7 @@ class ProgramText {
   struct Options {
     Encoding encoding = Encoding::kUtf8;
     std::uint64_t copy_bytes = std::uint64_t{16} << 20;
+    std::uint64_t most_bytes = UINT64_MAX;        // a longer file is no program
     bool as_it_is = false;                        // the file is the image of a tape, not a text, and is not converted
     std::chrono::milliseconds patience{2000};     // how long open() waits for a file that is being written
   };

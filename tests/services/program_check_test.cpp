@@ -194,6 +194,24 @@ TEST_F(ProgramCheckServices, TheRunningCopyIsNotTheOneOfTheFile) {
   EXPECT_EQ(start(&client), "") << "what was selected has passed";
 }
 
+// One that root has put into the folder is listed, but what is longer than a program may be is none.
+TEST_F(ProgramCheckServices, AFileThatIsTooLongIsRefusedAtOnce) {
+  write_program("huge.nc", "M30\n");
+  write_program("caller.nc", "M98 <huge.nc>\nM30\n");
+  std::filesystem::resize_file(in_programs("huge.nc"), 10'000'000'000);
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("control.take", {{"lease_ms", 60000}}), "");
+  ASSERT_EQ(client.outcome("mode", {{"mode", "auto"}}), "");
+  const Json answer = client.call("select", {{"name", "huge.nc"}});
+  EXPECT_EQ(answer["error"], "refused");
+  EXPECT_NE(answer["text"].get<std::string>().find("has 10000000000 bytes, a program at most 4194304"), std::string::npos) << answer;
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "huge.nc"}}), "");
+  const Json report = until(&client, "programs.check", [](const Json& now) { return now["state"] != "checking"; }, {{"name", "huge.nc"}});
+  EXPECT_NE(report["text"].get<std::string>().find("10000000000 bytes"), std::string::npos) << report;
+  ASSERT_EQ(client.outcome("select", {{"name", "caller.nc"}}), "");
+  EXPECT_EQ(client.outcome("start"), "refused");
+}
+
 // Who has changed a program that is selected is told that a start goes on with the text of before.
 TEST_F(ProgramCheckServices, AChangeOfASelectedProgramSaysThatItIsSelected) {
   ServiceClient client(path_);

@@ -188,6 +188,19 @@ TEST_F(ProgramsTest, WhatIsRememberedStays) {
   EXPECT_EQ(x, "1 ");
 }
 
+// Who selects a program waits for it, and so do all commands behind: a large one is not read for its hash.
+TEST_F(ProgramsTest, TheHashOfALargeProgramIsThatOfItsFile) {
+  write("large.nc", "M30\n");
+  std::filesystem::resize_file(folder_ + "/large.nc", std::uintmax_t{64} << 30);  // sparse, but nobody reads so much
+  ProgramFiles files(folder_);
+  test::Bench bench;
+  const std::string hash = files.hash_of(selected(&files, bench, "large.nc"));
+  EXPECT_EQ(hash.size(), 64u);
+  EXPECT_EQ(files.hash_of(selected(&files, bench, "large.nc")), hash);
+  std::filesystem::last_write_time(folder_ + "/large.nc", std::filesystem::last_write_time(folder_ + "/large.nc") - std::chrono::hours(1));
+  EXPECT_NE(files.hash_of(selected(&files, bench, "large.nc")), hash);
+}
+
 TEST_F(ProgramsTest, AProtectedProgramCanBeSelectedAgain) {
   write("O9001", "G0 X1.\nM30\n");
   ProgramFiles files(folder_);

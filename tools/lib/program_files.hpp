@@ -64,7 +64,7 @@ class ProgramFiles {
   uint64_t entered() const { return entered_; }
   /** Text of the file that has this index in the program store; null when it did not come from here. */
   Text text_of(unsigned file) const;
-  /** SHA-256 of that text, "" when it did not come from here or cannot be read. */
+  /** SHA-256 of that text, of one that is not copied of what the file system says of its file; "" when it did not come from here or cannot be read. */
   std::string hash_of(unsigned file) const;
 
   /**
