@@ -2,11 +2,7 @@
 // Causes of docs/safety.md at random moments, alone, together and one behind another, while an operator does anything: in rapid traverse, cuts, taps, homing, jogs, feed holds and
 // returns to the path. In every scan: the brake of Z is open only where its drive holds, and the drive goes off only behind the brake; behind an alarm everything comes to
 // rest, and nothing moves before somebody has asked for it.
-#include <array>
-#include <cstdlib>
-#include <random>
-
-#include "axes_machine.hpp"
+#include "random_machine.hpp"
 
 namespace {
 
@@ -18,12 +14,10 @@ using nc::rt::Mode;
 constexpr const char* kAnyProgram =
     "G90 G53 G0 X-20. Y10. Z-20.\nN1 G91\nG84 X2. Y1. Z-10. R-2. S600 F1.5 P50 ,R1\nG80\nG1 X60. Y-40. Z5. F9000\nG2 X20. Y20. I20. J0. F4000\nM8\nG4 X0.1\nG0 X-60. Y30. Z8.\nG1 X-22. Y-11. Z-1. F6000\nGOTO 1\n";
 
-class RandomFaults : public nc::test::AxesMachine {
+class RandomFaults : public nc::test::RandomMachine {
  protected:
   static std::string machine_text() {
-    std::string inputs;
-    for (const char* name : {"supply", "contact_n", "go_all", "z_free_p", "z_free_m"}) inputs += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"input\"\ninitial = 1\n";
-    for (const char* name : {"contact", "tap_out", "mode_hand", "mode_auto", "back_x", "reset_button"}) inputs += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"input\"\n";
+    std::string inputs = nc::test::input_points({"supply", "contact_n", "go_all", "z_free_p", "z_free_m"}, {"contact", "tap_out", "mode_hand", "mode_auto", "back_x", "reset_button"});
     inputs +=
         "[signals]\n\"plc.power_fail_n\" = \"supply\"\n\"plc.alarm.1\" = \"contact\"\n\"plc.interlock_n\" = \"go_all\"\n\"plc.interlock_p_n.Z\" = \"z_free_p\"\n\"plc.interlock_m_n.Z\" = \"z_free_m\"\n"
         "\"plc.tap_retract\" = \"tap_out\"\n\"plc.mode_manual\" = \"mode_hand\"\n\"plc.mode_auto\" = \"mode_auto\"\n\"plc.restart_approach.X\" = \"back_x\"\n\"plc.reset\" = \"reset_button\"\n";
@@ -33,15 +27,12 @@ class RandomFaults : public nc::test::AxesMachine {
 
   // ---- the operator ----
 
-  void asked(Answer answer) { quiet_ &= answer != Answer::kDone; }
-  void operate(std::mt19937& random) {
-    const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+  void operate() override {
     const unsigned axis = below(3);
-    const double direction = below(2) == 0 ? 1 : -1;
     switch (below(22)) {
       case 0:
-      case 1: jog_ = {axis, direction * (1 + below(90)), 1 + below(1500)}; break;
-      case 2: asked(ask(CommandKind::kStep, axis, direction * below(60))); break;
+      case 1: jog_ = {0, axis, either_way(1 + below(90)), 1 + below(1500)}; break;
+      case 2: asked(ask(CommandKind::kStep, axis, either_way(below(60)))); break;
       case 3: asked(ask(CommandKind::kHome, axis)); break;
       case 4: asked(home_all()); break;
       case 5: asked(ask(CommandKind::kReference, axis)); break;
@@ -59,25 +50,24 @@ class RandomFaults : public nc::test::AxesMachine {
       case 17:
       case 18:  // a program that runs
         (void)ask(CommandKind::kReset);
-        (void)ask(CommandKind::kSetMode, 0, static_cast<double>(Mode::kAuto));
+        (void)mode(Mode::kAuto);
         asked(ask(CommandKind::kCycleStart));
         break;
       case 19:  // by hand in a feed hold
         (void)ask(CommandKind::kFeedHold);
         held_mode_ = 300;
         break;
-      case 20: (void)ask(CommandKind::kSetMode, 0, static_cast<double>(below(3))); break;
+      case 20: (void)mode(static_cast<Mode>(below(3))); break;
       default: asked(ask(CommandKind::kApproach, axis, 40)); break;
     }
   }
   // ---- causes, for so many scans ----
-  void cause(std::mt19937& random) {
-    const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+  void cause() override {
     const unsigned scans = below(3) == 0 ? 1 + below(3) : 1 + below(400), axis = below(3);
     switch (below(12)) {
-      case 0: drive_[axis] = scans; break;
+      case 0: drive_[0][axis] = scans; break;
       case 1: bus_ = 1 + scans / 4; break;
-      case 2: blocked_ = 10 + scans; break;
+      case 2: blocked_[0] = 100 + scans; break;
       case 3: hold("supply", 0, scans); break;
       case 4: hold("contact", 1, scans); break;
       case 5: hold("x_go", 0, scans); break;
@@ -89,54 +79,28 @@ class RandomFaults : public nc::test::AxesMachine {
       default: hold("supply", 0, 1); break;
     }
   }
-  void press(const char* name, unsigned scans = 4) { hold(name, 1, scans); }
-  void hold(const char* name, std::uint32_t value, unsigned scans) {
-    in(name, value);
-    held_.push_back({name, value == 0 ? 1u : 0u, scans});
-  }
-  void go_on() {
+  // Somebody who looks at the edge of the tool in a feed hold.
+  void go_by_hand() {
     if (held_mode_ > 0 && --held_mode_ == 0) {
-      (void)ask(CommandKind::kSetMode, 0, static_cast<double>(Mode::kManual));
+      (void)mode(Mode::kManual);
       asked(ask(CommandKind::kStep, kX, 5));
       back_ = 600;
     }
     if (back_ > 0 && --back_ % 50 == 0 && back_ < 400) asked(ask(CommandKind::kApproach, kX, 40));
-    if (jog_.left > 0 && --jog_.left % 50 == 0) asked(ask(CommandKind::kJog, jog_.axis, jog_.left == 0 ? 0 : jog_.velocity));
-    for (unsigned a = 0; a < 3; ++a)
-      if (drive_[a] > 0) machine->fail_drive(0, a, --drive_[a] > 0);
-    if (bus_ > 0) machine->fail_bus(--bus_ > 0);
-    if (blocked_ > 0) machine->block_axis(0, kX, --blocked_ > 0);
-    for (std::size_t n = 0; n < held_.size();) {
-      if (--held_[n].scans > 0) {
-        ++n;
-        continue;
-      }
-      in(held_[n].name, held_[n].back);
-      quiet_ &= std::string(held_[n].name) != "start";  // a start acts when its button is let go
-      held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(n));
-    }
-    for (const Held& each : held_) quiet_ &= std::string(each.name) != "tap_out" && std::string(each.name) != "back_x";
   }
 
   // ---- what is looked at ----
 
-  void look() {
+  void look() override {
+    go_by_hand();
     const nc::rt::Snapshot now = runtime->snapshot();
     const nc_outputs& nc = now.system[0].nc;
-    const bool open = brake_open(), on = measured->last.enable && (measured->last.off >> kZ & 1u) == 0;
-    const bool fault = drive_[kZ] > 0 || bus_ > 0 || since_fault_ < 4;
-    since_fault_ = drive_[kZ] > 0 || bus_ > 0 ? 0 : since_fault_ + 1;
-    ASSERT_TRUE(!open || on || fault) << "the brake is open, and the drive does not hold";
-    const auto scans = static_cast<unsigned>(now.scan - scan_);  // a command takes some, too
-    scan_ = now.scan;
-    closed_for_ = open ? 0 : closed_for_ + scans;
-    ASSERT_TRUE(!was_on_ || on || fault || closed_for_ >= 200) << "the drive has gone off " << closed_for_ << " scans behind the brake";
-    was_on_ = on;
+    const int scans = scans_since(now);
+    look_at_brake(0, kZ, measured->last, nc, brake_open(), 200, scans);
     ASSERT_FALSE(nc.state == NC_STATE_RUNNING && now.mode == Mode::kManual) << "a program in mode manual";
-    ASSERT_TRUE(nc.velocity.v[kZ] == 0 || open || nc.followed || closed_for_ < 200) << "Z is led against its brake";
     stopped_for_ = now.stopped_by_alarm() ? stopped_for_ + scans : 0;
-    ASSERT_TRUE(stopped_for_ <= 1500 || nc.distance_zero || nc.followed) << "an alarm, and it moves";
-    quiet_ |= stopped_for_ > 1500;
+    ASSERT_TRUE(stopped_for_ <= kStopScans || nc.distance_zero || nc.followed) << "an alarm, and it moves";
+    quiet_ |= stopped_for_ > kStopScans;
     if (!quiet_) moved_ = measured->moved;
     ASSERT_EQ(measured->moved, moved_) << "nobody has asked for that";
     ASSERT_LE(measured->fastest, 1.001);
@@ -147,67 +111,25 @@ class RandomFaults : public nc::test::AxesMachine {
     quiets_ += quiet_;
     for (unsigned i = 0; i < now.alarms.count; ++i) seen_[static_cast<unsigned>(now.alarms.alarm[i].id)] = true;
   }
-  void begin(std::mt19937& random) {
-    drive_ = {};
-    held_.clear();
-    jog_ = {};
-    bus_ = blocked_ = held_mode_ = back_ = 0;
-    quiet_ = was_on_ = false;
-    since_fault_ = 100;
-    closed_for_ = stopped_for_ = 0;
-    scan_ = 0;
+  void begin() override {
+    moving_buttons = {"tap_out", "back_x"};
+    held_mode_ = back_ = 0;
     ASSERT_NO_FATAL_FAILURE(build(machine_text()));
-    if (random() % 4 != 0) {
+    if (below(4) != 0) {
       ASSERT_NO_FATAL_FAILURE(home_machine());
     }
     load(kAnyProgram);
     moved_ = measured->moved;
   }
 
-  struct Held {
-    const char* name;
-    std::uint32_t back;
-    unsigned scans;
-  };
-  struct HeldJog {
-    unsigned axis = 0;
-    double velocity = 0;
-    unsigned left = 0;
-  };
-  std::array<unsigned, 3> drive_{};
-  std::vector<Held> held_;
-  HeldJog jog_;
-  unsigned bus_ = 0, blocked_ = 0, held_mode_ = 0, back_ = 0, since_fault_ = 100, closed_for_ = 0, stopped_for_ = 0;
-  bool quiet_ = false, was_on_ = false;
-  std::uint64_t scan_ = 0, moved_ = 0, ran_ = 0, tapped_ = 0, returned_ = 0, quiets_ = 0;
+  unsigned held_mode_ = 0, back_ = 0;
+  std::uint64_t moved_ = 0, ran_ = 0, tapped_ = 0, returned_ = 0, quiets_ = 0;
   std::array<bool, static_cast<unsigned>(AlarmId::kCount)> seen_{};
 };
 
 TEST_F(RandomFaults, TheBrakeHoldsAndNothingMovesUnasked) {
-  const char* const wanted = std::getenv("NC_SEEDS");
-  const char* const first = std::getenv("NC_FIRST_SEED");
-  const unsigned seeds = wanted != nullptr ? static_cast<unsigned>(std::strtoul(wanted, nullptr, 10)) : 8;
-  const unsigned from = first != nullptr ? static_cast<unsigned>(std::strtoul(first, nullptr, 10)) : 1;
-  for (unsigned seed = from; seed < from + seeds; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    std::mt19937 random(seed);
-    ASSERT_NO_FATAL_FAILURE(begin(random));
-    for (unsigned n = 0; n < 30000; ++n) {
-      SCOPED_TRACE(n);
-      // Quiet times between the troubles, or nothing would come to its end.
-      const unsigned busy = n / 3000 % 3 == 2 ? 4000 : 150;
-      if (random() % busy == 0) operate(random);
-      if (random() % (8 * busy) == 0) {
-        cause(random);
-        if (random() % 3 == 0) cause(random);
-      }
-      go_on();
-      runtime->step();
-      look();
-      if (HasFatalFailure()) std::printf("seed %u scan %u: %s\n", seed, n, alarm().c_str());
-      if (HasFatalFailure()) return;
-    }
-  }
+  const std::uint64_t seeds = nc::test::wish("NC_SEEDS", 8);
+  ASSERT_NO_FATAL_FAILURE(run_seeds(nc::test::wish("NC_FIRST_SEED", 1), seeds, 30000));
   if (seeds < 8) return;  // a few that were wished show what they show
   EXPECT_GT(ran_, 1000u) << "else it shows little";
   EXPECT_GT(tapped_, 100u);

@@ -2,12 +2,7 @@
 // Two part systems whose operator does anything, with causes of docs/safety.md in one, in the other and in both: starts, holds, single blocks and overrides of one or of all, resets,
 // jogs, returns to the path and restarts of one while the other runs. In every scan: each keeps the limits of its axes, a brake is open only where its drive holds, behind
 // an alarm both come to rest and nothing moves before somebody has asked for it, what is held stands, and an axis that knows where it stands is where it is shown.
-#include <array>
-#include <cstdlib>
-#include <random>
-
-#include "axes_machine.hpp"
-#include "support/seeds.hpp"
+#include "random_machine.hpp"
 
 namespace {
 
@@ -16,7 +11,6 @@ using nc::rt::CommandKind;
 using nc::rt::Mode;
 
 constexpr unsigned kSystems = 2, kAxes = 3;
-constexpr int kStopScans = 1500;
 
 // What the drives of both part systems are given.
 class BothMeasured final : public nc::hal::Hal {
@@ -63,12 +57,10 @@ constexpr const char* kPrograms[kSystems][3] = {
      "G90 G53 G0 X0. Z0.\nN1 G90 G1 X20. F2000\n#501=#500\nZ12.\nX0.\nG4 X0.02\nZ0\nGOTO 1\n",
      "G90 G53 G0 X7. Z3.\nG91 G1 X-5. F1500\nT2\nG1 X5.\nM30\n"}};
 
-class RandomSystems : public nc::test::AxesMachine {
+class RandomSystems : public nc::test::RandomMachine {
  protected:
   static std::string machine_text() {
-    std::string inputs;
-    for (const char* name : {"supply", "go_all", "go_1", "go_2", "x2_free_p"}) inputs += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"input\"\ninitial = 1\n";
-    for (const char* name : {"contact", "mode_hand", "mode_auto", "back_x2", "reset_button", "z2_servo_off"}) inputs += std::string("[[point]]\nname = \"") + name + "\"\ndirection = \"input\"\n";
+    std::string inputs = nc::test::input_points({"supply", "go_all", "go_1", "go_2", "x2_free_p"}, {"contact", "mode_hand", "mode_auto", "back_x2", "reset_button", "z2_servo_off"});
     inputs +=
         "[[point]]\nname = \"z2_brake\"\ndirection = \"output\"\n[signals]\n\"plc.power_fail_n\" = \"supply\"\n\"plc.alarm.1\" = \"contact\"\n\"plc.interlock_n\" = \"go_1\"\n\"plc2.interlock_n\" = \"go_2\"\n"
         "\"plc2.interlock_p_n.X\" = \"x2_free_p\"\n\"plc.mode_manual\" = \"mode_hand\"\n\"plc.mode_auto\" = \"mode_auto\"\n\"plc2.restart_approach.X\" = \"back_x2\"\n\"plc.reset\" = \"reset_button\"\n"
@@ -101,27 +93,14 @@ class RandomSystems : public nc::test::AxesMachine {
 
   // ---- the operator ----
 
-  Answer give(CommandKind kind, unsigned system, unsigned axis = 0, double value = 0, std::uint32_t number = 0) {
-    nc::rt::Command command;
-    command.kind = kind;
-    command.system = static_cast<std::uint8_t>(system);
-    command.axis = static_cast<std::uint8_t>(axis);
-    command.value = value;
-    command.number = number;
-    const Answer answer = runtime->execute(command);
-    if (log_) std::printf("  %u: kind %u axis %u value %g number %u: %s\n", system, static_cast<unsigned>(kind), axis, value, number, answer_text(answer));
-    return answer;
-  }
-  void asked(Answer answer) { quiet_ &= answer != Answer::kDone; }
-  unsigned below(unsigned n) { return static_cast<unsigned>(random() % n); }
   unsigned one_or_all() { return below(3) == 0 ? nc::rt::kAllSystems : below(2); }
   unsigned axes_of(unsigned s) const { return config.nc.system[s].axis_count; }
 
-  void operate() {
+  void operate() override {
     const unsigned s = below(2), axis = below(axes_of(s));
     switch (below(34)) {
       case 0:
-      case 1: jog_ = {s, axis, (below(2) == 0 ? 1.0 : -1.0) * (1 + below(70)), 1 + below(1200)}; break;
+      case 1: jog_ = {s, axis, either_way(1 + below(70)), 1 + below(1200)}; break;
       case 2: asked(give(CommandKind::kStep, s, axis, static_cast<double>(below(80)) - 40)); break;
       case 3: asked(give(CommandKind::kHome, s, axis)); break;
       case 4: asked(give(CommandKind::kHome, nc::rt::kAllSystems)); break;
@@ -140,7 +119,7 @@ class RandomSystems : public nc::test::AxesMachine {
       case 17: (void)give(CommandKind::kFeedOverride, one_or_all(), 0, below(3) == 0 ? 0.0 : below(200) / 100.0); break;
       case 18:
       case 24:
-      case 25: restart(s); break;
+      case 25: begin_inside(); break;
       case 19:
       case 26:
       case 27:
@@ -149,53 +128,124 @@ class RandomSystems : public nc::test::AxesMachine {
       case 30:
       case 31: run_both(); break;
       case 20: press("reset_button"); break;
-      case 21: (void)give(CommandKind::kSetMode, 0, 0, 0, below(3)); break;
+      case 21: (void)mode(static_cast<Mode>(below(3))); break;
       case 22: by_hand_in_hold(); break;
       default: asked(give(CommandKind::kApproach, s, axis, 40)); break;
     }
   }
   void hold_one(unsigned s) { (void)give(CommandKind::kFeedHold, s); }
   void run_both() {
-    (void)give(CommandKind::kReset, 0);
-    for (int n = 0; n < 3000 && runtime->snapshot().resetting; ++n) scan();
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kAuto));
+    if (!comes_to_rest() || (below(4) != 0 && !homes_all())) return;
+    (void)mode(Mode::kAuto);
     for (unsigned s = 0; s < kSystems; ++s)
       if (below(2) == 0) (void)give(CommandKind::kSelectProgram, s, 0, 0, file_[s][below(3)]);
     asked(give(CommandKind::kCycleStart, one_or_all()));
   }
-  void restart(unsigned s) {
+  // As docs/restart.md says it, for one part system or for both, while causes come: what has come away must not begin, and what goes on stands where its program goes on.
+  void begin_inside() {
+    const unsigned chosen = 1 + below(3);
+    const bool all = chosen == 3;
+    if (!comes_to_rest() || !homes_all()) return;
+    (void)mode(Mode::kAuto);
+    for (unsigned s = 0; s < kSystems; ++s)
+      if ((chosen >> s & 1u) != 0 && !finds(s)) return;
+    for (unsigned s = 0; s < kSystems; ++s)
+      if ((chosen >> s & 1u) != 0 && !all) asked(give(CommandKind::kCycleStart, s));
+    if (all) asked(give(CommandKind::kCycleStart, nc::rt::kAllSystems));
+    if (!scans_until([&] { return stands(chosen); }, 1500)) return;
+    if (below(6) == 0) return;  // somebody goes away
+    for (unsigned s = 0; s < kSystems; ++s)
+      if ((chosen >> s & 1u) != 0) (void)give(CommandKind::kConfirmRestart, s, 0, 0, nc::rt::kEveryEntry);
+    if (below(6) == 0) return void(give(CommandKind::kCancelRestart, below(2)));
+    (void)mode(Mode::kManual);
+    for (unsigned s = 0; s < kSystems; ++s)
+      if ((chosen >> s & 1u) != 0 && !axes_come(s)) return;
+    (void)mode(Mode::kAuto);
+    goes_on_from_place(chosen, all);
+  }
+  bool comes_to_rest() {
+    (void)give(CommandKind::kReset);
+    return scans_until([this] { return !runtime->snapshot().resetting && runtime->snapshot().alarms.count == 0; }, 1000);
+  }
+  bool homes_all() {
+    const auto homed = [this] { return runtime->snapshot().system[0].axes.homed == 7 && (runtime->snapshot().system[1].axes.homed & 1u) != 0; };
+    if (homed()) return true;
+    (void)mode(Mode::kManual);
+    asked(give(CommandKind::kHome, nc::rt::kAllSystems));
+    if (!scans_until([&] { return (runtime->snapshot().system[0].axes.homing | runtime->snapshot().system[1].axes.homing) != 0; }, 10)) return false;
+    return scans_until([&] { return (runtime->snapshot().system[0].axes.homing | runtime->snapshot().system[1].axes.homing) == 0; }, 25000) && homed();
+  }
+  bool finds(unsigned s) {
     nc::rt::RestartWish wish;
     wish.by = below(2) == 0 ? nc::rt::RestartBy::kLastStop : nc::rt::RestartBy::kLine;
-    wish.number = 2 + below(4);
-    searched_ += runtime->find_restart(s, wish) == Answer::kDone;
-    for (int n = 0; n < 400 && runtime->info().system[s].restart.phase == nc::rt::RestartPhase::kSearching; ++n) scan();
-    asked(give(CommandKind::kCycleStart, s));
-    for (int n = 0; n < 50; ++n) scan();
-    (void)give(CommandKind::kConfirmRestart, s, 0, 0, nc::rt::kEveryEntry);
-    if (below(3) == 0) return void(give(CommandKind::kCancelRestart, s));
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kManual));
-    for (unsigned a = 0; a < axes_of(s); ++a)
-      for (int n = 0; n < 6000 && (runtime->snapshot().system[s].nc.restart_axes >> a & 1u) != 0 && !HasFatalFailure(); ++n) {
-        if (n % 50 == 0) {
-          const Answer answer = give(CommandKind::kApproach, s, a, 60);
-          asked(answer);
-          if (answer != Answer::kDone) break;
-        }
-        scan();
+    wish.number = 2 + below(5);
+    wish.passing = below(3);
+    Answer answer = runtime->find_restart(s, wish);
+    if (answer != Answer::kDone && wish.by == nc::rt::RestartBy::kLastStop) {
+      wish.by = nc::rt::RestartBy::kLine;
+      answer = runtime->find_restart(s, wish);
+    }
+    if (log_) std::printf("  %u: find %s\n", s, nc::rt::answer_text(answer));
+    if (answer != Answer::kDone) return false;
+    ++searched_;
+    (void)scans_until([&] { return phase(s) != nc::rt::RestartPhase::kSearching; }, 3000);
+    return phase(s) == nc::rt::RestartPhase::kFound;
+  }
+  nc::rt::RestartPhase phase(unsigned s) const { return runtime->info().system[s].restart.phase; }
+  bool stands(unsigned chosen) const {
+    for (unsigned s = 0; s < kSystems; ++s)
+      if ((chosen >> s & 1u) != 0 && phase(s) != nc::rt::RestartPhase::kStands) return false;
+    return true;
+  }
+  template <class Done>
+  bool scans_until(Done done, int most) {
+    for (int n = 0; n < most && !HasFatalFailure(); ++n) {
+      if (done()) return true;
+      if (below(6000) == 0) cause();
+      scan();
+    }
+    return !HasFatalFailure() && done();
+  }
+  bool axes_come(unsigned s) {
+    const unsigned first = below(axes_of(s));
+    for (unsigned n = 0; n < axes_of(s); ++n) {
+      const unsigned a = (first + n) % axes_of(s);
+      const auto away = [&] { return (runtime->snapshot().system[s].nc.restart_axes >> a & 1u) != 0; };
+      for (int times = 0; away() && times < 200; ++times) {
+        const Answer answer = give(CommandKind::kApproach, s, a, 60);
+        asked(answer);
+        if (answer != Answer::kDone || HasFatalFailure()) return false;
+        (void)scans_until([&] { return !away(); }, 50);
       }
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kAuto));
-    const Answer answer = give(CommandKind::kCycleStart, s);
-    asked(answer);
-    begun_inside_ += answer == Answer::kDone && runtime->info().system[s].restart.phase == nc::rt::RestartPhase::kStands;
+      (void)give(CommandKind::kJog, s, a, 0);
+      (void)scans_until([&] { return runtime->snapshot().system[s].nc.velocity.v[a] == 0; }, 300);
+    }
+    return !HasFatalFailure();
+  }
+  void goes_on_from_place(unsigned chosen, bool all) {
+    const bool stood = stands(chosen);
+    const nc::rt::Snapshot before = runtime->snapshot();
+    for (unsigned s = 0; s < kSystems; ++s) {
+      if ((chosen >> s & 1u) == 0 || (all && s != 0)) continue;
+      const Answer answer = give(CommandKind::kCycleStart, all ? nc::rt::kAllSystems : s);
+      asked(answer);
+      if (answer != Answer::kDone) return;
+      ASSERT_TRUE(stood) << "it has begun, and did not stand at its place";
+    }
+    for (unsigned s = 0; s < kSystems; ++s)
+      for (unsigned a = 0; (chosen >> s & 1u) != 0 && a < axes_of(s); ++a)
+        ASSERT_NEAR(before.system[s].nc.command.v[a], before.system[s].nc.return_place.v[a], 1e-6) << "it goes on from elsewhere";
+    ++begun_inside_;
+    both_begun_ += all;
   }
   void by_hand_in_hold() {
     (void)give(CommandKind::kFeedHold, nc::rt::kAllSystems);
     for (int n = 0; n < 300; ++n) scan();
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kManual));
+    (void)mode(Mode::kManual);
     asked(give(CommandKind::kStep, below(2), 0, static_cast<double>(below(20)) - 10));
   }
   // ---- causes, for so many scans ----
-  void cause() {
+  void cause() override {
     const unsigned scans = below(3) == 0 ? 1 + below(3) : 1 + below(400), s = below(2), axis = below(axes_of(s));
     if (log_) std::printf("  cause\n");
     switch (below(11)) {
@@ -212,44 +262,11 @@ class RandomSystems : public nc::test::AxesMachine {
       default: hold("supply", 0, 1); break;
     }
   }
-  void press(const char* name, unsigned scans = 4) { hold(name, 1, scans); }
-  void hold(const char* name, std::uint32_t value, unsigned scans) {
-    if (log_) std::printf("  %s = %u for %u\n", name, value, scans);
-    in(name, value);
-    held_.push_back({name, value == 0 ? 1u : 0u, scans});
-  }
-  void go_on() {
-    if (jog_.left > 0 && --jog_.left % 50 == 0) asked(give(CommandKind::kJog, jog_.system, jog_.axis, jog_.left == 0 ? 0 : jog_.velocity));
-    for (unsigned s = 0; s < kSystems; ++s) {
-      for (unsigned a = 0; a < kAxes; ++a)
-        if (drive_[s][a] > 0) machine->fail_drive(s, a, --drive_[s][a] > 0);
-      if (blocked_[s] > 0) machine->block_axis(s, kX, --blocked_[s] > 0);
-    }
-    if (bus_ > 0) machine->fail_bus(--bus_ > 0);
-    for (std::size_t n = 0; n < held_.size();) {
-      if (--held_[n].scans > 0) {
-        ++n;
-        continue;
-      }
-      in(held_[n].name, held_[n].back);
-      const std::string name = held_[n].name;
-      quiet_ &= name != "start";  // a start acts when its button is let go
-      held_.erase(held_.begin() + static_cast<std::ptrdiff_t>(n));
-    }
-    for (const Held& each : held_) quiet_ &= std::string(each.name) != "back_x2";
-  }
-
   // ---- what is looked at ----
 
-  void scan() {
-    go_on();
-    runtime->step();
-    if (!HasFatalFailure()) look();
-  }
-  void look() {
+  void look() override {
     const nc::rt::Snapshot now = runtime->snapshot();
-    const auto scans = static_cast<int>(now.scan - scan_);  // a command takes some, too
-    scan_ = now.scan;
+    const int scans = scans_since(now);
     for (unsigned s = 0; s < kSystems; ++s) {
       SCOPED_TRACE("part system " + std::to_string(s + 1));
       look_at(s, now, scans);
@@ -269,17 +286,9 @@ class RandomSystems : public nc::test::AxesMachine {
     const nc_outputs& nc = now.system[s].nc;
     const unsigned z = axes_of(s) - 1;
     const nc::hal::SystemCommand& given = both->last.system[s];
-    const bool open = machine->outputs().value[point_of(s == 0 ? "z_brake" : "z2_brake")] != 0, on = given.enable && (given.off >> z & 1u) == 0;
-    const bool failed = drive_[s][z] > 0 || bus_ > 0;
-    since_fault_[s] = failed ? 0 : since_fault_[s] + scans;
-    const bool fault = failed || since_fault_[s] < 5;
-    ASSERT_TRUE(!open || on || fault) << "the brake is open, and the drive does not hold";
-    closed_for_[s] = open ? 0 : closed_for_[s] + scans;
-    const int close = s == 0 ? 200 : 150;
-    ASSERT_TRUE(!was_on_[s] || on || fault || closed_for_[s] >= close) << "the drive has gone off " << closed_for_[s] << " scans behind the brake";
-    was_on_[s] = on;
+    look_at_brake(s, z, given, nc, machine->outputs().value[point_of(s == 0 ? "z_brake" : "z2_brake")] != 0, s == 0 ? 200 : 150, scans);
+    if (HasFatalFailure()) return;
     ASSERT_FALSE(nc.state == NC_STATE_RUNNING && now.mode == Mode::kManual) << "a program in mode manual";
-    ASSERT_TRUE(nc.velocity.v[z] == 0 || open || !on || nc.followed || closed_for_[s] <= close) << "Z is led against its brake";
     ASSERT_TRUE(stopped_for_ <= kStopScans || nc.distance_zero || nc.followed) << "an alarm, and it moves";
     held_for_[s] = nc.state == NC_STATE_HOLD ? held_for_[s] + scans : 0;
     ASSERT_TRUE(held_for_[s] <= kStopScans || nc.distance_zero || nc.followed) << "held, and it moves";
@@ -295,20 +304,11 @@ class RandomSystems : public nc::test::AxesMachine {
     ran_[s] += nc.state == NC_STATE_RUNNING && !nc.distance_zero;
     if (log_) std::printf("%u scan %llu state %d cause %d line %u at %.3f %.3f %.3f %s\n", s + 1, static_cast<unsigned long long>(now.scan), int{nc.state}, int{nc.cause}, nc.source.line, nc.command.v[0], nc.command.v[1], nc.command.v[2], alarm().c_str());
   }
-  void begin() {
-    for (auto& system : drive_) system = {};
-    held_.clear();
-    jog_ = {};
-    bus_ = 0;
-    blocked_ = {};
-    quiet_ = false;
-    was_on_ = {};
-    since_fault_ = {100, 100};
-    closed_for_ = rests_for_ = held_for_ = {};
-    stopped_for_ = 0;
+  void begin() override {
+    moving_buttons = {"back_x2"};
+    rests_for_ = held_for_ = {};
     ASSERT_NO_FATAL_FAILURE(build_both());
-    scan_ = runtime->snapshot().scan;
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kManual));
+    (void)mode(Mode::kManual);
     steps(3);
     if (below(5) != 0) {
       ASSERT_EQ(give(CommandKind::kHome, nc::rt::kAllSystems), Answer::kDone);
@@ -316,61 +316,27 @@ class RandomSystems : public nc::test::AxesMachine {
       ASSERT_GE(until([this] { return runtime->snapshot().system[0].axes.homing == 0 && runtime->snapshot().system[0].axes.homed == 7; }), 0) << alarm() << refusal();
       steps(20);
     }
-    (void)give(CommandKind::kSetMode, 0, 0, 0, static_cast<std::uint32_t>(Mode::kAuto));
+    (void)mode(Mode::kAuto);
     for (unsigned s = 0; s < kSystems; ++s) (void)give(CommandKind::kSelectProgram, s, 0, 0, file_[s][below(3)]);
-    scan_ = runtime->snapshot().scan;
     for (unsigned s = 0; s < kSystems; ++s) moved_[s] = both->moved[s];
   }
 
-  struct Held {
-    const char* name;
-    std::uint32_t back;
-    unsigned scans;
-  };
-  struct HeldJog {
-    unsigned system = 0, axis = 0;
-    double velocity = 0;
-    unsigned left = 0;
-  };
-  std::mt19937 random;
   std::unique_ptr<BothMeasured> both;
   unsigned file_[kSystems][3] = {};
-  std::array<std::array<unsigned, kAxes>, kSystems> drive_{};
-  std::array<unsigned, kSystems> blocked_{};
-  std::array<bool, kSystems> was_on_{};
-  std::array<int, kSystems> since_fault_{}, closed_for_{}, rests_for_{}, held_for_{};
-  std::vector<Held> held_;
-  HeldJog jog_;
-  unsigned bus_ = 0;
-  int stopped_for_ = 0;
-  bool quiet_ = false;
-  const bool log_ = nc::test::wish("NC_LOG", 0) != 0;
-  std::uint64_t scan_ = 0, moved_[kSystems] = {}, ran_[kSystems] = {}, quiets_ = 0, placed_ = 0, searched_ = 0, begun_inside_ = 0;
+  std::array<int, kSystems> rests_for_{}, held_for_{};
+  std::uint64_t moved_[kSystems] = {}, ran_[kSystems] = {}, quiets_ = 0, placed_ = 0, searched_ = 0, begun_inside_ = 0, both_begun_ = 0;
 };
 
 TEST_F(RandomSystems, EachKeepsWhatItPromisesWhateverTheOtherDoes) {
-  const std::uint64_t first = nc::test::wish("NC_FIRST_SEED", 1), seeds = nc::test::seeds(6, 2);
-  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    random.seed(static_cast<std::mt19937::result_type>(seed));
-    ASSERT_NO_FATAL_FAILURE(begin());
-    for (unsigned n = 0; n < 20000; ++n) {
-      SCOPED_TRACE(n);
-      // Quiet times between the troubles, or nothing would come to its end.
-      const unsigned busy = n / 3000 % 3 == 2 ? 4000 : 150;
-      if (below(busy) == 0) operate();
-      if (below(8 * busy) == 0) cause();
-      if (!HasFatalFailure()) scan();
-      if (HasFatalFailure()) std::printf("seed %u turn %u: %s\n", static_cast<unsigned>(seed), n, alarm().c_str());
-      if (HasFatalFailure()) return;
-    }
-  }
-  std::printf("%llu and %llu scans of programs, %llu behind alarms, %llu places compared, %llu searches, %llu begun inside\n", static_cast<unsigned long long>(ran_[0]),
+  const std::uint64_t seeds = nc::test::seeds(6, 2);
+  ASSERT_NO_FATAL_FAILURE(run_seeds(nc::test::wish("NC_FIRST_SEED", 1), seeds, 20000));
+  std::printf("%llu and %llu scans of programs, %llu behind alarms, %llu places compared, %llu searches, %llu begun inside, %llu with both\n", static_cast<unsigned long long>(ran_[0]),
               static_cast<unsigned long long>(ran_[1]), static_cast<unsigned long long>(quiets_), static_cast<unsigned long long>(placed_), static_cast<unsigned long long>(searched_),
-              static_cast<unsigned long long>(begun_inside_));
+              static_cast<unsigned long long>(begun_inside_), static_cast<unsigned long long>(both_begun_));
   EXPECT_GT(ran_[0], 200 * seeds);
   EXPECT_GT(ran_[1], 200 * seeds);
   EXPECT_GT(placed_, 500 * seeds);
+  EXPECT_GE(begun_inside_, seeds / 2) << "else it shows little of programs that are begun inside";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that change tools, and are stopped at any moment by a reset, also amid a tool change and while FIN does not come: begun inside at the stop, they cut with the tool of the program, give
+// Programs that change tools, and are stopped at any moment by a reset or by a power failure, also amid a tool change and while FIN does not come: begun inside at the stop, they cut with the tool of the program, give
 // out every code that is still to come, and repeat none but those of the block that was stopped.
 #include <map>
 #include <random>
@@ -48,6 +48,15 @@ class RestartTools : public Restart {
     return text + "M30\n";
   }
 
+  // The supply has said that it fails, and is back: a reset acknowledges that.
+  void power_fails() {
+    const int supply = config.points.find("supply");
+    machine->hold(supply, 0);
+    ASSERT_TRUE(until([&] { return runtime->snapshot().alarmed() && out().distance_zero; }, 3000));
+    steps(static_cast<int>(below(300)));
+    machine->hold(supply, 1);
+    steps(100);
+  }
   // One scan, whose strobes are counted and whose tool is that of the block in execution.
   void scan() {
     runtime->step();
@@ -109,8 +118,11 @@ class RestartTools : public Restart {
   std::map<std::uint32_t, unsigned> tool_of_, codes_of_;  // by line
   std::vector<std::string> given_;
   unsigned strobe_ = 0;
-  std::uint64_t cut_ = 0, inside_ = 0;
+  std::uint64_t cut_ = 0, inside_ = 0, cuts_ = 0;
 };
+
+constexpr const char* kSupply =
+    "[[point]]\nname = \"supply\"\ndirection = \"input\"\ninitial = 1\n[signals]\n\"plc.power_fail_n\" = \"supply\"\n[power]\nsettle_s = 0.05\n";
 
 TEST_F(RestartTools, NoCodeIsLostAndNothingIsCutWithTheWrongTool) {
   const std::uint64_t first = nc::test::wish("NC_FIRST_SEED", 1), seeds = nc::test::seeds(30, 5);
@@ -129,7 +141,8 @@ TEST_F(RestartTools, NoCodeIsLostAndNothingIsCutWithTheWrongTool) {
     const nc_axes end = out().command;
     const auto length = static_cast<unsigned>(runtime->snapshot().scan - begun);
     // The same once more from where it was begun, and stopped.
-    ASSERT_NO_FATAL_FAILURE(build());
+    const bool power = below(3) == 0;
+    ASSERT_NO_FATAL_FAILURE(build(power ? kSupply : ""));
     ASSERT_NO_FATAL_FAILURE(select(text));
     given_.clear();
     strobe_ = 0;
@@ -143,8 +156,12 @@ TEST_F(RestartTools, NoCodeIsLostAndNothingIsCutWithTheWrongTool) {
     machine->sim.hold_fin(false);
     if (out().state == NC_STATE_IDLE) continue;
     const std::vector<std::string> before = given_;
+    if (power) {
+      ASSERT_NO_FATAL_FAILURE(power_fails());
+      ++cuts_;
+    }
     ASSERT_NO_FATAL_FAILURE(reset());
-    const Answer found = find(RestartBy::kLastStop);
+    const Answer found = find(power ? RestartBy::kPowerOff : RestartBy::kLastStop);
     ASSERT_EQ(found, Answer::kDone) << restart().text;
     ASSERT_NO_FATAL_FAILURE(come_to_place());
     ASSERT_NO_FATAL_FAILURE(recover());
@@ -160,7 +177,7 @@ TEST_F(RestartTools, NoCodeIsLostAndNothingIsCutWithTheWrongTool) {
     EXPECT_GE(before.size() + given_.size(), all.size()) << "codes are lost";
     EXPECT_LE(before.size() + given_.size(), all.size() + 2) << "codes of blocks that were done are given out once more";
   }
-  std::printf("%llu begun inside, %llu scans cut\n", static_cast<unsigned long long>(inside_), static_cast<unsigned long long>(cut_));
+  std::printf("%llu begun inside, %llu behind a power failure, %llu scans cut\n", static_cast<unsigned long long>(inside_), static_cast<unsigned long long>(cuts_), static_cast<unsigned long long>(cut_));
   EXPECT_GT(inside_, seeds / 2);
 }
 
