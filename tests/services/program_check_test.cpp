@@ -212,6 +212,30 @@ TEST_F(ProgramCheckServices, AFileThatIsTooLongIsRefusedAtOnce) {
   EXPECT_EQ(client.outcome("start"), "refused");
 }
 
+// Gigabytes in which no block ends, of which a hole in a file is made, take no longer than a check may take, and keep nobody from ending the control.
+class CheckOfAHole : public ProgramCheckServices {
+ protected:
+  std::string check_text() override { return "check_seconds = 1\n"; }
+  std::string machine_text() override {
+    std::string text = ProgramCheckServices::machine_text();
+    const std::string small = "program_mb = 4\n";
+    return text.replace(text.find(small), small.size(), "program_mb = 1000000\n");
+  }
+};
+
+TEST_F(CheckOfAHole, TakesNoLongerThanACheckMay) {
+  write_program("hole.nc", "");
+  std::filesystem::resize_file(in_programs("hole.nc"), std::uintmax_t{64} << 30);
+  ServiceClient client(path_);
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "hole.nc"}}), "");
+  const Json report = until(&client, "programs.check", [](const Json& now) { return now["state"] != "checking"; }, {{"name", "hole.nc"}});
+  EXPECT_EQ(report["state"], "unchecked");
+  EXPECT_EQ(report["text"].get<std::string>().find("not checked: too long"), 0u) << report;
+  EXPECT_TRUE(report["alarms"].empty());
+  ASSERT_EQ(client.outcome("programs.recheck", {{"name", "hole.nc"}, {"seconds", 86400}}), "");
+  until(&client, "programs.check", [](const Json& now) { return now["state"] == "checking"; }, {{"name", "hole.nc"}});
+}  // the end of the control does not wait for it
+
 // Who has changed a program that is selected is told that a start goes on with the text of before.
 TEST_F(ProgramCheckServices, AChangeOfASelectedProgramSaysThatItIsSelected) {
   ServiceClient client(path_);

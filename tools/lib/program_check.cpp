@@ -99,9 +99,11 @@ class CheckSink final : public RunSink {
     ended_by_ = alarm.source;
     add({alarm.code, rt::alarm_message(alarm), program_of(alarm.source), alarm.source.line, false});
   }
+  // The time of the check is over, or nobody wants it any more.
+  bool is_over() const { return given_up_ || thread_seconds() >= end_s_; }
   bool stop() const override {
     if (++looks_ % kItemsPerLook != 0) return stopped_;
-    return stopped_ = given_up_ || thread_seconds() >= end_s_;
+    return stopped_ = is_over();
   }
 
   // The machine decides from this block on.
@@ -234,7 +236,9 @@ bool blank_line(std::string* text, std::uint32_t line) {
 class Check {
  public:
   Check(const rt::Config& config, const MachineTables& machine, const CheckOrder& order, const std::atomic<bool>& given_up)
-      : config_(config), machine_(machine), order_(order), given_up_(given_up), files_(config.programs_folder(), config.program_text) {}
+      : config_(config), machine_(machine), order_(order), given_up_(given_up), files_(config.programs_folder(), config.program_text) {
+    files_.set_stop([this] { return cut_here(); });
+  }
 
   CheckReport run() {
     struct stat info {};
@@ -359,7 +363,18 @@ class Check {
     if (report_.files.size() > 1) report_.files.insert(report_.files.end(), folders_.begin(), folders_.end());
   }
 
+  // Between two blocks there may be gigabytes that say nothing, so the time is looked at where they are read as well.
+  bool cut_here() {
+    if (sink_ != nullptr ? !sink_->is_over() : !given_up_.load()) return false;
+    return cut_ = true;
+  }
+
   void judge(const RunResult& result) {
+    if (cut_) {
+      report_.alarms.clear();  // that it could not be read any further
+      report_.text = too_long(result.blocks);
+      return;
+    }
     const std::string at_asks = report_.asks_program + " line " + std::to_string(report_.asks_line);
     const std::string behind = ": " + at_asks + " asks the machine, and what is behind it may differ there";
     if (sink_->refused()) {
@@ -394,11 +409,14 @@ class Check {
           report_.text = result.endless_as_written ? "it goes on until a reset: " + result.loop + kCounts : "up to " + result.loop + behind;
           return;
         }
-        report_.text = "not checked: too long: " + std::to_string(result.blocks) + " blocks are good, more took longer than " + std::to_string(static_cast<long long>(std::ceil(order_.limit_s))) +
-                       " s of processor time";
+        report_.text = too_long(result.blocks);
         return;
       case RunResult::How::kFailed: report_.text = result.error; return;
     }
+  }
+
+  std::string too_long(std::uint64_t blocks) const {
+    return "not checked: too long: " + std::to_string(blocks) + " blocks are good, more took longer than " + std::to_string(static_cast<long long>(std::ceil(order_.limit_s))) + " s of processor time";
   }
 
   // M700 13.5.5: a device of the ladder, which the machine alone knows.
@@ -414,6 +432,7 @@ class Check {
   const std::atomic<bool>& given_up_;
   const std::string* text_ = nullptr;  // that is checked in place of the file; null = the file
   ProgramFiles files_;
+  bool cut_ = false;  // a text was not read to its end (cut_here())
   std::vector<CheckReport::File> folders_;  // in which called programs are looked for, as they were before that
   CheckReport report_;
   std::unique_ptr<void, FreeMemory> memory_;

@@ -24,6 +24,7 @@ struct ProgramFiles::Entry {
   unsigned index = 0;
   std::string path;
   Text text;
+  const ProgramFiles* owner = nullptr;
 };
 
 namespace {
@@ -133,6 +134,7 @@ nc_status ProgramFiles::enter(nc_control* control, int descriptor, const std::st
   if (unfit) close(descriptor);
   auto made = std::make_unique<Entry>();
   made->path = shown;
+  made->owner = this;
   if (!unfit) made->text = rt::ProgramText::open(descriptor, path, options, &why);
   if (!made->text) {
     if (error) *error = shown + ": " + (unfit ? unfit : why);
@@ -238,7 +240,8 @@ std::string ProgramFiles::hash_of(unsigned file) const {
 }
 
 long ProgramFiles::read_at(void* user, uint64_t offset, char* buffer, size_t size) {
-  return static_cast<const Entry*>(user)->text->read(offset, buffer, size);
+  const Entry& entry = *static_cast<const Entry*>(user);
+  return entry.owner->stop_ && entry.owner->stop_() ? NC_READ_FAILED : entry.text->read(offset, buffer, size);
 }
 
 std::string ProgramFiles::find(const std::string& name) const {

@@ -33,6 +33,8 @@ class ProgramFiles {
   void set_remembered(std::function<bool(unsigned file)> remembered) { remembered_ = std::move(remembered); }
   /** Sets a function that is told why an existing sub program could not be read; there is no caller to whom that could be returned. */
   void set_report(std::function<void(const std::string&)> report) { report_ = std::move(report); }
+  /** Sets a function that is asked before each read of a text: when it is true, nothing more can be read. For who must not look at a text without an end. */
+  void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
   ~ProgramFiles();
   ProgramFiles(const ProgramFiles&) = delete;
   ProgramFiles& operator=(const ProgramFiles&) = delete;
@@ -91,6 +93,7 @@ class ProgramFiles {
   const rt::ProgramText::Options options_;
   std::function<bool(unsigned)> remembered_;
   std::function<void(const std::string&)> report_;
+  std::function<bool()> stop_;
   std::vector<std::unique_ptr<Entry>> entries_;
   uint64_t entered_ = 0;
 };
