@@ -110,6 +110,36 @@ TEST(Precedence, AlarmCells) {
   EXPECT_EQ(run("G66 G65 P1").out.alarm, "P33");
 }
 
+/// M700 3.7 note 2: a block with two codes of one group is the block with the latter alone, also where the former takes words.
+TEST(Precedence, TheLatterCodeOfAGroupCounts) {
+  const char* const kTwo[][3] = {
+      // former, latter, words
+      {"G0", "G1", "X2. F100"}, {"G1", "G0", "X2."}, {"G2", "G1", "X2. R5. F100"}, {"G18", "G17", "X2."}, {"G90", "G91", "X2."}, {"G91", "G90", "X2."},
+      {"G20", "G21", "X2."}, {"G21", "G20", "X2."}, {"G94", "G95", "X2. F1."}, {"G42 D1", "G40", "X2."}, {"G43 H1", "G49", "Z2."}, {"G49", "G43 H1", "Z2."},
+      {"G81", "G80", "X2."}, {"G82", "G81", "X2. Z-1. R1. F100"}, {"G55", "G54", "X2."}, {"G54", "G55", "X2."}, {"G54.1", "G55", "X2. P7000"},
+      {"G61", "G64", "X2."}, {"G68", "G69", "X2. Y1. R90."}, {"G69", "G68", "X2. Y1. R90."}, {"G51", "G50", "X2. Y1. P2."}, {"G50", "G51", "X2. Y1. P2."},
+      {"G51.1", "G50.1", "X2."}, {"G50.1", "G51.1", "X2."}, {"G16", "G15", "X2. Y30."}, {"G15", "G16", "X2. Y30."}, {"G96", "G97", "S100 X2."},
+      {"G22", "G23", "X50. Y50. Z50. I-50. J-50. K-50."}, {"G23", "G22", "X50. Y50. Z50. I-50. J-50. K-50."},
+      {"G67", "G66", "P1"}, {"G67", "G66.1", "P1"}, {"G98", "G99", "X2."}};
+  for (const char* before : {"", "G68 X0 Y0 R90.\n", "G51 X0 Y0 P3.\n", "G51.1 Y0\n", "G16\n"})
+    for (const auto& [former, latter, words] : kTwo) {
+      const std::string first = std::string("G0 X1. Y1.\n") + before, behind = std::string(" ") + words + "\nG0 X70. Y3. Z-7.";
+      const std::string text = first + former + " " + latter + behind;
+      const Ran both = run(text), one = run(first + latter + behind);
+      EXPECT_EQ(both.out.alarm, one.out.alarm) << text;
+      EXPECT_EQ(both.out.path(), one.out.path()) << text;
+      for (unsigned group = 1; group <= 21; ++group) EXPECT_EQ(both.code(group), one.code(group)) << text << " group " << group;
+      EXPECT_TRUE(std::isnan(both.out.var(140)) == std::isnan(one.out.var(140))) << text;
+    }
+}
+
+TEST(Precedence, TheLatterOfTheModalCallAndItsEndCounts) {  // 3.7 note 2, 13.5.1
+  EXPECT_TRUE(std::isnan(run("G66 P2\nG66 P1 G67\nG0 X5.").out.var(140)));
+  EXPECT_EQ(run("G66 P1 G67\nG0 X5.").out.alarm, "P276");  // as G67 alone
+  EXPECT_EQ(run("#140=0\nG67 G66 P1\nG0 X5.\nG67").out.var(140), 1);
+  EXPECT_EQ(run("G67 G65 P1").out.alarm, "P276");
+}
+
 /// M700 14.10 (12): the P of a block is used by one code. That of G54.1 is no number of turns of the arc, and no dwell of the cycle, that is in force.
 TEST(Precedence, AWordOfACodeIsNotOneOfTheMotionInForce) {
   const auto behind = [](const std::string& first, const std::string& block) {

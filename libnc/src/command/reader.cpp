@@ -26,11 +26,15 @@ class CommandReader {
  private:
   void clear();
   Reading take_code(double value);
+  Reading give_words(const FunctionRow& row, double value);
+  Reading leave_out_earlier(Mode mode);
+  Reading check_call_ends();
   Reading take_misc(double value);
   Reading take_option(const Word& word, double value);
   Reading take_corner_code();
   Reading check_words_stand_once(WordSet twice);
   bool calls_another(unsigned first) const;
+  bool ends_call_behind(unsigned first) const;
   bool calls_sub() const;
 
   const Block& block_;
@@ -46,17 +50,45 @@ Reading CommandReader::take_code(double value) {
     const Reading may = front_.questions->check_code(front_.core, *row, value);
     if (may != Reading::done) return may;
   }
+  const Mode mode = mode_of(row->function);
+  const bool only_last = !front_.dialect->rules.block.words_stand_once && mode != Mode::none && mode != Mode::interpolation;
+  if (only_last && !w_.functions.empty()) {
+    const Reading left = leave_out_earlier(mode);
+    if (left != Reading::done) return left;
+  }
+  if (!w_.functions.push_back(row)) return front_.refuse(Condition::format_error, Role::code, value);
+  return give_words(*row, value);
+}
+
+/// M700 3.7 note 2, DGSHAPE 1: of several codes of one group the last one counts. What stands before it is as if it were not written, so that it takes no
+/// words either: G68 G69 X0 Y0 R90. The modes of interpolation have blocks of their own (M700 6.9, 6.10), in which a second code is a fault.
+Reading CommandReader::leave_out_earlier(Mode mode) {
   Command& w = w_;
-  if (!w.functions.push_back(row)) return front_.refuse(Condition::format_error, Role::code, value);
+  bool earlier = false;
+  for (const FunctionRow* row : w.functions) earlier = earlier || mode_of(row->function) == mode;
+  if (!earlier) return Reading::done;
+  const auto all = w.functions;
+  w.functions.clear();
+  w.one_shot = w.motion = w.cycle = nullptr;
+  for (const FunctionRow* row : all) {
+    if (mode_of(row->function) == mode) continue;
+    w.functions.push_back(row);
+    const Reading given = give_words(*row, row->code / 10.0);
+    if (given != Reading::done) return given;
+  }
+  return Reading::done;
+}
+
+/// Decides what the words of the block belong to, now that it has this code, too.
+Reading CommandReader::give_words(const FunctionRow& code, double value) {
+  Command& w = w_;
+  const FunctionRow* const row = &code;
   switch (row->function) {
     case Function::exact_stop_once: w.exact_stop = true; return Reading::done;
     case Function::corner_behind: w.corner_code = row; return Reading::done;
     case Function::absolute_once:
     case Function::incremental_once: w.distance_once = row; return Reading::done;
     case Function::comp_entry: w.comp_entry = true; return Reading::done;
-    case Function::macro_modal_off:  // M700 13.5.1: G67 without a modal call in force
-      if (front_.dialect->rules.program.modal_end_may_stand_alone || front_.questions->has_modal_call(front_.core)) return Reading::done;
-      return front_.refuse(Condition::cancel_without_call, Role::code, value);
     case Function::stroke_check_on:
       if (w.one_shot != nullptr && w.one_shot->function == Function::holes_on_grid) return Reading::done;  // M700 13.2, G37.1 note 5
       w.one_shot = row;
@@ -162,6 +194,24 @@ bool CommandReader::calls_another(unsigned first) const {
   return false;
 }
 
+/// Behind the modal macro call that is word `first` stands the code that ends it, which is the one that counts (M700 3.7 note 2).
+bool CommandReader::ends_call_behind(unsigned first) const {
+  if (mode_of(w_.one_shot->function) != Mode::macro || front_.dialect->rules.block.words_stand_once) return false;
+  for (unsigned i = first + 1; i < block_.words.size(); ++i) {
+    const FunctionRow* const row = front_.code_of(block_.words[i]);
+    if (row != nullptr && row->function == Function::macro_modal_off) return true;
+  }
+  return false;
+}
+
+/// M700 13.5.1: G67 without a modal call in force.
+Reading CommandReader::check_call_ends() {
+  if (front_.dialect->rules.program.modal_end_may_stand_alone) return Reading::done;
+  for (const FunctionRow* row : w_.functions)
+    if (row->function == Function::macro_modal_off && !front_.questions->has_modal_call(front_.core)) return front_.refuse_code(Condition::cancel_without_call, *row);
+  return Reading::done;
+}
+
 /// Checks words that may stand only once. `twice`: those that the block has more than once. The codes that are no modes are a group of their own, of which a
 /// block has one, too (RS-274/NGC 3.4, table 4, group 0).
 Reading CommandReader::check_words_stand_once(WordSet twice) {
@@ -246,7 +296,7 @@ Reading CommandReader::read() {
       if (w.one_shot != nullptr && is_macro_call(w.one_shot->function)) {
         // All further words are arguments. M700 App.2: G65 beside G66 is an error.
         if (calls_another(i)) return front.refuse(Condition::format_error, Role::code, value);
-        break;
+        if (!ends_call_behind(i)) break;
       }
       continue;
     }
@@ -270,6 +320,10 @@ Reading CommandReader::read() {
   if ((twice != 0 || w.functions.size() > 1) && dialect.rules.block.words_stand_once) {
     const Reading once = check_words_stand_once(twice);
     if (once != Reading::done) return once;
+  }
+  if (!w.functions.empty()) {
+    const Reading ends = check_call_ends();
+    if (ends != Reading::done) return ends;
   }
   if (w.device != 0 && !calls_sub()) return front.refuse(Condition::no_function, Role::option_device, w.device);
   return w.corner_code != nullptr ? take_corner_code() : Reading::done;
