@@ -109,6 +109,19 @@ TEST(PolarCommand, RadiusAndAngle) {  // M700 6.12
   EXPECT_EQ(m700("G5\nM30").alarm, "P33");
 }
 
+TEST(PolarCommand, WordsBesideCodesThatTheListDoesNotName) {  // M700 6.12, "axis command not interpreted as polar coordinate command"
+  for (const char* code : {"G69", "G50", "G60", "G61", "G40 G17"}) EXPECT_EQ(m700(std::string("G16\n") + code + " G0 X5. Y90.\nM30").path().back(), "rapid 0 5 0") << code;
+  EXPECT_EQ(m700("G68 X0 Y0 R90.\nG16\nG69 G0 X5. Y90.\nM30").path(), Path{"rapid 0 5 0"});
+  EXPECT_EQ(m700("G51 X0 Y0 P2.\nG16\nG50 G0 X5. Y90.\nM30").path(), Path{"rapid 0 5 0"});
+  Bench bench;
+  bench.tool(1, 1.0);
+  EXPECT_EQ(bench.run("G16\nG45 G0 X5. Y45. D1\nM30").path(), Path{"rapid 4.535534 4.535534 0"});
+  EXPECT_EQ(m700("G16\nG0\nG34 X20. Y90. I5. J0 K2\nM30").path(), (Path{"rapid 5 20 0", "rapid -5 20 0"}));
+  EXPECT_EQ(m700("G16\nG0\nG35 X20. Y90. I5. J0 K2\nM30").path(), (Path{"rapid 0 20 0", "rapid 5 20 0"}));
+  for (const char* plain : {"G53", "G28", "G52", "G92"}) EXPECT_EQ(m700(std::string("G16\nG0\n") + plain + " X5. Y9.\nM30").alarm, "") << plain;
+  EXPECT_EQ(m700("G16\nG0\nG53 X5. Y9.\nM30").path(), Path{"rapid 5 9 0"});
+}
+
 TEST(PolarCommand, AResetKeepsItByParameter) {  // M700 6.12 (3) #1210 bit 11
   Bench bench;
   bench.at(0, 0, 0).run("G16 G0 X10. Y90.\nM30");

@@ -10,16 +10,16 @@
 namespace nc {
 namespace {
 
+/// The code has axis words that are places to go to, and is not among those whose words M700 6.12 and HX 8.3 say to be no radius and angle: single-direction
+/// positioning, position offset, patterns of holes.
+bool takes_polar_words(Function f) { return f == Function::unidirectional || offsets_position(f) || is_hole_pattern(f); }
+
 /// M700 6.12: the words of this block are not radius and angle: those of data, machine positions, returns, measurements, and codes that set up other modes.
+/// The codes that end scaling and rotation are not listed, and take no words.
 bool reads_plain_words(const BlockInHand& in) {
   const Command& w = in.words;
-  if (w.one_shot != nullptr && w.one_shot->function != Function::unidirectional) return true;
-  if (in.dialect->rules.coordinate.pole_stays && is_arc(in.state.modal.of(Mode::motion)) && w.cycle == nullptr && in.state.cycle.kind == CycleKind::none) return true;
-  for (const FunctionRow* row : w.functions) {
-    const Mode mode = mode_of(row->function);
-    if (mode == Mode::scaling || mode == Mode::rotation || mode == Mode::mirror || mode == Mode::macro) return true;
-  }
-  return false;
+  if (w.one_shot != nullptr) return !takes_polar_words(w.one_shot->function);
+  return in.dialect->rules.coordinate.pole_stays && is_arc(in.state.modal.of(Mode::motion)) && w.cycle == nullptr && in.state.cycle.kind == CycleKind::none;
 }
 
 /// The targets of the plane's axes are meant as radius and angle.
@@ -82,7 +82,7 @@ void resolve_polar_words(BlockInHand& in) {
     }
   }
   if (moves && holes.angle_step == 0) holes.radius_step = radius;
-  holes.on = holes.angle_step != 0 || holes.radius_step != 0;
+  holes.on = (holes.angle_step != 0 || holes.radius_step != 0) && (w.one_shot == nullptr || !is_hole_pattern(w.one_shot->function));
   for (unsigned i = 0; i < 2; ++i) holes.pole[i] = pole[i];
   holes.axis[0] = static_cast<uint8_t>(h), holes.axis[1] = static_cast<uint8_t>(v);
   holes.radius = radius, holes.angle = angle;
