@@ -82,6 +82,21 @@ TEST(InverseTime, EndsWithTheProgram) {  // M700 7.5 (1), (3)
   EXPECT_EQ(feeds(from_zero(bench, "G1 X1. F0.5\nM30")), (Feeds{-0.5}));
 }
 
+TEST(RotaryAxes, ADegreeIsAMillimetreAlongCurvesToo) {  // M700 7.6, 6.6, 6.13, 6.14
+  const auto length = [](const std::string& text) {
+    Bench bench(NC_DIALECT_M700, axes("XYZc"));
+    double sum = 0;
+    for (const nc_move& m : from_zero(bench, text + "\nM30").moves()) sum += m.length;
+    return sum;
+  };
+  const double quarter = 5 * std::numbers::pi;
+  EXPECT_NEAR(length("G1 X30. C40. F100"), 50, 1e-9);
+  EXPECT_NEAR(length("G2 X10. Y10. C90. I10. F100"), std::hypot(quarter, 90), 1e-9);
+  EXPECT_NEAR(length("G2 X10. Y10. Z20. C90. I10. F100"), std::hypot(quarter, 20, 90), 1e-9);
+  EXPECT_NEAR(length("G3.1 X-10. Y0 C900. I-5. P0 F100"), std::hypot(quarter, 900), 1e-6);
+  EXPECT_NEAR(length("G2.4 X10. Y10. C90. F100\nX20. Y0 C180."), 2 * std::hypot(quarter, 90), 1e-6);
+}
+
 TEST(DigitFeed, SpeedsOfParameters) {  // M700 7.3
   Bench bench = digit_bench();
   EXPECT_EQ(feeds(from_zero(bench, "G1 X10. F1\nY10. F2\nX20. F5\nY20. F6\nX30. F3.\nG3 X40. Y30. J10. F4\nX50.\nM30")).size(), 6u);

@@ -72,14 +72,14 @@ nc_axes to_axes(const AxisVec& a) {
 
 void Commit::create(const CommitConfig& config, Arena& arena) {
   config_ = config;
-  line_rotary_ = 0;
+  length_rotary_ = 0;
   axis_count_ = config.system->axis_count;
   for (unsigned i = 0; i < axis_count_; ++i) {
     if (config.system->axis[i].rotary) rotary_ |= 1u << i;
     if (config.system->axis[i].max_acceleration > 0) limited_ |= 1u << i;
     any_limit_ = any_limit_ || config.system->axis[i].soft_limited;
   }
-  if (!config.rotary_makes_length) line_rotary_ = rotary_;
+  if (!config.rotary_makes_length) length_rotary_ = rotary_;
   marks_ = arena.make<MarkPoint>(config.marks);
   resumes_ = arena.make<Stages::Resume>(config.marks);
   constexpr uint32_t kMostShapes = 256;
@@ -159,11 +159,11 @@ void Commit::commit_shape(const Move& move, const Affine& to_machine, const Move
     if (move.plane_axis[i] == axis) circle_.center[i] = to_machine.on_axis(axis, move.circle.center[i] / map.scale);
   }
   const PlainMove plain{&move.start, &move.end, move.circular ? &move.circle : nullptr, move.plane_axis[0], move.plane_axis[1]};
-  make_shaped(shape, plain, to_machine, machine_, axis_count_, rotary_, &shapes_[shape_count_ & shape_mask_], &curve_, &ahead_);
+  make_shaped(shape, plain, to_machine, machine_, axis_count_, length_rotary_, &shapes_[shape_count_ & shape_mask_], &curve_, &ahead_);
 }
 
 bool Commit::make_ahead(const Move& move, const MoveShape& shape, int64_t* left) {
-  return ahead_.go_on(shape, {&move.start, &move.end, nullptr, move.plane_axis[0], move.plane_axis[1]}, axis_count_, rotary_, left);
+  return ahead_.go_on(shape, {&move.start, &move.end, nullptr, move.plane_axis[0], move.plane_axis[1]}, axis_count_, length_rotary_, left);
 }
 
 /// The curve of the move does not begin where the axes are, so that they would jump. It cannot happen to a line, which is made from the place of
@@ -215,10 +215,10 @@ Committed Commit::commit(const Item& item, const Named& named) {
       circle_ = map_circle(move.circle, to_machine, move.plane_axis[0], move.plane_axis[1]);
       curve_.shape = nullptr;
       if (begins_elsewhere(move)) return Committed::displaced;
-      curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, rotary_);
+      curve_ = make_arc(machine_, end, move.plane_axis[0], move.plane_axis[1], circle_, axis_count_, length_rotary_);
     } else {
       circle_ = Circle{};
-      make_line(machine_, end, axis_count_, line_rotary_, &curve_);
+      make_line(machine_, end, axis_count_, length_rotary_, &curve_);
     }
     if (curve_.length < kNoLength) {
       machine_ = end;

@@ -27,7 +27,7 @@ struct CommitConfig {
   const MotionRules* rules = nullptr;  ///< rules of the controller family
   bool filters = false;       ///< there are filters behind interpolation
   FilterTimes rounding;       ///< filter for cuts in high-accuracy control for which the parameters give none
-  bool rotary_makes_length = false;  ///< F of a line is the composite speed of all axes, in which a degree counts as a millimetre (M700 7.6)
+  bool rotary_makes_length = false;  ///< F is the composite speed of all axes, in which a degree counts as a millimetre (M700 7.6)
 };
 
 /// A place to rewind to, right behind a mark.
@@ -211,7 +211,7 @@ class Commit {
 
   CommitConfig config_;
   unsigned axis_count_ = 3;
-  uint32_t rotary_ = 0, line_rotary_ = 0;  ///< bit i: axis i is rotary; ... and does not count in the length of a line
+  uint32_t rotary_ = 0, length_rotary_ = 0;  ///< bit i: axis i is rotary; ... and does not count in the length of a path
   uint32_t limited_ = 0;     ///< bit i: axis i has a limit of acceleration
   bool any_limit_ = false;
   static inline constexpr MotionSettings kNoSettings{};
