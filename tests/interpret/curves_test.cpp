@@ -144,6 +144,16 @@ TEST(Spiral, TurnsOfBothTypes) {  // M700 6.13
   bench.param("1272/bit2", "1").param("8075", "0.1");
   EXPECT_NEAR(from_zero(bench, "G2 X60. I100. Q-30. F300\nM30").moves()[0].sweep_deg, -720, 1e-9);
   EXPECT_EQ(from_zero(bench, "G2 X60. I100. Q30. F300\nM30").alarm, "P33");
+  for (const char* corner : {",R2.", ",C2."}) {  // "if issued during the corner chamfering/corner rounding command"
+    EXPECT_EQ(from_zero(bench, std::string("G2 X60. I100. Q-30. F300 ") + corner + "\nG1 X90.\nM30").alarm, "P33") << corner;
+    for (const char* option : {"1", "0"}) {
+      bench.param("corner_ii", option);
+      EXPECT_EQ(from_zero(bench, std::string("G2 X60. I100. L2 F300 ") + corner + "\nG1 X90.\nM30").alarm, "P33") << corner;
+    }
+    bench.param("corner_ii", "1");
+    EXPECT_EQ(from_zero(bench, std::string("G2 X60. I100. F300 ") + corner + "\nG1 X90.\nM30").alarm, "P33") << corner;
+    bench.param("corner_ii", "0");
+  }
   EXPECT_EQ(from_zero(bench, "G2 X60. I100. Q-40. F300\nM30").alarm, "P70");  // a turn and a half would end elsewhere
   EXPECT_NEAR(from_zero(bench, "G2 X60. Z50. I100. K25. L9 F300\nM30").moves()[0].sweep_deg, -720, 1e-9);  // Q before K before L
   EXPECT_EQ(from_zero(bench, "G2 X60. Z50. I100. K-25. F300\nM30").alarm, "P33");

@@ -679,6 +679,7 @@ static Execution take_corner(BlockInHand& in, Function motion, LinearStyle* styl
   const Command& w = in.words;
   const Role word = corner_word(w);
   if (motion == Function::rapid || motion == Function::thread) return in.raise(Condition::corner_motion, word, w.corner_size.value);
+  if (is_arc(motion) && means_spiral(in)) return in.raise(Condition::format_error, word, w.corner_size.value);  // 6.13 (2): not with a spiral of type 2
   if (motion != Function::linear && !(in.settings.corner_arcs && is_arc(motion))) return in.raise(Condition::corner_arc, word, w.corner_size.value);
   const PlaneAxes plane = plane_axes(in);
   if (plane.h < 0 || plane.v < 0) return in.raise_mode(Condition::plane_mismatch, Mode::motion);
@@ -702,6 +703,8 @@ static Execution move_arc_to_corner(BlockContext& in, const AxisVec& target, boo
   const Command& w = in.words;
   const unsigned before = in.items_made();
   const Execution did = move_arc(in, target, w.target.axes(), ccw);
+  if (did == Execution::fault && in.fault.condition == Condition::arc_deviation && in.settings.spiral_type_2 && !w.has(Role::arc_radius))
+    return in.raise(Condition::format_error, corner_word(w), w.corner_size.value);  // its radii make it a spiral of type 2 (6.13)
   if (did != Execution::done) return did;
   for (unsigned i = in.items_made(); i > before; --i) {
     Item& item = in.item_made(i - 1);
