@@ -97,6 +97,30 @@ TEST(RotaryAxes, ADegreeIsAMillimetreAlongCurvesToo) {  // M700 7.6, 6.6, 6.13, 
   EXPECT_NEAR(length("G2.4 X10. Y10. C90. F100\nX20. Y0 C180."), 2 * std::hypot(quarter, 90), 1e-6);
 }
 
+TEST(RotaryAxes, InInchADegreeIsATenthOfAnInch) {  // M700 3.2 notes 5, 6: F1. is 10 deg/min
+  const auto first = [](const std::string& text) {
+    Bench bench(NC_DIALECT_M700, axes("XYZc"));
+    bench.param("1514", "X").param("1515", "C");
+    return feeds(from_zero(bench, "G20 " + text + "\nM30")).front();
+  };
+  const auto minutes = [](const std::string& text) {
+    Bench bench(NC_DIALECT_M700, axes("XYZc"));
+    const nc_move m = from_zero(bench, "G20 " + text + "\nM30").moves().front();
+    return m.length / m.feed_mm_min;
+  };
+  EXPECT_NEAR(first("G1 C90. F10."), 100, 1e-9);
+  EXPECT_NEAR(first("G1 X1. F10."), 254, 1e-9);
+  EXPECT_NEAR(minutes("G1 X1. C10. F10."), std::sqrt(2) / 10, 1e-9);
+  EXPECT_NEAR(minutes("G1 X.001 C30. F10."), minutes("G1 C30. F10."), 1e-6);
+  EXPECT_NEAR(minutes("G2 X1. Y1. C10. I1. F10."), std::hypot(std::numbers::pi / 2, 1) / 10, 1e-9);
+  EXPECT_NEAR(minutes("G93 G1 X1. C10. F2."), 0.5, 1e-9);
+  EXPECT_NEAR(first("G31 C90. F10."), 100, 1e-9);
+  EXPECT_NEAR(first("G31 X1. F10."), 254, 1e-9);
+  EXPECT_NEAR(first("G2.3 G91 C10. I30. J40. R2. F10."), 100, 1e-9);
+  EXPECT_NEAR(first("G33 C360. F1."), -10, 1e-9);  // deg/rev
+  EXPECT_NEAR(first("G33 Z1. F1."), -25.4, 1e-9);
+}
+
 TEST(DigitFeed, SpeedsOfParameters) {  // M700 7.3
   Bench bench = digit_bench();
   EXPECT_EQ(feeds(from_zero(bench, "G1 X10. F1\nY10. F2\nX20. F5\nY20. F6\nX30. F3.\nG3 X40. Y30. J10. F4\nX50.\nM30")).size(), 6u);

@@ -213,17 +213,50 @@ double surface_feed(const InForce& in, const AxisVec& start, const AxisVec& end)
 
 }  // namespace
 
-/// When only rotary axes move F is in deg/min; in inch its unit is 10 deg (M700 3.2 note 6). On a cylinder and in the plane of G12.1 F is in mm/min or
-/// inch/min along the programmed curve, whichever axes move (6.9 (6), 6.10 (5)).
-double feed_for(const InForce& in, const AxisVec& start, const AxisVec& end) {
-  const bool inch = in.state.modal.is(Function::inch);
-  if (in.rotary != 0 && in.dialect->rules.feed.rotary_by_radius) return surface_feed(in, start, end);
-  if (!inch || in.rotary == 0 || !in.dialect->rules.feed.inch_is_ten_degrees) return feed_mm_min(in);
+namespace {
+
+/// What one inch of F is along a way, given the squares of its linear and of its rotary part: a degree counts as a tenth of an inch there (M700 3.2 notes 5, 6).
+double inch_of_feed(double linear2, double turned2) {
+  constexpr double kDegreesPerInch = 10;
+  if (turned2 <= kNoMotion * kNoMotion) return kMillimetresPerInch;
+  if (linear2 <= kNoMotion * kNoMotion) return kDegreesPerInch;
+  return std::sqrt((linear2 + turned2) / (linear2 / (kMillimetresPerInch * kMillimetresPerInch) + turned2 / (kDegreesPerInch * kDegreesPerInch)));
+}
+
+/// A degree is a part of an inch for the feed, and there are axes that turn.
+bool inch_has_degrees(const InForce& in) { return in.rotary != 0 && in.state.modal.is(Function::inch) && in.dialect->rules.feed.inch_is_ten_degrees; }
+
+/// Axes whose words are degrees. On a cylinder and in the plane of G12.1 F is in mm/min or inch/min along the programmed curve, whichever axes move
+/// (M700 6.9 (6), 6.10 (5)).
+uint32_t axes_in_degrees(const InForce& in) {
   const AxisMap& map = in.state.map;
-  const uint32_t turning = map.kind == AxisMap::Kind::none ? in.rotary : in.rotary & ~(1u << map.rotary);
+  return map.kind == AxisMap::Kind::none ? in.rotary : in.rotary & ~(1u << map.rotary);
+}
+
+/// The same for the way of an arc and of the axes that go along with it.
+double inch_of_arc(const InForce& in, const Move& move) {
+  const double round = (move.circle.radius_start + move.circle.radius_end) / 2 * move.circle.sweep;
+  double part[2] = {round * round, 0};
+  const uint32_t turning = axes_in_degrees(in) & ~(1u << move.plane_axis[0] | 1u << move.plane_axis[1]);
   for (unsigned i = 0; i < in.axis_count; ++i)
-    if (((turning >> i) & 1) == 0 && std::fabs(end[i] - start[i]) > kNoMotion) return feed_mm_min(in);
-  return in.state.modal.feed * 10;
+    if (i != move.plane_axis[0] && i != move.plane_axis[1]) part[turning >> i & 1] += (move.end[i] - move.start[i]) * (move.end[i] - move.start[i]);
+  return inch_of_feed(part[0], part[1]);
+}
+
+}  // namespace
+
+double feed_unit(const InForce& in, const AxisVec& start, const AxisVec& end) {
+  if (!in.state.modal.is(Function::inch)) return 1;
+  if (!inch_has_degrees(in)) return kMillimetresPerInch;
+  const uint32_t turning = axes_in_degrees(in);
+  double part[2] = {0, 0};
+  for (unsigned i = 0; i < in.axis_count; ++i) part[turning >> i & 1] += (end[i] - start[i]) * (end[i] - start[i]);
+  return inch_of_feed(part[0], part[1]);
+}
+
+double feed_for(const InForce& in, const AxisVec& start, const AxisVec& end) {
+  if (in.rotary != 0 && in.dialect->rules.feed.rotary_by_radius) return surface_feed(in, start, end);
+  return in.state.modal.feed * feed_unit(in, start, end);
 }
 
 AxisVec target_of_words(const BlockInHand& in) { return target_of_words(in, in.position()); }
@@ -417,7 +450,8 @@ void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& pl
   move.plane_feed = kind == NC_MOVE_HELIX && in.settings.helix_plane_feed;  // M700 6.6: only for a helix; lines and arcs keep F
   move.exact_stop = asks_exact_stop(in);
   move.rule.check_reversal = in.settings.check_reversal;
-  set_modal_feed(in, move, feed_mm_min(in));
+  const bool in_plane = move.plane_feed && in.state.modal.is(Function::feed_per_minute);
+  set_modal_feed(in, move, inch_has_degrees(in) && !in_plane ? in.state.modal.feed * inch_of_arc(in, move) : feed_mm_min(in));
   finish_mapped(in, frame, before, move);
   check_deceleration(in, kind);
 }
@@ -612,7 +646,7 @@ Execution move_arc_by(BlockContext& in, const PlaneAxes& plane, const AxisVec& t
   if (straight) {
     // There is no circle: the axes go along a line, also those outside of the plane.
     LinearStyle style;
-    style.feed_mm_min = feed_mm_min(in);
+    style.feed_mm_min = in.state.modal.feed * feed_unit(in, frame.start, frame.end);
     style.special_feed = special_feed(in);
     style.exact_stop = asks_exact_stop(in);
     move_linear(in, target, commanded, style);

@@ -70,6 +70,9 @@ Execution check_index_positions(BlockInHand& in);
 Execution move_by_words(BlockContext& in);
 /// F in force in mm/min, 0 = none.
 double feed_mm_min(const InForce& in);
+/// What F counts in for a line between these points: mm, in inch mode 25.4 mm; in inch mode 10 deg where it moves only rotary axes, and both together where a
+/// degree is a tenth of an inch (M700 3.2 note 6). Its way is in mm and degrees.
+double feed_unit(const InForce& in, const AxisVec& start, const AxisVec& end);
 /// F in force for a line between these points: in mm/min, or in deg/min where it moves only rotary axes.
 double feed_for(const InForce& in, const AxisVec& start, const AxisVec& end);
 /// The end point that the words command.

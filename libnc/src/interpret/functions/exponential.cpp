@@ -72,7 +72,8 @@ Execution move_exponential(BlockContext& in, const AxisVec& target, uint32_t com
   const double way = frame.end[x] - frame.start[x];
   if (((commanded >> x) & 1) == 0 || std::fabs(way) < kNoWay || ((commanded >> c) & 1) != 0) {
     LinearStyle style;  // the move is a straight line at the F of the block
-    style.feed_mm_min = words.feed;
+    const bool inch = in.state.modal.is(Function::inch);
+    style.feed_mm_min = inch ? words.feed / kMillimetresPerInch * feed_unit(in, frame.start, frame.end) : words.feed;  // 3.2 note 6
     move_linear(in, target, commanded, style);
     return Execution::done;
   }

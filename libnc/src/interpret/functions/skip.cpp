@@ -3,7 +3,6 @@
 // Where the move has ended is known only after it was executed, so the block goes on after a sync.
 #include <bit>
 
-#include "base/units.hpp"
 #include "interpret/functions/functions.hpp"
 
 namespace nc {
@@ -13,7 +12,7 @@ namespace {
 Execution take_speeds(BlockInHand& in, uint32_t* stops) {
   const Command& w = in.words;
   if (w.has(Role::skip_signals)) return in.raise(Condition::format_error, Role::skip_signals, w.get(Role::skip_signals));  // F1= to F8= say already which signals count
-  const double unit = in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1.0;
+  const double unit = feed_unit(in, in.position(), target_of_words(in));
   in.jobs.skip.speeds = SkipSpeeds{};
   *stops = 0;
   for (unsigned i = 0; i < SkipSpeeds::kSignals; ++i) {
@@ -60,7 +59,6 @@ Execution do_skip(BlockContext& in) {
   uint32_t mask = step == 0 ? 1u : in.settings.multi_skip_mask[step - 1];  // M700 15.3 (5)
   if (step == 0 && w.has(Role::skip_signals) && (!whole_number(w.get(Role::skip_signals), &mask) || mask < 1 || mask > 255))
     return in.raise(Condition::value_range, Role::skip_signals, w.get(Role::skip_signals));
-  const bool inch = in.state.modal.is(Function::inch);
   double feed = step == 0 ? in.settings.skip_feed : in.settings.multi_skip_feed[step - 1];
   if (in.dialect->rules.skip.feed_is_modal) {
     if (!in.state.modal.is(Function::feed_per_minute)) return in.raise_code(Condition::skip_feed_mode, *w.one_shot);
@@ -68,7 +66,7 @@ Execution do_skip(BlockContext& in) {
   } else if (w.has(Role::feed)) {
     const Execution did = feed_of(in, &feed);
     if (did != Execution::done) return did;
-    if (inch) feed *= kMillimetresPerInch;
+    feed *= feed_unit(in, in.position(), target_of_words(in));
   }
   if (!(feed > 0)) return in.raise(Condition::skip_feed_zero, Role::feed);
   LinearStyle style;

@@ -56,6 +56,8 @@ Execution move_thread(BlockContext& in, const AxisVec& target, uint32_t commande
   LinearStyle style;
   style.kind = NC_MOVE_THREAD;
   style.feed_mm_rev = in.state.thread_lead;
+  const bool turns_alone = (w.target.axes() & ~in.rotary) == 0;
+  if (turns_alone && in.state.modal.is(Function::inch)) style.feed_mm_rev *= feed_unit(in, in.position(), target) / kMillimetresPerInch;  // 3.2 note 6
   style.thread_angle = angle;
   style.transparent = true;  // M700 6.7.1: radius compensation is away for the thread
   move_linear(in, target, commanded, style);
