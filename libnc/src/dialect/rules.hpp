@@ -115,10 +115,10 @@ struct SpindleRules {
 };
 
 struct FeedRules {
-  /// In inch mode F of a move of rotary axes only is in units of 10 deg/min (M700 3.2 note 6). Otherwise it is converted with 25.4 as every F
-  /// in inch mode: DGSHAPE has no such rule.
+  /// In inch mode a degree counts as a tenth of an inch in F, so that it is in units of 10 deg/min where only rotary axes move (M700 3.2 note 6).
+  /// Otherwise it is converted with 25.4 as every F in inch mode: DGSHAPE has no such rule.
   bool inch_is_ten_degrees;
-  /// F of a line is the speed of linear and rotary axes together, where a degree counts like a millimetre (M700 7.6). Otherwise it is the
+  /// F of a line or a curve is the speed of linear and rotary axes together, where a degree counts like a millimetre (M700 7.6). Otherwise it is the
   /// speed of the linear axes (DGSHAPE, "F").
   bool degree_counts_as_millimetre;
   /// F in inverse-time feed is 1 divided by the minutes that the whole block takes, also for an arc (RS-274/NGC 3.5.19). Otherwise F of an
