@@ -151,6 +151,16 @@ TEST(Range, EndsOneUnitBelowTheRoundNumber) {  // M700 2.1, 5.3: +-99999.999 by 
     EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P35") << block;
 }
 
+TEST(Range, OfAnOffsetIsThatOfTheUnitInForce) {  // M700 12.1, 14.10 (6): +-99999.999 mm, +-9999.9999 inch with #1003 = B
+  for (const char* block : {"G10 L10 P1 R9999.9999", "G10 L11 P1 R-9999.9999", "G10 L12 P1 R5000.", "G10 L13 P1 R-5000.", "G10 L2 P1 X5000.", "G10 L20 P1 Y-9999.9999",
+                            "G10 P0 Z5000.", "#10001=200000", "#16001=-200000", "#5221=200000"})
+    EXPECT_EQ(Bench().param("1037", "2").run("G20 " + std::string(block[0] == '#' ? "\n" : "") + block + "\nM30").alarm, "") << block;
+  for (const char* block : {"G20 G10 L10 P1 R10000.", "G20 G10 L2 P1 X10000.", "G20 G10 L10 P1 R6000.\nG91 G10 L10 P1 R6000.", "G20\n#10001=254000", "G20\n#5221=-254000",
+                            "G21 G10 L10 P1 R100000.", "G21\n#10001=100000", "G21\n#5221=100000", "G20 G10 L10 P1 R5000.\nG21 G91 G10 L10 P1 R1."})
+    EXPECT_EQ(m700(std::string(block) + "\nM30").alarm, "P35") << block;
+  EXPECT_EQ(Bench(NC_DIALECT_M700, axes("XYZc")).run("G20 G10 L2 P1 C100000.\nM30").alarm, "P35");
+}
+
 TEST(Range, UndottedWordsInTypeTwo) {
   const Outcome run = Bench().param("1078", "1").run("G0 X123456\nM30");
   EXPECT_EQ(run.alarm, "P35");

@@ -19,6 +19,7 @@ struct RangeRules {
   // ---- positions and feeds. A number is below the end of its range by at least one least unit, so that with finer units it has more decimals.
   double end_of_positions_mm;       ///< also in deg
   double end_of_positions_inch;
+  double end_of_offset_mm, end_of_offset_inch;  ///< work offset and amount of tool length, either sign, while millimetres or inches are in force; also in deg
   double end_of_radius_mm, end_of_radius_inch;  ///< amount of radius compensation, either sign, while millimetres or inches are in force
   double end_of_revolution_feed;    ///< feed per revolution, mm or inch
   double end_of_inverse_time;       ///< inverse-time feed, 1/min

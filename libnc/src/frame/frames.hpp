@@ -25,9 +25,6 @@
 
 namespace nc {
 
-/// M700 12.1, 14.10: the magnitude of an offset is below this, mm or deg.
-inline constexpr double kOffsetRange = 100000;
-
 /// Columns of the tool table, as in nc_tool_column.
 inline constexpr unsigned kToolColumns = 4;
 

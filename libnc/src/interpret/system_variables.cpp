@@ -95,9 +95,9 @@ bool tool_key(Access& a, uint32_t* key) {
 double unit_of_offsets(const Access& a, bool length) {
   return length && a.in.dialect->rules.data_input.variables_in_unit && a.in.state.modal.is(Function::inch) ? kMillimetresPerInch : 1;
 }
-Execution set_offset(Access& a, uint32_t key, bool length, double end_mm = kOffsetRange) {
+Execution set_offset(Access& a, uint32_t key, bool length, double end) {
   const double value = a.written * unit_of_offsets(a, length);
-  if (std::fabs(value) >= end_mm) return a.in.raise(Condition::value_range, Sign::variable, a.written);
+  if (std::fabs(value) >= end) return a.in.raise(Condition::value_range, Sign::variable, a.written);
   a.in.set_table(key, value);
   return Execution::done;
 }
@@ -126,7 +126,7 @@ Eval read_work(Access& a) {
 }
 Execution write_work(Access& a) {
   uint32_t key = 0;
-  return work_key(a, &key) ? set_offset(a, key, of_length(a)) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
+  return work_key(a, &key) ? set_offset(a, key, of_length(a), end_of_work_offset(a.in, a.index)) : a.in.raise(Condition::variable_number, Sign::variable, a.number);
 }
 
 // ---- alarm, message, clock, control ------------------------------------------------------------------------------------------

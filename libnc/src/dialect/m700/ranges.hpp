@@ -14,8 +14,10 @@ inline constexpr RangeRules kRanges = {
     .largest_tool = 99999999,           // 11.1: eight digits
     .end_of_positions_mm = 100000,      // 2.1, 5.3: +-99999.999 with #1003 = B
     .end_of_positions_inch = 10000,     // 2.1, 5.3: +-9999.9999
+    .end_of_offset_mm = 100000,         // 12.1, 14.10 (6): +-99999.999 with #1003 = B
+    .end_of_offset_inch = 10000,        // +-9999.9999
     .end_of_radius_mm = 100000,         // 12.1
-    .end_of_radius_inch = 10000 / 2.54,
+    .end_of_radius_inch = 10000,
     .end_of_revolution_feed = 1000,     // 7.4 (1): 0.001 to 999.999
     .end_of_inverse_time = 1e6,         // 7.5 (2), precaution (3): 0.001 to 999999.999
     .end_of_lead_mm = 1000,             // 6.7.1: 0.001 to 999.999 mm; a tap's pitch as well (13.1.4, P184)

@@ -16,7 +16,7 @@ Execution write_axes(BlockInHand& in, Key key) {
     if (!in.words.target.commands(i)) continue;
     const bool add = accumulate && in.words.target.counts_on(i);
     const double offset = (add ? in.frames.get(key(i)) : 0.0) + in.words.target[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), in.words.target[i]);  // M700 14.10 (6)
+    if (std::fabs(offset) >= end_of_work_offset(in, i)) return in.raise(Condition::value_range, in.axis_words.word(i), in.words.target[i]);
     in.set_table(key(i), offset);
   }
   return Execution::done;
@@ -42,7 +42,7 @@ Execution work_offset_here(BlockInHand& in) {
     const unsigned key = Frames::work_key(system, i);
     const double reads = in.state.machine[i] - in.state.applied[i] - in.frames.zero(system, i);
     const double offset = in.frames.get(key) + reads - w.target[i];
-    if (std::fabs(offset) >= kOffsetRange) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
+    if (std::fabs(offset) >= end_of_work_offset(in, i)) return in.raise(Condition::value_range, in.axis_words.word(i), w.target[i]);
     in.set_table(key, offset);
   }
   return Execution::done;
@@ -74,9 +74,15 @@ Execution work_offset(BlockInHand& in, bool extended, uint32_t l) {
 }  // namespace
 
 double end_of_offset(const InForce& in, unsigned column) {
-  if (column != NC_TOOL_RADIUS && column != NC_TOOL_RADIUS_WEAR) return kOffsetRange;
   const RangeRules& range = in.dialect->rules.range;
-  return in.state.modal.is(Function::inch) ? range.end_of_radius_inch * kMillimetresPerInch : range.end_of_radius_mm;
+  const bool radius = column == NC_TOOL_RADIUS || column == NC_TOOL_RADIUS_WEAR;
+  if (in.state.modal.is(Function::inch)) return (radius ? range.end_of_radius_inch : range.end_of_offset_inch) * kMillimetresPerInch;
+  return radius ? range.end_of_radius_mm : range.end_of_offset_mm;
+}
+
+double end_of_work_offset(const InForce& in, unsigned axis) {
+  const bool angle = ((in.rotary >> axis) & 1) != 0;
+  return angle ? in.dialect->rules.range.end_of_offset_mm : end_of_offset(in, NC_TOOL_LENGTH);
 }
 
 namespace {

@@ -45,7 +45,8 @@ AxisVec machine_shown(const InForce& in, const AxisVec& machine);
 Execution do_skip(BlockContext& in);               // skip.cpp
 Execution skip_answered(BlockInHand& in);         // skip.cpp
 /// Where the amounts end that a program may give an offset of a tool, in mm. `column`: nc_tool_column.
-double end_of_offset(const InForce& in, unsigned column);       // data_input.cpp
+double end_of_offset(const InForce& in, unsigned column);       // data_input.cpp: mm, by the unit in force
+double end_of_work_offset(const InForce& in, unsigned axis);    // the same, or deg
 void store_skip_position(InForce& in, const AxisVec& machine, bool touched);   // skip.cpp
 Execution do_measure_length(BlockContext& in);     // measure.cpp: G37
 Execution measured(BlockInHand& in);              // measure.cpp: behind its moves

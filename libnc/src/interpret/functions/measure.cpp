@@ -112,7 +112,7 @@ Execution measured(BlockInHand& in) {
   // An offset that is not 0 is corrected in its wear, where the tool memory has wear.
   const unsigned key = has_wear && amount != 0 ? wear : length;
   const double corrected = f.get(key) + longer;
-  if (std::fabs(corrected) >= kOffsetRange) return in.raise(Condition::value_range, Role::length_number, corrected);
+  if (std::fabs(corrected) >= end_of_offset(in, has_wear && amount != 0 ? NC_TOOL_LENGTH_WEAR : NC_TOOL_LENGTH)) return in.raise(Condition::value_range, Role::length_number, corrected);
   in.set_table(key, corrected);  // (4): it acts from the next command of the axis on
   return Execution::done;
 }
