@@ -120,6 +120,17 @@ TEST(PositionOffset, OtherArcsAreRefused) {  // appendix 1, P142
   EXPECT_NE(bench.at(10, 0, 0).run("G91 F100 D1\nG46 G2 I-10.\nM30").alarm_detail.find("G46 takes"), std::string::npos);
 }
 
+TEST(PositionOffset, ItsHIsNoneOfTheLength) {  // 12.2 (2)(e), example 3
+  Bench bench;
+  bench.tool(1, 5).tool(2, 8).tool(6, 50);
+  for (const char* code : {"G45", "G46", "G47", "G48"}) {
+    const Path path = bench.at(0, 0, 0).run("G0 G43 Z1. H1\n" + std::string(code) + " X10. D2 H6\nG49 Z2.\nG43 Z2.\nM30").path();
+    ASSERT_EQ(path.size(), 4u) << code;
+    EXPECT_EQ(path[3].substr(path[3].rfind(' ')), " 7") << code;
+  }
+  EXPECT_EQ(bench.at(0, 0, 0).run("G0 G43 Z1. H1\nH6\nZ2.\nM30").path().back(), "rapid 0 0 52");  // 12.1 (2)
+}
+
 TEST(PositionOffset, IgnoredInFixedCycles) {  // precaution (1)
   Bench bench;
   bench.tool(1, 2);

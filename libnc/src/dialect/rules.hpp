@@ -259,6 +259,8 @@ struct LengthRules {
   /// An H holds until the next one, whatever block it stands in (M700 12.1 (2), (3)). Otherwise it counts only beside the code that begins
   /// compensation (DGSHAPE G43: "G43 H n").
   bool number_in_any_block;
+  /// Beside a code of tool position offset it is none of the length (M700 12.2 (2)(e), example 3). Otherwise it holds from such a block on, too.
+  bool position_offset_has_number = false;
   /// The code without H takes the last offset number, even if that is 0 (M700 12.2 (2) (d), App. 1 P170). Otherwise a last number of 0 counts
   /// as none, which is a fault (DGSHAPE G43).
   bool zero_is_number;

@@ -37,6 +37,13 @@ bool keeps_its_offset_number(const FunctionRow* one_shot) {
   return one_shot != nullptr && (one_shot->function == Function::measure_length || cuts_circle(one_shot->function));
 }
 
+/// The H of the block is not the number that the length is compensated by: it is that of the offset that is measured (M700 15.1, P605), or of G45 to G48
+/// (12.2 (2)(e), example 3).
+bool keeps_its_length_number(const Dialect& dialect, const FunctionRow* one_shot) {
+  if (one_shot == nullptr) return false;
+  return one_shot->function == Function::measure_length || (offsets_position(one_shot->function) && dialect.rules.length.position_offset_has_number);
+}
+
 /// E is the lead of a thread (M700 6.7) or an argument of a macro. Elsewhere a text like X1E-05 would be X1 and a word E that is ignored, so it is an alarm.
 /// In a thread block it is one, too, when E has a sign, or is a small letter directly behind another number (Z1e1).
 Execution check_lead_word(Interpreter& in) {
@@ -217,7 +224,7 @@ Execution apply_systems(Interpreter& in) {
     return set_length(in, length->function);
   }
   const bool own_number = in.words.has(Role::length_number) && in.dialect->rules.length.number_in_any_block;
-  return own_number && !in.words.meeting && !(one_shot != nullptr && one_shot->function == Function::measure_length) ? change_length(in) : Execution::done;  // P605 (15.1)
+  return own_number && !in.words.meeting && !keeps_its_length_number(*in.dialect, one_shot) ? change_length(in) : Execution::done;
 }
 
 /// M700 App.2: codes of length compensation and of work systems before a macro call only become modal.

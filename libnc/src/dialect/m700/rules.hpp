@@ -57,6 +57,7 @@ inline constexpr Rules kRules = {
                      .number_of_managed_tool = 99},
     .length = {.axis_by_words = true,
                .number_in_any_block = true,
+               .position_offset_has_number = true,
                .zero_is_number = true,
                .moves_at_once = false,
                .shifts_reading = false,
