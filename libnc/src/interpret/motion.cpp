@@ -416,7 +416,7 @@ void move_nowhere(BlockContext& in) {
   finish_mapped(in, frame, before, move);
 }
 
-void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) {
+static void move_machine_by(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare, bool leaves) {
   for (unsigned i = 0; i < in.axis_count && !in.dialect->rules.length.shifts_reading; ++i)
     if (((commanded & bare) >> i & 1) != 0) in.state.applied[i] = 0;
   const Affine to_machine = map_in_force(in);
@@ -430,10 +430,15 @@ void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, 
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
   move.comp.transparent = true;
+  move.comp.leaves = leaves;
   in.state.moved_space = {};
   finish_mapped(in, MoveFrame{to_machine, start, end}, before, move);
   check_deceleration(in, NC_MOVE_RAPID);
 }
+
+void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare) { move_machine_by(in, machine, commanded, bare, false); }
+
+void leave_for_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded) { move_machine_by(in, machine, commanded, ~uint32_t{0}, true); }
 
 void emit_circular(BlockContext& in, const MoveFrame& frame, const PlaneAxes& plane, const Circle& circle, nc_move_kind kind) {
   const AxisVec before = in.state.machine;

@@ -33,6 +33,9 @@ void move_linear(BlockContext& in, const AxisVec& target, uint32_t commanded, co
 void move_axis(BlockContext& in, unsigned axis, double to, const LinearStyle& style);
 /// Makes a straight rapid to machine coordinates of the `commanded` axes (G53, second part of G28); those of them that are in `bare` get no compensation.
 void move_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded, uint32_t bare = ~uint32_t{0});
+/// The same from a contour to a place of the machine, its reference position or that of the tool change: a block of radius compensation in front of it ends at right
+/// angles, as there is nothing behind it that it could meet.
+void leave_for_machine(BlockContext& in, const AxisVec& machine, uint32_t commanded);
 /// Moves end beside their programmed ends, by a vector in space (M700 12.3, 12.5).
 inline bool leads_beside(const State& state) { return state.space.on || state.moved_space.on || state.tool_length != 0; }
 /// The vector of a move that ends at these machine coordinates (functions/tool_axis.cpp).

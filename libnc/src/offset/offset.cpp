@@ -290,6 +290,12 @@ void OffsetStage::intake_move(Held* held) {
     held->has_lead = true;
     tail_ = {};
   }
+  // M700 12.4.2 (4): without a movement to the intermediate point the vector goes away on the way to the reference position, which leads anywhere. A corner with it
+  // would take the tool round the end of the contour to its other side.
+  if (move.comp.leaves && open() != nullptr) {
+    close();
+    if (failed_) return;
+  }
   // A start behind G40 that has not moved yet either: the vector of the contour before is still there, and goes as in a contour.
   if (mode_ == Mode::pending && norm(tail_) > 0 && (move.comp.side == 0 || move.comp.transparent)) mode_ = Mode::on;
   const bool again = cancelled_ && move.comp.side != 0;

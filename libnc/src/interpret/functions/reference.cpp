@@ -88,7 +88,7 @@ void move_to_place(BlockContext& in, const AxisVec& place, uint32_t axes) {
       machine[i] += turn_to(within_one_turn(place[i]), within_one_turn(machine[i]), (in.settings.short_cut & bit) != 0);
     }
   }
-  move_machine(in, machine, axes);
+  leave_for_machine(in, machine, axes);
 }
 
 /// M700 12.2, 14.7 (9), 14.8 (6): the tool length compensation of an axis is cancelled when the axis reaches a reference position.
