@@ -15,6 +15,12 @@ Execution refuse(BlockInHand& in, Role word) {
   return in.words.has(word) ? in.raise(Condition::parameter_input, word, in.words.get(word)) : in.raise(Condition::parameter_input, word);
 }
 
+/// The number of a word that has to be whole: a part of one is an illegal number (appendix 1, P421).
+bool number_of(const BlockInHand& in, Role word, uint32_t* number) { return whole_number(in.words.get(word), number) && std::fabs(in.words.get(word) - *number) < 1e-6; }
+
+/// The numbers that parameters can have; which of them the machine has not is not known here.
+bool is_parameter_number(const BlockInHand& in, uint32_t number) { return number >= 1 && number <= in.dialect->rules.range.largest_parameter; }
+
 /// D rounded to the setting unit (note 5).
 double data_of(double value, double unit) {
   const double steps = std::nearbyint(std::fabs(value) / unit), rounded = steps / std::nearbyint(1 / unit);
@@ -59,7 +65,7 @@ Execution read_data(BlockInHand& in, ParameterData* data) {
   if (kinds != 1) return refuse(in, kinds == 0 ? Role::parameter_data : Role::parameter_number);
   if (w.has(Role::parameter_bit)) {  // note 4: bit number and its value
     uint32_t bit = 0;
-    if (!whole_number(w.get(Role::parameter_bit), &bit) || bit / 10 > 7 || bit % 10 > 1) return refuse(in, Role::parameter_bit);
+    if (!number_of(in, Role::parameter_bit, &bit) || bit / 10 > 7 || bit % 10 > 1) return refuse(in, Role::parameter_bit);
     data->bit = static_cast<int>(bit / 10);
     data->number = bit % 10;
   } else if (w.has(Role::parameter_data)) {
@@ -92,10 +98,10 @@ Execution parameter_block(BlockInHand& in) {
     return Execution::done;
   }
   uint32_t number = 0, system = 0, axis = 1;
-  if ((w.present & ~in.set_of({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !whole_number(w.get(Role::parameter_number), &number)) return refuse(in, Role::parameter_number);
-  if (!in_sequence(in)) return refuse(in, Role::parameter_number);
-  if (w.has(Role::parameter_system) && (!whole_number(w.get(Role::parameter_system), &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
-  if (w.has(Role::parameter_axis) && (!whole_number(w.get(Role::parameter_axis), &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
+  if ((w.present & ~in.set_of({Role::parameter_number, Role::parameter_system, Role::parameter_axis, Role::parameter_bit, Role::parameter_data})) != 0 || !w.has(Role::parameter_number) || !number_of(in, Role::parameter_number, &number)) return refuse(in, Role::parameter_number);
+  if (!is_parameter_number(in, number) || !in_sequence(in)) return refuse(in, Role::parameter_number);
+  if (w.has(Role::parameter_system) && (!number_of(in, Role::parameter_system, &system) || (system != in.system_index + 1u && !parameter_is_common(*in.dialect, number)))) return refuse(in, Role::parameter_system);
+  if (w.has(Role::parameter_axis) && (!number_of(in, Role::parameter_axis, &axis) || axis < 1 || axis > in.axis_count)) return refuse(in, Role::parameter_axis);
   // Which part system has which data may depend on it: what comes before is executed as it was, and what another part system has written is known.
   if (parameter_is_common(*in.dialect, number) && !in.shared_known()) return in.need(NC_SYNC_SHARED);
   ParameterData data;
@@ -109,8 +115,7 @@ Execution parameter_block(BlockInHand& in) {
   // Note 3: A is ignored for a parameter that axes do not have for themselves.
   const int of = parameter_of_axis(*in.dialect, number) ? static_cast<int>(axis) - 1 : -1;
   const ParameterId id = ParameterId::of_number(number);
-  const bool kept = number < ParameterId::kFirstName &&
-                    (data.is_text ? in.set_parameter(id, -1, of, static_cast<const char*>(data.text)) : in.set_parameter(id, data.bit, of, data.number));
+  const bool kept = data.is_text ? in.set_parameter(id, -1, of, static_cast<const char*>(data.text)) : in.set_parameter(id, data.bit, of, data.number);
   if (!kept) return refuse(in, Role::parameter_number);
   if (turns_work(in, number)) take_work_rotation(in, false);  // 13.21 (4): what a program sets acts at once
   return Execution::done;
