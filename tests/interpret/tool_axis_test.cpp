@@ -35,6 +35,12 @@ TEST(LengthAlongTool, FollowsAAndC) {
             (Path{"rapid 0 0 0 90 0", "rapid 10 -50 0 90 0", "rapid 60 0 0 90 90", "rapid 10 0 50 0 90"}));
 }
 
+TEST(LengthAlongTool, BelongsToThePlaceThatG92Names) {  // 14.10 (3): "the present position of the tool includes the compensation amounts"
+  EXPECT_EQ(path_of("G0 B90.\nG43.1 X10. H1\nG92 X0\nX1.\nG49\nX0\nM30"),
+            (Path{"rapid 0 0 0 90 0", "rapid 60 0 0 90 0", "rapid 111 0 0 90 0", "rapid 61 0 0 90 0", "rapid 60 0 0 90 0"}));
+  EXPECT_EQ(path_of("G0 B90.\nG43.1 X10. H1\nG49\nG92 X0\nX1.\nM30"), (Path{"rapid 0 0 0 90 0", "rapid 60 0 0 90 0", "rapid 10 0 0 90 0", "rapid 11 0 0 90 0"}));
+}
+
 TEST(LengthAlongTool, AloneItMovesAtOnceAndSoDoesItsEnd) {
   EXPECT_EQ(path_of("G0 B90.\nG43.1 H1\nX1.\nG49\nX2.\nM30"),
             (Path{"rapid 0 0 0 90 0", "rapid 50 0 0 90 0", "rapid 51 0 0 90 0", "rapid 1 0 0 90 0", "rapid 2 0 0 90 0"}));

@@ -70,6 +70,14 @@ static void set_zero_under_map(BlockInHand& in) {
   in.state.map_begins = false;
 }
 
+/// By how much the axes stand beside the program by a vector in space (12.3, 12.5).
+static AxisVec vector_in_place(const InForce& in) {
+  const SpaceVector& vector = in.state.moved_space;
+  AxisVec beside;
+  for (unsigned i = 0; vector.on && i < 3; ++i) beside[vector.axis[i]] = vector.v[i];
+  return beside;
+}
+
 Execution do_coordinate_set(BlockContext& in) {
   const Command& w = in.words;
   if (in.dialect->rules.compensation.bars_systems_and_data && in.state.comp.side != 0) return in.raise_code(Condition::not_in_compensation, *w.one_shot);
@@ -87,12 +95,13 @@ Execution do_coordinate_set(BlockContext& in) {
     set_zero_under_map(in);
     return Execution::done;
   }
+  const AxisVec beside = vector_in_place(in);
   for (unsigned i = 0; i < in.axis_count; ++i) {
     if (!w.target.commands(i)) continue;
-    // M700 14.5: the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a tool length
-    // that shifts the reading belongs to it.
+    // M700 14.5, 14.10 (3): the reading of the axis, including compensation, becomes the value; the shift is the same for all systems. RS-274/NGC 3.5.18: a
+    // tool length that shifts the reading belongs to it.
     const double length = in.dialect->rules.length.shifts_reading ? in.state.applied[i] : 0;
-    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
+    const double shift = in.frames.get(Frames::shift_key(i)) + in.state.machine[i] + beside[i] - length - in.frames.zero(in.state.work_system, i) - w.target[i];
     in.set_table(Frames::shift_key(i), shift);
   }
   keep_rotation_center(in, zero_before);
