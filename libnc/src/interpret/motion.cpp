@@ -430,7 +430,7 @@ static void move_machine_by(BlockContext& in, const AxisVec& machine, uint32_t c
   move.kind = NC_MOVE_RAPID;
   move.exact_stop = true;
   move.comp.transparent = true;
-  move.comp.leaves = leaves;
+  move.leaves = leaves;
   in.state.moved_space = {};
   finish_mapped(in, MoveFrame{to_machine, start, end}, before, move);
   check_deceleration(in, NC_MOVE_RAPID);

@@ -292,7 +292,7 @@ void OffsetStage::intake_move(Held* held) {
   }
   // M700 12.4.2 (4): without a movement to the intermediate point the vector goes away on the way to the reference position, which leads anywhere. A corner with it
   // would take the tool round the end of the contour to its other side.
-  if (move.comp.leaves && open() != nullptr) {
+  if (move.leaves && open() != nullptr) {
     close();
     if (failed_) return;
   }
