@@ -119,6 +119,19 @@ TEST(Skip, AxesThatAreNotNamedKeepTheirValue) {  // M700 13.5.5 (10.11), the pri
   const Outcome run = m700("G31 X-10. F100\nG31 Z-5. F100\n#100=#5061 #101=#5063\nM30");
   EXPECT_EQ(run.var(100), -10);
   EXPECT_EQ(run.var(101), -5);
+  // Also when the axis has moved on since, and where the skip has no way.
+  const Outcome later = m700("G90 G31 X5. Y6. F100\nG0 X0 Y0\nG31 X9. F100\n#100=#5061 #101=#5062\nG31 X9. F100\n#102=#5061 #103=#5062\nM30");
+  EXPECT_EQ(later.var(100), 9);
+  EXPECT_EQ(later.var(101), 6);
+  EXPECT_EQ(later.var(102), 9);
+  EXPECT_EQ(later.var(103), 6);
+  // A rotation moves the axis that the block does not name, and so it has a new place.
+  const Outcome turned = m700("G31 X5. Y6. F100\nG0 X0 Y0\nG68 X0 Y0 R30.\nG31 X10. F100\n#100=#5061 #101=#5062\nM30");
+  EXPECT_EQ(turned.var(100), 8.66);
+  EXPECT_EQ(turned.var(101), 5);
+  // HX 14.2.3 (7): the place of all axes.
+  Bench hx(NC_DIALECT_HX);
+  EXPECT_EQ(hx.run("G90 G31 X5. Y6. F100\nG0 X0 Y0\nG31 X9. F100\n#100=#6319 #101=#6320\nM30").var(101), 0);
 }
 
 TEST(Skip, FeedSignalsAndAlarms) {

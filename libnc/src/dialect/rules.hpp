@@ -152,6 +152,9 @@ struct SkipRules {
   /// A signal that is where the move begins as it is to be at its end is a fault, and so is a move without a way (LinuxCNC G38). Otherwise there is nothing
   /// to move (M700 15.2).
   bool change_required = false;
+  /// The place of the last skip of an axis that the skip does not move stays that of the skip which has moved it (M700 13.5.5 position information, example 2).
+  /// Otherwise it is where the axis stands (HX 14.2.3 (7), LinuxCNC G38).
+  bool keeps_axes_not_moved = false;
 };
 
 struct ArcRules {

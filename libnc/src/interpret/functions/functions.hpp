@@ -47,7 +47,7 @@ Execution skip_answered(BlockInHand& in);         // skip.cpp
 /// Where the amounts end that a program may give an offset of a tool, in mm. `column`: nc_tool_column.
 double end_of_offset(const InForce& in, unsigned column);       // data_input.cpp: mm, by the unit in force
 double end_of_work_offset(const InForce& in, unsigned axis);    // the same, or deg
-void store_skip_position(InForce& in, const AxisVec& machine, bool touched);   // skip.cpp
+void store_skip_position(InForce& in, const AxisVec& machine, uint32_t axes, bool touched);   // skip.cpp
 Execution do_measure_length(BlockContext& in);     // measure.cpp: G37
 Execution measured(BlockInHand& in);              // measure.cpp: behind its moves
 Execution do_stroke_check(BlockContext& in);       // stroke_check.cpp: G22

@@ -98,7 +98,7 @@ Execution measured(BlockInHand& in) {
   if (in.dialect->rules.skip.measurement_stores) {
     AxisVec place = state.machine;
     for (unsigned i = 0; i < in.axis_count; ++i) place[i] = in.world.skip_machine.v[i];
-    store_skip_position(in, place, true);
+    store_skip_position(in, place, ~0u, true);
   }
   const double at = in.world.skip_machine.v[axis] - in.zero()[axis] - state.applied[axis];
   const double difference = at - in.jobs.measure.position;

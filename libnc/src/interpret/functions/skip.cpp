@@ -37,12 +37,15 @@ bool wants_signal(const BlockInHand& in) {
 
 }  // namespace
 
-/// The place of all axes where the signal has come, of those that do not move as well (HX 14.2.3 (7), M700 15.2).
-void store_skip_position(InForce& in, const AxisVec& machine, bool touched) {
+/// The place where the signal has come: of all axes, of those that do not move as well (HX 14.2.3 (7)), or where the family keeps the others of `axes` only.
+void store_skip_position(InForce& in, const AxisVec& machine, uint32_t axes, bool touched) {
   const AxisVec zero = in.zero();
   SkipPosition skip = in.records->skip;
   const bool shifted = in.dialect->rules.length.shifts_reading;  // LinuxCNC #5061: in the coordinates in which the move took place
-  for (unsigned i = 0; i < in.axis_count; ++i) skip.work[i] = machine[i] - zero[i] - (shifted ? in.state.applied[i] : 0);
+  for (unsigned i = 0; i < in.axis_count; ++i) {
+    if (in.dialect->rules.skip.keeps_axes_not_moved && ((axes >> i) & 1) == 0) continue;
+    skip.work[i] = machine[i] - zero[i] - (shifted ? in.state.applied[i] : 0);
+  }
   skip.touched = touched;
   in.change(&ProgramRecords::skip, skip);
 }
@@ -84,7 +87,7 @@ Execution do_skip(BlockContext& in) {
   move_linear(in, target_of_words(in), w.target.axes(), style);
   if (in.state.machine == before) {  // there is no way on which a signal could come
     if (wants_signal(in) || in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_no_contact, *w.one_shot);
-    store_skip_position(in, in.state.machine, false);
+    store_skip_position(in, in.state.machine, w.target.axes(), false);
     return Execution::done;
   }
   in.jobs.skip.start = before;
@@ -94,6 +97,9 @@ Execution do_skip(BlockContext& in) {
 
 Execution skip_answered(BlockInHand& in) {
   AxisVec at = in.state.machine;  // when no signal has come it is the end point of the block
+  uint32_t axes = in.words.target.axes();
+  for (unsigned i = 0; i < in.axis_count; ++i)
+    if (at[i] != in.jobs.skip.start[i]) axes |= 1u << i;  // a rotation takes along an axis without a word
   if (in.world.skipped) {
     bool moved = false;
     for (unsigned i = 0; i < in.axis_count; ++i) {
@@ -104,7 +110,7 @@ Execution skip_answered(BlockInHand& in) {
     }
     if (!moved && in.dialect->rules.skip.change_required) return in.raise_code(Condition::probe_contact, *in.words.one_shot);
   }
-  store_skip_position(in, at, in.world.skipped);
+  store_skip_position(in, at, axes, in.world.skipped);
   return !in.world.skipped && wants_signal(in) ? in.raise_code(Condition::probe_no_contact, *in.words.one_shot) : Execution::done;
 }
 
