@@ -111,11 +111,15 @@ TEST(Measure, WearOfMemoryTypeTwo) {
   EXPECT_NEAR(bench.tool_now(1, NC_TOOL_LENGTH_WEAR), -5, 1e-9);
 }
 
-TEST(Measure, CountedTheOtherWayByG44) {
-  Bench bench;
-  bench.tool(1, -100);
+TEST(Measure, WithALengthOfG44) {
+  // (4): "P606 results when G43_H is not commanded prior to the G37 block".
+  EXPECT_EQ(Bench().tool(1, -100).run("G0 G44 Z0 H1\nG37 Z-400. R200. D50. F10\nM30").alarm, "P606");
+  // HX 4.10 asks for no G43: the length counts the other way.
+  Bench bench(NC_DIALECT_HX);
+  bench.tool(1, -100).param("3141", "200").param("3142", "50").param("3143", "10");
   sensor_at(bench, -305);
-  const Outcome run = bench.run("G0 G44 Z0 H1\nG37 Z-400. R200. D50. F10\nG0 Z0\nM30");
+  const Outcome run = bench.run("G90 G0 G44 Z0 H1\nG37 Z-400.\nG0 Z0\nM30");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
   EXPECT_NEAR(bench.tool_now(1), -95, 1e-9);
   EXPECT_EQ(run.path().back(), "rapid 0 0 95");
 }

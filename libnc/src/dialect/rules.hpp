@@ -155,6 +155,8 @@ struct SkipRules {
   /// The place of the last skip of an axis that the skip does not move stays that of the skip which has moved it (M700 13.5.5 position information, example 2).
   /// Otherwise it is where the axis stands (HX 14.2.3 (7), LinuxCNC G38).
   bool keeps_axes_not_moved = false;
+  /// Only a length that G43 has applied can be measured (M700 15.1 (4)). Otherwise one that G44 has applied, too: it is counted the other way (HX 4.10 names none).
+  bool measurement_of_added_length = false;
 };
 
 struct ArcRules {

@@ -38,7 +38,7 @@ inline constexpr Rules kRules = {
                 .limits_by_coordinate_setting = true,
                 .skips_repeated_codes = false},
     .feed = {.inch_is_ten_degrees = true, .degree_counts_as_millimetre = true, .inverse_time_is_of_block = false, .end_of_inverse_time_needs_feed = true},
-    .skip = {.feed_is_modal = false, .keeps_axes_not_moved = true},
+    .skip = {.feed_is_modal = false, .keeps_axes_not_moved = true, .measurement_of_added_length = true},
     .arc = {.takes_rotary_axes = true,
             .degree_is_tenth_of_inch = true,
             .turns_exclude_radius = true,

@@ -31,7 +31,8 @@ Execution read_measurement(BlockInHand& in, Measurement* m) {
   if (w.target.axes() == 0 || (w.target.axes() & (w.target.axes() - 1)) != 0) return in.raise_code(Condition::measure_axis, *w.one_shot);
   while (!w.target.commands(m->axis)) ++m->axis;
   const ModalState& modal = in.state.modal;
-  const bool offset_given = (modal.is(Function::length_plus) || modal.is(Function::length_minus)) && modal.h != 0 && in.state.length_axis == m->axis;
+  const bool direction_fits = modal.is(Function::length_plus) || (modal.is(Function::length_minus) && !in.dialect->rules.skip.measurement_of_added_length);
+  const bool offset_given = direction_fits && modal.h != 0 && in.state.length_axis == m->axis;
   if (!offset_given) return in.raise_code(Condition::measure_no_length, *w.one_shot);
   if (in.state.compensated()) return in.raise_code(Condition::skip_in_compensation, *w.one_shot);
   const bool inch = modal.is(Function::inch);
