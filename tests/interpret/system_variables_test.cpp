@@ -225,6 +225,23 @@ TEST(SystemVariables, Alarm3000) {  // M700 10.3
   EXPECT_EQ(read_alarm(3000), "P243");
 }
 
+TEST(SystemVariables, MessageOfAlarm3000WithoutBrackets) {  // 13.5.5, #3000, note 2: from the first letter on; brackets are recommended
+  const auto detail = [](const char* block) {
+    const Outcome run = m700(std::string("#1=30\n") + block + "\nM30");
+    EXPECT_EQ(run.alarm, "P277") << block;
+    EXPECT_EQ(run.alarm_line, 2u) << block;
+    return run.alarm_detail;
+  };
+  EXPECT_EQ(detail("#3000=70 STOPIT"), "STOPIT 70");
+  EXPECT_EQ(detail("#3000=5STOPIT"), "STOPIT 5");
+  EXPECT_EQ(detail("#3000=#1+5 CALL TEL#530 "), "CALL TEL#530 35");
+  EXPECT_EQ(detail("#3000=70 ORDER[5"), "ORDER[5 70");  // no operator
+  EXPECT_EQ(detail("#3000=[#1 MOD 7]MODE"), "MODE 2");
+  EXPECT_EQ(detail("#3000=ABS[-70]"), "The program has raised alarm 70 itself (#3000).");
+  for (const char* block : {"#3000=70(STOP)X1.", "#3006=1STOP", "#100=70 STOPIT", "#3000=1 #100=5 STOPIT"}) EXPECT_NE(m700(std::string(block) + "\nM30").alarm, "P277") << block;
+  EXPECT_EQ(m700("#100=70 X1.\nM30").alarm, "P272");
+}
+
 TEST(SystemVariables, Message3006) {  // M700 13.5.5 (10.7)
   const Outcome run = m700("G0 X1.\n#3006=1(TAKE FIVE)\nG0 X2.\nM30");
   EXPECT_TRUE(run.ended_ok);

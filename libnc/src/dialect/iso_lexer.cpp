@@ -459,13 +459,46 @@ class Lexer {
     if (!block_.words.empty()) return fault(Condition::macro_and_words, '#');
     Statement s;
     s.kind = StatementKind::assign;
+    const char* const bare = bare_message();
     ExpressionCompiler target(block_, &at_, rules_.formula);
     if (!target.variable_number(&s.target)) return fault(target.fault());
     if (!at_.accept('=')) return fault(Condition::no_equals, '#');  // M700 P242
     at_.comment = nullptr;
-    if (!expression(&s.value, Condition::calculation)) return false;
+    if (!value_before(bare, &s.value)) return false;
     if (at_.comment != nullptr && !message(&s)) return false;
     return add_statement(s);
+  }
+
+  /// Where a message without brackets begins: with the first letter behind the number (M700 13.5.5, #3000, note 2). nullptr = there is none. A letter in
+  /// brackets belongs to the formula, and so does one right behind '='.
+  const char* bare_message() const {
+    Cursor ahead = at_;
+    if (rules_.message_variable == 0 || !ahead.accept('#') || ahead.number().integer != rules_.message_variable || !ahead.accept('=')) return nullptr;
+    if (is_letter(ahead.peek())) return nullptr;
+    ahead.comment = nullptr;
+    unsigned depth = 0;
+    for (char c = ahead.peek(); c != '\0'; c = ahead.peek()) {
+      if (depth == 0 && is_letter(c)) return ahead.comment == nullptr ? ahead.p : nullptr;
+      if (c == '[') ++depth;
+      if (c == ']' && depth != 0) --depth;
+      ++ahead.p;
+    }
+    return nullptr;
+  }
+
+  /// The value that is assigned, and the message that begins at `bare`, which goes on to the end of the block: at_.comment.
+  bool value_before(const char* bare, uint16_t* code) {
+    const char* const end = at_.end;
+    if (bare != nullptr) at_.end = bare;
+    const bool there = expression(code, Condition::calculation);
+    if (there) at_.skip();
+    at_.end = end;
+    if (!there || bare == nullptr || at_.p != bare) return there;
+    at_.comment = bare;
+    while (!at_.at_end()) ++at_.p;
+    at_.comment_end = at_.p;
+    while (is_blank(at_.comment_end[-1])) --at_.comment_end;
+    return true;
   }
 
   /// Keeps the comment behind #3000=1(...). It is a message if the variable turns out to be one that has messages.

@@ -30,6 +30,7 @@ constexpr IsoRules make_rules() {
   rules.slash_only_at_head = true;  // 3.4 (1): elsewhere '/' is a division
   rules.comma_words = true;         // 6.1 ,I  13.1.1 ,R ,I ,J  13.3.1 ,D  13.7 ,C ,R
   rules.angle_names = true;         // 13.3.1 M98 <file>
+  rules.message_variable = 3000;    // 13.5.5; the text of #3006 "should be enclosed"
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     rules.word[at(letter)] = kCoordinate;  // A B C E I J K Q R U V W X Y Z
   // 5.3 drops the decimals of D, H, L, M, N, O, S and T. L, N and O are always whole numbers. D, H, M, S and T are macro arguments as well, which
