@@ -380,10 +380,12 @@ TEST(Lexer, Brackets) {  // M700 13.4 (Note 2), P280, P281
   EXPECT_EQ(fault_of("#1=[[SIN[[[[1]]]]]]"), Condition::bracket_nesting);
   for (const char* text :
        {"#102=[#101+[3*4]", "#1=[", "#1=SIN[30", "#1=5]", "#1=]", "X[1", "X1]", "X[#1+[2]",
-        "IF[#1 EQ 1 GOTO5", "GOTO[5", "DPRNT[X#1[42]", "SETVN500[A", "[#DIST=5", "#[1=5"}) {
+        "IF[#1 EQ 1 GOTO5", "IF[[#1 EQ 1] GOTO5", "IF[#1 EQ 1]] GOTO5", "WHILE[[#1 EQ 1] DO1", "WHILE[#1 EQ 1]] DO1", "WHILE[#1 EQ 1 DO1", "X[1+[2 Y]", "GOTO[5", "DPRNT[X#1[42]", "SETVN500[A", "[#DIST=5", "#[1=5"}) {
     EXPECT_EQ(fault_of(text), Condition::bracket_pair) << text;
   }
   EXPECT_EQ(fault_of("#1=[5 X]"), Condition::calculation);
+  EXPECT_EQ(fault_of("IF[[#1 EQ 1]] GOTO5"), Condition::if_statement);  // as many: it is the condition that is wrong
+  EXPECT_EQ(fault_of("WHILE[[#1 EQ 1]] DO1"), Condition::while_statement);
   EXPECT_EQ(fault_of("#1=SIN 30"), Condition::calculation);  // M700 13.5.6 (Note 3)
   EXPECT_EQ(fault_of("#1=FOO[30]"), Condition::calculation);
 }

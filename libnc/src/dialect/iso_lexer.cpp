@@ -533,6 +533,9 @@ class Lexer {
     return true;
   }
 
+  /// The fault of what stands behind a condition: a ']' too many (M700 App. 1, P281), or something else.
+  Condition behind_condition(Condition statement_error) { return at_.peek() == ']' ? Condition::bracket_pair : statement_error; }
+
   /// Reads a macro statement if its keyword stands here. False on a fault.
   bool keyword(char letter, bool* was_statement) {
     *was_statement = true;
@@ -577,7 +580,7 @@ class Lexer {
       s.kind = StatementKind::if_then;
       return add_statement(s);
     }
-    if (!at_.accept("GOTO")) return fault(Condition::if_statement);
+    if (!at_.accept("GOTO")) return fault(behind_condition(Condition::if_statement));
     s.kind = StatementKind::if_goto;
     return jump_target(&s.target, Condition::if_statement) && add_statement(s);
   }
@@ -597,7 +600,7 @@ class Lexer {
     Statement s;
     s.kind = StatementKind::while_do;
     if (!condition(&s.value, Condition::while_statement)) return false;
-    if (!at_.accept("DO")) return fault(Condition::while_statement);
+    if (!at_.accept("DO")) return fault(behind_condition(Condition::while_statement));
     return loop_number(&s) && add_statement(s);
   }
 

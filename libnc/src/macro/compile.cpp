@@ -124,27 +124,30 @@ bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
   if (at_.peek() == '#') {
     Cursor ahead = at_;
     ++ahead.p;
-    if (is_letter(ahead.peek())) return name() && emit(Op::load);
+    if (is_letter(ahead.peek())) return name(depth) && emit(Op::load);
   }
   if (!sum(depth + 1, false)) return false;
   if (comparison_allowed && depth == 0) {
     bool found = false;
     if (!comparison(depth + 1, &found)) return false;
   }
-  return at_.accept(']') || fail(unclosed(Condition::calculation));
+  return at_.accept(']') || fail(unclosed(depth + 1, Condition::calculation));
 }
 
-/// The fault where a ']' is expected and does not stand: the ']' is missing altogether (M700 P281), or something else stands before it (`otherwise`).
-Condition ExpressionCompiler::unclosed(Condition otherwise) const {
+/// The fault where a ']' is expected and does not stand, with `open` brackets open: the block has not as many '[' as ']' (M700 App. 1, P281), or something
+/// else stands before it (`otherwise`).
+Condition ExpressionCompiler::unclosed(unsigned open, Condition otherwise) const {
   Cursor ahead = at_;
   for (ahead.skip(); !ahead.at_end(); ahead.skip()) {
-    if (*ahead.p++ == ']') return otherwise;
+    const char c = *ahead.p++;
+    if (c == '[') ++open;
+    if (c == ']' && open-- == 0) return Condition::bracket_pair;
   }
-  return Condition::bracket_pair;
+  return open == 0 ? otherwise : Condition::bracket_pair;
 }
 
 /// #NAME] of SETVN (M700 13.5.5 (10.12)); the cursor is on '#'.
-bool ExpressionCompiler::name() {
+bool ExpressionCompiler::name(unsigned depth) {
   ++at_.p;
   const unsigned begin = block_.text.size();
   for (char c = at_.peek(); is_letter(c) || is_digit(c); c = at_.peek()) {
@@ -153,7 +156,7 @@ bool ExpressionCompiler::name() {
   }
   const unsigned length = block_.text.size() - begin;
   if (length > UINT8_MAX) return fail(Condition::variable_name);
-  if (!at_.accept(']')) return fail(unclosed(Condition::variable_name));
+  if (!at_.accept(']')) return fail(unclosed(depth + 1, Condition::variable_name));
   return emit(Op::name) && byte(begin & 0xff) && byte(begin >> 8) && byte(length);
 }
 
@@ -165,7 +168,7 @@ bool ExpressionCompiler::variable_number(uint16_t* code) {
   Cursor ahead = at_;
   ++ahead.p;
   if (!is_letter(ahead.peek())) return fail(Condition::format_error);
-  return name() && emit(Op::end);
+  return name(0) && emit(Op::end);
 }
 
 /// '#' { '#' } ( digits | '[' formula ']' ). Each further '#' takes the value before it as the number of a

@@ -125,7 +125,7 @@ class ExpressionCompiler {
   bool bracket(unsigned depth, bool comparison_allowed);
   bool comparison(unsigned depth, bool* found);
   bool variable(unsigned depth, bool value_wanted);
-  bool name();
+  bool name(unsigned depth);
   bool number(bool negative);
   bool constant(double value);
   bool variable_code(uint32_t number);
@@ -139,7 +139,7 @@ class ExpressionCompiler {
   bool ngc_index(uint32_t* number);
   bool ngc_name(Op op);
   bool ngc_target();
-  Condition unclosed(Condition otherwise) const;
+  Condition unclosed(unsigned open, Condition otherwise) const;
   bool fail(Condition condition);
   bool fail(Condition condition, double value);
 

@@ -82,7 +82,7 @@ bool ExpressionCompiler::ngc_value(unsigned depth) {
   if (at_.peek() != '[') return fail(Condition::calculation);
   if (op == Op::exists) {
     at_.accept('[');
-    return at_.accept('#') ? ngc_name(Op::exists) && (at_.accept(']') || fail(unclosed(Condition::variable_name))) : fail(Condition::variable_name);
+    return at_.accept('#') ? ngc_name(Op::exists) && (at_.accept(']') || fail(unclosed(depth + 1, Condition::variable_name))) : fail(Condition::variable_name);
   }
   if (!ngc_bracket(depth)) return false;
   if (op != Op::atan2) return emit(op);
@@ -94,7 +94,7 @@ bool ExpressionCompiler::ngc_bracket(unsigned depth) {
   if (depth == kMaxNgcBrackets) return fail(Condition::bracket_nesting);
   ++at_.p;
   if (!ngc_formula(depth + 1, 0)) return false;
-  return at_.accept(']') || fail(unclosed(Condition::calculation));
+  return at_.accept(']') || fail(unclosed(depth + 1, Condition::calculation));
 }
 
 /// Behind '#': the value of the parameter whose number or name stands here; each further '#' takes the value as the number of another parameter. The '#' are
