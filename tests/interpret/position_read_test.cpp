@@ -172,17 +172,6 @@ TEST(PositionRead, RotatedAndScaledFrames) {
   }
 }
 
-/// The centre of a rotation is the place at which the program stood, its angle the sum of increments.
-TEST(PositionRead, CentreOfARotation) {
-  Bench bench;
-  bench.work_offset(1, {-1149.974, 33.3, 0});
-  const Outcome run = bench.run("G90 G54 G1 X0.2 Y0.3 F100\nG68 R30.\n#100=#30062 #101=#30063 #102=#30064\nM30");
-  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
-  EXPECT_EQ(run.var(100), 0.2);
-  EXPECT_EQ(run.var(101), 0.3);
-  EXPECT_EQ(run.var(102), 30);
-}
-
 /// Values that a program calculates and stores are not rounded; only comparisons ignore their last digits.
 TEST(PositionRead, StoredValuesKeepTheirDigits) {
   const Outcome run = Bench().run("#100=1/3\n#500=0.1+0.2\n#101=1\nIF [#500 EQ 0.3] GOTO 1\n#101=2\nN1 IF [#100*3 NE 1] GOTO 2\n#101=#101+10\nN2 M30");

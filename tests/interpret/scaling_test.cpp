@@ -170,17 +170,6 @@ TEST(Rotation, WhatIsRefused) {
   EXPECT_EQ(bench.run("M98 P1 I-10. L2\nM30").alarm, "P252");
 }
 
-TEST(Rotation, Variables) {  // #30060 to #30066
-  Bench bench;
-  const Outcome run = bench.run(
-      "G18\nG68 Z3. X4. "
-      "R30.\n#100=#30060\n#101=#30061\n#102=#30062\n#103=#30063\n#104=#30064\n#105=#30065\n#106=#30066\n#107="
-      "#4016\nM30");
-  EXPECT_EQ(run.alarm, "");
-  const double expected[] = {3, 1, 3, 4, 30, 0.5, std::sqrt(0.75), 68};
-  for (uint32_t i = 0; i < 8; ++i) EXPECT_NEAR(run.var(100 + i), expected[i], 1e-9) << i;
-}
-
 TEST(Rotation, AnInterruptProgramGivesItBack) {  // 13.12: modal state is restored
   Bench bench;
   bench.add("O1000", "G69\nG50\nM99\n");

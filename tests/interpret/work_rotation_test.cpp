@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "support/pull.hpp"
 
@@ -23,6 +24,20 @@ TEST(WorkRotation, ByAngleAndByVector) {
   EXPECT_EQ(path_of("G10 I-1.\nX10."), (Path{"rapid -10 0 0"}));  // the other one as it is stored, 0
   EXPECT_EQ(path_of("G10 J2.\nG10 I2.\nX10.\nG10 I0 J0\nX20."), (Path{"rapid 7.071068 7.071068 0", "rapid 14.142136 14.142136 0"}));  // no vector
   EXPECT_EQ(path_of("G10 K90000\nX10."), (Path{"rapid 0 10 0"}));  // 0.001 deg
+}
+
+TEST(WorkRotation, Variables) {  // 13.5.5: #30060 to #30068, the coordinate rotation parameters
+  const std::string read = "#100=#30060 #101=#30061 #102=#30062 #103=#30063 #104=#30064 #105=#30065 #106=#30066 #107=#30067 #108=#30068\n";
+  const auto expect = [](const Outcome& run, const std::vector<double>& expected) {
+    EXPECT_EQ(run.alarm, "");
+    for (uint32_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(run.var(100 + i), expected[i], 1e-9) << i;
+  };
+  Bench bench;
+  bench.param("8623", "10").param("8624", "20");
+  expect(bench.run("G10 K30.\n" + read + "M30"), {1, 2, 10, 20, 30, 0.5, std::sqrt(0.75), 0, 0});
+  bench.param("8621", "Y").param("8622", "Z");
+  expect(bench.run("G10 I3. J4.\n" + read + "M30"), {2, 3, 10, 20, std::atan2(4, 3) * 180 / std::numbers::pi, 0.8, 0.6, 3, 4});
+  expect(m700("G68 X1. Y2. R30.\n" + read + "M30"), {1, 2, 0, 0, 0, 0, 1, 0, 0});  // that of 13.20 is another rotation
 }
 
 TEST(WorkRotation, EverySystemTurnsAboutAPointOfTheMachine) {  // (1), (2)

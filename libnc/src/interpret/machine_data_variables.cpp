@@ -50,22 +50,21 @@ uint64_t device_bits(const Interpreter& in, const DeviceRow& device, uint32_t nu
 
 }  // namespace
 
-// ---- coordinate rotation by program (M700 13.5.5 (10.14)) ----------------------------------------------------------------
+// ---- coordinate rotation by parameter (M700 13.5.5 (10.14), 13.21) ---------------------------------------------------------
 
+/// The "coordinate rotation parameters" are those of 13.21 in their order (#8621 to #8627) with sine and cosine of their angle, as they are in force.
 Eval read_rotation(Access& a) {
-  const PlanePair plane = pair_of(a.in.state.modal.of(Mode::plane));
-  const unsigned pair[2] = {plane.first, plane.second};
-  const double degrees = a.in.records->maps.rotation_deg, angle = degrees * std::numbers::pi / 180;
+  const WorkTurn& turn = a.in.records->work_turn.commanded;
+  const double angle = turn.deg * std::numbers::pi / 180;
   switch (a.index) {
     case 0:
-    case 1: return give(a, a.in.axis_called(basic_along(pair[a.index])) + 1);
-    case 6: return give(a, a.in.state.rotated ? std::cos(angle) : 1);
+    case 1: return give(a, turn.axis[a.index] + 1);
     case 2:
-    case 3:  // a position: rounding has to be removed, since it was the position of the program, or has moved with an offset
-      return give(a, a.in.state.rotated ? whole_units(a.in.records->maps.rotation_center[a.index - 2], a.in.settings.setting_unit_mm) : 0);
-    case 4: return give(a, a.in.state.rotated ? degrees : 0);
-    case 5: return give(a, a.in.state.rotated ? std::sin(angle) : 0);
-    default: return give(a, 0);
+    case 3: return give(a, turn.center[a.index - 2]);
+    case 4: return give(a, turn.deg);
+    case 5: return give(a, std::sin(angle));
+    case 6: return give(a, std::cos(angle));
+    default: return give(a, a.in.settings.work_turn_vector[a.index - 7]);
   }
 }
 

@@ -46,7 +46,7 @@ constexpr VariableRow kRows[] = {
     {11001, 11999, V::tool_offset, 1, 0, "mm", "tool offsets: length wear (type II)", "13.5.5"},
     {16001, 16999, V::tool_offset, 2, 0, "mm", "tool offsets: radius (type II)", "13.5.5"},
     {17001, 17999, V::tool_offset, 3, 0, "mm", "tool offsets: radius wear (type II)", "13.5.5"},
-    {30060, 30068, V::rotation, 0, 0, "axis, mm, deg", "coordinate rotation: axes, centre, angle, SIN, COS, vector", "13.5.5"},
+    {30060, 30068, V::rotation, 0, 0, "axis, mm, deg", "coordinate rotation by parameter (13.21): axes, centre, angle, SIN, COS, vector", "13.5.5"},
     {60000, 60000, V::tool_group_select, 0, 0, "group", "tool life: group that is read", "13.5.5"},
     {60001, 60008, V::tool_group, 0, 0, "-", "tool life of the group; -1 = not registered", "13.5.5"},
     {60501, 60700, V::tool_life, 0, 0, "-", "tool life: group number; -1 = no tool registered", "13.5.5"},
