@@ -312,18 +312,21 @@ TEST(SystemVariables, TheTableSaysWhatIsTrue) {
 
 TEST(SystemVariables, ParametersByNumber) {  // 13.5.5 (10.16)
   Bench bench;
-  bench.param("2037", "12.5", 'Y').param("1003", "C");
-  const Outcome run = bench.run("#100000=2037 #100001=0 #100002=2\n#100=#100010\n#100000=1003\n#101=#100010\n#100000=1999\n#102=#100010\nM30");
+  bench.param("2037", "12.5", 'Y').param("1003", "C").param("1004", "7");
+  const Outcome run = bench.run("#100000=2037 #100001=0 #100002=2\n#100=#100010\n#100000=1003\n#101=#100010\n#100000=1004\n#102=#100010\n#100000=1001\n#103=#100010\nM30");
   EXPECT_EQ(run.alarm, "");
   EXPECT_EQ(run.var(100), 12.5);
   EXPECT_EQ(run.var(101), 'C');  // text as its code
-  EXPECT_EQ(run.var(102), 0);
+  EXPECT_EQ(run.var(102), 7);    // one that the machine has set
+  EXPECT_EQ(run.var(103), 1);
   // Values from the configuration; the example of the manual reads the number of axes.
   const Outcome machine = bench.run("#100000=1002\n#100=#100010\n#100000=1013 #100002=3\n#101=#100010\n#100000=1017\n#102=#100010\nM30");
   EXPECT_EQ(machine.var(100), 3);
   EXPECT_EQ(machine.var(101), 'Z');
   EXPECT_EQ(machine.var(102), 0);
   EXPECT_EQ(write_alarm(100000, "0"), "P39");
+  EXPECT_EQ(write_alarm(100000, "99999"), "P39");  // (1): one that does not exist
+  EXPECT_EQ(write_alarm(100000, "1999"), "P39");
   EXPECT_EQ(write_alarm(100001, "5"), "P39");
   EXPECT_EQ(write_alarm(100002, "4"), "P39");
 }

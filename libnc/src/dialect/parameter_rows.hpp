@@ -38,7 +38,7 @@ struct ParameterName {
 };
 
 /// A fact about the machine that a program can read like a parameter. It comes from the configuration; no parameter holds it.
-enum class MachineDatum : uint8_t { axis_count, axis_name, rotary };
+enum class MachineDatum : uint8_t { system_used, axis_count, axis_name, rotary };
 struct MachineParameter {
   uint32_t number;
   MachineDatum what;

@@ -117,28 +117,40 @@ Eval read_tool_life(Access& a) {
 
 // ---- parameters (13.5.5, 10.16) ---------------------------------------------------------------------------------------------------------
 
-Execution select_parameter(Access& a) {
-  const double last[3] = {static_cast<double>(a.in.dialect->rules.range.largest_parameter), 1, NC_MAX_AXES};
-  const double low = a.index == 1 ? 0 : 1;
-  if (!whole_between(a.written, low, last[a.index])) return no_such(a);
-  if (a.index == 2 && a.written > a.in.axis_count) return no_such(a);
-  Selection selection = a.in.records->selection;
-  selection.parameter[a.index] = static_cast<uint32_t>(a.written);
-  a.in.change(&ProgramRecords::selection, selection);
-  return Execution::done;
-}
-
 /// A parameter whose value comes from the configuration of the machine; false: the number is not such a parameter.
 bool machine_parameter(const Interpreter& in, uint32_t number, unsigned axis, double* value) {
   for (const MachineParameter& row : in.dialect->parameters->machine) {
     if (row.number != number) continue;
     switch (row.what) {
+      case MachineDatum::system_used: *value = 1; return true;
       case MachineDatum::axis_count: *value = in.axis_count; return true;
       case MachineDatum::axis_name: *value = character_of(in.axis_words.word(axis)); return true;
       case MachineDatum::rotary: *value = (in.rotary >> axis) & 1; return true;
     }
   }
   return false;
+}
+
+/// M700 13.5.5 (10.16 (1)): there are the parameters that the control uses and those that somebody has set for this machine.
+bool parameter_exists(const Interpreter& in, uint32_t number) {
+  double value = 0;
+  if (machine_parameter(in, number, 0, &value) || find_parameter(*in.dialect, ParameterKey{number, 0, -1}) != nullptr) return true;
+  const ParameterId id = ParameterId::of_number(number);
+  for (int axis = -1; axis < static_cast<int>(in.axis_count); ++axis)
+    if (in.parameters.get(id, -1, axis, &value) || in.parameters.text(id, axis) != nullptr) return true;
+  return false;
+}
+
+Execution select_parameter(Access& a) {
+  const double last[3] = {static_cast<double>(a.in.dialect->rules.range.largest_parameter), 1, NC_MAX_AXES};
+  const double low = a.index == 1 ? 0 : 1;
+  if (!whole_between(a.written, low, last[a.index])) return no_such(a);
+  if (a.index == 2 && a.written > a.in.axis_count) return no_such(a);
+  if (a.index == 0 && !parameter_exists(a.in, static_cast<uint32_t>(a.written))) return no_such(a);
+  Selection selection = a.in.records->selection;
+  selection.parameter[a.index] = static_cast<uint32_t>(a.written);
+  a.in.change(&ProgramRecords::selection, selection);
+  return Execution::done;
 }
 
 /// A parameter that was never set reads as 0. A text of one letter reads as the code of the letter.

@@ -218,7 +218,7 @@ constexpr ParameterName kNames[] = {
 };
 
 // 13.5.5 (10.16): the manual's own example is axisno; axname and rot are the parameters beside it.
-constexpr MachineParameter kMachine[] = {{1002, MachineDatum::axis_count}, {1013, MachineDatum::axis_name}, {1017, MachineDatum::rotary}};
+constexpr MachineParameter kMachine[] = {{1001, MachineDatum::system_used}, {1002, MachineDatum::axis_count}, {1013, MachineDatum::axis_name}, {1017, MachineDatum::rotary}};
 
 // 13.11, note 3: the parameters of axes. For all other parameters the word A, which chooses the axis, has no effect.
 constexpr NumberRange kOfAxes[] = {{1013, 1013}, {1015, 1015}, {2000, 2299}, {8200, 8299}};
