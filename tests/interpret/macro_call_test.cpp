@@ -318,6 +318,18 @@ TEST(CodeCall, AsciiLetterIsOrdinaryInACycleBehindACallAndWithG10) {  // 13.5.3
   EXPECT_EQ(bench.run("D1000000\nM30").alarm, "P35");
 }
 
+TEST(CodeCall, AsciiLetterIsOrdinaryInTheBlockOfACyclesCode) {  // 13.5.3 (5) (e)
+  for (const char* const letter : {"R", "Q"}) {
+    Bench bench;
+    bench.add("O200", "#101=1\nM99\n");
+    bench.param("7401", "1").param("7402", letter).param("7403", "0").param("7404", "200").param("7405", "146");
+    const Outcome run = bench.run("#101=0\nG90 G0 Z10.\nG83 X5. Z-6. R2. Q3. F100\nX7. R3.\nG80\nM30");
+    EXPECT_EQ(run.alarm, "") << letter;
+    EXPECT_EQ(run.var(101), 0) << letter;
+    EXPECT_EQ(bench.run(std::string("G80 ") + letter + "5.\nM30").var(101), 1) << letter;  // no cycle
+  }
+}
+
 // ---- names ----------------------------------------------------------------------------------------------------------------------
 
 TEST(VariableNames, Rules) {  // 13.5.5: 7 characters, a letter first, no reserved word, no name twice

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command/caller.hpp"
 
+#include "modal/modes.hpp"
+
 namespace nc {
 namespace {
 
@@ -46,10 +48,13 @@ const CodeCall* registered(const FrontEnd& front, const Word& word, double value
   return calls.find_ascii(slot_of(word));
 }
 
-bool inputs_data(const Block& block, const FrontEnd& front) {
+bool starts_cycle(Function f) { return mode_of(f) == Mode::cycle && f != Function::cycle_off && f != Function::user_cycle; }
+
+/// M700 13.5.3 (5) (a), (e): beside data setting and in a fixed cycle, of which the block with its code is the first, an ASCII code is an ordinary word.
+bool has_words_of_code(const Block& block, const FrontEnd& front) {
   for (const Word& word : block.words) {
     const FunctionRow* const row = front.code_of(word);
-    if (row != nullptr && row->function == Function::data_input) return true;
+    if (row != nullptr && (row->function == Function::data_input || starts_cycle(row->function))) return true;
   }
   return false;
 }
@@ -57,8 +62,7 @@ bool inputs_data(const Block& block, const FrontEnd& front) {
 }  // namespace
 
 Reading find_caller(const Block& block, FrontEnd& front, bool functions_only, bool in_cycle, Caller* caller) {
-  // M700 13.5.3: in a fixed cycle and with G10 an ASCII code is an ordinary word.
-  const bool ascii_allowed = !in_cycle && !inputs_data(block, front);
+  const bool ascii_allowed = !in_cycle && !has_words_of_code(block, front);
   for (unsigned i = 0; i < block.words.size(); ++i) {
     const Word& word = block.words[i];
     if (!plain_number(word) || !may_call(front, word)) continue;
