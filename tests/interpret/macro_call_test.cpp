@@ -335,6 +335,7 @@ TEST(CodeCall, AsciiLetterIsOrdinaryInTheBlockOfACyclesCode) {  // 13.5.3 (5) (e
 TEST(VariableNames, Rules) {  // 13.5.5: 7 characters, a letter first, no reserved word, no name twice
   EXPECT_EQ(m700("SETVN500[A234567,DIST]\n[#DIST]=25\n#100=[#DIST]+[#dist]*2\nM30").var(100), 75);
   EXPECT_EQ(m700("SETVN500[ABCDEFGH]\nM30").alarm, "P292");
+  EXPECT_EQ(m700("SETVN500[]\nM30").alarm, "P292");
   EXPECT_EQ(m700("SETVN500[1A]\nM30").alarm, "P300");
   EXPECT_EQ(m700("SETVN500[SINUS]\nM30").alarm, "P300");
   EXPECT_EQ(m700("SETVN500[AB,AB]\nM30").alarm, "P301");

@@ -82,6 +82,7 @@ Execution set_names(Interpreter& in, const Statement& statement) {
   const char* p = in.block->text.begin() + statement.text;
   const char* const end = p + statement.text_length;
   uint32_t variable = statement.number;
+  if (p == end) return in.raise(Condition::name_statement, Sign::variable, variable);  // App. 1, P292: there is nothing to set
   for (;; ++variable) {
     const char* from = p;
     while (p != end && *p != ',') ++p;
