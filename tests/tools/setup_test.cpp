@@ -48,7 +48,7 @@ TEST(Setup, EveryPartIsRead) {
     "inputs": {"1001": 1, "1032": 4, "1203": 1, "1295": 1},
     "skip": [{"signal": 2, "box": {"X": [0, 100], "Z": [-30, 0]}}],
     "switches": {"optional_skip": [1, 9], "optional_stop": true, "mirror": ["X", "Z"]},
-    "subprograms": {"1000": "O1000\nM99\n%", "PART.NC": "M99"},
+    "subprograms": {"1000": "O1000\nM99\n%", "PART.NC": "M99", "0100": "M99"},
     "events": [{"when": {"line": 5}, "inputs": {"1000": 1}, "signals": {"reset": 1}}, {"when": {"seconds": 1.5}}],
     "options": {"variable_sets": 100, "tool_offsets": 20, "work_offsets": 300, "macro_extensions": false},
     "clock": "2024-02-29T23:59:58"
@@ -80,6 +80,7 @@ TEST(Setup, EveryPartIsRead) {
   EXPECT_EQ(s.mirror_axes, 5u);
   EXPECT_EQ(s.subprograms[0].first, "O1000");
   EXPECT_EQ(s.subprograms[1].first, "PART.NC");
+  EXPECT_EQ(s.subprograms[2].first, "0100");  // M700 13.3.1 (7): a file, which P100 does not find
   EXPECT_EQ(*s.events[0].line, 5u);
   EXPECT_EQ(*s.events[1].seconds, 1.5);
   EXPECT_EQ(s.clock_ms, 1709251198000);

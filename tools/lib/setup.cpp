@@ -539,7 +539,8 @@ class SetupReader {
     for (const auto& [key, value] : object(node, "subprograms").members) {
       const std::string path = "subprograms." + key;
       if (key.empty()) fail(value, path, "a sub program needs an O number or a name");
-      const std::string name = digits(key, 99'999'999) ? "O" + key : key;
+      const bool is_number = digits(key, 99'999'999) && key[0] != '0';  // M700 13.3.1 (7): P100 and P0100 do not find the file "0100"
+      const std::string name = is_number ? "O" + key : key;
       s_.subprograms.emplace_back(name, text(value, path));
     }
   }
