@@ -100,6 +100,18 @@ TEST(OfflineRun, EventsInOrder) {
   EXPECT_DOUBLE_EQ(run.result.seconds, 0.03 + 2 + 4 / 100.0 * 60 + 9);
 }
 
+TEST(OfflineRun, ASkipSignalEndsADwell) {  // M700 15.3 (2): the event says how long it has lasted
+  for (const uint8_t mask : {uint8_t{1}, uint8_t{2}}) {
+    Scene run;
+    run.gate(1, NC_GATE_DWELL_SECONDS, 5, true);
+    run.items.items.back().u.gate.skip_mask = mask;
+    run.items.end(2, {});
+    run.go(R"({"skip": [{"signal": 1, "box": {"X": [-1, 1]}}]})");
+    EXPECT_EQ(run.notes.text, mask == 1 ? "1:dwell0 2:ok@0" : "1:dwell5 2:ok@0");
+    EXPECT_DOUBLE_EQ(run.result.seconds, mask == 1 ? 0 : 5);
+  }
+}
+
 TEST(OfflineRun, OptionalStopIsAnEventOnlyWithItsSwitch) {
   for (const bool on : {false, true}) {
     Scene run;

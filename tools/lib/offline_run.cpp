@@ -249,8 +249,8 @@ class OfflineRun {
     if (gate.kind == NC_GATE_OPTIONAL_STOP && world_.optional_stop()) sink_.aux(item.source, 'M', items_.optional_stop_code());
     if (gate.kind != NC_GATE_DWELL_SECONDS && gate.kind != NC_GATE_DWELL_TURNS) return;
     const bool turns = gate.kind == NC_GATE_DWELL_TURNS;
-    world_.dwell(turns, gate.value, gate.skip_mask);
-    if (gate.announce) sink_.dwell(item.source, turns, gate.value);
+    const double lasted = world_.dwell(turns, gate.value, gate.skip_mask);
+    if (gate.announce) sink_.dwell(item.source, turns, lasted);
   }
 
   void mark(const nc_item& item) {

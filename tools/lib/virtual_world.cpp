@@ -241,11 +241,17 @@ bool VirtualWorld::execute_skip(nc_move* move) {
   return part > 0.0;
 }
 
-void VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
-  if (skip_mask && (signals_at(machine_) & skip_mask)) return;
+double VirtualWorld::dwell(bool turns, double value, uint32_t skip_mask) {
+  if (skip_mask && (signals_at(machine_) & skip_mask)) return 0.0;
   const double seconds = !turns ? value : spindle_rev_min_ > 0.0 ? value / spindle_rev_min_ * 60.0 : 0.0;
   const SetupEvent* const switched_on = signal_within(seconds, skip_mask);
-  seconds_ = switched_on ? std::max(seconds_, *switched_on->seconds) : seconds_ + seconds;
+  if (!switched_on) {
+    seconds_ += seconds;
+    return value;
+  }
+  const double before = seconds_;
+  seconds_ = std::max(seconds_, *switched_on->seconds);
+  return turns ? (seconds_ - before) * spindle_rev_min_ / 60.0 : seconds_ - before;
 }
 
 bool VirtualWorld::changes() const {

@@ -86,8 +86,8 @@ class VirtualWorld {
     seconds_ = passed.seconds;
   }
 
-  /** Executes a dwell in seconds or spindle turns; it is skipped while one of the skip signals is on. // M700 15.3 (2) */
-  void dwell(bool turns, double value, uint32_t skip_mask = 0);
+  /** Executes a dwell in seconds or spindle turns, which one of the skip signals ends. @return how many of them it has lasted // M700 15.3 (2) */
+  double dwell(bool turns, double value, uint32_t skip_mask = 0);
   void spindle(double rev_per_min) { spindle_rev_min_ = rev_per_min; }
 
   /** The answer to a sync; reading the clock takes 1 ms. */
