@@ -30,6 +30,24 @@ TEST(Hx, ValuesOfFormulasAreRoundedToTheLeastUnit) {  // 14.2.4, the printed num
   EXPECT_EQ(hx("G00 X0.12345\nM30").path(), (Path{"rapid 0.12345 0 0"}));     // as written it stays
 }
 
+TEST(Hx, BracketsStandTenDeep) {  // 14.2.4, 14.4
+  const auto sum = [](size_t levels) { return "#100=" + std::string(levels, '[') + "1" + std::string(levels, ']') + "\nM30"; };
+  EXPECT_EQ(hx(sum(10)).var(100), 1);
+  EXPECT_NE(alarm_of(sum(11)), "");
+}
+
+TEST(Hx, ABlockHasThreeHundredCharacters) {  // 2.2.4
+  const auto block = [](size_t characters, const std::string& blanks) {
+    std::string text = "G00";
+    while (text.size() + 8 <= characters) text += "X1.00000";
+    text += std::string(characters - text.size(), '0');
+    return text + blanks + "\nM30";
+  };
+  EXPECT_EQ(alarm_of(block(300, "")), "");
+  EXPECT_EQ(alarm_of(block(301, "")), "F_82111");
+  EXPECT_EQ(alarm_of(block(300, std::string(50, ' ') + "(a comment that is no part of the block)")), "");
+}
+
 TEST(Hx, ANumberWithoutAPointCountsInTheLeastUnit) {  // 8.4
   EXPECT_EQ(hx("G21 G00 X1000\nG20 X1000\nM30").path(), (Path{"rapid 1 0 0", "rapid 2.54 0 0"}));
 }

@@ -389,7 +389,7 @@ class Lexer {
     if (letter_of(word->slot) == rules_.sequence_letter || letter_of(word->slot) == rules_.program_letter)
       return fault(Condition::variable_use, letter_of(word->slot));  // M700 13.4 (3)
     word->flags = static_cast<uint8_t>((word->flags & ~(kWordNegative | kWordPlus)) | kWordExpression);
-    ExpressionCompiler compiler(block_, &at_, rules_.formula);
+    ExpressionCompiler compiler(block_, &at_, rules_);
     if (!compiler.word_value(&word->code, rules_.bare_sums)) return fault(compiler.fault(), letter_of(word->slot));
     if (!rules_.bare_sums && goes_on(at_.peek())) return fault(Condition::format_error, letter_of(word->slot));
     if (at_.peek() == '=') return fault(Condition::macro_and_words, letter_of(word->slot));  // X#1=#3+100
@@ -460,7 +460,7 @@ class Lexer {
     Statement s;
     s.kind = StatementKind::assign;
     const char* const bare = bare_message();
-    ExpressionCompiler target(block_, &at_, rules_.formula);
+    ExpressionCompiler target(block_, &at_, rules_);
     if (!target.variable_number(&s.target)) return fault(target.fault());
     if (!at_.accept('=')) return fault(Condition::no_equals, '#');  // M700 P242
     at_.comment = nullptr;
@@ -518,14 +518,14 @@ class Lexer {
     const bool there =
         is_digit(c) || c == '.' || c == '#' || c == '[' || c == '-' || c == '+' || is_letter(c);
     if (!there) return fault(c == ']' ? Condition::bracket_pair : when_missing, c);
-    ExpressionCompiler compiler(block_, &at_, rules_.formula);
+    ExpressionCompiler compiler(block_, &at_, rules_);
     if (!compiler.expression(code)) return fault(compiler.fault());
     return true;
   }
 
   bool condition(uint16_t* code, Condition statement_error) {
     if (at_.peek() != '[') return fault(statement_error);
-    ExpressionCompiler compiler(block_, &at_, rules_.formula);
+    ExpressionCompiler compiler(block_, &at_, rules_);
     if (!compiler.condition(code)) {
       return fault(compiler.fault().condition == Condition::calculation ? Fault{statement_error}
                                                                         : compiler.fault());
@@ -685,7 +685,19 @@ class Lexer {
       ++at_.p;
     }
     result.used = static_cast<size_t>(at_.p - text_);
+    if (rules_.longest_block != 0 && result.used > rules_.longest_block) [[unlikely]] check_length();
     return result;
+  }
+
+  /// The characters of the block that mean something are no more than the family has room for.
+  void check_length() {
+    Cursor from{.p = text_, .end = at_.p, .semicolon_ends = at_.semicolon_ends};
+    unsigned count = 0;
+    for (from.skip(); !from.at_end(); from.skip()) {
+      ++from.p;
+      ++count;
+    }
+    if (count > rules_.longest_block && !block_.has_fault) fault(Condition::block_too_long);
   }
 
   void to_line_end() {

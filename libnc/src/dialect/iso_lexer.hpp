@@ -25,6 +25,7 @@ struct IsoRules : LexRules {
   bool slash_only_at_head = true;  ///< '/' skips a block only at its head; elsewhere it is an error (dgshape) or division (with macros)
   bool comma_words = false;        ///< ",R" ",C" ",A" ",I" ",J" ",S" ",D"
   bool jump_letter = false;        ///< the letter of sequence numbers may stand in front of the number behind GOTO (HX 14.5.1)
+  uint16_t longest_block = 0;      ///< most characters of a block, blanks and comments not counted (HX 2.2.4); 0 = as many as find room
   bool percent_alone = false;      ///< no word may stand behind '%' in its block (DGSHAPE 2-6); else it is text
   uint32_t message_variable = 0;   ///< with `macros`: what stands behind the value given to this variable, from the first letter on, is a message; 0 = none
   WordFormat word[26];             ///< by address, 0 = A

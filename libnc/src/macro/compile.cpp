@@ -119,7 +119,7 @@ bool ExpressionCompiler::operand(unsigned depth, bool comparison_allowed, bool n
 }
 
 bool ExpressionCompiler::bracket(unsigned depth, bool comparison_allowed) {
-  if (depth == kMaxBrackets) return fail(Condition::bracket_nesting);  // M700 P280
+  if (depth == most_brackets_) return fail(Condition::bracket_nesting);  // M700 P280
   ++at_.p;
   if (at_.peek() == '#') {
     Cursor ahead = at_;
@@ -243,7 +243,8 @@ bool compile_expression(Block& block, const char* text, size_t size, size_t* at,
   Cursor cursor;
   cursor.p = text + *at;
   cursor.end = text + size;
-  ExpressionCompiler compiler(block, &cursor);
+  static constexpr LexRules kPlain;
+  ExpressionCompiler compiler(block, &cursor, kPlain);
   const bool good = condition ? compiler.expression_or_condition(code) : compiler.expression(code);
   *at = static_cast<size_t>(cursor.p - text);
   if (!good) *fault = compiler.fault();

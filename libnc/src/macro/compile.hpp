@@ -67,13 +67,11 @@ enum class Op : uint8_t {
   less_equal
 };
 
-/// The most brackets that may be open at once: five in M700 13.4 (Note 2); RS-274/NGC names no bound.
-inline constexpr unsigned kMaxBrackets = 5;
-inline constexpr unsigned kMaxNgcBrackets = 10;
+/// The most brackets that may be open at once in any family (HX 14.2.4: ten); RS-274/NGC names no bound. LexRules::most_brackets is the family's own.
+inline constexpr unsigned kMaxBrackets = 10;
 /// Values of a stack that no expression can exceed: of each level (brackets, and outside of them) two operands can wait, in RS-274/NGC five, one for each
 /// step of binding; and a few more for the operand at work.
-inline constexpr unsigned kStackDepth = 5 * (kMaxNgcBrackets + 1) + 4;
-static_assert(kStackDepth >= 2 * (kMaxBrackets + 1) + 4);
+inline constexpr unsigned kStackDepth = 5 * (kMaxBrackets + 1) + 4;
 
 /// The largest variable number that the code can hold (24 bits). Which numbers exist is checked only when a variable is read or written.
 inline constexpr uint32_t kMaxVariable = 0xffffff;
@@ -99,7 +97,7 @@ bool starts_function(Cursor at, Formula formula);
 
 class ExpressionCompiler {
  public:
-  ExpressionCompiler(Block& block, Cursor* at, Formula formula = Formula::macro) : block_(block), at_(*at), ngc_(formula == Formula::ngc) {}
+  ExpressionCompiler(Block& block, Cursor* at, const LexRules& rules) : block_(block), at_(*at), ngc_(rules.formula == Formula::ngc), most_brackets_(rules.most_brackets) {}
 
   static bool starts_ngc_function(Cursor at);
 
@@ -147,6 +145,7 @@ class ExpressionCompiler {
   Cursor& at_;
   Fault fault_;
   const bool ngc_;
+  const unsigned most_brackets_;
   bool word_ = false;      ///< the value of a word without brackets is being compiled
   bool compared_ = false;  ///< a comparison has been compiled
 };

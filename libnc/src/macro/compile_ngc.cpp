@@ -91,7 +91,7 @@ bool ExpressionCompiler::ngc_value(unsigned depth) {
 }
 
 bool ExpressionCompiler::ngc_bracket(unsigned depth) {
-  if (depth == kMaxNgcBrackets) return fail(Condition::bracket_nesting);
+  if (depth == most_brackets_) return fail(Condition::bracket_nesting);
   ++at_.p;
   if (!ngc_formula(depth + 1, 0)) return false;
   return at_.accept(']') || fail(unclosed(depth + 1, Condition::calculation));

@@ -52,6 +52,7 @@ struct LexRules {
   bool angle_names = false;        ///< <FILE.NC> behind M98 G65, in which a blank is a character
   bool macros = false;             ///< the language has variables and formulas: '#' and '[ ]' in one of ISO words
   Formula formula = Formula::macro;              ///< of which kind
+  uint8_t most_brackets = 5;       ///< of a formula, open at once (M700 13.4 (Note 2))
   uint32_t most_loop_number = 127; ///< of DO and END (M700 13.5.7)
   Semicolon semicolon = Semicolon::unknown;      ///< meaning in program texts; a parameter of the machine may make it a comment
   Semicolon mdi_semicolon = Semicolon::unknown;  ///< meaning in blocks of MDI

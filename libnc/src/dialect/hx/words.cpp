@@ -22,6 +22,8 @@ constexpr IsoRules make_rules() {
   rules.slash_only_at_head = true;               // 14.2.4: elsewhere it is a division
   rules.comma_words = true;                      // 4.3.1, 4.3.2
   rules.jump_letter = true;                      // 14.5.1 prints GOTO N10
+  rules.most_brackets = 10;                      // 14.2.4
+  rules.longest_block = 300;                     // 2.2.4
   rules.most_loop_number = 9999;                 // 14.5.3 prints DO 210
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     rules.word[at(letter)] = WordFormat{.known = true, .refusal = {}, .integer = false, .integer_digits = 12, .fraction_digits = 8};

@@ -18,6 +18,7 @@ constexpr IsoRules make_rules() {
   rules.comments_end = true;
   rules.macros = true;       // RS-274/NGC 3.3.2.2, 3.3.2.3
   rules.formula = Formula::ngc;
+  rules.most_brackets = 10;  // RS-274/NGC names no bound
   rules.semicolon = Semicolon::comment;
   rules.mdi_semicolon = Semicolon::comment;
   rules.slash_only_at_head = true;  // RS-274/NGC 3.3.1: the block delete character stands first; elsewhere it is a division
