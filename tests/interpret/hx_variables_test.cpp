@@ -27,8 +27,11 @@ const VariableCase kCases[] = {
     {3083, 3083, "#3083=1", 1, 1, true},
     {3084, 3999, "", kVacant, kVacant, true},
     {4083, 4086, "G92 X7.", 7, kVacant, false},
+    {4379, 4382, "G31 X9. F100", 9, kVacant, false},
     {4792, 4792, "S500", 500, 500, false},
     {4882, 4883, "D5 G43 H6", 5, 6, false},
+    {5001, 5004, "G92 X7.", 7, kVacant, false},
+    {5021, 5024, "G53 X8.", 8, kVacant, false},
     {6205, 6208, "G53 X8.", 8, kVacant, false},
     {6319, 6350, "G31 X9. F100", 9, kVacant, false},
     {6716, 6716, "N77", 77, 77, false},
@@ -110,6 +113,16 @@ TEST(HxVariables, AreThoseOfTheTable) {
     ++i;
   }
   EXPECT_EQ(i, sizeof kCases / sizeof kCases[0]);
+}
+
+TEST(HxVariables, ThirtyFourToNinetyNineAreLocal) {  // 14.2.3, 14.4
+  Bench bench(NC_DIALECT_HX);
+  const Outcome run = bench.run("#100=0\n#34=1\n#99=2\n#1=3\nG65 P1 A5.\n#103=#34+#99+#1\nM30\nO1\nIF [#34 EQ #0] GOTO 1\n#100=1\nN1 #34=7\n#99=8\n#101=#1\n#102=#[30+4]\nM99");
+  EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+  EXPECT_EQ(run.var(100), 0);  // vacant in the macro that is called
+  EXPECT_EQ(run.var(101), 5);
+  EXPECT_EQ(run.var(102), 7);
+  EXPECT_EQ(run.var(103), 6);  // and as they were behind it
 }
 
 TEST(HxVariables, AnAmountOfRadiusHasTheRangeOf13_3) {  // +-999.999 mm, +-99.999 inch

@@ -25,7 +25,7 @@ class VariablesTest : public testing::Test {
  protected:
   explicit VariablesTest(unsigned journal = 64, CommonRanges ranges = six_hundred_sets()) {
     common.create(ranges, arena);
-    variables.create(&common, journal, arena);
+    variables.create(&common, kLocals, journal, arena);
   }
   Value get(uint32_t number, unsigned level = 0) {
     Value v = Value::of(-999);

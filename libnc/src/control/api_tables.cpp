@@ -265,7 +265,7 @@ nc_dialect nc_control_dialect(const nc_control* c) { return c == nullptr ? nc::k
 nc_status nc_variable_kind_get(nc_dialect dialect, nc_variable_kind kind, nc_variable_range* range) {
   if (!nc::known(dialect) || range == nullptr) return NC_E_ARGUMENT;
   const nc::FamilyVariables& family = *nc::dialect(dialect).variables;
-  const nc::VariableRange kinds[] = {{1, nc::kLocals}, family.named, family.cleared};
+  const nc::VariableRange kinds[] = {{1, family.last_local}, family.named, family.cleared};
   const auto index = static_cast<unsigned>(kind);
   if (index >= sizeof kinds / sizeof kinds[0]) return NC_E_ARGUMENT;
   *range = {kinds[index].first, kinds[index].last};

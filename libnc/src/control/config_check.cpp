@@ -338,6 +338,8 @@ nc_status nc_variable_range_check(const nc_config* config, unsigned index, uint3
   };
   for (unsigned i = 0; i < nc::CommonRanges::kCount; ++i)
     if (i != nc::CommonRanges::kExtended + 1 + index && all.size(i) != 0) overlap(all.first[i], all.last[i]);
-  for (const nc::VariableRow& row : nc::dialect(static_cast<nc_dialect>(known.dialect)).variables->rows) overlap(row.first, row.last);
+  const nc::FamilyVariables& family = *nc::dialect(static_cast<nc_dialect>(known.dialect)).variables;
+  overlap(1, family.last_local);
+  for (const nc::VariableRow& row : family.rows) overlap(row.first, row.last);
   return *taken == 0 ? NC_OK : NC_E_ARGUMENT;
 }

@@ -78,6 +78,7 @@ struct VariableRange {
 
 struct FamilyVariables {
   Table<VariableRow> rows = {};   ///< sorted by number; no two ranges overlap
+  uint32_t last_local = 33;       ///< #1 to this one are local; a macro call fills #1 to #33 (macro/variables.hpp: at most kMostLocals)
   VariableRange common[2] = {};   ///< common variables if the family fixes them; empty if the configuration chooses them
   VariableRange named = {500, 519};    ///< common variables that can have a name (M700 13.5.5 SETVN), at most kNames (macro/variables.hpp)
   VariableRange cleared = {100, 199};  ///< those that Parameter::reset_clears_common and power_off_clears_common clear (M700 13.4 #1128, #1129, HX 14.4)

@@ -55,7 +55,7 @@ void Interpreter::create(const InterpreterConfig& config, ProgramStore* program_
   const unsigned under_way = power_of_two_above(2 * config.look_ahead + 256);
   parameters.create(512, arena, &variables.journal());
   frames.create(config.frames, arena);
-  variables.create(common, journal_capacity(config.look_ahead), arena);
+  variables.create(common, dialect->variables->last_local, journal_capacity(config.look_ahead), arena);
   if (dialect->lex->formula == Formula::ngc) variables.create_named(arena);
   reader.create(store, dialect->lex, config.window_bytes, config.look_ahead < 256 ? 16 : 128, arena);
   transforms.create(under_way, arena);

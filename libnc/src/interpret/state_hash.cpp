@@ -271,7 +271,7 @@ void add_calls(Hash& hash, const CallStack& stack) {
 
 void add_variables(Hash& hash, const Interpreter& in) {
   for (unsigned level = 0; level <= in.macro_level(); ++level)
-    for (unsigned i = 0; i < kLocals; ++i) hash.add(in.variables.locals(level)[i]);
+    for (unsigned i = 0; i < in.variables.local_count(); ++i) hash.add(in.variables.locals(level)[i]);
   double value = 0;
   uint32_t number = 0;
   for (uint32_t from = 0; in.common->next(from, &number, &value); from = number + 1) hash.add(number, value);

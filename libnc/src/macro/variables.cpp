@@ -95,15 +95,16 @@ bool CommonVariables::next(uint32_t from, uint32_t* number, double* value) const
 // ---- variables of a part system
 // ------------------------------------------------------------------------------------
 
-void Variables::create(CommonVariables* common, unsigned journal_capacity, Arena& arena) {
+void Variables::create(CommonVariables* common, unsigned locals, unsigned journal_capacity, Arena& arena) {
   common_ = common;
+  locals_ = locals;
   journal_.create(journal_capacity, arena);
-  local_ = reinterpret_cast<double(*)[kLocals]>(arena.make<double>(size_t{kLocalLevels} * kLocals));
-  if (local_ != nullptr) fill_vacant(local_[0], size_t{kLocalLevels} * kLocals);
+  local_ = reinterpret_cast<double(*)[kMostLocals]>(arena.make<double>(size_t{kLocalLevels} * kMostLocals));
+  if (local_ != nullptr) fill_vacant(local_[0], size_t{kLocalLevels} * kMostLocals);
 }
 
 bool Variables::get(uint32_t number, unsigned level, Value* value) const {
-  if (number - 1 < kLocals) {
+  if (number - 1 < locals_) {
     *value = from_storage(local_[level][number - 1]);
     return true;
   }
@@ -117,7 +118,7 @@ bool Variables::get(uint32_t number, unsigned level, Value* value) const {
 }
 
 bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) {
-  if (number - 1 < kLocals) {
+  if (number - 1 < locals_) {
     double& slot = local_[level][number - 1];
     journal_.note(seq, local_key(level, number - 1), journalled(from_storage(slot)));
     slot = to_storage(value);
@@ -135,7 +136,7 @@ bool Variables::set(uint32_t number, unsigned level, Value value, BlockSeq seq) 
 }
 
 bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
-  if (number - 1 < kLocals) {
+  if (number - 1 < locals_) {
     local_[level][number - 1] = to_storage(value);
     journal_.replace(local_key(level, number - 1), journalled(value));
     return true;
@@ -147,11 +148,12 @@ bool Variables::set_from_outside(uint32_t number, unsigned level, Value value) {
 }
 
 void Variables::enter(unsigned level, const Value* arguments, BlockSeq seq) {
-  for (unsigned i = 0; i < kLocals; ++i) {
+  for (unsigned i = 0; i < locals_; ++i) {
     double& slot = local_[level][i];
-    if (is_vacant(slot) && arguments[i].vacant) continue;
+    const Value value = i < kLocals ? arguments[i] : Value{};
+    if (is_vacant(slot) && value.vacant) continue;
     journal_.note(seq, local_key(level, i), journalled(from_storage(slot)));
-    slot = to_storage(arguments[i]);
+    slot = to_storage(value);
   }
 }
 

@@ -10,7 +10,8 @@
 
 namespace nc {
 
-inline constexpr unsigned kLocals = 33;      ///< #1..#33
+inline constexpr unsigned kLocals = 33;      ///< #1..#33, which take the words of a macro call
+inline constexpr unsigned kMostLocals = 99;  ///< #1..#99 are the local variables that a family can have (HX 14.2.3)
 inline constexpr unsigned kNames = 20;       ///< most variables that can have a name (M700 13.5.5)
 inline constexpr unsigned kNameLength = 7;   ///< most characters of a name
 /// A name, filled up with zeros; empty = none.
@@ -61,7 +62,8 @@ class CommonVariables {
 /// Variables of one part system.
 class Variables {
  public:
-  void create(CommonVariables* common, unsigned journal_capacity, Arena& arena);
+  /// `locals`: how many local variables a level has, from kLocals to kMostLocals.
+  void create(CommonVariables* common, unsigned locals, unsigned journal_capacity, Arena& arena);
   /// Where there are several part systems, they share the common variables of the family's two ranges up to these (M700 13.4, #1303, #1304), and all those of
   /// later models and of further ranges, and the names.
   void share(const uint32_t (&last)[CommonRanges::kExtended]) {
@@ -93,9 +95,10 @@ class Variables {
   bool get(uint32_t number, unsigned level, Value* value) const;
   bool set(uint32_t number, unsigned level, Value value, BlockSeq seq);
 
-  /// The local variables #1..#33 of a level as they are stored: NaN = vacant.
+  /// The local variables of a level as they are stored, and how many they are: NaN = vacant.
   const double* locals(unsigned level) const { return local_[level]; }
-  /// Sets the 33 local variables of `level` to `arguments`.
+  unsigned local_count() const { return locals_; }
+  /// Sets #1..#33 of `level` to `arguments`; its further local variables are vacant.
   void enter(unsigned level, const Value* arguments, BlockSeq seq);
   /// rewind(seq) is possible, and will still be possible when one more block has been executed.
   bool keeps(BlockSeq seq) const { return journal_.keeps(seq, kMostWrites); }
@@ -152,7 +155,8 @@ class Variables {
   uint32_t last_shared_[CommonRanges::kExtended] = {};  ///< of each range that parameters divide
   Journal journal_;
   NamedParameters named_;
-  double (*local_)[kLocals] = nullptr;
+  double (*local_)[kMostLocals] = nullptr;
+  unsigned locals_ = kLocals;
 };
 
 }  // namespace nc

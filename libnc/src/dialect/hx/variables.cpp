@@ -19,8 +19,11 @@ constexpr VariableRow kRows[] = {
     {3083, 3083, V::single_block_off, 0, 0, "0/1", "no single block stop", "14.2.3 (4)"},
     {3084, 3999, V::parameter_itself, 0, 0, "the parameter's", "parameters PI 84 to PI 999", "14.2.3"},
     {4083, 4086, V::work_position, 0, 0, "mm, inch, deg", "workpiece position, an axis each", "14.2.3 (7)"},
+    {4379, 4382, V::skip_position, 0, 0, "mm, inch, deg", "position of the last skip, an axis each", "14.2.3 (7)"},
     {4792, 4792, V::word, 0, 0, "as programmed", "S", "14.2.3 (6)"},
     {4882, 4883, V::word, 1, 0, "as programmed", "D, #4883 H", "14.2.3 (6)"},
+    {5001, 5004, V::end_point, 0, 0, "mm, inch, deg", "end of the last block, an axis each", "14.2.3 (7)"},
+    {5021, 5024, V::machine_position, 0, 0, "mm, inch, deg", "machine position, an axis each", "14.2.3 (7)"},
     {6205, 6208, V::machine_position, 0, 0, "mm, inch, deg", "machine position, an axis each", "14.2.3 (7)"},
     {6319, 6350, V::skip_position, 0, 0, "mm, inch, deg", "position of the last skip, an axis each", "4.9"},
     {6716, 6716, V::word, 3, 0, "as programmed", "N", "14.2.3 (6)"},
@@ -40,6 +43,7 @@ constexpr ModalWord kWords[] = {W::spindle, W::radius_number, W::length_number, 
 
 constinit const FamilyVariables kVariables = {
     .rows = {kRows, sizeof kRows / sizeof kRows[0]},
+    .last_local = 99,
     .common = {{100, 199}, {200, 699}},
     .words = {kWords, sizeof kWords / sizeof kWords[0]},
 };
