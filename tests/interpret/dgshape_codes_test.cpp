@@ -31,7 +31,7 @@ const CodeRow kRows[] = {
     {"G21", "G20\nG21\nG00X1.\nX5000", {"rapid 1 0 0 0", "rapid 5 0 0 0"}, "M30", {}},
     // The point of an axis is kept for every later G28.
     {"G28", "G00X5.Y5.Z5.\nG28X10.\nG00X5.\nG28Y20.", {"rapid 5 5 5 0", "rapid 10 5 5 0", "rapid 0 5 5 0", "rapid 5 5 5 0", "rapid 10 20 5 0", "rapid 0 0 5 0"}, "M30",
-     {{"G28", "NC-WORDS"}, {"G28A0", "NC-AXIS"}, {"G28X", "NC-FORMAT"}, {"G41D1\nX5.\nG28X0", "NC-OFFSET-CODE"}}},
+     {{"G28A0", "NC-AXIS"}, {"G28X", "NC-FORMAT"}, {"G41D1\nX5.\nG28X0", "NC-OFFSET-CODE"}}},
     {"G39", "G42D1\nG01X10.F100.\nG39X10.Y10.\nX10.Y10.", {"line 0 -3 0 0 F100", "line 10 -3 0 0 F100", "ccw 13 0 0 0 c10,0 F100", "line 13 10 0 0 F100"}, "M30",
      {{"G39X1.", "NC-OFFSET-CODE"}, {"G41D1\nG01X10.F100.\nX20.\nG39X20.Y10.", "NC-OFFSET-PATH"}, {"G42D1\nG01X10.F100.\nG39Z1.", "NC-AXIS"}, {"G42D1\nG01X10.F100.\nG39", "NC-WORDS"}}},
     {"G40", "G41D1X0Y10.\nX0Y20.\nG40X5.Y30.", {"rapid -3 10 0 0", "rapid -3 20 0 0", "rapid 5 30 0 0"}, "M30", {{"G41D1\nX5.F100.\nG40G02X10.I2.5", "NC-OFFSET-START"}}},
@@ -79,7 +79,7 @@ const CodeRow kRows[] = {
     {"M30", "X1.", {"rapid 1 0 0 0"}, "M30", {{"M30M03", "NC-ALONE"}, {"M30.", "NC-FORMAT"}}},
     {"M03", "S1000M03\nM03", {}, "S1000 M3 M30", {{"M04", "NC-NO-SUCH-CODE"}, {"M3.5", "NC-FORMAT"}}},
     {"M05", "M05\nM03S1000\nM05\nM05", {}, "S1000 M3 M5 M30", {}},
-    {"M06", "M06T2\nM06T2\nM06T3\nM06T0", {}, "T2 M6 T3 M6 T0 M6 M30", {{"M06", "NC-TOOL"}, {"T2", "NC-TOOL"}, {"M06T1T2", "NC-TOOL"}, {"M06M06T1", "NC-TOOL"}}},
+    {"M06", "M06T2\nM06T2\nM06T3\nM06T0\nM06T0\nM06T3", {}, "T2 M6 T3 M6 T0 M6 T3 M6 M30", {{"M06", "NC-TOOL"}, {"T2", "NC-TOOL"}, {"M06T1T2", "NC-TOOL"}, {"M06M06T1", "NC-TOOL"}}},
     {"M12", "M12", {}, "M12 M30", {{"M11", "NC-NO-SUCH-CODE"}, {"M08", "NC-NO-SUCH-CODE"}}},
     {"M13", "M13", {}, "M13 M30", {}},
     {"M14", "M14", {}, "M14 M30", {}},

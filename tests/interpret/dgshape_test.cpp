@@ -100,6 +100,20 @@ TEST(DgshapeRotary, AtTheTopOfZItTurnsAsFastAsItCan) {
   EXPECT_EQ(last_move("G01A90.F100.").feed_mm_min, 100);               // on the axis no speed of the tool turns it: deg/min
 }
 
+TEST(Dgshape, TheCalculatorTypeOfTheDimensionsLeavesOutThePeck) {  // 1-5: IJKRXYZA
+  const auto deepest = [](const char* words) {
+    Bench bench(NC_DIALECT_DGSHAPE);
+    bench.param("interpretation", "calculator").param("calculator_words", words);
+    return bench.run("%\nM03S1000F100.\nG00Z10\nG99G83X1Z-7R1Q4000\nM02").path().at(3);
+  };
+  EXPECT_EQ(deepest("IJKRXYZA"), "line 1 0 -3 F100");
+  EXPECT_EQ(deepest("all"), "line 1 0 -7 F100");
+}
+
+TEST(Dgshape, AReturnWithoutAnyPointMovesNothing) {  // G28
+  EXPECT_EQ(Bench(NC_DIALECT_DGSHAPE).run("%\nG00X5.Y5.\nG28\nX6.\nM02").path(), (Path{"rapid 5 5 0", "rapid 6 5 0"}));
+}
+
 TEST(Dgshape, ACodeOfACycleHasTheDataOfItsBlock) {  // 2-2, G80 to G89
   const auto run = [](const std::string& text) { return dgshape("M03S6000F100.\nG00Z20.\nG99G82X1.Z-1.R1.P100\n" + text + "\nG80\nM30"); };
   EXPECT_EQ(run("X5.").dwells(), (std::vector<double>{0.1, 0.1}));  // behind the code they hold

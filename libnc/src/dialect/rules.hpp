@@ -390,12 +390,15 @@ struct ReferenceRules {
   /// P of the further reference positions is 2 to 4, and anything else a fault (HX 6.2). Otherwise it is the 2nd position (M700 14.8 (1)).
   bool place_is_checked = false;
   /// A block without axis words moves all axes, without an intermediate point (RS-274/NGC 3.5.8). Otherwise it is a fault that words are
-  /// missing (M700 14.7; DGSHAPE G28).
+  /// missing, unless it may move nothing (M700 14.7).
   bool all_axes_without_words;
 };
 
 struct CoordinateRules {
   /// A move in machine coordinates may be incremental (M700 14.4 (4)). In DGSHAPE G53 that is a fault.
+  /// A block that names no axis, and in which none goes by an earlier intermediate point, moves nothing (DGSHAPE G28: "when no coordinate at all has been specified
+  /// for a particular axis, no movement along that axis is performed"). Otherwise it is a fault that words are missing (M700 14.7).
+  bool may_move_nothing = false;
   bool machine_move_may_be_incremental;
   /// The code for machine coordinates, if it stands beside that of coordinate system setting, takes the shift of the setting away (M700 14.5
   /// note). DGSHAPE G92, G53 have no such rule.

@@ -173,6 +173,8 @@ struct Settings {
 
   /// Positions, lengths and dwell times without a point are in mm, inch, deg and s (M700 5.3 type II, DGSHAPE 3), and not in the least command unit.
   bool whole_positions() const { return decimal_type_2 || calculator_reads_positions(); }
+  /// So is the depth of a peck, whose word is not among those to which the calculator type may be limited (DGSHAPE 1-5).
+  bool whole_steps() const { return decimal_type_2 || (calculator && calculator_words == 1); }
 };
 
 /// The value of a parameter: a number, or a text, given by its place in the part system's store of texts.

@@ -138,7 +138,10 @@ bool in_inches(const InForce& in) { return in.state.modal.is(Function::inch); }
 
 }  // namespace
 
-double length_value(const InForce& in, Written number, bool rotary, bool setting_unit, bool tenfold) {
+namespace {
+
+/// length_value() of a word that is read in whole units without a point if `whole` is true.
+double length_read(const InForce& in, Written number, bool rotary, bool setting_unit, bool tenfold, bool whole) {
   const bool in_inch = in_inches(in) && !rotary;
   const Settings& s = in.settings;
   const double raw = number.value;
@@ -147,13 +150,19 @@ double length_value(const InForce& in, Written number, bool rotary, bool setting
     const double unit = rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm;
     value = scaled(std::round(raw * std::nearbyint(1 / unit)), unit);
   } else if (!number.pointed()) {
-    if (!s.whole_positions()) {  // M700 5.3, type I: the least command unit; tenfold 2.2
+    if (!whole) {  // M700 5.3, type I: the least command unit; tenfold 2.2
       const double unit = setting_unit ? (rotary ? s.setting_unit_deg : in_inch ? s.setting_unit_inch : s.setting_unit_mm)
                                        : (rotary ? s.command_unit_deg : in_inch ? s.command_unit_inch : s.command_unit_mm);
       value = scaled(tenfold ? raw * s.tenfold : raw, unit);
     }
   }
   return in_inch ? value * kMillimetresPerInch : value;
+}
+
+}  // namespace
+
+double length_value(const InForce& in, Written number, bool rotary, bool setting_unit, bool tenfold) {
+  return length_read(in, number, rotary, setting_unit, tenfold, in.settings.whole_positions());
 }
 
 double axis_value(const InForce& in, unsigned axis, Written number, bool rotary) {
@@ -166,7 +175,10 @@ double axis_value(const InForce& in, unsigned axis, Written number, bool rotary)
 
 double length_of(const BlockInHand& in, WordSlot word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
 
-double length_of(const BlockInHand& in, Role word, bool setting_unit) { return length_value(in, in.words.written(word), false, setting_unit); }
+double length_of(const BlockInHand& in, Role word, bool setting_unit) {
+  const bool whole = word == Role::cycle_depth_step ? in.settings.whole_steps() : in.settings.whole_positions();
+  return length_read(in, in.words.written(word), false, setting_unit, true, whole);
+}
 
 namespace {
 

@@ -102,9 +102,11 @@ Execution check_tool_pair(BlockInHand& in) {
   return changes == 0 ? in.raise(Condition::tool_pair, Role::tool, in.words.get(Role::tool)) : in.raise_misc(Condition::tool_pair, MiscFunction::tool_change);
 }
 
-/// DGSHAPE M06: the block asks for the tool that is there already. No tool (0) is asked for each time: whether there is one is not known.
+/// DGSHAPE M06: the block asks for the tool that is there already, or for none (0) where the change before has put the tool back. Before the first change
+/// whether there is a tool is not known.
 bool holds_tool_asked_for(const InForce& in, uint32_t tool) {
-  return in.dialect->rules.auxiliary.skips_tool_held && tool != 0 && tool == in.state.modal.tool;
+  if (!in.dialect->rules.auxiliary.skips_tool_held) return false;
+  return tool == 0 ? in.state.spindle_tool == 0 : tool == in.state.modal.tool;
 }
 
 /// DGSHAPE 2: checks numbers "with no decimal point": codes, speeds and numbers of things; also P (except the factor of G51) and K where they are

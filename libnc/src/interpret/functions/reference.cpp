@@ -39,7 +39,7 @@ Execution go_to_reference(BlockContext& in, unsigned which, AxisVec mid, uint32_
     axes = (1u << in.axis_count) - 1;
     mid = in.position();
   }
-  if (axes == 0) return in.raise_code(Condition::words_missing, *in.words.one_shot);
+  if (axes == 0) return in.dialect->rules.reference.may_move_nothing ? Execution::done : in.raise_code(Condition::words_missing, *in.words.one_shot);
   ReferenceMidpoints midpoints = in.records->midpoints;
   for (unsigned i = 0; i < in.axis_count; ++i)
     if (((axes >> i) & 1) != 0) midpoints.axis[i] = mid[i];
