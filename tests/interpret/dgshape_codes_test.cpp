@@ -32,8 +32,8 @@ const CodeRow kRows[] = {
     // The point of an axis is kept for every later G28.
     {"G28", "G00X5.Y5.Z5.\nG28X10.\nG00X5.\nG28Y20.", {"rapid 5 5 5 0", "rapid 10 5 5 0", "rapid 0 5 5 0", "rapid 5 5 5 0", "rapid 10 20 5 0", "rapid 0 0 5 0"}, "M30",
      {{"G28A0", "NC-AXIS"}, {"G28X", "NC-FORMAT"}, {"G41D1\nX5.\nG28X0", "NC-OFFSET-CODE"}}},
-    {"G39", "G42D1\nG01X10.F100.\nG39X10.Y10.\nX10.Y10.", {"line 0 -3 0 0 F100", "line 10 -3 0 0 F100", "ccw 13 0 0 0 c10,0 F100", "line 13 10 0 0 F100"}, "M30",
-     {{"G39X1.", "NC-OFFSET-CODE"}, {"G41D1\nG01X10.F100.\nX20.\nG39X20.Y10.", "NC-OFFSET-PATH"}, {"G42D1\nG01X10.F100.\nG39Z1.", "NC-AXIS"}, {"G42D1\nG01X10.F100.\nG39", "NC-WORDS"}}},
+    {"G39", "G42D1\nG01X5.F100.\nX10.\nG39X10.Y10.\nX10.Y10.", {"line 5 -3 0 0 F100", "line 10 -3 0 0 F100", "ccw 13 0 0 0 c10,0 F100", "line 13 10 0 0 F100"}, "M30",
+     {{"G39X1.", "NC-OFFSET-CODE"}, {"G41D1\nG01X10.F100.\nX20.\nG39X20.Y10.", "NC-OFFSET-PATH"}, {"G42D1\nG39X10.", "NC-OFFSET-CODE"}, {"G42D1\nG01X10.F100.\nG39Z1.", "NC-AXIS"}, {"G42D1\nG01X10.F100.\nG39", "NC-WORDS"}}},
     {"G40", "G41D1X0Y10.\nX0Y20.\nG40X5.Y30.", {"rapid -3 10 0 0", "rapid -3 20 0 0", "rapid 5 30 0 0"}, "M30", {{"G41D1\nX5.F100.\nG40G02X10.I2.5", "NC-OFFSET-START"}}},
     {"G41", "G41D1X0Y10.\nX0Y20.\nZ5.", {"rapid -3 10 0 0", "rapid -3 20 0 0", "rapid -3 20 5 0"}, "M30",
      {{"F100.\nG41D1G02X10.I5.", "NC-OFFSET-START"}, {"G41D201X1.", "NC-OFFSET-DATA"}, {"G41X1.", "NC-OFFSET-DATA"}, {"G41D1\nX5.\nG54", "NC-OFFSET-CODE"}, {"G41D1\nX5.\nG92X0", "NC-OFFSET-CODE"},

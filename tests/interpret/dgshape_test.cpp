@@ -100,6 +100,18 @@ TEST(DgshapeRotary, AtTheTopOfZItTurnsAsFastAsItCan) {
   EXPECT_EQ(last_move("G01A90.F100.").feed_mm_min, 100);               // on the axis no speed of the tool turns it: deg/min
 }
 
+TEST(Dgshape, TheCodeOfCompensationAloneWaitsForAMove) {  // G41: "actuated when a movement instruction is specified"
+  const auto path = [](const std::string& text) {
+    Bench bench(NC_DIALECT_DGSHAPE);
+    bench.tool(1, 3, NC_TOOL_RADIUS);
+    const Outcome run = bench.run("%\n" + text + "\nM02");
+    EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+    return run.path();
+  };
+  EXPECT_EQ(path("G41D1\nG00X10.Y10.\nG01Y30.F50.\nX0\nG40X-20."), (Path{"rapid 7 10 0", "line 7 27 0 F50", "line 0 27 0 F50", "line -20 30 0 F50"}));
+  EXPECT_EQ(path("G41D1\nG01Z-1.F50.\nX10.\nY20.").front(), "line 0 0 -1 F50");
+}
+
 TEST(Dgshape, TheCalculatorTypeOfTheDimensionsLeavesOutThePeck) {  // 1-5: IJKRXYZA
   const auto deepest = [](const char* words) {
     Bench bench(NC_DIALECT_DGSHAPE);

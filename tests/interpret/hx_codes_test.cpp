@@ -55,7 +55,7 @@ const CodeRow kRows[] = {
     {"G37.2", "G43 H1", {}, "M30", {{"G43 H1\nG37.2 Z-10.", "F_82002"}}},
     {"G37.3", "G43 H1", {}, "M30", {{"G43 H1\nG37.3 Z-10.", "F_82002"}}},
     {"G37.4", "G43 H1", {}, "M30", {{"G43 H1\nG37.4 Z-10.", "F_82002"}, {"G37.5 Z-10.", "F_82030"}}},
-    {"G39", "G42 D1\nG01 X10. F100\nG39 X10. Y10.\nX10. Y10.", {"line 0 -3 0 0 F100", "line 10 -3 0 0 F100", "ccw 13 0 0 0 c10,0 F100", "line 13 10 0 0 F100"}, "M30", {{"G39 X1.", "NC-OFFSET-CODE"}, {"G41 D1\nG01 X10. F100\nX20.\nG39 X20. Y10.", "NC-OFFSET-PATH"}}},
+    {"G39", "G42 D1\nG01 X5. F100\nX10.\nG39 X10. Y10.\nX10. Y10.", {"line 5 -3 0 0 F100", "line 10 -3 0 0 F100", "ccw 13 0 0 0 c10,0 F100", "line 13 10 0 0 F100"}, "M30", {{"G39 X1.", "NC-OFFSET-CODE"}, {"G41 D1\nG01 X10. F100\nX20.\nG39 X20. Y10.", "NC-OFFSET-PATH"}}},
     {"G40", "G41 D1 X0 Y10.\nX0 Y20.\nG40 X5. Y30.", {"rapid -3 10 0 0", "rapid -3 20 0 0", "rapid 5 30 0 0"}, "M30", {{"G41 D1 X5.\nX9. F100\nG40 G02 X10. I.5", "NC-OFFSET-START"}}},
     {"G41", "G41 D1 X0 Y10.\nX0 Y20.\nZ5.", {"rapid -3 10 0 0", "rapid -3 20 0 0", "rapid -3 20 5 0"}, "M30",
      {{"G41 D1 G02 X10. I5. F100", "NC-OFFSET-START"}, {"G41 D129 X1.", "NC-OFFSET-DATA"}, {"G41 D1.5 X1.", "F_82004"}, {"G41 D1 X5.\nX9.\nG81 Z-1. R1. F100", "NC-OFFSET-CODE"}}},

@@ -99,6 +99,28 @@ TEST(Hx, CompensationBeginsByTheTypeOfItsParameter) {  // 13.2.2, PI 128
   EXPECT_EQ(path("1").front(), "line 11.242641 -3 0 F100");
 }
 
+TEST(Hx, TheCodeOfCompensationAloneWaitsForAMove) {  // 13.2.2 (1), with N6 to N9 of the printed program
+  const auto path = [](const std::string& text) {
+    Bench bench(NC_DIALECT_HX);
+    bench.tool(1, 4, NC_TOOL_RADIUS);
+    const Outcome run = bench.run(text + "\nM30");
+    EXPECT_EQ(run.alarm, "") << run.alarm_detail;
+    return run.path();
+  };
+  const Path beside{"line 6 0 0 F50", "line 6 16 0 F50", "line -10 16 0 F50", "line -20 20 0 F50"};
+  for (const char* start : {"G41 D1\nG01 X10. F50.", "G41 D1 X0\nG01 X10. F50.", "G01 F50. G41 D1 X0\nX10."})
+    EXPECT_EQ(path(std::string(start) + "\nY20.\nX-10.\nG40 X-20."), beside) << start;
+  EXPECT_EQ(path("N6 G91 G01 X100. Y100. F50.\nN7 G41 D1 X0\nN8 Y-100.\nN9 Y-100. X100.\nG40 X50.").at(1), "line 102.828427 2.828427 0 F50");
+  EXPECT_EQ(path("G41 D1\nG01 Z-1. F50.\nX10.\nY20.").front(), "line 0 0 -1 F50");
+  EXPECT_EQ(path("G01 F50. G41 D1 X10.\nY20.\nG40\nY30.\nX0.").back(), "line 0 30 0 F50");
+}
+
+TEST(Hx, CompensationWithoutAnyNumberHasNoAmount) {  // 4.6, 15.4.2 print such programs
+  Bench bench(NC_DIALECT_HX);
+  EXPECT_EQ(bench.run("G90 G01 G42 X0 Y-10.0 F200.\nX4.142\nX7.071 Y-7.071\nG40\nM30").path(),
+            (Path{"line 0 -10 0 F200", "line 4.142 -10 0 F200", "line 7.071 -7.071 0 F200"}));
+}
+
 TEST(HxLength, DoesNotBeginBesideAnArc) {  // docs/decisions.md
   Bench bench(NC_DIALECT_HX);
   bench.tool(1, 10);

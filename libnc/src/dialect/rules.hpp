@@ -223,11 +223,15 @@ struct CompensationRules {
   /// at the time of the code stays (DGSHAPE "D": cancel first).
   bool takes_changed_amounts;
   /// The code of compensation in a block without a move does nothing yet; the next move leads to the contour, or away from it (LinuxCNC G40
-  /// to G42). Otherwise the tool goes at once to the point beside the contour, or back from there (M700 12.4.2; DGSHAPE G41).
+  /// to G42; HX 13.2.2 (1); DGSHAPE G41: "actuated when a movement instruction is specified"). Otherwise the tool goes at once to the point beside the
+  /// contour, or back from there (M700 12.4.2). A vector that the words of the block give is gone to at once (M700 12.4.3).
   bool code_alone_waits;
   /// The code without D, or with D0, takes the number of the tool in the spindle as the offset number (RS-274/NGC 3.5.10, LinuxCNC G41). Otherwise the last offset number stays (M700
   /// 12.4.1; DGSHAPE G41).
   bool number_is_that_of_tool;
+  /// The code without D, where none has been commanded before, has an offset of 0 (HX 4.6, 15.4.2 print such programs). Otherwise it is a fault (M700 App. 1
+  /// P170).
+  bool number_may_be_missing = false;
   /// The first move begins with a line to the place beside its start, unless its block has the code of an entry (Series 8 G41, G43). Otherwise it leads
   /// from the place of the code to the place beside its end (M700 12.4.1).
   bool begins_beside_start = false;
@@ -392,13 +396,13 @@ struct ReferenceRules {
   /// A block without axis words moves all axes, without an intermediate point (RS-274/NGC 3.5.8). Otherwise it is a fault that words are
   /// missing, unless it may move nothing (M700 14.7).
   bool all_axes_without_words;
+  /// A block that names no axis, and in which none goes by an earlier intermediate point, moves nothing (DGSHAPE G28: "when no coordinate at all has been specified
+  /// for a particular axis, no movement along that axis is performed"). Otherwise it is a fault that words are missing (M700 14.7).
+  bool may_move_nothing = false;
 };
 
 struct CoordinateRules {
   /// A move in machine coordinates may be incremental (M700 14.4 (4)). In DGSHAPE G53 that is a fault.
-  /// A block that names no axis, and in which none goes by an earlier intermediate point, moves nothing (DGSHAPE G28: "when no coordinate at all has been specified
-  /// for a particular axis, no movement along that axis is performed"). Otherwise it is a fault that words are missing (M700 14.7).
-  bool may_move_nothing = false;
   bool machine_move_may_be_incremental;
   /// The code for machine coordinates, if it stands beside that of coordinate system setting, takes the shift of the setting away (M700 14.5
   /// note). DGSHAPE G92, G53 have no such rule.

@@ -559,7 +559,8 @@ Execution execute_read_words(Interpreter& in) {
   if (!w.comp_command || keeps_vector) return finish(in, execute_motion(in));
   const AxisVec before = in.state.machine;
   did = execute_motion(in);
-  if (did == Execution::done && in.state.machine == before && !in.dialect->rules.compensation.code_alone_waits) {
+  const bool at_once = !in.dialect->rules.compensation.code_alone_waits || in.state.comp.has_vector || in.state.comp.cancel_vector;
+  if (did == Execution::done && in.state.machine == before && at_once) {
     // The vector is gone to at once (M700 12.3, 12.5): as a line that takes a feed (3.2, P62), which a block that only waits for its vector does not.
     if (w.vector_in_space && !in.state.modal.is(Function::rapid)) did = check_feed(in, Function::linear);
     if (did == Execution::done) move_nowhere(in);

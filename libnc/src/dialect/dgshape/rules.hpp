@@ -53,7 +53,7 @@ inline constexpr Rules kRules = {
                      .may_change_side = false,
                      .vector_by_words = false,
                      .takes_changed_amounts = false,
-                     .code_alone_waits = false,
+                     .code_alone_waits = true,
                      .number_is_that_of_tool = false,
                      .number_in_any_block = false},
     .length = {.axis_by_words = false,

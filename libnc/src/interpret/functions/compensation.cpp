@@ -178,7 +178,7 @@ Execution set_compensation(BlockInHand& in, Function function) {
   } else if (rules.number_is_that_of_tool) {
     const Execution did = number_of_tool(in, Role::offset_number, &state.modal.d);
     if (did != Execution::done) return did;
-  } else if (state.modal.d_given == 0) {
+  } else if (state.modal.d_given == 0 && !rules.number_may_be_missing) {
     return in.raise(Condition::no_offset_number, Role::offset_number);
   }
   if (!rules.vector_by_words && in.words.has(Role::vector_x) && in.words.has(Role::vector_y) && in.words.has(Role::vector_z))

@@ -79,7 +79,9 @@ Execution do_corner_arc(BlockContext& in) {
 Execution do_corner_turn(BlockContext& in) {
   const FunctionRow& row = *in.words.one_shot;
   Compensation& comp = in.state.comp;
-  if (comp.side == 0) return in.raise_code(Condition::outside_compensation, row);
+  // Where the code alone waits there is no vector yet that could go round.
+  const bool pending = in.state.moved_side == 0 && in.dialect->rules.compensation.code_alone_waits;
+  if (comp.side == 0 || pending) return in.raise_code(Condition::outside_compensation, row);
   if (const Execution did = check_corner_motion(in); did != Execution::done) return did;
   const uint32_t plane = 1u << comp.axis[0] | 1u << comp.axis[1], others = in.words.target.axes() & ~plane;
   if (others != 0) return in.raise_axis(Condition::illegal_axis, first_of(others));
