@@ -299,8 +299,8 @@ ShiftInPlane shift_in_plane(const InForce& in) {
   for (unsigned i = 0; i < 2; ++i) {
     if (!moves[i]) continue;
     const auto axis = static_cast<unsigned>(in.state.plane_axis[i]);
-    const bool of_hx = s.shift_axis >= 0 && s.shift_direction != 0 && (s.shift_axis != 0) == (i != 0);  // HX 12.3.9
-    if (of_hx) by.way[i] = s.shift_direction * std::fabs(c.q);
+    const bool by_choice = s.shift_axis >= 0 && s.shift_direction != 0 && (s.shift_axis != 0) == (i != 0);  // HX 12.3.9
+    if (by_choice) by.way[i] = s.shift_direction * std::fabs(c.q);
     if (!s.drilling_axis_z) continue;
     const bool ignored = (s.shift_ignored >> axis & 1) != 0;
     by.none_by_parameter = by.none_by_parameter || ignored;
